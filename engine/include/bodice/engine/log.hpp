@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string_view>
+
+namespace bodice::engine {
+
+enum class LogLevel { kDebug, kInfo, kWarning, kError };
+
+/// Where messages go. The library never prints: without a Log in the Context, messages are dropped.
+class Log {
+ public:
+  virtual ~Log() = default;
+  /// Thread-safe. `message` is one line without a newline.
+  virtual void write(LogLevel level, std::string_view message) = 0;
+};
+
+}  // namespace bodice::engine

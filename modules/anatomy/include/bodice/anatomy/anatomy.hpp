@@ -1,0 +1,34 @@
+// From a skin to its landmarks and 15 parts: the paper's section 2.
+#pragma once
+
+#include <vector>
+
+#include <bodice/body/landmark.hpp>
+#include <bodice/body/part.hpp>
+#include <bodice/body/proportions.hpp>
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::anatomy {
+
+struct Options {
+  body::ProportionProfile profile;  ///< from body::find_profile("ansur2") or a file
+};
+
+struct Anatomy {
+  double stature_m = 0.0;                       ///< of the body as if it stood, in the mesh's units
+  geometry::Vec3 up = geometry::Vec3::UnitY();  ///< feet to head along the trunk, unit
+  std::vector<body::Landmark> landmarks;  ///< one each of LandmarkId; confidence 0 where nothing was found
+  std::vector<body::Part> part;           ///< #V; every vertex has one
+  std::vector<engine::Warning> warnings;
+  std::vector<engine::StageTime> stages;  ///< geodesic, anatomy, segment
+};
+
+/// Finds the landmarks and segments. Pose, place, turn and scale of the mesh do not matter.
+/// Fails with kUnusableGeometry when no body can be made out; the sentence says what is missing.
+/// Precondition: a repaired mesh (geometry::repair). Deterministic for any worker count.
+engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& skin,
+                                const Options& options);
+
+}  // namespace bodice::anatomy

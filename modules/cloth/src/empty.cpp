@@ -1,0 +1,1 @@
+// Keeps the layer linkable until its first source lands.

@@ -1,0 +1,77 @@
+// Queries and responses against a body proxy: the paper's section 4. Needs a proxy and particles, nothing
+// else.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace bodice::collision {
+
+/// Particles as structure of arrays, #P each, in the collider's local frame: world minus Collider::origin().
+/// Velocities may be null; `safe_*` is where each particle was last known outside, or null.
+struct Particles {
+  std::size_t count = 0;
+  float *x = nullptr, *y = nullptr, *z = nullptr;                       ///< metres, in/out
+  float *vx = nullptr, *vy = nullptr, *vz = nullptr;                    ///< metres a second, in/out
+  const float *safe_x = nullptr, *safe_y = nullptr, *safe_z = nullptr;  ///< metres
+};
+
+struct Contact {
+  float signed_distance = 0.0f;  ///< metres to the proxy's surface (margin included), negative inside
+  float point[3] = {0, 0, 0};    ///< nearest surface point, local frame
+  float normal[3] = {0, 1, 0};   ///< outward unit normal there
+  std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids()
+};
+
+enum class Response : std::uint8_t {
+  kPaper,    ///< along the ray from the centre, least-distance rule, speed scaling
+  kNearest,  ///< nearest point of the union's surface, certified outside; normal velocity removed, friction
+};
+
+struct ResolveOptions {
+  Response response = Response::kNearest;
+  float thickness_m = 0.0f;  ///< kept between particle and surface
+  float friction = 0.3f;     ///< Coulomb coefficient
+};
+
+/// What happened to a batch; add() merges blocks.
+struct ContactReport {
+  std::uint64_t contacts = 0;
+  std::uint64_t contacts_by_part[body::kPartCount] = {};
+  std::uint64_t unresolved = 0;  ///< still inside after the fallback; zero, or `paper` mode
+  std::uint64_t not_finite = 0;  ///< NaN or Inf, left alone
+  std::uint32_t max_iterations = 0;
+  float deepest_m = 0.0f;  ///< depth of the deepest particle before the response
+  void add(const ContactReport& other);
+};
+
+/// A proxy baked for queries: floats in a local frame, boxes for culling. Immutable and thread-safe.
+class Collider {
+ public:
+  explicit Collider(const proxy::BodyProxy& proxy);
+  ~Collider();
+  Collider(Collider&&) noexcept;
+  Collider& operator=(Collider&&) noexcept;
+
+  const geometry::Vec3& origin() const noexcept;  ///< world position of the local frame's origin
+  std::size_t size() const noexcept;              ///< ellipsoids
+
+  /// Signed distance, nearest point, normal and owner of each particle; contacts has particles.count entries.
+  void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts) const;
+  Contact query(const float (&local_point)[3]) const noexcept;
+
+  /// Moves every particle that is inside (or nearer than the thickness) out and corrects its velocity.
+  /// Allocates nothing once warm.
+  ContactReport resolve(const engine::Context& context, const Particles& particles,
+                        const ResolveOptions& options) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace bodice::collision

@@ -1,0 +1,74 @@
+// From a labelled skin to a BodyProxy: the paper's section 3 and what it lacks.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <bodice/body/part.hpp>
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace bodice::fitting {
+
+/// The skin to stand for: a closed mesh, a part a vertex. Labels may come from anywhere.
+struct LabelledSkin {
+  const geometry::TriMesh& mesh;
+  std::span<const body::Part> part;  ///< #V
+  double stature_m = 0.0;
+  const geometry::MeshDistance* distance =
+      nullptr;  ///< of `mesh`, if the caller has it; else built when needed
+};
+
+struct FitOptions {
+  proxy::Tier tier = proxy::Tier::kTight;
+  std::optional<double> target_error_m;  ///< mean gap wanted; gives the ellipsoid count and thresholds
+  std::optional<int> max_ellipsoids;
+  std::optional<double> budget_us;               ///< collision time a frame for 10k particles
+  std::optional<double> mu_torso_m, mu_limbs_m;  ///< the paper's thresholds; automatic if absent
+  double time_budget_s = 2.0;                    ///< for the anytime tiers
+  std::uint64_t seed = 0;
+  std::uint32_t parts = (1u << body::kPartCount) - 1;  ///< bit a part: only these are fitted
+  /// Called with each better proxy of an anytime tier, from the calling thread's task.
+  std::function<void(const proxy::BodyProxy&)> on_improved;
+};
+
+struct Spread {
+  double mean = 0.0, p95 = 0.0, max = 0.0;
+};
+
+struct PartFit {
+  body::Part part = body::Part::kHead;
+  std::size_t vertices = 0;
+  std::size_t ellipsoids = 0;
+  double radial_error_mean_m = 0.0;  ///< the paper's E_j over the part's ellipsoids
+  double radial_error_max_m = 0.0;   ///< the worst ellipsoid's
+  Spread gap_m;                      ///< distance between the proxy's surface and the skin
+};
+
+/// Against the exact signed distance to the skin, never against the proxy.
+struct Accuracy {
+  Spread gap_m;
+  double interior_covered_percent = 0.0;  ///< of interior sample points inside the proxy
+  double skin_outside_percent = 0.0;      ///< of the skin's area outside the proxy
+  double skin_outside_depth_m = 0.0;      ///< deepest such skin, as distance to the proxy
+};
+
+struct FitResult {
+  proxy::BodyProxy proxy;
+  double mu_torso_m = 0.0, mu_limbs_m = 0.0;  ///< in force
+  std::vector<PartFit> parts;
+  Accuracy accuracy;
+  std::vector<engine::Warning> warnings;
+  std::vector<engine::StageTime> stages;  ///< fit, tight, relief, measure
+};
+
+/// Deterministic for any worker count, except that a time budget that cuts an anytime tier short is time's.
+engine::Result<FitResult> fit(const engine::Context& context, const LabelledSkin& skin,
+                              const FitOptions& options);
+
+}  // namespace bodice::fitting

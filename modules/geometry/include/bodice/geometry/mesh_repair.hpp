@@ -1,0 +1,52 @@
+// What a file gives is rarely a clean surface: weld, drop, orient, and say what was done.
+#pragma once
+
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::geometry {
+
+/// Vertices nearer than this fraction of the bounding box's diagonal are one vertex. Files keep 6 or more
+/// digits; real bodies have no edges this short.
+inline constexpr double kWeldRelative = 1e-6;
+
+struct RepairOptions {
+  double weld_relative = kWeldRelative;  ///< of the bounding box's diagonal
+  bool orient = true;                    ///< make the winding of each component consistent and outward
+};
+
+struct RepairReport {
+  std::size_t welded = 0;             ///< input vertices merged into another
+  std::size_t dropped_vertices = 0;   ///< NaN, Inf or unreferenced
+  std::size_t dropped_triangles = 0;  ///< zero area, duplicate, or on a dropped vertex
+  std::size_t flipped_triangles = 0;
+  std::size_t components = 0;
+  std::size_t boundary_edges = 0;      ///< edges with one triangle
+  std::size_t non_manifold_edges = 0;  ///< edges with three or more triangles
+  int euler_characteristic = 0;
+  std::vector<engine::Warning> warnings;
+};
+
+struct RepairedMesh {
+  TriMesh mesh;
+  std::vector<Index> vertex_of_input;    ///< #input vertices: the welded vertex, or kNoIndex if dropped
+  std::vector<Index> triangle_of_input;  ///< #input triangles: the kept triangle, or kNoIndex
+  RepairReport report;
+};
+
+/// Welds by position, drops what cannot be used, orients each component outward. The vertices keep the order
+/// of their first use. O(n log n). Fails with kUnusableGeometry when no triangle is left.
+engine::Result<RepairedMesh> repair(const engine::Context& context, const TriMesh& input,
+                                    const RepairOptions& options = {});
+
+/// Component of each vertex (#V, numbered from the component with the most area down) and their count.
+struct Components {
+  std::vector<Index> of_vertex;
+  std::vector<double> area;  ///< square metres, one a component
+};
+Components connected_components(const TriMesh& mesh);
+
+}  // namespace bodice::geometry

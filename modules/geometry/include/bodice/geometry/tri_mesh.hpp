@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <bodice/geometry/types.hpp>
+
+namespace bodice::geometry {
+
+/// An indexed triangle mesh. Inside bodice: metres, y up, counter-clockwise seen from outside.
+struct TriMesh {
+  std::vector<Vec3> positions;      ///< #V
+  std::vector<Triangle> triangles;  ///< #F, indices into positions
+
+  bool empty() const { return triangles.empty(); }
+  const Vec3& corner(std::size_t triangle, int k) const { return positions[triangles[triangle][k]]; }
+};
+
+/// Twice the area of the triangle times its unit normal.
+inline Vec3 area_vector(const TriMesh& mesh, std::size_t triangle) {
+  const Vec3& a = mesh.corner(triangle, 0);
+  return (mesh.corner(triangle, 1) - a).cross(mesh.corner(triangle, 2) - a);
+}
+
+/// Surface area, square metres. O(#F).
+double surface_area(const TriMesh& mesh);
+
+/// Signed volume by the divergence theorem, cubic metres; positive when wound outward. O(#F).
+double signed_volume(const TriMesh& mesh);
+
+/// Area-weighted unit normals, #V; zero where no triangle gives a direction. O(#V + #F).
+std::vector<Vec3> vertex_normals(const TriMesh& mesh);
+
+}  // namespace bodice::geometry

@@ -1,0 +1,50 @@
+// A scene as output sees it (GLB, pictures): the body by part, its ellipsoids, garments over time.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <bodice/body/part.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/frame.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace bodice::io {
+
+struct GarmentTrack {
+  std::string name;                                 ///< "cloth", "cloth_2", ...
+  geometry::TriMesh mesh;                           ///< topology and first frame, metres, y up
+  std::vector<std::vector<geometry::Vec3>> frames;  ///< kept frames, #V each
+  std::vector<double> time_s;                       ///< of each kept frame
+};
+
+struct Scene {
+  const geometry::TriMesh* body = nullptr;
+  std::span<const body::Part> part;  ///< #V of the body, or empty
+  const proxy::BodyProxy* proxy = nullptr;
+  std::vector<GarmentTrack> garments;
+  geometry::Frame frame;  ///< of the input: what is written is in it
+};
+
+/// One distinct colour a part, sRGB 0..1, told apart by colour-blind people too as far as 15 allow.
+std::span<const float, 3> part_color(body::Part part);
+
+/// Binary glTF 2.0: nodes `body`, `ellipsoids`, `cloth`, `cloth_2`...; the cloth's frames are morph targets
+/// with normals, played by a step-free animation of their weights.
+engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file);
+
+struct PictureOptions {
+  int width = 640, height = 960;  ///< of one view, pixels
+  bool show_ellipsoids = false;
+  bool show_garments = true;
+};
+
+/// One PNG: a row a kept frame in `frames` (indices into GarmentTrack::frames; empty: the body alone), a
+/// column for the front and the side view. Software-rendered.
+engine::Result<void> write_picture(const Scene& scene, std::span<const std::size_t> frames,
+                                   const std::filesystem::path& file, const PictureOptions& options = {});
+
+}  // namespace bodice::io

@@ -1,0 +1,84 @@
+// The body proxy: what preprocessing makes and the frame path reads.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <bodice/body/part.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/geometry/frame.hpp>
+
+namespace bodice::proxy {
+
+/// The accuracy tiers, from the paper as written to a fraction of a millimetre; README.md shows the trade.
+enum class Tier : std::uint8_t { kPaper, kSolid, kTight, kRelief };
+
+std::string_view name(Tier tier);
+std::optional<Tier> tier_from_name(std::string_view text);
+
+inline constexpr std::int16_t kNoBone = -1;
+
+struct ProxyEllipsoid {
+  geometry::Ellipsoid shape;
+  body::Part part = body::Part::kHead;
+  std::int16_t bone = kNoBone;  ///< the skeleton joint that carries it, if any
+};
+
+/// A table of corrections to one ellipsoid's distance, over the octahedral map of the unit sphere.
+/// F(x) = d - h(w) - a(w) clamp(d, -reach_in, reach_out) / reach_out, with d the signed distance to the
+/// ellipsoid, w the unit direction of the foot in the ellipsoid's frame; h and a bilinear between nodes.
+struct ReliefTable {
+  std::uint16_t nodes_per_side = 0;           ///< N; 0: no table
+  float h_scale_m = 0.0f, h_offset_m = 0.0f;  ///< h = offset + scale * byte / 255
+  float a_scale = 0.0f, a_offset = 0.0f;
+  std::uint32_t first_texel = 0;  ///< into BodyProxy::texels(), N*N texels, row-major
+};
+
+struct ReliefTexel {
+  std::uint8_t h = 0;
+  std::uint8_t a = 0;
+};
+
+/// An immutable union of ellipsoids that stands for a body. Thread-safe. Metres, y up.
+class BodyProxy {
+ public:
+  struct Data {
+    Tier tier = Tier::kPaper;
+    double stature_m = 0.0;
+    double margin_m = 0.0;  ///< added to every surface by queries (covers what the fit left out)
+    std::vector<ProxyEllipsoid> ellipsoids;
+    std::vector<ReliefTable> relief;  ///< empty, or one an ellipsoid
+    std::vector<ReliefTexel> texels;
+    std::uint64_t source_hash = 0;  ///< of the mesh it was fitted to
+    geometry::Frame frame;          ///< the units and axes of the file it came from
+  };
+
+  /// Checks every value (finite, radii > 0, axes orthonormal to 1e-6, tables inside texels), rounds each
+  /// number to 44 significant bits, so that a file in any unit gives the same bits back, and hashes.
+  static engine::Result<BodyProxy> make(Data data);
+
+  Tier tier() const { return data_->tier; }
+  double stature_m() const { return data_->stature_m; }
+  double margin_m() const { return data_->margin_m; }
+  std::span<const ProxyEllipsoid> ellipsoids() const { return data_->ellipsoids; }
+  std::span<const ReliefTable> relief() const { return data_->relief; }
+  std::span<const ReliefTexel> texels() const { return data_->texels; }
+  std::uint64_t source_hash() const { return data_->source_hash; }
+  const geometry::Frame& frame() const { return data_->frame; }
+  /// Identity of the geometry: equal bits in, equal hash out.
+  std::uint64_t hash() const { return hash_; }
+  /// Bytes of the shape as stored for queries (floats; 15 numbers an ellipsoid plus the tables).
+  std::size_t bytes() const;
+
+ private:
+  explicit BodyProxy(std::shared_ptr<const Data> data);
+  std::shared_ptr<const Data> data_;  // shared, so that a copy is two words
+  std::uint64_t hash_ = 0;
+};
+
+}  // namespace bodice::proxy
