@@ -16,8 +16,7 @@ class InlineExecutor final : public Executor {
 
 class TbbExecutor final : public Executor {
  public:
-  explicit TbbExecutor(int concurrency)
-      : arena_(concurrency > 0 ? concurrency : tbb::task_arena::automatic) {
+  explicit TbbExecutor(int concurrency) : arena_(concurrency > 0 ? concurrency : tbb::task_arena::automatic) {
     arena_.initialize();
   }
   int concurrency() const noexcept override { return arena_.max_concurrency(); }

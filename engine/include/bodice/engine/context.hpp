@@ -1,6 +1,7 @@
 #pragma once
 
 #include <bodice/engine/cancel.hpp>
+#include <bodice/engine/clock.hpp>
 #include <bodice/engine/executor.hpp>
 #include <bodice/engine/log.hpp>
 
@@ -15,9 +16,13 @@ struct Context {
   Log* log = nullptr;                       ///< Null: silent.
   Trace* trace = nullptr;                   ///< Null: no tracing, at no cost.
   CancelToken cancel = {};
+  const Clock* clock = &steady_clock();  ///< Never null. For time budgets; results must not depend on it.
 
   void info(std::string_view message) const {
     if (log) log->write(LogLevel::kInfo, message);
+  }
+  void warn(std::string_view message) const {
+    if (log) log->write(LogLevel::kWarning, message);
   }
 };
 
