@@ -9,6 +9,7 @@
 #include <bodice/body/part.hpp>
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
+#include <bodice/geometry/frame.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
@@ -20,6 +21,7 @@ struct LabelledSkin {
   const geometry::TriMesh& mesh;
   std::span<const body::Part> part;  ///< #V
   double stature_m = 0.0;
+  geometry::Frame frame = {};  ///< of the file the skin came from; passed on to the proxy
   const geometry::MeshDistance* distance =
       nullptr;  ///< of `mesh`, if the caller has it; else built when needed
 };

@@ -1,0 +1,211 @@
+#include <bodice/tryon/drape.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+using geometry::Index;
+using geometry::Vec3;
+
+constexpr double kDeepM = 0.001;            ///< "deeper than 1 mm" of the report
+constexpr double kSearchM = 0.05;           ///< skin farther than this cannot be penetrated: no need to measure
+constexpr double kInsideTolerance = 1e-6;   ///< of stature: what float particles may be off by
+constexpr std::size_t kGrain = 256;
+
+/// All garments as one mesh for one solver, and where each begins.
+struct Wardrobe {
+  geometry::TriMesh mesh;
+  std::vector<Index> held;
+  std::vector<std::size_t> first_vertex;  ///< #garments + 1
+};
+
+Wardrobe merge(const std::vector<WornGarment>& garments) {
+  Wardrobe all;
+  for (const WornGarment& garment : garments) {
+    const Index offset = static_cast<Index>(all.mesh.positions.size());
+    all.first_vertex.push_back(offset);
+    all.mesh.positions.insert(all.mesh.positions.end(), garment.mesh.positions.begin(),
+                              garment.mesh.positions.end());
+    for (const geometry::Triangle& t : garment.mesh.triangles)
+      all.mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    for (const Index v : garment.held) all.held.push_back(v + offset);
+  }
+  all.first_vertex.push_back(all.mesh.positions.size());
+  return all;
+}
+
+/// Frames worth keeping: at most `kept` of 0..frames, evenly spread, first and last included.
+std::vector<int> frames_to_keep(int frames, int kept) {
+  const int count = std::clamp(kept, 2, frames + 1);
+  std::vector<int> keep;
+  for (int i = 0; i < count; ++i)
+    keep.push_back(static_cast<int>(std::lround(static_cast<double>(frames) * i / (count - 1))));
+  keep.erase(std::unique(keep.begin(), keep.end()), keep.end());
+  return keep;
+}
+
+struct Depth {
+  double deepest_m = 0.0;
+  std::size_t over_1mm = 0;
+};
+
+/// How deep the cloth is inside the true skin.
+Depth penetration(const engine::Context& context, const geometry::MeshDistance& skin,
+                  std::span<const Vec3> positions) {
+  return engine::ordered_reduce(
+      context, positions.size(), kGrain, Depth{},
+      [&](std::size_t begin, std::size_t end) {
+        Depth depth;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!positions[i].allFinite()) continue;
+          const auto nearest = skin.nearest_within(positions[i], kSearchM);
+          // Nothing near means far outside or far inside: only then is the whole search worth its cost.
+          const double d = nearest ? nearest->signed_distance
+                                   : (skin.inside(positions[i]) ? skin.signed_distance(positions[i]) : kSearchM);
+          depth.deepest_m = std::max(depth.deepest_m, -d);
+          depth.over_1mm += d < -kDeepM;
+        }
+        return depth;
+      },
+      [](Depth a, const Depth& b) {
+        return Depth{std::max(a.deepest_m, b.deepest_m), a.over_1mm + b.over_1mm};
+      });
+}
+
+/// Particles inside the proxy, by the exact level of each ellipsoid in double rather than by the collider that
+/// put them there. With relief the surface is not the ellipsoids', so there the collider's distance must do.
+std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& proxy,
+                         const collision::Collider& collider, std::span<const Vec3> positions) {
+  const double tolerance_m = kInsideTolerance * proxy.stature_m();
+  const bool relief = !proxy.relief().empty();
+  return engine::ordered_reduce(
+      context, positions.size(), kGrain, std::size_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t inside = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (relief) {
+            const Eigen::Vector3f p = (positions[i] - collider.origin()).cast<float>();
+            inside += collider.query({p.x(), p.y(), p.z()}).signed_distance < -0.05e-3f;
+            continue;
+          }
+          inside += std::ranges::any_of(proxy.ellipsoids(), [&](const proxy::ProxyEllipsoid& e) {
+            return geometry::level(e.shape, positions[i]) < 1.0 &&
+                   geometry::nearest_point(e.shape, positions[i]).signed_distance < -tolerance_m;
+          });
+        }
+        return inside;
+      },
+      [](std::size_t a, std::size_t b) { return a + b; });
+}
+
+void summarise_times(std::vector<double> frame_ms, DrapeReport& report) {
+  if (frame_ms.empty()) return;
+  std::ranges::sort(frame_ms);
+  auto at = [&](double q) { return frame_ms[static_cast<std::size_t>(q * static_cast<double>(frame_ms.size() - 1))]; };
+  report.frame_ms_median = at(0.5);
+  report.frame_ms_p99 = at(0.99);
+  report.frame_ms_max = frame_ms.back();
+}
+
+/// Splits the merged positions back into the garments' tracks.
+class Recorder {
+ public:
+  Recorder(const std::vector<WornGarment>& garments, const Wardrobe& all) : first_(all.first_vertex) {
+    for (std::size_t g = 0; g < garments.size(); ++g) {
+      io::GarmentTrack track;
+      track.name = g == 0 ? "cloth" : "cloth_" + std::to_string(g + 1);
+      track.mesh = garments[g].mesh;
+      tracks_.push_back(std::move(track));
+    }
+  }
+  void keep(std::span<const Vec3> positions, double time_s) {
+    for (std::size_t g = 0; g < tracks_.size(); ++g) {
+      const auto own = positions.subspan(first_[g], first_[g + 1] - first_[g]);
+      tracks_[g].frames.emplace_back(own.begin(), own.end());
+      tracks_[g].time_s.push_back(time_s);
+    }
+  }
+  std::vector<io::GarmentTrack> take() { return std::move(tracks_); }
+
+ private:
+  std::vector<std::size_t> first_;
+  std::vector<io::GarmentTrack> tracks_;
+};
+
+cloth::SolverOptions solver_options(const DrapeOptions& options, const proxy::BodyProxy& proxy) {
+  cloth::SolverOptions solver = options.solver;
+  if (proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
+  return solver;
+}
+
+}  // namespace
+
+engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
+                                  const std::vector<WornGarment>& garments, const DrapeOptions& options,
+                                  const Progress& progress) {
+  const proxy::BodyProxy& proxy = body.fit.proxy;
+  const Wardrobe all = merge(garments);
+  cloth::Fabric fabric = options.fabric;
+  if (fabric.name.empty()) {
+    auto cotton = cloth::find_fabric("cotton");
+    if (!cotton) return std::move(cotton).error();
+    fabric = std::move(cotton).value();
+  }
+  auto solver = cloth::Solver::make(all.mesh, all.held, fabric, solver_options(options, proxy));
+  if (!solver) return std::move(solver).error();
+  const collision::Collider collider(proxy);
+
+  Recorder recorder(garments, all);
+  std::vector<Vec3> positions(all.mesh.positions.size());
+  std::vector<double> frame_ms;
+  const std::vector<int> keep = frames_to_keep(options.frames, options.kept_frames);
+  DrapeResult result;
+  DrapeReport& report = result.report;
+  report.frames = options.frames;
+  report.particles = solver->particles();
+
+  solver->positions(positions);
+  recorder.keep(positions, 0.0);
+  auto next_kept = keep.begin() + 1;
+  cloth::FrameReport last;
+  for (int frame = 1; frame <= options.frames; ++frame) {
+    context.cancel.check();
+    const std::int64_t begin_ns = context.clock->now_ns();
+    last = solver->step(context, collider, options.dt_s);
+    frame_ms.push_back(static_cast<double>(context.clock->now_ns() - begin_ns) * 1e-6);
+
+    solver->positions(positions);
+    report.finite = report.finite && last.finite;
+    const Depth depth = penetration(context, *body.skin.distance, positions);
+    if (depth.deepest_m > report.penetration_max_m) {
+      report.penetration_max_m = depth.deepest_m;
+      report.worst_frame = frame;
+    }
+    report.penetration_over_1mm = depth.over_1mm;
+    report.penetration_end_m = depth.deepest_m;
+    if (next_kept != keep.end() && *next_kept == frame) {
+      recorder.keep(positions, frame * options.dt_s);
+      ++next_kept;
+    }
+    if (progress) progress("drape", static_cast<double>(frame) / options.frames);
+  }
+
+  summarise_times(std::move(frame_ms), report);
+  report.inside_union = count_inside(context, proxy, collider, positions);
+  report.stretch_p95 = last.stretch_p95;
+  report.stretch_max = last.stretch_max;
+  report.median_speed_m_s = last.median_speed_m_s;
+  report.hash = solver->hash();
+  report.warnings.assign(solver->warnings().begin(), solver->warnings().end());
+  result.garments = recorder.take();
+  return result;
+}
+
+}  // namespace bodice::tryon

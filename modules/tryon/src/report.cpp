@@ -1,0 +1,135 @@
+#include <bodice/tryon/report.hpp>
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double mm(double metres) { return metres * 1e3; }
+
+std::string hex(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  return text;
+}
+
+std::string_view axis_name(geometry::Axis axis) {
+  constexpr std::string_view kNames[] = {"x", "y", "z"};
+  return kNames[static_cast<int>(axis)];
+}
+
+Json spread_mm(const fitting::Spread& s) {
+  return {{"mean", mm(s.mean)}, {"p95", mm(s.p95)}, {"max", mm(s.max)}};
+}
+
+Json input_json(const io::ImportedMesh& input) {
+  return {{"file", input.file.string()},
+          {"mesh", input.mesh},
+          {"vertices", input.skin.positions.size()},
+          {"triangles", input.skin.triangles.size()},
+          {"unit", input.unit},
+          {"up", axis_name(input.frame.up)},
+          {"welded", input.repair.welded},
+          {"dropped", input.repair.dropped_vertices},
+          {"dropped_triangles", input.repair.dropped_triangles},
+          {"components", input.repair.components},
+          {"boundary_edges", input.repair.boundary_edges}};
+}
+
+Json parts_json(const fitting::FitResult& fit) {
+  Json parts = Json::array();
+  for (const fitting::PartFit& part : fit.parts)
+    parts.push_back(
+        {{"name", body::name(part.part)},
+         {"vertices", part.vertices},
+         {"ellipsoids", part.ellipsoids},
+         {"radial_error_mm", {{"mean", mm(part.radial_error_mean_m)}, {"max", mm(part.radial_error_max_m)}}},
+         {"gap_mm", spread_mm(part.gap_m)}});
+  return parts;
+}
+
+Json landmarks_json(const SegmentedSkin& skin) {
+  Json landmarks = Json::array();
+  for (const body::Landmark& landmark : skin.anatomy.landmarks) {
+    const geometry::Vec3 p = skin.input.frame.to_file(landmark.position);
+    landmarks.push_back({{"name", body::name(landmark.id)},
+                         {"position", {p.x(), p.y(), p.z()}},
+                         {"confidence", landmark.confidence}});
+  }
+  return landmarks;
+}
+
+Json accuracy_json(const fitting::Accuracy& accuracy) {
+  return {{"gap_mm", spread_mm(accuracy.gap_m)},
+          {"interior_covered_percent", accuracy.interior_covered_percent},
+          {"skin_outside_percent", accuracy.skin_outside_percent},
+          {"skin_outside_depth_mm", mm(accuracy.skin_outside_depth_m)}};
+}
+
+void append_warnings(Json& list, std::span<const engine::Warning> warnings) {
+  for (const engine::Warning& w : warnings)
+    list.push_back({{"code", w.code}, {"part", w.part}, {"message", w.message}, {"remedy", w.remedy}});
+}
+
+Json drape_json(const DrapeReport& d) {
+  return {{"frames", d.frames},
+          {"particles", d.particles},
+          {"frame_ms", {{"median", d.frame_ms_median}, {"p99", d.frame_ms_p99}, {"max", d.frame_ms_max}}},
+          {"penetration",
+           {{"count_over_1mm", d.penetration_over_1mm},
+            {"max_mm", mm(d.penetration_max_m)},
+            {"end_mm", mm(d.penetration_end_m)},
+            {"worst_frame", d.worst_frame}}},
+          {"inside_union", d.inside_union},
+          {"stretch", {{"p95", d.stretch_p95}, {"max", d.stretch_max}}},
+          {"median_speed_mm_s", mm(d.median_speed_m_s)},
+          {"finite", d.finite},
+          {"hash", hex(d.hash)}};
+}
+
+}  // namespace
+
+std::string report_json(const PreparedBody& body, const DrapeReport* drape, const RunInfo& run) {
+  const fitting::FitResult& fit = body.fit;
+  Json warnings = Json::array();
+  append_warnings(warnings, body.all_warnings());
+  if (drape) append_warnings(warnings, drape->warnings);
+  Json stages = Json::array();
+  for (const engine::StageTime& stage : body.all_stages())
+    stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
+
+  Json report = {{"input", input_json(body.skin.input)},
+                 {"height_m", body.skin.anatomy.stature_m},
+                 {"tier", proxy::name(fit.proxy.tier())},
+                 {"threads", run.threads},
+                 {"seed", run.seed},
+                 {"hash", hex(fit.proxy.hash())},
+                 {"ellipsoids", fit.proxy.ellipsoids().size()},
+                 {"bytes", fit.proxy.bytes()},
+                 {"mu_mm", {{"torso", mm(fit.mu_torso_m)}, {"limbs", mm(fit.mu_limbs_m)}}},
+                 {"parts", parts_json(fit)},
+                 {"landmarks", landmarks_json(body.skin)},
+                 {"accuracy", accuracy_json(fit.accuracy)},
+                 {"warnings", warnings},
+                 {"stages", stages}};
+  if (drape) report["drape"] = drape_json(*drape);
+  return report.dump(2) + "\n";
+}
+
+std::string labels_text(const SegmentedSkin& skin) {
+  std::string text;
+  char line[128];
+  const geometry::TriMesh& mesh = skin.input.skin;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const geometry::Vec3 p = skin.input.frame.to_file(mesh.positions[v]);
+    std::snprintf(line, sizeof line, "%.9g %.9g %.9g ", p.x(), p.y(), p.z());
+    text.append(line).append(body::name(skin.anatomy.part[v])).push_back('\n');
+  }
+  return text;
+}
+
+}  // namespace bodice::tryon
