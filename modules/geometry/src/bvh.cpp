@@ -1,0 +1,242 @@
+// Based on: Ingo Wald. On fast Construction of SAH-based Bounding Volume Hierarchies. 2007. (binned splits)
+#include "bvh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+
+namespace bodice::geometry {
+namespace {
+
+constexpr int kBins = 16;
+constexpr int kSahLevels = 40;  // binary levels by surface area; below them halves, which bounds the depth
+
+struct FloatBox {
+  std::array<float, 3> low, high;
+  FloatBox() {
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+  }
+  void extend(const FloatBox& other) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], other.low[k]);
+      high[k] = std::max(high[k], other.high[k]);
+    }
+  }
+  float half_area() const {
+    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    return x >= 0.0f ? x * y + y * z + z * x : 0.0f;
+  }
+};
+
+float round_down(double value) {
+  return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
+}
+float round_up(double value) {
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
+
+struct Primitive {
+  FloatBox box;
+  std::array<float, 3> centroid;
+};
+
+Primitive make_primitive(const BvhTriangle& t) {
+  Primitive p;
+  const Vec3 b = t.a + t.ab;
+  const Vec3 c = t.a + t.ac;
+  for (int k = 0; k < 3; ++k) {
+    p.box.low[k] = round_down(std::min({t.a[k], b[k], c[k]}));
+    p.box.high[k] = round_up(std::max({t.a[k], b[k], c[k]}));
+    p.centroid[k] = 0.5f * (p.box.low[k] + p.box.high[k]);
+  }
+  return p;
+}
+
+struct Range {
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t size() const { return end - begin; }
+};
+
+struct Split {
+  int axis = 0;
+  float origin = 0.0f, bins_per_unit = 0.0f;
+  int bin = 0;  // the first bin of the right side; 0: no split found
+  int bin_of(const Primitive& p) const {
+    return std::clamp(static_cast<int>((p.centroid[axis] - origin) * bins_per_unit), 0, kBins - 1);
+  }
+};
+
+/// The cheapest of the kBins - 1 planes along one axis by n_left area_left + n_right area_right.
+struct BinSweep {
+  std::array<FloatBox, kBins> boxes;
+  std::array<std::uint32_t, kBins> counts{};
+
+  std::pair<float, int> best() const {
+    std::array<float, kBins> right_cost{};
+    FloatBox box;
+    std::uint32_t count = 0;
+    for (int i = kBins - 1; i > 0; --i) {
+      box.extend(boxes[i]);
+      count += counts[i];
+      right_cost[i] = box.half_area() * static_cast<float>(count);
+    }
+    const std::uint32_t total = count + counts[0];
+    std::pair<float, int> result{std::numeric_limits<float>::infinity(), 0};
+    box = {};
+    count = 0;
+    for (int i = 1; i < kBins; ++i) {
+      box.extend(boxes[i - 1]);
+      count += counts[i - 1];
+      const float cost = box.half_area() * static_cast<float>(count) + right_cost[i];
+      if (count > 0 && count < total && cost < result.first) result = {cost, i};
+    }
+    return result;
+  }
+};
+
+class Builder {
+ public:
+  explicit Builder(const std::vector<BvhTriangle>& triangles) : order_(triangles.size()) {
+    primitives_.reserve(triangles.size());
+    for (const BvhTriangle& t : triangles) primitives_.push_back(make_primitive(t));
+    std::iota(order_.begin(), order_.end(), 0u);
+  }
+
+  void build(std::vector<BvhNode>& nodes) {
+    nodes.emplace_back();
+    fill(nodes, 0, {0, static_cast<std::uint32_t>(order_.size())}, 0);
+  }
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  /// Fills nodes[index] with the children of a range.
+  void fill(std::vector<BvhNode>& nodes, std::uint32_t index, Range range, int level) {
+    std::array<Range, BvhNode::kWidth> parts;
+    int count = 1;
+    parts[0] = range;
+    for (int round = 0; round < 2; ++round)
+      for (int i = 0, before = count; i < before; ++i)
+        if (parts[i].size() > Bvh::kLeafSize) {
+          const std::uint32_t middle = split(parts[i], level + round);
+          parts[count++] = {middle, parts[i].end};
+          parts[i].end = middle;
+        }
+    for (int i = 0; i < BvhNode::kWidth; ++i) {
+      const Range part = i < count ? parts[i] : Range{};
+      const std::uint32_t child = place(nodes, part, level + 2);
+      set_child(nodes[index], i, part, child);
+    }
+  }
+
+  std::uint32_t place(std::vector<BvhNode>& nodes, Range part, int level) {
+    if (part.size() == 0) return BvhChild::kNone;
+    if (part.size() <= Bvh::kLeafSize) return BvhChild::leaf(part.begin, part.size());
+    const auto child = static_cast<std::uint32_t>(nodes.size());
+    nodes.emplace_back();
+    fill(nodes, child, part, level);
+    return child;
+  }
+
+  void set_child(BvhNode& node, int slot, Range part, std::uint32_t child) const {
+    FloatBox box;
+    for (std::uint32_t i = part.begin; i < part.end; ++i) box.extend(primitives_[order_[i]].box);
+    for (int k = 0; k < 3; ++k) {
+      node.low[k][slot] = box.low[k];
+      node.high[k][slot] = box.high[k];
+    }
+    node.child[slot] = child;
+  }
+
+  /// Partitions the range and returns the first of its right side; both sides are non-empty.
+  std::uint32_t split(Range range, int level) {
+    const auto begin = order_.begin() + range.begin;
+    const auto end = order_.begin() + range.end;
+    const Split choice = level < kSahLevels ? choose(range) : Split{};
+    if (choice.bin > 0) {
+      const auto middle = std::stable_partition(
+          begin, end, [&](std::uint32_t i) { return choice.bin_of(primitives_[i]) < choice.bin; });
+      return static_cast<std::uint32_t>(middle - order_.begin());
+    }
+    return range.begin + range.size() / 2;
+  }
+
+  Split choose(Range range) const {
+    FloatBox centroids;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const Primitive& p = primitives_[order_[i]];
+      FloatBox point;
+      point.low = point.high = p.centroid;
+      centroids.extend(point);
+    }
+    Split best;
+    float best_cost = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      const float extent = centroids.high[axis] - centroids.low[axis];
+      if (!(extent > 0.0f)) continue;
+      Split candidate{axis, centroids.low[axis], kBins / extent, 0};
+      const auto [cost, bin] = sweep(range, candidate).best();
+      if (cost >= best_cost) continue;
+      best_cost = cost;
+      best = candidate;
+      best.bin = bin;
+    }
+    return best;
+  }
+
+  BinSweep sweep(Range range, const Split& split) const {
+    BinSweep result;
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      const Primitive& p = primitives_[order_[i]];
+      const int bin = split.bin_of(p);
+      result.boxes[bin].extend(p.box);
+      ++result.counts[bin];
+    }
+    return result;
+  }
+
+  std::vector<Primitive> primitives_;
+  std::vector<std::uint32_t> order_;
+};
+
+bool finite_corners(const TriMesh& mesh, std::size_t t) {
+  return mesh.corner(t, 0).allFinite() && mesh.corner(t, 1).allFinite() && mesh.corner(t, 2).allFinite();
+}
+
+void set_frame(Bvh& bvh, const TriMesh& mesh) {
+  Box box;
+  for (Index t : bvh.triangle_of_leaf)
+    for (int k = 0; k < 3; ++k) box.extend(mesh.corner(t, k));
+  bvh.origin = 0.5 * box.low + 0.5 * box.high;
+  const double half = (0.5 * box.high - 0.5 * box.low).maxCoeff();
+  bvh.scale = half > 0.0 ? std::exp2(std::ceil(std::log2(half))) : 1.0;
+}
+
+}  // namespace
+
+Bvh build_bvh(const engine::Context&, const TriMesh& mesh) {
+  Bvh bvh;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (finite_corners(mesh, t)) bvh.triangle_of_leaf.push_back(static_cast<Index>(t));
+  if (bvh.triangle_of_leaf.empty()) return bvh;
+  set_frame(bvh, mesh);
+  const std::size_t count = bvh.triangle_of_leaf.size();
+  std::vector<BvhTriangle> unordered(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Index t = bvh.triangle_of_leaf[i];
+    const Vec3 a = bvh.to_local(mesh.corner(t, 0));
+    unordered[i] = {a, bvh.to_local(mesh.corner(t, 1)) - a, bvh.to_local(mesh.corner(t, 2)) - a};
+  }
+  Builder builder(unordered);
+  builder.build(bvh.nodes);
+  const std::vector<Index> source = bvh.triangle_of_leaf;
+  bvh.triangles.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    bvh.triangles[i] = unordered[builder.order()[i]];
+    bvh.triangle_of_leaf[i] = source[builder.order()[i]];
+  }
+  return bvh;
+}
+
+}  // namespace bodice::geometry

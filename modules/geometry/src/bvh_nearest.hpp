@@ -1,0 +1,19 @@
+#pragma once
+
+#include <limits>
+
+#include <bodice/geometry/triangle.hpp>
+#include "bvh.hpp"
+
+namespace bodice::geometry {
+
+struct BvhHit {
+  double distance2 = std::numeric_limits<double>::infinity();  ///< local units squared
+  std::uint32_t leaf_triangle = ~0u;                           ///< leaf order
+  TrianglePoint at;                                            ///< local frame
+};
+
+/// The nearest triangle nearer than sqrt(limit2) to a local-frame query; leaf_triangle stays ~0 if none.
+BvhHit nearest_triangle(const Bvh& bvh, const Vec3& local_query, double limit2);
+
+}  // namespace bodice::geometry

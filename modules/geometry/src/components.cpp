@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <numeric>
+
+#include <bodice/geometry/mesh_repair.hpp>
+
+namespace bodice::geometry {
+namespace {
+
+/// Union-find whose root is the smallest member, so that the result does not depend on the order of unions.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  Index find(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(Index i, Index j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+}  // namespace
+
+Components connected_components(const TriMesh& mesh) {
+  const std::size_t count = mesh.positions.size();
+  DisjointSets sets(count);
+  for (const Triangle& t : mesh.triangles) {
+    sets.unite(t[0], t[1]);
+    sets.unite(t[1], t[2]);
+  }
+  std::vector<double> area_of_root(count, 0.0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    area_of_root[sets.find(mesh.triangles[t][0])] += 0.5 * area_vector(mesh, t).norm();
+
+  std::vector<Index> roots;
+  for (Index v = 0; v < count; ++v)
+    if (sets.find(v) == v) roots.push_back(v);
+  std::stable_sort(roots.begin(), roots.end(),
+                   [&](Index i, Index j) { return area_of_root[i] > area_of_root[j]; });
+
+  Components result;
+  std::vector<Index> rank(count, kNoIndex);
+  for (std::size_t i = 0; i < roots.size(); ++i) {
+    rank[roots[i]] = static_cast<Index>(i);
+    result.area.push_back(area_of_root[roots[i]]);
+  }
+  result.of_vertex.resize(count);
+  for (Index v = 0; v < count; ++v) result.of_vertex[v] = rank[sets.find(v)];
+  return result;
+}
+
+}  // namespace bodice::geometry

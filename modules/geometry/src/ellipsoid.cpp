@@ -1,0 +1,43 @@
+#include <bodice/geometry/ellipsoid.hpp>
+
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+namespace bodice::geometry {
+namespace {
+
+Vec3 to_local(const Ellipsoid& ellipsoid, const Vec3& point) {
+  return ellipsoid.axes.transpose() * (point - ellipsoid.center);
+}
+
+}  // namespace
+
+double level(const Ellipsoid& ellipsoid, const Vec3& point) {
+  return to_local(ellipsoid, point).cwiseQuotient(ellipsoid.radii).squaredNorm();
+}
+
+double volume(const Ellipsoid& ellipsoid) {
+  return 4.0 / 3.0 * std::numbers::pi * ellipsoid.radii.prod();
+}
+
+Box bounding_box(const Ellipsoid& ellipsoid) {
+  // The support in direction e_i is |diag(r) R^T e_i|: the norm of row i of R diag(r).
+  const Vec3 half = (ellipsoid.axes * ellipsoid.radii.asDiagonal()).rowwise().norm();
+  return {ellipsoid.center - half, ellipsoid.center + half};
+}
+
+Vec3 radial_projection(const Ellipsoid& ellipsoid, const Vec3& point) {
+  Vec3 y = to_local(ellipsoid, point);
+  const double size = y.cwiseAbs().maxCoeff();
+  if (!(size > 0.0)) {
+    int shortest = 0;
+    ellipsoid.radii.minCoeff(&shortest);
+    return ellipsoid.center + ellipsoid.radii[shortest] * ellipsoid.axes.col(shortest);
+  }
+  // Unit direction on the sphere first, then the radii: exact in scale however near the centre.
+  const Vec3 w = (y / size).cwiseQuotient(ellipsoid.radii / ellipsoid.radii.maxCoeff()).stableNormalized();
+  return ellipsoid.center + ellipsoid.axes * ellipsoid.radii.cwiseProduct(w);
+}
+
+}  // namespace bodice::geometry

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include <bodice/geometry/adjacency.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::geometry {
+
+struct Orientation {
+  std::vector<bool> flip;     ///< #F: reverse this triangle
+  std::size_t flipped = 0;    ///< how many
+  std::size_t conflicts = 0;  ///< edges that no choice makes consistent (Moebius bands)
+};
+
+/// Chooses the winding of each patch (triangles joined by edges of two) so that neighbours agree and its
+/// signed volume is positive; a patch too flat to enclose anything keeps the winding of its majority. O(#F).
+Orientation choose_orientation(const TriMesh& mesh, const Adjacency& adjacency);
+
+}  // namespace bodice::geometry

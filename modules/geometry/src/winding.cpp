@@ -1,0 +1,136 @@
+// Based on: Gavin Barill, Neil G. Dickson, Ryan Schmidt, David I. W. Levin, Alec Jacobson. Fast Winding
+// Numbers for Soups and Clouds. 2018. - eq. (10), the first-order (dipole) term
+// Based on: Alec Jacobson, Ladislav Kavan, Olga Sorkine-Hornung. Robust Inside-Outside Segmentation using
+// Generalized Winding Numbers. 2013. - eq. (5)
+#include "winding.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+#include <bodice/geometry/triangle.hpp>
+
+namespace bodice::geometry {
+namespace {
+
+/// Moments of a set of triangles, from which the far field follows.
+struct Moments {
+  Vec3 area_vector = Vec3::Zero();
+  Vec3 weighted_centroid = Vec3::Zero();
+  double area = 0.0;
+  Box box;
+
+  void add(const Moments& other) {
+    area_vector += other.area_vector;
+    weighted_centroid += other.weighted_centroid;
+    area += other.area;
+    if (other.box.empty()) return;
+    box.extend(other.box.low);
+    box.extend(other.box.high);
+  }
+  Vec3 centroid() const {
+    if (area > 0.0) return weighted_centroid / area;
+    return box.empty() ? Vec3(Vec3::Zero()) : box.center();
+  }
+  /// To the farthest corner of the box: an upper bound of the reach.
+  double radius2() const {
+    if (box.empty()) return 0.0;
+    const Vec3 c = centroid();
+    return (box.high - c).cwiseMax(c - box.low).squaredNorm();
+  }
+};
+
+Moments leaf_moments(const Bvh& bvh, std::uint32_t child) {
+  Moments m;
+  const std::uint32_t first = BvhChild::first(child);
+  for (std::uint32_t i = first, end = first + BvhChild::count(child); i < end; ++i) {
+    const BvhTriangle& t = bvh.triangles[i];
+    const Vec3 area_vector = 0.5 * t.ab.cross(t.ac);
+    const double area = area_vector.norm();
+    m.area_vector += area_vector;
+    m.weighted_centroid += area * (t.a + (t.ab + t.ac) / 3.0);
+    m.area += area;
+    for (const Vec3& corner : {t.a, Vec3(t.a + t.ab), Vec3(t.a + t.ac)}) m.box.extend(corner);
+  }
+  return m;
+}
+
+void set_child(DipoleNode& node, int slot, const Moments& m) {
+  const Vec3 center = m.centroid();
+  for (int k = 0; k < 3; ++k) {
+    node.center[k][slot] = static_cast<float>(center[k]);
+    node.area[k][slot] = static_cast<float>(m.area_vector[k]);
+  }
+  node.radius2[slot] = static_cast<float>(m.radius2());
+}
+
+double leaf_solid_angle(const Bvh& bvh, std::uint32_t child, const Vec3& query) {
+  double angle = 0.0;
+  const std::uint32_t first = BvhChild::first(child);
+  for (std::uint32_t i = first, end = first + BvhChild::count(child); i < end; ++i) {
+    const BvhTriangle& t = bvh.triangles[i];
+    angle += solid_angle(t.a, t.a + t.ab, t.a + t.ac, query);
+  }
+  return angle;
+}
+
+/// Solid angles of the children's dipoles, and which children are far enough for them.
+void far_fields(const DipoleNode& node, const std::array<float, 3>& q, float far_ratio2, float* angle,
+                float* excess) {
+  for (int i = 0; i < BvhNode::kWidth; ++i) {
+    const float x = node.center[0][i] - q[0];
+    const float y = node.center[1][i] - q[1];
+    const float z = node.center[2][i] - q[2];
+    const float distance2 = x * x + y * y + z * z;
+    const float flux = x * node.area[0][i] + y * node.area[1][i] + z * node.area[2][i];
+    angle[i] = flux / (distance2 * std::sqrt(distance2));
+    excess[i] = distance2 - far_ratio2 * node.radius2[i];
+  }
+}
+
+}  // namespace
+
+std::vector<DipoleNode> build_dipoles(const Bvh& bvh) {
+  std::vector<DipoleNode> dipoles(bvh.nodes.size());
+  std::vector<Moments> of_node(bvh.nodes.size());
+  for (std::size_t n = bvh.nodes.size(); n-- > 0;) {  // children before parents
+    for (int i = 0; i < BvhNode::kWidth; ++i) {
+      const std::uint32_t child = bvh.nodes[n].child[i];
+      Moments m;
+      if (child != BvhChild::kNone) m = BvhChild::is_leaf(child) ? leaf_moments(bvh, child) : of_node[child];
+      set_child(dipoles[n], i, m);
+      of_node[n].add(m);
+    }
+  }
+  return dipoles;
+}
+
+double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& query,
+                      double far_ratio) {
+  if (bvh.nodes.empty() || !query.allFinite()) return 0.0;
+  std::array<float, 3> q;  // clamped so that squares stay finite; so far away the number is 0 anyway
+  for (int k = 0; k < 3; ++k) q[k] = static_cast<float>(std::clamp(query[k], -1e12, 1e12));
+  const auto far_ratio2 = static_cast<float>(std::min(far_ratio * far_ratio, 3e38));
+  double total = 0.0;
+  std::array<std::uint32_t, Bvh::kStackSize> stack;
+  int depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const std::uint32_t n = stack[--depth];
+    float angle[BvhNode::kWidth], excess[BvhNode::kWidth];
+    far_fields(dipoles[n], q, far_ratio2, angle, excess);
+    for (int i = 0; i < BvhNode::kWidth; ++i) {
+      const std::uint32_t child = bvh.nodes[n].child[i];
+      if (child == BvhChild::kNone) continue;
+      if (excess[i] > 0.0f)
+        total += static_cast<double>(angle[i]);
+      else if (BvhChild::is_leaf(child))
+        total += leaf_solid_angle(bvh, child, query);
+      else
+        stack[depth++] = child;
+    }
+  }
+  return total / (4.0 * std::numbers::pi);
+}
+
+}  // namespace bodice::geometry
