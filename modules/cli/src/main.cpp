@@ -1,1 +1,37 @@
-int main() { return 0; }
+// The program `bodice`: parses, calls the library, prints.
+
+#include <cstdio>
+#include <exception>
+
+#include "options.hpp"
+#include "terminal.hpp"
+
+int main(int argc, char** argv) {
+  using namespace bodice::cli;
+  CLI::App app{"bodice turns a human body mesh into a small analytic proxy and keeps cloth out of it."};
+  app.set_version_flag("--version", "bodice " BODICE_VERSION);
+  app.require_subcommand(1);
+  app.footer(
+      "Try:  bodice drape                     the built-in body and skirt, no files needed\n"
+      "      bodice fit body.obj -o p.json    a proxy for your body\n"
+      "      bodice fit --help                every option of a command\n"
+      "Exit status: 0 ok, 1 failed, 2 bad usage.");
+  int exit_code = kExitOk;
+  add_fit_command(app, exit_code);
+  add_drape_command(app, exit_code);
+  add_query_command(app, exit_code);
+  add_bench_command(app, exit_code, argv[0]);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return kExitUsage;
+  } catch (const std::exception& error) {
+    return fail({bodice::engine::ErrorCode::kInternal,
+                 std::string("Unexpected failure: ") + error.what() + ".",
+                 "Please report it with the input that caused it."});
+  }
+  return exit_code;
+}

@@ -1,0 +1,176 @@
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include <bodice/synth/garment.hpp>
+#include <bodice/tryon/wearing.hpp>
+
+#include "run.hpp"
+
+namespace bodice::cli {
+namespace {
+
+const std::map<std::string, synth::GarmentKind> kGarments = {{"skirt", synth::GarmentKind::kSkirt},
+                                                             {"tunic", synth::GarmentKind::kTunic},
+                                                             {"poncho", synth::GarmentKind::kPoncho},
+                                                             {"tube", synth::GarmentKind::kTube}};
+
+struct DrapeCommand {
+  CommonOptions common;
+  std::vector<std::string> garments;
+  std::string made = "skirt", output = "drape.glb", hold = "auto", fabric = "cotton";
+  std::vector<double> wind_m_s;
+  bool no_picture = false;
+  tryon::DrapeOptions drape;
+};
+
+engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const DrapeCommand& command,
+                                                           tryon::SegmentedSkin& skin) {
+  std::vector<tryon::WornGarment> worn;
+  for (const std::string& file : command.garments) {
+    auto garment = io::import_garment(run.context(), file, skin.input.frame);
+    if (!garment) return std::move(garment).error();
+    skin.warnings.insert(skin.warnings.end(), garment->warnings.begin(), garment->warnings.end());
+    worn.push_back({.name = file, .mesh = std::move(garment->skin)});
+  }
+  return worn;
+}
+
+engine::Result<std::vector<tryon::WornGarment>> make_garment(const Run& run, const DrapeCommand& command,
+                                                             const tryon::SegmentedSkin& skin) {
+  const synth::SegmentedBody body{.mesh = skin.input.skin,
+                                  .part = skin.anatomy.part,
+                                  .landmarks = skin.anatomy.landmarks,
+                                  .stature_m = skin.anatomy.stature_m};
+  auto garment = synth::make_garment(run.context(), body, {.kind = kGarments.at(command.made)});
+  if (!garment) return std::move(garment).error();
+  return std::vector<tryon::WornGarment>{
+      {.name = command.made, .mesh = std::move(garment->mesh), .held = std::move(garment->pinned)}};
+}
+
+engine::Result<std::vector<tryon::WornGarment>> dress(const Run& run, const DrapeCommand& command,
+                                                      tryon::SegmentedSkin& skin) {
+  if (command.garments.empty()) return make_garment(run, command, skin);
+  auto worn = wear_files(run, command, skin);
+  if (worn && command.hold == "auto")
+    for (tryon::WornGarment& garment : *worn) garment.held = tryon::held_vertices(garment.mesh, skin);
+  return worn;
+}
+
+std::string picture_file(const DrapeCommand& command) {
+  if (command.no_picture) return {};
+  if (!command.common.picture.empty()) return command.common.picture;
+  return std::filesystem::path(command.output).replace_extension(".png").string();
+}
+
+engine::Result<void> write_outputs(const DrapeCommand& command, const tryon::PreparedBody& body,
+                                   std::vector<io::GarmentTrack> tracks, std::vector<std::string>& written) {
+  io::Scene scene = scene_of(body);
+  scene.garments = std::move(tracks);
+  if (auto saved = io::write_glb(scene, command.output); !saved) return saved;
+  written.push_back(command.output);
+  if (const std::string picture = picture_file(command); !picture.empty()) {
+    const std::size_t kept = scene.garments.front().frames.size();
+    const std::size_t frames[] = {0, (kept - 1) / 2, kept - 1};
+    if (auto saved = io::write_picture(scene, frames, picture); !saved) return saved;
+    written.push_back(picture);
+  }
+  return {};
+}
+
+engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, const geometry::Frame& frame) {
+  tryon::DrapeOptions options = command.drape;
+  auto fabric = cloth::find_fabric(command.fabric);
+  if (!fabric) return std::move(fabric).error();
+  options.fabric = std::move(fabric).value();
+  options.solver.seed = command.common.seed;
+  if (!command.wind_m_s.empty())
+    options.solver.environment.wind_m_s =
+        frame.rotation() * geometry::Vec3(command.wind_m_s[0], command.wind_m_s[1], command.wind_m_s[2]);
+  return options;
+}
+
+engine::Result<void> drape(const DrapeCommand& command) {
+  const CommonOptions& o = command.common;
+  Run run(o);
+  if (auto ok = run.check_outputs({command.output, picture_file(command), o.labels, o.report, o.trace}); !ok)
+    return ok;
+  auto skin = run.segment();
+  if (!skin) return std::move(skin).error();
+  auto worn = dress(run, command, *skin);
+  if (!worn) return std::move(worn).error();
+  auto fit_options = run.fit_options_for(*skin);
+  if (!fit_options) return std::move(fit_options).error();
+  auto options = drape_options(command, skin->input.frame);
+  if (!options) return std::move(options).error();
+
+  auto body =
+      tryon::fit_proxy(run.context(), std::move(skin).value(), *fit_options, run.progress().callback());
+  if (!body) return std::move(body).error();
+  auto draped = tryon::drape(run.context(), *body, *worn, *options, run.progress().callback());
+  if (!draped) return std::move(draped).error();
+  std::vector<std::string> written;
+  if (auto done = write_outputs(command, *body, std::move(draped->garments), written); !done) return done;
+  return run.finish(*body, &draped->report, written);
+}
+
+void add_motion_options(CLI::App& sub, DrapeCommand& c) {
+  const auto group = "Motion";
+  sub.add_option("--frames", c.drape.frames, "frames to simulate")
+      ->check(CLI::Range(1, 100000))
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--dt", c.drape.dt_s, "seconds a frame")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--substeps", c.drape.solver.substeps, "solver steps a frame: more is stiffer and slower")
+      ->check(CLI::Range(1, 1000))
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--wind", c.wind_m_s, "x,y,z in the file's axes, metres a second")
+      ->delimiter(',')
+      ->expected(3)
+      ->group(group);
+  sub.add_option("--gust", c.drape.solver.environment.gust, "share of the wind that fluctuates")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--fabric", c.fabric, "cotton, silk, denim, jersey, leather")
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--keep", c.drape.kept_frames, "frames kept in the GLB")
+      ->check(CLI::Range(2, 10000))
+      ->group(group)
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_drape_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<DrapeCommand>();
+  CLI::App* sub = app.add_subcommand("drape", "Drape garments over a body under gravity and wind");
+  add_common_options(*sub, command->common);
+  sub->add_option("GARMENT", command->garments,
+                  "garment meshes in the body's place and units (default: one made to fit)");
+  sub->add_option("--garment", command->made, "without GARMENT, make this: skirt, tunic, poncho, tube")
+      ->check(CLI::IsMember({"skirt", "tunic", "poncho", "tube"}))
+      ->group("Garment")
+      ->capture_default_str();
+  sub->add_option("--hold", command->hold, "auto: waistbands stay with the body; none: everything is free")
+      ->check(CLI::IsMember({"auto", "none"}))
+      ->group("Garment")
+      ->capture_default_str();
+  add_motion_options(*sub, *command);
+  sub->add_option("-o,--output", command->output, "body, ellipsoids and moving cloth, for any glTF viewer")
+      ->group("Output")
+      ->capture_default_str();
+  sub->add_flag("--no-picture", command->no_picture, "write no PNG beside the output")->group("Output");
+  sub->footer("Example: bodice drape body.obj dress.obj -o out.glb --frames 120 --wind 0,0,2");
+  sub->callback([command, &exit_code] {
+    const auto done = drape(*command);
+    exit_code = done ? kExitOk : fail(done.error());
+  });
+}
+
+}  // namespace bodice::cli

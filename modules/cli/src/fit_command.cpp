@@ -1,0 +1,67 @@
+#include <memory>
+
+#include <bodice/proxy/proxy_file.hpp>
+
+#include "run.hpp"
+
+namespace bodice::cli {
+namespace {
+
+struct FitCommand {
+  CommonOptions common;
+  std::string output;
+};
+
+engine::Result<void> write_outputs(const FitCommand& command, const tryon::PreparedBody& body,
+                                   std::vector<std::string>& written) {
+  const io::Scene scene = scene_of(body);
+  if (!command.output.empty()) {
+    if (auto saved = proxy::save(body.fit.proxy, command.output); !saved) return saved;
+    written.push_back(command.output);
+  }
+  if (!command.common.glb.empty()) {
+    if (auto saved = io::write_glb(scene, command.common.glb); !saved) return saved;
+    written.push_back(command.common.glb);
+  }
+  if (!command.common.picture.empty()) {
+    if (auto saved = io::write_picture(scene, {}, command.common.picture, {.show_ellipsoids = true}); !saved)
+      return saved;
+    written.push_back(command.common.picture);
+  }
+  return {};
+}
+
+engine::Result<void> fit(const FitCommand& command) {
+  const CommonOptions& o = command.common;
+  Run run(o);
+  if (auto ok = run.check_outputs({command.output, o.glb, o.picture, o.labels, o.report, o.trace}); !ok)
+    return ok;
+  auto skin = run.segment();
+  if (!skin) return std::move(skin).error();
+  auto options = run.fit_options_for(*skin);
+  if (!options) return std::move(options).error();
+  auto body = tryon::fit_proxy(run.context(), std::move(skin).value(), *options, run.progress().callback());
+  if (!body) return std::move(body).error();
+  std::vector<std::string> written;
+  if (auto done = write_outputs(command, *body, written); !done) return done;
+  return run.finish(*body, nullptr, written);
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<FitCommand>();
+  CLI::App* sub = app.add_subcommand("fit", "Fit a body proxy of ellipsoids to a body mesh");
+  sub->add_option("-o,--output", command->output, "the proxy: .json, or .bodice for the compact binary")
+      ->group("Output");
+  sub->add_option("--glb", command->common.glb, "body by part and ellipsoids, for any glTF viewer")
+      ->group("Output");
+  add_common_options(*sub, command->common);
+  sub->footer("Example: bodice fit body.obj -o proxy.json --target-error-mm 2 --report report.json");
+  sub->callback([command, &exit_code] {
+    const auto done = fit(*command);
+    exit_code = done ? kExitOk : fail(done.error());
+  });
+}
+
+}  // namespace bodice::cli

@@ -1,0 +1,178 @@
+#include "options.hpp"
+
+#include <filesystem>
+#include <map>
+
+#include <bodice/body/proportions.hpp>
+
+namespace bodice::cli {
+namespace {
+
+const std::map<std::string, io::Unit> kUnits = {{"auto", io::Unit::kAuto},     {"m", io::Unit::kMetre},
+                                                {"dm", io::Unit::kDecimetre},  {"cm", io::Unit::kCentimetre},
+                                                {"mm", io::Unit::kMillimetre}, {"in", io::Unit::kInch}};
+
+const std::map<std::string, synth::Pose> kPoses = {{"a", synth::Pose::kA},
+                                                   {"t", synth::Pose::kT},
+                                                   {"arms-down", synth::Pose::kArmsDown},
+                                                   {"arms-up", synth::Pose::kArmsUp},
+                                                   {"stride", synth::Pose::kStride},
+                                                   {"sit", synth::Pose::kSit},
+                                                   {"squat", synth::Pose::kSquat},
+                                                   {"run", synth::Pose::kRun},
+                                                   {"kick", synth::Pose::kKick},
+                                                   {"lying", synth::Pose::kLying},
+                                                   {"handstand", synth::Pose::kHandstand},
+                                                   {"random", synth::Pose::kRandom}};
+
+template <class Map>
+std::vector<std::string> keys(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names;
+}
+
+void add_input_options(CLI::App& command, CommonOptions& o) {
+  const auto group = "Input";
+  command.add_option("--unit", o.unit, "length unit of the file: m, dm, cm, mm, in, auto")
+      ->check(CLI::IsMember(keys(kUnits)))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--up", o.up, "up axis of the file: x, y, z, auto")
+      ->check(CLI::IsMember({"x", "y", "z", "auto"}))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--mesh", o.mesh, "take this mesh of the file for the body (default: chosen by shape)")
+      ->group(group);
+  command.add_option("--profile", o.profile, "body proportions: ansur2, gb10000-88 or a JSON file")
+      ->group(group)
+      ->capture_default_str();
+}
+
+void add_builtin_options(CLI::App& command, CommonOptions& o) {
+  const auto group = "Built-in body (without BODY)";
+  command.add_option("--sex", o.sex, "female, male")
+      ->check(CLI::IsMember({"female", "male"}))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--height", o.height_m, "stature, metres")->group(group)->capture_default_str();
+  command.add_option("--mass", o.mass_kg, "kilograms")->group(group)->capture_default_str();
+  command
+      .add_option("--pose", o.pose,
+                  "a, t, arms-down, arms-up, stride, sit, squat, run, kick, lying, handstand, random")
+      ->check(CLI::IsMember(keys(kPoses)))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--vertices", o.vertices, "resolution of the skin")->group(group)->capture_default_str();
+}
+
+void add_fit_options(CLI::App& command, CommonOptions& o) {
+  const auto group = "Speed against accuracy";
+  command
+      .add_option(
+          "--tier", o.tier,
+          "paper (as published), solid (no leaks, milliseconds), tight (about 1 mm), relief (below 1 mm)")
+      ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}))
+      ->group(group)
+      ->capture_default_str();
+  auto* error =
+      command
+          .add_option("--target-error-mm", o.target_error_mm, "mean distance between proxy and skin to reach")
+          ->check(CLI::PositiveNumber)
+          ->group(group);
+  auto* count = command.add_option("--max-ellipsoids", o.max_ellipsoids, "at most this many ellipsoids")
+                    ->check(CLI::Range(1, 4096))
+                    ->group(group);
+  auto* budget =
+      command
+          .add_option("--budget-us", o.budget_us, "collision time a frame for 10,000 particles, microseconds")
+          ->check(CLI::PositiveNumber)
+          ->group(group);
+  error->excludes(count)->excludes(budget);
+  count->excludes(budget);
+  command
+      .add_option("--mu-torso-mm", o.mu_torso_mm, "the paper's threshold for the torso (default: automatic)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command
+      .add_option("--mu-limbs-mm", o.mu_limbs_mm,
+                  "the paper's threshold for head and limbs (default: automatic)")
+      ->check(CLI::PositiveNumber)
+      ->group(group);
+  command.add_option("--time-budget-s", o.time_budget_s, "stop refining after this long")
+      ->check(CLI::PositiveNumber)
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--region-of", o.region_of, "fit only the parts that this garment can touch")
+      ->group(group);
+  command.add_option("--region-margin-mm", o.region_margin_mm, "how far that garment can reach")
+      ->check(CLI::NonNegativeNumber)
+      ->group(group)
+      ->capture_default_str();
+}
+
+void add_output_options(CLI::App& command, CommonOptions& o) {
+  const auto group = "Output";
+  command.add_option("--labels", o.labels, "write `x y z part` for each welded vertex")->group(group);
+  command.add_option("--report", o.report, "write the report, one JSON object")->group(group);
+  command.add_option("--picture", o.picture, "write a PNG from two sides")->group(group);
+  command.add_option("--trace", o.trace, "write a Chrome trace (open in Perfetto)")->group(group);
+  command.add_flag("--json", o.json, "print the report to standard output instead of a summary")
+      ->group(group);
+  command.add_flag("-q,--quiet", o.quiet, "print nothing but errors")->group(group);
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& command, CommonOptions& o) {
+  command.add_option("BODY", o.body,
+                     "body mesh: OBJ, PLY, STL, glTF/GLB, FBX, DAE (default: the built-in body)");
+  add_fit_options(command, o);
+  add_input_options(command, o);
+  add_builtin_options(command, o);
+  add_output_options(command, o);
+  command.add_option("--threads", o.threads, "workers; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--seed", o.seed, "seed of everything random")->capture_default_str();
+}
+
+engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {
+  tryon::SegmentOptions options;
+  options.import.unit = kUnits.at(o.unit);
+  if (o.up != "auto") options.import.up = static_cast<geometry::Axis>(o.up[0] - 'x');
+  if (!o.mesh.empty()) options.import.mesh = o.mesh;
+  const bool is_file = o.profile.ends_with(".json") || std::filesystem::exists(o.profile);
+  auto profile = is_file ? body::load_profile(o.profile) : body::find_profile(o.profile);
+  if (!profile) return std::move(profile).error();
+  options.profile = std::move(profile).value();
+  return options;
+}
+
+engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& o) {
+  synth::BodyOptions options;
+  options.sex = o.sex == "male" ? body::Sex::kMale : body::Sex::kFemale;
+  options.stature_m = o.height_m;
+  options.mass_kg = o.mass_kg;
+  options.pose = kPoses.at(o.pose);
+  options.vertices = o.vertices;
+  options.seed = o.seed;
+  if (!o.profile.ends_with(".json")) options.profile = o.profile;
+  return options;
+}
+
+fitting::FitOptions fit_options(const CommonOptions& o) {
+  auto metres = [](std::optional<double> mm) { return mm ? std::optional(*mm * 1e-3) : std::nullopt; };
+  fitting::FitOptions options;
+  if (!o.tier.empty()) options.tier = *proxy::tier_from_name(o.tier);
+  options.target_error_m = metres(o.target_error_mm);
+  options.max_ellipsoids = o.max_ellipsoids;
+  options.budget_us = o.budget_us;
+  options.mu_torso_m = metres(o.mu_torso_mm);
+  options.mu_limbs_m = metres(o.mu_limbs_mm);
+  options.time_budget_s = o.time_budget_s;
+  options.seed = o.seed;
+  return options;
+}
+
+}  // namespace bodice::cli

@@ -1,0 +1,55 @@
+// The options that fit and drape share, as the command line gives them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <bodice/fitting/fit.hpp>
+#include <bodice/synth/body.hpp>
+#include <bodice/tryon/prepare.hpp>
+
+namespace bodice::cli {
+
+inline constexpr int kExitOk = 0, kExitFailed = 1, kExitUsage = 2;
+
+/// What to read, how to fit, what to write. Paths are empty when the option was not given.
+struct CommonOptions {
+  std::string body;  ///< a file; empty: the built-in body
+  std::string up = "auto", unit = "auto", mesh, profile = "ansur2";
+
+  std::string sex = "female", pose = "a";
+  double height_m = 1.68, mass_kg = 62.0;
+  int vertices = 8850;
+
+  std::string tier;
+  std::optional<double> target_error_mm, budget_us, mu_torso_mm, mu_limbs_mm;
+  std::optional<int> max_ellipsoids;
+  double time_budget_s = 2.0;
+  std::string region_of;
+  double region_margin_mm = 50.0;
+
+  int threads = 0;
+  std::uint64_t seed = 0;
+
+  std::string labels, glb, report, trace, picture;
+  bool json = false, quiet = false;
+};
+
+/// Adds the shared options to a subcommand, grouped as its help shows them.
+void add_common_options(CLI::App& command, CommonOptions& options);
+
+/// The library's view of the options. Errors name the option and the values it takes.
+engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& options);
+engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& options);
+fitting::FitOptions fit_options(const CommonOptions& options);
+
+void add_fit_command(CLI::App& app, int& exit_code);
+void add_drape_command(CLI::App& app, int& exit_code);
+void add_query_command(CLI::App& app, int& exit_code);
+void add_bench_command(CLI::App& app, int& exit_code, const std::string& program);
+
+}  // namespace bodice::cli

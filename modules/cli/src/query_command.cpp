@@ -1,0 +1,89 @@
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <sstream>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/io/files.hpp>
+#include <bodice/proxy/proxy_file.hpp>
+
+#include "options.hpp"
+#include "terminal.hpp"
+
+namespace bodice::cli {
+namespace {
+
+using geometry::Vec3;
+
+struct QueryCommand {
+  std::string proxy, points, output;
+};
+
+engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
+  std::ifstream in(file);
+  if (!in)
+    return engine::Error{engine::ErrorCode::kNotFound, file + ": cannot be opened.", "Check the path."};
+  std::vector<Vec3> points;
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#') continue;
+    std::istringstream fields(line);
+    Vec3 p;
+    std::string rest;
+    if (!(fields >> p.x() >> p.y() >> p.z()) || (fields >> rest))
+      return engine::Error{engine::ErrorCode::kUnreadable,
+                           file + ": line " + std::to_string(number) + " is not three numbers.",
+                           "Write one point a line: x y z."};
+    points.push_back(p);
+  }
+  return points;
+}
+
+std::string answer(const collision::Collider& collider, const proxy::BodyProxy& proxy,
+                   const Vec3& file_point) {
+  const geometry::Frame& frame = proxy.frame();
+  const Eigen::Vector3f local = (frame.to_inside(file_point) - collider.origin()).cast<float>();
+  const collision::Contact c = collider.query({local.x(), local.y(), local.z()});
+  const Vec3 point =
+      frame.to_file(collider.origin() + Vec3(double{c.point[0]}, double{c.point[1]}, double{c.point[2]}));
+  const Vec3 normal =
+      frame.direction_to_file({double{c.normal[0]}, double{c.normal[1]}, double{c.normal[2]}});
+  char line[256];
+  std::snprintf(line, sizeof line, "%.7g %.9g %.9g %.9g %.6g %.6g %.6g %u\n",
+                double{c.signed_distance} / frame.metres_per_unit, point.x(), point.y(), point.z(),
+                normal.x(), normal.y(), normal.z(), c.ellipsoid);
+  return line;
+}
+
+engine::Result<void> query(const QueryCommand& command) {
+  auto proxy = proxy::load(command.proxy);
+  if (!proxy) return std::move(proxy).error();
+  auto points = read_points(command.points);
+  if (!points) return std::move(points).error();
+  const collision::Collider collider(*proxy);
+  std::string text;
+  for (const Vec3& p : *points) text += answer(collider, *proxy, p);
+  if (!command.output.empty()) return io::write_file(command.output, std::string_view(text));
+  std::fputs(text.c_str(), stdout);
+  return {};
+}
+
+}  // namespace
+
+void add_query_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<QueryCommand>();
+  CLI::App* sub = app.add_subcommand("query", "Ask a proxy for signed distances and nearest points");
+  sub->add_option("PROXY", command->proxy, "a proxy that `bodice fit` wrote")->required();
+  sub->add_option("POINTS", command->points, "text, one point a line: x y z, in the proxy's units and axes")
+      ->required();
+  sub->add_option("-o,--output", command->output, "where to write (default: standard output)");
+  sub->footer(
+      "A line a point: signed distance (negative inside), nearest point x y z, normal x y z, ellipsoid.\n"
+      "Example: bodice query proxy.json points.txt");
+  sub->callback([command, &exit_code] {
+    const auto done = query(*command);
+    exit_code = done ? kExitOk : fail(done.error());
+  });
+}
+
+}  // namespace bodice::cli

@@ -1,0 +1,98 @@
+#include "run.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <bodice/io/files.hpp>
+
+#include "summary.hpp"
+
+namespace bodice::cli {
+
+Run::Run(const CommonOptions& options)
+    : options_(options), executor_(engine::make_tbb_executor(options.threads)), progress_(options.quiet) {
+  context_.executor = executor_.get();
+  if (!options.trace.empty()) trace_ = std::make_unique<engine::Trace>();
+  context_.trace = trace_.get();
+}
+
+engine::Result<void> Run::check_outputs(const std::vector<std::string>& files) const {
+  for (const std::string& file : files) {
+    if (file.empty()) continue;
+    std::filesystem::path folder = std::filesystem::path(file).parent_path();
+    if (folder.empty()) folder = ".";
+    if (std::filesystem::is_directory(file))
+      return engine::Error{engine::ErrorCode::kWriteFailed, file + " is a folder.", "Name a file in it."};
+    if (!std::filesystem::is_directory(folder))
+      return engine::Error{engine::ErrorCode::kWriteFailed, "The folder of " + file + " does not exist.",
+                           "Make it first."};
+    if (access(folder.c_str(), W_OK) != 0)
+      return engine::Error{engine::ErrorCode::kWriteFailed,
+                           "The folder of " + file + " cannot be written to.",
+                           "Choose another with -o or change its permissions."};
+  }
+  return {};
+}
+
+engine::Result<tryon::SegmentedSkin> Run::segment() {
+  auto options = segment_options(options_);
+  if (!options) return std::move(options).error();
+  if (!options_.body.empty())
+    return tryon::segment_file(context_, options_.body, *options, progress_.callback());
+  auto body = builtin_body(options_);
+  if (!body) return std::move(body).error();
+  return tryon::segment_builtin(context_, *body, *options, progress_.callback());
+}
+
+engine::Result<fitting::FitOptions> Run::fit_options_for(const tryon::SegmentedSkin& skin) {
+  fitting::FitOptions options = fit_options(options_);
+  if (options_.region_of.empty()) return options;
+  auto garment = io::import_garment(context_, options_.region_of, skin.input.frame);
+  if (!garment) return std::move(garment).error();
+  options.parts =
+      tryon::reachable_parts(context_, skin, std::span(&garment->skin, 1), options_.region_margin_mm * 1e-3);
+  if (options.parts == 0)
+    return engine::Error{engine::ErrorCode::kUnusableGeometry,
+                         options_.region_of + ": no part of the body is within reach of this garment.",
+                         "Check that both are in the same place and units, or raise --region-margin-mm."};
+  return options;
+}
+
+engine::Result<void> Run::finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
+                                 const std::vector<std::string>& written) {
+  progress_.clear();
+  std::vector<std::string> files = written;
+  const std::string report =
+      tryon::report_json(body, drape, {.threads = context_.executor->concurrency(), .seed = options_.seed});
+  auto write = [&](const std::string& file, const std::string& text) -> engine::Result<void> {
+    if (file.empty()) return {};
+    files.push_back(file);
+    return io::write_file(file, std::string_view(text));
+  };
+  if (auto done = write(options_.labels, options_.labels.empty() ? "" : tryon::labels_text(body.skin)); !done)
+    return done;
+  if (auto done = write(options_.report, report); !done) return done;
+  if (trace_) {
+    files.push_back(options_.trace);
+    if (auto done = trace_->write(options_.trace); !done) return done;
+  }
+  if (options_.json) {
+    std::fputs(report.c_str(), stdout);
+  } else if (!options_.quiet) {
+    std::fputs(summary_text(body, drape, files).c_str(), stdout);
+  }
+  return {};
+}
+
+io::Scene scene_of(const tryon::PreparedBody& body) {
+  io::Scene scene;
+  scene.body = &body.skin.input.skin;
+  scene.part = body.skin.anatomy.part;
+  scene.proxy = &body.fit.proxy;
+  scene.frame = body.skin.input.frame;
+  return scene;
+}
+
+}  // namespace bodice::cli

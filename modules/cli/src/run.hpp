@@ -1,0 +1,49 @@
+// What fit and drape do alike: set up, segment, choose the region, write what was asked for.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/trace.hpp>
+#include <bodice/io/scene.hpp>
+#include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/report.hpp>
+
+#include "options.hpp"
+#include "terminal.hpp"
+
+namespace bodice::cli {
+
+/// One run of a command: its executor, trace and progress line.
+class Run {
+ public:
+  explicit Run(const CommonOptions& options);
+
+  const engine::Context& context() const { return context_; }
+  const CommonOptions& options() const { return options_; }
+  ProgressLine& progress() { return progress_; }
+
+  /// Fails early when an output could not be written after long work.
+  engine::Result<void> check_outputs(const std::vector<std::string>& files) const;
+  engine::Result<tryon::SegmentedSkin> segment();
+  /// The fit's options, with only the parts near `garments` when --region-of was given.
+  engine::Result<fitting::FitOptions> fit_options_for(const tryon::SegmentedSkin& skin);
+  /// Writes labels, report and trace, where asked for, and prints the summary or the report.
+  engine::Result<void> finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
+                              const std::vector<std::string>& written);
+
+ private:
+  const CommonOptions& options_;
+  std::unique_ptr<engine::Executor> executor_;
+  std::unique_ptr<engine::Trace> trace_;
+  engine::Context context_;
+  ProgressLine progress_;
+};
+
+/// The body, its parts and its proxy as output sees them.
+io::Scene scene_of(const tryon::PreparedBody& body);
+
+}  // namespace bodice::cli

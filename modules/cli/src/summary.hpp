@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/prepare.hpp>
+
+namespace bodice::cli {
+
+/// What a person wants to know after a run, in about ten lines.
+std::string summary_text(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
+                         const std::vector<std::string>& files);
+
+}  // namespace bodice::cli
