@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -20,11 +21,15 @@ struct Particles {
   const float *safe_x = nullptr, *safe_y = nullptr, *safe_z = nullptr;  ///< metres
 };
 
+/// Contact::ellipsoid where there is none: an empty proxy, or a particle that is not finite. The distance is
+/// then +infinity.
+inline constexpr std::uint32_t kNoEllipsoid = ~std::uint32_t{0};
+
 struct Contact {
   float signed_distance = 0.0f;  ///< metres to the proxy's surface (margin included), negative inside
   float point[3] = {0, 0, 0};    ///< nearest surface point, local frame
   float normal[3] = {0, 1, 0};   ///< outward unit normal there
-  std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids()
+  std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids(); kNoEllipsoid: nothing to tell
 };
 
 enum class Response : std::uint8_t {
@@ -36,6 +41,8 @@ struct ResolveOptions {
   Response response = Response::kNearest;
   float thickness_m = 0.0f;  ///< kept between particle and surface
   float friction = 0.3f;     ///< Coulomb coefficient
+  /// Longest move a call: particles that start deep inside come out over several calls (`pending`).
+  float max_push_m = std::numeric_limits<float>::infinity();
 };
 
 /// What happened to a batch; add() merges blocks.
@@ -43,6 +50,9 @@ struct ContactReport {
   std::uint64_t contacts = 0;
   std::uint64_t contacts_by_part[body::kPartCount] = {};
   std::uint64_t unresolved = 0;  ///< still inside after the fallback; zero, or `paper` mode
+  std::uint64_t pending = 0;     ///< on their way out, held back by max_push_m
+  std::uint64_t wrong_side = 0;  ///< put back on the side of the body that their path came from
+  std::uint64_t fallbacks = 0;   ///< resolved by the certified fallback
   std::uint64_t not_finite = 0;  ///< NaN or Inf, left alone
   std::uint32_t max_iterations = 0;
   float deepest_m = 0.0f;  ///< depth of the deepest particle before the response

@@ -1,0 +1,32 @@
+// The two ways out that cannot fail, for what iteration does not resolve. Both use that the signed distance
+// to a convex body is convex along a line: a tangent never lies above it.
+#pragma once
+
+#include <optional>
+
+#include "union_field.hpp"
+
+namespace bodice::collision {
+
+/// The first place along p + t direction, t >= 0, that is at least `clearance_m` from every ellipsoid.
+/// `direction` is a unit vector. A line leaves a convex body for good, so at most size() bodies are left and
+/// the walk ends; nothing found only if rounding makes it stand still.
+std::optional<geometry::Vec3> exit_along_ray(const UnionField& field, const geometry::Vec3& p,
+                                             const geometry::Vec3& direction, double clearance_m);
+
+/// Where the segment from `safe` to `p` first comes within `clearance_m` of an ellipsoid.
+struct Entry {
+  geometry::Vec3 point;   ///< at least clearance_m from every ellipsoid
+  geometry::Vec3 normal;  ///< of the ellipsoid that is met there
+  std::uint32_t ellipsoid = kNoEllipsoid;
+};
+
+/// Nothing if the segment stays clear, or if `safe` itself is not.
+std::optional<Entry> first_entry(const UnionField& field, const geometry::Vec3& safe, const geometry::Vec3& p,
+                                 double clearance_m);
+
+/// Whether the segment passes through some ellipsoid and out again at a place where its surface has turned
+/// by more than 60 degrees: less is a particle that slides over a curved surface.
+bool passes_through(const UnionField& field, const geometry::Vec3& from, const geometry::Vec3& to);
+
+}  // namespace bodice::collision

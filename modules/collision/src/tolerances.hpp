@@ -1,0 +1,24 @@
+// Every tolerance of the module, each with its unit and its reason.
+#pragma once
+
+namespace bodice::collision {
+
+/// Share of the scene's size by which a resolved particle may still lie below its clearance, and by which
+/// pushes overshoot: results are stored as floats, whose rounding at that size is 6e-8 of it.
+inline constexpr double kCertificate = 2e-7;
+
+/// Cosine below which a ray runs along a surface rather than out of it.
+inline constexpr double kFlatSlope = 1e-3;
+
+/// Cosine of the angle between the surface normals at the two ends of a path: a particle that slides over a
+/// limb turns by less than 60 degrees a call, one that tunnels by more.
+inline constexpr double kSlidingCosine = 0.5;
+
+/// Share of a path by which its ends may lie inside a body and still count as touching it.
+inline constexpr double kEndSlack = 1e-2;
+
+/// A push longer than this many times the depth comes from surfaces that nearly face each other; the way out
+/// along the normal is shorter.
+inline constexpr double kLongestPush = 4.0;
+
+}  // namespace bodice::collision
