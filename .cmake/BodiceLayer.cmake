@@ -56,3 +56,23 @@ function(bodice_layer name)
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_USES ${arg_USES})
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_DIR ${arg_DIR})
 endfunction()
+
+# Installs every layer and a package file, so that find_package(bodice) gives bodice::<layer>.
+function(bodice_install_layers)
+  include(CMakePackageConfigHelpers)
+  set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/bodice")
+  get_property(layers GLOBAL PROPERTY BODICE_LAYERS)
+  foreach(layer IN LISTS layers)
+    get_property(dir GLOBAL PROPERTY BODICE_LAYER_${layer}_DIR)
+    install(TARGETS bodice_${layer} EXPORT bodice-targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    install(DIRECTORY "${dir}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+  endforeach()
+  install(TARGETS bodice_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(EXPORT bodice-targets NAMESPACE bodice:: DESTINATION "${package_dir}")
+  configure_package_config_file("${PROJECT_SOURCE_DIR}/.cmake/bodice-config.cmake.in"
+    "${PROJECT_BINARY_DIR}/bodice-config.cmake" INSTALL_DESTINATION "${package_dir}")
+  write_basic_package_version_file("${PROJECT_BINARY_DIR}/bodice-config-version.cmake"
+    COMPATIBILITY SameMinorVersion)
+  install(FILES "${PROJECT_BINARY_DIR}/bodice-config.cmake" "${PROJECT_BINARY_DIR}/bodice-config-version.cmake"
+    DESTINATION "${package_dir}")
+endfunction()

@@ -1,19 +1,13 @@
 #include <filesystem>
-#include <map>
 #include <memory>
 
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/wearing.hpp>
 
+#include "garment_kinds.hpp"
 #include "run.hpp"
 
 namespace bodice::cli {
 namespace {
-
-const std::map<std::string, synth::GarmentKind> kGarments = {{"skirt", synth::GarmentKind::kSkirt},
-                                                             {"tunic", synth::GarmentKind::kTunic},
-                                                             {"poncho", synth::GarmentKind::kPoncho},
-                                                             {"tube", synth::GarmentKind::kTube}};
 
 struct DrapeCommand {
   CommonOptions common;
@@ -38,11 +32,7 @@ engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const
 
 engine::Result<std::vector<tryon::WornGarment>> make_garment(const Run& run, const DrapeCommand& command,
                                                              const tryon::SegmentedSkin& skin) {
-  const synth::SegmentedBody body{.mesh = skin.input.skin,
-                                  .part = skin.anatomy.part,
-                                  .landmarks = skin.anatomy.landmarks,
-                                  .stature_m = skin.anatomy.stature_m};
-  auto garment = synth::make_garment(run.context(), body, {.kind = kGarments.at(command.made)});
+  auto garment = make_garment_for(run.context(), skin, command.made);
   if (!garment) return std::move(garment).error();
   return std::vector<tryon::WornGarment>{
       {.name = command.made, .mesh = std::move(garment->mesh), .held = std::move(garment->pinned)}};

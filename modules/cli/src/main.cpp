@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   int exit_code = kExitOk;
   add_fit_command(app, exit_code);
   add_drape_command(app, exit_code);
+  add_make_command(app, exit_code);
   add_query_command(app, exit_code);
   add_bench_command(app, exit_code, argv[0]);
   try {

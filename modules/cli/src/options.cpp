@@ -32,40 +32,6 @@ std::vector<std::string> keys(const Map& map) {
   return names;
 }
 
-void add_input_options(CLI::App& command, CommonOptions& o) {
-  const auto group = "Input";
-  command.add_option("--unit", o.unit, "length unit of the file: m, dm, cm, mm, in, auto")
-      ->check(CLI::IsMember(keys(kUnits)))
-      ->group(group)
-      ->capture_default_str();
-  command.add_option("--up", o.up, "up axis of the file: x, y, z, auto")
-      ->check(CLI::IsMember({"x", "y", "z", "auto"}))
-      ->group(group)
-      ->capture_default_str();
-  command.add_option("--mesh", o.mesh, "take this mesh of the file for the body (default: chosen by shape)")
-      ->group(group);
-  command.add_option("--profile", o.profile, "body proportions: ansur2, gb10000-88 or a JSON file")
-      ->group(group)
-      ->capture_default_str();
-}
-
-void add_builtin_options(CLI::App& command, CommonOptions& o) {
-  const auto group = "Built-in body (without BODY)";
-  command.add_option("--sex", o.sex, "female, male")
-      ->check(CLI::IsMember({"female", "male"}))
-      ->group(group)
-      ->capture_default_str();
-  command.add_option("--height", o.height_m, "stature, metres")->group(group)->capture_default_str();
-  command.add_option("--mass", o.mass_kg, "kilograms")->group(group)->capture_default_str();
-  command
-      .add_option("--pose", o.pose,
-                  "a, t, arms-down, arms-up, stride, sit, squat, run, kick, lying, handstand, random")
-      ->check(CLI::IsMember(keys(kPoses)))
-      ->group(group)
-      ->capture_default_str();
-  command.add_option("--vertices", o.vertices, "resolution of the skin")->group(group)->capture_default_str();
-}
-
 void add_fit_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Speed against accuracy";
   command
@@ -119,22 +85,46 @@ void add_output_options(CLI::App& command, CommonOptions& o) {
   command.add_option("--trace", o.trace, "write a Chrome trace (open in Perfetto)")->group(group);
   command.add_flag("--json", o.json, "print the report to standard output instead of a summary")
       ->group(group);
-  command.add_flag("-q,--quiet", o.quiet, "print nothing but errors")->group(group);
 }
 
 }  // namespace
 
-void add_common_options(CLI::App& command, CommonOptions& o) {
-  command.add_option("BODY", o.body,
-                     "body mesh: OBJ, PLY, STL, glTF/GLB, FBX, DAE (default: the built-in body)");
-  add_fit_options(command, o);
-  add_input_options(command, o);
-  add_builtin_options(command, o);
-  add_output_options(command, o);
-  command.add_option("--threads", o.threads, "workers; 0: one a core")
-      ->check(CLI::Range(0, 1024))
+void add_input_options(CLI::App& command, CommonOptions& o) {
+  const auto group = "Input";
+  command.add_option("--unit", o.unit, "length unit of the file: m, dm, cm, mm, in, auto")
+      ->check(CLI::IsMember(keys(kUnits)))
+      ->group(group)
       ->capture_default_str();
-  command.add_option("--seed", o.seed, "seed of everything random")->capture_default_str();
+  command.add_option("--up", o.up, "up axis of the file: x, y, z, auto")
+      ->check(CLI::IsMember({"x", "y", "z", "auto"}))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--mesh", o.mesh, "take this mesh of the file for the body (default: chosen by shape)")
+      ->group(group);
+  command.add_option("--profile", o.profile, "body proportions: ansur2, gb10000-88 or a JSON file")
+      ->group(group)
+      ->capture_default_str();
+}
+
+void add_builtin_options(CLI::App& command, CommonOptions& o) {
+  const auto group = "Built-in body (without BODY)";
+  command.add_option("--sex", o.sex, "female, male")
+      ->check(CLI::IsMember({"female", "male"}))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--height", o.height_m, "stature, metres")->group(group)->capture_default_str();
+  command.add_option("--mass", o.mass_kg, "kilograms")->group(group)->capture_default_str();
+  command
+      .add_option("--pose", o.pose,
+                  "a, t, arms-down, arms-up, stride, sit, squat, run, kick, lying, handstand, random")
+      ->check(CLI::IsMember(keys(kPoses)))
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--vertices", o.vertices, "resolution of the skin")->group(group)->capture_default_str();
+}
+
+void add_run_options(CLI::App& command, CommonOptions& o) {
+  add_run_options(command, o);
 }
 
 engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {

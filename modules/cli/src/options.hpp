@@ -41,6 +41,9 @@ struct CommonOptions {
 
 /// Adds the shared options to a subcommand, grouped as its help shows them.
 void add_common_options(CLI::App& command, CommonOptions& options);
+void add_input_options(CLI::App& command, CommonOptions& options);
+void add_builtin_options(CLI::App& command, CommonOptions& options);
+void add_run_options(CLI::App& command, CommonOptions& options);
 
 /// The library's view of the options. Errors name the option and the values it takes.
 engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& options);
@@ -49,6 +52,7 @@ fitting::FitOptions fit_options(const CommonOptions& options);
 
 void add_fit_command(CLI::App& app, int& exit_code);
 void add_drape_command(CLI::App& app, int& exit_code);
+void add_make_command(CLI::App& app, int& exit_code);
 void add_query_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code, const std::string& program);
 

@@ -86,6 +86,12 @@ engine::Result<void> Run::finish(const tryon::PreparedBody& body, const tryon::D
   return {};
 }
 
+void Run::list_written(const std::vector<std::string>& files) {
+  progress_.clear();
+  if (options_.quiet) return;
+  for (const std::string& file : files) std::printf("wrote       %s\n", file.c_str());
+}
+
 io::Scene scene_of(const tryon::PreparedBody& body) {
   io::Scene scene;
   scene.body = &body.skin.input.skin;

@@ -34,6 +34,8 @@ class Run {
   /// Writes labels, report and trace, where asked for, and prints the summary or the report.
   engine::Result<void> finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
                               const std::vector<std::string>& written);
+  /// One line a file, unless the user asked for quiet.
+  void list_written(const std::vector<std::string>& files);
 
  private:
   const CommonOptions& options_;

@@ -14,9 +14,9 @@ namespace {
 using geometry::Index;
 using geometry::Vec3;
 
-constexpr double kDeepM = 0.001;            ///< "deeper than 1 mm" of the report
-constexpr double kSearchM = 0.05;           ///< skin farther than this cannot be penetrated: no need to measure
-constexpr double kInsideTolerance = 1e-6;   ///< of stature: what float particles may be off by
+constexpr double kDeepM = 0.001;   ///< "deeper than 1 mm" of the report
+constexpr double kSearchM = 0.05;  ///< skin farther than this cannot be penetrated: no need to measure
+constexpr double kInsideTolerance = 1e-6;  ///< of stature: what float particles may be off by
 constexpr std::size_t kGrain = 256;
 
 /// All garments as one mesh for one solver, and where each begins.
@@ -67,8 +67,9 @@ Depth penetration(const engine::Context& context, const geometry::MeshDistance& 
           if (!positions[i].allFinite()) continue;
           const auto nearest = skin.nearest_within(positions[i], kSearchM);
           // Nothing near means far outside or far inside: only then is the whole search worth its cost.
-          const double d = nearest ? nearest->signed_distance
-                                   : (skin.inside(positions[i]) ? skin.signed_distance(positions[i]) : kSearchM);
+          const double d = nearest
+                               ? nearest->signed_distance
+                               : (skin.inside(positions[i]) ? skin.signed_distance(positions[i]) : kSearchM);
           depth.deepest_m = std::max(depth.deepest_m, -d);
           depth.over_1mm += d < -kDeepM;
         }
@@ -79,8 +80,9 @@ Depth penetration(const engine::Context& context, const geometry::MeshDistance& 
       });
 }
 
-/// Particles inside the proxy, by the exact level of each ellipsoid in double rather than by the collider that
-/// put them there. With relief the surface is not the ellipsoids', so there the collider's distance must do.
+/// Particles inside the proxy, by the exact level of each ellipsoid in double rather than by the collider
+/// that put them there. With relief the surface is not the ellipsoids', so there the collider's distance must
+/// do.
 std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& proxy,
                          const collision::Collider& collider, std::span<const Vec3> positions) {
   const double tolerance_m = kInsideTolerance * proxy.stature_m();
@@ -108,7 +110,9 @@ std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy&
 void summarise_times(std::vector<double> frame_ms, DrapeReport& report) {
   if (frame_ms.empty()) return;
   std::ranges::sort(frame_ms);
-  auto at = [&](double q) { return frame_ms[static_cast<std::size_t>(q * static_cast<double>(frame_ms.size() - 1))]; };
+  auto at = [&](double q) {
+    return frame_ms[static_cast<std::size_t>(q * static_cast<double>(frame_ms.size() - 1))];
+  };
   report.frame_ms_median = at(0.5);
   report.frame_ms_p99 = at(0.99);
   report.frame_ms_max = frame_ms.back();

@@ -9,7 +9,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double mm(double metres) { return metres * 1e3; }
+double mm(double metres) {
+  return metres * 1e3;
+}
 
 std::string hex(std::uint64_t hash) {
   char text[17];

@@ -18,7 +18,9 @@ constexpr double kWaistbandHeight = 0.009;
 constexpr double kWornWithin = 0.06;
 
 /// Height along the trunk, feet to head.
-double height_of(const Vec3& p, const SegmentedSkin& body) { return p.dot(body.anatomy.up); }
+double height_of(const Vec3& p, const SegmentedSkin& body) {
+  return p.dot(body.anatomy.up);
+}
 
 double armpit_height(const SegmentedSkin& body) {
   double height = std::numeric_limits<double>::infinity();

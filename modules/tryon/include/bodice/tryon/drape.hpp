@@ -12,15 +12,15 @@ namespace bodice::tryon {
 
 struct WornGarment {
   std::string name;
-  geometry::TriMesh mesh;              ///< metres, y up
-  std::vector<geometry::Index> held;   ///< vertices that stay with the body
+  geometry::TriMesh mesh;             ///< metres, y up
+  std::vector<geometry::Index> held;  ///< vertices that stay with the body
 };
 
 struct DrapeOptions {
   int frames = 120;
   double dt_s = 1.0 / 60.0;
-  int kept_frames = 31;                ///< at most this many frames are kept for output, first and last included
-  cloth::Fabric fabric;                ///< empty name: cotton
+  int kept_frames = 31;  ///< at most this many frames are kept for output, first and last included
+  cloth::Fabric fabric;  ///< empty name: cotton
   cloth::SolverOptions solver;
 };
 
@@ -29,15 +29,15 @@ struct DrapeReport {
   int frames = 0;
   std::size_t particles = 0;
   double frame_ms_median = 0.0, frame_ms_p99 = 0.0, frame_ms_max = 0.0;
-  std::size_t penetration_over_1mm = 0;   ///< particles deeper than 1 mm at the last frame
-  double penetration_max_m = 0.0;         ///< deepest of any particle in any frame
-  double penetration_end_m = 0.0;         ///< deepest at the last frame
+  std::size_t penetration_over_1mm = 0;  ///< particles deeper than 1 mm at the last frame
+  double penetration_max_m = 0.0;        ///< deepest of any particle in any frame
+  double penetration_end_m = 0.0;        ///< deepest at the last frame
   int worst_frame = 0;
-  std::size_t inside_union = 0;           ///< particles inside any ellipsoid (relief: the proxy) at the end
-  double stretch_p95 = 0.0, stretch_max = 0.0;   ///< edge strain at the end
-  double median_speed_m_s = 0.0;          ///< at the end
-  bool finite = true;                     ///< in every frame
-  std::uint64_t hash = 0;                 ///< of the final state: equal for any worker count
+  std::size_t inside_union = 0;  ///< particles inside any ellipsoid (relief: the proxy) at the end
+  double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain at the end
+  double median_speed_m_s = 0.0;                ///< at the end
+  bool finite = true;                           ///< in every frame
+  std::uint64_t hash = 0;                       ///< of the final state: equal for any worker count
   std::vector<engine::Warning> warnings;
 };
 

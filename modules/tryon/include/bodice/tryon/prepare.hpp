@@ -27,7 +27,7 @@ struct SegmentedSkin {
   anatomy::Anatomy anatomy;
   std::shared_ptr<const geometry::MeshDistance> distance;  ///< exact, of input.skin
   std::vector<engine::StageTime> stages;
-  std::vector<engine::Warning> warnings;                   ///< of import and anatomy
+  std::vector<engine::Warning> warnings;  ///< of import and anatomy
 };
 
 /// A segmented body and its proxy.

@@ -1,0 +1,61 @@
+#include <memory>
+
+#include <bodice/io/obj.hpp>
+
+#include "garment_kinds.hpp"
+#include "run.hpp"
+
+namespace bodice::cli {
+namespace {
+
+struct MakeCommand {
+  CommonOptions common;
+  std::string output = "body.obj", garment, kind = "skirt";
+};
+
+engine::Result<void> make(const MakeCommand& command) {
+  const CommonOptions& o = command.common;
+  Run run(o);
+  if (auto ok = run.check_outputs({command.output, command.garment, o.labels}); !ok) return ok;
+  auto skin = run.segment();
+  if (!skin) return std::move(skin).error();
+  const geometry::Frame& frame = skin->input.frame;
+  std::vector<std::string> written;
+  if (o.body.empty()) {
+    if (auto saved = io::write_obj(skin->input.skin, command.output, frame); !saved) return saved;
+    written.push_back(command.output);
+  }
+  if (!command.garment.empty()) {
+    auto garment = make_garment_for(run.context(), *skin, command.kind);
+    if (!garment) return std::move(garment).error();
+    if (auto saved = io::write_obj(garment->mesh, command.garment, frame); !saved) return saved;
+    written.push_back(command.garment);
+  }
+  run.list_written(written);
+  return {};
+}
+
+}  // namespace
+
+void add_make_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<MakeCommand>();
+  CLI::App* sub =
+      app.add_subcommand("make", "Write the built-in body, or a garment made to fit a body, as OBJ");
+  sub->add_option("BODY", command->common.body,
+                  "make the garment for this body (default: the built-in body)");
+  sub->add_option("-o,--output", command->output, "the built-in body")->capture_default_str();
+  sub->add_option("--garment-out", command->garment, "the garment");
+  sub->add_option("--garment", command->kind, "skirt, tunic, poncho, tube")
+      ->check(CLI::IsMember({"skirt", "tunic", "poncho", "tube"}))
+      ->capture_default_str();
+  add_input_options(*sub, command->common);
+  add_builtin_options(*sub, command->common);
+  add_run_options(*sub, command->common);
+  sub->footer("Example: bodice make -o body.obj --pose stride --garment tunic --garment-out tunic.obj");
+  sub->callback([command, &exit_code] {
+    const auto done = make(*command);
+    exit_code = done ? kExitOk : fail(done.error());
+  });
+}
+
+}  // namespace bodice::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/frame.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::io {
+
+/// Writes a mesh as Wavefront OBJ in the units and axes of `frame`, with enough digits to read the same
+/// floats back; the file appears whole or not at all.
+engine::Result<void> write_obj(const geometry::TriMesh& mesh, const std::filesystem::path& file,
+                               const geometry::Frame& frame = {});
+
+}  // namespace bodice::io
