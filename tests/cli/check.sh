@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# The program as a person meets it: exit codes, one-sentence errors, outputs that are whole or absent.
+set -uo pipefail
+bodice=$1 scratch=$2
+rm -rf "$scratch" && mkdir -p "$scratch" && cd "$scratch" || exit 1
+failures=0
+
+# expect CODE DESCRIPTION COMMAND...: runs it and keeps its output in out.txt.
+expect() {
+  local wanted=$1 what=$2 got
+  shift 2
+  "$@" >out.txt 2>&1
+  got=$?
+  if [ "$got" -ne "$wanted" ]; then
+    echo "FAILED: $what: exit $got, expected $wanted"; sed 's/^/    /' out.txt
+    failures=$((failures + 1))
+  fi
+}
+says() { grep -q -- "$1" out.txt || { echo "FAILED: '$1' not said:"; sed 's/^/    /' out.txt; failures=$((failures + 1)); }; }
+exists() { [ -s "$1" ] || { echo "FAILED: no $1"; failures=$((failures + 1)); }; }
+absent() { [ ! -e "$1" ] || { echo "FAILED: $1 was left behind"; failures=$((failures + 1)); }; }
+one_line() { [ "$(wc -l <out.txt)" -eq 1 ] || { echo "FAILED: not one line:"; sed 's/^/    /' out.txt; failures=$((failures + 1)); }; }
+
+expect 0 "help" "$bodice" --help
+says "drape"
+expect 0 "help of fit" "$bodice" fit --help
+says "target-error-mm"
+expect 0 "version" "$bodice" --version
+expect 2 "no command" "$bodice"
+expect 2 "unknown option" "$bodice" fit --frobnicate
+expect 2 "two dials at once" "$bodice" fit --max-ellipsoids 50 --target-error-mm 2
+expect 2 "a tier that does not exist" "$bodice" fit --tier perfect
+expect 2 "a threshold of zero" "$bodice" fit --target-error-mm 0
+
+expect 1 "a file that does not exist" "$bodice" fit nowhere.obj
+says "nowhere.obj"
+one_line
+echo "this is not a mesh" >text.obj
+expect 1 "a file without a mesh" "$bodice" fit text.obj -o p.json
+says "text.obj"
+one_line
+absent p.json
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
+expect 1 "a triangle is no body" "$bodice" fit triangle.obj
+one_line
+expect 1 "an output folder that does not exist" "$bodice" fit -o no/such/folder/p.json
+says "folder"
+expect 1 "a profile that does not exist" "$bodice" fit --profile martians
+says "ansur2"
+
+expect 0 "make a body and a garment" "$bodice" make --vertices 4500 -o body.obj --garment skirt --garment-out skirt.obj
+exists body.obj
+exists skirt.obj
+expect 0 "fit it" "$bodice" fit body.obj --tier paper -o p.json --glb p.glb --labels l.txt --report r.json --picture p.png --trace t.json
+for file in p.json p.glb l.txt r.json p.png t.json; do exists $file; done
+expect 0 "fit the built-in body, binary proxy" "$bodice" fit --tier paper --vertices 4500 -o p.bodice --quiet
+exists p.bodice
+[ -s out.txt ] && { echo "FAILED: --quiet printed"; failures=$((failures + 1)); }
+
+printf '0 5 0\n0 0.95 0\n' >points.txt
+expect 0 "query the proxy" "$bodice" query p.json points.txt
+[ "$(wc -l <out.txt)" -eq 2 ] || { echo "FAILED: not a line a point"; failures=$((failures + 1)); }
+awk 'NR == 1 && $1 < 3 { bad = 1 } NR == 2 && $1 > 0 { bad = 1 } END { exit bad }' out.txt ||
+  { echo "FAILED: a far point is not far, or the hip is not inside"; cat out.txt; failures=$((failures + 1)); }
+printf '0 5\n' >points.txt
+expect 1 "a malformed point" "$bodice" query p.json points.txt
+says "line 1"
+head -c 100 p.json >cut.json
+printf '0 5 0\n' >points.txt
+expect 1 "a truncated proxy" "$bodice" query cut.json points.txt
+says "cut.json"
+
+expect 0 "drape files" "$bodice" drape body.obj skirt.obj --tier paper --frames 5 -o d.glb --report d.json
+exists d.glb
+exists d.png
+says "true skin"
+expect 0 "drape, report to standard output" "$bodice" drape --tier paper --vertices 4500 --frames 3 -o e.glb --no-picture --json
+says '"penetration"'
+absent e.png
+expect 1 "a garment that does not exist" "$bodice" drape body.obj nowhere.obj -o f.glb
+absent f.glb
+
+[ "$failures" -eq 0 ] && echo "all checks of the program passed"
+exit $((failures > 0))

@@ -1,0 +1,153 @@
+// The whole road on generated bodies: body -> parts -> proxy -> garment -> drape -> report, with every number
+// that the report claims checked against what is known of the input.
+
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include <bodice/synth/garment.hpp>
+#include <bodice/tryon/report.hpp>
+#include <bodice/tryon/wearing.hpp>
+
+using namespace bodice;
+
+namespace {
+
+tryon::PreparedBody prepare(const engine::Context& context, proxy::Tier tier) {
+  auto skin = tryon::segment_builtin(context, {.vertices = 4500}, {});
+  REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
+  auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = tier, .time_budget_s = 0.5});
+  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
+  return std::move(body).value();
+}
+
+tryon::WornGarment skirt_for(const engine::Context& context, const tryon::SegmentedSkin& skin) {
+  auto garment = synth::make_garment(context,
+                                     {.mesh = skin.input.skin,
+                                      .part = skin.anatomy.part,
+                                      .landmarks = skin.anatomy.landmarks,
+                                      .stature_m = skin.anatomy.stature_m},
+                                     {.kind = synth::GarmentKind::kSkirt});
+  REQUIRE_MESSAGE(garment.ok(), garment.error().sentence());
+  return {.name = "skirt", .mesh = std::move(garment->mesh), .held = std::move(garment->pinned)};
+}
+
+}  // namespace
+
+TEST_CASE("a generated body is measured, dressed and draped") {
+  const auto executor = engine::make_tbb_executor(2);
+  const engine::Context context{.executor = executor.get()};
+  const tryon::PreparedBody body = prepare(context, proxy::Tier::kSolid);
+  CHECK(body.skin.anatomy.stature_m == doctest::Approx(1.68).epsilon(0.02));
+  CHECK(body.fit.accuracy.interior_covered_percent > 99.0);
+
+  const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 40});
+  REQUIRE_MESSAGE(draped.ok(), draped.error().sentence());
+  const tryon::DrapeReport& report = draped->report;
+  CHECK(report.finite);
+  CHECK(report.inside_union == 0);
+  CHECK(report.penetration_over_1mm == 0);
+  REQUIRE(draped->garments.size() == 1);
+  CHECK(draped->garments[0].frames.size() == 31);
+
+  // It stays on: the skirt's centre is still between knees and waist.
+  double height = 0.0;
+  for (const geometry::Vec3& p : draped->garments[0].frames.back()) height += p.y();
+  height /= static_cast<double>(draped->garments[0].frames.back().size());
+  CHECK(height > 0.28 * 1.68);
+  CHECK(height < 0.66 * 1.68);
+}
+
+TEST_CASE("the same bits for any number of workers, from body to last frame") {
+  std::vector<std::uint64_t> proxies, frames;
+  for (const int workers : {1, 2, 3}) {
+    const auto executor = engine::make_tbb_executor(workers);
+    const engine::Context context{.executor = executor.get()};
+    const tryon::PreparedBody body = prepare(context, proxy::Tier::kSolid);
+    const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 5});
+    REQUIRE(draped.ok());
+    proxies.push_back(body.fit.proxy.hash());
+    frames.push_back(draped->report.hash);
+  }
+  for (std::size_t i = 1; i < proxies.size(); ++i) {
+    CHECK(proxies[i] == proxies[0]);
+    CHECK(frames[i] == frames[0]);
+  }
+}
+
+TEST_CASE("only the parts that a garment can reach are fitted") {
+  const engine::Context context;
+  auto skin = tryon::segment_builtin(context, {.vertices = 3000}, {});
+  REQUIRE(skin.ok());
+  const tryon::WornGarment skirt = skirt_for(context, *skin);
+  const std::uint32_t parts = tryon::reachable_parts(context, *skin, std::span(&skirt.mesh, 1), 0.05);
+  auto has = [&](body::Part part) { return (parts >> static_cast<int>(part) & 1u) != 0; };
+  CHECK(has(body::Part::kThighL));
+  CHECK(has(body::Part::kThighR));
+  CHECK_FALSE(has(body::Part::kHead));
+
+  const std::uint32_t wanted = parts;
+  const auto body =
+      tryon::fit_proxy(context, std::move(skin).value(), {.tier = proxy::Tier::kPaper, .parts = wanted});
+  REQUIRE(body.ok());
+  for (const proxy::ProxyEllipsoid& e : body->fit.proxy.ellipsoids()) CHECK(has(e.part));
+}
+
+TEST_CASE("a skirt is held at its waistband, a tunic is not held") {
+  const engine::Context context;
+  const auto skin = tryon::segment_builtin(context, {.vertices = 4500}, {});
+  REQUIRE(skin.ok());
+  const tryon::WornGarment skirt = skirt_for(context, *skin);
+  const auto held = tryon::held_vertices(skirt.mesh, *skin);
+  REQUIRE_FALSE(held.empty());
+  CHECK(held.size() < skirt.mesh.positions.size() / 5);
+  double lowest = 1e9;
+  for (const geometry::Index v : held) lowest = std::min(lowest, skirt.mesh.positions[v].y());
+  CHECK(lowest > 0.5 * skin->anatomy.stature_m);
+
+  const auto tunic = synth::make_garment(context,
+                                         {.mesh = skin->input.skin,
+                                          .part = skin->anatomy.part,
+                                          .landmarks = skin->anatomy.landmarks,
+                                          .stature_m = skin->anatomy.stature_m},
+                                         {.kind = synth::GarmentKind::kTunic});
+  REQUIRE_MESSAGE(tunic.ok(), tunic.error().sentence());
+  CHECK(tryon::held_vertices(tunic->mesh, *skin).empty());
+}
+
+TEST_CASE("the report has every key that its readers rely on") {
+  const engine::Context context;
+  const tryon::PreparedBody body = prepare(context, proxy::Tier::kPaper);
+  const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 2});
+  REQUIRE(draped.ok());
+  const auto report =
+      nlohmann::json::parse(tryon::report_json(body, &draped->report, {.threads = 1, .seed = 3}));
+  for (const char* key : {"input", "height_m", "tier", "threads", "seed", "hash", "ellipsoids", "bytes",
+                          "mu_mm", "parts", "landmarks", "accuracy", "warnings", "stages", "drape"})
+    CHECK_MESSAGE(report.contains(key), key);
+  CHECK(report["parts"].size() == body::kPartCount);
+  CHECK(report["landmarks"].size() == body::kLandmarkCount);
+  CHECK(report["seed"] == 3);
+  CHECK(report["ellipsoids"] == body.fit.proxy.ellipsoids().size());
+  CHECK(report["input"]["vertices"] == body.skin.input.skin.positions.size());
+}
+
+TEST_CASE("labels are one line a vertex, in the input's units") {
+  const engine::Context context;
+  auto skin = tryon::segment_builtin(context, {.vertices = 3000}, {});
+  REQUIRE(skin.ok());
+  skin->input.frame = {.metres_per_unit = 0.01, .up = geometry::Axis::kZ};
+  std::istringstream lines(tryon::labels_text(*skin));
+  std::size_t count = 0;
+  double highest_z = 0.0, x = 0.0, y = 0.0, z = 0.0;
+  std::string part;
+  while (lines >> x >> y >> z >> part) {
+    CHECK(body::part_from_name(part).has_value());
+    highest_z = std::max(highest_z, z);
+    ++count;
+  }
+  CHECK(count == skin->input.skin.positions.size());
+  CHECK(highest_z == doctest::Approx(168.0).epsilon(0.03));
+}
