@@ -1,0 +1,117 @@
+#include "cases.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include <bodice/geometry/mesh_repair.hpp>
+
+#include "read_mesh.hpp"
+
+namespace bench {
+namespace {
+
+namespace fs = std::filesystem;
+using bodice::geometry::kNoIndex;
+using bodice::geometry::Vec3;
+using nlohmann::json;
+
+json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  return json::parse(in);
+}
+
+std::vector<int> read_labels(const fs::path& file) {
+  std::vector<int> labels;
+  std::ifstream in(file, std::ios::binary);
+  if (file.extension() == ".u8")
+    for (char c; in.get(c);) labels.push_back(static_cast<unsigned char>(c));
+  else
+    for (int k; in >> k;) labels.push_back(k);
+  return labels;
+}
+
+/// Where the labels of a mesh lie: the data's README tells.
+fs::path labels_of(const fs::path& data, const fs::path& mesh) {
+  const std::string stem = mesh.stem().string(), folder = mesh.parent_path().filename().string();
+  if (folder == "bodies") return data / "labels" / "makehuman13380.labels.txt";
+  if (folder == "big") return mesh.parent_path() / (stem + ".labels.u8");
+  fs::path own = mesh.parent_path() / (stem + ".labels.txt");
+  if (fs::exists(own)) return own;
+  if (folder == "awkward" && stem.starts_with("f_avg_") && stem.find("soup") == std::string::npos &&
+      stem.find("nonmanifold") == std::string::npos)
+    return mesh.parent_path() / "f_avg_3000v.labels.txt";
+  return {};
+}
+
+/// The truth of the body that a file was made from: only where the file keeps its place and unit.
+fs::path truth_of(const fs::path& data, const fs::path& mesh) {
+  const std::string stem = mesh.stem().string();
+  if (mesh.parent_path().filename() == "bodies") return data / "bodies" / (stem + ".json");
+  fs::path best;
+  for (const auto& entry : fs::directory_iterator(data / "bodies"))
+    if (entry.path().extension() == ".json" && stem.find(entry.path().stem().string()) != std::string::npos)
+      best = entry.path();
+  if (best.empty() && stem.starts_with("f_avg_") && mesh.parent_path().filename() == "awkward" &&
+      stem.find("far") == std::string::npos && stem.find("zup") == std::string::npos)
+    best = data / "bodies" / "f_avg_rest.json";
+  return best;
+}
+
+Vec3 point(const json& j) {
+  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
+}
+
+void read_truth(const fs::path& file, Case& c) {
+  const json j = read_json(file);
+  c.stature = j["stature_rest_m"];
+  c.landmarks["crown"] = point(j["landmarks"]["head_top"]);
+  c.landmarks["perineum"] = point(j["landmarks"]["crotch"]);
+  c.landmarks["neck"] = point(j["joints"]["neck"]);
+  for (const std::string side : {"l", "r"}) {
+    c.landmarks["fingertip_" + side] = point(j["landmarks"][side + "_fingertip"]);
+    c.landmarks["toe_" + side] = point(j["landmarks"][side + "_toe_tip"]);
+    c.landmarks["armpit_" + side] = point(j["landmarks"][side + "_armpit"]);
+    c.landmarks["elbow_" + side] = point(j["joints"][side + "_elbow"]);
+    c.landmarks["knee_" + side] = point(j["joints"][side + "_knee"]);
+  }
+}
+
+Case load(const fs::path& data, const fs::path& file, const std::vector<int>& coarse) {
+  Case c{file.parent_path().filename().string() + "/" + file.filename().string(), {}, {}, {}, 0.0};
+  const auto repaired = bodice::geometry::repair({}, read_mesh(file));
+  if (!repaired) return c;
+  c.mesh = repaired->mesh;
+  const fs::path labels = labels_of(data, file);
+  if (!labels.empty()) {
+    const std::vector<int> fine = read_labels(labels);
+    c.truth.assign(c.mesh.positions.size(), -1);
+    for (std::size_t i = 0; i < std::min(fine.size(), repaired->vertex_of_input.size()); ++i)
+      if (repaired->vertex_of_input[i] != kNoIndex) c.truth[repaired->vertex_of_input[i]] = coarse[fine[i]];
+  }
+  const fs::path truth = truth_of(data, file);
+  if (!truth.empty()) read_truth(truth, c);
+  return c;
+}
+
+}  // namespace
+
+std::vector<Case> file_cases(const fs::path& data, const std::string& only) {
+  const json classes = read_json(data / "labels" / "classes.json");
+  const auto coarse = classes["fine_to_coarse"].get<std::vector<int>>();
+  std::vector<fs::path> files;
+  for (const char* folder : {"bodies", "counts", "big", "awkward"})
+    for (const auto& entry : fs::directory_iterator(data / folder)) {
+      const std::string ext = entry.path().extension().string();
+      if ((ext == ".obj" || ext == ".ply" || ext == ".stl") &&
+          entry.path().string().find(only) != std::string::npos)
+        files.push_back(entry.path());
+    }
+  std::sort(files.begin(), files.end());
+  std::vector<Case> cases;
+  for (const fs::path& file : files) cases.push_back(load(data, file, coarse));
+  return cases;
+}
+
+}  // namespace bench

@@ -1,0 +1,27 @@
+// Bodies with known truth, from files or made by synth.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bench {
+
+/// The 11 coarse classes of the data's labels; -1: unknown.
+inline constexpr int kCoarseCount = 11;
+
+struct Case {
+  std::string name;
+  bodice::geometry::TriMesh mesh;                           ///< repaired
+  std::vector<int> truth;                                   ///< #V coarse class, empty if unknown
+  std::map<std::string, bodice::geometry::Vec3> landmarks;  ///< LandmarkId names; empty if unknown
+  double stature = 0.0;                                     ///< in the mesh's unit, 0 if unknown
+};
+
+/// Every body of the data folder that has labels. Sorted by name.
+std::vector<Case> file_cases(const std::filesystem::path& data, const std::string& only);
+
+}  // namespace bench

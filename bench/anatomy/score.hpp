@@ -1,0 +1,23 @@
+#pragma once
+
+#include <bodice/anatomy/anatomy.hpp>
+
+#include "cases.hpp"
+
+namespace bench {
+
+struct Score {
+  double agreement = -1.0;              ///< share of the skin's area, borders left out; -1 without truth
+  double swapped = 0.0;                 ///< share of the limbs' area that has the other side's label
+  std::map<std::string, double> error;  ///< of each landmark, of the stature
+  double worst_landmark = -1.0;
+  std::string worst_name;
+  double stature_ratio = -1.0;  ///< found to true
+};
+
+Score score(const Case& c, const bodice::anatomy::Anatomy& anatomy);
+
+/// The coarse class of a part.
+int coarse_class(bodice::body::Part part);
+
+}  // namespace bench

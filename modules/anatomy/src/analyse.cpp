@@ -1,0 +1,63 @@
+#include <bodice/anatomy/anatomy.hpp>
+#include <bodice/engine/stage_timer.hpp>
+
+#include "segment.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using engine::Error;
+using engine::ErrorCode;
+using engine::StageTimer;
+using geometry::Vec3;
+
+/// Above this the five ends do not lie as a body's do.
+constexpr double kWorstMisfit = 3.0;
+constexpr double kFairMisfit = 1.2;
+
+Error no_body(const std::string& why) {
+  return {ErrorCode::kUnusableGeometry, "No human body can be made out: " + why,
+          "Give one closed skin with a head, two arms and two legs."};
+}
+
+Vec3 upwards(const Skin& skin, const Landmarks& marks) {
+  const Vec3 up = marks.neck.center - skin.mesh.positions[marks.perineum];
+  const double length = up.norm();
+  return length > 0.0 ? Vec3(up / length) : Vec3(Vec3::UnitY());
+}
+
+}  // namespace
+
+engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
+                                const Options&) {
+  if (mesh.empty()) return no_body("the mesh has no triangles.");
+  Anatomy anatomy;
+  StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
+  const Skin skin = make_skin(context, mesh);
+  const std::optional<EndPoints> found = find_end_points(context, skin);
+  geodesic_timer.stop();
+  if (!found) return no_body("its skin has no five ends far from each other.");
+  if (found->misfit > kWorstMisfit)
+    return no_body("its five ends do not lie at the distances of a head, two hands and two feet.");
+
+  StageTimer anatomy_timer(context, anatomy.stages, "anatomy");
+  const Sides sides = find_sides(skin, *found);
+  const BodyEnds ends = in_body_order(*found, sides);
+  const Landmarks marks = find_landmarks(skin, ends);
+  if (marks.perineum == geometry::kNoIndex) return no_body("its legs do not meet.");
+  anatomy.stature_m = marks.stature_m;
+  anatomy.up = upwards(skin, marks);
+  anatomy.landmarks = as_list(skin, ends, marks);
+  anatomy_timer.stop();
+
+  StageTimer segment_timer(context, anatomy.stages, "segment");
+  anatomy.part = segment(context, skin, ends, marks);
+  segment_timer.stop();
+  if (found->misfit > kFairMisfit)
+    anatomy.warnings.push_back({"unusual-body", "",
+                                "The ends of the body lie at unusual distances from each other.",
+                                "Check the landmarks; welded hands or legs shorten the way between them."});
+  return anatomy;
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,145 @@
+// Based on: Mingjun Yu, et al. (the paper's [20]) and the five ends of the paper, section 2.1.
+// Differs: farthest-point candidates are matched to a template of mutual distances, because plain farthest
+// points take a heel, an elbow or a second toe in many poses.
+#include "end_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "end_template.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using geodesic::Field;
+using geometry::Index;
+using geometry::kNoIndex;
+
+constexpr std::size_t kCandidates = 8;
+/// A candidate may be a heel or a thumb; the true end is within a foot's length of it.
+constexpr float kRefineRadius = 0.2F;  // of the size
+
+Index farthest(const Field& field) {
+  Index best = kNoIndex;
+  for (std::size_t v = 0; v < field.size(); ++v)
+    if (std::isfinite(field[v]) && (best == kNoIndex || field[v] > field[best])) best = static_cast<Index>(v);
+  return best;
+}
+
+/// The vertex of the body's own component that lies farthest from its middle: an end, or near one.
+Index start_vertex(const Skin& skin) {
+  geometry::Vec3 middle = geometry::Vec3::Zero();
+  double area = 0.0;
+  for (std::size_t f = 0; f < skin.mesh.triangles.size(); ++f) {
+    if (skin.component[skin.mesh.triangles[f][0]] != 0) continue;
+    const double a = geometry::area_vector(skin.mesh, f).norm();
+    const auto& corner = skin.mesh.triangles[f];
+    middle += a * (skin.mesh.positions[corner[0]] + skin.mesh.positions[corner[1]] +
+                   skin.mesh.positions[corner[2]]);
+    area += 3.0 * a;
+  }
+  if (area > 0.0) middle /= area;
+  Index best = 0;
+  double most = -1.0;
+  for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v) {
+    const double d = (skin.mesh.positions[v] - middle).squaredNorm();
+    if (skin.component[v] == 0 && d > most) {
+      most = d;
+      best = static_cast<Index>(v);
+    }
+  }
+  return best;
+}
+
+struct Candidates {
+  std::vector<Index> vertex;
+  std::vector<Field> field;
+};
+
+Candidates farthest_points(const Skin& skin) {
+  Candidates c;
+  Field nearest = geodesic::distances_from(skin.graph, start_vertex(skin));
+  for (std::size_t k = 0; k < kCandidates; ++k) {
+    const Index v = farthest(nearest);
+    if (v == kNoIndex || nearest[v] == 0.0F) break;
+    c.vertex.push_back(v);
+    c.field.push_back(geodesic::distances_from(skin.graph, v));
+    const Field& field = c.field.back();
+    for (std::size_t i = 0; i < field.size(); ++i)
+      nearest[i] = k == 0 ? field[i] : std::min(nearest[i], field[i]);
+  }
+  return c;
+}
+
+/// The vertex near `end` that is farthest from the ends in `from`.
+Index refine(const EndPoints& ends, End end, float radius, std::span<const End> from) {
+  Index best = ends.vertex[end];
+  float most = -1.0F;
+  for (std::size_t v = 0; v < ends.field[end].size(); ++v) {
+    if (!(ends.field[end][v] <= radius)) continue;
+    float sum = 0.0F;
+    for (const End f : from) sum += ends.field[f][v];
+    if (sum > most) {
+      most = sum;
+      best = static_cast<Index>(v);
+    }
+  }
+  return best;
+}
+
+void refine_all(const engine::Context& context, const Skin& skin, float size, EndPoints& ends) {
+  constexpr std::array<End, 2> feet{kFootA, kFootB};
+  constexpr std::array<End, 1> head{kHead};
+  std::array<Index, kEndCount> refined{};
+  for (int e = 0; e < kEndCount; ++e)
+    refined[e] = e == kHead ? refine(ends, kHead, kRefineRadius * size, feet)
+                            : refine(ends, static_cast<End>(e), kRefineRadius * size, head);
+  std::vector<Index> moved;
+  std::vector<int> which;
+  for (int e = 0; e < kEndCount; ++e)
+    if (refined[e] != ends.vertex[e]) {
+      moved.push_back(refined[e]);
+      which.push_back(e);
+    }
+  std::vector<Field> fields = geodesic::distances_each(context, skin.graph, moved);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    ends.vertex[which[i]] = moved[i];
+    ends.field[which[i]] = std::move(fields[i]);
+  }
+}
+
+/// An arm's way to the leg of its own side is shorter. Sums over both sides cancel what a pose does to one
+/// limb.
+void pair_sides(EndPoints& ends, float size) {
+  const float same = ends.between(kHandA, kFootA) + ends.between(kHandB, kFootB);
+  const float cross = ends.between(kHandA, kFootB) + ends.between(kHandB, kFootA);
+  ends.side_margin = static_cast<double>(std::abs(cross - same) / size);
+  if (same <= cross) return;
+  std::swap(ends.vertex[kHandA], ends.vertex[kHandB]);
+  std::swap(ends.field[kHandA], ends.field[kHandB]);
+}
+
+}  // namespace
+
+std::optional<EndPoints> find_end_points(const engine::Context& context, const Skin& skin) {
+  Candidates c = farthest_points(skin);
+  const std::size_t n = c.vertex.size();
+  if (n < kEndCount) return std::nullopt;
+  std::vector<float> apart(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) apart[i * n + j] = c.field[i][c.vertex[j]];
+  const std::optional<EndMatch> match = match_ends(apart, n);
+  if (!match) return std::nullopt;
+  EndPoints ends;
+  for (int e = 0; e < kEndCount; ++e) {
+    ends.vertex[e] = c.vertex[match->candidate[e]];
+    ends.field[e] = std::move(c.field[match->candidate[e]]);
+  }
+  ends.misfit = match->misfit;
+  const auto size = static_cast<float>(match->size_m);
+  refine_all(context, skin, size, ends);
+  pair_sides(ends, size);
+  return ends;
+}
+
+}  // namespace bodice::anatomy

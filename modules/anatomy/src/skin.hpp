@@ -1,0 +1,22 @@
+#pragma once
+
+#include <bodice/geodesic/distance.hpp>
+#include <bodice/geodesic/isoline.hpp>
+
+namespace bodice::anatomy {
+
+/// The mesh with what every step needs: built once, read by all.
+struct Skin {
+  const geometry::TriMesh& mesh;
+  geodesic::MeshEdges edges;
+  geodesic::EdgeGraph graph;
+  std::vector<geometry::Index> component;  ///< #V; 0 is the body's own
+  std::size_t components = 0;
+};
+
+Skin make_skin(const engine::Context& context, const geometry::TriMesh& mesh);
+
+/// Twice the outward area of the triangle that meets the edge first: which side of a curve is outside.
+geometry::Vec3 normal_at_edge(const Skin& skin, geometry::Index edge);
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,75 @@
+#include <algorithm>
+
+#include <bodice/geodesic/mesh_edges.hpp>
+
+namespace bodice::geodesic {
+namespace {
+
+using geometry::Index;
+using geometry::kNoIndex;
+
+struct Side {
+  Index high;
+  Index triangle;
+  Index corner;
+};
+
+/// The three sides of every triangle, grouped by their lower end; a group starts at offset[low].
+struct Sides {
+  std::vector<Index> offset;
+  std::vector<Side> side;
+};
+
+Sides sides_by_lower_end(const geometry::TriMesh& mesh) {
+  Sides sides;
+  sides.offset.assign(mesh.positions.size() + 1, 0);
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++sides.offset[std::min(t[k], t[(k + 1) % 3]) + 1];
+  for (std::size_t v = 1; v < sides.offset.size(); ++v) sides.offset[v] += sides.offset[v - 1];
+  sides.side.resize(3 * mesh.triangles.size());
+  std::vector<Index> next(sides.offset.begin(), sides.offset.end() - 1);
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(mesh.triangles[f][k], mesh.triangles[f][(k + 1) % 3]);
+      sides.side[next[low]++] = {high, static_cast<Index>(f), static_cast<Index>(k)};
+    }
+  return sides;
+}
+
+void add_side(MeshEdges& edges, Index low, const Side& side) {
+  const bool same = !edges.ends.empty() && edges.ends.back() == MeshEdges::Ends{low, side.high};
+  if (!same) {
+    edges.ends.push_back({low, side.high});
+    edges.triangles.push_back({side.triangle, kNoIndex});
+  } else if (edges.triangles.back()[1] == kNoIndex) {
+    edges.triangles.back()[1] = side.triangle;
+  }
+  edges.of_triangle[side.triangle][side.corner] = static_cast<Index>(edges.ends.size() - 1);
+}
+
+}  // namespace
+
+MeshEdges mesh_edges(const geometry::TriMesh& mesh) {
+  Sides sides = sides_by_lower_end(mesh);
+  MeshEdges edges;
+  edges.of_triangle.resize(mesh.triangles.size());
+  edges.ends.reserve(mesh.triangles.size() * 3 / 2 + 1);
+  edges.triangles.reserve(edges.ends.capacity());
+  for (std::size_t low = 0; low < mesh.positions.size(); ++low) {
+    const auto begin = sides.side.begin() + sides.offset[low],
+               end = sides.side.begin() + sides.offset[low + 1];
+    std::sort(begin, end, [](const Side& a, const Side& b) {
+      return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+    });
+    for (auto run = begin; run != end;) {
+      auto stop = run;
+      for (; stop != end && stop->high == run->high; ++stop) add_side(edges, static_cast<Index>(low), *stop);
+      edges.boundary += stop - run == 1;
+      edges.non_manifold += stop - run > 2;
+      run = stop;
+    }
+  }
+  return edges;
+}
+
+}  // namespace bodice::geodesic
