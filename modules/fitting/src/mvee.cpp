@@ -1,0 +1,120 @@
+// Based on: Piyush Kumar, E. Alper Yildirim. Minimum-Volume Enclosing Ellipsoids and Core Sets. 2005.
+// Differs: the core set starts from 26 directional extremes, grows by the worst point of each octant, sheds
+// idle points, and is solved by a damped Newton method (mvee_dual.hpp), so a handful of scans reaches 1e-7.
+#include <bodice/fitting/mvee.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mvee_dual.hpp"
+#include "mvee_finish.hpp"
+#include "point_frame.hpp"
+
+namespace bodice::fitting {
+namespace {
+
+template <int R>
+Eigen::Matrix<double, R + 1, 1> lifted(const PointFrame& frame, std::size_t i) {
+  Eigen::Matrix<double, R + 1, 1> q;
+  for (int j = 0; j < R; ++j) q[j] = frame.y[j][i];
+  q[R] = 1.0;
+  return q;
+}
+
+/// The points farthest along the 3^R - 1 directions with components -1, 0, 1.
+template <int R>
+void add_extremes(const PointFrame& frame, ActiveSet<R + 1>& set) {
+  constexpr int kDirections = R == 3 ? 13 : 4;
+  std::array<std::size_t, 2 * kDirections> chosen{};
+  const std::size_t n = frame.kept.size();
+  for (int k = 0; k < kDirections; ++k) {
+    // Codes 1..13 in balanced ternary cover each direction once up to sign.
+    std::array<double, 3> w{};
+    for (int j = 0, code = k + 1; j < R; ++j) {
+      const int digit = code % 3;
+      w[j] = digit == 2 ? -1.0 : digit;
+      code = code / 3 + (digit == 2 ? 1 : 0);
+    }
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < n; ++i) {
+      double along = 0.0;
+      for (int j = 0; j < R; ++j) along += w[j] * frame.y[j][i];
+      if (along < low) low = along, chosen[2 * k] = i;
+      if (along > high) high = along, chosen[2 * k + 1] = i;
+    }
+  }
+  std::sort(chosen.begin(), chosen.end());
+  const auto end = std::unique(chosen.begin(), chosen.end());
+  for (auto i = chosen.begin(); i != end; ++i) set.add(lifted<R>(frame, *i), 1.0);
+  set.normalise();
+}
+
+/// Adds the worst violator of each orthant; returns the largest kappa / N - 1 over all points.
+template <int R>
+double scan(const PointFrame& frame, ActiveSet<R + 1>& set, double tolerance) {
+  using Set = ActiveSet<R + 1>;
+  const Eigen::LLT<typename Set::Square> llt(set.moment());
+  if (llt.info() != Eigen::Success) return 1e300;
+  const typename Set::Square inverse = llt.matrixL().solve(Set::Square::Identity());
+  std::array<double, 1 << R> worst;
+  worst.fill((1.0 + tolerance) * (R + 1));
+  std::array<std::size_t, 1 << R> at{};
+  std::array<bool, 1 << R> found{};
+  double largest = 0.0;
+  for (std::size_t i = 0; i < frame.kept.size(); ++i) {
+    const typename Set::Lifted z = inverse * lifted<R>(frame, i);
+    const double kappa = z.squaredNorm();
+    largest = std::max(largest, kappa);
+    int orthant = 0;
+    for (int j = 0; j < R; ++j) orthant |= (z[R - 1 - j] > 0.0) << j;
+    if (kappa > worst[orthant]) worst[orthant] = kappa, at[orthant] = i, found[orthant] = true;
+  }
+  for (int k = 0; k < (1 << R); ++k)
+    if (found[k] && !set.full()) set.add(lifted<R>(frame, at[k]), 0.0);
+  return largest / (R + 1) - 1.0;
+}
+
+template <int R>
+Mvee solve(const PointFrame& frame, const MveeOptions& options) {
+  constexpr int kMaxRounds = 100;
+  // gap <= N/2 * excess; half of it is left to the scan over all points.
+  const double tolerance = std::max(options.volume_tolerance, 1e-13) * 2.0 / (R + 1);
+  ActiveSet<R + 1> set;
+  add_extremes<R>(frame, set);
+  Mvee result;
+  double excess_all = 0.0;
+  while (result.rounds < kMaxRounds) {
+    maximise_dual(set, 0.5 * tolerance);
+    set.drop_idle();
+    ++result.rounds;
+    excess_all = scan<R>(frame, set, 0.5 * tolerance);
+    if (excess_all <= tolerance) break;
+  }
+  set.drop_idle();
+  finish<R>(frame, set.q.leftCols(set.size).template topRows<R>(), set.u.head(set.size), options.min_radius_m,
+            result);
+  return result;
+}
+
+}  // namespace
+
+Mvee mvee(std::span<const Vec3> points, const MveeOptions& options) {
+  const PointFrame frame = make_point_frame(points, kFlatRelative);
+  Mvee result;
+  switch (frame.rank) {
+    case 3:
+      result = solve<3>(frame, options);
+      break;
+    case 2:
+      result = solve<2>(frame, options);
+      break;
+    default:
+      result = finish_thin(frame, options.min_radius_m);
+      break;
+  }
+  result.skipped = points.size() - frame.kept.size();
+  return result;
+}
+
+}  // namespace bodice::fitting

@@ -1,0 +1,48 @@
+// From dual weights to an ellipsoid in metres, with its certificate re-measured on the points themselves.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <bodice/fitting/mvee.hpp>
+
+#include "point_frame.hpp"
+
+namespace bodice::fitting {
+
+/// Sets result.ellipsoid from `half`, whose columns span it (x = centre + half * unit ball), floors the
+/// radii, grows it to hold every point, and records rank, gap and violation. `dual_log_volume` bounds the
+/// least volume from below (sum of log radii).
+void certify(const PointFrame& frame, const Vec3& centre, const Mat3& half, double dual_log_volume,
+             double min_radius_m, Mvee& result);
+
+/// Rank 0 and 1 in closed form.
+Mvee finish_thin(const PointFrame& frame, double min_radius_m);
+
+/// `points` R x m in the frame, `weights` m on the simplex.
+template <int R, class Points, class Weights>
+void finish(const PointFrame& frame, const Points& points, const Weights& weights, double min_radius_m,
+            Mvee& result) {
+  using Vector = Eigen::Matrix<double, R, 1>;
+  using Square = Eigen::Matrix<double, R, R>;
+  const Vector c = points * weights;
+  const auto centred = (points.colwise() - c).eval();
+  const Square spread = R * (centred * weights.asDiagonal() * centred.transpose());
+  const Square root = spread.llt().matrixL();
+  Vec3 centre = frame.origin;
+  Mat3 half = Mat3::Zero();
+  double log_volume = 0.0;
+  for (int j = 0; j < R; ++j) {
+    centre += frame.extent[j] * c[j] * frame.axes.col(j);
+    log_volume += std::log(root(j, j) * frame.extent[j]);
+  }
+  for (int k = 0; k < R; ++k)
+    for (int j = k; j < R; ++j) half.col(k) += frame.extent[j] * root(j, k) * frame.axes.col(j);
+  certify(frame, centre, half, log_volume, min_radius_m, result);
+}
+
+}  // namespace bodice::fitting

@@ -1,0 +1,142 @@
+#include <bodice/fitting/proxy_distance.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace bodice::fitting {
+namespace {
+
+/// Table values at a direction and their derivatives along the square's axes.
+struct TableValue {
+  double h = 0.0, a = 0.0;
+  Vec3 dh = Vec3::Zero(), da = Vec3::Zero();  ///< with respect to the direction w, tangential part undefined
+};
+
+/// d(x, y)/dw of the octahedral map, rows x and y, for w of unit length (radial part included).
+Eigen::Matrix<double, 2, 3> map_jacobian(const Vec3& w) {
+  const double s = w.cwiseAbs().sum();
+  const Vec3 sign = w.unaryExpr([](double v) { return v < 0.0 ? -1.0 : 1.0; });
+  Eigen::Matrix<double, 2, 3> j;
+  for (int row = 0; row < 2; ++row) j.row(row) = (Vec3::Unit(row) / s - w[row] / (s * s) * sign).transpose();
+  if (w.z() >= 0.0) return j;
+  Eigen::Matrix<double, 2, 3> folded;  // p_x = (1 - |q_y|) sign(q_x), and the same for p_y
+  folded.row(0) = -sign[0] * sign[1] * j.row(1);
+  folded.row(1) = -sign[0] * sign[1] * j.row(0);
+  return folded;
+}
+
+TableValue read(const proxy::ReliefTable& table, std::span<const proxy::ReliefTexel> texels, const Vec3& w) {
+  const int n = table.nodes_per_side;
+  const TableStencil stencil = table_stencil(w, n);
+  std::array<double, 4> h, a;
+  TableValue value;
+  for (int k = 0; k < 4; ++k) {
+    const proxy::ReliefTexel texel = texels[table.first_texel + stencil.node[k]];
+    h[k] = static_cast<double>(table.h_offset_m) + static_cast<double>(table.h_scale_m) * texel.h / 255.0;
+    a[k] = static_cast<double>(table.a_offset) + static_cast<double>(table.a_scale) * texel.a / 255.0;
+    value.h += stencil.weight[k] * h[k];
+    value.a += stencil.weight[k] * a[k];
+  }
+  const double s = stencil.weight[1] + stencil.weight[3], t = stencil.weight[2] + stencil.weight[3];
+  const double per_unit = 0.5 * (n - 1);
+  const auto gradient = [&](const std::array<double, 4>& f) {
+    return Eigen::RowVector2d(per_unit * ((1.0 - t) * (f[1] - f[0]) + t * (f[3] - f[2])),
+                              per_unit * ((1.0 - s) * (f[2] - f[0]) + s * (f[3] - f[1])));
+  };
+  const Eigen::Matrix<double, 2, 3> jacobian = map_jacobian(w);
+  value.dh = (gradient(h) * jacobian).transpose();
+  value.da = (gradient(a) * jacobian).transpose();
+  return value;
+}
+
+struct Candidate {
+  geometry::NearestPoint foot;
+  std::uint32_t index = 0;
+};
+
+struct Corrected {
+  double distance = 0.0;
+  Vec3 gradient = Vec3::Zero();
+};
+
+/// Eq. (3) and its gradient: n (1 - a clamp'/out) - D (G - w (G . (w / e)) / sum(w^2 / e)).
+Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const proxy::ReliefTable& table,
+                    std::span<const proxy::ReliefTexel> texels, const ReliefReach& reach) {
+  const double d = c.foot.signed_distance;
+  if (table.nodes_per_side < 2) return {d, c.foot.normal};
+  const Vec3 w = (e.axes.transpose() * (c.foot.point - e.center)).cwiseQuotient(e.radii).normalized();
+  const TableValue value = read(table, texels, w);
+  const double clamped = std::clamp(d, -reach.in, reach.out);
+  const bool slopes = d > -reach.in && d < reach.out;
+  const double t = d / w.cwiseQuotient(e.radii).norm();  // x - foot = t w / r in the ellipsoid's frame
+  const Vec3 evolute = (e.radii.cwiseAbs2().array() + t).matrix();
+  const Vec3 n = e.axes.transpose() * c.foot.normal;
+  const Vec3 g = value.dh + clamped / reach.out * value.da;
+  Vec3 local = n * (1.0 - (slopes ? value.a / reach.out : 0.0));
+  const Vec3 w_e = w.cwiseQuotient(evolute);
+  const double along = w.dot(w_e);
+  if (evolute.minCoeff() > 1e-9 * e.radii.cwiseAbs2().maxCoeff() && along > 0.0)
+    local -= e.radii.cwiseQuotient(evolute).cwiseProduct(g - w * (g.dot(w_e) / along));
+  return {d - value.h - value.a * clamped / reach.out, e.axes * local};
+}
+
+ProxyDistance evaluate(std::span<const proxy::ProxyEllipsoid> ellipsoids,
+                       std::span<const proxy::ReliefTable> relief, std::span<const proxy::ReliefTexel> texels,
+                       double stature_m, double margin_m, const Vec3& point) {
+  ProxyDistance result;
+  result.distance = std::numeric_limits<double>::infinity();
+  const ReliefReach reach = relief_reach(stature_m);
+  std::vector<Candidate> near;  // within the blend of the nearest so far
+  for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
+    const geometry::Ellipsoid& e = ellipsoids[k].shape;
+    const double bound = (point - e.center).norm() - e.radii.maxCoeff();  // d_k is at least this
+    const double keep = relief.empty() ? 0.0 : reach.blend;
+    if (bound > result.distance + keep) continue;
+    const geometry::NearestPoint foot = geometry::nearest_point(e, point);
+    if (foot.signed_distance < result.distance) {
+      result.distance = foot.signed_distance;
+      result.normal = foot.normal;
+      result.owner = k;
+    }
+    if (!relief.empty()) near.push_back({foot, k});
+  }
+  if (!relief.empty() && !near.empty()) {
+    const double least = result.distance;
+    double weights = 0.0, sum = 0.0;
+    Vec3 gradient = Vec3::Zero();
+    for (const Candidate& c : near) {
+      const double ramp = std::max(0.0, 1.0 - (c.foot.signed_distance - least) / reach.blend);
+      if (ramp == 0.0) continue;
+      const Corrected f = corrected(ellipsoids[c.index].shape, c, relief[c.index], texels, reach);
+      weights += ramp * ramp;
+      sum += ramp * ramp * f.distance;
+      gradient += ramp * ramp * f.gradient;
+    }
+    result.distance = sum / weights;
+    const double length = gradient.norm();
+    if (length > 0.0) result.normal = gradient / length;
+  }
+  result.distance -= margin_m;
+  return result;
+}
+
+}  // namespace
+
+ReliefReach relief_reach(double stature_m) {
+  constexpr double kReferenceStature_m = 1.70;
+  const double scale = stature_m > 0.0 ? stature_m / kReferenceStature_m : 1.0;
+  return {0.020 * scale, 0.030 * scale, 0.003 * scale};
+}
+
+ProxyDistance proxy_distance(const proxy::BodyProxy& proxy, const Vec3& point) {
+  return evaluate(proxy.ellipsoids(), proxy.relief(), proxy.texels(), proxy.stature_m(), proxy.margin_m(),
+                  point);
+}
+
+ProxyDistance proxy_distance(const proxy::BodyProxy::Data& data, const Vec3& point) {
+  return evaluate(data.ellipsoids, data.relief, data.texels, data.stature_m, data.margin_m, point);
+}
+
+}  // namespace bodice::fitting
