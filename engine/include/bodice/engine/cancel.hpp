@@ -3,6 +3,7 @@
 #include <atomic>
 #include <exception>
 #include <memory>
+#include <utility>
 
 namespace bodice::engine {
 
@@ -16,7 +17,12 @@ struct Cancelled : std::exception {
 class CancelToken {
  public:
   CancelToken() = default;
-  bool cancelled() const noexcept { return flag_ && flag_->load(std::memory_order_relaxed); }
+  bool cancelled() const noexcept {
+    for (const State* state = state_.get(); state; state = state->parent.get()) {
+      if (state->cancelled.load(std::memory_order_relaxed)) return true;
+    }
+    return false;
+  }
   /// Throws Cancelled if the work was cancelled.
   void check() const {
     if (cancelled()) throw Cancelled{};
@@ -24,19 +30,27 @@ class CancelToken {
 
  private:
   friend class CancelSource;
-  explicit CancelToken(std::shared_ptr<std::atomic<bool>> flag) : flag_(std::move(flag)) {}
-  std::shared_ptr<std::atomic<bool>> flag_;
+  struct State {
+    std::atomic<bool> cancelled{false};
+    std::shared_ptr<const State> parent;
+  };
+  explicit CancelToken(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+  std::shared_ptr<const State> state_;
 };
 
 /// The writing side of a cancellation.
 class CancelSource {
  public:
-  CancelSource() : flag_(std::make_shared<std::atomic<bool>>(false)) {}
-  void cancel() noexcept { flag_->store(true, std::memory_order_relaxed); }
-  CancelToken token() const { return CancelToken(flag_); }
+  CancelSource() : CancelSource(CancelToken{}) {}
+  /// Work that is also cancelled when `parent` is.
+  explicit CancelSource(const CancelToken& parent) : state_(std::make_shared<CancelToken::State>()) {
+    state_->parent = parent.state_;
+  }
+  void cancel() noexcept { state_->cancelled.store(true, std::memory_order_relaxed); }
+  CancelToken token() const { return CancelToken(state_); }
 
  private:
-  std::shared_ptr<std::atomic<bool>> flag_;
+  std::shared_ptr<CancelToken::State> state_;
 };
 
 }  // namespace bodice::engine

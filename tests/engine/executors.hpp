@@ -1,0 +1,30 @@
+// Every kind of executor, under its name, for tests that must hold on all of them.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <bodice/engine/executor.hpp>
+
+namespace bodice_test {
+
+/// How a host of our tests runs what it is given.
+enum class HostOrder {
+  kRandom,    ///< threads of its own that draw queued tasks in random order
+  kInside,    ///< at once, inside enqueue
+  kOnFinish,  ///< never before finish asks for it
+};
+
+/// A host job system over std::thread behind engine::make_host_executor; joins its threads when destroyed.
+std::unique_ptr<bodice::engine::Executor> make_test_host(HostOrder order, int concurrency,
+                                                         std::uint64_t seed = 1, int max_in_flight = 16);
+
+using NamedExecutor = std::pair<std::string, std::unique_ptr<bodice::engine::Executor>>;
+
+/// Inline, TBB with 1, 2, 3, 7 workers, attached TBB, and the hosts above. Under ThreadSanitizer without
+/// those of TBB, whose library is not instrumented (tests/engine/README.md).
+std::vector<NamedExecutor> all_executors();
+
+}  // namespace bodice_test

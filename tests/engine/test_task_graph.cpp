@@ -1,0 +1,294 @@
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <bodice/engine/random.hpp>
+#include <bodice/engine/task_graph.hpp>
+#include "executors.hpp"
+
+using namespace bodice::engine;
+
+namespace {
+
+std::string numbered(std::string text, std::uint64_t number) {
+  return text.append(std::to_string(number));
+}
+
+Result<int> halve(const Context&, const int& value) {
+  if (value % 2 == 0) return value / 2;
+  return Error{ErrorCode::kInvalidArgument, std::to_string(value) + " is odd.", "Give an even number."};
+}
+
+std::string build_error(GraphBuilder&& builder) {
+  auto graph = std::move(builder).build();
+  REQUIRE(!graph.ok());
+  CHECK(graph.error().code == ErrorCode::kInvalidArgument);
+  CHECK(!graph.error().remedy.empty());
+  return graph.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("a graph hands typed values on, and runs again with another input") {
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    GraphBuilder builder;
+    const auto number = builder.input<int>("number");
+    const auto half = builder.add("halve", halve, number);
+    const auto text = builder.add(
+        "format",
+        [](const Context&, const int& a, const int& b) {
+          return std::to_string(a) + "/" + std::to_string(b);
+        },
+        half, number);
+    auto graph = std::move(builder).build();
+    REQUIRE(graph.ok());
+    CHECK(graph->size() == 2);
+    const Context context{.executor = executor.get()};
+
+    auto unset = graph->run(context);
+    REQUIRE(!unset.ok());
+    CHECK(unset.error().message.find("'number'") != std::string::npos);
+
+    graph->set(number, 10);
+    REQUIRE(graph->run(context).ok());
+    CHECK(graph->get(text) == "5/10");
+    graph->set(number, 7);
+    const auto odd = graph->run(context);
+    REQUIRE(!odd.ok());
+    CHECK(odd.error().message == "7 is odd.");
+    CHECK(graph->find(text) == nullptr);  // the text of the first run must not pass for one of the second
+    graph->set(number, 8);
+    REQUIRE(graph->run(context).ok());
+    CHECK(graph->get(text) == "4/8");
+  }
+}
+
+TEST_CASE("mistakes in a graph are told with the names of the tasks") {
+  auto one = [](const Context&) { return 1; };
+  auto next = [](const Context&, const int& value) { return value + 1; };
+  {
+    GraphBuilder builder;
+    const auto a = builder.declare<int>("alpha");
+    const auto b = builder.add("beta", next, a);
+    builder.add("gamma", next, b);
+    builder.define(a, next, b);
+    const std::string message = build_error(std::move(builder));
+    CHECK(message.find("'alpha' -> 'beta' -> 'alpha'") != std::string::npos);
+    CHECK(message.find("gamma") == std::string::npos);
+  }
+  {
+    GraphBuilder builder;
+    const auto a = builder.add("self", one);
+    builder.order(a, a);
+    CHECK(build_error(std::move(builder)).find("'self' -> 'self'") != std::string::npos);
+  }
+  {
+    GraphBuilder builder;
+    builder.add("twin", one);
+    builder.add("twin", one);
+    CHECK(build_error(std::move(builder)).find("'twin'") != std::string::npos);
+  }
+  {
+    GraphBuilder builder;
+    builder.add("user", next, builder.declare<int>("ghost"));
+    const std::string message = build_error(std::move(builder));
+    CHECK(message.find("'ghost'") != std::string::npos);
+    CHECK(message.find("'user'") != std::string::npos);
+  }
+  {
+    GraphBuilder other, builder;
+    const auto stranger = other.add("stranger", one);
+    builder.add("first", one);
+    builder.add("user", next, stranger);
+    CHECK(build_error(std::move(builder)).find("'user'") != std::string::npos);
+  }
+  {
+    GraphBuilder other, builder;
+    const auto stranger = other.declare<int>("stranger");
+    builder.declare<int>("own");
+    builder.define(stranger, one);
+    CHECK(build_error(std::move(builder)).find("another graph") != std::string::npos);
+  }
+  {
+    GraphBuilder builder;
+    const auto a = builder.add("again", one);
+    builder.define(a, one);
+    CHECK(build_error(std::move(builder)).find("'again'") != std::string::npos);
+  }
+}
+
+TEST_CASE("an empty graph runs") {
+  auto graph = GraphBuilder().build();
+  REQUIRE(graph.ok());
+  CHECK(graph->run(Context{}).ok());
+}
+
+TEST_CASE("random graphs: every task runs once, after all that it needs, on any executor") {
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      Random random(seed);
+      GraphBuilder builder;
+      std::vector<Output<std::uint64_t>> tasks;
+      std::vector<std::uint64_t> expected;
+      std::atomic<int> runs{0};
+      for (std::uint64_t i = 0; i < 60; ++i) {
+        auto hash = [i, &runs](const Context&, const auto&... in) {
+          ++runs;
+          return mix64((in + ... + i));
+        };
+        if (i < 3) {
+          tasks.push_back(builder.add(numbered("t", i), hash));
+          expected.push_back(mix64(i));
+        } else {
+          const std::size_t a = random.below(i), b = random.below(i);
+          tasks.push_back(builder.add(numbered("t", i), hash, tasks[a], tasks[b]));
+          expected.push_back(mix64(expected[a] + expected[b] + i));
+        }
+        builder.set_priority(tasks.back(), static_cast<int>(random.below(3)));
+      }
+      auto graph = std::move(builder).build();
+      REQUIRE(graph.ok());
+      for (int run = 0; run < 3; ++run) {
+        runs = 0;
+        REQUIRE(graph->run(Context{.executor = executor.get()}).ok());
+        CHECK(runs == 60);
+        for (std::size_t i = 0; i < tasks.size(); ++i) REQUIRE(graph->get(tasks[i]) == expected[i]);
+      }
+    }
+  }
+}
+
+TEST_CASE("a deep graph of barriers neither overflows the stack nor stops early") {
+  // 500 layers of four tasks, each layer needing all of the layer before: the worst case for nesting.
+  const auto executor = make_tbb_executor(3);
+  GraphBuilder builder;
+  std::vector<Output<int>> layer;
+  auto sum = [](const Context&, const auto&... in) { return (0 + ... + in) % 1000 + 1; };
+  for (int t = 0; t < 4; ++t) layer.push_back(builder.add(numbered("layer ", t), sum));
+  for (int depth = 1; depth < 500; ++depth) {
+    std::vector<Output<int>> next;
+    for (int t = 0; t < 4; ++t) {
+      next.push_back(
+          builder.add(numbered("layer ", depth * 4 + t), sum, layer[0], layer[1], layer[2], layer[3]));
+    }
+    layer = next;
+  }
+  auto graph = std::move(builder).build();
+  REQUIRE(graph.ok());
+  REQUIRE(graph->run(Context{}).ok());
+  const int serial = graph->get(layer[3]);
+  for (int run = 0; run < 5; ++run) {
+    REQUIRE(graph->run(Context{.executor = executor.get()}).ok());
+    CHECK(graph->get(layer[3]) == serial);
+  }
+}
+
+TEST_CASE("which of several errors is reported does not depend on timing") {
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    GraphBuilder builder;
+    for (int i = 0; i < 16; ++i) {
+      builder.add(numbered("t", i), [i](const Context&) -> Result<int> {
+        if (i < 5) return i;
+        return Error{ErrorCode::kUnreadable, numbered("task ", i), ""};
+      });
+    }
+    auto graph = std::move(builder).build();
+    for (int run = 0; run < 50; ++run) {
+      const auto result = graph->run(Context{.executor = executor.get()});
+      REQUIRE(!result.ok());
+      REQUIRE(result.error().message == "task 5");
+    }
+  }
+}
+
+TEST_CASE("an exception of a task is rethrown, and the graph can run again") {
+  GraphBuilder builder;
+  bool fail = true;
+  const auto task = builder.add("throws", [&](const Context&) {
+    if (fail) throw std::runtime_error("disk on fire");
+    return 1;
+  });
+  auto graph = std::move(builder).build();
+  CHECK_THROWS_WITH(static_cast<void>(graph->run(Context{})), "disk on fire");
+  CHECK(graph->find(task) == nullptr);
+  fail = false;
+  CHECK(graph->run(Context{}).ok());
+}
+
+TEST_CASE("a cancelled run says where it stopped and starts no more tasks") {
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    CancelSource source;
+    GraphBuilder builder;
+    std::atomic<int> late{0};
+    const auto first = builder.add("first", [&](const Context&) {
+      source.cancel();
+      return 1;
+    });
+    builder.add(
+        "second", [&](const Context&, const int&) { return ++late; }, first);
+    auto graph = std::move(builder).build();
+    const auto result = graph->run(Context{.executor = executor.get(), .cancel = source.token()});
+    REQUIRE(!result.ok());
+    CHECK(result.error().code == ErrorCode::kCancelled);
+    CHECK(result.error().message.find("'second'") != std::string::npos);
+    CHECK(late == 0);
+  }
+}
+
+TEST_CASE("ready tasks start by priority; progress rises by one") {
+  GraphBuilder builder;
+  std::string started;
+  const auto root = builder.add("root", [](const Context&) { return 0; });
+  for (const char letter : std::string("abcd")) {
+    const auto task = builder.add(
+        std::string(1, letter), [&, letter](const Context&, const int&) { started += letter; }, root);
+    builder.set_priority(task, letter == 'c' ? 2 : letter == 'b' ? 1 : 0);
+  }
+  auto graph = std::move(builder).build();
+  std::vector<std::size_t> steps;
+  auto note = [&](const Progress& progress) {
+    CHECK(progress.total == 5);
+    steps.push_back(progress.ended);
+  };
+  REQUIRE(graph->run(Context{}, note).ok());
+  CHECK(started == "cbad");
+  CHECK(steps == std::vector<std::size_t>{1, 2, 3, 4, 5});
+}
+
+TEST_CASE("order() makes a task wait without taking data; add_into keeps its memory") {
+  GraphBuilder builder;
+  std::string log;
+  const auto last = builder.add("last", [&](const Context&) { log += "last"; });
+  const auto first = builder.add("first", [&](const Context&) { log += "first "; });
+  builder.order(first, last);
+  const int* data = nullptr;
+  const auto kept = builder.add_into<std::vector<int>>("fill", [&](const Context&, std::vector<int>& out) {
+    out.assign(100, 1);
+    data = out.data();
+  });
+  auto graph = std::move(builder).build();
+  REQUIRE(graph->run(Context{}).ok());
+  CHECK(log == "first last");
+  const int* first_data = data;
+  REQUIRE(graph->run(Context{}).ok());
+  CHECK(data == first_data);
+  CHECK(graph->get(kept).size() == 100);
+}
+
+TEST_CASE("the DOT text names every task and edge") {
+  GraphBuilder builder;
+  const auto in = builder.input<int>("in \"put\"");
+  builder.add("out", halve, in);
+  const std::string dot = std::move(builder).build()->dump_dot();
+  CHECK(dot ==
+        "digraph tasks {\n  rankdir=LR;\n  \"in \\\"put\\\"\" [shape=box];\n  \"out\";\n"
+        "  \"in \\\"put\\\"\" -> \"out\";\n}\n");
+}
