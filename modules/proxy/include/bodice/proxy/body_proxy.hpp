@@ -22,6 +22,8 @@ std::string_view name(Tier tier);
 std::optional<Tier> tier_from_name(std::string_view text);
 
 inline constexpr std::int16_t kNoBone = -1;
+inline constexpr std::size_t kMaxEllipsoids = 65536;
+inline constexpr int kMaxReliefNodes = 1024;
 
 struct ProxyEllipsoid {
   geometry::Ellipsoid shape;
@@ -29,14 +31,19 @@ struct ProxyEllipsoid {
   std::int16_t bone = kNoBone;  ///< the skeleton joint that carries it, if any
 };
 
+/// How far from an ellipsoid's surface its relief's slope reaches, inward and outward, metres.
+inline constexpr double kReliefReachInM = 0.020;
+inline constexpr double kReliefReachOutM = 0.030;
+
 /// A table of corrections to one ellipsoid's distance, over the octahedral map of the unit sphere.
 /// F(x) = d - h(w) - a(w) clamp(d, -reach_in, reach_out) / reach_out, with d the signed distance to the
-/// ellipsoid, w the unit direction of the foot in the ellipsoid's frame; h and a bilinear between nodes.
+/// ellipsoid, w the unit direction of the foot in the ellipsoid's frame; h and a, both lengths, are bilinear
+/// between nodes. Reaches: kReliefReachInM, kReliefReachOutM.
 struct ReliefTable {
-  std::uint16_t nodes_per_side = 0;           ///< N; 0: no table
+  std::uint16_t nodes_per_side = 0;           ///< N, 2..kMaxReliefNodes; 0: no table
   float h_scale_m = 0.0f, h_offset_m = 0.0f;  ///< h = offset + scale * byte / 255
-  float a_scale = 0.0f, a_offset = 0.0f;
-  std::uint32_t first_texel = 0;  ///< into BodyProxy::texels(), N*N texels, row-major
+  float a_scale = 0.0f, a_offset = 0.0f;      ///< a likewise, metres
+  std::uint32_t first_texel = 0;              ///< into BodyProxy::texels(), N*N texels, row-major
 };
 
 struct ReliefTexel {
@@ -58,8 +65,9 @@ class BodyProxy {
     geometry::Frame frame;          ///< the units and axes of the file it came from
   };
 
-  /// Checks every value (finite, radii > 0, axes orthonormal to 1e-6, tables inside texels), rounds each
-  /// number to 44 significant bits, so that a file in any unit gives the same bits back, and hashes.
+  /// Checks every value (finite, radii > 0, axes orthonormal to 1e-6 and right-handed, tables inside texels),
+  /// rounds each number to 44 significant bits, so that a file in any unit gives the same bits back, and
+  /// hashes. Fails with kInvalidArgument and names the ellipsoid.
   static engine::Result<BodyProxy> make(Data data);
 
   Tier tier() const { return data_->tier; }
@@ -70,7 +78,8 @@ class BodyProxy {
   std::span<const ReliefTexel> texels() const { return data_->texels; }
   std::uint64_t source_hash() const { return data_->source_hash; }
   const geometry::Frame& frame() const { return data_->frame; }
-  /// Identity of the geometry: equal bits in, equal hash out.
+  /// Identity of the geometry (tier, sizes, ellipsoids, tables; not of the frame or the source): equal bits
+  /// in, equal hash out.
   std::uint64_t hash() const { return hash_; }
   /// Bytes of the shape as stored for queries (floats; 15 numbers an ellipsoid plus the tables).
   std::size_t bytes() const;

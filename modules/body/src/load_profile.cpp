@@ -1,0 +1,75 @@
+// A custom profile: {"name": "...", "female": {"upper_arm": 0.19, ...}, "male": {...}}, every measure of
+// kMeasures present in both, as ratios to stature.
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include <bodice/body/proportions.hpp>
+
+#include "profiles.hpp"
+
+namespace bodice::body {
+namespace {
+
+using nlohmann::json;
+
+/// An Error thrown as one, so that the reading code stays free of checks.
+struct BadProfile {
+  engine::Error error;
+};
+
+[[noreturn]] void fail(engine::ErrorCode code, std::string message, std::string remedy) {
+  throw BadProfile{{code, std::move(message), std::move(remedy)}};
+}
+
+Proportions read_sex(const json& root, const char* sex, const std::string& file) {
+  if (!root.contains(sex) || !root[sex].is_object())
+    fail(engine::ErrorCode::kUnreadable, file + ": the object '" + sex + "' is missing.",
+         "Give 'female' and 'male', each with all 15 ratios to stature.");
+  const json& table = root[sex];
+  Proportions result;
+  for (const Measure& m : kMeasures) {
+    const std::string where = file + ": " + sex + "." + m.name;
+    if (!table.contains(m.name) || !table[m.name].is_number())
+      fail(engine::ErrorCode::kUnreadable, where + " is missing or not a number.",
+           "Give every measure as a ratio to stature.");
+    const double value = table[m.name].get<double>();
+    if (!(value >= m.least && value <= m.most))
+      fail(engine::ErrorCode::kInvalidArgument, where + " = " + std::to_string(value) + " is implausible.",
+           "Expected a ratio to stature between " + std::to_string(m.least) + " and " +
+               std::to_string(m.most) + ".");
+    result.*m.ratio = value;
+  }
+  return result;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    fail(engine::ErrorCode::kNotFound, "Cannot open the proportion profile " + file.string() + ".",
+         "Check the path.");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+engine::Result<ProportionProfile> load_profile(const std::filesystem::path& file) {
+  try {
+    const std::string shown = file.string();
+    const json root = json::parse(read_text(file), nullptr, false);
+    if (!root.is_object())
+      fail(engine::ErrorCode::kUnreadable, shown + " is not a JSON object.",
+           "Write one object with 'name', 'female' and 'male'.");
+    ProportionProfile profile;
+    profile.name = root.contains("name") && root["name"].is_string() ? root["name"].get<std::string>()
+                                                                     : file.stem().string();
+    profile.female = read_sex(root, "female", shown);
+    profile.male = read_sex(root, "male", shown);
+    return profile;
+  } catch (const BadProfile& bad) {
+    return bad.error;
+  }
+}
+
+}  // namespace bodice::body

@@ -1,0 +1,196 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <bodice/proxy/proxy_file.hpp>
+
+#include "json_form.hpp"
+
+namespace bodice::proxy {
+namespace {
+
+using geometry::Frame;
+using geometry::Vec3;
+using nlohmann::json;
+
+/// Carries an Error out of the nested readers; never leaves this file.
+struct BadProxy {
+  engine::Error error;
+};
+
+[[noreturn]] void fail(const std::string& where, const char* wanted) {
+  throw BadProxy{{engine::ErrorCode::kUnreadable, "Proxy JSON: " + where + " is not " + wanted + ".",
+                  "Write the file again with 'bodice fit', or correct this value."}};
+}
+
+const json& member(const json& object, const char* key, const std::string& where) {
+  const auto found = object.find(key);
+  if (found == object.end()) fail(where + key, "there");
+  return *found;
+}
+
+double number(const json& value, const std::string& where) {
+  if (!value.is_number()) fail(where, "a number");
+  return value.get<double>();
+}
+
+double number(const json& object, const char* key, const std::string& where) {
+  return number(member(object, key, where), where + key);
+}
+
+std::int64_t integer(const json& value, const std::string& where, std::int64_t least, std::int64_t most) {
+  if (!value.is_number_integer()) fail(where, "a whole number");
+  const bool too_large = value.is_number_unsigned() && value.get<std::uint64_t>() > std::uint64_t(most);
+  if (too_large || value.get<std::int64_t>() < least || value.get<std::int64_t>() > most)
+    fail(where, "in range");
+  return value.get<std::int64_t>();
+}
+
+std::string text(const json& object, const char* key, const std::string& where) {
+  const json& value = member(object, key, where);
+  if (!value.is_string()) fail(where + key, "text");
+  return value.get<std::string>();
+}
+
+const json& list(const json& value, const std::string& where) {
+  if (!value.is_array()) fail(where, "a list");
+  return value;
+}
+
+Vec3 vector(const json& value, const std::string& where) {
+  if (list(value, where).size() != 3) fail(where, "a list of three numbers");
+  return {number(value[0], where), number(value[1], where), number(value[2], where)};
+}
+
+int hex_digit(char c) {
+  const std::size_t at = kHexDigits.find(c);
+  return at == std::string_view::npos ? -1 : static_cast<int>(at);
+}
+
+std::uint64_t hash_value(const json& object, const char* key) {
+  const std::string digits = text(object, key, "");
+  if (digits.size() != 16) fail(key, "16 hexadecimal digits");
+  std::uint64_t value = 0;
+  for (char c : digits) {
+    if (hex_digit(c) < 0) fail(key, "16 hexadecimal digits");
+    value = value << 4 | static_cast<std::uint64_t>(hex_digit(c));
+  }
+  return value;
+}
+
+Frame read_frame(const json& root) {
+  Frame frame;
+  frame.metres_per_unit = number(root, "metres_per_unit", "");
+  const std::string up = text(root, "up", "");
+  for (std::size_t i = 0; i < kAxisNames.size(); ++i)
+    if (kAxisNames[i] == up) {
+      frame.up = static_cast<geometry::Axis>(i);
+      return frame;
+    }
+  fail("up", "x, y or z");
+}
+
+ProxyEllipsoid read_ellipsoid(const json& value, const Frame& frame, const std::string& where) {
+  if (!value.is_object()) fail(where, "an object");
+  ProxyEllipsoid e;
+  const auto part = body::part_from_name(text(value, "part", where));
+  if (!part) fail(where + "part", "the name of a body part");
+  e.part = *part;
+  if (value.contains("bone"))
+    e.bone = static_cast<std::int16_t>(integer(value["bone"], where + "bone", kNoBone, INT16_MAX));
+  e.shape.center = frame.to_inside(vector(member(value, "center", where), where + "center"));
+  e.shape.radii = frame.metres_per_unit * vector(member(value, "radii", where), where + "radii");
+  const json& axes = list(member(value, "axes", where), where + "axes");
+  if (axes.size() != 3) fail(where + "axes", "a list of three directions");
+  for (int k = 0; k < 3; ++k) e.shape.axes.col(k) = frame.rotation() * vector(axes[k], where + "axes");
+  return e;
+}
+
+ReliefTable read_table(const json& value, const Frame& frame, const std::string& where) {
+  if (!value.is_object()) fail(where, "an object");
+  auto length = [&](const char* key) {
+    const double metres = number(value, key, where) * frame.metres_per_unit;
+    if (!(std::abs(metres) <= 1e30)) fail(where + key, "a length");
+    return static_cast<float>(metres);
+  };
+  ReliefTable t;
+  t.nodes_per_side =
+      static_cast<std::uint16_t>(integer(member(value, "nodes", where), where + "nodes", 0, kMaxReliefNodes));
+  t.first_texel = static_cast<std::uint32_t>(
+      integer(member(value, "first_texel", where), where + "first_texel", 0, UINT32_MAX));
+  t.h_scale_m = length("h_scale");
+  t.h_offset_m = length("h_offset");
+  t.a_scale = length("a_scale");
+  t.a_offset = length("a_offset");
+  return t;
+}
+
+std::vector<ReliefTexel> read_texels(const std::string& hex) {
+  std::vector<ReliefTexel> texels;
+  if (hex.size() % 4 != 0) fail("texels", "four hexadecimal digits a texel");
+  texels.reserve(hex.size() / 4);
+  for (std::size_t i = 0; i < hex.size(); i += 4) {
+    int byte[2];
+    for (int k = 0; k < 2; ++k) {
+      const int high = hex_digit(hex[i + 2 * k]);
+      const int low = hex_digit(hex[i + 2 * k + 1]);
+      if (high < 0 || low < 0) fail("texels", "four hexadecimal digits a texel");
+      byte[k] = 16 * high + low;
+    }
+    texels.push_back({static_cast<std::uint8_t>(byte[0]), static_cast<std::uint8_t>(byte[1])});
+  }
+  return texels;
+}
+
+void check_format(const json& root) {
+  if (!root.is_object()) fail("the file", "a JSON object");
+  if (text(root, "format", "") != kJsonFormat) fail("format", "bodice-proxy");
+  const std::int64_t version =
+      integer(member(root, "version", ""), "version", 0, std::numeric_limits<int>::max());
+  if (version == kJsonVersion) return;
+  throw BadProxy{{engine::ErrorCode::kUnreadable,
+                  "Proxy JSON: version " + std::to_string(version) + " is not known here.",
+                  "This build reads version " + std::to_string(kJsonVersion) + "."}};
+}
+
+BodyProxy::Data read_data(const json& root) {
+  BodyProxy::Data data;
+  data.frame = read_frame(root);
+  const auto tier = tier_from_name(text(root, "tier", ""));
+  if (!tier) fail("tier", "paper, solid, tight or relief");
+  data.tier = *tier;
+  data.stature_m = number(root, "stature", "") * data.frame.metres_per_unit;
+  data.margin_m = number(root, "margin", "") * data.frame.metres_per_unit;
+  data.source_hash = hash_value(root, "source_hash");
+  const json& ellipsoids = list(member(root, "ellipsoids", ""), "ellipsoids");
+  for (std::size_t i = 0; i < ellipsoids.size(); ++i)
+    data.ellipsoids.push_back(
+        read_ellipsoid(ellipsoids[i], data.frame, "ellipsoids[" + std::to_string(i) + "]."));
+  const json& relief = list(member(root, "relief", ""), "relief");
+  for (std::size_t i = 0; i < relief.size(); ++i)
+    data.relief.push_back(read_table(relief[i], data.frame, "relief[" + std::to_string(i) + "]."));
+  data.texels = read_texels(text(root, "texels", ""));
+  return data;
+}
+
+}  // namespace
+
+engine::Result<BodyProxy> from_json(std::string_view source) {
+  try {
+    const json root = json::parse(source, nullptr, false);
+    check_format(root);
+    auto proxy = BodyProxy::make(read_data(root));
+    if (proxy && root.contains("hash") && hash_value(root, "hash") != proxy->hash())
+      return engine::Error{
+          engine::ErrorCode::kUnreadable,
+          "Proxy JSON: the hash does not match the numbers: the file was changed or damaged.",
+          "If it was edited on purpose, remove its 'hash'."};
+    return proxy;
+  } catch (const BadProxy& bad) {
+    return bad.error;
+  }
+}
+
+}  // namespace bodice::proxy

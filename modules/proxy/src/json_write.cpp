@@ -1,0 +1,86 @@
+// The JSON form: lengths in the unit and directions in the axes of the body's file, one line an ellipsoid.
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <bodice/proxy/proxy_file.hpp>
+
+#include "json_form.hpp"
+
+namespace bodice::proxy {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using geometry::Frame;
+using geometry::Vec3;
+
+Json array(const Vec3& v) {
+  return {v[0] + 0.0, v[1] + 0.0, v[2] + 0.0};  // no -0
+}
+
+std::string ellipsoid_line(const ProxyEllipsoid& e, const Frame& frame) {
+  Json json;
+  json["part"] = body::name(e.part);
+  if (e.bone != kNoBone) json["bone"] = e.bone;
+  json["center"] = array(frame.to_file(e.shape.center));
+  json["radii"] = array(e.shape.radii / frame.metres_per_unit);
+  json["axes"] = Json::array();
+  for (int k = 0; k < 3; ++k) json["axes"].push_back(array(frame.direction_to_file(e.shape.axes.col(k))));
+  return json.dump();
+}
+
+std::string table_line(const ReliefTable& t, const Frame& frame) {
+  auto length = [&](float metres) { return static_cast<double>(metres) / frame.metres_per_unit; };
+  const Json json = {{"nodes", t.nodes_per_side},      {"first_texel", t.first_texel},
+                     {"h_scale", length(t.h_scale_m)}, {"h_offset", length(t.h_offset_m)},
+                     {"a_scale", length(t.a_scale)},   {"a_offset", length(t.a_offset)}};
+  return json.dump();
+}
+
+/// [ line, line, ... ] with a line each.
+template <class Items, class Line>
+std::string lines(const Items& items, Line&& line) {
+  std::string text = "[";
+  const char* separator = "\n  ";
+  for (const auto& item : items) {
+    text += separator + line(item);
+    separator = ",\n  ";
+  }
+  return text + "\n ]";
+}
+
+std::string texel_hex(std::span<const ReliefTexel> texels) {
+  std::string text;
+  text.reserve(4 * texels.size());
+  for (const ReliefTexel& texel : texels)
+    for (unsigned byte : {unsigned{texel.h}, unsigned{texel.a}}) {
+      text += kHexDigits[byte >> 4];
+      text += kHexDigits[byte & 15];
+    }
+  return text;
+}
+
+}  // namespace
+
+std::string to_json(const BodyProxy& proxy) {
+  const Frame& frame = proxy.frame();
+  std::string text = "{\n";
+  auto field = [&](const char* key, const std::string& value, const char* end = ",\n") {
+    text += " \"" + std::string(key) + "\": " + value + end;
+  };
+  field("format", Json(kJsonFormat).dump());
+  field("version", Json(kJsonVersion).dump());
+  field("tier", Json(name(proxy.tier())).dump());
+  field("metres_per_unit", Json(frame.metres_per_unit).dump());
+  field("up", Json(kAxisNames[static_cast<std::size_t>(frame.up)]).dump());
+  field("stature", Json(proxy.stature_m() / frame.metres_per_unit).dump());
+  field("margin", Json(proxy.margin_m() / frame.metres_per_unit).dump());
+  field("source_hash", Json(hex64(proxy.source_hash())).dump());
+  field("hash", Json(hex64(proxy.hash())).dump());
+  field("ellipsoids", lines(proxy.ellipsoids(), [&](const auto& e) { return ellipsoid_line(e, frame); }));
+  field("relief", lines(proxy.relief(), [&](const auto& t) { return table_line(t, frame); }));
+  field("texels", Json(texel_hex(proxy.texels())).dump(), "\n}\n");
+  return text;
+}
+
+}  // namespace bodice::proxy

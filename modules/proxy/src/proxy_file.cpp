@@ -1,0 +1,86 @@
+#include <bodice/proxy/proxy_file.hpp>
+
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+
+#include "json_form.hpp"
+#include "proxy_binary.hpp"
+
+namespace bodice::proxy {
+namespace {
+
+namespace fs = std::filesystem;
+using engine::Error;
+using engine::ErrorCode;
+
+// The largest proxy (kMaxEllipsoids with tables) in JSON stays below; beyond, it is some other file.
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
+
+Error write_failed(const fs::path& file, const std::string& why) {
+  return {ErrorCode::kWriteFailed, "Cannot write the proxy " + file.string() + ": " + why + ".",
+          "Check that the folder exists, is writable and has space."};
+}
+
+/// Writes beside the file and renames, so that the file is the old one or the whole new one at any time. The
+/// name carries the content's hash: two writers of one file do not write into each other.
+engine::Result<void> replace_file(const fs::path& file, std::span<const std::byte> bytes,
+                                  std::uint64_t hash) {
+  fs::path beside = file;
+  beside += "." + hex64(hash) + ".part";
+  std::error_code error;
+  {
+    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
+    if (!out) return write_failed(file, "the file beside it cannot be made");
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) {
+      fs::remove(beside, error);
+      return write_failed(file, "not all bytes were taken");
+    }
+  }
+  fs::rename(beside, file, error);
+  if (!error) return {};
+  const std::string why = error.message();
+  fs::remove(beside, error);
+  return write_failed(file, why);
+}
+
+engine::Result<std::vector<std::byte>> read_file(const fs::path& file) {
+  const Error missing{ErrorCode::kNotFound, "Cannot open the proxy " + file.string() + ".",
+                      "Check the path."};
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return missing;
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error) return missing;
+  if (size > kLargestFile)
+    return Error{ErrorCode::kUnreadable, file.string() + " is over a gigabyte: not a proxy.",
+                 "Check the path."};
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  std::ifstream in(file, std::ios::binary);
+  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)) && size > 0)
+    return missing;
+  return bytes;
+}
+
+}  // namespace
+
+engine::Result<void> save(const BodyProxy& proxy, const fs::path& file) {
+  if (file.extension() == ".bodice") return replace_file(file, to_binary(proxy), proxy.hash());
+  const std::string json = to_json(proxy);
+  return replace_file(file, std::as_bytes(std::span(json)), proxy.hash());
+}
+
+engine::Result<BodyProxy> load(const fs::path& file) {
+  auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  auto proxy = is_binary_proxy(*bytes)
+                   ? from_binary(*bytes)
+                   : from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (proxy) return proxy;
+  Error error = proxy.error();
+  error.message = file.string() + ": " + error.message;
+  return error;
+}
+
+}  // namespace bodice::proxy

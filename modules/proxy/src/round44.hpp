@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cmath>
+
+namespace bodice::proxy {
+
+/// Rounds to 44 significant bits. A change of unit there and back perturbs a double by a few units of its
+/// 53rd bit, far less than half a unit of the 44th: rounding again gives the same number. Magnitudes below
+/// 1e-150 become 0, since no unit change would keep their bits; -0 becomes 0.
+inline double round44(double value) {
+  if (!(std::abs(value) >= 1e-150)) return std::isnan(value) ? value : 0.0;
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::nearbyint(std::ldexp(mantissa, 44)), exponent - 44);
+}
+
+}  // namespace bodice::proxy
