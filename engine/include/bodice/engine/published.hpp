@@ -1,8 +1,9 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <utility>
+
+#include <bodice/engine/value_stack.hpp>
 
 namespace bodice::engine {
 
@@ -13,26 +14,21 @@ template <class T>
 class Published {
  public:
   Published() = default;
-  ~Published() {
-    free_chain(retired_.load(std::memory_order_relaxed));
-    delete pending_.load(std::memory_order_relaxed);
-    delete current_;
-  }
+  ~Published() { delete current_; }
   Published(const Published&) = delete;
   Published& operator=(const Published&) = delete;
 
   /// Any thread: offers `value` for the next boundary, in place of one that was not taken yet.
   void publish(std::shared_ptr<const T> value) {
-    Node* fresh = new Node{std::move(value), nullptr};
-    delete pending_.exchange(fresh, std::memory_order_acq_rel);
-    free_chain(retired_.exchange(nullptr, std::memory_order_acquire));
+    Stack::free_chain(offered_.replace(new Node{std::move(value)}));
+    Stack::free_chain(retired_.take_all());
   }
 
   /// Frame thread, at a boundary: takes the latest value offered. True if there was one.
   bool advance() noexcept {
-    Node* fresh = pending_.exchange(nullptr, std::memory_order_acq_rel);
+    Node* fresh = offered_.take_all();
     if (!fresh) return false;
-    if (current_) retire(current_);
+    if (current_) retired_.push(current_);
     current_ = fresh;
     return true;
   }
@@ -43,22 +39,11 @@ class Published {
   std::shared_ptr<const T> share() const noexcept { return current_ ? current_->value : nullptr; }
 
  private:
-  struct Node {
-    std::shared_ptr<const T> value;
-    Node* next;
-  };
-  // Pushed by the frame thread only and always taken whole, so that there is no ABA to fear.
-  void retire(Node* node) noexcept {
-    node->next = retired_.load(std::memory_order_relaxed);
-    while (!retired_.compare_exchange_weak(node->next, node, std::memory_order_release)) {
-    }
-  }
-  static void free_chain(Node* node) {
-    while (node) delete std::exchange(node, node->next);
-  }
+  using Stack = detail::ValueStack<T>;
+  using Node = detail::ValueNode<T>;
 
-  std::atomic<Node*> pending_{nullptr};
-  std::atomic<Node*> retired_{nullptr};
+  Stack offered_;
+  Stack retired_;
   Node* current_ = nullptr;
 };
 

@@ -1,0 +1,218 @@
+// Simulation frames and preprocessing on the same workers.
+//
+//        submit("body A")                      submit("body B"): A is cancelled
+//   host   |      [frame 0][frame 1]  [frame 2] |  [frame 3]  ...
+//   worker +--> A...(helps)(helps)..A publishes     (helps) B...
+//                                     ^ taken at the boundary before the next frame
+//
+//     FramePipeline pipeline(context, {});
+//     Stream<BodyProxy> proxies(pipeline);
+//     Ticket ticket = proxies.submit("fit", [](const Context& c, Sink<BodyProxy>& out) { ... out.publish(p);
+//     }); pipeline.frame([&](const Context& c) { if (const BodyProxy* proxy = proxies.current()) step(c,
+//     *proxy); });
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/function_ref.hpp>
+#include <bodice/engine/ticket.hpp>
+#include <bodice/engine/value_stack.hpp>
+
+namespace bodice::engine {
+
+enum class PipelineMode {
+  kLatency,        ///< each boundary takes the newest result that is ready, and never waits
+  kDeterministic,  ///< the frame at which each result takes effect is fixed; a boundary waits for a late one
+};
+
+/// What a background thread does when it comes to a checkpoint while a frame runs.
+enum class BackgroundYield {
+  kNone,  ///< goes on
+  kHelp,  ///< works in the frame's open loop, then goes on
+  kStay,  ///< helps with every loop of the frame until the frame ends
+};
+
+struct PipelineOptions {
+  PipelineMode mode = PipelineMode::kLatency;
+  /// Deterministic mode: result k (from 0) of a job submitted before frame f is taken at the boundary
+  /// before frame f + (k + 1) delay_frames. At least 1.
+  int delay_frames = 8;
+  /// Threads that work on a frame at the same time, the calling one included; 0: all. Fewer than the
+  /// executor has keeps the others for background work even during frames.
+  int frame_workers = 0;
+  BackgroundYield yield = BackgroundYield::kStay;
+};
+
+struct FrameReport {
+  std::uint64_t index = 0;
+  std::int64_t boundary_ns = 0;  ///< at the boundary: waiting, in deterministic mode
+  std::int64_t body_ns = 0;
+  int results_taken = 0;
+};
+
+class StreamBase;
+
+/// Runs frames on the calling thread and its helpers, and background jobs on the workers that are left.
+///
+/// The bound on delay: a frame never waits for background work. Its loops start on the calling thread at
+/// once; a worker joins after the block of background work that it is in (up to its next checkpoint), and
+/// the frame waits only for workers that are in a block of the frame itself. So a frame takes at most as
+/// long as on the calling thread alone plus one of its own blocks, however long background blocks are;
+/// with background blocks of at most s, all workers are with it after s. The boundary waits in
+/// deterministic mode only. README: what this needs of the machine.
+///
+/// One thread calls frame, and submits to and reads the streams.
+class FramePipeline {
+ public:
+  FramePipeline(const Context& context, const PipelineOptions& options);
+  /// Cancels the jobs and waits for them. Streams must be gone before.
+  ~FramePipeline();
+  FramePipeline(const FramePipeline&) = delete;
+  FramePipeline& operator=(const FramePipeline&) = delete;
+
+  /// A boundary, at which the streams take their results, then body(context of the frame). Allocates
+  /// nothing. Rethrows what the body threw. A loop nested in a loop of the frame runs on one thread.
+  FrameReport frame(FunctionRef<void(const Context&)> body);
+
+  std::uint64_t next_frame() const noexcept;
+  const PipelineOptions& options() const noexcept;
+
+  /// Runs here and now the jobs that no worker has begun. With an executor that has no worker to spare
+  /// (inline, one worker), jobs run in this call, in Ticket::wait, or at the boundary that must have them.
+  void run_pending();
+
+ private:
+  friend class StreamBase;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The part of a stream that does not depend on its type.
+class StreamBase {
+ public:
+  StreamBase(const StreamBase&) = delete;
+  StreamBase& operator=(const StreamBase&) = delete;
+
+ protected:
+  explicit StreamBase(FramePipeline& pipeline);
+  virtual ~StreamBase();
+
+  /// Starts `work` as a job that takes the place of the stream's last one, which is cancelled.
+  std::shared_ptr<Job> start(std::string name, Job::Work work);
+
+ private:
+  friend class FramePipeline;
+  /// Brings in what the job has published since.
+  virtual void collect() noexcept = 0;
+  virtual bool has_collected() const noexcept = 0;
+  virtual void take_oldest() noexcept = 0;
+
+  bool cross_boundary(std::uint64_t frame, const PipelineOptions& options) noexcept;
+  bool wait_for_result() noexcept;
+
+  FramePipeline& pipeline_;
+  std::shared_ptr<Job> job_;
+  std::uint64_t due_frame_ = 0;
+};
+
+/// Where a job puts its results. One thread at a time.
+template <class T>
+class Sink {
+ public:
+  /// Offers a result, better than the ones before, for a coming frame boundary. Throws Cancelled if the
+  /// job was cancelled or superseded: then nothing more of it can take effect.
+  void publish(std::shared_ptr<const T> value) {
+    job_->token().check();
+    box_->offered.push(new detail::ValueNode<T>{std::move(value)});
+    detail::ValueStack<T>::free_chain(box_->retired->take_all());
+    job_->signal();
+  }
+
+ private:
+  template <class>
+  friend class Stream;
+  struct Box {
+    detail::ValueStack<T> offered;
+    std::shared_ptr<detail::ValueStack<T>> retired;
+  };
+  Sink(Job* job, std::shared_ptr<Box> box) : job_(job), box_(std::move(box)) {}
+  Job* job_;
+  std::shared_ptr<Box> box_;
+};
+
+/// A value that jobs make and frames read: a body's proxy, say. The newest submitted job counts.
+template <class T>
+class Stream final : public StreamBase {
+ public:
+  using Work = std::function<Result<void>(const Context&, Sink<T>&)>;
+
+  explicit Stream(FramePipeline& pipeline) : StreamBase(pipeline) {}
+  /// Cancels the stream's job, which may run on to its next checkpoint.
+  ~Stream() override {
+    Stack::free_chain(oldest_);
+    delete current_;
+  }
+
+  /// Starts background work, and cancels the stream's earlier job. The work gets a context whose executor
+  /// lets frames go first. Not from inside a loop of a frame.
+  Ticket submit(std::string name, Work work);
+
+  /// The result in force since the last boundary, or null before the first. Valid until the next one.
+  const T* current() const noexcept { return current_ ? current_->value.get() : nullptr; }
+  std::shared_ptr<const T> share() const noexcept { return current_ ? current_->value : nullptr; }
+
+ private:
+  using Node = detail::ValueNode<T>;
+  using Stack = detail::ValueStack<T>;
+
+  void collect() noexcept override;
+  bool has_collected() const noexcept override { return oldest_ != nullptr; }
+  void take_oldest() noexcept override;
+
+  std::shared_ptr<Stack> retired_ = std::make_shared<Stack>();  // freed by publishers, never in a frame
+  std::shared_ptr<typename Sink<T>::Box> box_;                  // of the current job
+  Node* oldest_ = nullptr;                                      // published and not taken, oldest first
+  Node* newest_ = nullptr;
+  Node* current_ = nullptr;
+};
+
+template <class T>
+Ticket Stream<T>::submit(std::string name, Work work) {
+  Stack::free_chain(std::exchange(oldest_, nullptr));
+  newest_ = nullptr;
+  box_ = std::make_shared<typename Sink<T>::Box>();
+  box_->retired = retired_;
+  return Ticket(
+      start(std::move(name), [work = std::move(work), box = box_](Job& job, const Context& context) {
+        Sink<T> sink(&job, box);
+        return work(context, sink);
+      }));
+}
+
+template <class T>
+void Stream<T>::collect() noexcept {
+  Node* newest = box_->offered.take_all();
+  Node* oldest = nullptr;
+  Node* const last = newest;
+  while (newest) {  // reverses: the stack gives the newest first
+    Node* const next = std::exchange(newest->next, oldest);
+    oldest = std::exchange(newest, next);
+  }
+  if (!oldest) return;
+  (oldest_ ? newest_->next : oldest_) = oldest;
+  newest_ = last;
+}
+
+template <class T>
+void Stream<T>::take_oldest() noexcept {
+  if (current_) retired_->push(current_);
+  current_ = std::exchange(oldest_, oldest_->next);
+}
+
+}  // namespace bodice::engine

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+
+namespace bodice::engine {
+
+/// A piece of work that runs once: on a worker, or on the thread that waits for it if no worker came yet.
+class Job final : public BackgroundTask {
+ public:
+  using Work = std::function<Result<void>(Job&, const Context&)>;
+
+  Job(std::string name, const Context& context, Work work);
+
+  const char* name() const noexcept override { return name_.c_str(); }
+  /// Runs the work unless somebody else already does. An exception becomes an error of kInternal.
+  void run() noexcept override;
+
+  void cancel() noexcept { cancel_.cancel(); }
+  bool cancelled() const noexcept { return cancel_.token().cancelled(); }
+  CancelToken token() const { return cancel_.token(); }
+  bool done() const noexcept { return stage_.load(std::memory_order_acquire) == Stage::kDone; }
+  /// Runs it here if it is still waiting; returns when it is done.
+  void wait() noexcept;
+  /// Precondition: done().
+  const Result<void>& result() const noexcept { return result_; }
+
+  /// Counts publications and the end; for waiting without polling.
+  std::uint32_t events() const noexcept { return events_.load(std::memory_order_acquire); }
+  void wait_for_event_after(std::uint32_t seen) const noexcept { events_.wait(seen); }
+  void signal() noexcept;
+
+ private:
+  enum class Stage { kWaiting, kRunning, kDone };
+  Result<void> call() noexcept;
+
+  std::string name_;
+  Context context_;
+  CancelSource cancel_;
+  Work work_;
+  Result<void> result_;
+  std::atomic<Stage> stage_{Stage::kWaiting};
+  std::atomic<std::uint32_t> events_{0};
+};
+
+/// The caller's hold on submitted work. Copyable; letting go of it neither cancels nor waits.
+class Ticket {
+ public:
+  Ticket() = default;
+  explicit Ticket(std::shared_ptr<Job> job) : job_(std::move(job)) {}
+
+  /// Asks the work to stop. From now on nothing of it takes effect any more.
+  void cancel() noexcept {
+    if (job_) job_->cancel();
+  }
+  bool done() const noexcept { return !job_ || job_->done(); }
+  /// Returns when the work is over: its error, kCancelled if it was stopped, or success. Not in a frame.
+  Result<void> wait() const {
+    if (!job_) return {};
+    job_->wait();
+    return job_->result();
+  }
+
+ private:
+  std::shared_ptr<Job> job_;
+};
+
+}  // namespace bodice::engine

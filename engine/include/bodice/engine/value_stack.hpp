@@ -1,0 +1,44 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <utility>
+
+namespace bodice::engine::detail {
+
+template <class T>
+struct ValueNode {
+  std::shared_ptr<const T> value;
+  ValueNode* next = nullptr;
+};
+
+/// Nodes that threads push one by one and take all at once, newest first. Taking all leaves no node behind
+/// that another thread could still compare with, so there is no ABA to fear.
+template <class T>
+class ValueStack {
+ public:
+  using Node = ValueNode<T>;
+
+  ValueStack() = default;
+  ~ValueStack() { free_chain(take_all()); }
+  ValueStack(const ValueStack&) = delete;
+  ValueStack& operator=(const ValueStack&) = delete;
+
+  void push(Node* node) noexcept {
+    node->next = top_.load(std::memory_order_relaxed);
+    while (!top_.compare_exchange_weak(node->next, node, std::memory_order_release)) {
+    }
+  }
+  Node* take_all() noexcept { return top_.exchange(nullptr, std::memory_order_acquire); }
+  /// Puts `node` in the place of all others and returns those.
+  Node* replace(Node* node) noexcept { return top_.exchange(node, std::memory_order_acq_rel); }
+
+  static void free_chain(Node* node) {
+    while (node) delete std::exchange(node, node->next);
+  }
+
+ private:
+  std::atomic<Node*> top_{nullptr};
+};
+
+}  // namespace bodice::engine::detail

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include <bodice/engine/executor.hpp>
+#include <bodice/engine/frame_pipeline.hpp>
+#include "index_loop.hpp"
+
+namespace bodice::engine {
+
+/// Tells the processor, and after a while the system, that this thread is only waiting.
+class Backoff {
+ public:
+  void pause() noexcept {
+    if (++rounds_ > kSpins) {
+      std::this_thread::yield();
+      return;
+    }
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+  }
+
+ private:
+  static constexpr int kSpins = 200;  // about 10 us: longer than most gaps between the loops of a frame
+  int rounds_ = 0;
+};
+
+/// Where background threads meet the frame: the frame opens its loops here, and background threads that
+/// come to a checkpoint take part in them.
+class FrameGate {
+ public:
+  FrameGate(int frame_workers, BackgroundYield policy) : seats_(frame_workers), policy_(policy) {}
+
+  void begin_frame() noexcept {
+    frame_thread_.store(std::this_thread::get_id(), std::memory_order_relaxed);
+    epoch_.fetch_add(1);
+  }
+  void end_frame() noexcept { epoch_.fetch_add(1); }
+
+  /// One loop with its number of seats. Frees the visitors before it goes.
+  struct OpenLoop {
+    IndexLoop indices;
+    std::atomic<int> seats;
+    void work() noexcept {
+      if (seats.fetch_sub(1, std::memory_order_relaxed) > 0) indices.work();
+    }
+  };
+
+  int seats() const noexcept { return seats_; }
+  bool open(OpenLoop& loop) noexcept {
+    OpenLoop* none = nullptr;
+    return open_.compare_exchange_strong(none, &loop);
+  }
+  /// Returns when no background thread is in the loop any more.
+  void close() noexcept {
+    // A visitor counts itself before it looks for the loop; here the loop is taken away before the count
+    // is read. In one total order (seq_cst), a visitor that this misses finds no loop.
+    open_.store(nullptr);
+    for (Backoff backoff; visitors_.load() != 0;) backoff.pause();
+  }
+
+  /// A checkpoint of a background thread.
+  void yield() noexcept {
+    const std::uint64_t epoch = epoch_.load(std::memory_order_relaxed);
+    const bool in_frame = epoch % 2 == 1;
+    if (!in_frame || policy_ == BackgroundYield::kNone) return;
+    // A job that runs on the frame's own thread must not wait for the frame to end.
+    if (frame_thread_.load(std::memory_order_relaxed) == std::this_thread::get_id()) return;
+    if (guests_.fetch_add(1) < seats_ - 1) stay(epoch);
+    guests_.fetch_sub(1);
+  }
+
+ private:
+  // Until the end of this frame and no other, so that background work moves on by a block a frame even
+  // where frames follow one another without a gap.
+  void stay(std::uint64_t epoch) noexcept {
+    Backoff backoff;
+    do {
+      if (help()) backoff = {};
+      backoff.pause();
+    } while (policy_ == BackgroundYield::kStay && epoch_.load(std::memory_order_relaxed) == epoch);
+  }
+
+  bool help() noexcept {
+    if (!open_.load(std::memory_order_relaxed)) return false;
+    visitors_.fetch_add(1);
+    OpenLoop* const loop = open_.load();
+    if (loop) loop->work();
+    visitors_.fetch_sub(1);
+    return loop != nullptr;
+  }
+
+  const int seats_;
+  const BackgroundYield policy_;
+  std::atomic<std::thread::id> frame_thread_{};
+  alignas(64) std::atomic<std::uint64_t> epoch_{0};  // odd while a frame runs
+  alignas(64) std::atomic<OpenLoop*> open_{nullptr};
+  alignas(64) std::atomic<int> visitors_{0};
+  alignas(64) std::atomic<int> guests_{0};
+};
+
+/// Runs the frame's loops on free workers of the base executor and on background threads alike.
+class FrameExecutor final : public Executor {
+ public:
+  FrameExecutor(Executor& base, FrameGate& gate) : base_(base), gate_(gate) {}
+  int concurrency() const noexcept override { return gate_.seats(); }
+
+  void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) override {
+    FrameGate::OpenLoop loop{{count, body}, gate_.seats()};
+    if (count <= 1 || gate_.seats() == 1 || !gate_.open(loop)) {
+      // Nested in an open loop: on a background thread that helps, waiting for others could mean to take
+      // up background work, which would wait for this frame.
+      loop.indices.work();
+    } else {
+      const std::size_t runners = std::min(count, static_cast<std::size_t>(gate_.seats()));
+      base_.bulk(runners, [&](std::size_t) { loop.work(); });
+      gate_.close();
+    }
+    loop.indices.rethrow();
+  }
+
+ private:
+  Executor& base_;
+  FrameGate& gate_;
+};
+
+/// Runs background work on the base executor, where each block lets a frame go first.
+class BackgroundExecutor final : public Executor {
+ public:
+  BackgroundExecutor(Executor& base, FrameGate& gate) : base_(base), gate_(gate) {}
+  int concurrency() const noexcept override { return base_.concurrency(); }
+  void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) override {
+    base_.bulk(count, [&](std::size_t i) {
+      gate_.yield();
+      body(i);
+    });
+  }
+  void yield() noexcept override { gate_.yield(); }
+
+ private:
+  Executor& base_;
+  FrameGate& gate_;
+};
+
+}  // namespace bodice::engine

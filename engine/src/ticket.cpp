@@ -1,0 +1,46 @@
+#include <bodice/engine/ticket.hpp>
+
+#include <bodice/engine/trace.hpp>
+
+namespace bodice::engine {
+
+Job::Job(std::string name, const Context& context, Work work)
+    : name_(std::move(name)), context_(context), cancel_(context.cancel), work_(std::move(work)) {
+  context_.cancel = cancel_.token();
+}
+
+Result<void> Job::call() noexcept {
+  const TraceSpan span(context_, name_);
+  try {
+    context_.cancel.check();
+    return work_(*this, context_);
+  } catch (const Cancelled&) {
+    return Error{ErrorCode::kCancelled, "'" + name_ + "' was cancelled.", ""};
+  } catch (const std::exception& error) {
+    return Error{ErrorCode::kInternal, "'" + name_ + "' failed: " + error.what() + ".", ""};
+  } catch (...) {
+    return Error{ErrorCode::kInternal, "'" + name_ + "' failed with an unknown exception.", ""};
+  }
+}
+
+void Job::run() noexcept {
+  Stage expected = Stage::kWaiting;
+  if (!stage_.compare_exchange_strong(expected, Stage::kRunning)) return;
+  result_ = call();
+  if (!result_ && result_.error().code != ErrorCode::kCancelled) context_.warn(result_.error().sentence());
+  work_ = nullptr;  // lets go of what the work held, here and not in a frame
+  stage_.store(Stage::kDone, std::memory_order_release);
+  signal();
+}
+
+void Job::wait() noexcept {
+  run();
+  for (std::uint32_t seen = events(); !done(); seen = events()) wait_for_event_after(seen);
+}
+
+void Job::signal() noexcept {
+  events_.fetch_add(1, std::memory_order_release);
+  events_.notify_all();
+}
+
+}  // namespace bodice::engine
