@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <Eigen/Geometry>
+
+#include "bind_pose.hpp"
+#include "file_scene.hpp"
+#include "input_file.hpp"
+
+namespace bodice::io {
+
+namespace {
+
+using geometry::Index;
+using geometry::Vec3;
+
+/// A node hierarchy deeper than this is hostile; assimp itself recurses, real rigs have under 50 levels.
+constexpr int kMaxNodeDepth = 1000;
+
+geometry::TriMesh to_tri_mesh(const aiMesh& mesh, const Eigen::Matrix4d& to_world, const Vec3& offset) {
+  geometry::TriMesh shape;
+  const Eigen::Matrix3d linear = to_world.topLeftCorner<3, 3>();
+  const Vec3 shift = to_world.topRightCorner<3, 1>() + offset;
+  shape.positions.reserve(mesh.mNumVertices);
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D& v = mesh.mVertices[i];
+    const Vec3 position(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+    shape.positions.push_back(linear * position + shift);
+  }
+  const bool mirrored = linear.determinant() < 0.0;
+  shape.triangles.reserve(mesh.mNumFaces);
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // points and lines
+    geometry::Triangle triangle{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
+    if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.mNumVertices) continue;
+    if (mirrored) std::swap(triangle[1], triangle[2]);
+    shape.triangles.push_back(triangle);
+  }
+  return shape;
+}
+
+std::string material_name(const aiScene& scene, const aiMesh& mesh) {
+  return mesh.mMaterialIndex < scene.mNumMaterials
+             ? scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
+             : "";
+}
+
+/// Every mesh of every node in the world's coordinates.
+class Collector {
+ public:
+  Collector(const aiScene& scene, const Eigen::Matrix4d& world_to_file, const Vec3& offset, FileScene& out)
+      : scene_(scene), world_to_file_(world_to_file), offset_(offset), out_(out) {}
+
+  void visit(const aiNode& node, const Eigen::Matrix4d& parent_to_world = Eigen::Matrix4d::Identity(),
+             int depth = 0) {
+    if (depth > kMaxNodeDepth) return;
+    const Eigen::Matrix4d to_world = parent_to_world * to_eigen(node.mTransformation);
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene_.mMeshes[node.mMeshes[i]], node, to_world);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], to_world, depth + 1);
+  }
+
+ private:
+  void add(const aiMesh& mesh, const aiNode& node, const Eigen::Matrix4d& to_world) {
+    FileMesh result;
+    result.name = mesh.mName.length ? mesh.mName.C_Str() : node.mName.C_Str();
+    result.material = material_name(scene_, mesh);
+    result.shape = to_tri_mesh(mesh, world_to_file_ * mesh_to_world(scene_, mesh, to_world), offset_);
+    if (!result.shape.triangles.empty()) out_.meshes.push_back(std::move(result));
+  }
+
+  const aiScene& scene_;
+  const Eigen::Matrix4d& world_to_file_;
+  const Vec3& offset_;
+  FileScene& out_;
+};
+
+/// assimp folds the document's unit into the root node; we keep the file's own coordinates.
+Eigen::Matrix4d undo_collada_unit(const ColladaAsset& asset, FileScene& scene) {
+  scene.metres_per_unit = asset.metres_per_unit;
+  scene.up = asset.up.value_or(geometry::Axis::kY);  // the standard's default
+  Eigen::Matrix4d world_to_file = Eigen::Matrix4d::Identity();
+  world_to_file.topLeftCorner<3, 3>() /= asset.metres_per_unit.value_or(1.0);
+  return world_to_file;
+}
+
+void read_fbx_metadata(const aiScene& scene, FileScene& out) {
+  if (!scene.mMetaData) return;
+  int axis = -1;
+  if (scene.mMetaData->Get("UpAxis", axis) && axis >= 0 && axis <= 2)
+    out.up = static_cast<geometry::Axis>(axis);
+  float centimetres_f = 0.0f;
+  double centimetres = 0.0;
+  if (scene.mMetaData->Get("UnitScaleFactor", centimetres_f)) centimetres = static_cast<double>(centimetres_f);
+  if (centimetres == 0.0) scene.mMetaData->Get("UnitScaleFactor", centimetres);
+  if (centimetres > 0.0 && std::isfinite(centimetres)) out.metres_per_unit = 0.01 * centimetres;
+}
+
+/// `offset` becomes what to add to every position.
+const aiScene* parse(Assimp::Importer& importer, const std::filesystem::path& file, Vec3& offset) {
+  // What an archive's document says is out of our reach: there we let assimp turn it to metres, y up.
+  const bool as_stored = format_of(file) != Format::kColladaArchive;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, as_stored);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  constexpr unsigned steps = aiProcess_Triangulate;
+  if (format_of(file) == Format::kObj) {
+    if (const auto moved = move_to_origin(read_text(file))) {
+      offset = moved->offset;
+      return importer.ReadFileFromMemory(moved->text.data(), moved->text.size(), steps, "obj");
+    }
+  }
+  return importer.ReadFile(file.string(), steps);
+}
+
+/// Formats whose faces index positions apart from normals and textures: assimp makes a vertex of each corner.
+bool splits_vertices(Format format) {
+  return format == Format::kObj || format == Format::kCollada || format == Format::kColladaArchive ||
+         format == Format::kFbx;
+}
+
+engine::Error unreadable(const std::filesystem::path& file, std::string_view why) {
+  std::string reason(why.substr(0, why.find('\n')));
+  if (reason.size() > 200) reason.resize(200);
+  while (!reason.empty() && (reason.back() == '.' || reason.back() == ' ')) reason.pop_back();
+  for (char& c : reason)
+    if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) c = '?';
+  return {engine::ErrorCode::kUnreadable,
+          "'" + file.string() + "' cannot be read as a mesh" + (reason.empty() ? "." : " (" + reason + ")."),
+          "Export it again as OBJ, PLY, STL, glTF, FBX or Collada, with the matching file extension."};
+}
+
+}  // namespace
+
+engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
+  if (auto checked = check_readable(file); !checked) return checked.error();
+  Assimp::Importer importer;
+  Vec3 offset = Vec3::Zero();
+  const aiScene* scene = parse(importer, file, offset);
+  if (!scene || !scene->mRootNode) return unreadable(file, importer.GetErrorString());
+
+  FileScene result;
+  result.kept_digits = !offset.isZero();
+  Eigen::Matrix4d world_to_file = Eigen::Matrix4d::Identity();
+  if (format_of(file) == Format::kCollada)
+    world_to_file = undo_collada_unit(parse_collada_asset(read_text(file)), result);
+  if (format_of(file) == Format::kGltf || format_of(file) == Format::kColladaArchive) {
+    result.metres_per_unit = 1.0;
+    result.up = geometry::Axis::kY;
+  }
+  read_fbx_metadata(*scene, result);
+  Collector(*scene, world_to_file, offset, result).visit(*scene->mRootNode);
+  if (splits_vertices(format_of(file)))
+    for (FileMesh& mesh : result.meshes) mesh.shape = share_vertices(mesh.shape);
+  if (result.meshes.empty())
+    return engine::Error{engine::ErrorCode::kUnreadable, "'" + file.string() + "' holds no triangles.",
+                         "Export the body's surface as polygons, not as points, lines or curves."};
+  return result;
+}
+
+}  // namespace bodice::io

@@ -1,0 +1,93 @@
+// A skinned vertex is sum_j w_j B_j O_j v, with O_j the bone's offset matrix (mesh space to bone space at
+// bind time) and B_j where the file's nodes put the bone. While the nodes stand as they did when the mesh
+// was bound, every B_j O_j is one and the same matrix: the mesh's place in the world. The node that holds
+// the mesh need not tell it (glTF ignores that node's transform for skinned meshes).
+#include "bind_pose.hpp"
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+namespace bodice::io {
+
+namespace {
+
+/// Relative to the mesh's scale: bones that differ less stand as they did when they were bound.
+constexpr double kSameMatrix = 1e-3;
+/// A root bone turned by more than this against its mesh's node is not posed but differently oriented.
+constexpr double kPosedRootRad = 0.8;
+
+Eigen::Matrix4d world_of(const aiNode* node) {
+  Eigen::Matrix4d world = Eigen::Matrix4d::Identity();
+  for (; node; node = node->mParent) world = to_eigen(node->mTransformation) * world;
+  return world;
+}
+
+int depth_of(const aiNode* node) {
+  int depth = 0;
+  for (; node; node = node->mParent) ++depth;
+  return depth;
+}
+
+double scale_of(const Eigen::Matrix4d& matrix) {
+  return std::cbrt(std::abs(matrix.topLeftCorner<3, 3>().determinant()));
+}
+
+double mesh_size(const aiMesh& mesh) {
+  double size = 0.0;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const double length = static_cast<double>(mesh.mVertices[i].Length());
+    if (std::isfinite(length)) size = std::max(size, length);
+  }
+  return size;
+}
+
+/// Whether two places of a mesh of this size differ by less than the tolerance.
+bool same_place(const Eigen::Matrix4d& a, const Eigen::Matrix4d& b, double size) {
+  const double turn = (a - b).topLeftCorner<3, 3>().norm() * size;
+  const double shift = (a - b).topRightCorner<3, 1>().norm();
+  return turn + shift <= kSameMatrix * size * scale_of(a);
+}
+
+/// Same scale and roughly the same orientation: the bone is merely posed.
+bool merely_posed(const Eigen::Matrix4d& root, const Eigen::Matrix4d& node) {
+  const double scale = scale_of(node);
+  if (!(scale > 0.0) || std::abs(scale_of(root) / scale - 1.0) > 0.05) return false;
+  const Eigen::Matrix3d turn =
+      root.topLeftCorner<3, 3>() * node.topLeftCorner<3, 3>().transpose() / (scale * scale);
+  return std::acos(std::clamp(0.5 * (turn.trace() - 1.0), -1.0, 1.0)) < kPosedRootRad;
+}
+
+}  // namespace
+
+Eigen::Matrix4d to_eigen(const aiMatrix4x4& matrix) {
+  Eigen::Matrix4d result;
+  for (unsigned row = 0; row < 4; ++row)
+    for (unsigned column = 0; column < 4; ++column)
+      result(row, column) = static_cast<double>(matrix[row][column]);
+  return result;
+}
+
+Eigen::Matrix4d mesh_to_world(const aiScene& scene, const aiMesh& mesh,
+                              const Eigen::Matrix4d& node_to_world) {
+  const double size = mesh_size(mesh);
+  Eigen::Matrix4d root = node_to_world;
+  int root_depth = 0;
+  bool agree = true;
+  for (unsigned i = 0; i < mesh.mNumBones; ++i) {
+    const aiNode* node = scene.mRootNode->FindNode(mesh.mBones[i]->mName);
+    if (!node) continue;
+    const Eigen::Matrix4d placed = world_of(node) * to_eigen(mesh.mBones[i]->mOffsetMatrix);
+    if (!placed.allFinite()) continue;
+    agree = agree && (root_depth == 0 || same_place(root, placed, size));
+    const int depth = depth_of(node);
+    if (root_depth != 0 && depth >= root_depth) continue;
+    root = placed;
+    root_depth = depth;
+  }
+  if (root_depth == 0) return node_to_world;
+  if (agree) return root;
+  return merely_posed(root, node_to_world) ? node_to_world : root;
+}
+
+}  // namespace bodice::io

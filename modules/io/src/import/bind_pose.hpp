@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <assimp/scene.h>
+
+namespace bodice::io {
+
+/// Where a mesh stands in the world, 4x4. `node_to_world` is its node's; a skinned mesh is placed by its
+/// bones where they agree on the bind pose.
+Eigen::Matrix4d mesh_to_world(const aiScene& scene, const aiMesh& mesh, const Eigen::Matrix4d& node_to_world);
+
+Eigen::Matrix4d to_eigen(const aiMatrix4x4& matrix);
+
+}  // namespace bodice::io

@@ -1,0 +1,167 @@
+#include "body_frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace bodice::io {
+
+namespace {
+
+using geometry::Axis;
+using geometry::Vec3;
+
+// The skin's area does not change with the pose, so it is what tells the unit. Adults have 1.3 to 2.6 m2,
+// a one-year-old .45 m2 (Mosteller: sqrt(height_cm mass_kg / 3600) m2); sculpted hands, ears and mouths add
+// some. The decades of metre, decimetre, centimetre and millimetre lie a factor of 100 apart in area.
+constexpr double kSmallestSkinM2 = 0.42, kLargestSkinM2 = 4.0;
+constexpr double kSmallestAdultM2 = 1.15, kLargestAdultM2 = 2.7;
+constexpr double kTypicalSkinM2 = 1.75;
+// A file's own word on its unit is believed over a wider range: it may hold a stylised figure.
+constexpr double kSmallestLengthM = 0.45, kLargestLengthM = 3.0;
+/// An axis must be this much longer than y to be taken as up in its stead.
+constexpr double kClearlyLonger = 1.25;
+/// Fraction of occupied cells whose mirror image is occupied too, for a symmetric body.
+constexpr double kSymmetric = 0.8;
+
+struct NamedUnit {
+  Unit unit;
+  const char* name;
+  double metres;
+};
+constexpr std::array<NamedUnit, 5> kUnits = {{{Unit::kMetre, "m", 1.0},
+                                              {Unit::kDecimetre, "dm", 0.1},
+                                              {Unit::kCentimetre, "cm", 0.01},
+                                              {Unit::kMillimetre, "mm", 0.001},
+                                              {Unit::kInch, "inch", 0.0254}}};
+
+std::optional<double> metres_from_area(double area) {
+  for (const NamedUnit& unit : kUnits) {
+    if (unit.unit == Unit::kInch) continue;
+    const double skin_m2 = area * unit.metres * unit.metres;
+    if (skin_m2 >= kSmallestSkinM2 && skin_m2 <= kLargestSkinM2) return unit.metres;
+  }
+  constexpr double inch = 0.0254;  // an adult in inches would be an infant in centimetres
+  const double skin_m2 = area * inch * inch;
+  if (skin_m2 >= kSmallestAdultM2 && skin_m2 <= kLargestAdultM2) return inch;
+  return std::nullopt;
+}
+
+std::string format_number(double value) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, std::optional<double> file_says,
+                 DetectedFrame& out) {
+  for (const NamedUnit& unit : kUnits) {
+    if (unit.unit != options.unit) continue;
+    out.frame.metres_per_unit = unit.metres;
+    out.unit = unit.name;
+    return;
+  }
+  const double area = surface_area(body);
+  const double length = geometry::bounding_box(body.positions).size().maxCoeff();
+  const bool believable = file_says && *file_says * length >= kSmallestLengthM &&
+                          *file_says * length <= kLargestLengthM;
+  if (const auto metres = believable ? file_says : metres_from_area(area)) {
+    out.frame.metres_per_unit = *metres;
+    out.unit = unit_name(*metres);
+    if (file_says && !believable)
+      out.warnings.push_back({"unit-contradicted", "",
+                              "The file says that a unit is " + format_number(*file_says) +
+                                  " m, which makes the body " + format_number(*file_says * length) +
+                                  " m long; '" + out.unit + "' fits its skin and was taken.",
+                              "Give --unit if that is wrong."});
+    return;
+  }
+  out.frame.metres_per_unit = area > 0.0 ? std::sqrt(kTypicalSkinM2 / area) : 1.0;
+  out.unit = "unknown";
+  out.warnings.push_back({"unit-unknown", "",
+                          "No common unit makes the body, " + format_number(length) +
+                              " units long, a person's size; it was scaled to " +
+                              format_number(out.frame.metres_per_unit * length) + " m.",
+                          "Give --unit to set it."});
+}
+
+/// A body as a coarse grid of occupied cells, to compare it with its mirror images.
+class Occupancy {
+ public:
+  explicit Occupancy(const geometry::TriMesh& body, const geometry::Box& box)
+      : box_(box), cells_(kSide * kSide * kSide) {
+    for (const geometry::Triangle& t : body.triangles)
+      for (const geometry::Index v : t) cells_[index(body.positions[v])] = true;
+  }
+
+  /// Of the occupied cells, the fraction whose mirror image across the box's middle is occupied.
+  double symmetry(int axis) const {
+    std::size_t occupied = 0, mirrored = 0;
+    std::array<std::size_t, 3> c;
+    for (c[0] = 0; c[0] < kSide; ++c[0])
+      for (c[1] = 0; c[1] < kSide; ++c[1])
+        for (c[2] = 0; c[2] < kSide; ++c[2]) {
+          if (!at(c)) continue;
+          ++occupied;
+          std::array<std::size_t, 3> m = c;
+          m[static_cast<std::size_t>(axis)] = kSide - 1 - c[static_cast<std::size_t>(axis)];
+          mirrored += at(m);
+        }
+    return occupied ? static_cast<double>(mirrored) / static_cast<double>(occupied) : 0.0;
+  }
+
+ private:
+  static constexpr std::size_t kSide = 24;
+
+  bool at(const std::array<std::size_t, 3>& c) const { return cells_[(c[0] * kSide + c[1]) * kSide + c[2]]; }
+
+  std::size_t index(const Vec3& p) const {
+    const double cell = std::max(box_.size().maxCoeff(), 1e-300) / static_cast<double>(kSide);
+    std::size_t result = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double along = (p[k] - box_.center()[k]) / cell + 0.5 * static_cast<double>(kSide);
+      const double clamped = std::clamp(along, 0.0, static_cast<double>(kSide) - 1.0);
+      result = result * kSide + static_cast<std::size_t>(clamped);
+    }
+    return result;
+  }
+
+  geometry::Box box_;
+  std::vector<bool> cells_;
+};
+
+}  // namespace
+
+std::string unit_name(double metres) {
+  for (const NamedUnit& unit : kUnits)
+    if (std::abs(unit.metres / metres - 1.0) < 1e-3) return unit.name;
+  return "unknown";
+}
+
+Axis up_axis_of(const geometry::TriMesh& body) {
+  geometry::Box box;
+  for (const geometry::Triangle& t : body.triangles)
+    for (const geometry::Index v : t) box.extend(body.positions[v]);
+  const Vec3 size = box.size();
+  const Occupancy occupancy(body, box);
+  int mirror = -1;
+  double best = kSymmetric;
+  for (int axis = 0; axis < 3; ++axis)
+    if (const double symmetry = occupancy.symmetry(axis); symmetry > best) best = symmetry, mirror = axis;
+  int up = mirror == 1 ? 2 : 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (axis != mirror && size[axis] > kClearlyLonger * size[up]) up = axis;
+  return static_cast<Axis>(up);
+}
+
+DetectedFrame detect_frame(const geometry::TriMesh& body, const ImportOptions& options,
+                           std::optional<double> metres_per_unit, std::optional<Axis> up) {
+  DetectedFrame detected;
+  detect_unit(body, options, metres_per_unit, detected);
+  const Axis by_shape = up_axis_of(body);
+  detected.frame.up = options.up ? *options.up : up ? *up : by_shape;
+  return detected;
+}
+
+}  // namespace bodice::io

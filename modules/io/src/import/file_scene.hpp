@@ -1,0 +1,40 @@
+// What a file holds before anything is judged: triangle meshes in the file's own world coordinates.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/frame.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::io {
+
+struct FileMesh {
+  std::string name;         ///< of the mesh, else of its node; may be empty
+  std::string material;     ///< may be empty
+  geometry::TriMesh shape;  ///< file units and axes, node transforms applied
+};
+
+struct FileScene {
+  std::vector<FileMesh> meshes;              ///< those with at least one triangle
+  std::optional<double> metres_per_unit;     ///< what the file says of itself
+  std::optional<geometry::Axis> up;          ///< what the file says of itself
+  bool kept_digits = false;  ///< read in more than single precision
+};
+
+/// Reads any format that assimp knows. Skinned meshes come in their bind pose. Points and lines are left
+/// out, polygons triangulated. Fails with kNotFound or kUnreadable.
+engine::Result<FileScene> read_scene(const std::filesystem::path& file);
+
+/// Appends a mesh's vertices and triangles to another's.
+void append(const geometry::TriMesh& mesh, geometry::TriMesh& to);
+
+/// Makes one vertex of those whose coordinates are the same to the bit, in the order of their first use:
+/// some formats have no vertices of their own once assimp has split them by corner. O(#V).
+geometry::TriMesh share_vertices(const geometry::TriMesh& mesh);
+
+}  // namespace bodice::io

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cstdio>
+
+#include <bodice/engine/stage_timer.hpp>
+#include <bodice/io/import.hpp>
+
+#include "body_frame.hpp"
+#include "choose_body.hpp"
+#include "file_scene.hpp"
+
+namespace bodice::io {
+
+namespace {
+
+/// Single precision keeps 24 bits; a coarser grid than this is worth a word.
+constexpr double kFloatGrid = 0x1p-23;
+constexpr double kWorthAWordM = 1e-4;
+
+/// The error of any stage, with the file's name in front of the sentence if it is not there.
+engine::Error in_file(engine::Error error, const std::filesystem::path& file) {
+  const std::string name = file.string();
+  if (error.message.find(name) == std::string::npos) error.message = "'" + name + "': " + error.message;
+  return error;
+}
+
+void append_warnings(std::vector<engine::Warning> from, std::vector<engine::Warning>& to) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+/// Warns where the file lies so far from its origin that single precision shows.
+void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedMesh& out) {
+  double farthest = 0.0;
+  for (const geometry::Vec3& p : shape.positions)
+    if (p.allFinite()) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  const double grid_m = farthest * kFloatGrid * out.frame.metres_per_unit;
+  if (kept_digits || grid_m <= kWorthAWordM) return;
+  char grid_mm[32];
+  std::snprintf(grid_mm, sizeof grid_mm, "%.2g", 1e3 * grid_m);
+  out.warnings.push_back({"far-from-origin", out.mesh,
+                          "The mesh lies so far from the origin that its coordinates are " +
+                              std::string(grid_mm) + " mm apart in the reader's single precision.",
+                          "Move it near the origin before exporting, or export it as OBJ."});
+}
+
+void to_inside(const geometry::Frame& frame, geometry::TriMesh& mesh) {
+  for (geometry::Vec3& p : mesh.positions) p = frame.to_inside(p);
+}
+
+}  // namespace
+
+engine::Result<ImportedMesh> import_body(const engine::Context& context, const std::filesystem::path& file,
+                                         const ImportOptions& options) {
+  ImportedMesh out;
+  out.file = file;
+  engine::StageTimer load(context, out.stages, "load");
+  auto scene = read_scene(file);
+  if (!scene) return scene.error();
+  load.stop();
+
+  engine::StageTimer check(context, out.stages, "check");
+  auto chosen = choose_body(context, *scene, options.mesh);
+  if (!chosen) return in_file(chosen.error(), file);
+  out.mesh = chosen->name;
+  out.warnings = std::move(chosen->warnings);
+  out.input_vertices = chosen->shape.positions.size();
+  out.input_triangles = chosen->shape.triangles.size();
+
+  auto repaired = geometry::repair(context, chosen->shape);
+  if (!repaired) return in_file(repaired.error(), file);
+  DetectedFrame detected = detect_frame(repaired->mesh, options, scene->metres_per_unit, scene->up);
+  out.frame = detected.frame;
+  out.unit = std::move(detected.unit);
+  append_warnings(std::move(detected.warnings), out.warnings);
+  check_precision(chosen->shape, scene->kept_digits, out);
+
+  out.skin = std::move(repaired->mesh);
+  to_inside(out.frame, out.skin);
+  out.vertex_of_input = std::move(repaired->vertex_of_input);
+  out.repair = std::move(repaired->report);
+  append_warnings(out.repair.warnings, out.warnings);
+  check.stop();
+  return out;
+}
+
+engine::Result<ImportedMesh> import_garment(const engine::Context& context, const std::filesystem::path& file,
+                                            const geometry::Frame& body_frame) {
+  ImportedMesh out;
+  out.file = file;
+  engine::StageTimer load(context, out.stages, "load");
+  auto scene = read_scene(file);
+  if (!scene) return scene.error();
+  load.stop();
+
+  engine::StageTimer check(context, out.stages, "check");
+  geometry::TriMesh all;
+  for (const FileMesh& mesh : scene->meshes) append(mesh.shape, all);
+  out.mesh = scene->meshes.size() == 1 ? scene->meshes.front().name
+                                       : std::to_string(scene->meshes.size()) + " meshes";
+  out.input_vertices = all.positions.size();
+  out.input_triangles = all.triangles.size();
+  auto repaired = geometry::repair(context, all, {.weld_relative = 0.0, .orient = false});
+  if (!repaired) return in_file(repaired.error(), file);
+  out.frame = body_frame;
+  out.unit = unit_name(body_frame.metres_per_unit);
+  check_precision(all, scene->kept_digits, out);
+  out.skin = std::move(repaired->mesh);
+  to_inside(out.frame, out.skin);
+  out.vertex_of_input = std::move(repaired->vertex_of_input);
+  out.repair = std::move(repaired->report);
+  std::erase_if(out.repair.warnings, [](const engine::Warning& w) { return w.code == "open-edges"; });
+  append_warnings(out.repair.warnings, out.warnings);
+  check.stop();
+  return out;
+}
+
+}  // namespace bodice::io

@@ -1,0 +1,34 @@
+#include <array>
+
+#include <bodice/io/scene.hpp>
+
+namespace bodice::io {
+
+namespace {
+
+// Left parts are the warm or light ones of a pair, right parts the darker: lightness tells what hue may not.
+constexpr std::array<std::array<float, 3>, body::kPartCount> kColors = {{
+    {0.94f, 0.78f, 0.60f},  // head
+    {0.99f, 0.75f, 0.44f},  // torso_ul
+    {0.80f, 0.47f, 0.13f},  // torso_ur
+    {0.60f, 0.82f, 0.53f},  // torso_ml
+    {0.23f, 0.55f, 0.26f},  // torso_mr
+    {0.72f, 0.68f, 0.87f},  // torso_ll
+    {0.43f, 0.34f, 0.66f},  // torso_lr
+    {0.65f, 0.81f, 0.93f},  // upper_arm_l
+    {0.13f, 0.44f, 0.71f},  // upper_arm_r
+    {0.98f, 0.62f, 0.60f},  // forearm_l
+    {0.77f, 0.16f, 0.18f},  // forearm_r
+    {0.55f, 0.87f, 0.84f},  // thigh_l
+    {0.08f, 0.52f, 0.52f},  // thigh_r
+    {0.96f, 0.93f, 0.55f},  // calf_l
+    {0.62f, 0.56f, 0.14f},  // calf_r
+}};
+
+}  // namespace
+
+std::span<const float, 3> part_color(body::Part part) {
+  return kColors[static_cast<std::size_t>(part)];
+}
+
+}  // namespace bodice::io
