@@ -9,12 +9,6 @@
 namespace bodice::fitting {
 namespace {
 
-/// The box centre, halved before adding so that it cannot overflow.
-Vec3 box_centre(std::span<const Vec3> points) {
-  const geometry::Box box = geometry::bounding_box(points);
-  return 0.5 * box.low + 0.5 * box.high;
-}
-
 /// The residual p - origin with the directions so far removed.
 Vec3 residual(const Vec3& p, const PointFrame& frame, int directions) {
   Vec3 r = p - frame.origin;
@@ -86,7 +80,8 @@ PointFrame make_point_frame(std::span<const Vec3> points, double flat_relative) 
   for (const Vec3& p : points)
     if (p.allFinite()) frame.kept.push_back(p);
   if (frame.kept.empty()) return frame;
-  frame.origin = box_centre(frame.kept);
+  // A point of the set: an origin off a flat set's plane would make the set look thick.
+  frame.origin = frame.kept[0];
   choose_axes(frame);
   project(frame);
   sort_axes(frame);
