@@ -11,35 +11,12 @@
 namespace bodice::tryon {
 namespace {
 
-using geometry::Index;
 using geometry::Vec3;
 
 constexpr double kDeepM = 0.001;   ///< "deeper than 1 mm" of the report
 constexpr double kSearchM = 0.05;  ///< skin farther than this cannot be penetrated: no need to measure
 constexpr double kInsideTolerance = 1e-6;  ///< of stature: what float particles may be off by
 constexpr std::size_t kGrain = 256;
-
-/// All garments as one mesh for one solver, and where each begins.
-struct Wardrobe {
-  geometry::TriMesh mesh;
-  std::vector<Index> held;
-  std::vector<std::size_t> first_vertex;  ///< #garments + 1
-};
-
-Wardrobe merge(const std::vector<WornGarment>& garments) {
-  Wardrobe all;
-  for (const WornGarment& garment : garments) {
-    const Index offset = static_cast<Index>(all.mesh.positions.size());
-    all.first_vertex.push_back(offset);
-    all.mesh.positions.insert(all.mesh.positions.end(), garment.mesh.positions.begin(),
-                              garment.mesh.positions.end());
-    for (const geometry::Triangle& t : garment.mesh.triangles)
-      all.mesh.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
-    for (const Index v : garment.held) all.held.push_back(v + offset);
-  }
-  all.first_vertex.push_back(all.mesh.positions.size());
-  return all;
-}
 
 /// Frames worth keeping: at most `kept` of 0..frames, evenly spread, first and last included.
 std::vector<int> frames_to_keep(int frames, int kept) {
@@ -155,7 +132,7 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
                                   const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                   const Progress& progress) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
-  const Wardrobe all = merge(garments);
+  const Wardrobe all = join(garments);
   cloth::Fabric fabric = options.fabric;
   if (fabric.name.empty()) {
     auto cotton = cloth::find_fabric("cotton");

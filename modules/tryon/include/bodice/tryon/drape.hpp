@@ -7,14 +7,9 @@
 #include <bodice/cloth/solver.hpp>
 #include <bodice/io/scene.hpp>
 #include <bodice/tryon/prepare.hpp>
+#include <bodice/tryon/wardrobe.hpp>
 
 namespace bodice::tryon {
-
-struct WornGarment {
-  std::string name;
-  geometry::TriMesh mesh;             ///< metres, y up
-  std::vector<geometry::Index> held;  ///< vertices that stay with the body
-};
 
 struct DrapeOptions {
   int frames = 120;
