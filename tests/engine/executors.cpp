@@ -1,7 +1,6 @@
 #include "executors.hpp"
 
 #include <condition_variable>
-#include <deque>
 #include <mutex>
 #include <thread>
 
@@ -17,12 +16,14 @@ using namespace bodice::engine;
 struct Job {
   void (*run)(void*) = nullptr;
   void* task = nullptr;
-  bool taken = false, ended = false;
+  bool used = false, taken = false, ended = false;
 };
 
 class TestHost {
  public:
-  TestHost(HostOrder order, int threads, std::uint64_t seed) : order_(order), random_(seed) {
+  TestHost(HostOrder order, int threads, std::uint64_t seed, int max_in_flight)
+      : order_(order), random_(seed), jobs_(static_cast<std::size_t>(max_in_flight)) {
+    queue_.reserve(jobs_.size());
     if (order != HostOrder::kRandom) return;
     for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { serve(); });
   }
@@ -36,15 +37,17 @@ class TestHost {
   }
 
   void* enqueue(void (*run)(void*), void* task) {
-    auto* job = new Job{run, task};
-    if (order_ == HostOrder::kInside) {
-      run(task);
-      job->taken = job->ended = true;
-      return job;
-    }
+    Job* job = nullptr;
     {
       const std::lock_guard lock(mutex_);
-      queue_.push_back(job);
+      for (job = jobs_.data(); job->used;) ++job;  // bodice promised to stay below the bound
+      *job = {run, task, true};
+      if (order_ != HostOrder::kInside) queue_.push_back(job);
+    }
+    if (order_ == HostOrder::kInside) {
+      run(task);
+      const std::lock_guard lock(mutex_);
+      job->taken = job->ended = true;
     }
     changed_.notify_all();
     return job;
@@ -57,7 +60,7 @@ class TestHost {
       run_unlocked(job, lock);
     }
     changed_.wait(lock, [&] { return job->ended; });
-    delete job;
+    job->used = false;
   }
 
  private:
@@ -86,7 +89,8 @@ class TestHost {
   Random random_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job*> queue_;
+  std::vector<Job> jobs_;
+  std::vector<Job*> queue_;
   bool stop_ = false;
   std::vector<std::thread> threads_;
 };
@@ -95,7 +99,7 @@ class TestHost {
 class HostedExecutor final : public Executor {
  public:
   HostedExecutor(HostOrder order, int concurrency, std::uint64_t seed, int max_in_flight)
-      : host_(order, concurrency - 1, seed) {
+      : host_(order, concurrency - 1, seed, max_in_flight) {
     HostCallbacks callbacks;
     callbacks.host = &host_;
     callbacks.concurrency = concurrency;
@@ -130,6 +134,14 @@ class Inline final : public Executor {
 std::unique_ptr<Executor> make_test_host(HostOrder order, int concurrency, std::uint64_t seed,
                                          int max_in_flight) {
   return std::make_unique<HostedExecutor>(order, concurrency, seed, max_in_flight);
+}
+
+std::unique_ptr<Executor> make_threads(int concurrency) {
+#ifdef __SANITIZE_THREAD__
+  return make_test_host(HostOrder::kRandom, concurrency);
+#else
+  return make_tbb_executor(concurrency);
+#endif
 }
 
 std::vector<NamedExecutor> all_executors() {

@@ -1,6 +1,7 @@
 // Every kind of executor, under its name, for tests that must hold on all of them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +21,9 @@ enum class HostOrder {
 /// A host job system over std::thread behind engine::make_host_executor; joins its threads when destroyed.
 std::unique_ptr<bodice::engine::Executor> make_test_host(HostOrder order, int concurrency,
                                                          std::uint64_t seed = 1, int max_in_flight = 16);
+
+/// Real threads: TBB, or under ThreadSanitizer a host in random order.
+std::unique_ptr<bodice::engine::Executor> make_threads(int concurrency);
 
 using NamedExecutor = std::pair<std::string, std::unique_ptr<bodice::engine::Executor>>;
 

@@ -16,8 +16,7 @@
 
 using namespace bodice::engine;
 using bodice_test::all_executors;
-using bodice_test::HostOrder;
-using bodice_test::make_test_host;
+using bodice_test::make_threads;
 
 namespace {
 
@@ -31,15 +30,6 @@ bool eventually(Condition&& condition) {
     std::this_thread::yield();
   }
   return true;
-}
-
-// An executor with real threads, also under ThreadSanitizer.
-std::unique_ptr<Executor> make_threads(int concurrency) {
-#ifdef __SANITIZE_THREAD__
-  return make_test_host(HostOrder::kRandom, concurrency);
-#else
-  return make_tbb_executor(concurrency);
-#endif
 }
 
 // Background work of three results whose bits depend on every block of its loops.

@@ -166,7 +166,7 @@ TEST_CASE("random graphs: every task runs once, after all that it needs, on any 
 
 TEST_CASE("a deep graph of barriers neither overflows the stack nor stops early") {
   // 500 layers of four tasks, each layer needing all of the layer before: the worst case for nesting.
-  const auto executor = make_tbb_executor(3);
+  const auto executor = bodice_test::make_threads(3);
   GraphBuilder builder;
   std::vector<Output<int>> layer;
   auto sum = [](const Context&, const auto&... in) { return (0 + ... + in) % 1000 + 1; };
