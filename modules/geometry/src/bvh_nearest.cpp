@@ -11,6 +11,9 @@ struct Pending {
   std::uint32_t child;
 };
 
+// Above the clamped distance of every box, below that of a missing child, which is infinite.
+constexpr float kKeepAll = 3e38f;
+
 /// A single-precision query whose box distances, with the slack, never exceed the true ones.
 struct FloatQuery {
   std::array<float, 3> p;
@@ -28,7 +31,7 @@ struct FloatQuery {
   float reach2(double best2) const {
     const double reach = std::sqrt(best2) + slack;
     const double reach2 = reach * reach * (1.0 + 1e-6);
-    return reach2 < 3e38 ? static_cast<float>(reach2) : std::numeric_limits<float>::infinity();
+    return reach2 < static_cast<double>(kKeepAll) ? static_cast<float>(reach2) : kKeepAll;
   }
 
   void box_distances2(const BvhNode& node, float* out) const {

@@ -60,6 +60,7 @@ SurfacePoint MeshDistance::nearest(const Vec3& query) const {
 }
 
 std::optional<SurfacePoint> MeshDistance::nearest_within(const Vec3& query, double max_distance_m) const {
+  if (!(max_distance_m >= 0.0)) return std::nullopt;
   const double reach = max_distance_m / impl_->bvh.scale;
   // The next double: a point exactly at the limit still counts.
   const double limit2 = std::nextafter(reach * reach, kInfinity);

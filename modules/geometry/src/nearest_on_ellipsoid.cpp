@@ -55,7 +55,7 @@ double pole_estimate(const Secular& s, const Vec3& w) {
 /// root on the other.
 double solve(const Secular& s) {
   double low = std::max(s.a[s.pole], (s.a - s.d).maxCoeff());
-  double high = s.a.norm();
+  double high = s.a.stableNorm();
   low = std::min(low, high);
   for (int step = 0; step < kMaxSteps; ++step) {
     const Vec3 w = s.w(low);

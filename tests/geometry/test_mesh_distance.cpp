@@ -1,0 +1,194 @@
+// The tree against brute force over all triangles, and against closed forms.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <bodice/engine/parallel.hpp>
+#include <bodice/engine/random.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+#include <bodice_test/data.hpp>
+#include <bodice_test/extremes.hpp>
+#include <bodice_test/read_mesh.hpp>
+#include <bodice_test/shapes.hpp>
+
+using namespace bodice::geometry;
+using namespace bodice_test;
+using bodice::engine::Context;
+using bodice::engine::Random;
+
+namespace {
+
+/// Distance to a segment, and to a triangle as the nearest of its plane's foot and its three segments: slow,
+/// in long double, and unlike the library's regions.
+using Long3 = Eigen::Matrix<long double, 3, 1>;
+
+long double segment_distance(const Long3& a, const Long3& b, const Long3& p) {
+  const Long3 d = b - a;
+  const long double length2 = d.squaredNorm();
+  const long double t = length2 > 0 ? std::clamp((p - a).dot(d) / length2, 0.0L, 1.0L) : 0.0L;
+  return (a + t * d - p).norm();
+}
+
+long double triangle_distance(const Long3& a, const Long3& b, const Long3& c, const Long3& p) {
+  long double best =
+      std::min({segment_distance(a, b, p), segment_distance(b, c, p), segment_distance(c, a, p)});
+  const Long3 n = (b - a).cross(c - a);
+  if (!(n.squaredNorm() > 0)) return best;
+  const Long3 foot = p - n * (n.dot(p - a) / n.squaredNorm());
+  const bool inside = (b - a).cross(foot - a).dot(n) >= 0 && (c - b).cross(foot - b).dot(n) >= 0 &&
+                      (a - c).cross(foot - c).dot(n) >= 0;
+  return inside ? std::min(best, (foot - p).norm()) : best;
+}
+
+double brute_distance(const TriMesh& mesh, const Vec3& query) {
+  long double best = INFINITY;
+  auto wide = [](const Vec3& v) { return Long3(v.cast<long double>()); };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    best = std::min(best, triangle_distance(wide(mesh.corner(t, 0)), wide(mesh.corner(t, 1)),
+                                            wide(mesh.corner(t, 2)), wide(query)));
+  return static_cast<double>(best);
+}
+
+/// The sum of all solid angles, by L'Huilier's theorem and the sign of the volume: not the library's formula.
+double brute_winding(const TriMesh& mesh, const Vec3& query) {
+  long double total = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Long3 u[3];
+    for (int k = 0; k < 3; ++k) u[k] = (mesh.corner(t, k) - query).cast<long double>().stableNormalized();
+    long double side[3];
+    for (int k = 0; k < 3; ++k) side[k] = 2 * std::asin(std::min((u[k] - u[(k + 1) % 3]).norm() / 2, 1.0L));
+    const long double s = (side[0] + side[1] + side[2]) / 2;
+    const long double product = std::tan(s / 2) * std::tan((s - side[0]) / 2) * std::tan((s - side[1]) / 2) *
+                                std::tan((s - side[2]) / 2);
+    const long double excess = 4 * std::atan(std::sqrt(std::max(product, 0.0L)));
+    total += u[0].dot(u[1].cross(u[2])) < 0 ? -excess : excess;
+  }
+  return static_cast<double>(total / (4 * std::numbers::pi_v<long double>));
+}
+
+/// Points near the surface on both sides, in the box, and outside it.
+std::vector<Vec3> queries_around(const TriMesh& mesh, int count, std::uint64_t seed) {
+  Random random(seed);
+  Box box;
+  for (const Triangle& t : mesh.triangles)
+    for (Index v : t) box.extend(mesh.positions[v]);
+  const double size = box.size().norm();
+  std::vector<Vec3> queries;
+  for (int i = 0; i < count; ++i) {
+    const std::size_t t = random.below(mesh.triangles.size());
+    const Vec3 n = area_vector(mesh, t).stableNormalized();
+    const double u = random.uniform();
+    const double v = random.uniform() * (1.0 - u);
+    const Vec3 on = mesh.corner(t, 0) + u * (mesh.corner(t, 1) - mesh.corner(t, 0)) +
+                    v * (mesh.corner(t, 2) - mesh.corner(t, 0));
+    const double off = size * std::pow(10.0, random.uniform(-7.0, 0.3));
+    queries.push_back(on + (random.uniform() < 0.5 ? off : -off) * n);
+    Vec3 anywhere;
+    for (int k = 0; k < 3; ++k) anywhere[k] = box.center()[k] + 0.6 * size * random.uniform(-1.0, 1.0);
+    queries.push_back(anywhere);
+  }
+  return queries;
+}
+
+void check_against_brute_force(const TriMesh& mesh, int count) {
+  const MeshDistance distance(Context{}, mesh);
+  const double size = bounding_box(mesh.positions).size().norm();
+  const double noise = 1e-13 * (size + bounding_box(mesh.positions).center().norm());
+  for (const Vec3& query : queries_around(mesh, count, 17)) {
+    CAPTURE(query);
+    const SurfacePoint got = distance.nearest(query);
+    const double truth = brute_distance(mesh, query);
+    REQUIRE(std::abs(std::abs(got.signed_distance) - truth) <= noise + 1e-13 * truth);
+    CHECK(std::abs((got.point - query).norm() - truth) <= noise + 1e-13 * truth);
+    REQUIRE(got.triangle < mesh.triangles.size());
+    const double winding = brute_winding(mesh, query);
+    CHECK(std::abs(distance.winding_number(query) - winding) < 0.01);
+    if (std::abs(winding - 0.5) > 0.02 && truth > noise)
+      CHECK((got.signed_distance < 0.0) == (winding > 0.5));
+    const auto within = distance.nearest_within(query, truth * (1.0 + 1e-12) + 2.0 * noise);
+    REQUIRE(within);
+    CHECK(std::abs(within->signed_distance - truth) <= noise + 1e-13 * truth);
+    CHECK_FALSE(distance.nearest_within(query, truth * (1.0 - 1e-12) - 2.0 * noise));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("distance and sign agree with brute force on closed shapes") {
+  check_against_brute_force(box({0.5, 1.0, 0.2}, 2), 300);
+  check_against_brute_force(icosphere(1.0, 3), 150);
+  check_against_brute_force(shuffled(torus(1.0, 0.3, 40, 20), 2), 100);
+  check_against_brute_force(cylinder(0.3, 2.0, 24, 8), 150);
+}
+
+TEST_CASE("distance and sign agree with brute force where surfaces overlap, nest or have holes") {
+  check_against_brute_force(joined(icosphere(1.0, 3), icosphere(0.8, 3, {0.7, 0.2, 0.1})), 150);
+  check_against_brute_force(joined(icosphere(1.0, 2), icosphere(0.4, 2)), 150);
+  TriMesh leaky = torus(1.0, 0.4, 30, 16);
+  std::erase_if(leaky.triangles, [n = 0](const Triangle&) mutable { return ++n % 11 == 0; });
+  check_against_brute_force(leaky, 150);
+  check_against_brute_force(cylinder(0.3, 2.0, 24, 8, false), 150);
+  check_against_brute_force(sheet(1.0, 2.0, 5, 7), 150);
+}
+
+TEST_CASE("the extremes: every usable hostile mesh after repair, and no crash before") {
+  for (const MeshCase& extreme : extreme_meshes()) {
+    CAPTURE(extreme.name);
+    const auto repaired = repair(Context{}, extreme.mesh);
+    REQUIRE(repaired.ok() == extreme.usable);
+    if (extreme.usable) check_against_brute_force(repaired->mesh, 30);
+  }
+}
+
+TEST_CASE("an empty mesh is infinitely far") {
+  const MeshDistance distance(Context{}, {});
+  CHECK(distance.signed_distance(Vec3::Zero()) == INFINITY);
+  CHECK(distance.nearest(Vec3::Zero()).triangle == kNoIndex);
+  CHECK_FALSE(distance.nearest_within(Vec3::Zero(), 1e300));
+  CHECK(distance.winding_number(Vec3::Zero()) == 0.0);
+}
+
+TEST_CASE("queries that are absurd get an answer, never NaN and never a crash") {
+  const MeshDistance distance(Context{}, icosphere(1.0, 2));
+  for (double x : extreme_values())
+    for (double y : {0.0, x}) {
+      CAPTURE(x);
+      const SurfacePoint got = distance.nearest({x, y, 0.0});
+      CHECK_FALSE(std::isnan(got.signed_distance));
+      CHECK_FALSE(std::isnan(distance.winding_number({x, y, 0.0})));
+      if (std::isfinite(x) && std::abs(x) < 1e150) {
+        CHECK(got.triangle != kNoIndex);
+        CHECK(got.signed_distance <= std::hypot(x, y) * (1.0 + 1e-12) + 1.0);
+      }
+    }
+}
+
+TEST_CASE("a point on the surface is at distance zero") {
+  const TriMesh mesh = icosphere(1.0, 3);
+  const MeshDistance distance(Context{}, mesh);
+  for (const Vec3& vertex : mesh.positions) CHECK(std::abs(distance.signed_distance(vertex)) < 1e-15);
+}
+
+TEST_CASE("real bodies: distance by brute force, sign by brute-force winding") {
+  for (const char* name : {"bodies/f_avg_rest.obj", "bodies/f_avg_sit01.obj", "awkward/f_avg_holes.obj"}) {
+    const auto file = data_file(name);
+    if (!file) continue;
+    CAPTURE(name);
+    const auto repaired = repair(Context{}, read_mesh(*file));
+    REQUIRE(repaired.ok());
+    const MeshDistance distance(Context{}, repaired->mesh);
+    int compared = 0;
+    for (const Vec3& query : queries_around(repaired->mesh, 60, 23)) {
+      const double got = distance.signed_distance(query);
+      CHECK(std::abs(std::abs(got) - brute_distance(repaired->mesh, query)) < 1e-12);
+      const double winding = brute_winding(repaired->mesh, query);
+      if (std::abs(winding - 0.5) < 0.02) continue;
+      ++compared;
+      CHECK((got < 0.0) == (winding > 0.5));
+    }
+    CHECK(compared > 100);
+  }
+}
