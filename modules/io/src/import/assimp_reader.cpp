@@ -117,6 +117,11 @@ const aiScene* parse(Assimp::Importer& importer, const std::filesystem::path& fi
   return importer.ReadFile(file.string(), steps);
 }
 
+/// Names that assimp's readers invent where a file gives none.
+bool is_made_up(std::string_view name) {
+  return name.empty() || name == "defaultobject" || name == "DefaultMaterial" || name.starts_with('<');
+}
+
 /// Formats whose faces index positions apart from normals and textures: assimp makes a vertex of each corner.
 bool splits_vertices(Format format) {
   return format == Format::kObj || format == Format::kCollada || format == Format::kColladaArchive ||
@@ -154,6 +159,8 @@ engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
   }
   read_fbx_metadata(*scene, result);
   Collector(*scene, world_to_file, offset, result).visit(*scene->mRootNode);
+  for (FileMesh& mesh : result.meshes)
+    if (is_made_up(mesh.name)) mesh.name = file.stem().string();
   if (splits_vertices(format_of(file)))
     for (FileMesh& mesh : result.meshes) mesh.shape = share_vertices(mesh.shape);
   if (result.meshes.empty())

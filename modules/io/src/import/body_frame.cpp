@@ -19,9 +19,15 @@ constexpr double kSmallestSkinM2 = 0.42, kLargestSkinM2 = 4.0;
 constexpr double kSmallestAdultM2 = 1.15, kLargestAdultM2 = 2.7;
 constexpr double kTypicalSkinM2 = 1.75;
 // A file's own word on its unit is believed over a wider range: it may hold a stylised figure.
-constexpr double kSmallestLengthM = 0.45, kLargestLengthM = 3.0;
+constexpr double kSmallestLengthM = 0.45, kLargestLengthM = 2.8, kLargestStylisedSkinM2 = 15.0;
 /// An axis must be this much longer than y to be taken as up in its stead.
 constexpr double kClearlyLonger = 1.25;
+/// Thickness to length: standing bodies have .18 to .35, sitting and crouching ones .6.
+constexpr double kSitting = 0.5;
+/// The bottom of a body that rests on the ground: this far up, as a fraction of its length.
+constexpr double kSoleHeight = 0.01;
+/// A sitting body's ground shows as an area so many times that of any other side.
+constexpr double kClearSole = 3.0;
 /// Fraction of occupied cells whose mirror image is occupied too, for a symmetric body.
 constexpr double kSymmetric = 0.8;
 
@@ -65,7 +71,8 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
   const double area = surface_area(body);
   const double length = geometry::bounding_box(body.positions).size().maxCoeff();
   const bool believable = file_says && *file_says * length >= kSmallestLengthM &&
-                          *file_says * length <= kLargestLengthM;
+                          *file_says * length <= kLargestLengthM &&
+                          *file_says * *file_says * area <= kLargestStylisedSkinM2;
   if (const auto metres = believable ? file_says : metres_from_area(area)) {
     out.frame.metres_per_unit = *metres;
     out.unit = unit_name(*metres);
@@ -131,6 +138,22 @@ class Occupancy {
   std::vector<bool> cells_;
 };
 
+/// For a body as thick as it is long: the axis on whose ground it lies flattest, y unless another is clear.
+Axis ground_axis(const geometry::TriMesh& body, const geometry::Box& box) {
+  const Vec3 limit = box.low.array() + kSoleHeight * box.size().maxCoeff();
+  Vec3 sole = Vec3::Zero();
+  for (std::size_t t = 0; t < body.triangles.size(); ++t) {
+    const Vec3 center = (body.corner(t, 0) + body.corner(t, 1) + body.corner(t, 2)) / 3.0;
+    const Vec3 down = -area_vector(body, t);
+    for (int axis = 0; axis < 3; ++axis)
+      if (center[axis] < limit[axis]) sole[axis] += std::max(0.0, down[axis]);
+  }
+  int ground = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    if (sole[axis] > kClearSole * std::max(sole[(axis + 1) % 3], sole[(axis + 2) % 3])) ground = axis;
+  return static_cast<Axis>(ground);
+}
+
 }  // namespace
 
 std::string unit_name(double metres) {
@@ -143,6 +166,8 @@ Axis up_axis_of(const geometry::TriMesh& body) {
   geometry::Box box;
   for (const geometry::Triangle& t : body.triangles)
     for (const geometry::Index v : t) box.extend(body.positions[v]);
+  if (box.size().minCoeff() > kSitting * box.size().maxCoeff()) return ground_axis(body, box);
+
   const Vec3 size = box.size();
   const Occupancy occupancy(body, box);
   int mirror = -1;

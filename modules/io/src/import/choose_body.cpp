@@ -21,11 +21,11 @@ using geometry::Vec3;
 
 // What tells a body from what lies in, on and around it. All are ratios.
 constexpr double kFlat = 0.05;            ///< thickness to length: floors and cards, never a body
-constexpr double kCompact = 0.9;          ///< area to squared diagonal: a crouching body .8, a sphere 1.05, a box 2
+constexpr double kCompact = 1.5;           ///< area to squared diagonal: a crouching body .8, a sphere 1.05, a room 2
 constexpr double kEnoughTriangles = 100;  ///< fewer than this say little about a shape
 constexpr double kTinyPiece = 0.002;      ///< of the body's area: a crumb
 constexpr double kNear = 0.04;            ///< of the body's length: what lies this near follows its skin
-constexpr double kTouching = 0.05;        ///< of the body's length: what begins this near may continue it
+constexpr double kTouching = 0.08;        ///< of the body's length: what begins this near may continue it
 constexpr double kContinues = 0.03;       ///< of the body's length: growth that makes a piece a continuation
 constexpr double kClosedLimb = 1.4;       ///< openness of an arm open at its shoulder: 1.2
 constexpr std::size_t kSamples = 400;     ///< vertices asked about each piece
@@ -140,7 +140,7 @@ std::string list_names(const FileScene& scene, const std::set<std::size_t>& sour
   for (const std::size_t s : sources) {
     std::string name = label(scene.meshes[s]);
     if (std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const FileMesh& other) {
-          return &other != &scene.meshes[s] && label(other) == name;
+          return label(other) == name && other.material != scene.meshes[s].material;
         }))
       name += '/' + scene.meshes[s].material;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -172,12 +172,13 @@ void report(const FileScene& scene, const std::vector<Piece>& pieces, const std:
   std::set<std::size_t> only_left;
   std::set_difference(left.begin(), left.end(), taken.begin(), taken.end(),
                       std::inserter(only_left, only_left.end()));
-  const std::string percent = std::to_string(std::lround(100.0 * left_area / total_area));
+  const long rounded = std::lround(100.0 * left_area / total_area);
+  const std::string percent = rounded > 0 ? std::to_string(rounded) : "under 1";
   chosen.warnings.push_back(
       {"pieces-left-out", chosen.name,
-       std::to_string(left_count) + " loose piece(s) with " + percent + " % of the file's surface" +
+       std::to_string(left_count) + (left_count == 1 ? " loose piece" : " loose pieces") + " with " + percent + " % of the file's surface" +
            (only_left.empty() ? "" : " (" + list_names(scene, only_left) + ")") +
-           " were left out: they are not the body's skin.",
+           (left_count == 1 ? " was" : " were") + " left out: not the body's skin.",
        "Name the body's mesh with --mesh if that is wrong."});
 }
 

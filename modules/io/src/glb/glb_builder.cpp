@@ -1,0 +1,116 @@
+// Based on: Khronos Group. glTF 2.0 Specification. 2021. - sections 3.6 (buffers and accessors), 4.4 (GLB)
+#include "glb_builder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+namespace bodice::io {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "GLB is little-endian: swap bytes on this machine");
+static_assert(sizeof(Vec3f) == 12 && sizeof(geometry::Triangle) == 12);
+
+constexpr int kFloat = 5126, kUnsignedInt = 5125;
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963, kNoTarget = 0;
+constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+
+void append_u32(std::string& bytes, std::uint32_t value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void pad_to_four(std::string& bytes, char with) {
+  while (bytes.size() % 4 != 0) bytes.push_back(with);
+}
+
+Json to_json(const Vec3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+}  // namespace
+
+GlbBuilder::GlbBuilder() {
+  document_["asset"] = {{"version", "2.0"}, {"generator", "bodice"}};
+  document_["scene"] = 0;
+  document_["scenes"] = Json::array({Json{{"nodes", Json::array()}}});
+}
+
+std::size_t GlbBuilder::add(const char* array, Json value) {
+  Json& list = document_[array];
+  list.push_back(std::move(value));
+  return list.size() - 1;
+}
+
+void GlbBuilder::add_to_scene(std::size_t node) {
+  document_["scenes"][0]["nodes"].push_back(node);
+}
+
+std::size_t GlbBuilder::add_view(const void* data, std::size_t bytes, int target) {
+  Json view = {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", bytes}};
+  if (target != kNoTarget) view["target"] = target;
+  buffer_.append(static_cast<const char*>(data), bytes);
+  pad_to_four(buffer_, '\0');
+  return add("bufferViews", std::move(view));
+}
+
+std::size_t GlbBuilder::add_accessor(std::size_t view, int component, std::size_t count, const char* type) {
+  return add("accessors",
+             {{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
+}
+
+std::size_t GlbBuilder::add_positions(std::span<const Vec3f> values) {
+  const std::size_t accessor = add_vectors(values);
+  Vec3f low = Vec3f::Constant(std::numeric_limits<float>::max()), high = -low;
+  for (const Vec3f& v : values) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  document_["accessors"][accessor]["min"] = to_json(low);
+  document_["accessors"][accessor]["max"] = to_json(high);
+  return accessor;
+}
+
+std::size_t GlbBuilder::add_vectors(std::span<const Vec3f> values) {
+  return add_accessor(add_view(values.data(), values.size_bytes(), kArrayBuffer), kFloat, values.size(),
+                      "VEC3");
+}
+
+std::size_t GlbBuilder::add_triangles(std::span<const geometry::Triangle> triangles) {
+  return add_accessor(add_view(triangles.data(), triangles.size_bytes(), kElementArrayBuffer), kUnsignedInt,
+                      3 * triangles.size(), "SCALAR");
+}
+
+std::size_t GlbBuilder::add_times(std::span<const float> seconds) {
+  const std::size_t accessor = add_scalars(seconds);
+  const auto [low, high] = std::minmax_element(seconds.begin(), seconds.end());
+  document_["accessors"][accessor]["min"] = {*low};
+  document_["accessors"][accessor]["max"] = {*high};
+  return accessor;
+}
+
+std::size_t GlbBuilder::add_scalars(std::span<const float> values) {
+  return add_accessor(add_view(values.data(), values.size_bytes(), kNoTarget), kFloat, values.size(),
+                      "SCALAR");
+}
+
+std::string GlbBuilder::finish() const {
+  Json document = document_;
+  document["buffers"] = Json::array({Json{{"byteLength", buffer_.size()}}});
+  std::string text = document.dump();
+  pad_to_four(text, ' ');
+  const std::size_t length = 12 + 8 + text.size() + 8 + buffer_.size();
+  if (length > std::numeric_limits<std::uint32_t>::max()) return {};
+
+  std::string file;
+  file.reserve(length);
+  for (const std::uint32_t value : {kMagic, kVersion, static_cast<std::uint32_t>(length)})
+    append_u32(file, value);
+  append_u32(file, static_cast<std::uint32_t>(text.size()));
+  append_u32(file, kJsonChunk);
+  file += text;
+  append_u32(file, static_cast<std::uint32_t>(buffer_.size()));
+  append_u32(file, kBinaryChunk);
+  file += buffer_;
+  return file;
+}
+
+}  // namespace bodice::io

@@ -1,0 +1,45 @@
+// The container of binary glTF: a JSON document and one buffer that its accessors point into.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <bodice/geometry/types.hpp>
+#include <nlohmann/json.hpp>
+
+namespace bodice::io {
+
+using Json = nlohmann::ordered_json;
+using Vec3f = Eigen::Vector3f;
+
+class GlbBuilder {
+ public:
+  GlbBuilder();
+
+  /// Each adds data to the buffer and returns its accessor's index.
+  std::size_t add_positions(std::span<const Vec3f> values);  ///< with the bounds that glTF demands
+  std::size_t add_vectors(std::span<const Vec3f> values);    ///< normals, colours
+  std::size_t add_triangles(std::span<const geometry::Triangle> triangles);
+  std::size_t add_times(std::span<const float> seconds);
+  std::size_t add_scalars(std::span<const float> values);
+
+  /// Appends to one of the document's arrays ("nodes", "meshes", ...) and returns the new index.
+  std::size_t add(const char* array, Json value);
+  /// Makes a node a root of the scene.
+  void add_to_scene(std::size_t node);
+
+  /// The whole file; empty if it is over the 4 GiB that the format can express.
+  std::string finish() const;
+
+ private:
+  std::size_t add_view(const void* data, std::size_t bytes, int target);
+  std::size_t add_accessor(std::size_t view, int component, std::size_t count, const char* type);
+
+  Json document_;
+  std::string buffer_;
+};
+
+}  // namespace bodice::io

@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <bodice/io/files.hpp>
+#include <bodice/io/scene.hpp>
+
+#include "../scene_check.hpp"
+#include "../unit_sphere.hpp"
+#include "glb_builder.hpp"
+
+namespace bodice::io {
+
+namespace {
+
+using geometry::Vec3;
+
+constexpr int kSphereSplits = 3;  // 512 triangles, shared by all ellipsoids
+constexpr float kEllipsoidAlpha = 0.55f;
+constexpr std::array<float, 3> kSkin = {0.80f, 0.76f, 0.73f};
+/// Beyond this many diagonals from the origin the nodes carry the offset, so that floats keep their digits.
+constexpr double kFarDiagonals = 16.0;
+
+/// Vertex colours and base colours are linear in glTF.
+float linear(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+Vec3f linear(std::span<const float, 3> srgb) {
+  return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])};
+}
+
+class SceneWriter {
+ public:
+  explicit SceneWriter(const Scene& scene) : scene_(scene) {
+    geometry::Box box;
+    const geometry::Box inside = scene_box(scene);
+    box.extend(scene.frame.to_file(inside.low));
+    box.extend(scene.frame.to_file(inside.high));
+    if (box.center().norm() > kFarDiagonals * box.size().norm()) origin_ = box.center().array().round();
+  }
+
+  std::string write() {
+    if (scene_.body) add_body();
+    if (scene_.proxy) add_ellipsoids();
+    for (std::size_t k = 0; k < scene_.garments.size(); ++k) add_garment(scene_.garments[k], k);
+    if (!channels_.empty())
+      glb_.add("animations", {{"name", "drape"}, {"samplers", samplers_}, {"channels", channels_}});
+    return glb_.finish();
+  }
+
+ private:
+  Vec3f to_file(const Vec3& inside) const { return (scene_.frame.to_file(inside) - origin_).cast<float>(); }
+
+  std::vector<Vec3f> to_file(std::span<const Vec3> points) const {
+    std::vector<Vec3f> result;
+    result.reserve(points.size());
+    for (const Vec3& p : points) result.push_back(to_file(p));
+    return result;
+  }
+
+  /// Unit normals in the file's axes; upward where the mesh gives none, for glTF forbids zero.
+  std::vector<Vec3f> normals_of(const geometry::TriMesh& mesh) const {
+    std::vector<Vec3f> result;
+    result.reserve(mesh.positions.size());
+    for (const Vec3& n : vertex_normals(mesh)) {
+      const Vec3 unit = n.squaredNorm() > 0.25 ? n : Vec3(Vec3::UnitY());
+      result.push_back(scene_.frame.direction_to_file(unit).cast<float>().normalized());
+    }
+    return result;
+  }
+
+  std::size_t add_material(const char* name, const Vec3f& color, float alpha, bool double_sided) {
+    Json material = {{"name", name},
+                     {"pbrMetallicRoughness",
+                      {{"baseColorFactor", {color.x(), color.y(), color.z(), alpha}},
+                       {"metallicFactor", 0.0},
+                       {"roughnessFactor", 0.85}}}};
+    if (alpha < 1.0f) material["alphaMode"] = "BLEND";
+    if (double_sided) material["doubleSided"] = true;
+    return glb_.add("materials", std::move(material));
+  }
+
+  /// A root node; its translation is what was taken off every position.
+  std::size_t add_root(Json node) {
+    if (!origin_.isZero()) node["translation"] = {origin_.x(), origin_.y(), origin_.z()};
+    const std::size_t index = glb_.add("nodes", std::move(node));
+    glb_.add_to_scene(index);
+    return index;
+  }
+
+  void add_body() {
+    const geometry::TriMesh& body = *scene_.body;
+    Json attributes = {{"POSITION", glb_.add_positions(to_file(body.positions))},
+                       {"NORMAL", glb_.add_vectors(normals_of(body))}};
+    if (!scene_.part.empty()) {
+      std::vector<Vec3f> colors;
+      colors.reserve(scene_.part.size());
+      for (const body::Part part : scene_.part) colors.push_back(linear(part_color(part)));
+      attributes["COLOR_0"] = glb_.add_vectors(colors);
+    }
+    const Vec3f base = scene_.part.empty() ? linear(std::span(kSkin)) : Vec3f(Vec3f::Ones());
+    const Json primitive = {{"attributes", attributes},
+                            {"indices", glb_.add_triangles(body.triangles)},
+                            {"material", add_material("skin", base, 1.0f, false)}};
+    add_root({{"name", "body"},
+              {"mesh", glb_.add("meshes", {{"name", "body"}, {"primitives", {primitive}}})}});
+  }
+
+  /// One sphere for all; a mesh a part, which differ by material only; a node an ellipsoid.
+  void add_ellipsoids() {
+    const geometry::TriMesh sphere = unit_sphere(kSphereSplits);
+    std::vector<Vec3f> points;
+    for (const Vec3& p : sphere.positions) points.push_back(p.cast<float>());
+    for (Vec3f& p : points) p.normalize();
+    const Json attributes = {{"POSITION", glb_.add_positions(points)}, {"NORMAL", glb_.add_vectors(points)}};
+    const std::size_t indices = glb_.add_triangles(sphere.triangles);
+    std::array<std::size_t, body::kPartCount> mesh_of, count_of{};
+    mesh_of.fill(kNone);
+    Json children = Json::array();
+    for (const proxy::ProxyEllipsoid& ellipsoid : scene_.proxy->ellipsoids()) {
+      const auto part = static_cast<std::size_t>(ellipsoid.part);
+      const std::string part_name(name(ellipsoid.part));
+      if (mesh_of[part] == kNone) {
+        const std::size_t material =
+            add_material(part_name.c_str(), linear(part_color(ellipsoid.part)), kEllipsoidAlpha, false);
+        const Json primitive = {{"attributes", attributes}, {"indices", indices}, {"material", material}};
+        mesh_of[part] = glb_.add("meshes", {{"name", "ellipsoid_" + part_name}, {"primitives", {primitive}}});
+      }
+      Json node = placed(ellipsoid.shape);
+      node["name"] = part_name + "_" + std::to_string(count_of[part]++);
+      node["mesh"] = mesh_of[part];
+      children.push_back(glb_.add("nodes", std::move(node)));
+    }
+    Json root = {{"name", "ellipsoids"}};
+    if (!children.empty()) root["children"] = std::move(children);
+    add_root(std::move(root));
+  }
+
+  /// The translation, rotation and scale that turn the unit sphere into the ellipsoid.
+  Json placed(const geometry::Ellipsoid& shape) const {
+    const Vec3 center = scene_.frame.to_file(shape.center) - origin_;
+    const Vec3 radii = shape.radii / scene_.frame.metres_per_unit;
+    const geometry::Mat3 axes = scene_.frame.rotation().transpose() * shape.axes;
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(axes).normalized();
+    return {{"translation", {center.x(), center.y(), center.z()}},
+            {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
+            {"scale", {radii.x(), radii.y(), radii.z()}}};
+  }
+
+  void add_garment(const GarmentTrack& track, std::size_t k) {
+    const std::vector<Vec3f> positions = to_file(track.mesh.positions), normals = normals_of(track.mesh);
+    const std::array<float, 3> color = garment_color(k);
+    Json primitive = {
+        {"attributes",
+         {{"POSITION", glb_.add_positions(positions)}, {"NORMAL", glb_.add_vectors(normals)}}},
+        {"indices", glb_.add_triangles(track.mesh.triangles)},
+        {"material", add_material(track.name.c_str(), linear(std::span(color)), 1.0f, true)}};
+    for (const auto& frame : track.frames)
+      primitive["targets"].push_back(add_target(track.mesh.triangles, frame, positions, normals));
+    Json mesh = {{"name", track.name}, {"primitives", {primitive}}};
+    if (!track.frames.empty()) mesh["weights"] = std::vector<double>(track.frames.size(), 0.0);
+    const std::size_t node = add_root({{"name", track.name}, {"mesh", glb_.add("meshes", std::move(mesh))}});
+    if (track.frames.size() > 1) animate(track, node);
+  }
+
+  /// What to add to the mesh to make it the frame.
+  Json add_target(const std::vector<geometry::Triangle>& triangles, const std::vector<Vec3>& frame,
+                  const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals) {
+    std::vector<Vec3f> moved = to_file(frame), turned = normals_of({frame, triangles});
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      moved[i] -= positions[i];
+      turned[i] -= normals[i];
+    }
+    return {{"POSITION", glb_.add_positions(moved)}, {"NORMAL", glb_.add_vectors(turned)}};
+  }
+
+  /// At each kept frame its own target has weight one and all others zero; linear in between.
+  void animate(const GarmentTrack& track, std::size_t node) {
+    const std::size_t n = track.frames.size();
+    std::vector<float> times(n), weights(n * n, 0.0f);
+    for (std::size_t i = 0; i < n; ++i) {
+      times[i] = static_cast<float>(track.time_s.empty() ? static_cast<double>(i) / 30.0
+                                                         : track.time_s[i] - track.time_s[0]);
+      weights[i * n + i] = 1.0f;
+    }
+    const std::size_t sampler = samplers_.size();
+    samplers_.push_back({{"input", glb_.add_times(times)},
+                         {"output", glb_.add_scalars(weights)},
+                         {"interpolation", "LINEAR"}});
+    channels_.push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
+  }
+
+  static constexpr std::size_t kNone = ~std::size_t{0};
+
+  const Scene& scene_;
+  Vec3 origin_ = Vec3::Zero();  // file units
+  GlbBuilder glb_;
+  Json samplers_ = Json::array(), channels_ = Json::array();
+};
+
+}  // namespace
+
+engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file) {
+  if (auto checked = check_scene(scene); !checked) return checked;
+  const std::string bytes = SceneWriter(scene).write();
+  if (bytes.empty())
+    return engine::Error{engine::ErrorCode::kWriteFailed,
+                         "'" + file.string() + "' would be over the 4 GiB that a GLB can hold.",
+                         "Keep fewer frames."};
+  return write_file(file, bytes);
+}
+
+}  // namespace bodice::io

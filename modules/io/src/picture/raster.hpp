@@ -1,0 +1,75 @@
+// Orthographic triangles on a grid of pixels.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::io {
+
+using Vec3f = Eigen::Vector3f;
+
+/// Maps the world to pixels: x right, y down, z away from the eye, all in pixels.
+struct View {
+  Vec3f right, up, toward_eye;  ///< orthonormal, in the world
+  Vec3f center;                 ///< world point in the middle of the picture
+  float pixels_per_metre = 1.0f;
+  int width = 0, height = 0;
+
+  Vec3f project(const Vec3f& p) const {
+    const Vec3f d = (p - center) * pixels_per_metre;
+    return {0.5f * static_cast<float>(width) + d.dot(right), 0.5f * static_cast<float>(height) - d.dot(up),
+            -d.dot(toward_eye)};
+  }
+};
+
+struct DepthBuffer {
+  explicit DepthBuffer(const View& view)
+      : width(view.width), height(view.height),
+        depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+              std::numeric_limits<float>::infinity()) {}
+
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+
+  int width, height;
+  std::vector<float> depth;
+};
+
+/// Calls shade(pixel, w) for each pixel centre of the projected triangle that is nearer than what is there;
+/// w are the barycentric weights of a, b and c. Draws both sides.
+template <class Shade>
+void draw_triangle(DepthBuffer& buffer, const Vec3f& a, const Vec3f& b, const Vec3f& c, Shade&& shade) {
+  const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+  if (!(std::abs(area) > 1e-12f)) return;
+  auto first = [](float low) { return static_cast<int>(std::ceil(std::max(low - 0.5f, 0.0f))); };
+  auto last = [](float high, int size) {
+    return static_cast<int>(std::floor(std::clamp(high - 0.5f, -1.0f, static_cast<float>(size - 1))));
+  };
+  const auto [x_low, x_high] = std::minmax({a.x(), b.x(), c.x()});
+  const auto [y_low, y_high] = std::minmax({a.y(), b.y(), c.y()});
+  if (!(x_low < static_cast<float>(buffer.width) && y_low < static_cast<float>(buffer.height))) return;
+  const int x_end = last(x_high, buffer.width), y_end = last(y_high, buffer.height);
+  for (int y = first(y_low); y <= y_end; ++y) {
+    const float py = static_cast<float>(y) + 0.5f;
+    for (int x = first(x_low); x <= x_end; ++x) {
+      const float px = static_cast<float>(x) + 0.5f;
+      const float wb = ((px - a.x()) * (c.y() - a.y()) - (py - a.y()) * (c.x() - a.x())) / area;
+      const float wc = ((b.x() - a.x()) * (py - a.y()) - (b.y() - a.y()) * (px - a.x())) / area;
+      const float wa = 1.0f - wb - wc;
+      if (wa < 0.0f || wb < 0.0f || wc < 0.0f) continue;
+      const float depth = wa * a.z() + wb * b.z() + wc * c.z();
+      const std::size_t pixel = buffer.at(x, y);
+      if (depth >= buffer.depth[pixel]) continue;
+      buffer.depth[pixel] = depth;
+      shade(pixel, Vec3f(wa, wb, wc));
+    }
+  }
+}
+
+}  // namespace bodice::io

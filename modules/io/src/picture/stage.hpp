@@ -1,0 +1,41 @@
+// What stands before the camera, and the light on it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "raster.hpp"
+
+namespace bodice::io {
+
+/// A surface ready to draw.
+struct Actor {
+  std::vector<Vec3f> positions, normals;  ///< #V, metres, y up
+  std::vector<Vec3f> colors;              ///< #V, linear light 0..1
+  std::vector<geometry::Triangle> triangles;
+  bool two_sided = false;  ///< cloth: the inside is seen, darker
+};
+
+Actor make_actor(const geometry::TriMesh& mesh, const Vec3f& color, bool two_sided);
+
+float to_linear(float srgb);
+Vec3f to_linear(std::span<const float, 3> srgb);
+
+/// One key light with soft shadows, light from the sky and a little from the ground.
+class Lighting {
+ public:
+  Lighting(const std::vector<Actor>& actors, const geometry::Box& box);
+
+  /// Linear light toward the eye from a surface point; `normal` faces the eye.
+  Vec3f shade(const Vec3f& point, const Vec3f& normal, const Vec3f& toward_eye, const Vec3f& color) const;
+
+ private:
+  /// 0 in full shadow .. 1 lit.
+  float lit(const Vec3f& point, const Vec3f& normal) const;
+
+  View view_;  // from the light
+  DepthBuffer shadow_;
+  float bias_;  // pixels of the shadow map
+};
+
+}  // namespace bodice::io

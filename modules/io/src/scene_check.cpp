@@ -1,0 +1,85 @@
+#include "scene_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/geometry/ellipsoid.hpp>
+
+namespace bodice::io {
+
+namespace {
+
+using geometry::Vec3;
+
+engine::Error invalid(std::string message) {
+  return {engine::ErrorCode::kInvalidArgument, std::move(message), "This is the caller's scene: check it."};
+}
+
+bool all_finite(std::span<const Vec3> points) {
+  return std::all_of(points.begin(), points.end(), [](const Vec3& p) { return p.allFinite(); });
+}
+
+bool valid_mesh(const geometry::TriMesh& mesh) {
+  return !mesh.empty() && all_finite(mesh.positions) &&
+         std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const geometry::Triangle& t) {
+           return *std::max_element(t.begin(), t.end()) < mesh.positions.size();
+         });
+}
+
+engine::Result<void> check_track(const GarmentTrack& track) {
+  const std::string name = "The garment '" + track.name + "'";
+  if (!valid_mesh(track.mesh)) return invalid(name + " is empty, not finite or refers to missing vertices.");
+  if (!track.time_s.empty() && track.time_s.size() != track.frames.size())
+    return invalid(name + " has " + std::to_string(track.frames.size()) + " frames but " +
+                   std::to_string(track.time_s.size()) + " times.");
+  for (const auto& frame : track.frames)
+    if (frame.size() != track.mesh.positions.size() || !all_finite(frame))
+      return invalid(name + " has a frame that is not finite or not of its " +
+                     std::to_string(track.mesh.positions.size()) + " vertices.");
+  for (std::size_t i = 0; i < track.time_s.size(); ++i)
+    if (!std::isfinite(track.time_s[i]) || (i > 0 && !(track.time_s[i] > track.time_s[i - 1])))
+      return invalid(name + " has frame times that do not increase.");
+  return {};
+}
+
+}  // namespace
+
+engine::Result<void> check_scene(const Scene& scene) {
+  if (!scene.body && !scene.proxy && scene.garments.empty()) return invalid("The scene is empty.");
+  if (!(scene.frame.metres_per_unit > 0.0 && std::isfinite(scene.frame.metres_per_unit)))
+    return invalid("The scene's unit is not a positive length.");
+  if (scene.body && !valid_mesh(*scene.body))
+    return invalid("The body is empty, not finite or refers to missing vertices.");
+  if (scene.body && !scene.part.empty() && scene.part.size() != scene.body->positions.size())
+    return invalid("The body has " + std::to_string(scene.body->positions.size()) + " vertices but " +
+                   std::to_string(scene.part.size()) + " parts.");
+  for (const GarmentTrack& track : scene.garments)
+    if (auto checked = check_track(track); !checked) return checked;
+  return {};
+}
+
+geometry::Box scene_box(const Scene& scene) {
+  geometry::Box box;
+  if (scene.body)
+    for (const Vec3& p : scene.body->positions) box.extend(p);
+  if (scene.proxy)
+    for (const auto& ellipsoid : scene.proxy->ellipsoids()) {
+      const geometry::Box tight = geometry::bounding_box(ellipsoid.shape);
+      box.extend(tight.low);
+      box.extend(tight.high);
+    }
+  for (const GarmentTrack& track : scene.garments) {
+    for (const Vec3& p : track.mesh.positions) box.extend(p);
+    for (const auto& frame : track.frames)
+      for (const Vec3& p : frame) box.extend(p);
+  }
+  return box;
+}
+
+std::array<float, 3> garment_color(std::size_t k) {
+  constexpr std::array<std::array<float, 3>, 4> colors = {
+      {{0.16f, 0.36f, 0.62f}, {0.72f, 0.24f, 0.28f}, {0.22f, 0.50f, 0.38f}, {0.48f, 0.36f, 0.58f}}};
+  return colors[k % colors.size()];
+}
+
+}  // namespace bodice::io
