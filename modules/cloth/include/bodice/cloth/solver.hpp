@@ -4,31 +4,15 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include <bodice/cloth/fabric.hpp>
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::cloth {
-
-/// Physical constants of a fabric; README of the module names the sources of the presets.
-struct Fabric {
-  std::string name;
-  double density_kg_m2 = 0.15;
-  double stretch_n_m = 1000.0;  ///< membrane stiffness, newtons a metre width
-  double shear_n_m = 100.0;
-  double bend_n_m = 1e-5;  ///< bending rigidity, newton metres
-  double friction = 0.4;
-  double damping_per_s = 0.5;
-  double max_stretch = 0.05;  ///< strain limit
-};
-
-engine::Result<Fabric> find_fabric(std::string_view name);
-std::vector<std::string> fabric_names();
 
 struct Environment {
   geometry::Vec3 gravity_m_s2 = {0.0, -9.81, 0.0};
@@ -47,11 +31,30 @@ struct SolverOptions {
   std::uint64_t seed = 0;
 };
 
+/// What a frame had to leave out or bound, as bits of FrameReport::limits.
+enum FrameLimit : std::uint32_t {
+  kTimeCut = 1u << 0,        ///< dt_s was above what kMaxSubsteps substeps may cover; the rest was dropped
+  kMoreSubsteps = 1u << 1,   ///< more substeps than asked for, because dt_s or the speeds were large
+  kSpeedClamped = 1u << 2,   ///< a particle would have crossed kMaxTravel in a substep and was slowed
+  kParticlesReset = 1u << 3  ///< a particle became NaN or infinite and was put back where it was
+};
+
+/// A substep is never longer than this: beyond it a fold crosses the body's thin parts in one step.
+inline constexpr double kMaxSubstep_s = 1.0 / 120.0;
+/// A frame never has more substeps than this, whatever dt_s.
+inline constexpr int kMaxSubsteps = 128;
+/// No particle moves further in a substep than this share of the rest garment's diagonal.
+inline constexpr double kMaxTravel = 0.05;
+
 struct FrameReport {
-  collision::ContactReport contacts;
-  double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain
+  collision::ContactReport contacts;            ///< summed over the substeps
+  double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain, elongation only
   double median_speed_m_s = 0.0;
   double kinetic_energy_j = 0.0;
+  double potential_energy_j = 0.0;  ///< elastic, and gravity's relative to the world's origin
+  double simulated_s = 0.0;         ///< dt_s, unless kTimeCut
+  int substeps = 0;
+  std::uint32_t limits = 0;  ///< FrameLimit bits
   bool finite = true;
 };
 
@@ -69,6 +72,8 @@ class Solver {
 
   /// Advances by dt_s (0 is a no-op that still reports). Allocates nothing once warm.
   FrameReport step(const engine::Context& context, const collision::Collider& collider, double dt_s);
+  /// The same without a body.
+  FrameReport step(const engine::Context& context, double dt_s);
 
   std::size_t particles() const noexcept;
   /// World positions of the input garment's vertices (#V of the garment), through the weld map.

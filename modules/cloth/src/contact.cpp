@@ -1,0 +1,91 @@
+// Friction on positions: within a substep the tangential displacement of a touching particle is taken back as
+// far as the cone allows, so that a garment at rest does not creep by g h a substep.
+// Based on: Matthias Mueller et al. Detailed Rigid Body Simulation with Extended Position Based Dynamics.
+// 2020. - section 3.5 (static friction on positions, zero restitution on velocities)
+#include "contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "pack.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+collision::Particles view(Particles& p, bool with_velocities) {
+  collision::Particles v;
+  v.count = p.count();
+  v.x = p.x.data(), v.y = p.y.data(), v.z = p.z.data();
+  if (with_velocities) v.vx = p.vx.data(), v.vy = p.vy.data(), v.vz = p.vz.data();
+  v.safe_x = p.old_x.data(), v.safe_y = p.old_y.data(), v.safe_z = p.old_z.data();
+  return v;
+}
+
+void keep_pinned(ContactState& s, Particles& p, std::size_t i) {
+  p.x[i] = s.before_x[i], p.y[i] = s.before_y[i], p.z[i] = s.before_z[i];
+}
+
+void velocity_from_positions(Particles& p, std::size_t i, float inverse_h) {
+  p.vx[i] = (p.x[i] - p.old_x[i]) * inverse_h;
+  p.vy[i] = (p.y[i] - p.old_y[i]) * inverse_h;
+  p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
+}
+
+// The push out is `depth` along n. Friction may take back that much times mu of the displacement along the
+// surface; no velocity is left along n.
+void friction_and_velocity(const ContactState& s, Particles& p, std::size_t i, float mu, float inverse_h) {
+  const float px = p.x[i] - s.before_x[i], py = p.y[i] - s.before_y[i], pz = p.z[i] - s.before_z[i];
+  const float depth = std::sqrt(px * px + py * py + pz * pz);
+  const float nx = px / depth, ny = py / depth, nz = pz / depth;
+  float dx = p.x[i] - p.old_x[i], dy = p.y[i] - p.old_y[i], dz = p.z[i] - p.old_z[i];
+  const float along_n = dx * nx + dy * ny + dz * nz;
+  const float tx = dx - along_n * nx, ty = dy - along_n * ny, tz = dz - along_n * nz;
+  const float slip = std::sqrt(tx * tx + ty * ty + tz * tz);
+  const float kept = slip > mu * depth ? 1.0f - mu * depth / slip : 0.0f;
+  p.x[i] -= (1.0f - kept) * tx, p.y[i] -= (1.0f - kept) * ty, p.z[i] -= (1.0f - kept) * tz;
+  p.vx[i] = kept * tx * inverse_h, p.vy[i] = kept * ty * inverse_h, p.vz[i] = kept * tz * inverse_h;
+}
+
+}  // namespace
+
+ContactState make_contacts(std::size_t particles) {
+  ContactState s;
+  for (auto* a : {&s.before_x, &s.before_y, &s.before_z}) a->assign(particles, 0.0f);
+  s.touching.assign(particles, 0);
+  return s;
+}
+
+collision::ContactReport finish_substep(const engine::Context& context, const collision::Collider* collider,
+                                        const SolverOptions& options, float friction, float substep_s,
+                                        ContactState& s, Particles& p) {
+  const float inverse_h = 1.0f / substep_s;
+  const bool paper = options.response == collision::Response::kPaper;
+  std::copy(p.x.begin(), p.x.end(), s.before_x.begin());
+  std::copy(p.y.begin(), p.y.end(), s.before_y.begin());
+  std::copy(p.z.begin(), p.z.end(), s.before_z.begin());
+  if (paper || collider == nullptr) {
+    for (std::size_t i = 0; i < p.count(); ++i) velocity_from_positions(p, i, inverse_h);
+  }
+  collision::ContactReport report;
+  if (collider == nullptr) return report;
+  report = collider->resolve(context, view(p, paper),
+                             {.response = options.response,
+                              .thickness_m = static_cast<float>(options.thickness_m),
+                              .friction = paper ? friction : 0.0f});
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (p.inverse_mass[i] == 0.0f) keep_pinned(s, p, i);
+      s.touching[i] = p.x[i] != s.before_x[i] || p.y[i] != s.before_y[i] || p.z[i] != s.before_z[i];
+      if (paper) continue;
+      if (s.touching[i])
+        friction_and_velocity(s, p, i, friction, inverse_h);
+      else
+        velocity_from_positions(p, i, inverse_h);
+    }
+  });
+  return report;
+}
+
+}  // namespace bodice::cloth

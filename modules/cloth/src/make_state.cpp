@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "state.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+engine::Result<void> check(const SolverOptions& o) {
+  auto bad = [](const std::string& what, const char* remedy) {
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "Solver option " + what + ".", remedy};
+  };
+  if (o.substeps < 1 || o.substeps > kMaxSubsteps) {
+    return bad("substeps is " + std::to_string(o.substeps), "Choose 1 to 128.");
+  }
+  if (o.iterations < 1 || o.iterations > 64) {
+    return bad("iterations is " + std::to_string(o.iterations), "Choose 1 to 64.");
+  }
+  if (!(o.thickness_m >= 0.0) || !std::isfinite(o.thickness_m)) {
+    return bad("thickness_m is " + std::to_string(o.thickness_m), "Give metres, zero or more.");
+  }
+  const Environment& e = o.environment;
+  if (!e.gravity_m_s2.allFinite() || !e.wind_m_s.allFinite() || !std::isfinite(e.gust) ||
+      !(e.air_density_kg_m3 >= 0.0) || !std::isfinite(e.air_density_kg_m3)) {
+    return bad("environment has a value that is not finite or a negative air density", "Give finite values.");
+  }
+  return {};
+}
+
+// Particles in Morton order; the map from vertices follows.
+void reorder(WeldedGarment& garment) {
+  const std::vector<Index> order = morton_order(garment.mesh.positions);
+  std::vector<Index> place(order.size());
+  std::vector<Vec3> positions;
+  for (Index i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+    positions.push_back(garment.mesh.positions[order[i]]);
+  }
+  garment.mesh.positions = std::move(positions);
+  for (Triangle& t : garment.mesh.triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
+  for (Index& p : garment.particle_of_vertex) p = p == geometry::kNoIndex ? p : place[p];
+}
+
+std::vector<bool> pinned_particles(const WeldedGarment& garment, std::span<const Index> pinned,
+                                   std::vector<engine::Warning>& warnings) {
+  std::vector<bool> out(garment.mesh.positions.size(), false);
+  std::size_t unknown = 0;
+  for (const Index v : pinned) {
+    if (v < garment.particle_of_vertex.size() && garment.particle_of_vertex[v] != geometry::kNoIndex) {
+      out[garment.particle_of_vertex[v]] = true;
+    } else {
+      ++unknown;
+    }
+  }
+  if (unknown > 0) {
+    warnings.push_back({"garment-pins-dropped", "garment",
+                        std::to_string(unknown) + " pins name a vertex that does not exist or was dropped.",
+                        ""});
+  }
+  return out;
+}
+
+// Where a dropped vertex is reported: its input place, or the garment's centre if that is not finite.
+std::vector<Vec3> resting_places(const geometry::TriMesh& garment, const geometry::TriMesh& particles) {
+  const Vec3 center = geometry::bounding_box(particles.positions).center();
+  std::vector<Vec3> out = garment.positions;
+  for (Vec3& p : out) p = p.allFinite() ? p : center;
+  return out;
+}
+
+}  // namespace
+
+engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<const Index> pinned,
+                                 const Fabric& fabric, const SolverOptions& options) {
+  if (auto good = check(fabric); !good) return good.error();
+  if (auto good = check(options); !good) return good.error();
+  auto welded = weld(garment);
+  if (!welded) return welded.error();
+  reorder(*welded);
+  State s;
+  s.fabric = fabric;
+  s.options = options;
+  s.warnings = std::move(welded->warnings);
+  const geometry::TriMesh& mesh = welded->mesh;
+  s.particles = make_particles(mesh, fabric.density_kg_m2, pinned_particles(*welded, pinned, s.warnings));
+  const Topology topology = find_topology(mesh);
+  s.stretch = make_stretch(mesh, topology, fabric, s.particles);
+  s.bend = make_bend(mesh, topology, fabric.bend_n_m, s.particles);
+  s.air = make_air(mesh);
+  s.contacts = make_contacts(s.particles.count());
+  s.scratch.resize(std::max(s.particles.count(), s.stretch.count()));
+  s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
+  s.input = resting_places(garment, mesh);
+  s.particle_of_vertex = std::move(welded->particle_of_vertex);
+  return s;
+}
+
+}  // namespace bodice::cloth

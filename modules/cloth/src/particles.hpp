@@ -1,0 +1,40 @@
+// The garment's particles as structure of arrays, in a local frame, so that floats keep micrometres anywhere.
+#pragma once
+
+#include <vector>
+
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::cloth {
+
+using geometry::Index;
+using geometry::Triangle;
+using geometry::Vec3;
+
+/// #P each; world position = origin + (x, y, z).
+struct Particles {
+  Vec3 origin = Vec3::Zero();
+  std::vector<float> x, y, z;              ///< metres
+  std::vector<float> old_x, old_y, old_z;  ///< metres, at the start of the substep
+  std::vector<float> vx, vy, vz;           ///< metres a second
+  std::vector<float> mass;                 ///< kilograms, the pinned ones too
+  std::vector<float> inverse_mass;         ///< 0: pinned
+
+  std::size_t count() const { return x.size(); }
+  Vec3 world(std::size_t i) const {
+    return origin + Vec3(static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i]));
+  }
+};
+
+/// Order that keeps neighbours in space near each other in memory (Morton code of the rest position, ties by
+/// index): result[new] = old. Collision culls blocks of such particles, constraints hit the cache.
+std::vector<Index> morton_order(const std::vector<Vec3>& positions);
+
+/// Particles at rest at `mesh`'s positions, masses a third of each triangle's, not below a floor.
+Particles make_particles(const geometry::TriMesh& mesh, double density_kg_m2,
+                         const std::vector<bool>& pinned);
+
+/// Moves the local frame; world positions stay, up to the rounding of floats.
+void rebase(Particles& particles, const Vec3& origin);
+
+}  // namespace bodice::cloth

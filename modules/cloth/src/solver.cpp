@@ -1,0 +1,60 @@
+#include <bodice/cloth/solver.hpp>
+
+#include <bodice/engine/hash.hpp>
+
+#include "state.hpp"
+
+namespace bodice::cloth {
+
+struct Solver::Impl {
+  State state;
+};
+
+Solver::Solver(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+engine::Result<Solver> Solver::make(const geometry::TriMesh& garment, std::span<const geometry::Index> pinned,
+                                    const Fabric& fabric, const SolverOptions& options) {
+  auto state = make_state(garment, pinned, fabric, options);
+  if (!state) return state.error();
+  return Solver(std::make_unique<Impl>(Impl{std::move(*state)}));
+}
+
+FrameReport Solver::step(const engine::Context& context, const collision::Collider& collider, double dt_s) {
+  engine::Context whole = context;
+  whole.cancel = {};  // a frame stopped half-way would leave a garment that never was
+  return advance(whole, &collider, dt_s, impl_->state);
+}
+
+FrameReport Solver::step(const engine::Context& context, double dt_s) {
+  engine::Context whole = context;
+  whole.cancel = {};
+  return advance(whole, nullptr, dt_s, impl_->state);
+}
+
+std::size_t Solver::particles() const noexcept {
+  return impl_->state.particles.count();
+}
+
+void Solver::positions(std::span<geometry::Vec3> out) const {
+  const State& s = impl_->state;
+  for (std::size_t v = 0; v < out.size() && v < s.input.size(); ++v) {
+    const Index p = s.particle_of_vertex[v];
+    out[v] = p == geometry::kNoIndex ? s.input[v] : s.particles.world(p);
+  }
+}
+
+std::span<const engine::Warning> Solver::warnings() const noexcept {
+  return impl_->state.warnings;
+}
+
+std::uint64_t Solver::hash() const noexcept {
+  const Particles& p = impl_->state.particles;
+  engine::Hasher hasher;
+  for (const auto* a : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz}) hasher.add(std::span<const float>(*a));
+  return hasher.value();
+}
+
+}  // namespace bodice::cloth

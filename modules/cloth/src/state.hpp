@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include <bodice/cloth/solver.hpp>
+#include <bodice/cloth/weld.hpp>
+
+#include "air.hpp"
+#include "bend.hpp"
+#include "contact.hpp"
+#include "particles.hpp"
+#include "stretch.hpp"
+
+namespace bodice::cloth {
+
+/// Everything a garment in motion is made of.
+struct State {
+  Fabric fabric;
+  SolverOptions options;
+  Particles particles;
+  StretchConstraints stretch;
+  BendConstraints bend;
+  Air air;
+  ContactState contacts;
+  std::vector<float> scratch;  ///< max(#P, #E), for medians
+  float max_travel_m = 0.0f;   ///< a substep
+  double time_s = 0.0;
+
+  std::vector<Vec3> input;                ///< #V, where dropped vertices stay
+  std::vector<Index> particle_of_vertex;  ///< #V
+  std::vector<engine::Warning> warnings;
+};
+
+/// Welds, orders the particles in space and builds all constraints.
+engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<const Index> pinned,
+                                 const Fabric& fabric, const SolverOptions& options);
+
+/// Advances by one frame.
+FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
+                    State& state);
+
+/// Strains, speeds and energies of the present state; sets `finite`.
+void measure(const engine::Context& context, State& state, FrameReport& report);
+
+}  // namespace bodice::cloth

@@ -1,0 +1,31 @@
+// What the constraints hang on: the edges of a welded garment and the hinges across them.
+#pragma once
+
+#include <vector>
+
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::cloth {
+
+using geometry::Index;
+
+struct Edge {
+  Index a = 0, b = 0;     ///< a < b
+  double area_m2 = 0.0;   ///< of all its triangles
+  bool diagonal = false;  ///< across a quad that was cut in two: carries shear, not stretch
+};
+
+/// Two triangles (a, b, c) and (a, b, d) that share the edge (a, b).
+struct Hinge {
+  Index a = 0, b = 0, c = 0, d = 0;
+};
+
+struct Topology {
+  std::vector<Edge> edges;    ///< sorted by (a, b)
+  std::vector<Hinge> hinges;  ///< in the order of their edges; k - 1 for an edge with k triangles
+};
+
+/// O(n log n). The winding of the triangles does not matter.
+Topology find_topology(const geometry::TriMesh& mesh);
+
+}  // namespace bodice::cloth
