@@ -1,0 +1,72 @@
+#include "near_skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+#include <bodice/engine/random.hpp>
+#include <bodice/fitting/proxy_distance.hpp>
+#include <bodice/geometry/sampling.hpp>
+
+namespace fit_bench {
+namespace {
+
+using namespace bodice;
+constexpr double kNear_m = 0.030;
+constexpr double kDeep_m = 0.010;
+
+}  // namespace
+
+std::vector<Probe> near_skin_probes(const engine::Context& context, const geometry::TriMesh& mesh,
+                                    const geometry::MeshDistance& distance) {
+  constexpr std::size_t kNearCount = 20000, kInsideCount = 40000;
+  const auto skin = geometry::sample_surface(mesh, kNearCount, 77);
+  const geometry::Box box = geometry::bounding_box(mesh.positions);
+  std::vector<Probe> probes(skin.size() + kInsideCount);
+  const engine::Random random(4242);
+  engine::parallel_for(context, probes.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const geometry::Vec3 u(random.uniform_at(3 * i), random.uniform_at(3 * i + 1),
+                             random.uniform_at(3 * i + 2));
+      if (i < skin.size()) {
+        // Along the normal both ways: points at every distance up to 30 mm, equally often.
+        const geometry::Vec3 n = geometry::area_vector(mesh, skin[i].triangle).normalized();
+        probes[i].point = skin[i].point + kNear_m * (2.0 * u.x() - 1.0) * n;
+      } else {
+        probes[i].point = box.low + u.cwiseProduct(box.size());
+      }
+      probes[i].signed_distance_m = distance.signed_distance(probes[i].point);
+    }
+  });
+  return probes;
+}
+
+NearSkin judge(const engine::Context& context, const proxy::BodyProxy& proxy,
+               const std::vector<Probe>& probes) {
+  std::vector<double> value(probes.size(), 0.0);
+  engine::parallel_for(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (probes[i].signed_distance_m < kNear_m)
+        value[i] = fitting::proxy_distance(proxy, probes[i].point).distance;
+  });
+  NearSkin result;
+  std::vector<double> errors;
+  double missed = 0.0, hits = 0.0;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const double s = probes[i].signed_distance_m;
+    if (s < -kDeep_m && value[i] > 0.0) ++result.deep_leaks;
+    if (std::abs(s) > kNear_m) continue;
+    errors.push_back(std::abs(value[i] - s));
+    missed += s < -1e-3 && value[i] > 0.0;
+    hits += s > 1e-3 && value[i] < 0.0;
+  }
+  std::sort(errors.begin(), errors.end());
+  for (const double e : errors) result.mean_mm += 1e3 * e / static_cast<double>(errors.size());
+  result.p95_mm = 1e3 * errors[errors.size() * 95 / 100];
+  result.max_mm = 1e3 * errors.back();
+  result.missed_percent = 100.0 * missed / static_cast<double>(errors.size());
+  result.false_percent = 100.0 * hits / static_cast<double>(errors.size());
+  return result;
+}
+
+}  // namespace fit_bench

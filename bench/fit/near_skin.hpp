@@ -1,0 +1,32 @@
+// The error of a proxy's signed distance at points within 30 mm of the skin, and leaks deep inside.
+#pragma once
+
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace fit_bench {
+
+struct Probe {
+  bodice::geometry::Vec3 point;
+  double signed_distance_m = 0.0;  ///< exact
+};
+
+struct NearSkin {
+  double mean_mm = 0.0, p95_mm = 0.0, max_mm = 0.0;
+  double missed_percent = 0.0;  ///< of all near points: deeper than 1 mm but called outside
+  double false_percent = 0.0;   ///< of all near points: over 1 mm outside but called inside
+  int deep_leaks = 0;           ///< points deeper than 10 mm called outside
+};
+
+/// Points along random directions from an even sample of the skin, plus interior points.
+std::vector<Probe> near_skin_probes(const bodice::engine::Context& context,
+                                    const bodice::geometry::TriMesh& mesh,
+                                    const bodice::geometry::MeshDistance& distance);
+
+NearSkin judge(const bodice::engine::Context& context, const bodice::proxy::BodyProxy& proxy,
+               const std::vector<Probe>& probes);
+
+}  // namespace fit_bench

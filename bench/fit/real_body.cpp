@@ -1,0 +1,69 @@
+#include "real_body.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace fit_bench {
+namespace {
+
+using bodice::body::Part;
+using bodice::geometry::Vec3;
+
+constexpr Part kPartOfClass[16] = {Part::kHead,      Part::kHead,     Part::kTorsoUL,   Part::kTorsoLL,
+                                   Part::kUpperArmL, Part::kForearmL, Part::kForearmL,  Part::kThighL,
+                                   Part::kCalfL,     Part::kCalfL,    Part::kUpperArmR, Part::kForearmR,
+                                   Part::kForearmR,  Part::kThighR,   Part::kCalfR,     Part::kCalfR};
+
+bool read_obj(const std::filesystem::path& file, bodice::geometry::TriMesh& mesh) {
+  std::ifstream in(file);
+  std::string line;
+  while (std::getline(in, line)) {
+    std::istringstream words(line);
+    std::string word;
+    words >> word;
+    if (word == "v") {
+      Vec3 p;
+      words >> p.x() >> p.y() >> p.z();
+      mesh.positions.push_back(p);
+    } else if (word == "f") {
+      std::vector<bodice::geometry::Index> face;
+      while (words >> word) face.push_back(static_cast<bodice::geometry::Index>(std::stoul(word) - 1));
+      for (std::size_t k = 2; k < face.size(); ++k) mesh.triangles.push_back({face[0], face[k - 1], face[k]});
+    }
+  }
+  return !mesh.triangles.empty();
+}
+
+/// Thirds along y (the torso's own extent), halves along x (its mean).
+void split_torso(LabelledBody& body) {
+  bodice::geometry::Box box;
+  double x = 0.0, count = 0.0;
+  for (std::size_t v = 0; v < body.part.size(); ++v)
+    if (is_torso(body.part[v]))
+      box.extend(body.mesh.positions[v]), x += body.mesh.positions[v].x(), count += 1.0;
+  x /= count;
+  for (std::size_t v = 0; v < body.part.size(); ++v) {
+    if (!is_torso(body.part[v])) continue;
+    const Vec3& p = body.mesh.positions[v];
+    const double height = (p.y() - box.low.y()) / box.size().y();
+    const int row = height > 2.0 / 3.0 ? 0 : height > 1.0 / 3.0 ? 1 : 2;
+    body.part[v] = static_cast<Part>(static_cast<int>(Part::kTorsoUL) + 2 * row + (p.x() < x ? 1 : 0));
+  }
+}
+
+}  // namespace
+
+std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels) {
+  LabelledBody body;
+  if (!read_obj(obj, body.mesh)) return std::nullopt;
+  std::ifstream in(labels);
+  int label = 0;
+  while (in >> label) body.part.push_back(kPartOfClass[label & 15]);
+  if (body.part.size() != body.mesh.positions.size()) return std::nullopt;
+  split_torso(body);
+  body.stature_m = bodice::geometry::bounding_box(body.mesh.positions).size().y();
+  return body;
+}
+
+}  // namespace fit_bench

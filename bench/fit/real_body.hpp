@@ -1,0 +1,23 @@
+// A body from an OBJ file with true labels a vertex, for judging fits without the anatomy layer.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include <bodice/body/part.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace fit_bench {
+
+struct LabelledBody {
+  bodice::geometry::TriMesh mesh;
+  std::vector<bodice::body::Part> part;  ///< #V
+  double stature_m = 0.0;
+};
+
+/// `labels` holds one fine class a vertex (head, neck, upper_torso, lower_torso, l_upper_arm, ...). The
+/// torso's two classes are cut into six parts at thirds of its height and at its middle plane.
+std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels);
+
+}  // namespace fit_bench

@@ -1,0 +1,32 @@
+// K-means with the paper's pruned stop.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/geometry/types.hpp>
+
+namespace bodice::fitting {
+
+using geometry::Index;
+using geometry::Vec3;
+
+struct KMeansOptions {
+  double sigma_m = 0.0;  ///< eq. (7): stop when no centre moved farther than this
+  int max_iterations = 50;
+};
+
+struct Clusters {
+  std::vector<Index> of_point;  ///< #points, index of the nearest centre (the lowest one on a tie)
+  std::vector<Vec3> centers;    ///< as many as were given; a centre without points stays where it was
+  int iterations = 0;
+};
+
+/// Lloyd's iterations from the given centres. `weights` is empty or one a point. Deterministic for any worker
+/// count; distances are compared in float relative to the first centre. O(#points #centers) an iteration.
+/// Based on: Stuart P. Lloyd. Least squares quantization in PCM. 1982.
+Clusters kmeans(const engine::Context& context, std::span<const Vec3> points, std::span<const double> weights,
+                std::vector<Vec3> centers, const KMeansOptions& options);
+
+}  // namespace bodice::fitting

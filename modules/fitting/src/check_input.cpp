@@ -1,0 +1,61 @@
+#include "check_input.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace bodice::fitting {
+namespace {
+
+engine::Error bad(std::string message, std::string remedy) {
+  return {engine::ErrorCode::kInvalidArgument, std::move(message), std::move(remedy)};
+}
+
+bool positive(const std::optional<double>& value) {
+  return !value || (std::isfinite(*value) && *value > 0.0);
+}
+
+engine::Result<void> check_options(const FitOptions& options) {
+  if (options.max_ellipsoids && (*options.max_ellipsoids < 1 || *options.max_ellipsoids > 10000))
+    return bad("max_ellipsoids is " + std::to_string(*options.max_ellipsoids) + ".", "Ask for 1 to 10000.");
+  if (!positive(options.target_error_m))
+    return bad("target_error_m is not positive.", "Give metres above 0.");
+  if (!positive(options.budget_us)) return bad("budget_us is not positive.", "Give microseconds above 0.");
+  if (!positive(options.mu_torso_m) || !positive(options.mu_limbs_m))
+    return bad("A threshold mu is not positive.", "Give metres above 0, or leave it out.");
+  if (!(options.time_budget_s >= 0.0)) return bad("time_budget_s is negative or NaN.", "Give seconds.");
+  if ((options.parts & ((1u << body::kPartCount) - 1)) == 0)
+    return bad("No part is selected.", "Set at least one bit of parts.");
+  return {};
+}
+
+}  // namespace
+
+engine::Result<void> check_input(const LabelledSkin& skin, const FitOptions& options) {
+  if (auto ok = check_options(options); !ok) return ok;
+  const std::size_t n = skin.mesh.positions.size();
+  if (skin.part.size() != n)
+    return bad(
+        "There are " + std::to_string(skin.part.size()) + " labels for " + std::to_string(n) + " vertices.",
+        "Give one part a vertex.");
+  if (skin.mesh.triangles.empty())
+    return engine::Error{engine::ErrorCode::kUnusableGeometry, "The skin has no triangles.",
+                         "Give a closed triangle mesh."};
+  if (!(std::isfinite(skin.stature_m) && skin.stature_m > 0.0))
+    return bad("stature_m is not positive.", "Give the body's standing height in metres.");
+  for (std::size_t v = 0; v < n; ++v) {
+    if (!skin.mesh.positions[v].allFinite())
+      return bad("Vertex " + std::to_string(v) + " is not finite.",
+                 "Repair the mesh first (geometry::repair).");
+    if (static_cast<int>(skin.part[v]) >= body::kPartCount)
+      return bad("Vertex " + std::to_string(v) + " has an unknown part.", "Use the 15 values of body::Part.");
+  }
+  for (std::size_t t = 0; t < skin.mesh.triangles.size(); ++t)
+    for (const geometry::Index v : skin.mesh.triangles[t])
+      if (v >= n)
+        return bad("Triangle " + std::to_string(t) + " names vertex " + std::to_string(v) + " of " +
+                       std::to_string(n) + ".",
+                   "Repair the mesh first (geometry::repair).");
+  return {};
+}
+
+}  // namespace bodice::fitting

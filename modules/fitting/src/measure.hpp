@@ -1,0 +1,27 @@
+// The judge: how far a proxy's surface is from the skin, by the exact signed distance to the mesh.
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <bodice/fitting/fit.hpp>
+#include <bodice/geometry/types.hpp>
+
+namespace bodice::fitting {
+
+using geometry::Vec3;
+
+struct Measured {
+  Accuracy accuracy;
+  std::array<Spread, body::kPartCount> gap_of_part{};
+};
+
+/// Samples the proxy's surface, the skin (of the wanted parts) and the interior. Deterministic.
+Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
+                 const LabelledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts);
+
+/// Weighted mean, 95th percentile and maximum of (value, weight) pairs; zeros if there are none.
+Spread spread_of(std::vector<std::pair<double, double>> values);
+
+}  // namespace bodice::fitting

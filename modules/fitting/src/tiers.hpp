@@ -1,0 +1,20 @@
+// One function a tier: each turns a labelled skin into ellipsoids.
+#pragma once
+
+#include <bodice/fitting/fit.hpp>
+
+#include "allocate.hpp"
+
+namespace bodice::fitting {
+
+struct Draft {
+  proxy::BodyProxy::Data data;
+  Thresholds mu;
+  bool thresholds_reached = true;
+};
+
+/// As written: vertices, k-means, enclosing ellipsoids.
+Draft fit_paper(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+                int count);
+
+}  // namespace bodice::fitting
