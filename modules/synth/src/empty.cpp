@@ -1,1 +1,0 @@
-// Keeps the layer linkable until its first source lands.

@@ -1,0 +1,105 @@
+// The skeleton of a body of stature 1 in its rest pose, and the numbers that its flesh follows.
+//
+//   rest pose: trunk upright on the y axis, facing +z, arms 45 degrees below the horizontal with the
+//   thumbs in front, legs 12 degrees apart from the vertical, feet flat
+//
+// Everything here is in units of stature; make_body scales at the end.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include <bodice/body/proportions.hpp>
+#include <bodice/geometry/types.hpp>
+
+namespace bodice::synth {
+
+using geometry::Mat3;
+using geometry::Vec3;
+
+/// Bones; a limb's are in pairs, left first.
+enum class Bone : std::uint8_t {
+  kPelvis,
+  kSpine,
+  kChest,
+  kNeck,
+  kHead,
+  kClavicleL,
+  kClavicleR,
+  kUpperArmL,
+  kUpperArmR,
+  kForearmL,
+  kForearmR,
+  kHandL,
+  kHandR,
+  kFingersL,
+  kFingersR,
+  kFingertipsL,
+  kFingertipsR,
+  kThumbL,
+  kThumbR,
+  kThighL,
+  kThighR,
+  kCalfL,
+  kCalfR,
+  kFootL,
+  kFootR,
+  kToesL,
+  kToesR,
+};
+
+inline constexpr int kBoneCount = 27;
+
+/// `left` is the left bone of a pair; side 0 is left, 1 right.
+constexpr Bone of_side(Bone left, int side) {
+  return static_cast<Bone>(static_cast<int>(left) + side);
+}
+constexpr int index(Bone bone) {
+  return static_cast<int>(bone);
+}
+
+/// The bone that carries this one; the pelvis carries itself.
+Bone parent(Bone bone);
+
+/// The name of the joint at the bone's near end: "elbow_l" for the left forearm.
+std::string_view joint_name(Bone bone);
+
+/// How this body differs from the average of its sex, as factors of cross-section radii.
+struct Build {
+  double hip = 1.0, waist = 1.0, chest = 1.0, shoulder = 1.0;
+  double arm = 1.0, leg = 1.0, head = 1.0, bust = 1.0, seat = 1.0;
+};
+
+/// Axes of an arm or leg in the rest pose; `along` runs from the trunk to the end of the limb.
+struct LimbAxes {
+  Vec3 along;
+  Vec3 out;    ///< the back of the hand; the outer side of the leg
+  Vec3 front;  ///< +z
+};
+
+/// Lengths, joints and build of one body, in units of stature.
+struct Figure {
+  body::Sex sex = body::Sex::kFemale;
+  body::Proportions p;
+  Build build;
+  double fat = 0.0;  ///< 0: the table's slim body; grows girths, most of all the belly's
+  double hip_height = 0.0, ankle_height = 0.0;
+  std::array<Vec3, kBoneCount> joint;  ///< near end of each bone, rest pose
+  std::array<LimbAxes, 2> arm, leg;    ///< left, right
+
+  double female() const { return sex == body::Sex::kFemale ? 1.0 : 0.0; }
+  double upper_arm_length() const { return p.upper_arm - kShoulderDrop; }
+  double arm_length() const { return upper_arm_length() + p.forearm; }  ///< shoulder joint to wrist
+  double leg_length() const { return hip_height - ankle_height; }       ///< hip joint to ankle joint
+  double thigh_length() const { return hip_height - p.knee_height; }
+
+  static constexpr double kShoulderDrop = 0.012;  ///< acromion above the centre of the joint
+  static constexpr double kLegSpread_rad = 0.20943951023931953;
+  static constexpr double kArmDrop_rad = 0.78539816339744828;
+};
+
+/// The figure of the given sex and proportions. Seed 0 is the average; others vary lengths and girths
+/// within the spread of the surveys.
+Figure make_figure(body::Sex sex, const body::Proportions& proportions, std::uint64_t seed);
+
+}  // namespace bodice::synth

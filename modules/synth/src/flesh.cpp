@@ -1,0 +1,104 @@
+// Based on: Inigo Quilez. Smooth minimum (quadratic polynomial). 2013. - the union with a blend radius
+#include "flesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace bodice::synth {
+namespace {
+
+constexpr double kDerivativeStep = 1e-6;  // of stature: far below any feature, far above rounding
+constexpr double kLongestStep = 0.03;     // of stature: keeps Newton on its own limb
+constexpr double kMidGap = 4e-4;          // of stature: between thighs that are pressed together
+constexpr double kMidBlend = 0.008;       // of stature
+
+double smooth_min(double a, double b, double radius) {
+  const double h = std::max(radius - std::abs(a - b), 0.0);
+  return std::min(a, b) - (radius > 0.0 ? h * h / (4.0 * radius) : 0.0);
+}
+
+double smooth_max(double a, double b, double radius) {
+  return -smooth_min(-a, -b, radius);
+}
+
+}  // namespace
+
+Flesh::Flesh(const Figure& figure) {
+  add_trunk(figure);
+  add_head(figure);
+  for (int side = 0; side < 2; ++side) {
+    add_arm(figure, side);
+    add_leg(figure, side);
+  }
+  link_regions();
+}
+
+void Flesh::add(Region region, Loft loft, double blend) {
+  own_[static_cast<int>(region)].push_back(static_cast<int>(primitives_.size()));
+  primitives_.push_back({std::move(loft), blend});
+}
+
+void Flesh::link_regions() {
+  const auto link = [&](Region region, std::initializer_list<Region> seen) {
+    auto& list = visible_[static_cast<int>(region)];
+    for (const Region r : seen)
+      list.insert(list.end(), own_[static_cast<int>(r)].begin(), own_[static_cast<int>(r)].end());
+    std::sort(list.begin(), list.end());
+  };
+  using enum Region;
+  link(kTrunk, {kTrunk, kHead, kArmL, kArmR, kLegL, kLegR});
+  link(kCrotch, {kTrunk});
+  link(kHead, {kTrunk, kHead});
+  for (int side = 0; side < 2; ++side) {
+    const Region arm = region_of_side(kArmL, side), leg = region_of_side(kLegL, side);
+    link(arm, {kTrunk, arm});
+    link(leg, {kTrunk, leg});
+    for (int d = 0; d < kDigitsPerHand; ++d) {
+      link(arm, {digit_region(side, d)});
+      link(digit_region(side, d), {arm, digit_region(side, d)});
+    }
+  }
+}
+
+double Flesh::value(Region region, const Vec3& p) const {
+  double total = 1.0;
+  for (const int i : visible_[static_cast<int>(region)]) {
+    const Primitive& primitive = primitives_[i];
+    const double reach = total + primitive.blend + primitive.loft.bound_radius();
+    if (reach < 0.0 || (p - primitive.loft.bound_center()).squaredNorm() > reach * reach) continue;
+    total = smooth_min(total, primitive.loft.value(p), primitive.blend);
+  }
+  if (region == Region::kLegL) total = smooth_max(total, kMidGap - p.x(), kMidBlend);
+  if (region == Region::kLegR) total = smooth_max(total, kMidGap + p.x(), kMidBlend);
+  return total;
+}
+
+Vec3 Flesh::gradient(Region region, const Vec3& p, double value) const {
+  Vec3 g;
+  for (int c = 0; c < 3; ++c) {
+    Vec3 moved = p;
+    moved[c] += kDerivativeStep;
+    g[c] = (this->value(region, moved) - value) / kDerivativeStep;
+  }
+  return g;
+}
+
+Vec3 Flesh::project(Region region, Vec3 p, int steps, Vec3* normal) const {
+  Vec3 g = Vec3::UnitY();
+  for (int step = 0; step < steps; ++step) {
+    const double f = value(region, p);
+    g = gradient(region, p, f);
+    const double square = g.squaredNorm();
+    if (square < 1e-4) break;  // on an axis: no direction to go
+    Vec3 move = -f / square * g;
+    const double length = move.norm();
+    if (length > kLongestStep) move *= kLongestStep / length;
+    p += move;
+  }
+  if (normal) *normal = g.normalized();
+  return p;
+}
+
+}  // namespace bodice::synth
