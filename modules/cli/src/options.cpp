@@ -124,6 +124,20 @@ void add_builtin_options(CLI::App& command, CommonOptions& o) {
 }
 
 void add_run_options(CLI::App& command, CommonOptions& o) {
+  command.add_option("--threads", o.threads, "workers; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("--seed", o.seed, "seed of everything random")->capture_default_str();
+  command.add_flag("-q,--quiet", o.quiet, "print nothing but errors");
+}
+
+void add_common_options(CLI::App& command, CommonOptions& o) {
+  command.add_option("BODY", o.body,
+                     "body mesh: OBJ, PLY, STL, glTF/GLB, FBX, DAE (default: the built-in body)");
+  add_fit_options(command, o);
+  add_input_options(command, o);
+  add_builtin_options(command, o);
+  add_output_options(command, o);
   add_run_options(command, o);
 }
 

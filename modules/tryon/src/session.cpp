@@ -125,9 +125,8 @@ FrameOutcome Session::frame(double dt_s) {
     const LiveBody* body = impl_->bodies.current();
     outcome.has_body = body != nullptr;
     if (body) outcome.proxy_hash = body->proxy.hash();
-    if (!impl_->solver) return;
-    outcome.cloth =
-        body ? impl_->solver->step(context, body->collider, dt_s) : impl_->solver->step(context, dt_s);
+    // Without a body the garments would fall to the floor before there is anything to wear them.
+    if (body && impl_->solver) outcome.cloth = impl_->solver->step(context, body->collider, dt_s);
   });
   return outcome;
 }

@@ -63,7 +63,7 @@ class Session {
   /// Each takes effect at a frame boundary. Work on an earlier body stops.
   engine::Ticket submit(BodySource source);
 
-  /// Puts garments on, in place of those worn; not in a frame. Before the first body they hang in the air.
+  /// Puts garments on, in place of those worn; not in a frame. They wait where they are for the first body.
   engine::Result<void> dress(const std::vector<WornGarment>& garments);
 
   /// A frame boundary, then dt_s of cloth. Allocates nothing once warm.
