@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <thread>
 
 #include <bodice/engine/executor.hpp>
@@ -33,7 +34,12 @@ class Backoff {
 /// come to a checkpoint take part in them.
 class FrameGate {
  public:
-  FrameGate(int frame_workers, BackgroundYield policy) : seats_(frame_workers), policy_(policy) {}
+  /// `background_share` in [0, 1): of a background thread's time, at least, however long the frames.
+  FrameGate(int frame_workers, BackgroundYield policy, double background_share, const Clock& clock)
+      : seats_(frame_workers),
+        policy_(policy),
+        own_per_stay_(background_share / (1.0 - background_share)),
+        clock_(clock) {}
 
   void begin_frame() noexcept {
     frame_thread_.store(std::this_thread::get_id(), std::memory_order_relaxed);
@@ -70,19 +76,24 @@ class FrameGate {
     if (!in_frame || policy_ == BackgroundYield::kNone) return;
     // A job that runs on the frame's own thread must not wait for the frame to end.
     if (frame_thread_.load(std::memory_order_relaxed) == std::this_thread::get_id()) return;
+    if (clock_.now_ns() < busy_until_ns_.load(std::memory_order_relaxed)) return;
     if (guests_.fetch_add(1) < seats_ - 1) stay(epoch);
     guests_.fetch_sub(1);
   }
 
  private:
-  // Until the end of this frame and no other, so that background work moves on by a block a frame even
-  // where frames follow one another without a gap.
+  // Until the end of this frame and no other; then background work has its share of time before the next
+  // stay. Where frames leave gaps, that time lies in the gap; where they leave none, this keeps it alive.
   void stay(std::uint64_t epoch) noexcept {
+    const std::int64_t begin_ns = clock_.now_ns();
     Backoff backoff;
     do {
       if (help()) backoff = {};
       backoff.pause();
     } while (policy_ == BackgroundYield::kStay && epoch_.load(std::memory_order_relaxed) == epoch);
+    const std::int64_t end_ns = clock_.now_ns();
+    const auto own_ns = static_cast<std::int64_t>(own_per_stay_ * static_cast<double>(end_ns - begin_ns));
+    busy_until_ns_.store(end_ns + own_ns, std::memory_order_relaxed);
   }
 
   bool help() noexcept {
@@ -96,11 +107,15 @@ class FrameGate {
 
   const int seats_;
   const BackgroundYield policy_;
+  const double own_per_stay_;
+  const Clock& clock_;
   std::atomic<std::thread::id> frame_thread_{};
   alignas(64) std::atomic<std::uint64_t> epoch_{0};  // odd while a frame runs
   alignas(64) std::atomic<OpenLoop*> open_{nullptr};
   alignas(64) std::atomic<int> visitors_{0};
   alignas(64) std::atomic<int> guests_{0};
+  // Guests stay until the same moment, so that one time serves them all.
+  std::atomic<std::int64_t> busy_until_ns_{std::numeric_limits<std::int64_t>::min()};
 };
 
 /// Runs the frame's loops on free workers of the base executor and on background threads alike.

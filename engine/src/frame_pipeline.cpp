@@ -28,7 +28,8 @@ struct FramePipeline::Impl {
   Impl(const Context& given, const PipelineOptions& wanted)
       : base(given),
         options(wanted),
-        gate(clamp_workers(given, wanted.frame_workers), wanted.yield),
+        gate(clamp_workers(given, wanted.frame_workers), wanted.yield,
+             std::clamp(wanted.background_share, 0.0, 0.9), *given.clock),
         frame_executor(*given.executor, gate),
         background_executor(*given.executor, gate) {
     options.delay_frames = std::max(1, options.delay_frames);

@@ -177,7 +177,7 @@ TEST_CASE("a frame ends while a background block does not: the frame never waits
 TEST_CASE("after its current block a background thread works for the frame until the frame ends") {
   for (const BackgroundYield policy : {BackgroundYield::kStay, BackgroundYield::kHelp}) {
     const auto executor = make_threads(2);
-    FramePipeline pipeline(Context{.executor = executor.get()}, {.yield = policy});
+    FramePipeline pipeline(Context{.executor = executor.get()}, {.yield = policy, .background_share = 0.0});
     Stream<int> stream(pipeline);
     std::atomic<bool> stop{false};
     std::atomic<std::uint64_t> blocks{0};

@@ -47,6 +47,9 @@ struct PipelineOptions {
   /// executor has keeps the others for background work even during frames.
   int frame_workers = 0;
   BackgroundYield yield = BackgroundYield::kStay;
+  /// Under kStay, the least share of its time that a background thread has for itself where frames follow
+  /// one another without a gap; within [0, 0.9]. Frames with gaps as long as this give up nothing.
+  double background_share = 0.25;
 };
 
 struct FrameReport {
@@ -64,7 +67,8 @@ class StreamBase;
 /// once; a worker joins after the block of background work that it is in (up to its next checkpoint), and
 /// the frame waits only for workers that are in a block of the frame itself. So a frame takes at most as
 /// long as on the calling thread alone plus one of its own blocks, however long background blocks are;
-/// with background blocks of at most s, all workers are with it after s. The boundary waits in
+/// with background blocks of at most s, and gaps between frames, all workers are with it after s (without
+/// gaps after s and what background_share takes). The boundary waits in
 /// deterministic mode only. README: what this needs of the machine.
 ///
 /// One thread calls frame, and submits to and reads the streams.

@@ -1,0 +1,129 @@
+// How long do frames take while a body is prepared, and how long does the body take behind the frames?
+//
+//     build/release/bench/overlap [--quick] [--workers N] [--csv FILE] [--svg FILE] [--trace FILE]
+#include <cstdio>
+#include <fstream>
+
+#include <CLI/CLI.hpp>
+
+#include "measure.hpp"
+
+using namespace bodice::engine;
+using namespace bodice_bench;
+
+namespace {
+
+std::vector<Condition> conditions(int workers) {
+  using enum BackgroundYield;
+  std::vector<Condition> all = {
+      {"60 Hz, idle", false, 60.0},
+      {"60 Hz, fit, no yield", true, 60.0, 0, kNone},
+      {"60 Hz, fit, help", true, 60.0, 0, kHelp},
+      {"60 Hz, fit, stay", true, 60.0, 0, kStay},
+      {"no gaps, idle", false, 0.0},
+      {"no gaps, fit, no yield", true, 0.0, 0, kNone},
+      {"no gaps, fit, help", true, 0.0, 0, kHelp},
+      {"no gaps, fit, stay", true, 0.0, 0, kStay},
+      {"no gaps, a worker spared, idle", false, 0.0, std::max(1, workers - 1), kStay},
+      {"no gaps, a worker spared, fit", true, 0.0, std::max(1, workers - 1), kStay},
+  };
+  return all;
+}
+
+// Blocks of loops are drawn in the picture only; timing runs are not slowed by them.
+class TracedBlocks final : public Workload {
+ public:
+  explicit TracedBlocks(Workload& work, Executor& executor) : work_(work), executor_(executor) {}
+  std::string describe() const override { return work_.describe(); }
+  void frame(const Context& context) override {
+    with_spans(context, "frame loop", [&](const Context& c) { work_.frame(c); });
+  }
+  Result<void> prepare(const Context& context, FunctionRef<void()> publish) const override {
+    Result<void> result;
+    with_spans(context, "background block", [&](const Context& c) { result = work_.prepare(c, publish); });
+    return result;
+  }
+
+ private:
+  class Spans final : public Executor {
+   public:
+    Spans(const Context& context, const char* name) : context_(context), name_(name) {}
+    int concurrency() const noexcept override { return context_.executor->concurrency(); }
+    void yield() noexcept override {}
+    void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) override {
+      context_.executor->bulk(count, [&](std::size_t i) {
+        context_.executor->yield();
+        const TraceSpan span(context_, name_);
+        body(i);
+      });
+    }
+
+   private:
+    Context context_;
+    const char* name_;
+  };
+  template <class Call>
+  static void with_spans(const Context& context, const char* name, Call&& call) {
+    Spans spans(context, name);
+    Context inner = context;
+    inner.executor = &spans;
+    call(inner);
+  }
+  Workload& work_;
+  Executor& executor_;
+};
+
+void draw(Workload& work, Executor& executor, const std::string& svg_path, const std::string& trace_path) {
+  Trace trace(1u << 20);
+  TracedBlocks traced(work, executor);
+  measure({"picture", true, 60.0}, traced, executor, 0.4, &trace);
+  if (!svg_path.empty()) std::ofstream(svg_path) << timeline_svg(trace, 120.0, 190.0);
+  if (!trace_path.empty()) {
+    if (const auto written = trace.write(trace_path); !written)
+      std::fprintf(stderr, "%s\n", written.error().sentence().c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Frames beside preprocessing: frame times, and time until the first and the final result");
+  bool quick = false;
+  int workers = 0;
+  double slice_us = 200.0;
+  std::string csv_path, svg_path, trace_path;
+  app.add_flag("--quick", quick, "Shorter runs");
+  app.add_option("--workers", workers, "Workers, the caller included; 0: one a hardware thread");
+  app.add_option("--slice-us", slice_us, "Length of a background block of the synthetic work");
+  app.add_option("--csv", csv_path, "Write the rows here, too");
+  app.add_option("--svg", svg_path, "Draw a timeline of 70 ms");
+  app.add_option("--trace", trace_path, "Write the trace of the drawn run (Chrome trace events)");
+  CLI11_PARSE(app, argc, argv);
+
+  const auto executor = make_tbb_executor(workers);
+  const auto work = make_synthetic(slice_us);
+  const double foreground_ms = foreground_fit_ms(*work, *executor);
+  std::printf("%s; %d workers\nfit alone, in the foreground: %.0f ms\n\n", work->describe().c_str(),
+              executor->concurrency(), foreground_ms);
+  std::printf(
+      "| condition | frames | p50 ms | p99 ms | max ms | first result ms | final ms | others' load |\n");
+  std::printf("|---|---|---|---|---|---|---|---|\n");
+  std::string csv =
+      "condition,workers,frames,p50_ms,p99_ms,max_ms,first_result_ms,final_result_ms,foreground_fit_ms,other_"
+      "load\n";
+  for (const Condition& condition : conditions(executor->concurrency())) {
+    const Row row = measure(condition, *work, *executor, quick ? 1.0 : 5.0, nullptr);
+    std::printf("| %s | %zu | %.2f | %.2f | %.2f | %.0f | %.0f | %.0f %% |\n", row.name.c_str(), row.frames,
+                row.p50_ms, row.p99_ms, row.max_ms, row.first_result_ms, row.last_result_ms,
+                100 * row.other_load);
+    std::fflush(stdout);
+    char line[256];
+    std::snprintf(line, sizeof line, "\"%s\",%d,%zu,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f,%.3f\n", row.name.c_str(),
+                  executor->concurrency(), row.frames, row.p50_ms, row.p99_ms, row.max_ms,
+                  row.first_result_ms, row.last_result_ms, foreground_ms, row.other_load);
+    csv += line;
+  }
+  if (!csv_path.empty()) std::ofstream(csv_path) << csv;
+  if (!svg_path.empty() || !trace_path.empty()) draw(*work, *executor, svg_path, trace_path);
+  return 0;
+}

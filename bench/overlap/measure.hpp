@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <bodice/engine/frame_pipeline.hpp>
+#include <bodice/engine/trace.hpp>
+#include "workload.hpp"
+
+namespace bodice_bench {
+
+/// One way to run frames beside preprocessing.
+struct Condition {
+  std::string name;
+  bool fit = false;           ///< a body is prepared in the background
+  double frames_per_s = 0.0;  ///< 0: one frame after the other
+  int frame_workers = 0;      ///< of PipelineOptions
+  bodice::engine::BackgroundYield yield = bodice::engine::BackgroundYield::kStay;
+};
+
+struct Row {
+  std::string name;
+  std::size_t frames = 0;
+  double p50_ms = 0.0, p99_ms = 0.0, max_ms = 0.0;
+  double first_result_ms = 0.0, last_result_ms = 0.0;  ///< from submission to taking effect; 0 without a fit
+  double other_load = 0.0;  ///< share of the machine's time that other programs took meanwhile
+};
+
+/// Runs frames for at least `least_s` seconds and until the fit has ended and taken effect.
+Row measure(const Condition& condition, Workload& work, bodice::engine::Executor& executor, double least_s,
+            bodice::engine::Trace* trace);
+
+/// Milliseconds of the preparation alone, all workers, nothing beside it.
+double foreground_fit_ms(const Workload& work, bodice::engine::Executor& executor);
+
+/// A picture of `trace` between two moments: a lane a thread, frames and background work told apart.
+std::string timeline_svg(const bodice::engine::Trace& trace, double from_ms, double to_ms);
+
+}  // namespace bodice_bench
