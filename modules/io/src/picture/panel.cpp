@@ -9,6 +9,7 @@ namespace {
 constexpr int kSuper = 3;  // samples a pixel and axis
 constexpr float kMargin = 0.05f;
 constexpr float kInsideOfCloth = 0.55f;
+constexpr float kGroundLine = 0.6f * kSuper;  // half its thickness, samples
 
 View panel_view(const geometry::Box& box, Side side, int width, int height) {
   View view;
@@ -45,72 +46,117 @@ class SrgbTable {
   std::array<std::uint8_t, 4096> table_;
 };
 
-struct Panel {
-  explicit Panel(const View& v) : view(v), depth(v), color(depth.depth.size()) {}
-  View view;
-  DepthBuffer depth;
-  std::vector<Vec3f> color;  // linear
-};
-
-void paint_backdrop(Panel& panel, float ground_y) {
-  const float line = 0.6f * kSuper;
-  for (int y = 0; y < panel.view.height; ++y) {
-    const float t = static_cast<float>(y) / static_cast<float>(panel.view.height);
-    Vec3f color = (1.0f - t) * Vec3f(0.96f, 0.97f, 0.98f) + t * Vec3f(0.86f, 0.87f, 0.88f);
-    const float below = static_cast<float>(y) - ground_y;
-    if (below > 0.0f) color *= 0.93f;
-    if (std::abs(below) < line) color = Vec3f::Constant(0.42f);
-    std::fill_n(panel.color.begin() + static_cast<std::ptrdiff_t>(panel.depth.at(0, y)), panel.view.width,
-                color);
+/// Which triangle of which actor each sample shows. Shading comes last, once a pixel and triangle.
+class Panel {
+ public:
+  Panel(const std::vector<Actor>& actors, const geometry::Box& box, const View& view)
+      : actors_(actors), view_(view), lighting_(actors, box, view), depth_(view), seen_(depth_.depth.size(), kNone) {
+    const geometry::Vec3 ground(box.center().x(), box.low.y(), box.center().z());
+    ground_y_ = view.project(ground.cast<float>()).y();
+    for (std::uint32_t a = 0; a < actors.size(); ++a) draw(a);
   }
-}
 
-void draw_actor(const Actor& actor, const Lighting& lighting, Panel& panel) {
-  const Vec3f eye = panel.view.toward_eye;
-  std::vector<Vec3f> projected;
-  projected.reserve(actor.positions.size());
-  for (const Vec3f& p : actor.positions) projected.push_back(panel.view.project(p));
-  auto mix = [](const std::vector<Vec3f>& values, const geometry::Triangle& t, const Vec3f& w) {
-    return Vec3f(w[0] * values[t[0]] + w[1] * values[t[1]] + w[2] * values[t[2]]);
-  };
-  for (const geometry::Triangle& t : actor.triangles)
-    draw_triangle(panel.depth, projected[t[0]], projected[t[1]], projected[t[2]],
-                  [&](std::size_t pixel, const Vec3f& w) {
-                    Vec3f normal = mix(actor.normals, t, w).normalized();
-                    Vec3f color = mix(actor.colors, t, w);
-                    if (actor.two_sided && normal.dot(eye) < 0.0f) {
-                      normal = -normal;
-                      color *= kInsideOfCloth;
-                    }
-                    panel.color[pixel] = lighting.shade(mix(actor.positions, t, w), normal, eye, color);
-                  });
-}
-
-/// Averages the samples in linear light.
-void resolve(const Panel& panel, int x0, int y0, Image& image) {
-  const SrgbTable srgb;
-  for (int y = 0; y < panel.view.height / kSuper; ++y)
-    for (int x = 0; x < panel.view.width / kSuper; ++x) {
-      Vec3f sum = Vec3f::Zero();
-      for (int sy = 0; sy < kSuper; ++sy)
-        for (int sx = 0; sx < kSuper; ++sx)
-          sum += panel.color[panel.depth.at(x * kSuper + sx, y * kSuper + sy)].cwiseMin(1.0f);
-      const std::size_t pixel = static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(image.width) +
-                                static_cast<std::size_t>(x0 + x);
-      for (int k = 0; k < 3; ++k)
-        image.rgb[3 * pixel + static_cast<std::size_t>(k)] = srgb(sum[k] / (kSuper * kSuper));
+  /// The mean of a pixel's samples in linear light.
+  Vec3f pixel(int x, int y) const {
+    std::array<std::uint32_t, kSuper * kSuper> ids;
+    std::size_t n = 0;
+    Vec3f sum = Vec3f::Zero();
+    for (int sy = 0; sy < kSuper; ++sy)
+      for (int sx = 0; sx < kSuper; ++sx) ids[n++] = seen_[depth_.at(x * kSuper + sx, y * kSuper + sy)];
+    for (std::size_t first = 0; first < n; ++first) {
+      if (std::find(ids.begin(), ids.begin() + first, ids[first]) != ids.begin() + first) continue;
+      sum += ids[first] == kNone ? backdrop_of(ids, y) : triangle_of(ids, first, x, y);
     }
-}
+    return sum / static_cast<float>(n);
+  }
+
+ private:
+  using Ids = std::array<std::uint32_t, kSuper * kSuper>;
+  struct Drawn {
+    std::uint32_t actor;
+    std::uint32_t triangle;
+    FlatTriangle flat;
+  };
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+
+  void draw(std::uint32_t a) {
+    const Actor& actor = actors_[a];
+    std::vector<Vec3f> projected;
+    projected.reserve(actor.positions.size());
+    for (const Vec3f& p : actor.positions) projected.push_back(view_.project(p));
+    for (std::uint32_t t = 0; t < actor.triangles.size(); ++t) {
+      const auto& [i, j, k] = actor.triangles[t];
+      const auto id = static_cast<std::uint32_t>(drawn_.size());
+      drawn_.push_back({a, t, {projected[i], projected[j], projected[k]}});
+      draw_triangle(depth_, drawn_.back().flat, [&](std::size_t sample) { seen_[sample] = id; });
+    }
+  }
+
+  Vec3f backdrop(float sample_y) const {
+    const float t = sample_y / static_cast<float>(view_.height);
+    const Vec3f color = (1.0f - t) * Vec3f(0.96f, 0.97f, 0.98f) + t * Vec3f(0.86f, 0.87f, 0.88f);
+    const float below = sample_y - ground_y_;
+    if (std::abs(below) < kGroundLine) return Vec3f::Constant(0.42f);
+    return below > 0.0f ? Vec3f(0.93f * color) : color;
+  }
+
+  Vec3f backdrop_of(const Ids& ids, int y) const {
+    Vec3f sum = Vec3f::Zero();
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if (ids[i] == kNone) sum += backdrop(static_cast<float>(y * kSuper + static_cast<int>(i) / kSuper));
+    return sum;
+  }
+
+  /// The light of one triangle times its samples, shaded at the middle of those samples.
+  Vec3f triangle_of(const Ids& ids, std::size_t first, int x, int y) const {
+    float px = 0.0f, py = 0.0f, count = 0.0f;
+    for (std::size_t i = first; i < ids.size(); ++i) {
+      if (ids[i] != ids[first]) continue;
+      px += static_cast<float>(x * kSuper + static_cast<int>(i) % kSuper) + 0.5f;
+      py += static_cast<float>(y * kSuper + static_cast<int>(i) / kSuper) + 0.5f;
+      count += 1.0f;
+    }
+    const Drawn& drawn = drawn_[ids[first]];
+    return count * shade(drawn, drawn.flat.weights(px / count, py / count)).cwiseMin(1.0f);
+  }
+
+  Vec3f shade(const Drawn& drawn, const Vec3f& w) const {
+    const Actor& actor = actors_[drawn.actor];
+    const auto& [i, j, k] = actor.triangles[drawn.triangle];
+    auto mix = [&, i = i, j = j, k = k](const std::vector<Vec3f>& values) {
+      return Vec3f(w[0] * values[i] + w[1] * values[j] + w[2] * values[k]);
+    };
+    Vec3f normal = mix(actor.normals).normalized(), color = mix(actor.colors);
+    if (normal.dot(view_.toward_eye) < 0.0f && actor.two_sided) {
+      normal = -normal;
+      color *= kInsideOfCloth;
+    }
+    return lighting_.shade(mix(actor.positions), normal, view_.toward_eye, color);
+  }
+
+  const std::vector<Actor>& actors_;
+  View view_;
+  Lighting lighting_;
+  DepthBuffer depth_;
+  std::vector<std::uint32_t> seen_;  // index into drawn_
+  std::vector<Drawn> drawn_;
+  float ground_y_ = 0.0f;  // samples from the top
+};
 
 }  // namespace
 
-void draw_panel(const std::vector<Actor>& actors, const Lighting& lighting, const geometry::Box& box, Side side,
-                int width, int height, int x, int y, Image& image) {
-  Panel panel(panel_view(box, side, width, height));
-  const geometry::Vec3 ground(box.center().x(), box.low.y(), box.center().z());
-  paint_backdrop(panel, panel.view.project(ground.cast<float>()).y());
-  for (const Actor& actor : actors) draw_actor(actor, lighting, panel);
-  resolve(panel, x, y, image);
+void draw_panel(const std::vector<Actor>& actors, const geometry::Box& box, Side side, const Rectangle& where,
+                Image& image) {
+  const Panel panel(actors, box, panel_view(box, side, where.width, where.height));
+  const SrgbTable srgb;
+  for (int y = 0; y < where.height; ++y) {
+    std::size_t out = 3 * (static_cast<std::size_t>(where.y + y) * static_cast<std::size_t>(image.width) +
+                           static_cast<std::size_t>(where.x));
+    for (int x = 0; x < where.width; ++x) {
+      const Vec3f color = panel.pixel(x, y);
+      for (int k = 0; k < 3; ++k) image.rgb[out++] = srgb(color[k]);
+    }
+  }
 }
 
 }  // namespace bodice::io

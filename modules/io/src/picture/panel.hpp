@@ -8,8 +8,12 @@ namespace bodice::io {
 
 enum class Side { kFront, kLeft };
 
-/// Draws into the image's rectangle at (x, y). `box` is what must fit; the ground is its bottom.
-void draw_panel(const std::vector<Actor>& actors, const Lighting& lighting, const geometry::Box& box, Side side,
-                int width, int height, int x, int y, Image& image);
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;  ///< pixels
+};
+
+/// Draws into the image's rectangle. `box` is what must fit; the ground is its bottom.
+void draw_panel(const std::vector<Actor>& actors, const geometry::Box& box, Side side, const Rectangle& where,
+                Image& image);
 
 }  // namespace bodice::io

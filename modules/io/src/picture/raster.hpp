@@ -41,11 +41,23 @@ struct DepthBuffer {
   std::vector<float> depth;
 };
 
-/// Calls shade(pixel, w) for each pixel centre of the projected triangle that is nearer than what is there;
-/// w are the barycentric weights of a, b and c. Draws both sides.
-template <class Shade>
-void draw_triangle(DepthBuffer& buffer, const Vec3f& a, const Vec3f& b, const Vec3f& c, Shade&& shade) {
-  const float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+/// A projected triangle: barycentric weights of a place in the picture.
+struct FlatTriangle {
+  Vec3f a, b, c;
+  float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());  ///< twice, signed
+
+  Vec3f weights(float x, float y) const {
+    const float wb = ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / area;
+    const float wc = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
+    return {1.0f - wb - wc, wb, wc};
+  }
+};
+
+/// Calls visit(pixel) for each pixel centre of the triangle that is nearer than what is there, and keeps its
+/// depth. Draws both sides.
+template <class Visit>
+void draw_triangle(DepthBuffer& buffer, const FlatTriangle& triangle, Visit&& visit) {
+  const auto& [a, b, c, area] = triangle;
   if (!(std::abs(area) > 1e-12f)) return;
   auto first = [](float low) { return static_cast<int>(std::ceil(std::max(low - 0.5f, 0.0f))); };
   auto last = [](float high, int size) {
@@ -58,16 +70,13 @@ void draw_triangle(DepthBuffer& buffer, const Vec3f& a, const Vec3f& b, const Ve
   for (int y = first(y_low); y <= y_end; ++y) {
     const float py = static_cast<float>(y) + 0.5f;
     for (int x = first(x_low); x <= x_end; ++x) {
-      const float px = static_cast<float>(x) + 0.5f;
-      const float wb = ((px - a.x()) * (c.y() - a.y()) - (py - a.y()) * (c.x() - a.x())) / area;
-      const float wc = ((b.x() - a.x()) * (py - a.y()) - (b.y() - a.y()) * (px - a.x())) / area;
-      const float wa = 1.0f - wb - wc;
-      if (wa < 0.0f || wb < 0.0f || wc < 0.0f) continue;
-      const float depth = wa * a.z() + wb * b.z() + wc * c.z();
+      const Vec3f w = triangle.weights(static_cast<float>(x) + 0.5f, py);
+      if (w.minCoeff() < 0.0f) continue;
+      const float depth = w.dot(Vec3f(a.z(), b.z(), c.z()));
       const std::size_t pixel = buffer.at(x, y);
       if (depth >= buffer.depth[pixel]) continue;
       buffer.depth[pixel] = depth;
-      shade(pixel, Vec3f(wa, wb, wc));
+      visit(pixel);
     }
   }
 }

@@ -12,9 +12,9 @@ constexpr float kShadowBiasPixels = 5.0f;
 /// The penumbra: a ring of samples this far around the point.
 constexpr float kPenumbraPixels = 5.0f;
 
-View light_view(const geometry::Box& box) {
+View light_view(const geometry::Box& box, const View& eye) {
   View view;
-  view.toward_eye = Vec3f(-0.45f, 0.75f, 0.85f).normalized();
+  view.toward_eye = (-0.5f * eye.right + 0.75f * eye.up + 0.85f * eye.toward_eye).normalized();
   view.right = Vec3f::UnitY().cross(view.toward_eye).normalized();
   view.up = view.toward_eye.cross(view.right);
   view.center = box.center().cast<float>();
@@ -43,12 +43,14 @@ Actor make_actor(const geometry::TriMesh& mesh, const Vec3f& color, bool two_sid
   return actor;
 }
 
-Lighting::Lighting(const std::vector<Actor>& actors, const geometry::Box& box)
-    : view_(light_view(box)), shadow_(view_), bias_(kShadowBiasPixels) {
+Lighting::Lighting(const std::vector<Actor>& actors, const geometry::Box& box, const View& eye)
+    : view_(light_view(box, eye)), shadow_(view_), bias_(kShadowBiasPixels) {
   for (const Actor& actor : actors)
     for (const auto& [a, b, c] : actor.triangles)
-      draw_triangle(shadow_, view_.project(actor.positions[a]), view_.project(actor.positions[b]),
-                    view_.project(actor.positions[c]), [](std::size_t, const Vec3f&) {});
+      draw_triangle(shadow_,
+                    {view_.project(actor.positions[a]), view_.project(actor.positions[b]),
+                     view_.project(actor.positions[c])},
+                    [](std::size_t) {});
 }
 
 float Lighting::lit(const Vec3f& point, const Vec3f& normal) const {
@@ -77,7 +79,8 @@ Vec3f Lighting::shade(const Vec3f& point, const Vec3f& normal, const Vec3f& towa
   const float facing = normal.dot(view_.toward_eye);
   const float key = facing > 0.0f ? facing * lit(point, normal) : 0.0f;
   const float sky = 0.5f + 0.5f * normal.y();
-  const float rim = std::pow(1.0f - std::clamp(normal.dot(toward_eye), 0.0f, 1.0f), 3.0f);
+  const float grazing = 1.0f - std::clamp(normal.dot(toward_eye), 0.0f, 1.0f);
+  const float rim = grazing * grazing * grazing;
   const Vec3f ambient = sky * Vec3f(0.36f, 0.38f, 0.41f) + (1.0f - sky) * Vec3f(0.17f, 0.155f, 0.145f);
   const Vec3f half = (view_.toward_eye + toward_eye).normalized();
   const float gloss = key * 0.06f * std::pow(std::max(0.0f, normal.dot(half)), 24.0f);

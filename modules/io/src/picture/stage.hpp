@@ -21,10 +21,11 @@ Actor make_actor(const geometry::TriMesh& mesh, const Vec3f& color, bool two_sid
 float to_linear(float srgb);
 Vec3f to_linear(std::span<const float, 3> srgb);
 
-/// One key light with soft shadows, light from the sky and a little from the ground.
+/// A key light over the left shoulder of the eye, with soft shadows; light from the sky, a little from the
+/// ground.
 class Lighting {
  public:
-  Lighting(const std::vector<Actor>& actors, const geometry::Box& box);
+  Lighting(const std::vector<Actor>& actors, const geometry::Box& box, const View& eye);
 
   /// Linear light toward the eye from a surface point; `normal` faces the eye.
   Vec3f shade(const Vec3f& point, const Vec3f& normal, const Vec3f& toward_eye, const Vec3f& color) const;

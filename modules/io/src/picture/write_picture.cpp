@@ -84,10 +84,10 @@ Image draw(const std::vector<std::vector<Actor>>& rows, const PictureOptions& op
   image.rgb.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   const geometry::Box box = box_of(rows);
   for (std::size_t row = 0; row < rows.size(); ++row) {
-    const Lighting lighting(rows[row], box);
-    const int y = static_cast<int>(row) * options.height;
-    draw_panel(rows[row], lighting, box, Side::kFront, options.width, options.height, 0, y, image);
-    draw_panel(rows[row], lighting, box, Side::kLeft, options.width, options.height, options.width, y, image);
+    Rectangle where{0, static_cast<int>(row) * options.height, options.width, options.height};
+    draw_panel(rows[row], box, Side::kFront, where, image);
+    where.x = options.width;
+    draw_panel(rows[row], box, Side::kLeft, where, image);
   }
   return image;
 }
