@@ -100,6 +100,7 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
     update_air(context, s.options.environment, s.options.seed, s.time_s, s.particles, s.air);
   for (int substep = 0; substep < plan.substeps; ++substep) {
     report.limits |= predict(context, plan.substep_s, s);
+    move_pins(s.pins, (substep + 1.0) / plan.substeps, s.particles);
     for (int iteration = 0; iteration < s.options.iterations; ++iteration) {
       solve_bend(context, s.bend, plan.substep_s, s.particles);
       solve_stretch(context, s.stretch, plan.substep_s, s.particles);
@@ -108,6 +109,7 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
     report.contacts.add(finish_substep(context, collider, s.options, static_cast<float>(s.fabric.friction),
                                        plan.substep_s, s.contacts, s.particles));
   }
+  if (plan.substeps > 0) settle_pins(s.pins);
   s.time_s += plan.simulated_s;
   measure(context, s, report);
   return report;

@@ -42,21 +42,30 @@ void reorder(WeldedGarment& garment) {
   for (Index& p : garment.particle_of_vertex) p = p == geometry::kNoIndex ? p : place[p];
 }
 
-std::vector<bool> pinned_particles(const WeldedGarment& garment, std::span<const Index> pinned,
-                                   std::vector<engine::Warning>& warnings) {
-  std::vector<bool> out(garment.mesh.positions.size(), false);
+Pins make_pins(const WeldedGarment& garment, std::span<const Index> pinned,
+               std::vector<engine::Warning>& warnings) {
+  Pins pins;
   std::size_t unknown = 0;
   for (const Index v : pinned) {
-    if (v < garment.particle_of_vertex.size() && garment.particle_of_vertex[v] != geometry::kNoIndex) {
-      out[garment.particle_of_vertex[v]] = true;
-    } else {
-      ++unknown;
-    }
+    const bool known =
+        v < garment.particle_of_vertex.size() && garment.particle_of_vertex[v] != geometry::kNoIndex;
+    pins.particle.push_back(known ? garment.particle_of_vertex[v] : geometry::kNoIndex);
+    pins.from.push_back(known ? garment.mesh.positions[pins.particle.back()] : Vec3(Vec3::Zero()));
+    if (!known) ++unknown;
   }
+  pins.to = pins.from;
   if (unknown > 0) {
     warnings.push_back({"garment-pins-dropped", "garment",
                         std::to_string(unknown) + " pins name a vertex that does not exist or was dropped.",
                         ""});
+  }
+  return pins;
+}
+
+std::vector<bool> pinned_particles(const Pins& pins, std::size_t particles) {
+  std::vector<bool> out(particles, false);
+  for (const Index p : pins.particle) {
+    if (p != geometry::kNoIndex) out[p] = true;
   }
   return out;
 }
@@ -83,7 +92,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.options = options;
   s.warnings = std::move(welded->warnings);
   const geometry::TriMesh& mesh = welded->mesh;
-  s.particles = make_particles(mesh, fabric.density_kg_m2, pinned_particles(*welded, pinned, s.warnings));
+  s.pins = make_pins(*welded, pinned, s.warnings);
+  s.particles = make_particles(mesh, fabric.density_kg_m2, pinned_particles(s.pins, mesh.positions.size()));
   const Topology topology = find_topology(mesh);
   s.stretch = make_stretch(mesh, topology, fabric, s.particles);
   s.bend = make_bend(mesh, topology, fabric.bend_n_m, s.particles);

@@ -34,6 +34,21 @@ FrameReport Solver::step(const engine::Context& context, double dt_s) {
   return advance(whole, nullptr, dt_s, impl_->state);
 }
 
+void Solver::move_pins(std::span<const geometry::Vec3> world_positions) {
+  set_pin_targets(world_positions, impl_->state.pins);
+}
+
+void Solver::set_velocity(const geometry::Vec3& velocity_m_s) {
+  Particles& p = impl_->state.particles;
+  if (!velocity_m_s.allFinite()) return;
+  for (std::size_t i = 0; i < p.count(); ++i) {
+    if (p.inverse_mass[i] == 0.0f) continue;
+    p.vx[i] = static_cast<float>(velocity_m_s[0]);
+    p.vy[i] = static_cast<float>(velocity_m_s[1]);
+    p.vz[i] = static_cast<float>(velocity_m_s[2]);
+  }
+}
+
 std::size_t Solver::particles() const noexcept {
   return impl_->state.particles.count();
 }

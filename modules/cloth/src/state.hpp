@@ -9,6 +9,7 @@
 #include "bend.hpp"
 #include "contact.hpp"
 #include "particles.hpp"
+#include "pins.hpp"
 #include "stretch.hpp"
 
 namespace bodice::cloth {
@@ -18,6 +19,7 @@ struct State {
   Fabric fabric;
   SolverOptions options;
   Particles particles;
+  Pins pins;
   StretchConstraints stretch;
   BendConstraints bend;
   Air air;

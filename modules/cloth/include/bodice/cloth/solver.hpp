@@ -75,6 +75,12 @@ class Solver {
   /// The same without a body.
   FrameReport step(const engine::Context& context, double dt_s);
 
+  /// Where the pinned vertices are to be at the end of the next step, in the order given to make(); they
+  /// move there in a straight line over its substeps. Values that are not finite leave their pin where it is.
+  void move_pins(std::span<const geometry::Vec3> world_positions);
+  /// Gives every free particle this velocity.
+  void set_velocity(const geometry::Vec3& velocity_m_s);
+
   std::size_t particles() const noexcept;
   /// World positions of the input garment's vertices (#V of the garment), through the weld map.
   void positions(std::span<geometry::Vec3> out) const;

@@ -1,0 +1,29 @@
+#include "pins.hpp"
+
+#include <algorithm>
+
+namespace bodice::cloth {
+
+void set_pin_targets(std::span<const Vec3> world_positions, Pins& pins) {
+  const std::size_t count = std::min(world_positions.size(), pins.to.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (world_positions[i].allFinite()) pins.to[i] = world_positions[i];
+  }
+}
+
+void move_pins(const Pins& pins, double t, Particles& p) {
+  for (std::size_t i = 0; i < pins.particle.size(); ++i) {
+    const Index particle = pins.particle[i];
+    if (particle == geometry::kNoIndex) continue;
+    const Vec3 local = pins.from[i] + t * (pins.to[i] - pins.from[i]) - p.origin;
+    p.x[particle] = static_cast<float>(local[0]);
+    p.y[particle] = static_cast<float>(local[1]);
+    p.z[particle] = static_cast<float>(local[2]);
+  }
+}
+
+void settle_pins(Pins& pins) {
+  pins.from = pins.to;
+}
+
+}  // namespace bodice::cloth

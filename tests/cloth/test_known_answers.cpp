@@ -1,0 +1,110 @@
+// Closed forms that a cloth solver must meet whatever its inside.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "fixtures.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60.0;
+
+// Free swing of one triangle about its pinned edge, which lies along x: its third corner is a point pendulum.
+double measured_period(double length, double start_angle) {
+  TriMesh mesh;
+  mesh.positions = {Vec3(-0.1, 0, 0), Vec3(0.1, 0, 0),
+                    length * Vec3(0, -std::cos(start_angle), std::sin(start_angle))};
+  mesh.triangles = {{0, 1, 2}};
+  cloth::Fabric fabric = cotton();
+  fabric.damping_per_s = 0.0;
+  cloth::Solver solver = make_solver(mesh, {0, 1}, fabric, vacuum());
+  const engine::Context context;
+  constexpr double kStep_s = 1e-3;
+  std::vector<double> crossings;
+  double before = mesh.positions[2][2];
+  for (int frame = 1; frame < 8000 && crossings.size() < 3; ++frame) {
+    solver.step(context, kStep_s);
+    const double now = positions(solver, 3)[2][2];
+    if (before > 0.0 && now <= 0.0) crossings.push_back(kStep_s * (frame - now / (now - before)));
+    before = now;
+  }
+  REQUIRE(crossings.size() == 3);
+  return 0.5 * (crossings[2] - crossings[0]);
+}
+
+}  // namespace
+
+TEST_CASE("a swinging triangle keeps a point pendulum's period") {
+  for (const double length : {0.3, 1.0}) {
+    constexpr double kAngle = 0.2;
+    // The first terms of the elliptic integral for a finite amplitude.
+    const double expected =
+        2.0 * std::numbers::pi * std::sqrt(length / 9.81) * (1.0 + kAngle * kAngle / 16.0);
+    CHECK(measured_period(length, kAngle) == doctest::Approx(expected).epsilon(0.02));
+  }
+}
+
+TEST_CASE("a sheet hung by two opposite edges takes the shape of a catenary") {
+  // A strip 1 m long hung at two edges 0.8 m apart: y = a cosh(x / a) with 2 a sinh(0.4 / a) = 1.
+  double low = 0.1, high = 10.0;
+  for (int i = 0; i < 100; ++i) {
+    const double a = 0.5 * (low + high);
+    (2.0 * a * std::sinh(0.4 / a) > 1.0 ? low : high) = a;
+  }
+  const double sag = low * (std::cosh(0.4 / low) - 1.0);
+
+  constexpr int kQuads = 24;
+  TriMesh mesh = sheet(kQuads, 4, 1.0, 0.16, Vec3::Zero());
+  std::vector<Index> pins;
+  for (Index v = 0; v < mesh.positions.size(); ++v) {
+    if (v % (kQuads + 1) == 0 || v % (kQuads + 1) == kQuads) pins.push_back(v);
+  }
+  cloth::Fabric fabric = cotton();
+  fabric.damping_per_s = 2.0;
+  cloth::SolverOptions options = vacuum();
+  options.substeps = 16;
+  cloth::Solver solver = make_solver(mesh, pins, fabric, options);
+  const engine::Context context;
+  std::vector<Vec3> ends;
+  for (const Index p : pins) ends.push_back(mesh.positions[p]);
+  // The ends move together over two seconds, then the strip comes to rest.
+  for (int frame = 0; frame < 600; ++frame) {
+    const double t = std::min(1.0, frame / 120.0);
+    for (std::size_t i = 0; i < pins.size(); ++i) {
+      const double x = mesh.positions[pins[i]][0];
+      ends[i][0] = x + t * 0.1 * (x < 0.5 ? 1.0 : -1.0);
+    }
+    solver.move_pins(ends);
+    solver.step(context, kFrame_s);
+  }
+  double lowest = 0.0;
+  for (const Vec3& p : positions(solver, mesh.positions.size())) lowest = std::min(lowest, p[1]);
+  CHECK(-lowest == doctest::Approx(sag).epsilon(0.02));
+}
+
+TEST_CASE("a sheet dropped on one ellipsoid rests on its offset surface") {
+  const engine::Context context;
+  for (const Vec3& radii : {Vec3(0.2, 0.2, 0.2), Vec3(0.3, 0.15, 0.2)}) {
+    const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), radii);
+    const TriMesh mesh = sheet(40, 40, 0.8, 0.8, Vec3(-0.4, 1.0 + radii[1] + 0.02, -0.4));
+    cloth::SolverOptions options;
+    options.thickness_m = 0.002;
+    cloth::Solver solver = make_solver(mesh, {}, cotton(), options);
+    for (int frame = 0; frame < 240; ++frame) solver.step(context, body, kFrame_s);
+    geometry::Ellipsoid shape{Vec3(0, 1, 0), geometry::Mat3::Identity(), radii};
+    const std::vector<Vec3> rest = positions(solver, mesh.positions.size());
+    double nearest = 1.0, crown = 0.0;
+    for (const Vec3& p : rest) {
+      const double d = geometry::nearest_point(shape, p).signed_distance;
+      nearest = std::min(nearest, d);
+      if (std::hypot(p[0], p[2]) < 0.05) crown = std::max(crown, d);
+    }
+    CHECK(nearest > options.thickness_m - 1e-5);
+    CHECK(crown < options.thickness_m + 1e-3);
+    CHECK(crown > 0.0);
+  }
+}
