@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <limits>
-#include <vector>
 
 #include <bodice/engine/parallel.hpp>
 
-#include "response.hpp"
+#include "collider_impl.hpp"
 
 namespace bodice::collision {
 
@@ -16,68 +13,13 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr std::size_t kGrain = 1024;  // particles a task: some tens of microseconds
-
-std::vector<geometry::Ellipsoid> in_frame_of(const Vec3& origin, const proxy::BodyProxy& proxy) {
-  std::vector<geometry::Ellipsoid> shapes;
-  shapes.reserve(proxy.ellipsoids().size());
-  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) {
-    shapes.push_back(e.shape);
-    shapes.back().center -= origin;
-  }
-  return shapes;
-}
-
-Vec3 middle_of(const proxy::BodyProxy& proxy) {
-  geometry::Box box;
-  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) {
-    const geometry::Box one = geometry::bounding_box(e.shape);
-    box.extend(one.low);
-    box.extend(one.high);
-  }
-  return box.empty() ? Vec3(Vec3::Zero()) : box.center();
-}
-
-Vec3 at(const float* x, const float* y, const float* z, std::size_t i) {
-  return {double{x[i]}, double{y[i]}, double{z[i]}};
-}
-
-ParticleState load(const Particles& particles, std::size_t i) {
-  ParticleState state;
-  state.position = at(particles.x, particles.y, particles.z, i);
-  state.velocity = Vec3::Zero();
-  state.has_velocity = particles.vx != nullptr;
-  if (state.has_velocity) state.velocity = at(particles.vx, particles.vy, particles.vz, i);
-  if (particles.safe_x) state.safe = at(particles.safe_x, particles.safe_y, particles.safe_z, i);
-  state.has_safe = particles.safe_x && state.safe.allFinite();
-  return state;
-}
-
-void store(const ParticleState& state, const Particles& particles, std::size_t i) {
-  particles.x[i] = static_cast<float>(state.position.x());
-  particles.y[i] = static_cast<float>(state.position.y());
-  particles.z[i] = static_cast<float>(state.position.z());
-  if (!state.has_velocity) return;
-  particles.vx[i] = static_cast<float>(state.velocity.x());
-  particles.vy[i] = static_cast<float>(state.velocity.y());
-  particles.vz[i] = static_cast<float>(state.velocity.z());
-}
-
-void count(const ParticleReport& particle, body::Part part, ContactReport& report) {
-  ++report.contacts;
-  ++report.contacts_by_part[static_cast<int>(part)];
-  report.unresolved += particle.outcome == Outcome::kUnresolved;
-  report.pending += particle.outcome == Outcome::kPending;
-  report.wrong_side += particle.wrong_side;
-  report.fallbacks += particle.fallback;
-  report.max_iterations = std::max(report.max_iterations, static_cast<std::uint32_t>(particle.iterations));
-  report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
-}
+constexpr std::size_t kGrain = 32 * kBlock;  // particles a task: some tens of microseconds
 
 /// Sums of integers and maxima: the same for any order of the blocks.
 class SharedReport {
  public:
   void add(const ContactReport& block) {
+    // Held for a few nanoseconds, once a task.
     while (busy_.test_and_set(std::memory_order_acquire)) {
     }
     total_.add(block);
@@ -90,11 +32,18 @@ class SharedReport {
   ContactReport total_;
 };
 
+/// Calls work(begin, end) for every block of [begin, end).
+template <class Work>
+void by_blocks(std::size_t begin, std::size_t end, Work&& work) {
+  for (std::size_t at = begin; at < end; at += kBlock)
+    work(at, std::min(at + static_cast<std::size_t>(kBlock), end));
+}
+
 }  // namespace
 
 void ContactReport::add(const ContactReport& other) {
   contacts += other.contacts;
-  for (int part = 0; part < body::kPartCount; ++part) contacts_by_part[part] += other.contacts_by_part[part];
+  for (int i = 0; i < body::kPartCount; ++i) contacts_by_part[i] += other.contacts_by_part[i];
   unresolved += other.unresolved;
   pending += other.pending;
   wrong_side += other.wrong_side;
@@ -102,41 +51,6 @@ void ContactReport::add(const ContactReport& other) {
   not_finite += other.not_finite;
   max_iterations = std::max(max_iterations, other.max_iterations);
   deepest_m = std::max(deepest_m, other.deepest_m);
-}
-
-struct Collider::Impl {
-  explicit Impl(const proxy::BodyProxy& proxy)
-      : origin(middle_of(proxy)), margin_m(proxy.margin_m()), field(in_frame_of(origin, proxy)) {
-    for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) part.push_back(e.part);
-  }
-
-  ContactReport resolve(const Particles& particles, const ResolveOptions& options, std::size_t begin,
-                        std::size_t end) const;
-
-  Vec3 origin;
-  double margin_m;
-  UnionField field;
-  std::vector<body::Part> part;
-};
-
-ContactReport Collider::Impl::resolve(const Particles& particles, const ResolveOptions& options,
-                                      std::size_t begin, std::size_t end) const {
-  ContactReport report;
-  const double clearance_m = margin_m + double{options.thickness_m};
-  for (std::size_t i = begin; i < end; ++i) {
-    ParticleState state = load(particles, i);
-    if (!state.position.allFinite() || !state.velocity.allFinite()) {
-      ++report.not_finite;
-      continue;
-    }
-    const ParticleReport one = options.response == Response::kPaper
-                                   ? resolve_paper(field, clearance_m, state)
-                                   : resolve_nearest(field, clearance_m, options, state);
-    if (one.outcome == Outcome::kClear) continue;
-    store(state, particles, i);
-    count(one, part[one.ellipsoid], report);
-  }
-  return report;
 }
 
 Collider::Collider(const proxy::BodyProxy& proxy) : impl_(std::make_unique<Impl>(proxy)) {}
@@ -152,39 +66,101 @@ std::size_t Collider::size() const noexcept {
   return impl_->field.size();
 }
 
-Contact Collider::query(const float (&local_point)[3]) const noexcept {
-  Contact contact;
-  contact.signed_distance = std::numeric_limits<float>::infinity();
-  contact.ellipsoid = kNoEllipsoid;
-  const Vec3 p(double{local_point[0]}, double{local_point[1]}, double{local_point[2]});
-  if (!p.allFinite()) return contact;
-  const Owner owner = impl_->field.owner(p, std::numeric_limits<double>::infinity());
-  if (owner.ellipsoid == kNoEllipsoid) return contact;
-  contact.signed_distance = static_cast<float>(owner.at.signed_distance - impl_->margin_m);
-  const Vec3 point = owner.at.point + impl_->margin_m * owner.at.normal;
-  for (int axis = 0; axis < 3; ++axis) {
-    contact.point[axis] = static_cast<float>(point[axis]);
-    contact.normal[axis] = static_cast<float>(owner.at.normal[axis]);
+void Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
+  const std::size_t count = std::min(shapes.size(), impl_->shapes.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    geometry::Ellipsoid now = shapes[k];
+    now.center -= impl_->origin;
+    impl_->motion[k] = motion_between(impl_->shapes[k], now, dt_s);
+    impl_->shapes[k] = now;
   }
-  contact.ellipsoid = owner.ellipsoid;
+  impl_->moving = dt_s > 0.0;
+  impl_->moved_dt_s = dt_s;
+  impl_->field.update(impl_->shapes);
+  impl_->baked.update(impl_->shapes);
+}
+
+Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point) const noexcept {
+  if (!impl_->moving || ellipsoid >= impl_->motion.size()) return Vec3::Zero();
+  return impl_->motion[ellipsoid].at(local_point);
+}
+
+Contact Collider::query(const float (&local_point)[3]) const noexcept {
+  float x = local_point[0], y = local_point[1], z = local_point[2];
+  Contact contact;
+  impl_->query_some({1, &x, &y, &z}, 0, 1, {&contact, 1}, nullptr);
   return contact;
 }
 
 void Collider::query(const engine::Context& context, const Particles& particles,
                      std::span<Contact> contacts) const {
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      contacts[i] = query({particles.x[i], particles.y[i], particles.z[i]});
+    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+      impl_->query_some(particles, from, to, contacts, nullptr);
+    });
   });
+}
+
+void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+                     Workspace& workspace) const {
+  workspace.order_->refresh(particles);
+  engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
+    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+      impl_->query_some(particles, from, to, contacts, workspace.order_.get());
+    });
+  });
+}
+
+std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
+                                std::span<Contact> contacts) const noexcept {
+  const Vec3 p(double{local_point[0]}, double{local_point[1]}, double{local_point[2]});
+  if (!p.allFinite()) return 0;
+  std::size_t found = 0;
+  const auto nearer = [](const Contact& a, const Contact& b) {
+    return a.signed_distance < b.signed_distance;
+  };
+  for (std::uint32_t k = 0; k < impl_->field.size(); ++k) {
+    const geometry::NearestPoint at = geometry::nearest_point(impl_->field.shape(k), p);
+    ReliefSample sample{at.signed_distance, at.normal, k};
+    if (impl_->relief) sample = correct(impl_->field, *impl_->relief, k, at);
+    const Contact contact = impl_->make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), k);
+    if (contact.signed_distance > within_m) continue;
+    // Insertion into the sorted front part; the farthest drops out when it is full.
+    const std::size_t kept = std::min(found++, contacts.size());
+    const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kept);
+    const auto place = std::upper_bound(contacts.begin(), end, contact, nearer);
+    if (place == contacts.end()) continue;
+    std::move_backward(place, kept < contacts.size() ? end : end - 1, kept < contacts.size() ? end + 1 : end);
+    *place = contact;
+  }
+  return found;
 }
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options) const {
-  SharedReport report;
+  SharedReport total;
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    report.add(impl_->resolve(particles, options, begin, end));
+    ContactReport report;
+    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+      impl_->resolve_some(particles, from, to, options, nullptr, report);
+    });
+    total.add(report);
   });
-  return report.total();
+  return total.total();
+}
+
+ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
+                                const ResolveOptions& options, Workspace& workspace) const {
+  workspace.order_->refresh(particles);
+  SharedReport total;
+  engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
+    ContactReport report;
+    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+      impl_->resolve_some(particles, from, to, options, workspace.order_.get(), report);
+    });
+    total.add(report);
+  });
+  return total.total();
 }
 
 }  // namespace bodice::collision

@@ -5,6 +5,7 @@
 #include <bodice/collision/collider.hpp>
 
 #include "halfspaces.hpp"
+#include "relief_field.hpp"
 #include "union_field.hpp"
 
 namespace bodice::collision {
@@ -20,6 +21,7 @@ struct ParticleState {
   geometry::Vec3 position;
   geometry::Vec3 velocity;
   geometry::Vec3 safe;
+  geometry::Vec3 surface_velocity = geometry::Vec3::Zero();  ///< of the body where the particle is
   bool has_velocity = false;
   bool has_safe = false;
 };
@@ -34,9 +36,18 @@ struct ParticleReport {
   bool fallback = false;    ///< resolved by a ray or by the path, not by iteration
 };
 
+/// The end of every response: the particle goes from p to x, or max_push_m of the way, and its velocity loses
+/// the part that goes into `contact` and, by friction, some of the rest.
+void move(const geometry::Vec3& p, const geometry::Vec3& x, const Halfspaces& contact,
+          const ResolveOptions& options, ParticleReport& report, ParticleState& particle);
+
 /// The nearest point of the union's surface, raised by `clearance_m`; inward velocity removed, friction.
 ParticleReport resolve_nearest(const UnionField& field, double clearance_m, const ResolveOptions& options,
                                ParticleState& particle);
+
+/// The same for the corrected distance of relief.hpp.
+ParticleReport resolve_relief(const UnionField& field, const ReliefTables& relief, double clearance_m,
+                              const ResolveOptions& options, ParticleState& particle);
 
 /// The paper's section 4: the ray from the centre of each ellipsoid that holds the particle, the exit with
 /// the least distance, speed scaling by |c P0| / (|c P0| + |P0 p0|).

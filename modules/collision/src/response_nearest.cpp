@@ -64,6 +64,20 @@ bool back_to_entry(const UnionField& field, const ParticleState& particle, doubl
 
 }  // namespace
 
+void move(const Vec3& p, const Vec3& x, const Halfspaces& contact, const ResolveOptions& options,
+          ParticleReport& report, ParticleState& particle) {
+  const double push = (x - p).norm();
+  particle.position = x;
+  if (!report.wrong_side && push > double{options.max_push_m}) {
+    particle.position = p + (x - p) * (double{options.max_push_m} / push);
+    report.outcome = Outcome::kPending;
+  }
+  if (!particle.has_velocity) return;
+  Vec3 relative = particle.velocity - particle.surface_velocity;
+  correct_velocity(contact, double{options.friction}, relative);
+  particle.velocity = relative + particle.surface_velocity;
+}
+
 ParticleReport resolve_nearest(const UnionField& field, double clearance_m, const ResolveOptions& options,
                                ParticleState& particle) {
   ParticleReport report;
@@ -95,13 +109,7 @@ ParticleReport resolve_nearest(const UnionField& field, double clearance_m, cons
     report.wrong_side = back_to_entry(field, particle, clearance_m, contact[0].normal, x, contact);
     if (report.wrong_side) report.outcome = Outcome::kResolved;
   }
-  const double push = (x - p).norm();
-  if (!report.wrong_side && push > double{options.max_push_m}) {
-    x = p + (x - p) * (double{options.max_push_m} / push);
-    report.outcome = Outcome::kPending;
-  }
-  particle.position = x;
-  if (particle.has_velocity) correct_velocity(contact, double{options.friction}, particle.velocity);
+  move(p, x, contact, options, report, particle);
   return report;
 }
 

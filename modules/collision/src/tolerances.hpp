@@ -7,6 +7,10 @@ namespace bodice::collision {
 /// pushes overshoot: results are stored as floats, whose rounding at that size is 6e-8 of it.
 inline constexpr double kCertificate = 2e-7;
 
+/// Share of the scene's size by which float bounds are widened, so that culling never drops what exact
+/// arithmetic would keep: a dozen roundings of 6e-8.
+inline constexpr double kFloatRounding = 1e-6;
+
 /// Cosine below which a ray runs along a surface rather than out of it.
 inline constexpr double kFlatSlope = 1e-3;
 
@@ -20,5 +24,12 @@ inline constexpr double kEndSlack = 1e-2;
 /// A push longer than this many times the depth comes from surfaces that nearly face each other; the way out
 /// along the normal is shorter.
 inline constexpr double kLongestPush = 4.0;
+
+/// Coordinates beyond this, metres, are not sorted with the rest and go to the exact side: their squares must
+/// stay in float range over the smallest radius that a proxy may have.
+inline constexpr float kFarthest = 1e9f;
+
+/// Growth of the blocks' summed radii that makes a new spatial sort worth its 10 ns a particle.
+inline constexpr double kSortAgain = 1.3;
 
 }  // namespace bodice::collision

@@ -8,11 +8,20 @@ namespace bodice::collision {
 using geometry::Box;
 using geometry::Vec3;
 
-UnionField::UnionField(std::vector<geometry::Ellipsoid> shapes) : shapes_(std::move(shapes)) {
-  boxes_.reserve(shapes_.size());
-  for (const geometry::Ellipsoid& shape : shapes_) {
-    boxes_.push_back(geometry::bounding_box(shape));
-    const Box& box = boxes_.back();
+UnionField::UnionField(std::vector<geometry::Ellipsoid> shapes)
+    : shapes_(std::move(shapes)), boxes_(shapes_.size()) {
+  bound();
+}
+
+void UnionField::update(const std::vector<geometry::Ellipsoid>& shapes) {
+  shapes_ = shapes;
+  bound();
+}
+
+void UnionField::bound() {
+  size_m_ = 0.0;
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    const Box box = boxes_[k] = geometry::bounding_box(shapes_[k]);
     size_m_ = std::max({size_m_, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
   }
 }

@@ -21,6 +21,8 @@ class UnionField {
  public:
   /// Takes over the shapes, given in the local frame.
   explicit UnionField(std::vector<geometry::Ellipsoid> shapes);
+  /// Other shapes of the same number; allocates nothing.
+  void update(const std::vector<geometry::Ellipsoid>& shapes);
 
   std::size_t size() const { return shapes_.size(); }
   /// Largest coordinate of the union's box: what rounding errors are relative to.
@@ -36,6 +38,8 @@ class UnionField {
   Owner owner(const geometry::Vec3& p, double below_m) const;
 
  private:
+  void bound();
+
   std::vector<geometry::Ellipsoid> shapes_;
   std::vector<geometry::Box> boxes_;
   double size_m_ = 0.0;

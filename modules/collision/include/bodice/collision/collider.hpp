@@ -59,7 +59,23 @@ struct ContactReport {
   void add(const ContactReport& other);
 };
 
-/// A proxy baked for queries: floats in a local frame, boxes for culling. Immutable and thread-safe.
+/// What a caller keeps from call to call for one set of particles: a spatial order, so that the speed does
+/// not depend on the order in which they are stored. Refreshed by itself when the particles have moved
+/// apart; any collider may use it. Not thread-safe; allocates when the particles become more.
+class Workspace {
+ public:
+  Workspace();
+  ~Workspace();
+  Workspace(Workspace&&) noexcept;
+  Workspace& operator=(Workspace&&) noexcept;
+
+ private:
+  friend class Collider;
+  std::unique_ptr<class ParticleOrder> order_;
+};
+
+/// A proxy baked for queries: floats in a local frame, boxes for culling. Thread-safe but for move_to().
+/// Speed: neighbours in space should be neighbours in the arrays, or a Workspace be given.
 class Collider {
  public:
   explicit Collider(const proxy::BodyProxy& proxy);
@@ -70,14 +86,30 @@ class Collider {
   const geometry::Vec3& origin() const noexcept;  ///< world position of the local frame's origin
   std::size_t size() const noexcept;              ///< ellipsoids
 
+  /// Carries the proxy to another pose: `shapes` are its ellipsoids now, world metres, size() of them; tables
+  /// move along. Contacts then know the surface's velocity, (now - before) / dt_s, zero if dt_s is not
+  /// positive, and safe positions are carried with the ellipsoid they are nearest to. The origin stays.
+  /// Allocates nothing; must not overlap another call. Cost: about 0.1 microseconds an ellipsoid.
+  void move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
+  /// Velocity of the body's material at a place carried by an ellipsoid; metres a second, local frame.
+  geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
+
   /// Signed distance, nearest point, normal and owner of each particle; contacts has particles.count entries.
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts) const;
+  void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+             Workspace& workspace) const;
   Contact query(const float (&local_point)[3]) const noexcept;
+  /// Every ellipsoid within `within_m` of the point, nearest first, each with its own surface (and table);
+  /// returns how many there are, which may be more than fit into `contacts`.
+  std::size_t query_all(const float (&local_point)[3], float within_m,
+                        std::span<Contact> contacts) const noexcept;
 
   /// Moves every particle that is inside (or nearer than the thickness) out and corrects its velocity.
   /// Allocates nothing once warm.
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options) const;
+  ContactReport resolve(const engine::Context& context, const Particles& particles,
+                        const ResolveOptions& options, Workspace& workspace) const;
 
  private:
   struct Impl;

@@ -1,0 +1,70 @@
+#include "baked.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "tolerances.hpp"
+
+namespace bodice::collision {
+
+using geometry::Ellipsoid;
+using geometry::Vec3;
+
+namespace {
+
+BakedEllipsoid bake(const Ellipsoid& shape) {
+  int order[3] = {0, 1, 2};
+  std::sort(order, order + 3, [&](int a, int b) { return shape.radii[a] > shape.radii[b]; });
+  const double r0 = shape.radii[order[0]];
+  const double r1 = shape.radii[order[1]] / r0;
+  const double r2 = shape.radii[order[2]] / r0;
+  BakedEllipsoid result;
+  for (int row = 0; row < 3; ++row) {
+    result.center[row] = static_cast<float>(shape.center[row]);
+    for (int column = 0; column < 3; ++column)
+      result.to_unit[3 * row + column] = static_cast<float>(shape.axes(column, order[row]) / r0);
+  }
+  result.radius1 = static_cast<float>(r1);
+  result.radius2 = static_cast<float>(r2);
+  result.gap0 = static_cast<float>((1.0 - r2) * (1.0 + r2));
+  result.gap1 = static_cast<float>((r1 - r2) * (r1 + r2));
+  result.inverse1 = static_cast<float>(1.0 / r1);
+  result.inverse2 = static_cast<float>(1.0 / r2);
+  result.longest_m = static_cast<float>(r0);
+  return result;
+}
+
+}  // namespace
+
+Baked::Baked(const std::vector<Ellipsoid>& shapes) {
+  const std::size_t padded = (shapes.size() + kPad - 1) / kPad * kPad;
+  // The padding's boxes are beyond every window, its balls hold nothing.
+  const float nowhere = std::numeric_limits<float>::max();
+  ellipsoids.resize(shapes.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    cull.low[axis].assign(padded, nowhere);
+    cull.high[axis].assign(padded, nowhere);
+    cull.center[axis].assign(padded, nowhere);
+  }
+  cull.shortest.assign(padded, 0.0f);
+  update(shapes);
+}
+
+void Baked::update(const std::vector<Ellipsoid>& shapes) {
+  double size_m = 0.0;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    ellipsoids[k] = bake(shapes[k]);
+    const geometry::Box box = geometry::bounding_box(shapes[k]);
+    for (int axis = 0; axis < 3; ++axis) {
+      cull.low[axis][k] = static_cast<float>(box.low[axis]);
+      cull.high[axis][k] = static_cast<float>(box.high[axis]);
+      cull.center[axis][k] = static_cast<float>(shapes[k].center[axis]);
+    }
+    cull.shortest[k] = static_cast<float>(shapes[k].radii.minCoeff());
+    size_m = std::max({size_m, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
+  }
+  rounding_m = static_cast<float>(kFloatRounding * size_m);
+}
+
+}  // namespace bodice::collision

@@ -1,0 +1,44 @@
+// A proxy as the kernels read it: floats in a local frame.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <bodice/geometry/ellipsoid.hpp>
+
+namespace bodice::collision {
+
+/// One ellipsoid. Axes are ordered by falling radius and lengths are in units of the longest radius r0, so
+/// that the solver's squares stay in range for any radius: y = to_unit (p - center), |y| = 1 at r0.
+struct BakedEllipsoid {
+  float center[3];           ///< metres
+  float to_unit[9];          ///< rows: unit axes / r0, 1/metres
+  float radius1, radius2;    ///< r1 / r0 and r2 / r0, in (0, 1]
+  float gap0, gap1;          ///< 1 - radius2^2 and radius1^2 - radius2^2: how far from being a sphere
+  float inverse1, inverse2;  ///< 1 / radius1, 1 / radius2
+  float longest_m;           ///< r0
+};
+inline constexpr int kBakedFloats = sizeof(BakedEllipsoid) / sizeof(float);
+
+/// Boxes and inner balls for culling, one array a number, padded to kPad with boxes infinitely far away.
+struct CullArrays {
+  std::vector<float> low[3], high[3];  ///< metres
+  std::vector<float> center[3];        ///< metres
+  std::vector<float> shortest;         ///< r2, metres: radius of the ball inside
+};
+
+struct Baked {
+  static constexpr std::size_t kPad = 16;  // the widest vector's floats
+
+  explicit Baked(const std::vector<geometry::Ellipsoid>& shapes);
+  /// Rewrites everything for other shapes of the same number; allocates nothing.
+  void update(const std::vector<geometry::Ellipsoid>& shapes);
+
+  std::size_t size() const { return ellipsoids.size(); }
+
+  std::vector<BakedEllipsoid> ellipsoids;
+  CullArrays cull;
+  float rounding_m = 0.0f;  ///< what float arithmetic can be off by at the union's size
+};
+
+}  // namespace bodice::collision

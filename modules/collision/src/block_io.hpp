@@ -1,0 +1,31 @@
+// Between the caller's arrays and the kernels' blocks.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include <bodice/collision/collider.hpp>
+
+#include "kernels.hpp"
+
+namespace bodice::collision {
+
+/// A block and whose particles it holds.
+struct Gathered {
+  Block block;
+  std::uint32_t index[kBlock];  ///< into the caller's arrays, a lane
+  std::uint32_t far[kBlock];    ///< finite but too far for floats
+  int far_count = 0;
+  std::uint64_t not_finite = 0;
+  float radius_m = 0.0f;  ///< half the diagonal of the block's box
+};
+
+/// Gathers particles [begin, end), at most kBlock, of `order` (of the arrays if it is empty). Particles with
+/// a coordinate that is not finite are left out and counted.
+void gather(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
+            std::size_t end, Gathered& out);
+
+/// Writes the position and velocity of one lane back.
+void scatter(const Gathered& gathered, int lane, const Particles& particles);
+
+}  // namespace bodice::collision

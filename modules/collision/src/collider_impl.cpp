@@ -1,0 +1,209 @@
+#include "collider_impl.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "tolerances.hpp"
+
+namespace bodice::collision {
+
+using geometry::Vec3;
+
+namespace {
+
+Vec3 middle_of(const proxy::BodyProxy& proxy) {
+  geometry::Box box;
+  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) {
+    const geometry::Box one = geometry::bounding_box(e.shape);
+    box.extend(one.low);
+    box.extend(one.high);
+  }
+  return box.empty() ? Vec3(Vec3::Zero()) : box.center();
+}
+
+std::vector<geometry::Ellipsoid> local_shapes(const Vec3& origin, const proxy::BodyProxy& proxy) {
+  std::vector<geometry::Ellipsoid> shapes;
+  shapes.reserve(proxy.ellipsoids().size());
+  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) {
+    shapes.push_back(e.shape);
+    shapes.back().center -= origin;
+  }
+  return shapes;
+}
+
+Vec3 at(const float* x, const float* y, const float* z, std::size_t i) {
+  return {double{x[i]}, double{y[i]}, double{z[i]}};
+}
+
+ParticleState load(const Particles& particles, std::size_t i) {
+  ParticleState state;
+  state.position = at(particles.x, particles.y, particles.z, i);
+  state.velocity = Vec3::Zero();
+  state.safe = state.position;
+  state.has_velocity = particles.vx != nullptr;
+  if (state.has_velocity) state.velocity = at(particles.vx, particles.vy, particles.vz, i);
+  if (particles.safe_x) state.safe = at(particles.safe_x, particles.safe_y, particles.safe_z, i);
+  state.has_safe = particles.safe_x && state.safe.allFinite();
+  return state;
+}
+
+void store(const ParticleState& state, const Particles& particles, std::size_t i) {
+  particles.x[i] = static_cast<float>(state.position.x());
+  particles.y[i] = static_cast<float>(state.position.y());
+  particles.z[i] = static_cast<float>(state.position.z());
+  if (!state.has_velocity) return;
+  particles.vx[i] = static_cast<float>(state.velocity.x());
+  particles.vy[i] = static_cast<float>(state.velocity.y());
+  particles.vz[i] = static_cast<float>(state.velocity.z());
+}
+
+void count(const ParticleReport& particle, body::Part part, ContactReport& report) {
+  ++report.contacts;
+  ++report.contacts_by_part[static_cast<int>(part)];
+  report.unresolved += particle.outcome == Outcome::kUnresolved;
+  report.pending += particle.outcome == Outcome::kPending;
+  report.wrong_side += particle.wrong_side;
+  report.fallbacks += particle.fallback;
+  report.max_iterations = std::max(report.max_iterations, static_cast<std::uint32_t>(particle.iterations));
+  report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
+}
+
+Contact nothing() {
+  Contact contact;
+  contact.signed_distance = std::numeric_limits<float>::infinity();
+  contact.ellipsoid = kNoEllipsoid;
+  return contact;
+}
+
+std::span<const std::uint32_t> indices(const ParticleOrder* order) {
+  return order ? order->order() : std::span<const std::uint32_t>();
+}
+
+}  // namespace
+
+Collider::Impl::Impl(const proxy::BodyProxy& proxy)
+    : origin(middle_of(proxy)),
+      margin_m(proxy.margin_m()),
+      shapes(local_shapes(origin, proxy)),
+      field(shapes),
+      baked(shapes) {
+  if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy);
+  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) part.push_back(e.part);
+  motion.resize(shapes.size());
+}
+
+Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec3& normal,
+                                     std::uint32_t ellipsoid) const {
+  Contact contact;
+  const double signed_distance = distance_m - margin_m;
+  const Vec3 point = p - signed_distance * normal;
+  contact.signed_distance = static_cast<float>(signed_distance);
+  for (int axis = 0; axis < 3; ++axis) {
+    contact.point[axis] = static_cast<float>(point[axis]);
+    contact.normal[axis] = static_cast<float>(normal[axis]);
+  }
+  contact.ellipsoid = ellipsoid;
+  return contact;
+}
+
+Contact Collider::Impl::exact_contact(const Vec3& p) const {
+  if (!p.allFinite() || field.size() == 0) return nothing();
+  if (relief) {
+    const ReliefSample sample = relief_sample(field, *relief, p);
+    return make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), sample.owner);
+  }
+  const Owner owner = field.owner(p, std::numeric_limits<double>::infinity());
+  return make_contact(p, owner.at.signed_distance, owner.at.normal, owner.ellipsoid);
+}
+
+void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
+                                std::span<Contact> contacts, ParticleOrder* order) const {
+  Gathered gathered;
+  gather(particles, indices(order), begin, end, gathered);
+  if (order) order->note_radius(begin / kBlock, gathered.radius_m);
+  const int known = gathered.block.count + gathered.far_count;
+  if (known < static_cast<int>(end - begin) || field.size() == 0)
+    for (std::size_t i = begin; i < end; ++i) contacts[order ? order->order()[i] : i] = nothing();
+  if (field.size() == 0) return;
+  for (int i = 0; i < gathered.far_count; ++i)
+    contacts[gathered.far[i]] = exact_contact(at(particles.x, particles.y, particles.z, gathered.far[i]));
+  const Block& block = gathered.block;
+  if (block.count == 0) return;
+  BlockContacts found;
+  const bool settled = query_block(baked, tables(), block, found);
+  const float margin = static_cast<float>(margin_m);
+  for (int lane = 0; lane < block.count; ++lane) {
+    Contact& contact = contacts[gathered.index[lane]];
+    if (!settled) {
+      contact = exact_contact(at(block.x, block.y, block.z, static_cast<std::size_t>(lane)));
+      continue;
+    }
+    const float d = found.distance[lane] - margin;
+    contact.signed_distance = d;
+    contact.point[0] = block.x[lane] - d * found.nx[lane];
+    contact.point[1] = block.y[lane] - d * found.ny[lane];
+    contact.point[2] = block.z[lane] - d * found.nz[lane];
+    contact.normal[0] = found.nx[lane];
+    contact.normal[1] = found.ny[lane];
+    contact.normal[2] = found.nz[lane];
+    contact.ellipsoid = found.owner[lane];
+  }
+}
+
+void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i,
+                                     const ResolveOptions& options, ContactReport& report) const {
+  ParticleState state = load(particles, i);
+  const double clearance_m = margin_m + double{options.thickness_m};
+  if (moving) {
+    const Owner carrier = field.owner(state.position, std::numeric_limits<double>::infinity());
+    state.surface_velocity = motion[carrier.ellipsoid].at(state.position);
+    // Where the safe position is now, had it stuck to the body.
+    state.safe += motion[carrier.ellipsoid].at(state.safe) * moved_dt_s;
+  }
+  ParticleReport one;
+  if (options.response == Response::kPaper)
+    one = resolve_paper(field, clearance_m, state);
+  else if (relief)
+    one = resolve_relief(field, *relief, clearance_m, options, state);
+  else
+    one = resolve_nearest(field, clearance_m, options, state);
+  if (one.outcome == Outcome::kClear) return;
+  store(state, particles, i);
+  count(one, part[one.ellipsoid], report);
+}
+
+void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
+                                  const ResolveOptions& options, ParticleOrder* order,
+                                  ContactReport& report) const {
+  if (field.size() == 0) return;
+  Gathered gathered;
+  gather(particles, indices(order), begin, end, gathered);
+  if (order) order->note_radius(begin / kBlock, gathered.radius_m);
+  report.not_finite += gathered.not_finite;
+  for (int i = 0; i < gathered.far_count; ++i) resolve_exactly(particles, gathered.far[i], options, report);
+  Block& block = gathered.block;
+  if (block.count == 0) return;
+  const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
+                            static_cast<float>(kCertificate * field.size_m()), options.friction,
+                            options.max_push_m, moving ? motion.data() : nullptr};
+  BlockResponse response;
+  const std::uint64_t everyone = ~std::uint64_t{0} >> (kBlock - block.count);
+  if (options.response == Response::kPaper || !resolve_block(baked, tables(), clearance, block, response)) {
+    response.hard = everyone;
+    response.contact = response.pending = 0;
+    response.iterations = 0;
+  }
+  for (std::uint64_t left = response.contact; left != 0; left &= left - 1) {
+    const int lane = std::countr_zero(left);
+    scatter(gathered, lane, particles);
+    ++report.contacts_by_part[static_cast<int>(part[response.owner[lane]])];
+    report.deepest_m = std::max(report.deepest_m, response.depth[lane]);
+  }
+  report.contacts += static_cast<std::uint64_t>(std::popcount(response.contact));
+  report.pending += static_cast<std::uint64_t>(std::popcount(response.pending));
+  report.max_iterations = std::max(report.max_iterations, response.iterations);
+  for (std::uint64_t left = response.hard; left != 0; left &= left - 1)
+    resolve_exactly(particles, gathered.index[std::countr_zero(left)], options, report);
+}
+
+}  // namespace bodice::collision

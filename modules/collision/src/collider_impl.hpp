@@ -1,0 +1,48 @@
+// What a Collider holds, and one block of work at a time.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <bodice/collision/collider.hpp>
+
+#include "baked.hpp"
+#include "block_io.hpp"
+#include "particle_order.hpp"
+#include "relief.hpp"
+#include "response.hpp"
+#include "surface_motion.hpp"
+#include "union_field.hpp"
+
+namespace bodice::collision {
+
+struct Collider::Impl {
+  explicit Impl(const proxy::BodyProxy& proxy);
+
+  const ReliefTables* tables() const { return relief ? &*relief : nullptr; }
+
+  /// Particles [begin, end), at most kBlock, of `order` (of the arrays if there is none).
+  void query_some(const Particles& particles, std::size_t begin, std::size_t end, std::span<Contact> contacts,
+                  ParticleOrder* order) const;
+  void resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
+                    const ResolveOptions& options, ParticleOrder* order, ContactReport& report) const;
+  /// One particle on the exact side, from the arrays and back.
+  void resolve_exactly(const Particles& particles, std::uint32_t i, const ResolveOptions& options,
+                       ContactReport& report) const;
+  Contact exact_contact(const geometry::Vec3& p) const;
+  Contact make_contact(const geometry::Vec3& p, double distance_m, const geometry::Vec3& normal,
+                       std::uint32_t ellipsoid) const;
+
+  geometry::Vec3 origin;
+  double margin_m;
+  std::vector<geometry::Ellipsoid> shapes;  ///< local frame, now
+  UnionField field;
+  Baked baked;
+  std::optional<ReliefTables> relief;
+  std::vector<body::Part> part;
+  std::vector<SurfaceMotion> motion;
+  bool moving = false;
+  double moved_dt_s = 0.0;
+};
+
+}  // namespace bodice::collision

@@ -1,0 +1,59 @@
+#include "kernels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+// Machines between these are served by the next lower one; scalable vectors cannot be kept in structures.
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "kernels.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target must come first.
+#include <hwy/highway.h>
+
+#include "simd/query-inl.hpp"
+#include "simd/resolve-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+bool query(const Baked& baked, const ReliefTables* relief, const Block& block, BlockContacts& out) {
+  return query_lanes(baked, relief, block, out);
+}
+
+bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,
+             BlockResponse& out) {
+  return resolve_lanes(baked, relief, clearance, block, out);
+}
+
+const char* target() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bodice::collision {
+
+HWY_EXPORT(query);
+HWY_EXPORT(resolve);
+HWY_EXPORT(target);
+
+bool query_block(const Baked& baked, const ReliefTables* relief, const Block& block, BlockContacts& out) {
+  return HWY_DYNAMIC_DISPATCH(query)(baked, relief, block, out);
+}
+
+bool resolve_block(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,
+                   BlockResponse& out) {
+  return HWY_DYNAMIC_DISPATCH(resolve)(baked, relief, clearance, block, out);
+}
+
+const char* kernel_target() {
+  return HWY_DYNAMIC_DISPATCH(target)();
+}
+
+}  // namespace bodice::collision
+#endif

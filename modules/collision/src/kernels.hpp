@@ -1,0 +1,59 @@
+// The float kernels, one block of neighbouring particles a call, compiled for several instruction sets and
+// chosen at run time.
+#pragma once
+
+#include <cstdint>
+
+#include "baked.hpp"
+#include "relief.hpp"
+#include "surface_motion.hpp"
+
+namespace bodice::collision {
+
+inline constexpr int kBlock = 64;  ///< particles a block: culling costs about as much as two of them
+
+/// Particles of one block, gathered; lanes beyond `count` repeat the last one.
+struct alignas(64) Block {
+  float x[kBlock], y[kBlock], z[kBlock];     ///< metres, local frame
+  float vx[kBlock], vy[kBlock], vz[kBlock];  ///< metres a second, if has_velocity
+  float sx[kBlock], sy[kBlock], sz[kBlock];  ///< metres, last safe positions, if has_safe
+  int count = 0;
+  bool has_velocity = false;
+  bool has_safe = false;
+};
+
+struct alignas(64) BlockContacts {
+  float distance[kBlock];  ///< metres, without margin
+  float nx[kBlock], ny[kBlock], nz[kBlock];
+  std::uint32_t owner[kBlock];
+};
+
+/// What a response asks of the kernel.
+struct Clearance {
+  float distance_m;  ///< margin + thickness: where the particles are put
+  float slack_m;     ///< how far beyond, so that rounding does not put them below
+  float friction;
+  float max_push_m;
+  const SurfaceMotion* motion;  ///< an ellipsoid; null: the body rests
+};
+
+struct alignas(64) BlockResponse {
+  float depth[kBlock];           ///< metres below the clearance before the response
+  std::uint32_t owner[kBlock];   ///< the deepest ellipsoid
+  std::uint64_t contact = 0;     ///< bit a lane: was below the clearance
+  std::uint64_t pending = 0;     ///< of those: held back by max_push_m
+  std::uint64_t hard = 0;        ///< not settled and left untouched: for the exact side
+  std::uint32_t iterations = 0;  ///< most pushes
+};
+
+/// Signed distance, normal and owner of every lane; false if too many ellipsoids are near for the kernel.
+bool query_block(const Baked& baked, const ReliefTables* relief, const Block& block, BlockContacts& out);
+
+/// The nearest response in place; false if too many ellipsoids are near for the kernel.
+bool resolve_block(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,
+                   BlockResponse& out);
+
+/// The name of the instruction set in use.
+const char* kernel_target();
+
+}  // namespace bodice::collision

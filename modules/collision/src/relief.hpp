@@ -1,0 +1,44 @@
+// The relief tables of a proxy as the kernels and the exact side read them. The definition of the corrected
+// distance is in bodice/proxy/body_proxy.hpp and, with the blending, below.
+//
+//   F_k = d_k - h_k(w) - a_k(w) clamp(d_k, -in, out) / out,   w the unit direction of the foot
+//   F   = sum_k W_k F_k / sum_k W_k,   W_k = max(0, 1 - (d_k - min d) / blend)^2
+//
+// h and a are read bilinearly on the octahedral map of w (Cigolle et al. 2014).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <bodice/proxy/body_proxy.hpp>
+
+#include "baked.hpp"
+
+namespace bodice::collision {
+
+/// One ellipsoid's table; bytes already scaled to metres (h) and to per metre of distance (a / out).
+struct BakedTable {
+  std::int32_t first_byte = 0;
+  std::int32_t nodes = 0;  ///< per side; 0: no table
+  float h_scale_m = 0.0f, h_offset_m = 0.0f;
+  float a_scale = 0.0f, a_offset = 0.0f;
+  std::int32_t sorted_axis[3] = {0, 1, 2};  ///< where BakedEllipsoid keeps the proxy's axes x, y, z
+};
+
+struct ReliefTables {
+  /// `proxy` must have tables, one an ellipsoid.
+  explicit ReliefTables(const proxy::BodyProxy& proxy);
+
+  std::vector<BakedTable> tables;
+  std::vector<std::uint8_t> texels;  ///< pairs h, a; padded, since kernels read two texels at a time
+  float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
+  float highest_m = 0.0f;  ///< F_k >= d_k - highest_m
+};
+
+/// How far a proxy's tables reach: 20 mm in, 30 mm out, blended over 3 mm, at a stature of 1.70 m.
+struct ReliefReach {
+  double in_m, out_m, blend_m;
+};
+ReliefReach relief_reach(double stature_m);
+
+}  // namespace bodice::collision

@@ -1,0 +1,180 @@
+// Which ellipsoids a block of particles can meet.
+// Since the signed distance to a convex body is convex, its tangent plane at the block's middle q bounds it
+// from below everywhere: d_k(p) >= d_k(q) + n_k . (p - q).
+#if defined(BODICE_COLLISION_CULL_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_CULL_INL_
+#undef BODICE_COLLISION_CULL_INL_
+#else
+#define BODICE_COLLISION_CULL_INL_
+#endif
+
+#include <cstring>
+
+#include "kernels.hpp"
+#include "simd/foot-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+constexpr int kMaxCandidates = 256;
+
+/// Ellipsoids near a block and their tangent planes at its middle.
+struct Candidates {
+  int count = 0;
+  alignas(64) std::int32_t index[kMaxCandidates + 16];
+  alignas(64) float distance[kMaxCandidates + 16];
+  alignas(64) float nx[kMaxCandidates + 16], ny[kMaxCandidates + 16], nz[kMaxCandidates + 16];
+  float middle[3];
+  float reach_m = 0.0f;  ///< pushes up to this long meet no ellipsoid that is not among them
+};
+
+struct Extent {
+  float middle[3], half[3];
+  float radius;
+};
+
+HWY_INLINE void extend(V3& low, V3& high, V3 p) {
+  low = {hn::Min(low.x, p.x), hn::Min(low.y, p.y), hn::Min(low.z, p.z)};
+  high = {hn::Max(high.x, p.x), hn::Max(high.y, p.y), hn::Max(high.z, p.z)};
+}
+
+/// The box of the particles and, where they have any, of the paths from their safe positions.
+HWY_INLINE Extent extent_of(const Block& block) {
+  const int width = static_cast<int>(hn::Lanes(f));
+  V3 low = load3(block.x, block.y, block.z), high = low;
+  for (int i = width; i < block.count; i += width)
+    extend(low, high, load3(block.x + i, block.y + i, block.z + i));
+  for (int i = 0; block.has_safe && i < block.count; i += width)
+    extend(low, high, load3(block.sx + i, block.sy + i, block.sz + i));
+  const float lows[3] = {hn::GetLane(hn::MinOfLanes(f, low.x)), hn::GetLane(hn::MinOfLanes(f, low.y)),
+                         hn::GetLane(hn::MinOfLanes(f, low.z))};
+  const float highs[3] = {hn::GetLane(hn::MaxOfLanes(f, high.x)), hn::GetLane(hn::MaxOfLanes(f, high.y)),
+                          hn::GetLane(hn::MaxOfLanes(f, high.z))};
+  Extent e;
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    e.middle[axis] = 0.5f * lows[axis] + 0.5f * highs[axis];
+    e.half[axis] = 0.5f * highs[axis] - 0.5f * lows[axis];
+    sum += e.half[axis] * e.half[axis];
+  }
+  e.radius = std::sqrt(sum);
+  return e;
+}
+
+/// Distance from the block's box to the ellipsoids' boxes, sixteen floats or fewer at a time.
+HWY_INLINE V box_distance(const CullArrays& cull, const Extent& e, std::size_t k) {
+  V sum = hn::Zero(f);
+  for (int axis = 0; axis < 3; ++axis) {
+    const V below = hn::Sub(hn::LoadU(f, cull.low[axis].data() + k), all(e.middle[axis] + e.half[axis]));
+    const V above = hn::Sub(all(e.middle[axis] - e.half[axis]), hn::LoadU(f, cull.high[axis].data() + k));
+    const V outside = hn::Max(hn::Zero(f), hn::Max(below, above));
+    sum = hn::MulAdd(outside, outside, sum);
+  }
+  return hn::Sqrt(sum);
+}
+
+/// No particle of the block is farther than this from the union: the nearest ball inside an ellipsoid.
+HWY_INLINE float ball_bound(const CullArrays& cull, const Extent& e) {
+  const std::size_t width = hn::Lanes(f);
+  V least = all(1e30f);
+  for (std::size_t k = 0; k < cull.shortest.size(); k += width) {
+    V sum = hn::Zero(f);
+    for (int axis = 0; axis < 3; ++axis) {
+      const V to = hn::Sub(hn::LoadU(f, cull.center[axis].data() + k), all(e.middle[axis]));
+      sum = hn::MulAdd(to, to, sum);
+    }
+    least = hn::Min(least, hn::Sub(hn::Sqrt(sum), hn::LoadU(f, cull.shortest.data() + k)));
+  }
+  return hn::GetLane(hn::MinOfLanes(f, least)) + e.radius;
+}
+
+/// Ellipsoids whose box is within `window` of the block's; false if they are too many.
+HWY_INLINE bool near_boxes(const CullArrays& cull, const Extent& e, float window, Candidates& out) {
+  const std::size_t width = hn::Lanes(f);
+  out.count = 0;
+  for (std::size_t k = 0; k < cull.shortest.size(); k += width) {
+    const M near = hn::Le(box_distance(cull, e, k), all(window));
+    if (hn::AllFalse(f, near)) continue;
+    if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
+    const VI index = hn::Iota(I(), static_cast<std::int32_t>(k));
+    out.count +=
+        static_cast<int>(hn::CompressStore(index, hn::RebindMask(I(), near), I(), out.index + out.count));
+  }
+  return true;
+}
+
+/// Exact distance and normal of every candidate at the block's middle. Returns the least distance.
+HWY_INLINE float tangents(const Baked& baked, const Extent& e, Candidates& out) {
+  const int width = static_cast<int>(hn::Lanes(f));
+  for (int i = 0; i < width; ++i) out.index[out.count + i] = 0;
+  V least = all(1e30f);
+  for (int c = 0; c < out.count; c += width) {
+    const Shape s = gather(baked.ellipsoids.data(), hn::Load(I(), out.index + c));
+    const Foot foot = foot_of(s, broadcast3(e.middle));
+    hn::Store(foot.distance, f, out.distance + c);
+    store3(foot.normal, out.nx + c, out.ny + c, out.nz + c);
+    const M valid = hn::FirstN(f, static_cast<std::size_t>(out.count - c));
+    least = hn::Min(least, hn::IfThenElse(valid, foot.distance, all(1e30f)));
+  }
+  std::memcpy(out.middle, e.middle, sizeof(out.middle));
+  return hn::GetLane(hn::MinOfLanes(f, least));
+}
+
+/// Keeps the candidates whose tangent plane comes within `window` of some place of the block's box, and puts
+/// the one nearest to its middle first.
+HWY_INLINE void keep_within(const Extent& e, float window, Candidates& c) {
+  int kept = 0, nearest = 0;
+  for (int i = 0; i < c.count; ++i) {
+    const float reach =
+        std::abs(c.nx[i]) * e.half[0] + std::abs(c.ny[i]) * e.half[1] + std::abs(c.nz[i]) * e.half[2];
+    if (c.distance[i] - reach > window) continue;
+    c.index[kept] = c.index[i];
+    c.distance[kept] = c.distance[i];
+    c.nx[kept] = c.nx[i];
+    c.ny[kept] = c.ny[i];
+    c.nz[kept] = c.nz[i];
+    if (c.distance[kept] < c.distance[nearest]) nearest = kept;
+    ++kept;
+  }
+  c.count = kept;
+  if (nearest == 0) return;
+  std::swap(c.index[0], c.index[nearest]);
+  std::swap(c.distance[0], c.distance[nearest]);
+  std::swap(c.nx[0], c.nx[nearest]);
+  std::swap(c.ny[0], c.ny[nearest]);
+  std::swap(c.nz[0], c.nz[nearest]);
+}
+
+/// All ellipsoids that can own a particle of the block, or lie within `beyond_m` of the owner's distance.
+HWY_INLINE bool cull_for_query(const Baked& baked, const Block& block, float beyond_m, Candidates& out) {
+  const Extent e = extent_of(block);
+  const float slack = baked.rounding_m + 1e-6f * e.radius + beyond_m;
+  if (!near_boxes(baked.cull, e, ball_bound(baked.cull, e) + slack, out)) return false;
+  const float least = tangents(baked, e, out);
+  keep_within(e, least + e.radius + slack, out);
+  return true;
+}
+
+/// All ellipsoids that a particle of the block is below the clearance of, or can be pushed into.
+HWY_INLINE bool cull_for_response(const Baked& baked, const Block& block, float clearance_m,
+                                  Candidates& out) {
+  const Extent e = extent_of(block);
+  const float slack = baked.rounding_m + 1e-6f * e.radius;
+  if (!near_boxes(baked.cull, e, clearance_m + slack, out)) return false;
+  if (out.count == 0) return true;
+  const float depth = clearance_m - (tangents(baked, e, out) - e.radius);
+  if (depth <= 0.0f) out.count = 0;
+  if (depth <= 0.0f) return true;
+  // A push can be longer than the depth where surfaces meet; the exact side takes what is longer than this.
+  out.reach_m = 1.5f * depth;
+  const float window = clearance_m + out.reach_m + slack;
+  if (!near_boxes(baked.cull, e, window, out)) return false;
+  tangents(baked, e, out);
+  keep_within(e, window, out);
+  return true;
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,65 @@
+// Three vectors of floats, one point a lane.
+#if defined(BODICE_COLLISION_VEC3_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_VEC3_INL_
+#undef BODICE_COLLISION_VEC3_INL_
+#else
+#define BODICE_COLLISION_VEC3_INL_
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F = hn::CappedTag<float, 16>;
+using V = hn::Vec<F>;
+using M = hn::Mask<F>;
+constexpr F f;
+
+struct V3 {
+  V x, y, z;
+};
+
+HWY_INLINE V all(float value) {
+  return hn::Set(f, value);
+}
+HWY_INLINE V3 operator+(V3 a, V3 b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE V3 operator-(V3 a, V3 b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE V dot(V3 a, V3 b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE V3 scaled(V3 a, V s) {
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
+/// a + s b
+HWY_INLINE V3 along(V3 a, V s, V3 b) {
+  return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
+}
+HWY_INLINE V3 select(M m, V3 yes, V3 no) {
+  return {hn::IfThenElse(m, yes.x, no.x), hn::IfThenElse(m, yes.y, no.y), hn::IfThenElse(m, yes.z, no.z)};
+}
+HWY_INLINE V3 absolute(V3 a) {
+  return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)};
+}
+HWY_INLINE V3 load3(const float* x, const float* y, const float* z) {
+  return {hn::Load(f, x), hn::Load(f, y), hn::Load(f, z)};
+}
+HWY_INLINE V3 broadcast3(const float* xyz) {
+  return {all(xyz[0]), all(xyz[1]), all(xyz[2])};
+}
+HWY_INLINE void store3(V3 a, float* x, float* y, float* z) {
+  hn::Store(a.x, f, x);
+  hn::Store(a.y, f, y);
+  hn::Store(a.z, f, z);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,21 @@
+// How the material of each ellipsoid moved from the pose before to the pose now.
+#pragma once
+
+#include <vector>
+
+#include <bodice/geometry/ellipsoid.hpp>
+
+namespace bodice::collision {
+
+/// Velocity of the material at x carried by one ellipsoid: turn x + shift, metres a second.
+struct SurfaceMotion {
+  float turn[9] = {};
+  float shift[3] = {};
+
+  geometry::Vec3 at(const geometry::Vec3& x) const;
+};
+
+/// A material point keeps its place in the ellipsoid's frame, in shares of the radii.
+SurfaceMotion motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now, double dt_s);
+
+}  // namespace bodice::collision

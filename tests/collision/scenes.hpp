@@ -1,0 +1,107 @@
+// Proxies and particles that the suite shares: deterministic, made from a seed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/random.hpp>
+
+namespace bodice_test {
+
+using bodice::geometry::Ellipsoid;
+using bodice::geometry::Mat3;
+using bodice::geometry::Vec3;
+
+inline Vec3 random_vector(bodice::engine::Random& random, double half_side) {
+  const double x = random.uniform(-half_side, half_side);
+  const double y = random.uniform(-half_side, half_side);
+  return {x, y, random.uniform(-half_side, half_side)};
+}
+
+inline Vec3 random_direction(bodice::engine::Random& random) {
+  const double x = random.normal(), y = random.normal();
+  return Vec3(x, y, random.normal()).normalized();
+}
+
+inline Mat3 random_rotation(bodice::engine::Random& random) {
+  const Vec3 axis = random_direction(random);
+  return Eigen::AngleAxisd(random.uniform(0.0, 3.14159), axis).toRotationMatrix();
+}
+
+/// Centres in a cube of the given half side, radii log-uniform between the two.
+inline std::vector<Ellipsoid> random_ellipsoids(std::uint64_t seed, int count, double half_side, double least,
+                                                double largest) {
+  bodice::engine::Random random(seed);
+  std::vector<Ellipsoid> result(static_cast<std::size_t>(count));
+  for (Ellipsoid& e : result) {
+    e.center = random_vector(random, half_side);
+    e.axes = random_rotation(random);
+    for (int axis = 0; axis < 3; ++axis) e.radii[axis] = least * std::pow(largest / least, random.uniform());
+  }
+  return result;
+}
+
+inline bodice::proxy::BodyProxy::Data data_of(const std::vector<Ellipsoid>& shapes) {
+  bodice::proxy::BodyProxy::Data data;
+  data.tier = bodice::proxy::Tier::kSolid;
+  data.stature_m = 1.7;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    data.ellipsoids.push_back({shapes[k], static_cast<bodice::body::Part>(k % bodice::body::kPartCount)});
+  return data;
+}
+
+inline bodice::proxy::BodyProxy proxy_of(const bodice::proxy::BodyProxy::Data& data) {
+  auto proxy = bodice::proxy::BodyProxy::make(data);
+  if (!proxy.ok()) throw std::runtime_error(proxy.error().sentence());
+  return std::move(proxy).value();
+}
+
+inline bodice::proxy::BodyProxy proxy_of(const std::vector<Ellipsoid>& shapes) {
+  return proxy_of(data_of(shapes));
+}
+
+/// Particles with their storage.
+struct Cloud {
+  std::vector<float> x, y, z, vx, vy, vz, sx, sy, sz;
+
+  void add(const Vec3& p, const Vec3& v = Vec3::Zero()) {
+    x.push_back(static_cast<float>(p.x()));
+    y.push_back(static_cast<float>(p.y()));
+    z.push_back(static_cast<float>(p.z()));
+    vx.push_back(static_cast<float>(v.x()));
+    vy.push_back(static_cast<float>(v.y()));
+    vz.push_back(static_cast<float>(v.z()));
+  }
+  void add_safe(const Vec3& s) {
+    sx.push_back(static_cast<float>(s.x()));
+    sy.push_back(static_cast<float>(s.y()));
+    sz.push_back(static_cast<float>(s.z()));
+  }
+  std::size_t size() const { return x.size(); }
+  Vec3 position(std::size_t i) const { return {double{x[i]}, double{y[i]}, double{z[i]}}; }
+  Vec3 velocity(std::size_t i) const { return {double{vx[i]}, double{vy[i]}, double{vz[i]}}; }
+  bodice::collision::Particles particles() {
+    bodice::collision::Particles p{size(), x.data(), y.data(), z.data(), vx.data(), vy.data(), vz.data()};
+    if (!sx.empty()) p.safe_x = sx.data(), p.safe_y = sy.data(), p.safe_z = sz.data();
+    return p;
+  }
+};
+
+/// Brute force over the union, in double: the oracle of the suite.
+inline bodice::geometry::NearestPoint brute_force(const std::vector<Ellipsoid>& shapes, const Vec3& p,
+                                                  std::uint32_t* owner = nullptr) {
+  bodice::geometry::NearestPoint best;
+  best.signed_distance = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const auto at = bodice::geometry::nearest_point(shapes[k], p);
+    if (at.signed_distance >= best.signed_distance) continue;
+    best = at;
+    if (owner) *owner = static_cast<std::uint32_t>(k);
+  }
+  return best;
+}
+
+}  // namespace bodice_test
