@@ -2,6 +2,7 @@
 // Based on: Adriaan van Oosterom, Jan Strackee. The Solid Angle of a Plane Triangle. 1983. - eq. (8)
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <bodice/geometry/triangle.hpp>
 
@@ -30,11 +31,20 @@ TrianglePoint on_edge(const Vec3& from, const Vec3& to, int k, const Vec3& query
   return result;
 }
 
-/// For slivers, where the Voronoi regions of the face drown in rounding.
-TrianglePoint nearest_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& query) {
-  TrianglePoint best = on_edge(a, b, 0, query);
-  for (const TrianglePoint& other : {on_edge(b, c, 1, query), on_edge(c, a, 2, query)})
-    if ((other.point - query).squaredNorm() < (best.point - query).squaredNorm()) best = other;
+/// The nearest point of the edges in `mask` (bit k: corner k to corner k + 1), which holds at least one.
+TrianglePoint nearest_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& query, unsigned mask) {
+  const Vec3* corners[] = {&a, &b, &c, &a};
+  TrianglePoint best;
+  double best2 = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    if ((mask >> k & 1u) == 0) continue;
+    const TrianglePoint at = on_edge(*corners[k], *corners[k + 1], k, query);
+    const double distance2 = (at.point - query).squaredNorm();
+    if (!(distance2 >= best2)) {
+      best2 = distance2;
+      best = at;
+    }
+  }
   return best;
 }
 
@@ -49,12 +59,16 @@ TrianglePoint closest_point(const Vec3& a, const Vec3& b, const Vec3& c, const V
   // Barycentric weights of the projection, from the areas of the three sub-triangles.
   const double v = ap.cross(ac).dot(normal);
   const double w = ab.cross(ap).dot(normal);
-  if (!(v > 0.0 && w > 0.0 && v + w < area2)) return nearest_edge(a, b, c, query);
+  // The nearest point lies on an edge that the projection is beyond; in slivers the signs are noise: all
+  // three.
+  const bool sliver = !(area2 > kSliver2 * ab.squaredNorm() * ac.squaredNorm());
+  const unsigned beyond = (w > 0.0 ? 0u : 1u) | (v + w < area2 ? 0u : 2u) | (v > 0.0 ? 0u : 4u);
+  if (beyond != 0) return nearest_edge(a, b, c, query, sliver ? 7u : beyond);
   const double inv = 1.0 / area2;
   const TrianglePoint face{a + (v * inv) * ab + (w * inv) * ac, Vec3(1.0 - (v + w) * inv, v * inv, w * inv),
                            TriangleFeature::kFace};
-  if (area2 > kSliver2 * ab.squaredNorm() * ac.squaredNorm()) return face;
-  const TrianglePoint edge = nearest_edge(a, b, c, query);
+  if (!sliver) return face;
+  const TrianglePoint edge = nearest_edge(a, b, c, query, 7u);
   return (edge.point - query).squaredNorm() < (face.point - query).squaredNorm() ? edge : face;
 }
 
