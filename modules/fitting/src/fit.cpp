@@ -36,6 +36,11 @@ int starting_count(const LabelledSkin& skin, const FitOptions& options) {
 
 Draft run_tier(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options, int count,
                std::vector<engine::StageTime>& stages) {
+  using proxy::Tier;
+  if (options.tier == Tier::kTight || options.tier == Tier::kRelief) {
+    engine::StageTimer timer(context, stages, "tight");
+    return fit_tight(context, skin, options, count, options.time_budget_s);
+  }
   engine::StageTimer timer(context, stages, "fit");
   return fit_paper(context, skin, options, count);
 }

@@ -17,4 +17,9 @@ struct Draft {
 Draft fit_paper(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
                 int count);
 
+/// All ellipsoids optimised together against the exact signed distance, from medial clusters; anytime.
+/// Needs skin.distance.
+Draft fit_tight(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+                int count, double time_budget_s);
+
 }  // namespace bodice::fitting

@@ -1,0 +1,103 @@
+#include "medial_start.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include <bodice/fitting/kmeans.hpp>
+
+namespace bodice::fitting {
+namespace {
+
+using Balls = std::vector<InscribedBall>;
+
+/// Thin places need more ellipsoids a square metre than thick ones.
+double demand(const InscribedBall& ball, double stature_m) {
+  return std::pow(std::max(ball.radius_m, 1e-4 * stature_m), -0.7);
+}
+
+/// Greedy highest averages: each ellipsoid goes to the part whose share is least served.
+std::array<int, body::kPartCount> share(const std::array<double, body::kPartCount>& demand_of, int count) {
+  std::array<int, body::kPartCount> given{};
+  for (int n = 0; n < count; ++n) {
+    int best = 0;
+    double most = 0.0;
+    for (int p = 0; p < body::kPartCount; ++p) {
+      const double need = given[p] == 0 && demand_of[p] > 0.0 ? 1e300 : demand_of[p] / (given[p] + 0.5);
+      if (need > most) most = need, best = p;
+    }
+    if (most == 0.0) break;
+    ++given[best];
+  }
+  return given;
+}
+
+/// Spread-out seeds: each is the point farthest from those before it.
+std::vector<Vec3> farthest_seeds(const std::vector<Vec3>& points, int count) {
+  std::vector<Vec3> seeds = {points[0]};
+  std::vector<double> nearest(points.size(), 1e300);
+  while (static_cast<int>(seeds.size()) < count) {
+    std::size_t far = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      nearest[i] = std::min(nearest[i], (points[i] - seeds.back()).squaredNorm());
+      if (nearest[i] > nearest[far]) far = i;
+    }
+    if (!(nearest[far] > 0.0)) break;
+    seeds.push_back(points[far]);
+  }
+  return seeds;
+}
+
+/// Points even on an ellipsoid's surface have covariance diag(r^2) / 3.
+geometry::Ellipsoid from_spread(const std::vector<Vec3>& points, double min_radius_m) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+  geometry::Mat3 covariance = geometry::Mat3::Zero();
+  for (const Vec3& p : points) covariance += (p - mean) * (p - mean).transpose();
+  covariance /= static_cast<double>(points.size());
+  const Eigen::SelfAdjointEigenSolver<geometry::Mat3> eigen(covariance);
+  geometry::Ellipsoid e;
+  e.center = mean;
+  e.axes = eigen.eigenvectors();
+  if (e.axes.determinant() < 0.0) e.axes.col(2) = -e.axes.col(2);
+  e.radii = (3.0 * eigen.eigenvalues()).cwiseMax(0.0).cwiseSqrt().cwiseMax(min_radius_m);
+  return e;
+}
+
+void start_part(const engine::Context& context, const Balls& balls, int count, double stature_m,
+                std::vector<proxy::ProxyEllipsoid>& out) {
+  std::vector<Vec3> centres;
+  std::vector<double> weights;
+  for (const InscribedBall& b : balls) {
+    centres.push_back(b.centre);
+    weights.push_back(demand(b, stature_m));
+  }
+  const Clusters found =
+      kmeans(context, centres, weights, farthest_seeds(centres, count), {1e-4 * stature_m, 30});
+  std::vector<std::vector<Vec3>> touched(found.centers.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) touched[found.of_point[i]].push_back(balls[i].skin);
+  for (const auto& points : touched)
+    if (points.size() >= 4) out.push_back({from_spread(points, 1e-3 * stature_m), balls.front().part});
+}
+
+}  // namespace
+
+std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const LabelledSkin& skin,
+                                                std::uint32_t parts, int count) {
+  const std::size_t samples = std::clamp<std::size_t>(40 * static_cast<std::size_t>(count), 1500, 12000);
+  std::array<Balls, body::kPartCount> of_part;
+  std::array<double, body::kPartCount> demand_of{};
+  for (const InscribedBall& b : inscribed_balls(context, skin, parts, samples, 3)) {
+    of_part[static_cast<int>(b.part)].push_back(b);
+    demand_of[static_cast<int>(b.part)] += demand(b, skin.stature_m);
+  }
+  const auto given = share(demand_of, count);
+  std::vector<proxy::ProxyEllipsoid> ellipsoids;
+  for (int p = 0; p < body::kPartCount; ++p)
+    if (given[p] > 0) start_part(context, of_part[p], given[p], skin.stature_m, ellipsoids);
+  return ellipsoids;
+}
+
+}  // namespace bodice::fitting

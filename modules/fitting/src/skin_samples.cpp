@@ -1,0 +1,87 @@
+#include "skin_samples.hpp"
+
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+#include <bodice/engine/random.hpp>
+#include <bodice/geometry/sampling.hpp>
+
+namespace bodice::fitting {
+namespace {
+
+constexpr std::size_t kGrain = 256;
+
+/// Even samples of the wanted parts' skin.
+std::vector<geometry::SurfaceSample> wanted_skin(const LabelledSkin& skin, std::uint32_t parts,
+                                                 std::size_t count, std::uint64_t seed) {
+  auto samples = geometry::sample_surface(skin.mesh, count, seed);
+  std::erase_if(samples, [&](const geometry::SurfaceSample& s) {
+    const auto part = static_cast<int>(skin.part[skin.mesh.triangles[s.triangle][0]]);
+    return ((parts >> part) & 1u) == 0;
+  });
+  return samples;
+}
+
+/// The skin lies at most |offset| away, at the foot that the point was pushed from; only where something else
+/// is nearer does the sign need the winding number.
+double exact_distance(const geometry::MeshDistance& distance, const Vec3& point, double offset) {
+  const auto hit = distance.nearest_within(point, std::abs(offset) * (1.0 + 1e-9));
+  if (!hit) return offset;
+  const double d = std::abs(hit->signed_distance);
+  if (d >= std::abs(offset) * (1.0 - 1e-6)) return offset;
+  return distance.inside(point) ? -d : d;
+}
+
+double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const Vec3& inward, double radius) {
+  constexpr int kSteps = 12;
+  for (int step = 0; step < kSteps; ++step) {
+    const auto hit = distance.nearest_within(p + radius * inward, radius * (1.0 - 1e-3));
+    if (!hit) break;
+    const Vec3 to = hit->point - p;
+    const double along = 2.0 * inward.dot(to);
+    const double next = along > 0.0 ? to.squaredNorm() / along : 0.0;
+    if (!(next > 0.0 && next < radius)) break;
+    radius = next;
+  }
+  return radius;
+}
+
+}  // namespace
+
+std::vector<DistanceSample> sample_near_skin(const engine::Context& context, const LabelledSkin& skin,
+                                             std::uint32_t parts, const SampleOptions& options) {
+  const auto surface = wanted_skin(skin, parts, options.count, options.seed);
+  std::vector<DistanceSample> samples(surface.size());
+  const engine::Random random(options.seed, 17);
+  engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t t = surface[i].triangle;
+      const Vec3 normal = geometry::area_vector(skin.mesh, t).stableNormalized();
+      const bool on_skin = random.uniform_at(2 * i) < options.on_skin;
+      const double span = options.outward_m + options.inward_m;
+      const double offset = on_skin ? 0.0 : span * random.uniform_at(2 * i + 1) - options.inward_m;
+      const Vec3 p = surface[i].point + offset * normal;
+      samples[i] = {p, on_skin ? 0.0 : exact_distance(*skin.distance, p, offset),
+                    skin.part[skin.mesh.triangles[t][0]]};
+    }
+  });
+  return samples;
+}
+
+std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const LabelledSkin& skin,
+                                           std::uint32_t parts, std::size_t count, std::uint64_t seed) {
+  const auto surface = wanted_skin(skin, parts, count, seed);
+  std::vector<InscribedBall> balls(surface.size());
+  engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t t = surface[i].triangle;
+      const Vec3 inward = -geometry::area_vector(skin.mesh, t).stableNormalized();
+      // No body is thicker than a third of its height where it is cut across.
+      const double r = shrink_ball(*skin.distance, surface[i].point, inward, 0.15 * skin.stature_m);
+      balls[i] = {surface[i].point + r * inward, surface[i].point, r, skin.part[skin.mesh.triangles[t][0]]};
+    }
+  });
+  return balls;
+}
+
+}  // namespace bodice::fitting

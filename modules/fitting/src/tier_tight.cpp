@@ -1,0 +1,64 @@
+#include <algorithm>
+
+#include <bodice/engine/clock.hpp>
+#include <bodice/engine/context.hpp>
+
+#include "medial_start.hpp"
+#include "tiers.hpp"
+#include "tight_descent.hpp"
+
+namespace bodice::fitting {
+namespace {
+
+/// The optimisation runs on a body of this height at the origin, so that its tolerances are lengths.
+constexpr double kScaledStature = 1.7;
+
+struct Scaling {
+  Vec3 origin;
+  double scale;
+
+  geometry::Ellipsoid in(const geometry::Ellipsoid& e) const {
+    return {(e.center - origin) * scale, e.axes, e.radii * scale};
+  }
+  geometry::Ellipsoid out(const geometry::Ellipsoid& e) const {
+    return {e.center / scale + origin, e.axes, e.radii / scale};
+  }
+};
+
+}  // namespace
+
+Draft fit_tight(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+                int count, double time_budget_s) {
+  const std::int64_t deadline =
+      context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(time_budget_s, 1e6));
+  Draft draft;
+  draft.data.tier = proxy::Tier::kTight;
+  draft.data.ellipsoids = medial_start(context, skin, options.parts, count);
+  const Scaling scaling{geometry::bounding_box(skin.mesh.positions).center(),
+                        kScaledStature / skin.stature_m};
+  const double mm = 1e-3 / scaling.scale;
+  const std::size_t samples = std::clamp<std::size_t>(180 * static_cast<std::size_t>(count), 6000, 60000);
+  TightProblem problem(sample_near_skin(context, skin, options.parts, {samples, 8 * mm, 20 * mm, 0.5, 11}),
+                       scaling.origin, scaling.scale, TightLoss{});
+  std::vector<geometry::Ellipsoid> state;
+  for (const auto& e : draft.data.ellipsoids) state.push_back(scaling.in(e.shape));
+
+  const auto take = [&](std::span<const geometry::Ellipsoid> found) {
+    for (std::size_t k = 0; k < found.size(); ++k) draft.data.ellipsoids[k].shape = scaling.out(found[k]);
+  };
+  DescentOptions descent;
+  descent.out_of_time = [&] { return context.clock->now_ns() >= deadline; };
+  descent.on_improved = [&](std::span<const geometry::Ellipsoid> found) {
+    if (!options.on_improved) return;
+    take(found);
+    proxy::BodyProxy::Data data = draft.data;
+    data.stature_m = skin.stature_m;
+    data.frame = skin.frame;
+    if (auto proxy = proxy::BodyProxy::make(std::move(data))) options.on_improved(*proxy);
+  };
+  descend(context, problem, state, descent);
+  take(state);
+  return draft;
+}
+
+}  // namespace bodice::fitting

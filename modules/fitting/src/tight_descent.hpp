@@ -1,0 +1,27 @@
+// The anytime optimisation of all ellipsoids of a proxy together.
+#pragma once
+
+#include <functional>
+
+#include "tight_problem.hpp"
+
+namespace bodice::fitting {
+
+struct DescentOptions {
+  int max_iterations = 500;
+  std::function<bool()> out_of_time;  ///< asked once an iteration
+  /// Told of the ellipsoids when the cost has fallen by 5 % since the last time.
+  std::function<void(std::span<const geometry::Ellipsoid>)> on_improved;
+};
+
+struct DescentReport {
+  int iterations = 0;
+  double first_cost = 0.0, last_cost = 0.0;
+  bool converged = false;  ///< stopped because nothing was gained any more
+};
+
+/// Lowers the cost of `ellipsoids` (in the problem's scaled units) in place; never raises it.
+DescentReport descend(const engine::Context& context, TightProblem& problem,
+                      std::vector<geometry::Ellipsoid>& ellipsoids, const DescentOptions& options);
+
+}  // namespace bodice::fitting
