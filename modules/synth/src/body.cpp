@@ -96,8 +96,11 @@ Body make(const engine::Context& context, const BodyOptions& options, const body
   const double h = options.stature_m;
   const Skin skin = solve_girth(context, figure, options.mass_kg / kDensity / (h * h * h));
   const Patches patches(skin.cage);
-  const std::vector<Vec3> corners(skin.positions.begin(), skin.positions.begin() + static_cast<std::ptrdiff_t>(skin.cage.positions.size()));
-  const PatchMesh mesh = patches.tessellate(counts_for_vertices(patches, patches.class_lengths(corners), options.vertices));
+  const std::vector<Vec3> corners(
+      skin.positions.begin(),
+      skin.positions.begin() + static_cast<std::ptrdiff_t>(skin.cage.positions.size()));
+  const PatchMesh mesh =
+      patches.tessellate(counts_for_vertices(patches, patches.class_lengths(corners), options.vertices));
   const std::vector<Vec3> rest = sample_skin(context, skin, Flesh(figure), mesh);
   const std::vector<BoneWeights> of_skin = bone_weights(figure, skin);
   std::vector<BoneWeights> weights(rest.size());

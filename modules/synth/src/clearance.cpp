@@ -32,14 +32,18 @@ std::vector<Capsule> capsules(const Figure& f, const BoneTransforms& posed) {
   std::vector<Capsule> list;
   for (const double x : {-0.035, 0.035}) {
     const Vec3 aside(x, 0.0, 0.0);
-    list.push_back({at(Bone::kPelvis, joint(Bone::kPelvis) + aside), at(Bone::kSpine, joint(Bone::kSpine) + aside), 0.06 * thick, kTrunkGroup});
-    list.push_back({at(Bone::kSpine, joint(Bone::kSpine) + aside), at(Bone::kChest, Vec3(x, f.p.axilla_height, -0.01)), 0.055 * thick, kTrunkGroup});
+    list.push_back({at(Bone::kPelvis, joint(Bone::kPelvis) + aside),
+                    at(Bone::kSpine, joint(Bone::kSpine) + aside), 0.06 * thick, kTrunkGroup});
+    list.push_back({at(Bone::kSpine, joint(Bone::kSpine) + aside),
+                    at(Bone::kChest, Vec3(x, f.p.axilla_height, -0.01)), 0.055 * thick, kTrunkGroup});
   }
-  list.push_back({at(Bone::kHead, joint(Bone::kHead)), at(Bone::kHead, Vec3(0, 0.95, 0.01)), 0.055, kHeadGroup});
+  list.push_back(
+      {at(Bone::kHead, joint(Bone::kHead)), at(Bone::kHead, Vec3(0, 0.95, 0.01)), 0.055, kHeadGroup});
   for (int side = 0; side < 2; ++side) {
     const auto of = [&](Bone left) { return of_side(left, side); };
     const auto start = [&](Bone left) { return at(of(left), joint(of(left))); };
-    const Vec3 fingertip = at(of(Bone::kFingertipsL), Vec3(joint(of(Bone::kFingertipsL)) + 0.2 * f.p.hand * f.arm[side].along));
+    const Vec3 fingertip =
+        at(of(Bone::kFingertipsL), Vec3(joint(of(Bone::kFingertipsL)) + 0.2 * f.p.hand * f.arm[side].along));
     list.push_back({start(Bone::kForearmL), start(Bone::kHandL), 0.022 * thick, kForearmGroup + side});
     list.push_back({start(Bone::kHandL), start(Bone::kFingersL), 0.022, kForearmGroup + side});
     list.push_back({start(Bone::kFingersL), fingertip, 0.02, kForearmGroup + side});
@@ -55,7 +59,9 @@ std::vector<Capsule> capsules(const Figure& f, const BoneTransforms& posed) {
 bool may_touch(int a, int b) {
   if (a > b) std::swap(a, b);
   if (a == b) return true;
-  if (a == kTrunkGroup) return b == kHeadGroup || b == kArmGroup || b == kArmGroup + 1 || b == kThighGroup || b == kThighGroup + 1;
+  if (a == kTrunkGroup)
+    return b == kHeadGroup || b == kArmGroup || b == kArmGroup + 1 || b == kThighGroup ||
+           b == kThighGroup + 1;
   const bool same_side = (a % 2) == (b % 2);
   if (a == kArmGroup || a == kArmGroup + 1) return same_side && b <= kForearmGroup + 1;
   return (a == kThighGroup || a == kThighGroup + 1) && same_side;

@@ -1,4 +1,5 @@
-// Based on: Ladislav Kavan, Steven Collins, Jiri Zara, Carol O'Sullivan. Skinning with dual quaternions. 2007.
+// Based on: Ladislav Kavan, Steven Collins, Jiri Zara, Carol O'Sullivan. Skinning with dual quaternions.
+// 2007.
 #include "deform.hpp"
 
 #include <algorithm>

@@ -79,7 +79,8 @@ std::int64_t Patches::vertex_count(const std::vector<int>& counts) const {
   std::int64_t total = static_cast<std::int64_t>(cage_.positions.size());
   for (const Edge& e : edges_) total += counts[e.edge_class] - 1;
   for (const auto& of_quad : edge_of_quad_)
-    total += std::int64_t{counts[edges_[of_quad[0]].edge_class] - 1} * (counts[edges_[of_quad[1]].edge_class] - 1);
+    total +=
+        std::int64_t{counts[edges_[of_quad[0]].edge_class] - 1} * (counts[edges_[of_quad[1]].edge_class] - 1);
   return total;
 }
 
@@ -111,7 +112,8 @@ PatchMesh Patches::tessellate(const std::vector<int>& counts) const {
   std::vector<std::vector<Index>> of_edge(edges_.size());
   for (int q = 0; q < static_cast<int>(cage_.quads.size()); ++q) {
     for (int k = 0; k < 4; ++k) mesh.at[cage_.quads[q][k]] = {q, kCorners[k][0], kCorners[k][1]};
-    const auto bottom = edge_vertices(mesh, q, 0, counts, of_edge), right = edge_vertices(mesh, q, 1, counts, of_edge);
+    const auto bottom = edge_vertices(mesh, q, 0, counts, of_edge),
+               right = edge_vertices(mesh, q, 1, counts, of_edge);
     auto top = edge_vertices(mesh, q, 2, counts, of_edge), left = edge_vertices(mesh, q, 3, counts, of_edge);
     std::reverse(top.begin(), top.end());
     std::reverse(left.begin(), left.end());
@@ -120,11 +122,17 @@ PatchMesh Patches::tessellate(const std::vector<int>& counts) const {
     for (int r = 0; r <= nv; ++r)
       for (int c = 0; c <= nu; ++c) {
         Index& v = grid[r * (nu + 1) + c];
-        if (r == 0) v = bottom[c];
-        else if (r == nv) v = top[c];
-        else if (c == 0) v = left[r];
-        else if (c == nu) v = right[r];
-        else v = add_vertex(mesh, {q, static_cast<double>(c) / nu, static_cast<double>(r) / nv}, cage_.quad_region[q]);
+        if (r == 0)
+          v = bottom[c];
+        else if (r == nv)
+          v = top[c];
+        else if (c == 0)
+          v = left[r];
+        else if (c == nu)
+          v = right[r];
+        else
+          v = add_vertex(mesh, {q, static_cast<double>(c) / nu, static_cast<double>(r) / nv},
+                         cage_.quad_region[q]);
       }
     for (int r = 0; r < nv; ++r)
       for (int c = 0; c < nu; ++c) {
@@ -154,7 +162,8 @@ std::vector<int> counts_for_vertices(const Patches& patches, const std::vector<d
     (patches.vertex_count(counts_for(class_lengths, middle)) > vertices ? fine : coarse) = middle;
   }
   const auto above = counts_for(class_lengths, fine), below = counts_for(class_lengths, coarse);
-  const std::int64_t over = patches.vertex_count(above) - vertices, under = vertices - patches.vertex_count(below);
+  const std::int64_t over = patches.vertex_count(above) - vertices,
+                     under = vertices - patches.vertex_count(below);
   return over < under ? above : below;
 }
 

@@ -18,12 +18,12 @@ struct PatchPoint {
 };
 
 struct PatchMesh {
-  std::vector<PatchPoint> at;                               ///< #V
-  std::vector<Region> region;                               ///< #V
-  std::vector<std::array<geometry::Index, 4>> quads;        ///< of vertices
-  std::vector<int> cage_quad;                               ///< #quads
-  std::vector<std::array<int, 2>> counts;                   ///< #cage quads: cells along u and v
-  std::vector<std::vector<geometry::Index>> grid;           ///< #cage quads: (nv + 1) x (nu + 1) vertices
+  std::vector<PatchPoint> at;                         ///< #V
+  std::vector<Region> region;                         ///< #V
+  std::vector<std::array<geometry::Index, 4>> quads;  ///< of vertices
+  std::vector<int> cage_quad;                         ///< #quads
+  std::vector<std::array<int, 2>> counts;             ///< #cage quads: cells along u and v
+  std::vector<std::vector<geometry::Index>> grid;     ///< #cage quads: (nv + 1) x (nu + 1) vertices
 };
 
 /// The edges of a cage, sorted into classes that are cut into equally many pieces.

@@ -44,7 +44,8 @@ void turn_leg(const LegAngles& a, int side, LocalTurns& turn) {
   const auto of = [&](Bone left) -> Turn& { return turn[index(of_side(left, side))]; };
   const double rest = Figure::kLegSpread_rad * 180.0 / std::numbers::pi;
   // The leg is first brought to the vertical, where the knee's axis is x, and spread after it was swung.
-  of(Bone::kThighL) = about(kZ, sign * a.spread) * about(kX, -a.flex) * about(kY, sign * a.twist) * about(kZ, -sign * rest);
+  of(Bone::kThighL) =
+      about(kZ, sign * a.spread) * about(kX, -a.flex) * about(kY, sign * a.twist) * about(kZ, -sign * rest);
   const Turn upright = about(kZ, -sign * rest);
   of(Bone::kCalfL) = upright.transpose() * about(kX, a.knee) * upright;
   // The rest pose's foot is flat: undo the leg's lean, so that the sole stays square to the shin.

@@ -17,8 +17,8 @@ struct ArmAngles {
   double forward = 0.0;  ///< swing to the front, after the raise
   double twist = 0.0;    ///< about the upper arm's axis, inward positive
   double elbow = 4.0;
-  double wrist = 0.0;    ///< palm towards the forearm
-  double curl = 8.0;     ///< of each row of finger joints
+  double wrist = 0.0;  ///< palm towards the forearm
+  double curl = 8.0;   ///< of each row of finger joints
 };
 
 struct LegAngles {
@@ -26,7 +26,7 @@ struct LegAngles {
   double spread = 5.0;  ///< away from the other leg
   double twist = 0.0;   ///< toes outward
   double knee = 1.0;
-  double ankle = 0.0;   ///< toes up
+  double ankle = 0.0;  ///< toes up
 };
 
 struct PoseAngles {

@@ -85,15 +85,24 @@ PoseAngles random_angles(std::uint64_t seed) {
 
 PoseAngles angles_of(Pose pose, std::uint64_t seed) {
   switch (pose) {
-    case Pose::kA: return both({.raise = 45}, {.spread = 6});
-    case Pose::kT: return both({.raise = 90, .elbow = 0}, {.spread = 5});
-    case Pose::kArmsDown: return both({.raise = 10, .elbow = 8}, {.spread = 3});
-    case Pose::kArmsUp: return both({.raise = 166, .elbow = 6}, {.spread = 3});
-    case Pose::kStride: return stride();
-    case Pose::kSit: return both({.raise = 20, .forward = 20, .elbow = 42}, {.flex = 86, .spread = 8, .knee = 88});
-    case Pose::kSquat: return squat();
-    case Pose::kRun: return run();
-    case Pose::kKick: return kick();
+    case Pose::kA:
+      return both({.raise = 45}, {.spread = 6});
+    case Pose::kT:
+      return both({.raise = 90, .elbow = 0}, {.spread = 5});
+    case Pose::kArmsDown:
+      return both({.raise = 10, .elbow = 8}, {.spread = 3});
+    case Pose::kArmsUp:
+      return both({.raise = 166, .elbow = 6}, {.spread = 3});
+    case Pose::kStride:
+      return stride();
+    case Pose::kSit:
+      return both({.raise = 20, .forward = 20, .elbow = 42}, {.flex = 86, .spread = 8, .knee = 88});
+    case Pose::kSquat:
+      return squat();
+    case Pose::kRun:
+      return run();
+    case Pose::kKick:
+      return kick();
     case Pose::kLying: {
       PoseAngles lying = both({.raise = 28, .elbow = 10}, {.spread = 9, .twist = 18, .ankle = -25});
       lying.pitch = -90.0;
@@ -105,7 +114,8 @@ PoseAngles angles_of(Pose pose, std::uint64_t seed) {
       up.nod = -18.0;
       return up;
     }
-    case Pose::kRandom: return random_angles(seed);
+    case Pose::kRandom:
+      return random_angles(seed);
   }
   return {};
 }

@@ -12,16 +12,17 @@ namespace {
 
 using geometry::Index;
 
-constexpr std::size_t kGrain = 256;          // vertices a task: each costs some ten microseconds
-constexpr double kDesignEdge = 0.013;        // of stature: resolves the trunk's curves
-constexpr int kDesignRelaxations = 24;       // until the cage's unevenness is gone
-constexpr int kFinalRelaxations = 3;         // until the sampling's creases are gone
-constexpr double kRelaxation = 0.6;          // share of the way to the neighbours' mean
+constexpr std::size_t kGrain = 256;     // vertices a task: each costs some ten microseconds
+constexpr double kDesignEdge = 0.013;   // of stature: resolves the trunk's curves
+constexpr int kDesignRelaxations = 24;  // until the cage's unevenness is gone
+constexpr int kFinalRelaxations = 3;    // until the sampling's creases are gone
+constexpr double kRelaxation = 0.6;     // share of the way to the neighbours' mean
 
 void project_all(const engine::Context& context, const Flesh& flesh, const PatchMesh& mesh, int steps,
                  std::vector<Vec3>& positions) {
   engine::parallel_for(context, positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) positions[v] = flesh.project(mesh.region[v], positions[v], steps);
+    for (std::size_t v = begin; v < end; ++v)
+      positions[v] = flesh.project(mesh.region[v], positions[v], steps);
   });
 }
 
@@ -65,9 +66,11 @@ Skin make_skin(const engine::Context& context, const Figure& figure, const Flesh
   PatchMesh corners;  // the cage itself, as a mesh to sample from
   for (const Cage::Quad& quad : skin.cage.quads) {
     corners.counts.push_back({1, 1});
-    corners.grid.push_back({static_cast<Index>(quad[0]), static_cast<Index>(quad[1]), static_cast<Index>(quad[3]), static_cast<Index>(quad[2])});
+    corners.grid.push_back({static_cast<Index>(quad[0]), static_cast<Index>(quad[1]),
+                            static_cast<Index>(quad[3]), static_cast<Index>(quad[2])});
   }
-  for (const PatchPoint& at : skin.mesh.at) skin.positions.push_back(sample(corners, skin.cage.positions, at));
+  for (const PatchPoint& at : skin.mesh.at)
+    skin.positions.push_back(sample(corners, skin.cage.positions, at));
   project_all(context, flesh, skin.mesh, 4, skin.positions);
   relax(context, flesh, skin.mesh, kDesignRelaxations, skin.positions);
   project_all(context, flesh, skin.mesh, 2, skin.positions);

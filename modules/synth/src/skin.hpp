@@ -26,11 +26,12 @@ void settle(const engine::Context& context, const Flesh& flesh, Skin& skin);
 double volume(const PatchMesh& mesh, const std::vector<Vec3>& positions);
 
 /// The finer or coarser mesh's points on the flesh.
-std::vector<Vec3> sample_skin(const engine::Context& context, const Skin& skin, const Flesh& flesh, const PatchMesh& mesh);
+std::vector<Vec3> sample_skin(const engine::Context& context, const Skin& skin, const Flesh& flesh,
+                              const PatchMesh& mesh);
 
 /// Neighbours along quad edges, in rows of a compressed list.
 struct Neighbours {
-  std::vector<std::size_t> start;        ///< #V + 1
+  std::vector<std::size_t> start;  ///< #V + 1
   std::vector<geometry::Index> vertex;
   explicit Neighbours(const PatchMesh& mesh);
 };

@@ -43,7 +43,8 @@ void walk_border(const Posed& b, const std::vector<double>& field,
     int found = 0;
     for (int k = 0; k < 3 && found < 2; ++k) {
       const Index i = t[k], n = t[(k + 1) % 3];
-      if ((field[i] > 0.0) != (field[n] > 0.0)) ends[found++] = cross(b, field, std::min(i, n), std::max(i, n));
+      if ((field[i] > 0.0) != (field[n] > 0.0))
+        ends[found++] = cross(b, field, std::min(i, n), std::max(i, n));
     }
     if (found == 2) visit(ends[0], ends[1]);
   }
@@ -95,7 +96,7 @@ Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p) {
 }
 
 Part trunk_part(const Figure& f, const Vec3& rest) {
-  const bool left = rest.x() >= 0.0;
+  const bool left = rest.x() >= -1e-9;
   if (rest.y() > f.p.chest_height) return left ? Part::kTorsoUL : Part::kTorsoUR;
   if (rest.y() > f.p.waist_height) return left ? Part::kTorsoML : Part::kTorsoMR;
   return left ? Part::kTorsoLL : Part::kTorsoLR;
@@ -122,18 +123,23 @@ std::vector<body::Landmark> true_landmarks(const Posed& b) {
   const auto put_vertex = [&](LandmarkId id, Index v) {
     landmarks[static_cast<int>(id)] = {id, b.posed[v], v, 1.0};
   };
-  const auto sided = [](auto left, int side) { return static_cast<decltype(left)>(static_cast<int>(left) + side); };
+  const auto sided = [](auto left, int side) {
+    return static_cast<decltype(left)>(static_cast<int>(left) + side);
+  };
   put_vertex(LandmarkId::kCrown, furthest(b, Region::kHead, Vec3::UnitY()));
   put(LandmarkId::kNeck, girth_centre(b, lead_of(b, {Part::kHead})));
   put_vertex(LandmarkId::kPerineum, furthest(b, Region::kCrotch, -Vec3::UnitY()));
   for (int side = 0; side < 2; ++side) {
     constexpr int kMiddleFinger = 1;
-    put_vertex(sided(LandmarkId::kFingertipL, side), furthest(b, digit_region(side, kMiddleFinger), b.figure.arm[side].along));
-    put_vertex(sided(LandmarkId::kToeL, side), furthest(b, region_of_side(Region::kLegL, side), Vec3::UnitZ()));
+    put_vertex(sided(LandmarkId::kFingertipL, side),
+               furthest(b, digit_region(side, kMiddleFinger), b.figure.arm[side].along));
+    put_vertex(sided(LandmarkId::kToeL, side),
+               furthest(b, region_of_side(Region::kLegL, side), Vec3::UnitZ()));
     const Part forearm = sided(Part::kForearmL, side), calf = sided(Part::kCalfL, side);
     put(sided(LandmarkId::kElbowL, side), girth_centre(b, lead_of(b, {forearm})));
     put(sided(LandmarkId::kKneeL, side), girth_centre(b, lead_of(b, {calf})));
-    put(sided(LandmarkId::kArmpitL, side), lowest_on_border(b, lead_of(b, {forearm, sided(Part::kUpperArmL, side)})));
+    put(sided(LandmarkId::kArmpitL, side),
+        lowest_on_border(b, lead_of(b, {forearm, sided(Part::kUpperArmL, side)})));
   }
   return landmarks;
 }

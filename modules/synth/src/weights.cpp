@@ -14,7 +14,8 @@ Bone trunk_bone(const Figure& f, const Vec3& p) {
   const double pelvis_top = 0.5 * (f.joint[index(Bone::kPelvis)].y() + f.joint[index(Bone::kSpine)].y());
   if (p.y() < pelvis_top) return Bone::kPelvis;
   if (p.y() < f.joint[index(Bone::kChest)].y()) return Bone::kSpine;
-  if (p.y() > f.p.axilla_height && std::abs(p.x()) > 0.045) return of_side(Bone::kClavicleL, p.x() > 0.0 ? 0 : 1);
+  if (p.y() > f.p.axilla_height && std::abs(p.x()) > 0.045)
+    return of_side(Bone::kClavicleL, p.x() > 0.0 ? 0 : 1);
   return Bone::kChest;
 }
 
@@ -50,14 +51,20 @@ Bone head_bone(const Figure& f, const Vec3& p) {
 
 Bone nearest_bone(const Figure& f, Region region, const Vec3& p) {
   switch (region) {
-    case Region::kTrunk: return trunk_bone(f, p);
-    case Region::kCrotch: return Bone::kPelvis;
-    case Region::kHead: return head_bone(f, p);
+    case Region::kTrunk:
+      return trunk_bone(f, p);
+    case Region::kCrotch:
+      return Bone::kPelvis;
+    case Region::kHead:
+      return head_bone(f, p);
     case Region::kArmL:
-    case Region::kArmR: return arm_bone(f, side_of(region), p);
+    case Region::kArmR:
+      return arm_bone(f, side_of(region), p);
     case Region::kLegL:
-    case Region::kLegR: return leg_bone(f, side_of(region), p);
-    default: return digit_bone(f, region, p);
+    case Region::kLegR:
+      return leg_bone(f, side_of(region), p);
+    default:
+      return digit_bone(f, region, p);
   }
 }
 

@@ -1,0 +1,68 @@
+// The trunk's own axes, and convex outlines of slices across them: what garments are cut from.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <bodice/engine/result.hpp>
+#include <bodice/synth/garment.hpp>
+
+namespace bodice::synth {
+
+using geometry::Vec3;
+
+/// x to the body's left, y from the perineum towards the neck, z to the front; origin at the perineum.
+struct TrunkFrame {
+  geometry::Mat3 axes;  ///< columns x, y, z
+  Vec3 origin;
+  Vec3 to_local(const Vec3& p) const { return axes.transpose() * (p - origin); }
+  Vec3 to_world(const Vec3& p) const { return axes * p + origin; }
+};
+
+/// Fails when a landmark is missing or two of them coincide.
+engine::Result<TrunkFrame> trunk_frame(const SegmentedBody& body);
+
+/// The landmark's place in the frame; precondition: trunk_frame succeeded.
+Vec3 local_landmark(const SegmentedBody& body, const TrunkFrame& frame, body::LandmarkId id);
+
+struct Point2 {
+  double x = 0.0, z = 0.0;
+};
+
+using PartFilter = std::function<bool(body::Part)>;
+
+/// A skin in its trunk's frame, to be sliced.
+class LocalSkin {
+ public:
+  LocalSkin(const SegmentedBody& body, const TrunkFrame& frame);
+  /// Points of the skin with low <= coordinate <= high along `axis` (0 x, 1 y, 2 z), ends included.
+  std::vector<Vec3> slab(int axis, double low, double high, const PartFilter& wanted) const;
+
+ private:
+  const SegmentedBody& body_;
+  std::vector<Vec3> local_;
+};
+
+/// Convex hull, counter-clockwise from the lowest x. Based on: A. M. Andrew. Another efficient algorithm for
+/// convex hulls in two dimensions. 1979.
+std::vector<Point2> convex_hull(std::vector<Point2> points);
+
+/// A convex curve around a centre, as radii over equally spread directions from +x towards +z.
+struct Outline {
+  static constexpr int kDirections = 256;
+  Point2 center;
+  std::array<double, kDirections> radius{};
+  double at(double angle) const;
+};
+
+/// Empty slices give radius 0. `center` must lie inside the hull for the outline to be all of it.
+Outline outline_of(std::span<const Point2> hull, const Point2& center);
+
+/// Angles of `count` points that cut the outline into pieces of equal length, the first at angle `from`.
+std::vector<double> even_angles(const Outline& outline, int count, double from);
+
+double perimeter(const Outline& outline);
+
+}  // namespace bodice::synth
