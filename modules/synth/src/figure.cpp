@@ -68,7 +68,7 @@ void place_arm(Figure& f, int side) {
   const auto at = [&](Bone left) -> Vec3& { return f.joint[index(of_side(left, side))]; };
   const double half_breadth = (f.female() > 0.0 ? 0.0925 : 0.1) * f.build.shoulder;
   const double palm = 0.52 * f.p.hand;
-  at(Bone::kUpperArmL) = {sign * half_breadth, f.p.acromion_height - 0.022, -0.012};
+  at(Bone::kUpperArmL) = {sign * half_breadth, f.p.acromion_height - 0.028, -0.012};
   at(Bone::kClavicleL) = {sign * 0.25 * half_breadth, f.p.acromion_height - 0.015, 0.0};
   at(Bone::kForearmL) = at(Bone::kUpperArmL) + f.upper_arm_length() * axes.along;
   at(Bone::kHandL) = at(Bone::kForearmL) + f.p.forearm * axes.along;

@@ -67,7 +67,7 @@ void Flesh::add_arm(const Figure& f, int side) {
        axes.along,
        axes.out,
        axes.front,
-       {row(0.0, .030, .033, .034, .35), row(0.2 * upper, .0305, .031, .034, .5),
+       {row(0.0, .0265, .031, .032, .35), row(0.2 * upper, .0305, .031, .034, .5),
         row(0.5 * upper, .027, .0275, .029, .65), row(0.8 * upper, .0235, .0235, .0245, .55),
         row(upper, .0225, .0225, .0235, .4), row(upper + 0.25 * lower, .0235, .0245, .0235, .4),
         row(upper + 0.6 * lower, .0185, .0205, .019, .3), row(upper + 0.95 * lower, .0125, .016, .0155, .15),
@@ -122,7 +122,7 @@ void Flesh::add_leg(const Figure& f, int side) {
        axes.along,
        axes.out,
        axes.front,
-       {row(-0.01, .046, .050, .048, .000, .40), row(0.24 * thigh, .052, .050, .050, .002, .50),
+       {row(-0.01, .046, .053, .050, .000, .40), row(0.24 * thigh, .052, .053, .051, .002, .50),
         row(0.5 * thigh, .046, .046, .045, .006, .50), row(0.75 * thigh, .038, .039, .037, .008, .40),
         row(thigh, .0315, .034, .032, .006, .25), row(thigh + 0.13 * calf, .0300, .0310, .0325, .000, .25),
         row(thigh + 0.32 * calf, .0320, .0300, .0365, -.002, .35),
@@ -132,7 +132,7 @@ void Flesh::add_leg(const Figure& f, int side) {
        0.035,
        0.02,
        0.0},
-      0.025);
+      0.034);
   const Vec3& ankle = f.joint[index(of_side(Bone::kFootL, side))];
   const double sole = ankle.y() - f.ankle_height, l = f.p.foot_length, h = f.ankle_height;
   const double w = f.p.foot_length * (f.female() > 0.0 ? 0.97 : 1.0);

@@ -66,6 +66,14 @@ void Flesh::add_trunk(const Figure& f) {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   add(Region::kTrunk, {Vec3(0, 0, -0.004), y, x, z, trunk_sections(f), 0.03, 0.012, 0.25}, 0.0);
   const double fat = std::max(f.fat, -0.3);
+  for (int side = 0; side < 2; ++side) {  // the yoke from the neck to the shoulders
+    const Vec3 inner(side == 0 ? 0.012 : -0.012, p.neck_height - 0.014, -0.018);
+    const Vec3 outer = f.joint[index(of_side(Bone::kUpperArmL, side))] + Vec3(0.0, 0.004, 0.0);
+    const double r = 0.026 * (1.0 + 0.25 * fat), length = (outer - inner).norm();
+    const Vec3 along = (outer - inner) / length, front = (z - z.dot(along) * along).normalized();
+    add(Region::kTrunk,
+        {inner, along, front.cross(along), front, {{0.0, 0.9 * r, r, r, 0, 0}, {length, r, r, r, 0, 0}}, r, r}, 0.02);
+  }
   for (const double sign : {1.0, -1.0}) {
     const double seat = f.build.seat * (1.0 + 0.35 * fat) * (f.female() > 0.0 ? 1.0 : 0.92);
     add(Region::kTrunk,
@@ -113,11 +121,11 @@ void Flesh::add_head(const Figure& f) {
        Vec3::UnitY(),
        x,
        z,
-       {row(0.03, .024, .050, .020), row(0.14, .0345, .056, .036), row(0.32, .042, .0575, .047),
-        row(0.5, .0455, .058, .054), row(0.66, .0465, .0585, .057), row(0.78, .0445, .053, .052)},
+       {row(0.03, .0215, .049, .018), row(0.14, .0325, .0555, .034), row(0.32, .0405, .0575, .046),
+        row(0.48, .0445, .0575, .0535), row(0.6, .0455, .0575, .056), row(0.68, .0445, .0555, .0545)},
        0.035 * hl,
-       0.22 * hl,
-       0.15},
+       0.32 * hl,
+       0.06},
       0.012);
   add(Region::kHead, blob({0.0, chin + 0.36 * hl, 0.066}, 0.0085, 0.014, 0.013, 0.02), 0.009);
   for (const double sign : {1.0, -1.0})
