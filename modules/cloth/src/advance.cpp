@@ -86,6 +86,15 @@ std::uint32_t reset_lost(Particles& p) {
   return limits;
 }
 
+void begin_frame(const engine::Context& context, State& s) {
+  update_air(context, s.options.environment, s.options.seed, s.time_s, s.particles, s.air);
+  Particles& p = s.particles;
+  for (std::size_t i = 0; i < p.count(); ++i) {
+    p.weight[i] = p.inverse_mass[i] * (s.contacts.touching[i] ? 1.0f / kTouchingMass : 1.0f);
+  }
+  update_weights(p, s.coarse);
+}
+
 }  // namespace
 
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
@@ -96,11 +105,11 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   report.substeps = plan.substeps;
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
-  if (plan.substeps > 0)
-    update_air(context, s.options.environment, s.options.seed, s.time_s, s.particles, s.air);
+  if (plan.substeps > 0) begin_frame(context, s);
   for (int substep = 0; substep < plan.substeps; ++substep) {
     report.limits |= predict(context, plan.substep_s, s);
     move_pins(s.pins, (substep + 1.0) / plan.substeps, s.particles);
+    solve_coarse(context, s.coarse, s.particles);
     for (int iteration = 0; iteration < s.options.iterations; ++iteration) {
       solve_bend(context, s.bend, plan.substep_s, s.particles);
       solve_stretch(context, s.stretch, plan.substep_s, s.particles);

@@ -7,6 +7,9 @@
 namespace bodice::cloth {
 namespace {
 
+// Share of the strain limit that coarse limits allow: distances along edges are 2 % too long as it is.
+constexpr double kCoarseSlack = 0.25;
+
 engine::Result<void> check(const SolverOptions& o) {
   auto bad = [](const std::string& what, const char* remedy) {
     return engine::Error{engine::ErrorCode::kInvalidArgument, "Solver option " + what + ".", remedy};
@@ -97,6 +100,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   const Topology topology = find_topology(mesh);
   s.stretch = make_stretch(mesh, topology, fabric, s.particles);
   s.bend = make_bend(mesh, topology, fabric.bend_n_m, s.particles);
+  s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
   s.air = make_air(mesh);
   s.contacts = make_contacts(s.particles.count());
   s.scratch.resize(std::max(s.particles.count(), s.stretch.count()));

@@ -53,8 +53,8 @@ Particles make_particles(const geometry::TriMesh& mesh, double density_kg_m2,
                          const std::vector<bool>& pinned) {
   Particles p;
   const std::size_t count = mesh.positions.size();
-  for (auto* array :
-       {&p.x, &p.y, &p.z, &p.old_x, &p.old_y, &p.old_z, &p.vx, &p.vy, &p.vz, &p.mass, &p.inverse_mass}) {
+  for (auto* array : {&p.x, &p.y, &p.z, &p.old_x, &p.old_y, &p.old_z, &p.vx, &p.vy, &p.vz, &p.mass,
+                      &p.inverse_mass, &p.weight}) {
     array->assign(count, 0.0f);
   }
   p.origin = geometry::bounding_box(mesh.positions).center();
@@ -67,6 +67,7 @@ Particles make_particles(const geometry::TriMesh& mesh, double density_kg_m2,
     p.mass[i] = static_cast<float>(mass[i]);
     p.inverse_mass[i] = pinned[i] ? 0.0f : static_cast<float>(1.0 / mass[i]);
   }
+  p.weight = p.inverse_mass;
   return p;
 }
 

@@ -11,6 +11,12 @@ using geometry::Index;
 using geometry::Triangle;
 using geometry::Vec3;
 
+/// A particle that touches the body weighs this many times more to the constraints: what the body will take
+/// back must not first travel through the garment. Depth and slip shrink alike, so friction's cone stays.
+inline constexpr float kTouchingMass = 8.0f;
+/// A pinned particle's mass to a coarse node, in its own masses.
+inline constexpr float kPinnedMass = 1e3f;
+
 /// #P each; world position = origin + (x, y, z).
 struct Particles {
   Vec3 origin = Vec3::Zero();
@@ -19,6 +25,7 @@ struct Particles {
   std::vector<float> vx, vy, vz;           ///< metres a second
   std::vector<float> mass;                 ///< kilograms, the pinned ones too
   std::vector<float> inverse_mass;         ///< 0: pinned
+  std::vector<float> weight;               ///< inverse mass as the constraints see it
 
   std::size_t count() const { return x.size(); }
   Vec3 world(std::size_t i) const {

@@ -7,6 +7,7 @@
 
 #include "air.hpp"
 #include "bend.hpp"
+#include "coarse.hpp"
 #include "contact.hpp"
 #include "particles.hpp"
 #include "pins.hpp"
@@ -22,6 +23,7 @@ struct State {
   Pins pins;
   StretchConstraints stretch;
   BendConstraints bend;
+  std::vector<CoarseLevel> coarse;
   Air air;
   ContactState contacts;
   std::vector<float> scratch;  ///< max(#P, #E), for medians

@@ -28,22 +28,24 @@ double edge_stiffness(const Edge& edge, double length, const Fabric& fabric) {
 template <int kLanes>
 void solve_pack(const StretchConstraints& c, std::size_t first, float inverse_h2, Particles& p) {
   const Index *a = &c.a[first], *b = &c.b[first];
-  Lanes<kLanes> dx, dy, dz, scale;
+  Lanes<kLanes> dx, dy, dz, wa, wb, scale;
   for (int k = 0; k < kLanes; ++k) {
     dx[k] = p.x[a[k]] - p.x[b[k]];
     dy[k] = p.y[a[k]] - p.y[b[k]];
     dz[k] = p.z[a[k]] - p.z[b[k]];
+    wa[k] = p.weight[a[k]];
+    wb[k] = p.weight[b[k]];
   }
   for (int k = 0; k < kLanes; ++k) {
     const float length = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k] + kTinyLength2);
-    const float w = c.wa[first + k] + c.wb[first + k];
+    const float w = wa[k] + wb[k];
     const float soft =
         (length - c.rest_m[first + k]) / (w + c.compliance[first + k] * inverse_h2 + kTinyWeight);
     const float hard = (length - c.limit_m[first + k]) / (w + kTinyWeight);
     scale[k] = std::max(soft, hard) / length;  // hard is above soft only beyond the limit
   }
   for (int k = 0; k < kLanes; ++k) {
-    const float to_a = -scale[k] * c.wa[first + k], to_b = scale[k] * c.wb[first + k];
+    const float to_a = -scale[k] * wa[k], to_b = scale[k] * wb[k];
     p.x[a[k]] += to_a * dx[k], p.y[a[k]] += to_a * dy[k], p.z[a[k]] += to_a * dz[k];
     p.x[b[k]] += to_b * dx[k], p.y[b[k]] += to_b * dy[k], p.z[b[k]] += to_b * dz[k];
   }
@@ -66,8 +68,6 @@ StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& t
     out.limit_m.push_back(static_cast<float>(length * (1.0 + fabric.max_stretch)));
     const double stiffness = edge_stiffness(edge, length, fabric);
     out.compliance.push_back(static_cast<float>(1.0 / std::max(stiffness, 1e-9)));
-    out.wa.push_back(particles.inverse_mass[edge.a]);
-    out.wb.push_back(particles.inverse_mass[edge.b]);
   }
   return out;
 }

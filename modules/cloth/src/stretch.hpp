@@ -17,7 +17,6 @@ struct StretchConstraints {
   std::vector<float> rest_m;
   std::vector<float> limit_m;     ///< longest length allowed
   std::vector<float> compliance;  ///< metres a newton
-  std::vector<float> wa, wb;      ///< inverse masses of the ends
   std::vector<std::uint32_t> color_begin;
 
   std::size_t count() const { return a.size(); }

@@ -1,0 +1,39 @@
+// Coarse levels against numerical stretch: one sweep a substep lets a long piece hang like rubber, because a
+// pull travels only an edge or two a sweep. A coarse node stands for the particles around it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+
+#include "particles.hpp"
+#include "topology.hpp"
+
+namespace bodice::cloth {
+
+inline constexpr std::size_t kParents = 4;
+
+struct CoarseLevel {
+  int sweeps = 1;
+  std::vector<Index> node;                          ///< #N, the particle at each node
+  std::vector<float> x, y, z;                       ///< #N, metres
+  std::vector<float> weight;                        ///< #N, inverse mass of all that a node stands for
+  std::vector<Index> a, b;                          ///< #C, nodes that must not part further than ...
+  std::vector<float> limit_m;                       ///< ... this
+  std::array<std::vector<Index>, kParents> parent;  ///< #P each, nodes that carry a particle
+  std::array<std::vector<float>, kParents> share;   ///< #P each, they sum to one
+};
+
+/// Levels from the coarsest to the finest; none for a garment of a few edges. The limit is the distance along
+/// the cloth, enlarged by `slack`. O(#P log #P) a level.
+std::vector<CoarseLevel> make_coarse(const geometry::TriMesh& mesh, const Topology& topology,
+                                     double median_edge_m, double slack);
+
+/// Sums the inverse masses of the nodes from Particles::weight. Once a frame.
+void update_weights(const Particles& particles, std::vector<CoarseLevel>& levels);
+
+/// Pulls nodes together that are further apart than their limit, and the particles with them.
+void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& particles);
+
+}  // namespace bodice::cloth
