@@ -4,9 +4,6 @@
 // steps in float, without branches, so that compilers vectorise over the points.
 #include "foot_batch.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 // sqrt of a negative number cannot happen here; without errno the loops below become vector code.
 #pragma GCC optimize("no-math-errno", "no-trapping-math")
 
@@ -20,6 +17,20 @@
 namespace bodice::fitting {
 namespace {
 
+// Own one-liners: functions compiled under other flags than these would not be inlined.
+[[gnu::always_inline]] inline float larger(float a, float b) {
+  return a < b ? b : a;
+}
+[[gnu::always_inline]] inline float smaller(float a, float b) {
+  return b < a ? b : a;
+}
+[[gnu::always_inline]] inline float magnitude(float a) {
+  return __builtin_fabsf(a);
+}
+[[gnu::always_inline]] inline float root(float a) {
+  return __builtin_sqrtf(a);
+}
+
 struct Foot {
   float d, wx, wy, wz;
 };
@@ -32,23 +43,23 @@ struct Foot {
   const float y2 = e.rt[2][0] * dx + e.rt[2][1] * dy + e.rt[2][2] * dz;
   const float q0 = e.r[0] * e.r[0], q1 = e.r[1] * e.r[1], q2 = e.r[2] * e.r[2];
   const float a0 = e.r[0] * y0, a1 = e.r[1] * y1, a2 = e.r[2] * y2;
-  const float qmax = std::max(q0, std::max(q1, q2)), qmin = std::min(q0, std::min(q1, q2));
-  const float axis = std::max(std::fabs(a0) - q0, std::max(std::fabs(a1) - q1, std::fabs(a2) - q2));
-  float t = std::sqrt(a0 * a0 + a1 * a1 + a2 * a2) - qmax;
-  t = std::max(std::max(t, axis), -0.9999f * qmin);
+  const float qmax = larger(q0, larger(q1, q2)), qmin = smaller(q0, smaller(q1, q2));
+  const float axis = larger(magnitude(a0) - q0, larger(magnitude(a1) - q1, magnitude(a2) - q2));
+  float t = root(a0 * a0 + a1 * a1 + a2 * a2) - qmax;
+  t = larger(larger(t, axis), -0.9999f * qmin);
   for (int step = 0; step < 3; ++step) {
     const float i0 = 1.0f / (t + q0), i1 = 1.0f / (t + q1), i2 = 1.0f / (t + q2);
     const float w0 = a0 * i0, w1 = a1 * i1, w2 = a2 * i2;
     const float ww = w0 * w0 + w1 * w1 + w2 * w2 + kTiny;
     const float slope = w0 * w0 * i0 + w1 * w1 * i1 + w2 * w2 * i2 + kTiny;
-    t = std::max(t + (std::sqrt(ww) - 1.0f) * ww / slope, -0.9999f * qmin);
+    t = larger(t + (root(ww) - 1.0f) * ww / slope, -0.9999f * qmin);
   }
   float w0 = a0 / (t + q0), w1 = a1 / (t + q1), w2 = a2 / (t + q2);
-  const float scale = 1.0f / std::sqrt(w0 * w0 + w1 * w1 + w2 * w2 + kTiny);
+  const float scale = 1.0f / root(w0 * w0 + w1 * w1 + w2 * w2 + kTiny);
   w0 *= scale, w1 *= scale, w2 *= scale;
   const float n0 = w0 / e.r[0], n1 = w1 / e.r[1], n2 = w2 / e.r[2];
   const float along = n0 * (y0 - e.r[0] * w0) + n1 * (y1 - e.r[1] * w1) + n2 * (y2 - e.r[2] * w2);
-  return {along / std::sqrt(n0 * n0 + n1 * n1 + n2 * n2 + kTiny), w0, w1, w2};
+  return {along / root(n0 * n0 + n1 * n1 + n2 * n2 + kTiny), w0, w1, w2};
 }
 
 }  // namespace

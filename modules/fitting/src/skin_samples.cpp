@@ -57,9 +57,10 @@ std::vector<DistanceSample> sample_near_skin(const engine::Context& context, con
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t t = surface[i].triangle;
       const Vec3 normal = geometry::area_vector(skin.mesh, t).stableNormalized();
-      const bool on_skin = random.uniform_at(2 * i) < options.on_skin;
-      const double span = options.outward_m + options.inward_m;
-      const double offset = on_skin ? 0.0 : span * random.uniform_at(2 * i + 1) - options.inward_m;
+      const double kind = random.uniform_at(2 * i), u = random.uniform_at(2 * i + 1);
+      const bool on_skin = kind < options.on_skin;
+      double offset = on_skin ? 0.0 : (options.outward_m + options.inward_m) * u - options.inward_m;
+      if (kind >= 1.0 - options.far) offset = options.outward_m + (options.far_m - options.outward_m) * u;
       const Vec3 p = surface[i].point + offset * normal;
       samples[i] = {p, on_skin ? 0.0 : exact_distance(*skin.distance, p, offset),
                     skin.part[skin.mesh.triangles[t][0]]};

@@ -24,6 +24,7 @@ constexpr double kMaxTurn_rad = 0.2;
 constexpr double kMinRadius = 0.002;
 constexpr double kStopGain = 0.004;  // of the cost, over kStopWindow iterations
 constexpr int kStopWindow = 48;
+constexpr std::size_t kLeastSkin = 4;  // samples; with fewer an ellipsoid stands for nothing
 
 struct State {
   std::vector<Ellipsoid> ellipsoids;
@@ -33,7 +34,7 @@ struct State {
 Ellipsoid stepped(const Ellipsoid& e, const NormalBlock& block, double damping) {
   NormalBlock::Matrix a = block.jtj;
   const double typical = a.trace() / 9.0;
-  for (int j = 0; j < 9; ++j) a(j, j) += damping * a(j, j) + 1e-6 * typical + 1e-12;
+  for (int j = 0; j < 9; ++j) a(j, j) += damping * (a(j, j) + 0.05 * typical) + 1e-4 * typical + 1e-12;
   const NormalBlock::Vector step = -a.ldlt().solve(block.jtr);
   if (!step.allFinite()) return e;
   Ellipsoid next = e;
@@ -108,7 +109,7 @@ DescentReport descend(const engine::Context& context, TightProblem& problem,
                       std::vector<Ellipsoid>& ellipsoids, const DescentOptions& options) {
   State state{ellipsoids, std::vector<double>(ellipsoids.size(), 1e-2)};
   problem.refresh(context, state.ellipsoids);
-  DescentReport report{0, problem.total(), problem.total(), false};
+  DescentReport report{0, problem.total(), problem.total(), {}, false};
   State best = state, before_move = state;
   double told = report.first_cost, cost_before_move = -1.0, window_cost = report.first_cost;
   int moves = std::max(1, static_cast<int>(ellipsoids.size()) / 12);
@@ -145,7 +146,11 @@ DescentReport descend(const engine::Context& context, TightProblem& problem,
       window_cost = report.last_cost;
     }
   }
+  problem.refresh(context, best.ellipsoids);
+  const std::vector<std::size_t> held = problem.skin_of_each();
   ellipsoids = best.ellipsoids;
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k] < kLeastSkin) report.idle.push_back(k);
   return report;
 }
 

@@ -114,6 +114,7 @@ void TightProblem::restore(std::size_t k) {
 float TightProblem::cost_at(std::size_t i, float d) const {
   const float target = target_[i];
   if (target < -loss_.ignore_depth && d < -0.5f * loss_.ignore_depth) return 0.0f;
+  if (target > loss_.far && d > loss_.far) return 0.0f;
   const float r = std::fabs(d - target);
   const bool uncovered = target <= 0.0f && d > 0.0f;
   const float h = uncovered ? loss_.uncovered_huber : loss_.huber;
@@ -167,6 +168,13 @@ std::vector<double> TightProblem::use_of_each() const {
   for (std::size_t i = 0; i < owner_.size(); ++i)
     use[ellipsoid_of_pair_[owner_[i]]] += static_cast<double>(second_cost_[i] - cost_[i]);
   return use;
+}
+
+std::vector<std::size_t> TightProblem::skin_of_each() const {
+  std::vector<std::size_t> held(ellipsoids_, 0);
+  for (std::size_t i = 0; i < owner_.size(); ++i)
+    if (std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far) ++held[ellipsoid_of_pair_[owner_[i]]];
+  return held;
 }
 
 std::vector<double> TightProblem::gains() const {

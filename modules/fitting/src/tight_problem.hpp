@@ -19,6 +19,7 @@ struct TightLoss {
   float uncovered_huber = 0.004f;
   float uncovered_weight = 2.0f;  ///< of skin and interior that the union leaves outside
   float ignore_depth = 0.008f;    ///< deeper samples that are inside ask nothing
+  float far = 0.030f;             ///< samples farther outside ask only not to be nearer than they are
 };
 
 /// One ellipsoid's normal equations: centre, log radii, rotation vector.
@@ -55,6 +56,8 @@ class TightProblem {
   /// Cost by owner, and what each ellipsoid's removal would add.
   std::vector<double> cost_of_each() const;
   std::vector<double> use_of_each() const;
+  /// Owned samples on or just off the skin, within 5 mm.
+  std::vector<std::size_t> skin_of_each() const;
   /// Fall of the cost since remember(), by ellipsoid (owner before or after).
   std::vector<double> gains() const;
   std::vector<NormalBlock> normal_equations(const engine::Context& context,
