@@ -1,6 +1,7 @@
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/engine/stage_timer.hpp>
 
+#include "landmarks.hpp"
 #include "segment.hpp"
 
 namespace bodice::anatomy {
@@ -43,15 +44,15 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   StageTimer anatomy_timer(context, anatomy.stages, "anatomy");
   const Sides sides = find_sides(skin, *found);
   const BodyEnds ends = in_body_order(*found, sides);
-  const Landmarks marks = find_landmarks(skin, ends);
-  if (marks.perineum == geometry::kNoIndex) return no_body("its legs do not meet.");
-  anatomy.stature_m = marks.stature_m;
+  const BodyCoordinates coordinates(context, skin, ends);
+  const Landmarks marks = find_landmarks(context, skin, coordinates);
+  anatomy.stature_m = static_cast<double>(coordinates.size_m());
   anatomy.up = upwards(skin, marks);
   anatomy.landmarks = as_list(skin, ends, marks);
   anatomy_timer.stop();
 
   StageTimer segment_timer(context, anatomy.stages, "segment");
-  anatomy.part = segment(context, skin, ends, marks);
+  anatomy.part = segment(context, skin, coordinates);
   segment_timer.stop();
   if (found->misfit > kFairMisfit)
     anatomy.warnings.push_back({"unusual-body", "",

@@ -71,15 +71,20 @@ Candidates farthest_points(const Skin& skin) {
   return c;
 }
 
-/// The vertex near `end` that is farthest from the ends in `from`.
-Index refine(const EndPoints& ends, End end, float radius, std::span<const End> from) {
+/// A head is a ball; a mouth that the skin lines is nearer to its middle than this part of its radius.
+constexpr double kOuterHead = 0.7;
+constexpr float kHeadBall = 0.3F;  // of the size
+
+/// The vertex near `end` that is farthest from the ends in `from` and outside `keep_out` of `middle`.
+Index refine(const Skin& skin, const EndPoints& ends, End end, float radius, std::span<const End> from,
+             const geometry::Vec3& middle, double keep_out) {
   Index best = ends.vertex[end];
   float most = -1.0F;
   for (std::size_t v = 0; v < ends.field[end].size(); ++v) {
     if (!(ends.field[end][v] <= radius)) continue;
     float sum = 0.0F;
     for (const End f : from) sum += ends.field[f][v];
-    if (sum > most) {
+    if (sum > most && (skin.mesh.positions[v] - middle).norm() >= keep_out) {
       most = sum;
       best = static_cast<Index>(v);
     }
@@ -87,13 +92,50 @@ Index refine(const EndPoints& ends, End end, float radius, std::span<const End> 
   return best;
 }
 
+struct Ball {
+  geometry::Vec3 center = geometry::Vec3::Zero();
+  double radius = 0.0;
+};
+
+/// The head as a ball: what lies no nearer to the feet than a head's height below its far end.
+Ball head_ball(const Skin& skin, const EndPoints& ends, float size) {
+  const auto reach = [&](std::size_t v) { return 0.5F * (ends.field[kFootA][v] + ends.field[kFootB][v]); };
+  const auto near = [&](std::size_t v) { return ends.field[kHead][v] <= kHeadBall * size; };
+  float top = 0.0F;
+  for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v)
+    if (near(v)) top = std::max(top, reach(v));
+  const auto in_head = [&](std::size_t v) { return near(v) && reach(v) > top - 0.5F * kHeadBall * size; };
+  Ball ball;
+  double weight = 0.0;
+  for (std::size_t f = 0; f < skin.mesh.triangles.size(); ++f) {
+    const auto& t = skin.mesh.triangles[f];
+    if (!in_head(t[0]) || !in_head(t[1]) || !in_head(t[2])) continue;
+    const double area = geometry::area_vector(skin.mesh, f).norm();
+    ball.center +=
+        area / 3.0 * (skin.mesh.positions[t[0]] + skin.mesh.positions[t[1]] + skin.mesh.positions[t[2]]);
+    weight += area;
+  }
+  if (weight > 0.0) ball.center /= weight;
+  double square = 0.0;
+  for (std::size_t f = 0; f < skin.mesh.triangles.size(); ++f) {
+    const auto& t = skin.mesh.triangles[f];
+    if (!in_head(t[0]) || !in_head(t[1]) || !in_head(t[2])) continue;
+    square +=
+        geometry::area_vector(skin.mesh, f).norm() * (skin.mesh.positions[t[0]] - ball.center).squaredNorm();
+  }
+  if (weight > 0.0) ball.radius = std::sqrt(square / weight);
+  return ball;
+}
+
 void refine_all(const engine::Context& context, const Skin& skin, float size, EndPoints& ends) {
   constexpr std::array<End, 2> feet{kFootA, kFootB};
   constexpr std::array<End, 1> head{kHead};
+  const Ball ball = head_ball(skin, ends, size);
   std::array<Index, kEndCount> refined{};
   for (int e = 0; e < kEndCount; ++e)
-    refined[e] = e == kHead ? refine(ends, kHead, kRefineRadius * size, feet)
-                            : refine(ends, static_cast<End>(e), kRefineRadius * size, head);
+    refined[e] =
+        e == kHead ? refine(skin, ends, kHead, kHeadBall * size, feet, ball.center, kOuterHead * ball.radius)
+                   : refine(skin, ends, static_cast<End>(e), kRefineRadius * size, head, ball.center, 0.0);
   std::vector<Index> moved;
   std::vector<int> which;
   for (int e = 0; e < kEndCount; ++e)

@@ -1,40 +1,42 @@
-// Borders are isolines of smooth fields of distances along the skin, so they are closed loops that no pose
-// frays.
+// Differs from the paper's section 2.2: a border is the zero line of a weighted sum of distances instead of
+// one distance's isoline, so that it runs as anatomy does (the groin slants, the shoulder stands upright) and
+// stays a smooth closed loop in any pose.
 #include "segment.hpp"
 
-#include <cmath>
+#include <limits>
 
 #include <bodice/engine/parallel.hpp>
+
+#include "islands.hpp"
 
 namespace bodice::anatomy {
 namespace {
 
 using body::Part;
-using geometry::Index;
 
-constexpr std::size_t kGrain = 4096;
-constexpr float kShoulder = 0.205F;  ///< how much nearer to its own hand a shoulder is, of hand to hand
-constexpr float kHip = 1.035F;       ///< of half the way from foot to foot
-constexpr float kWaist = 0.44F, kChest = 0.32F;  ///< of the stature, from the crown
+constexpr std::size_t kGrain = 2048;
+/// Beyond these distances from the limb's end a border's sign means nothing.
+constexpr float kHeadReach = 0.40F, kArmReach = 0.60F, kLegReach = 0.66F;
+/// Chest height: this much nearer to the waist border than the neck border is.
+constexpr float kChestShare = 0.5F;
 
-Part left_or_right(Part left, int side) {
+Part on_side(Part left, int side) {
   return static_cast<Part>(static_cast<int>(left) + side);
 }
 
-Part part_of(const BodyEnds& ends, const Landmarks& marks, std::size_t v) {
-  const auto stature = static_cast<float>(marks.stature_m);
-  const float head = (*ends.from_head)[v];
-  if (head < marks.neck.level_m) return Part::kHead;
-  const float hand[2] = {(*ends.from_hand[0])[v], (*ends.from_hand[1])[v]};
-  const float foot[2] = {(*ends.from_foot[0])[v], (*ends.from_foot[1])[v]};
-  const int arm = hand[1] < hand[0], leg = foot[1] < foot[0];
-  if (hand[1 - arm] - hand[arm] > kShoulder * ends.hands_apart)
-    return left_or_right(hand[arm] < marks.elbow[arm].level_m ? Part::kForearmL : Part::kUpperArmL, arm);
-  if (foot[leg] < 0.5F * kHip * ends.feet_apart)
-    return left_or_right(foot[leg] < marks.knee[leg].level_m ? Part::kCalfL : Part::kThighL, leg);
-  const int side = hand[1] + foot[1] < hand[0] + foot[0];
-  if (head < kChest * stature) return left_or_right(Part::kTorsoUL, side);
-  return left_or_right(head < kWaist * stature ? Part::kTorsoML : Part::kTorsoLL, side);
+Part part_of(const BodyCoordinates& coordinates, std::size_t v) {
+  const CoordinateArray x[2] = {coordinates.at(v, 0), coordinates.at(v, 1)};
+  const float neck = kNeck(x[0]);
+  if (x[0][kFromHead] < kHeadReach && neck > 0.0F) return Part::kHead;
+  const int arm = x[1][kOwnHand] < x[0][kOwnHand], leg = x[1][kOwnFoot] < x[0][kOwnFoot];
+  if (x[arm][kOwnHand] < kArmReach && kShoulder(x[arm]) > 0.0F)
+    return on_side(kElbow(x[arm]) > 0.0F ? Part::kForearmL : Part::kUpperArmL, arm);
+  if (x[leg][kOwnFoot] < kLegReach && kHip(x[leg]) > 0.0F)
+    return on_side(kKnee(x[leg]) > 0.0F ? Part::kCalfL : Part::kThighL, leg);
+  const int side = x[1][kOwnHand] + x[1][kOwnFoot] < x[0][kOwnHand] + x[0][kOwnFoot];
+  const float waist = kWaist(x[0]);
+  if (waist <= 0.0F) return on_side(Part::kTorsoLL, side);
+  return on_side((1.0F - kChestShare) * waist > kChestShare * -neck ? Part::kTorsoUL : Part::kTorsoML, side);
 }
 
 /// Eyes, teeth, clothes and debris follow the nearest vertex of the body.
@@ -60,13 +62,14 @@ void attach_pieces(const engine::Context& context, const Skin& skin, std::vector
 
 }  // namespace
 
-std::vector<Part> segment(const engine::Context& context, const Skin& skin, const BodyEnds& ends,
-                          const Landmarks& marks) {
+std::vector<Part> segment(const engine::Context& context, const Skin& skin,
+                          const BodyCoordinates& coordinates) {
   std::vector<Part> part(skin.mesh.positions.size());
   engine::parallel_for(context, part.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
-      if (skin.component[v] == 0) part[v] = part_of(ends, marks, v);
+      if (skin.component[v] == 0) part[v] = part_of(coordinates, v);
   });
+  absorb_islands(skin, part);
   attach_pieces(context, skin, part);
   return part;
 }

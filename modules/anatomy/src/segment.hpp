@@ -1,14 +1,15 @@
-// From landmarks to the 15 parts.
+// From body coordinates to the 15 parts.
 #pragma once
 
 #include <bodice/body/part.hpp>
 
-#include "landmarks.hpp"
+#include "body_coordinates.hpp"
 
 namespace bodice::anatomy {
 
-/// Every vertex gets a part; pieces other than the body take the part of the nearest skin. O(#V log #V).
-std::vector<body::Part> segment(const engine::Context& context, const Skin& skin, const BodyEnds& ends,
-                                const Landmarks& marks);
+/// Every vertex gets a part; each part is one patch of the body. Pieces other than the body take the part of
+/// the nearest skin. O(#V log #V).
+std::vector<body::Part> segment(const engine::Context& context, const Skin& skin,
+                                const BodyCoordinates& coordinates);
 
 }  // namespace bodice::anatomy

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include "curve.hpp"
+
 namespace bodice::anatomy {
 namespace {
 
@@ -13,14 +15,14 @@ using geometry::Vec3;
 
 /// Where around a leg is read, as parts of the way from toe to perineum: the calf and the knee.
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
-constexpr float kFoot = 0.36F;  ///< the heel is nearer to the toe than this
+constexpr float kHeelFrom = 0.20F, kHeelTo = 0.36F;  ///< where the heel is, as parts of that way
 
 /// The heel is the dead end of the foot: the way toe - heel - head is the longest.
 Index find_heel(const EndPoints& ends, End foot, float leg) {
   Index heel = ends.vertex[foot];
   float most = -1.0F;
   for (std::size_t v = 0; v < ends.field[foot].size(); ++v) {
-    if (!(ends.field[foot][v] < kFoot * leg)) continue;
+    if (!(ends.field[foot][v] > kHeelFrom * leg && ends.field[foot][v] < kHeelTo * leg)) continue;
     const float detour = ends.field[foot][v] + ends.field[kHead][v];
     if (detour > most) {
       most = detour;
@@ -28,26 +30,6 @@ Index find_heel(const EndPoints& ends, End foot, float leg) {
     }
   }
   return heel;
-}
-
-float value_on(const Skin& skin, const Field& field, Index edge) {
-  const auto [a, b] = skin.edges.ends[edge];
-  return 0.5F * (field[a] + field[b]);
-}
-
-/// +1 if the loop runs counter-clockwise seen from the side where `rising` grows, with the outside outward.
-double turning(const Skin& skin, const Isoline& loop, const Field& rising) {
-  double sum = 0.0;
-  const std::size_t n = loop.points.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto [a, b] = skin.edges.ends[loop.edges[i]];
-    Vec3 up = skin.mesh.positions[b] - skin.mesh.positions[a];
-    if (rising[b] < rising[a]) up = -up;
-    const Vec3 tangent = loop.points[(i + 1) % n] - loop.points[(i + n - 1) % n];
-    sum +=
-        tangent.dot(up.cross(normal_at_edge(skin, loop.edges[i]))) > 0.0 ? tangent.norm() : -tangent.norm();
-  }
-  return sum >= 0.0 ? 1.0 : -1.0;
 }
 
 /// The direction around the loop in which the field is least: minus the first harmonic over arc length.
@@ -60,17 +42,10 @@ std::complex<double> least_direction(const Skin& skin, const Isoline& loop, cons
     const double after = (loop.points[(i + 1) % n] - loop.points[i]).norm();
     along += before;
     const double angle = 2.0 * M_PI * along / loop.girth_m;
-    harmonic -= 0.5 * (before + after) * static_cast<double>(value_on(skin, field, loop.edges[i])) *
-                std::polar(1.0, angle);
+    harmonic -=
+        0.5 * (before + after) * static_cast<double>(value_at(skin, loop, i, field)) * std::polar(1.0, angle);
   }
   return harmonic / (loop.girth_m * loop.girth_m);
-}
-
-const Isoline* widest_closed(const std::vector<Isoline>& lines) {
-  const Isoline* best = nullptr;
-  for (const Isoline& line : lines)
-    if (line.closed && (best == nullptr || line.girth_m > best->girth_m)) best = &line;
-  return best;
 }
 
 /// Positive if the leg is the body's left: seen from the trunk, inner follows back counter-clockwise.

@@ -1,0 +1,41 @@
+// Coordinates on the skin that belong to the body, not to space: distances from its ends and its middle, in
+// units of its own lengths. A pose hardly changes them, and the same place has nearly the same coordinates on
+// every body.
+#pragma once
+
+#include "calibration.hpp"
+#include "midline.hpp"
+
+namespace bodice::anatomy {
+
+class BodyCoordinates {
+ public:
+  /// Keeps references to the fields of `ends`. Finds the perineum and measures from it and from the midline.
+  BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyEnds& ends);
+
+  /// side 0: seen from the body's left, 1: from its right.
+  CoordinateArray at(std::size_t vertex, int side) const;
+  geometry::Index perineum() const { return perineum_; }
+  float perineum_misfit() const { return perineum_misfit_; }
+  const geodesic::Field& from_perineum() const { return from_perineum_; }
+  /// False where no closed line runs around the middle, for instance on welded limbs.
+  bool midline_found() const { return midline_found_; }
+  /// About the stature.
+  float size_m() const { return size_; }
+  const BodyEnds& ends() const { return ends_; }
+  const Midline& midline() const { return midline_; }
+
+ private:
+  void find_perineum(const engine::Context& context);
+
+  const BodyEnds& ends_;
+  Midline midline_;
+  geodesic::Field from_front_, from_back_, from_perineum_;
+  geometry::Index perineum_ = geometry::kNoIndex;
+  float perineum_misfit_ = 0.0F;
+  float size_ = 0.0F;
+  float trunk_ = 0.0F;  ///< perineum to crown along the skin
+  bool midline_found_ = true;
+};
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,79 @@
+#include "islands.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace bodice::anatomy {
+namespace {
+
+using body::Part;
+using geometry::Index;
+
+using Tally = std::array<std::size_t, body::kPartCount>;
+
+/// Vertices joined by edges between equal parts, by path-halving union-find.
+class Patches {
+ public:
+  Patches(const Skin& skin, const std::vector<Part>& part) : root_(part.size()), size_(part.size(), 1) {
+    for (std::size_t v = 0; v < root_.size(); ++v) root_[v] = static_cast<Index>(v);
+    for (const auto& [a, b] : skin.edges.ends)
+      if (part[a] == part[b]) join(a, b);
+  }
+  Index of(Index v) {
+    while (root_[v] != v) v = root_[v] = root_[root_[v]];
+    return v;
+  }
+  std::size_t size(Index v) { return size_[of(v)]; }
+
+ private:
+  void join(Index a, Index b) {
+    a = of(a);
+    b = of(b);
+    if (a == b) return;
+    if (b < a) std::swap(a, b);
+    root_[b] = a;
+    size_[a] += size_[b];
+  }
+  std::vector<Index> root_;
+  std::vector<std::size_t> size_;
+};
+
+}  // namespace
+
+void absorb_islands(const Skin& skin, std::vector<Part>& part) {
+  Patches patches(skin, part);
+  std::array<Index, body::kPartCount> largest;
+  largest.fill(geometry::kNoIndex);
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    if (skin.component[v] != 0) continue;
+    Index& best = largest[static_cast<int>(part[v])];
+    const Index root = patches.of(static_cast<Index>(v));
+    if (best == geometry::kNoIndex || patches.size(root) > patches.size(best)) best = root;
+  }
+  const auto island = [&](Index v) { return patches.of(v) != largest[static_cast<int>(part[v])]; };
+  std::vector<std::pair<Index, Tally>> around;  // islands by root, sorted, with the parts that touch them
+  std::vector<Index> slot(part.size(), geometry::kNoIndex);
+  const auto touch = [&](Index v, Index neighbour) {
+    if (skin.component[v] != 0 || part[v] == part[neighbour] || !island(v) || island(neighbour)) return;
+    Index& s = slot[patches.of(v)];
+    if (s == geometry::kNoIndex) {
+      s = static_cast<Index>(around.size());
+      around.push_back({patches.of(v), Tally{}});
+    }
+    ++around[s].second[static_cast<int>(part[neighbour])];
+  };
+  for (const auto& [a, b] : skin.edges.ends) {
+    touch(a, b);
+    touch(b, a);
+  }
+  std::vector<Part> result = part;
+  for (std::size_t v = 0; v < part.size(); ++v) {
+    const Index s = slot[patches.of(static_cast<Index>(v))];
+    if (s == geometry::kNoIndex) continue;
+    const Tally& tally = around[s].second;
+    result[v] = static_cast<Part>(std::max_element(tally.begin(), tally.end()) - tally.begin());
+  }
+  part = std::move(result);
+}
+
+}  // namespace bodice::anatomy

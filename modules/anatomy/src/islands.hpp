@@ -1,0 +1,12 @@
+#pragma once
+
+#include <bodice/body/part.hpp>
+
+#include "skin.hpp"
+
+namespace bodice::anatomy {
+
+/// Keeps the largest patch of each part; every smaller one takes the part that surrounds most of it. O(#E).
+void absorb_islands(const Skin& skin, std::vector<body::Part>& part);
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,29 @@
+// The middle of the body: where left and right are equally far.
+#pragma once
+
+#include "body_ends.hpp"
+
+namespace bodice::anatomy {
+
+/// A point on an edge of the skin.
+struct SkinPoint {
+  geometry::Index edge = geometry::kNoIndex;
+  geometry::Vec3 position = geometry::Vec3::Zero();
+  bool found() const { return edge != geometry::kNoIndex; }
+};
+
+struct Midline {
+  SkinPoint front;     ///< of the chest: the middle of the way from hand to hand over the breastbone
+  SkinPoint back;      ///< the same over the back
+  SkinPoint perineum;  ///< between the legs, as far from the crown over the belly as over the back
+};
+
+Midline find_midline(const Skin& skin, const BodyEnds& ends);
+
+/// Distances from a point on an edge.
+geodesic::Field distances_from(const Skin& skin, const SkinPoint& point);
+
+/// The end of the point's edge that is nearer.
+geometry::Index nearest_vertex(const Skin& skin, const SkinPoint& point);
+
+}  // namespace bodice::anatomy
