@@ -95,22 +95,25 @@ class TbbExecutor final : public Executor {
     std::atomic<int> bulks{0};  // how deep the owner is in them
   };
 
+  // Only the owner writes to its slot, so that plain loads and stores do.
   class Visit {
    public:
     Visit(Slot& slot, int bulks)
-        : slot_(slot), before_(slot.owner.load(std::memory_order_relaxed)), bulks_(bulks) {
+        : slot_(slot),
+          owner_before_(slot.owner.load(std::memory_order_relaxed)),
+          bulks_before_(slot.bulks.load(std::memory_order_relaxed)) {
       slot_.owner.store(std::this_thread::get_id(), std::memory_order_relaxed);
-      slot_.bulks.fetch_add(bulks_, std::memory_order_relaxed);
+      slot_.bulks.store(bulks_before_ + bulks, std::memory_order_relaxed);
     }
     ~Visit() {
-      slot_.bulks.fetch_sub(bulks_, std::memory_order_relaxed);
-      slot_.owner.store(before_, std::memory_order_relaxed);
+      slot_.bulks.store(bulks_before_, std::memory_order_relaxed);
+      slot_.owner.store(owner_before_, std::memory_order_relaxed);
     }
 
    private:
     Slot& slot_;
-    std::thread::id before_;
-    int bulks_;
+    std::thread::id owner_before_;
+    int bulks_before_;
   };
 
   void prepare() {

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stage.hpp"
+
+namespace bodice_bench {
+
+/// A stage at one size with one number of workers.
+struct Sample {
+  std::string stage, element;
+  bool weak = false;  ///< the size grew with the workers
+  std::size_t size = 0;
+  int workers = 1;
+  double min_ms = 0.0, median_ms = 0.0;  ///< wall time of a run
+  double cpu_ms = 0.0;                   ///< of this process, in the median run's round
+  double imbalance = 0.0;                ///< busiest worker over the mean of all, in the bodies of loops
+  double others = 0.0;                   ///< share of the machine that other programs took meanwhile
+  bool same_bits = true;                 ///< as the first run with one worker
+  int repeats = 0;
+};
+
+struct Effort {
+  int max_workers = 2;
+  double seconds_per_sample = 1.0;
+  int attempts = 3;  ///< rounds when others take more than kQuietShare of the machine
+};
+
+/// A run beside which others take more than this is repeated, and marked if it stays so.
+inline constexpr double kQuietShare = 0.08;
+
+/// Worker counts from 1 to the maximum: each one up to 4, then doubling.
+std::vector<int> worker_counts(int max_workers);
+
+std::vector<Sample> strong_scaling(const Stage& stage, std::size_t size, const Effort& effort);
+std::vector<Sample> weak_scaling(const Stage& stage, std::size_t size, const Effort& effort);
+
+/// Amdahl: s of the least squares fit of min_ms(n) / min_ms(1) = s + (1 - s) / n over one stage's samples.
+double serial_fraction(const std::vector<Sample>& samples);
+
+/// Wall and processor time, and what the rest of the machine did meanwhile.
+class Stopwatch {
+ public:
+  Stopwatch();
+  double wall_ms() const;
+  double cpu_ms() const;
+  double others() const;
+
+ private:
+  double wall_, cpu_, busy_;
+};
+
+}  // namespace bodice_bench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure.hpp"
+#include "scheduling_cost.hpp"
+
+namespace bodice_bench {
+
+/// Where the numbers come from: commit, compiler, processor, date.
+struct Origin {
+  std::string commit, compiler, cpu;
+  unsigned hardware_threads = 0;
+};
+Origin find_origin();
+
+/// One row a sample; the origin stands in every row.
+std::string to_csv(const std::vector<std::vector<Sample>>& stages, const Origin& origin);
+std::string to_markdown(const std::vector<std::vector<Sample>>& strong,
+                        const std::vector<std::vector<Sample>>& weak, const std::vector<Cost>& costs,
+                        const Origin& origin);
+/// Speed-up over workers, a line a stage, beside the ideal.
+std::string to_svg(const std::vector<std::vector<Sample>>& strong, const Origin& origin);
+
+}  // namespace bodice_bench
