@@ -15,6 +15,20 @@ using namespace bodice;
 constexpr double kNear_m = 0.030;
 constexpr double kDeep_m = 0.010;
 
+/// Triangles that lie inside another limb where a posed body interpenetrates: no boundary of the body, and
+/// the distance to them is no depth.
+std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const geometry::TriMesh& mesh,
+                                           const geometry::MeshDistance& distance) {
+  std::vector<std::uint8_t> buried(mesh.triangles.size());
+  engine::parallel_for(context, buried.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const geometry::Vec3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+      buried[t] = distance.inside(middle + 3e-4 * geometry::area_vector(mesh, t).stableNormalized());
+    }
+  });
+  return buried;
+}
+
 }  // namespace
 
 std::vector<Probe> near_skin_probes(const engine::Context& context, const geometry::TriMesh& mesh,
@@ -22,6 +36,7 @@ std::vector<Probe> near_skin_probes(const engine::Context& context, const geomet
   constexpr std::size_t kNearCount = 20000, kInsideCount = 40000;
   const auto skin = geometry::sample_surface(mesh, kNearCount, 77);
   const geometry::Box box = geometry::bounding_box(mesh.positions);
+  const auto buried = buried_triangles(context, mesh, distance);
   std::vector<Probe> probes(skin.size() + kInsideCount);
   const engine::Random random(4242);
   engine::parallel_for(context, probes.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -35,9 +50,12 @@ std::vector<Probe> near_skin_probes(const engine::Context& context, const geomet
       } else {
         probes[i].point = box.low + u.cwiseProduct(box.size());
       }
-      probes[i].signed_distance_m = distance.signed_distance(probes[i].point);
+      const geometry::SurfacePoint nearest = distance.nearest(probes[i].point);
+      probes[i].signed_distance_m = nearest.signed_distance;
+      probes[i].counts = nearest.triangle != geometry::kNoIndex && !buried[nearest.triangle];
     }
   });
+  std::erase_if(probes, [](const Probe& p) { return !p.counts; });
   return probes;
 }
 

@@ -12,6 +12,7 @@ namespace fit_bench {
 struct Probe {
   bodice::geometry::Vec3 point;
   double signed_distance_m = 0.0;  ///< exact
+  bool counts = true;              ///< false next to skin that is buried in another limb
 };
 
 struct NearSkin {

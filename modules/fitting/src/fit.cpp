@@ -38,8 +38,16 @@ Draft run_tier(const engine::Context& context, const LabelledSkin& skin, const F
                std::vector<engine::StageTime>& stages) {
   using proxy::Tier;
   if (options.tier == Tier::kTight || options.tier == Tier::kRelief) {
-    engine::StageTimer timer(context, stages, "tight");
-    return fit_tight(context, skin, options, count, options.time_budget_s);
+    const bool relief = options.tier == Tier::kRelief;
+    const std::int64_t deadline =
+        context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(options.time_budget_s, 1e6));
+    engine::StageTimer tight(context, stages, "tight");
+    Draft draft = fit_tight(context, skin, options, count, (relief ? 0.5 : 1.0) * options.time_budget_s);
+    tight.stop();
+    if (!relief) return draft;
+    engine::StageTimer timer(context, stages, "relief");
+    add_relief(context, skin, options, deadline, draft);
+    return draft;
   }
   engine::StageTimer timer(context, stages, "fit");
   return fit_paper(context, skin, options, count);

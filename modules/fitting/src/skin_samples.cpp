@@ -10,6 +10,8 @@ namespace bodice::fitting {
 namespace {
 
 constexpr std::size_t kGrain = 256;
+constexpr double kBuriedStep =
+    2e-4;  // of stature, about .3 mm: beyond rounding, within any fold worth keeping
 
 /// Even samples of the wanted parts' skin.
 std::vector<geometry::SurfaceSample> wanted_skin(const LabelledSkin& skin, std::uint32_t parts,
@@ -30,6 +32,11 @@ double exact_distance(const geometry::MeshDistance& distance, const Vec3& point,
   const double d = std::abs(hit->signed_distance);
   if (d >= std::abs(offset) * (1.0 - 1e-6)) return offset;
   return distance.inside(point) ? -d : d;
+}
+
+/// Posed bodies interpenetrate: skin that lies inside another limb is no boundary of the body.
+bool buried(const geometry::MeshDistance& distance, const Vec3& on_skin, const Vec3& normal, double step_m) {
+  return distance.inside(on_skin + step_m * normal);
 }
 
 double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const Vec3& inward, double radius) {
@@ -53,6 +60,8 @@ std::vector<DistanceSample> sample_near_skin(const engine::Context& context, con
   const auto surface = wanted_skin(skin, parts, options.count, options.seed);
   std::vector<DistanceSample> samples(surface.size());
   const engine::Random random(options.seed, 17);
+  std::vector<std::uint8_t> keep(surface.size());
+  const double step_m = kBuriedStep * skin.stature_m;
   engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t t = surface[i].triangle;
@@ -62,10 +71,16 @@ std::vector<DistanceSample> sample_near_skin(const engine::Context& context, con
       double offset = on_skin ? 0.0 : (options.outward_m + options.inward_m) * u - options.inward_m;
       if (kind >= 1.0 - options.far) offset = options.outward_m + (options.far_m - options.outward_m) * u;
       const Vec3 p = surface[i].point + offset * normal;
+      keep[i] = !buried(*skin.distance, surface[i].point, normal, step_m);
+      if (!keep[i]) continue;
       samples[i] = {p, on_skin ? 0.0 : exact_distance(*skin.distance, p, offset),
                     skin.part[skin.mesh.triangles[t][0]]};
     }
   });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (keep[i]) samples[kept++] = samples[i];
+  samples.resize(kept);
   return samples;
 }
 

@@ -20,7 +20,7 @@ struct SampleOptions {
   std::size_t count = 0;
   double inward_m = 0.0, outward_m = 0.0;  ///< offsets along the skin's normal, drawn evenly in between
   double on_skin = 0.0;                    ///< fraction that lies on the skin itself
-  double far = 0.0;    ///< fraction pushed outward by outward_m to far_m instead
+  double far = 0.0;                        ///< fraction pushed outward by outward_m to far_m instead
   double far_m = 0.0;
   std::uint64_t seed = 0;
 };

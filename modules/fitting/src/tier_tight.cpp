@@ -38,8 +38,9 @@ Draft fit_tight(const engine::Context& context, const LabelledSkin& skin, const 
                         kScaledStature / skin.stature_m};
   const double mm = 1e-3 / scaling.scale;
   const std::size_t samples = std::clamp<std::size_t>(180 * static_cast<std::size_t>(count), 6000, 60000);
-  TightProblem problem(sample_near_skin(context, skin, options.parts, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11}),
-                       scaling.origin, scaling.scale, TightLoss{});
+  TightProblem problem(
+      sample_near_skin(context, skin, options.parts, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11}),
+      scaling.origin, scaling.scale, TightLoss{});
   std::vector<geometry::Ellipsoid> state;
   for (const auto& e : draft.data.ellipsoids) state.push_back(scaling.in(e.shape));
 

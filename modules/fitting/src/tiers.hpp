@@ -22,4 +22,9 @@ Draft fit_paper(const engine::Context& context, const LabelledSkin& skin, const 
 Draft fit_tight(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
                 int count, double time_budget_s);
 
+/// Tables on top of a tight draft: a first version, then one from five times the samples unless the deadline
+/// has passed. Leaves a draft with more ellipsoids than tables fit (about 1000) as it is.
+void add_relief(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+                std::int64_t deadline_ns, Draft& draft);
+
 }  // namespace bodice::fitting

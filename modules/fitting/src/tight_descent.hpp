@@ -18,7 +18,7 @@ struct DescentReport {
   int iterations = 0;
   double first_cost = 0.0, last_cost = 0.0;
   std::vector<std::size_t> idle;  ///< ellipsoids that hold no skin any more, ascending
-  bool converged = false;  ///< stopped because nothing was gained any more
+  bool converged = false;         ///< stopped because nothing was gained any more
 };
 
 /// Lowers the cost of `ellipsoids` (in the problem's scaled units) in place; never raises it.

@@ -173,7 +173,8 @@ std::vector<double> TightProblem::use_of_each() const {
 std::vector<std::size_t> TightProblem::skin_of_each() const {
   std::vector<std::size_t> held(ellipsoids_, 0);
   for (std::size_t i = 0; i < owner_.size(); ++i)
-    if (std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far) ++held[ellipsoid_of_pair_[owner_[i]]];
+    if (std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far)
+      ++held[ellipsoid_of_pair_[owner_[i]]];
   return held;
 }
 
