@@ -13,7 +13,8 @@ using geometry::Vec3;
 
 geometry::TriMesh octahedron() {
   geometry::TriMesh mesh;
-  mesh.positions = {Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitY(), Vec3::UnitZ(), -Vec3::UnitZ()};
+  mesh.positions = {Vec3::UnitX(),  -Vec3::UnitX(), Vec3::UnitY(),
+                    -Vec3::UnitY(), Vec3::UnitZ(),  -Vec3::UnitZ()};
   mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   return mesh;
 }
@@ -23,7 +24,8 @@ geometry::TriMesh split(const geometry::TriMesh& mesh) {
   finer.positions = mesh.positions;
   std::map<std::pair<Index, Index>, Index> middle_of;
   auto middle = [&](Index a, Index b) {
-    const auto [at, fresh] = middle_of.try_emplace(std::minmax(a, b), static_cast<Index>(finer.positions.size()));
+    const auto [at, fresh] =
+        middle_of.try_emplace(std::minmax(a, b), static_cast<Index>(finer.positions.size()));
     if (fresh) finer.positions.push_back((mesh.positions[a] + mesh.positions[b]).normalized());
     return at->second;
   };

@@ -105,8 +105,8 @@ class SceneWriter {
     const Json primitive = {{"attributes", attributes},
                             {"indices", glb_.add_triangles(body.triangles)},
                             {"material", add_material("skin", base, 1.0f, false)}};
-    add_root({{"name", "body"},
-              {"mesh", glb_.add("meshes", {{"name", "body"}, {"primitives", {primitive}}})}});
+    add_root(
+        {{"name", "body"}, {"mesh", glb_.add("meshes", {{"name", "body"}, {"primitives", {primitive}}})}});
   }
 
   /// One sphere for all; a mesh a part, which differ by material only; a node an ellipsoid.
@@ -154,8 +154,7 @@ class SceneWriter {
     const std::vector<Vec3f> positions = to_file(track.mesh.positions), normals = normals_of(track.mesh);
     const std::array<float, 3> color = garment_color(k);
     Json primitive = {
-        {"attributes",
-         {{"POSITION", glb_.add_positions(positions)}, {"NORMAL", glb_.add_vectors(normals)}}},
+        {"attributes", {{"POSITION", glb_.add_positions(positions)}, {"NORMAL", glb_.add_vectors(normals)}}},
         {"indices", glb_.add_triangles(track.mesh.triangles)},
         {"material", add_material(track.name.c_str(), linear(std::span(color)), 1.0f, true)}};
     for (const auto& frame : track.frames)

@@ -2,15 +2,15 @@
 #include <cmath>
 #include <string_view>
 
-#include <assimp/Importer.hpp>
 #include <assimp/config.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
 
 #include "bind_pose.hpp"
 #include "file_scene.hpp"
 #include "input_file.hpp"
+#include "triangulate.hpp"
 
 namespace bodice::io {
 
@@ -32,23 +32,23 @@ geometry::TriMesh to_tri_mesh(const aiMesh& mesh, const Eigen::Matrix4d& to_worl
     const Vec3 position(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
     shape.positions.push_back(linear * position + shift);
   }
-  const bool mirrored = linear.determinant() < 0.0;
   shape.triangles.reserve(mesh.mNumFaces);
+  std::vector<Index> polygon;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // points and lines
-    geometry::Triangle triangle{face.mIndices[0], face.mIndices[1], face.mIndices[2]};
-    if (*std::max_element(triangle.begin(), triangle.end()) >= mesh.mNumVertices) continue;
-    if (mirrored) std::swap(triangle[1], triangle[2]);
-    shape.triangles.push_back(triangle);
+    if (face.mNumIndices < 3) continue;  // points and lines
+    polygon.assign(face.mIndices, face.mIndices + face.mNumIndices);
+    if (*std::max_element(polygon.begin(), polygon.end()) < mesh.mNumVertices)
+      triangulate(shape.positions, polygon, shape.triangles);
   }
+  if (linear.determinant() < 0.0)
+    for (geometry::Triangle& triangle : shape.triangles) std::swap(triangle[1], triangle[2]);
   return shape;
 }
 
 std::string material_name(const aiScene& scene, const aiMesh& mesh) {
-  return mesh.mMaterialIndex < scene.mNumMaterials
-             ? scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
-             : "";
+  return mesh.mMaterialIndex < scene.mNumMaterials ? scene.mMaterials[mesh.mMaterialIndex]->GetName().C_Str()
+                                                   : "";
 }
 
 /// Every mesh of every node in the world's coordinates.
@@ -96,7 +96,8 @@ void read_fbx_metadata(const aiScene& scene, FileScene& out) {
     out.up = static_cast<geometry::Axis>(axis);
   float centimetres_f = 0.0f;
   double centimetres = 0.0;
-  if (scene.mMetaData->Get("UnitScaleFactor", centimetres_f)) centimetres = static_cast<double>(centimetres_f);
+  if (scene.mMetaData->Get("UnitScaleFactor", centimetres_f))
+    centimetres = static_cast<double>(centimetres_f);
   if (centimetres == 0.0) scene.mMetaData->Get("UnitScaleFactor", centimetres);
   if (centimetres > 0.0 && std::isfinite(centimetres)) out.metres_per_unit = 0.01 * centimetres;
 }
@@ -107,7 +108,7 @@ const aiScene* parse(Assimp::Importer& importer, const std::filesystem::path& fi
   const bool as_stored = format_of(file) != Format::kColladaArchive;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, as_stored);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  constexpr unsigned steps = aiProcess_Triangulate;
+  constexpr unsigned steps = 0;  // its post-processing asserts, and so aborts, on damaged meshes
   if (format_of(file) == Format::kObj) {
     if (const auto moved = move_to_origin(read_text(file))) {
       offset = moved->offset;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <assimp/scene.h>
+#include <Eigen/Core>
 
 namespace bodice::io {
 

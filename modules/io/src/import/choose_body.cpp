@@ -20,8 +20,8 @@ using geometry::kNoIndex;
 using geometry::Vec3;
 
 // What tells a body from what lies in, on and around it. All are ratios.
-constexpr double kFlat = 0.05;            ///< thickness to length: floors and cards, never a body
-constexpr double kCompact = 1.5;           ///< area to squared diagonal: a crouching body .8, a sphere 1.05, a room 2
+constexpr double kFlat = 0.05;    ///< thickness to length: floors and cards, never a body
+constexpr double kCompact = 1.5;  ///< area to squared diagonal: a crouching body .8, a sphere 1.05, a room 2
 constexpr double kEnoughTriangles = 100;  ///< fewer than this say little about a shape
 constexpr double kTinyPiece = 0.002;      ///< of the body's area: a crumb
 constexpr double kNear = 0.04;            ///< of the body's length: what lies this near follows its skin
@@ -46,8 +46,9 @@ bool contains_any(std::string_view text, std::initializer_list<std::string_view>
 /// A hint that shape can overrule: names are often missing, foreign or wrong.
 double name_hint(const FileMesh& mesh) {
   const std::string name = mesh.name + ' ' + mesh.material;
-  if (contains_any(name, {"helper", "joint", "eye", "teeth", "tongue", "hair", "lash", "brow", "cloth", "shirt",
-                          "jeans", "pants", "dress", "skirt", "shoe", "suit", "tights", "floor", "ground"}))
+  if (contains_any(name,
+                   {"helper", "joint", "eye", "teeth", "tongue", "hair", "lash", "brow", "cloth", "shirt",
+                    "jeans", "pants", "dress", "skirt", "shoe", "suit", "tights", "floor", "ground"}))
     return 0.4;
   return contains_any(name, {"body", "skin", "human"}) ? 2.0 : 1.0;
 }
@@ -57,7 +58,7 @@ double body_score(const Piece& piece, const FileScene& scene) {
   const double diagonal_squared = size.squaredNorm();
   if (!(diagonal_squared > 0.0)) return 0.0;
   const double flat = size.minCoeff() < kFlat * size.maxCoeff() ? 1e-3 : 1.0;
-  const double compact = std::exp(-6.0 * std::max(0.0, piece.area / diagonal_squared - kCompact));
+  const double compact = piece.area > kCompact * diagonal_squared ? 1e-3 : 1.0;
   const double detail = std::min(1.0, static_cast<double>(piece.triangles.size()) / kEnoughTriangles);
   return piece.area * std::exp(-piece.openness()) * flat * compact * detail *
          name_hint(scene.meshes[piece.main_source()]);
@@ -146,8 +147,7 @@ std::string list_names(const FileScene& scene, const std::set<std::size_t>& sour
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   std::string text;
-  for (std::size_t i = 0; i < std::min(kShown, names.size()); ++i)
-    text += (i ? ", '" : "'") + names[i] + "'";
+  for (std::size_t i = 0; i < std::min(kShown, names.size()); ++i) text += (i ? ", '" : "'") + names[i] + "'";
   if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
   return text;
 }
@@ -174,16 +174,17 @@ void report(const FileScene& scene, const std::vector<Piece>& pieces, const std:
                       std::inserter(only_left, only_left.end()));
   const long rounded = std::lround(100.0 * left_area / total_area);
   const std::string percent = rounded > 0 ? std::to_string(rounded) : "under 1";
-  chosen.warnings.push_back(
-      {"pieces-left-out", chosen.name,
-       std::to_string(left_count) + (left_count == 1 ? " loose piece" : " loose pieces") + " with " + percent + " % of the file's surface" +
-           (only_left.empty() ? "" : " (" + list_names(scene, only_left) + ")") +
-           (left_count == 1 ? " was" : " were") + " left out: not the body's skin.",
-       "Name the body's mesh with --mesh if that is wrong."});
+  chosen.warnings.push_back({"pieces-left-out", chosen.name,
+                             std::to_string(left_count) +
+                                 (left_count == 1 ? " loose piece" : " loose pieces") + " with " + percent +
+                                 " % of the file's surface" +
+                                 (only_left.empty() ? "" : " (" + list_names(scene, only_left) + ")") +
+                                 (left_count == 1 ? " was" : " were") + " left out: not the body's skin.",
+                             "Name the body's mesh with --mesh if that is wrong."});
 }
 
-/// The chosen triangles as the file had them, with the flaws that repair will report. `wanted` tells by joined
-/// vertex.
+/// The chosen triangles as the file had them, with the flaws that repair will report. `wanted` tells by
+/// joined vertex.
 geometry::TriMesh gather(const FileScene& scene, const JoinedScene& joined, const std::vector<bool>& wanted) {
   geometry::TriMesh shape;
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {

@@ -20,10 +20,10 @@ struct FileMesh {
 };
 
 struct FileScene {
-  std::vector<FileMesh> meshes;              ///< those with at least one triangle
-  std::optional<double> metres_per_unit;     ///< what the file says of itself
-  std::optional<geometry::Axis> up;          ///< what the file says of itself
-  bool kept_digits = false;  ///< read in more than single precision
+  std::vector<FileMesh> meshes;           ///< those with at least one triangle
+  std::optional<double> metres_per_unit;  ///< what the file says of itself
+  std::optional<geometry::Axis> up;       ///< what the file says of itself
+  bool kept_digits = false;               ///< read in more than single precision
 };
 
 /// Reads any format that assimp knows. Skinned meshes come in their bind pose. Points and lines are left

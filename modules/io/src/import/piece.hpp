@@ -14,12 +14,12 @@ namespace bodice::io {
 /// All triangles of a file, welded by position, with the mesh that each came from.
 struct JoinedScene {
   geometry::TriMesh mesh;
-  std::vector<std::size_t> source;  ///< #F: index into FileScene::meshes
+  std::vector<std::size_t> source;                      ///< #F: index into FileScene::meshes
   std::vector<std::vector<geometry::Index>> vertex_of;  ///< mesh of the file -> its vertex -> joined vertex
 };
 
 struct Piece {
-  std::vector<geometry::Index> triangles;  ///< of the joined mesh
+  std::vector<geometry::Index> triangles;        ///< of the joined mesh
   std::map<std::size_t, double> area_of_source;  ///< index into FileScene::meshes -> file units squared
   geometry::Box box;
   double area = 0.0;             ///< file units squared

@@ -50,7 +50,11 @@ class SrgbTable {
 class Panel {
  public:
   Panel(const std::vector<Actor>& actors, const geometry::Box& box, const View& view)
-      : actors_(actors), view_(view), lighting_(actors, box, view), depth_(view), seen_(depth_.depth.size(), kNone) {
+      : actors_(actors),
+        view_(view),
+        lighting_(actors, box, view),
+        depth_(view),
+        seen_(depth_.depth.size(), kNone) {
     const geometry::Vec3 ground(box.center().x(), box.low.y(), box.center().z());
     ground_y_ = view.project(ground.cast<float>()).y();
     for (std::uint32_t a = 0; a < actors.size(); ++a) draw(a);

@@ -29,7 +29,8 @@ struct View {
 
 struct DepthBuffer {
   explicit DepthBuffer(const View& view)
-      : width(view.width), height(view.height),
+      : width(view.width),
+        height(view.height),
         depth(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
               std::numeric_limits<float>::infinity()) {}
 

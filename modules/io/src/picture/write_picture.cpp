@@ -25,14 +25,15 @@ engine::Result<void> check_request(const Scene& scene, std::span<const std::size
   const auto rows = std::max<std::size_t>(1, frames.size());
   if (options.width < 16 || options.height < 16 || 2 * options.width > kLargestSide ||
       rows > static_cast<std::size_t>(kLargestSide / options.height))
-    return invalid("A picture of " + std::to_string(rows) + " rows of " + std::to_string(options.width) + " x " +
-                       std::to_string(options.height) + " pixels is too small or too large.",
+    return invalid("A picture of " + std::to_string(rows) + " rows of " + std::to_string(options.width) +
+                       " x " + std::to_string(options.height) + " pixels is too small or too large.",
                    "Use views of 16 pixels or more, and at most 16384 in all.");
   for (const std::size_t frame : frames)
     for (const GarmentTrack& track : scene.garments)
       if (frame >= track.frames.size())
-        return invalid("Frame " + std::to_string(frame) + " of the garment '" + track.name + "' does not exist.",
-                       "It has " + std::to_string(track.frames.size()) + " frames.");
+        return invalid(
+            "Frame " + std::to_string(frame) + " of the garment '" + track.name + "' does not exist.",
+            "It has " + std::to_string(track.frames.size()) + " frames.");
   return {};
 }
 
@@ -66,7 +67,8 @@ std::vector<Actor> actors_of(const Scene& scene, const std::size_t* frame, const
   for (std::size_t k = 0; k < scene.garments.size(); ++k) {
     const GarmentTrack& track = scene.garments[k];
     const std::array<float, 3> color = garment_color(k);
-    actors.push_back(make_actor({track.frames[*frame], track.mesh.triangles}, to_linear(std::span(color)), true));
+    actors.push_back(
+        make_actor({track.frames[*frame], track.mesh.triangles}, to_linear(std::span(color)), true));
   }
   return actors;
 }
@@ -105,8 +107,8 @@ engine::Result<void> write_picture(const Scene& scene, std::span<const std::size
     return invalid("The picture would show nothing.", "Give a body, or show the ellipsoids or garments.");
   const std::vector<std::byte> png = encode_png(draw(rows, options));
   if (png.empty())
-    return engine::Error{engine::ErrorCode::kWriteFailed, "'" + file.string() + "' could not be encoded as PNG.",
-                         "Use a smaller picture."};
+    return engine::Error{engine::ErrorCode::kWriteFailed,
+                         "'" + file.string() + "' could not be encoded as PNG.", "Use a smaller picture."};
   return write_file(file, png);
 }
 

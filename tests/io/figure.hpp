@@ -1,0 +1,45 @@
+// A figure with known truth, and meshes written in every text and binary format by the tests themselves.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace io_test {
+
+using bodice::geometry::TriMesh;
+using bodice::geometry::Vec3;
+
+/// A closed body-like surface: 1.7 m tall, standing on y = 0, 642 vertices, about 1.9 m2, wider at the top,
+/// mirror-symmetric in x but not in z.
+TriMesh figure();
+
+/// Every position mapped.
+template <class Map>
+TriMesh mapped(TriMesh mesh, Map&& map) {
+  for (Vec3& p : mesh.positions) p = map(p);
+  return mesh;
+}
+
+/// The largest distance from a vertex of one mesh to the nearest vertex of the other, both ways. Brute force.
+double vertex_distance(const TriMesh& a, const TriMesh& b);
+
+struct NamedMesh {
+  std::string name;
+  TriMesh mesh;
+};
+
+std::string to_obj(const std::vector<NamedMesh>& groups);
+std::string to_ply(const TriMesh& mesh, bool binary);
+std::string to_stl(const TriMesh& mesh, bool binary);
+/// One document with unit and up axis, a geometry a mesh.
+std::string to_collada(const std::vector<NamedMesh>& meshes, double metres_per_unit,
+                       std::string_view up_axis);
+/// One mesh under a node with this column-major matrix; skinned to one joint whose own node carries
+/// `joint_matrix` if that is not empty (its bind pose).
+std::string to_gltf(const TriMesh& mesh, const std::string& node_matrix,
+                    const std::string& joint_matrix = {});
+
+}  // namespace io_test

@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+
+#include <array>
+
+#include <bodice/io/import.hpp>
+
+#include "figure.hpp"
+#include "temp_folder.hpp"
+
+using namespace bodice;
+using namespace io_test;
+
+namespace {
+
+const engine::Context kContext;
+
+io::ImportedMesh import_obj(const TriMesh& mesh, const io::ImportOptions& options = {}) {
+  const TempFolder folder;
+  auto result = io::import_body(kContext, folder.write("a.obj", to_obj({{"", mesh}})), options);
+  REQUIRE(result.ok());
+  return std::move(*result);
+}
+
+double height(const TriMesh& mesh) {
+  return geometry::bounding_box(mesh.positions).size().y();
+}
+
+bool warned(const io::ImportedMesh& mesh, std::string_view code) {
+  return std::any_of(mesh.warnings.begin(), mesh.warnings.end(),
+                     [&](const engine::Warning& w) { return w.code == code; });
+}
+
+}  // namespace
+
+TEST_CASE("the unit follows from the skin's area, for adults and children") {
+  struct Case {
+    const char* unit;
+    double per_metre;
+  };
+  for (const auto& [unit, per_metre] :
+       {Case{"m", 1.0}, Case{"dm", 10.0}, Case{"cm", 100.0}, Case{"mm", 1000.0}, Case{"inch", 1.0 / 0.0254}})
+    for (const double stature : {0.9, 1.0, 1.1}) {
+      if (std::string_view(unit) == "inch" && stature < 0.95) continue;  // an infant in centimetres
+      CAPTURE(unit);
+      CAPTURE(stature);
+      const auto mesh =
+          import_obj(mapped(figure(), [&](const Vec3& p) { return Vec3(stature * per_metre * p); }));
+      CHECK(mesh.unit == unit);
+      CHECK(height(mesh.skin) == doctest::Approx(1.7 * stature).epsilon(1e-3));
+      CHECK(!warned(mesh, "unit-unknown"));
+    }
+  const auto child = import_obj(mapped(figure(), [](const Vec3& p) { return Vec3(55.0 * p); }));
+  CHECK(child.unit == "cm");
+}
+
+TEST_CASE("a size that fits no unit is scaled to a person's and said so") {
+  for (const double scale : {1e-6, 3.0, 1e6}) {
+    CAPTURE(scale);
+    const auto mesh = import_obj(mapped(figure(), [&](const Vec3& p) { return Vec3(scale * p); }));
+    CHECK(mesh.unit == "unknown");
+    CHECK(warned(mesh, "unit-unknown"));
+    CHECK(height(mesh.skin) == doctest::Approx(1.7).epsilon(0.1));
+    CHECK(mesh.frame.to_file(mesh.skin.positions[0]).norm() < 3.0 * scale);
+  }
+}
+
+TEST_CASE("a unit that contradicts the shape is not believed") {
+  const TempFolder folder;
+  const auto result =
+      io::import_body(kContext, folder.write("a.dae", to_collada({{"body", figure()}}, 100.0, "Y_UP")));
+  REQUIRE(result.ok());
+  CHECK(result->unit == "m");
+  CHECK(warned(*result, "unit-contradicted"));
+}
+
+TEST_CASE("the up axis follows from the shape, and options override") {
+  const std::array<TriMesh, 3> turned = {
+      mapped(figure(), [](const Vec3& p) { return Vec3(p.y(), p.z(), p.x()); }), figure(),
+      mapped(figure(), [](const Vec3& p) { return Vec3(p.z(), p.x(), p.y()); })};
+  for (int up = 0; up < 3; ++up) {
+    CAPTURE(up);
+    const auto mesh = import_obj(turned[static_cast<std::size_t>(up)]);
+    CHECK(static_cast<int>(mesh.frame.up) == up);
+    CHECK(height(mesh.skin) == doctest::Approx(1.7).epsilon(1e-3));
+  }
+  const auto told = import_obj(figure(), {.unit = io::Unit::kCentimetre, .up = geometry::Axis::kX});
+  CHECK(told.frame.up == geometry::Axis::kX);
+  CHECK(told.unit == "cm");
+  CHECK(geometry::bounding_box(told.skin.positions).size().norm() < 0.02);
+}
+
+TEST_CASE("arms as wide as the body is tall do not change the up axis, y or z") {
+  TriMesh cross = figure();
+  for (Vec3& p : cross.positions) {
+    const bool arm = p.y() > 1.2 && p.y() < 1.5;
+    if (arm) p.x() *= 4.0;
+  }
+  CHECK(import_obj(cross).frame.up == geometry::Axis::kY);
+  const TriMesh lying = mapped(cross, [](const Vec3& p) { return Vec3(p.x(), -p.z(), p.y()); });
+  CHECK(import_obj(lying).frame.up == geometry::Axis::kZ);
+}

@@ -1,0 +1,118 @@
+#include <doctest/doctest.h>
+
+#include <bodice/io/import.hpp>
+#include <bodice_test/shapes.hpp>
+
+#include "figure.hpp"
+#include "temp_folder.hpp"
+
+using namespace bodice;
+using namespace io_test;
+using bodice_test::box;
+using bodice_test::cylinder;
+using bodice_test::icosphere;
+using bodice_test::sheet;
+
+namespace {
+
+const engine::Context kContext;
+
+engine::Result<io::ImportedMesh> import_groups(const std::vector<NamedMesh>& groups,
+                                               std::optional<std::string> mesh = {}) {
+  const TempFolder folder;
+  return io::import_body(kContext, folder.write("a.obj", to_obj(groups)), {.mesh = std::move(mesh)});
+}
+
+TriMesh moved(const TriMesh& mesh, const Vec3& by) {
+  return mapped(mesh, [&](const Vec3& p) { return Vec3(p + by); });
+}
+
+/// Open at both ends, around the figure's hips, and of more area than the figure's hips.
+TriMesh skirt() {
+  return moved(cylinder(0.45, 0.8, 48, 12, false), {0.0, 0.6, 0.0});
+}
+
+TriMesh eye(double x) {
+  return icosphere(0.012, 2, {x, 1.55, 0.12});
+}
+
+const engine::Warning* find(const io::ImportedMesh& mesh, std::string_view code) {
+  for (const engine::Warning& warning : mesh.warnings)
+    if (warning.code == code) return &warning;
+  return nullptr;
+}
+
+/// The part of the figure's triangles that `keep` picks, by the height of their middle.
+template <class Keep>
+TriMesh part_of_figure(Keep&& keep) {
+  TriMesh part = figure();
+  std::erase_if(part.triangles, [&](const geometry::Triangle& t) {
+    return !keep((part.positions[t[0]].y() + part.positions[t[1]].y() + part.positions[t[2]].y()) / 3.0);
+  });
+  return part;
+}
+
+}  // namespace
+
+TEST_CASE("the body is found whatever the order and the names") {
+  for (const bool body_first : {true, false}) {
+    std::vector<NamedMesh> groups = {
+        {"one", moved(box(Vec3::Constant(0.03)), {0.0, 2.0, 0.0})},
+        {"two", skirt()},
+        {"three", bodice_test::joined(eye(-0.04), eye(0.04))},
+        {"four", moved(sheet(5.0, 5.0, 12, 12), {0.0, -0.001, 0.0})},
+        {"five", moved(box({3.0, 1.5, 3.0}, 8), {0.0, 1.5, 0.0})},
+    };
+    groups.insert(body_first ? groups.begin() : groups.end(), {"six", figure()});
+    const auto result = import_groups(groups);
+    REQUIRE(result.ok());
+    CHECK(result->mesh == "six");
+    CHECK(vertex_distance(result->skin, figure()) < 1e-6);
+    REQUIRE(find(*result, "pieces-left-out"));
+    CHECK(find(*result, "pieces-left-out")->message.find("'two'") != std::string::npos);
+  }
+}
+
+TEST_CASE("loose pieces of one single mesh are told apart as well") {
+  TriMesh all = bodice_test::joined(bodice_test::joined(eye(-0.04), eye(0.04)), skirt());
+  all = bodice_test::joined(all, figure());
+  const auto result = import_groups({{"", all}});
+  REQUIRE(result.ok());
+  CHECK(vertex_distance(result->skin, figure()) < 1e-6);
+  CHECK(result->input_vertices == all.positions.size());
+}
+
+TEST_CASE("one body in several materials is joined along their borders") {
+  const TriMesh whole = figure();
+  const auto result = import_groups({{"trousers", part_of_figure([](double y) { return y < 0.9; })},
+                                     {"skin", part_of_figure([](double y) { return y >= 0.9; })}});
+  REQUIRE(result.ok());
+  CHECK(result->skin.triangles.size() == whole.triangles.size());
+  CHECK(result->repair.components == 1);
+  CHECK(result->repair.boundary_edges == 0);
+  CHECK(find(*result, "body-joined"));
+}
+
+TEST_CASE("limbs that are closed pieces of their own belong to the body") {
+  const TriMesh arm_l = icosphere(1.0, 2), torso = figure();
+  const TriMesh arm =
+      mapped(arm_l, [](const Vec3& p) { return Vec3(0.55 + 0.3 * p.x(), 1.2 + 0.05 * p.y(), 0.05 * p.z()); });
+  const TriMesh other = mapped(arm, [](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); });
+  const auto result = import_groups({{"torso", torso}, {"arm_l", arm}, {"arm_r", other}, {"skirt", skirt()}});
+  REQUIRE(result.ok());
+  CHECK(result->repair.components == 3);
+  CHECK(geometry::bounding_box(result->skin.positions).size().x() == doctest::Approx(1.7).epsilon(0.01));
+}
+
+TEST_CASE("a mesh asked for by name is taken, and a wrong name lists what there is") {
+  const std::vector<NamedMesh> groups = {{"body", figure()}, {"Skirt", skirt()}};
+  const auto skirt_only = import_groups(groups, "skirt");
+  REQUIRE(skirt_only.ok());
+  CHECK(skirt_only->mesh == "Skirt");
+  CHECK(skirt_only->input_triangles == skirt().triangles.size());
+  const auto missing = import_groups(groups, "torso");
+  REQUIRE(!missing.ok());
+  CHECK(missing.error().code == engine::ErrorCode::kNotFound);
+  CHECK(missing.error().message.find("'torso'") != std::string::npos);
+  CHECK(missing.error().remedy.find("'Skirt'") != std::string::npos);
+}
