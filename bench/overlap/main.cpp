@@ -1,6 +1,7 @@
 // How long do frames take while a body is prepared, and how long does the body take behind the frames?
 //
-//     build/release/bench/overlap_times [--quick] [--workers N] [--csv FILE] [--svg FILE] [--trace FILE]
+//     build/release/bench/overlap_times [--quick] [--workers N] [--body 200000] [--csv FILE] [--svg FILE]
+//     [--trace FILE]
 #include <cstdio>
 #include <fstream>
 
@@ -91,17 +92,19 @@ int main(int argc, char** argv) {
   bool quick = false;
   int workers = 0;
   double slice_us = 200.0;
+  int vertices = 0;
   std::string csv_path, svg_path, trace_path;
   app.add_flag("--quick", quick, "Shorter runs");
   app.add_option("--workers", workers, "Workers, the caller included; 0: one a hardware thread");
   app.add_option("--slice-us", slice_us, "Length of a background block of the synthetic work");
+  app.add_option("--body", vertices, "Real work: cloth frames, and fitting a body of so many vertices");
   app.add_option("--csv", csv_path, "Write the rows here, too");
   app.add_option("--svg", svg_path, "Draw a timeline of 70 ms");
   app.add_option("--trace", trace_path, "Write the trace of the drawn run (Chrome trace events)");
   CLI11_PARSE(app, argc, argv);
 
   const auto executor = make_tbb_executor(workers);
-  const auto work = make_synthetic(slice_us);
+  const auto work = vertices > 0 ? make_body_work(vertices) : make_synthetic(slice_us);
   const double foreground_ms = foreground_fit_ms(*work, *executor);
   std::printf("%s; %d workers\nfit alone, in the foreground: %.0f ms\n\n", work->describe().c_str(),
               executor->concurrency(), foreground_ms);

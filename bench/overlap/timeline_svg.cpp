@@ -75,10 +75,11 @@ std::string timeline_svg(const Trace& trace, double from_ms, double to_ms) {
     }
   }
   const double height = kTop + kLane * static_cast<double>(threads.size()) + 60.0;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 " +
-                    std::to_string(static_cast<int>(height)) +
-                    "\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" "
-                    "fill=\"white\"/>\n";
+  std::string svg =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 " +
+      std::to_string(static_cast<int>(height)) +
+      "\" font-family=\"sans-serif\" font-size=\"13\" stroke=\"none\">\n<rect width=\"100%\" height=\"100%\" "
+      "fill=\"white\"/>\n";
   append_legend(svg, 10.0);
   for (std::size_t i = 0; i < threads.size(); ++i) {
     append_text(svg, 8.0, kTop + kLane * (static_cast<double>(i) + 0.55),

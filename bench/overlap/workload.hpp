@@ -25,4 +25,8 @@ class Workload {
 /// preprocessing of loops whose blocks take about `slice_us`, with a serial stretch in between.
 std::unique_ptr<Workload> make_synthetic(double slice_us);
 
+/// A tube of cloth of 5k particles, 8 substeps a frame, on a body proxy; and fitting a generated body of
+/// `vertices` at the paper tier, whose result is one proxy.
+std::unique_ptr<Workload> make_body_work(int vertices);
+
 }  // namespace bodice_bench

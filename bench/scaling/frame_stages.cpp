@@ -106,7 +106,11 @@ Stage cloth_stage() {
 }
 
 Stage frame_stage() {
-  return {"whole frame in a pipeline", "particles", 10'000, 100'000, [](std::size_t size) -> Work {
+  return {"whole frame in a pipeline",
+          "particles",
+          10'000,
+          100'000,
+          [](std::size_t size) -> Work {
             const auto collider = make_trunk();
             return [=, drape = std::make_shared<Drape>(size, 8)](const Context& context) {
               engine::FramePipeline pipeline(context, {});
@@ -116,7 +120,8 @@ Stage frame_stage() {
               });
               return static_cast<std::uint64_t>(finite);
             };
-          }};
+          },
+          true};
 }
 
 }  // namespace bodice_bench

@@ -17,10 +17,11 @@ using namespace bodice_bench;
 
 int main(int argc, char** argv) {
   CLI::App app("Strong and weak scaling of every stage, and the cost of scheduling");
-  bool quick = false;
+  bool quick = false, limits_only = false;
   int workers = static_cast<int>(std::thread::hardware_concurrency());
   std::string only, folder;
   app.add_flag("--quick", quick, "Small sizes, short runs");
+  app.add_flag("--limits", limits_only, "Only what the blocks allow, which a busy machine does not disturb");
   app.add_option("--workers", workers, "Most workers to try")->check(CLI::Range(1, 256));
   app.add_option("--stage", only, "Only stages whose name holds this text");
   app.add_option("--out", folder, "Write scaling.md, scaling.csv and scaling.svg into this folder");
@@ -31,14 +32,20 @@ int main(int argc, char** argv) {
   const Origin origin = find_origin();
   const std::vector<Cost> costs =
       only.empty() ? scheduling_costs(workers, quick ? 20 : 200) : std::vector<Cost>{};
+  std::vector<Limit> limits;
   std::vector<std::vector<Sample>> strong, weak, all;
   for (const Stage& stage : all_stages()) {
     if (stage.name.find(only) == std::string::npos) continue;
     std::fprintf(stderr, "%s ...\n", stage.name.c_str());
-    strong.push_back(strong_scaling(stage, quick ? stage.quick_size : stage.full_size, effort));
+    const std::size_t size = quick ? stage.quick_size : stage.full_size;
+    if (!stage.draws_blocks) {
+      limits.push_back({stage.name, stage.element, size, measure_work_span(stage.make(size), workers)});
+    }
+    if (limits_only) continue;
+    strong.push_back(strong_scaling(stage, size, effort));
     weak.push_back(weak_scaling(stage, stage.quick_size, effort));
   }
-  const std::string markdown = to_markdown(strong, weak, costs, origin);
+  const std::string markdown = to_markdown(limits, strong, weak, costs, origin);
   std::fputs(markdown.c_str(), stdout);
   if (folder.empty()) return 0;
   all = strong;

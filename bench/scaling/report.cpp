@@ -40,6 +40,21 @@ std::string cost_table(const std::vector<Cost>& costs) {
   return text;
 }
 
+std::string limit_table(const std::vector<Limit>& limits) {
+  std::string text =
+      "\n## What the blocks allow: work and span of a serial run, in processor time\n\n"
+      "Independent of the machine's load: the least speed-up of a scheduler that never idles beside ready "
+      "blocks.\n\n"
+      "| stage | size | work ms | span ms | 2 workers | 4 | 8 | 16 |\n|---|---|---|---|---|---|---|---|\n";
+  for (const Limit& limit : limits) {
+    const WorkSpan& ws = limit.work_span;
+    text += format("| %s | %zu %s | %.2f | %.3f | %.2f | %.2f | %.2f | %.2f |\n", limit.stage.c_str(),
+                   limit.size, limit.element.c_str(), ws.work_ms, ws.span_ms, ws.speed_up(2), ws.speed_up(4),
+                   ws.speed_up(8), ws.speed_up(16));
+  }
+  return text;
+}
+
 std::string strong_table(const std::vector<std::vector<Sample>>& stages) {
   std::string text =
       "\n## Strong scaling: the same work for more workers\n\n"
@@ -76,14 +91,14 @@ std::string weak_table(const std::vector<std::vector<Sample>>& stages) {
 
 }  // namespace
 
-std::string to_markdown(const std::vector<std::vector<Sample>>& strong,
+std::string to_markdown(const std::vector<Limit>& limits, const std::vector<std::vector<Sample>>& strong,
                         const std::vector<std::vector<Sample>>& weak, const std::vector<Cost>& costs,
                         const Origin& origin) {
   return "# Scaling\n\n" + title(origin) +
          ".\nSpeed-ups are of least times; worker counts take turns. 'busy': others took that share of the "
          "machine "
          "meanwhile, in each of the attempts.\n\n" +
-         cost_table(costs) + strong_table(strong) + weak_table(weak);
+         cost_table(costs) + limit_table(limits) + strong_table(strong) + weak_table(weak);
 }
 
 std::string to_csv(const std::vector<std::vector<Sample>>& stages, const Origin& origin) {

@@ -5,6 +5,7 @@
 
 #include "measure.hpp"
 #include "scheduling_cost.hpp"
+#include "work_span.hpp"
 
 namespace bodice_bench {
 
@@ -17,7 +18,12 @@ Origin find_origin();
 
 /// One row a sample; the origin stands in every row.
 std::string to_csv(const std::vector<std::vector<Sample>>& stages, const Origin& origin);
-std::string to_markdown(const std::vector<std::vector<Sample>>& strong,
+struct Limit {
+  std::string stage, element;
+  std::size_t size = 0;
+  WorkSpan work_span;
+};
+std::string to_markdown(const std::vector<Limit>& limits, const std::vector<std::vector<Sample>>& strong,
                         const std::vector<std::vector<Sample>>& weak, const std::vector<Cost>& costs,
                         const Origin& origin);
 /// Speed-up over workers, a line a stage, beside the ideal.
