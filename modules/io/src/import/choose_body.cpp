@@ -23,6 +23,7 @@ using geometry::Vec3;
 constexpr double kFlat = 0.05;    ///< thickness to length: floors and cards, never a body
 constexpr double kCompact = 1.5;  ///< area to squared diagonal: a crouching body .8, a sphere 1.05, a room 2
 constexpr double kEnoughTriangles = 100;  ///< fewer than this say little about a shape
+constexpr double kLargestLimb = 1.5;      ///< of the best piece's area: what is larger is a room or a stage
 constexpr double kTinyPiece = 0.002;      ///< of the body's area: a crumb
 constexpr double kNear = 0.04;            ///< of the body's length: what lies this near follows its skin
 constexpr double kTouching = 0.08;        ///< of the body's length: what begins this near may continue it
@@ -119,7 +120,9 @@ std::vector<const Piece*> grow(const engine::Context& context, const JoinedScene
     grown = false;
     const geometry::MeshDistance distance(context, mesh_of(joined, body));
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (taken[i] || pieces[i].area < kTinyPiece * pieces[best].area) continue;
+      if (taken[i] || pieces[i].area < kTinyPiece * pieces[best].area ||
+          pieces[i].area > kLargestLimb * pieces[best].area)
+        continue;
       if (!continues_body(joined, pieces[i], box, distance)) continue;
       body.push_back(&pieces[i]);
       taken[i] = grown = true;

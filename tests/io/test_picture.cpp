@@ -1,0 +1,135 @@
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstring>
+#include <set>
+
+#include <png.h>
+
+#include "scene_fixture.hpp"
+#include "temp_folder.hpp"
+
+using namespace bodice;
+using namespace io_test;
+
+namespace {
+
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  std::array<int, 3> at(int x, int y) const {
+    const std::size_t i =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    return {rgb[i], rgb[i + 1], rgb[i + 2]};
+  }
+  /// Neither backdrop nor ground: both are near-neutral and light.
+  bool drawn(int x, int y) const {
+    const auto [r, g, b] = at(x, y);
+    return std::max({r, g, b}) - std::min({r, g, b}) > 14;
+  }
+};
+
+Picture read(const std::filesystem::path& file) {
+  png_image header;
+  std::memset(&header, 0, sizeof header);
+  header.version = PNG_IMAGE_VERSION;
+  REQUIRE(png_image_begin_read_from_file(&header, file.c_str()));
+  header.format = PNG_FORMAT_RGB;
+  Picture picture{static_cast<int>(header.width), static_cast<int>(header.height), {}};
+  picture.rgb.resize(PNG_IMAGE_SIZE(header));
+  REQUIRE(png_image_finish_read(&header, nullptr, picture.rgb.data(), 0, nullptr));
+  return picture;
+}
+
+Picture drawn(const io::Scene& scene, std::span<const std::size_t> frames,
+              const io::PictureOptions& options) {
+  const TempFolder folder;
+  const auto result = io::write_picture(scene, frames, folder / "a.png", options);
+  REQUIRE_MESSAGE(result.ok(), (result.ok() ? std::string() : result.error().sentence()));
+  return read(folder / "a.png");
+}
+
+/// Of the pixels of a rectangle, how many are drawn.
+int count(const Picture& picture, int x0, int y0, int x1, int y1) {
+  int n = 0;
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x) n += picture.drawn(x, y);
+  return n;
+}
+
+constexpr io::PictureOptions kSmall{.width = 120, .height = 200};
+
+}  // namespace
+
+TEST_CASE("the body stands where it should in the front and the side view") {
+  const SceneFixture fixture;
+  const Picture picture = drawn(fixture.scene, {}, kSmall);
+  REQUIRE(picture.width == 240);
+  REQUIRE(picture.height == 200);
+  for (const int middle : {60, 180}) {
+    CHECK(picture.drawn(middle, 60));
+    CHECK(picture.drawn(middle, 140));
+  }
+  for (const int corner : {3, 117, 123, 237})
+    for (const int y : {3, 196}) CHECK(!picture.drawn(corner, y));
+  // Wider from the front (.56 m and more) than from the side (about .32 m).
+  const int front = count(picture, 0, 0, 120, 200), side = count(picture, 120, 0, 240, 200);
+  CHECK(side > 1000);
+  CHECK(front > 1.4 * side);
+}
+
+TEST_CASE("parts have their own colours, garments cover the body, frames differ") {
+  const SceneFixture fixture;
+  const Picture parts = drawn(fixture.scene, {}, kSmall);
+  CHECK(parts.at(60, 50) != parts.at(60, 150));
+  const std::array<std::size_t, 2> frames = {0, 2};
+  const Picture draped = drawn(fixture.scene, frames, kSmall);
+  REQUIRE(draped.height == 400);
+  const auto [r, g, b] = draped.at(60, 130);  // the skirt is blue, the skin is not
+  CHECK(b > r + 30);
+  const auto [skin_r, skin_g, skin_b] = draped.at(60, 40);
+  CHECK(skin_r >= skin_b);
+  int differ = 0;
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 240; ++x) differ += draped.at(x, y) != draped.at(x, y + 200);
+  CHECK(differ > 200);
+}
+
+TEST_CASE("the same scene gives the same bytes") {
+  const SceneFixture fixture;
+  CHECK(drawn(fixture.scene, {}, kSmall).rgb == drawn(fixture.scene, {}, kSmall).rgb);
+}
+
+TEST_CASE("ellipsoids can be shown in place of the skin") {
+  const SceneFixture fixture;
+  io::PictureOptions options = kSmall;
+  options.show_ellipsoids = true;
+  const Picture picture = drawn(fixture.scene, {}, options);
+  CHECK(count(picture, 0, 0, 120, 200) > 500);
+  CHECK(picture.rgb != drawn(fixture.scene, {}, kSmall).rgb);
+}
+
+TEST_CASE("the fifteen parts have fifteen colours") {
+  std::set<std::array<float, 3>> colors;
+  for (int i = 0; i < body::kPartCount; ++i) {
+    const auto color = io::part_color(static_cast<body::Part>(i));
+    colors.insert({color[0], color[1], color[2]});
+    for (const float c : color) CHECK((c >= 0.0f && c <= 1.0f));
+  }
+  CHECK(colors.size() == body::kPartCount);
+}
+
+TEST_CASE("a frame that does not exist and absurd sizes are refused") {
+  const TempFolder folder;
+  const SceneFixture fixture;
+  const std::array<std::size_t, 1> beyond = {3};
+  for (const auto& [frames, options] :
+       {std::pair<std::span<const std::size_t>, io::PictureOptions>{beyond, kSmall},
+        {{}, {.width = 0, .height = 100}},
+        {{}, {.width = 100'000, .height = 100}}}) {
+    const auto result = io::write_picture(fixture.scene, frames, folder / "a.png", options);
+    REQUIRE(!result.ok());
+    CHECK(result.error().code == engine::ErrorCode::kInvalidArgument);
+  }
+}
