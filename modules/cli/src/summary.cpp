@@ -34,8 +34,11 @@ void add_body(std::string& text, const tryon::PreparedBody& body) {
 void add_drape(std::string& text, const tryon::DrapeReport& d) {
   add_line(text, "drape       %d frames, %zu particles, %.2f ms a frame (median), %.2f ms (99 %%)", d.frames,
            d.particles, d.frame_ms_median, d.frame_ms_p99);
-  add_line(text, "true skin   %zu particles deeper than 1 mm at the end; deepest ever %.2f mm (frame %d)",
-           d.penetration_over_1mm, d.penetration_max_m * 1e3, d.worst_frame);
+  add_line(text,
+           "true skin   %zu particles deeper than 1 mm at the end; deepest ever %.2f mm (frame %d); %.2f %% "
+           "of the "
+           "cloth inside",
+           d.penetration_over_1mm, d.penetration_max_m * 1e3, d.worst_frame, d.pierced_share * 100.0);
   add_line(text, "cloth       stretch %.1f %% at 95 %%, median speed %.1f mm/s, %zu inside the proxy%s",
            d.stretch_p95 * 100.0, d.median_speed_m_s * 1e3, d.inside_union, d.finite ? "" : ", NOT FINITE");
 }

@@ -7,14 +7,13 @@
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/tryon/penetration.hpp>
 
 namespace bodice::tryon {
 namespace {
 
 using geometry::Vec3;
 
-constexpr double kDeepM = 0.001;   ///< "deeper than 1 mm" of the report
-constexpr double kSearchM = 0.05;  ///< skin farther than this cannot be penetrated: no need to measure
 constexpr double kInsideTolerance = 1e-6;  ///< of stature: what float particles may be off by
 constexpr std::size_t kGrain = 256;
 
@@ -26,35 +25,6 @@ std::vector<int> frames_to_keep(int frames, int kept) {
     keep.push_back(static_cast<int>(std::lround(static_cast<double>(frames) * i / (count - 1))));
   keep.erase(std::unique(keep.begin(), keep.end()), keep.end());
   return keep;
-}
-
-struct Depth {
-  double deepest_m = 0.0;
-  std::size_t over_1mm = 0;
-};
-
-/// How deep the cloth is inside the true skin.
-Depth penetration(const engine::Context& context, const geometry::MeshDistance& skin,
-                  std::span<const Vec3> positions) {
-  return engine::ordered_reduce(
-      context, positions.size(), kGrain, Depth{},
-      [&](std::size_t begin, std::size_t end) {
-        Depth depth;
-        for (std::size_t i = begin; i < end; ++i) {
-          if (!positions[i].allFinite()) continue;
-          const auto nearest = skin.nearest_within(positions[i], kSearchM);
-          // Nothing near means far outside or far inside: only then is the whole search worth its cost.
-          const double d = nearest
-                               ? nearest->signed_distance
-                               : (skin.inside(positions[i]) ? skin.signed_distance(positions[i]) : kSearchM);
-          depth.deepest_m = std::max(depth.deepest_m, -d);
-          depth.over_1mm += d < -kDeepM;
-        }
-        return depth;
-      },
-      [](Depth a, const Depth& b) {
-        return Depth{std::max(a.deepest_m, b.deepest_m), a.over_1mm + b.over_1mm};
-      });
 }
 
 /// Particles inside the proxy, by the exact level of each ellipsoid in double rather than by the collider
@@ -164,7 +134,7 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
 
     solver->positions(positions);
     report.finite = report.finite && last.finite;
-    const Depth depth = penetration(context, *body.skin.distance, positions);
+    const Penetration depth = penetration(context, *body.skin.distance, positions);
     if (depth.deepest_m > report.penetration_max_m) {
       report.penetration_max_m = depth.deepest_m;
       report.worst_frame = frame;
@@ -179,6 +149,7 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
   }
 
   summarise_times(std::move(frame_ms), report);
+  report.pierced_share = pierced_share(context, *body.skin.distance, positions, all.mesh.triangles);
   report.inside_union = count_inside(context, proxy, collider, positions);
   report.stretch_p95 = last.stretch_p95;
   report.stretch_max = last.stretch_max;

@@ -29,7 +29,8 @@ class MeshDistance {
 
   /// Nearest point and sign; O(log n) typical.
   SurfacePoint nearest(const Vec3& query) const;
-  /// As nearest(), for the unsigned part only within `max_distance_m`; empty if nothing is that near.
+  /// The nearest point if it is within `max_distance_m`, else nothing. Its distance carries NO sign: it is
+  /// never negative. Half the cost of nearest().
   std::optional<SurfacePoint> nearest_within(const Vec3& query, double max_distance_m) const;
   double signed_distance(const Vec3& query) const { return nearest(query).signed_distance; }
   /// The generalised winding number: 1 inside a closed outward mesh, 0 outside.

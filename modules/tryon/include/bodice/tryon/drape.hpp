@@ -28,6 +28,7 @@ struct DrapeReport {
   double penetration_max_m = 0.0;        ///< deepest of any particle in any frame
   double penetration_end_m = 0.0;        ///< deepest at the last frame
   int worst_frame = 0;
+  double pierced_share = 0.0;    ///< of the cloth's area, inside the skin at the end
   std::size_t inside_union = 0;  ///< particles inside any ellipsoid (relief: the proxy) at the end
   double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain at the end
   double median_speed_m_s = 0.0;                ///< at the end

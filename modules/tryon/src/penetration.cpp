@@ -1,0 +1,63 @@
+#include <bodice/tryon/penetration.hpp>
+
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
+#include <bodice/engine/parallel.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+using geometry::Vec3;
+
+constexpr std::size_t kGrain = 256;  // about a millisecond of signed distances
+
+struct Area {
+  double inside = 0.0, all = 0.0;
+};
+
+}  // namespace
+
+Penetration penetration(const engine::Context& context, const geometry::MeshDistance& skin,
+                        std::span<const Vec3> positions) {
+  return engine::ordered_reduce(
+      context, positions.size(), kGrain, Penetration{},
+      [&](std::size_t begin, std::size_t end) {
+        Penetration found;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!positions[i].allFinite()) continue;
+          const double depth_m = -skin.signed_distance(positions[i]);
+          found.deepest_m = std::max(found.deepest_m, depth_m);
+          found.over_1mm += depth_m > kDeepM;
+        }
+        return found;
+      },
+      [](const Penetration& a, const Penetration& b) {
+        return Penetration{std::max(a.deepest_m, b.deepest_m), a.over_1mm + b.over_1mm};
+      });
+}
+
+double pierced_share(const engine::Context& context, const geometry::MeshDistance& skin,
+                     std::span<const Vec3> positions, std::span<const geometry::Triangle> triangles) {
+  const Area area = engine::ordered_reduce(
+      context, triangles.size(), kGrain, Area{},
+      [&](std::size_t begin, std::size_t end) {
+        Area found;
+        for (std::size_t t = begin; t < end; ++t) {
+          const Vec3 &a = positions[triangles[t][0]], &b = positions[triangles[t][1]],
+                     &c = positions[triangles[t][2]];
+          const double twice_area = (b - a).cross(c - a).norm();
+          if (!(twice_area > 0.0)) continue;
+          found.all += twice_area;
+          if (skin.signed_distance((a + b + c) / 3.0) < 0.0) found.inside += twice_area;
+        }
+        return found;
+      },
+      [](const Area& a, const Area& b) {
+        return Area{a.inside + b.inside, a.all + b.all};
+      });
+  return area.all > 0.0 ? area.inside / area.all : 0.0;
+}
+
+}  // namespace bodice::tryon
