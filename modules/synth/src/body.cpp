@@ -24,6 +24,7 @@ constexpr double kDensity = 1010.0;   // kg per cubic metre of living body
 constexpr int kLeastVertices = 1350;  // the cage's own, with the smallest allowance of ten percent
 constexpr int kMostVertices = 4'000'000;
 constexpr int kGirthRounds = 8;
+constexpr int kRelaxations = 5;  // a round: enough to follow a slow change of girth
 constexpr double kVolumeTolerance = 0.01;
 
 std::optional<engine::Error> check(const BodyOptions& o) {
@@ -46,7 +47,7 @@ std::optional<engine::Error> check(const BodyOptions& o) {
 Skin solve_girth(const engine::Context& context, Figure& figure, double wanted) {
   double low = -1.0, high = 6.0;
   Skin skin = make_skin(context, figure, Flesh(figure));
-  double fat = 0.0, slope = 0.0, last_fat = 0.0, last_volume = 0.0;
+  double fat = figure.fat, slope = 0.0, last_fat = 0.0, last_volume = 0.0;
   for (int round = 0; round < kGirthRounds; ++round) {
     const double now = volume(skin.mesh, skin.positions);
     if (std::abs(now / wanted - 1.0) < kVolumeTolerance) break;
@@ -58,9 +59,9 @@ Skin solve_girth(const engine::Context& context, Figure& figure, double wanted) 
     if (next <= low || next >= high) next = 0.5 * (low + high);
     fat = next;
     figure.fat = fat;
-    settle(context, Flesh(figure), skin);
+    settle(context, Flesh(figure), skin, kRelaxations);
   }
-  return make_skin(context, figure, Flesh(figure));
+  return skin;
 }
 
 std::vector<geometry::Triangle> triangulate(const PatchMesh& mesh, const std::vector<Vec3>& positions) {
@@ -94,14 +95,21 @@ void place(Body& body, double stature_m) {
 Body make(const engine::Context& context, const BodyOptions& options, const body::Proportions& proportions) {
   Figure figure = make_figure(options.sex, proportions, options.seed);
   const double h = options.stature_m;
-  const Skin skin = solve_girth(context, figure, options.mass_kg / kDensity / (h * h * h));
+  const double wanted = options.mass_kg / kDensity / (h * h * h);
+  Skin skin = solve_girth(context, figure, wanted);
   const Patches patches(skin.cage);
   const std::vector<Vec3> corners(
       skin.positions.begin(),
       skin.positions.begin() + static_cast<std::ptrdiff_t>(skin.cage.positions.size()));
   const PatchMesh mesh =
       patches.tessellate(counts_for_vertices(patches, patches.class_lengths(corners), options.vertices));
-  const std::vector<Vec3> rest = sample_skin(context, skin, Flesh(figure), mesh);
+  std::vector<Vec3> rest = sample_skin(context, skin, Flesh(figure), mesh);
+  // Where flesh folds, this sampling encloses more than the coarse skin did: aim once more.
+  const double enclosed = volume(mesh, rest);
+  if (std::abs(enclosed / wanted - 1.0) > 2.0 * kVolumeTolerance) {
+    skin = solve_girth(context, figure, wanted * volume(skin.mesh, skin.positions) / enclosed);
+    rest = sample_skin(context, skin, Flesh(figure), mesh);
+  }
   const std::vector<BoneWeights> of_skin = bone_weights(figure, skin);
   std::vector<BoneWeights> weights(rest.size());
   for (std::size_t v = 0; v < rest.size(); ++v) weights[v] = sample(skin.mesh, of_skin, mesh.at[v]);

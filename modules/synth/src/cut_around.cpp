@@ -59,7 +59,7 @@ engine::Result<Cut> cut_skirt(const Fitting& f) {
 engine::Result<Cut> cut_tube(const Fitting& f) {
   const Levels levels = levels_of(f);
   const PartFilter torso = [](Part part) { return body::is_torso(part); };
-  const double edge = f.options.edge_length_m, top = levels.armpit - 0.012 * f.body.stature_m,
+  const double edge = f.options.edge_length_m, top = tube_top(f),
                bottom = levels.waist - 0.03 * f.body.stature_m;
   const int rings = std::max(4, static_cast<int>(std::lround((top - bottom) / edge)) + 1);
   Cut cut;

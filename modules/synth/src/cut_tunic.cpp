@@ -96,7 +96,7 @@ Plan make_plan(const Fitting& f) {
   const double h = f.body.stature_m, edge = f.options.edge_length_m;
   const Levels levels = levels_of(f);
   Plan plan;
-  plan.top = levels.armpit - 0.012 * h;
+  plan.top = tube_top(f);
   plan.hem = 0.02 * h;
   const double left = local_landmark(f.body, f.frame, body::LandmarkId::kArmpitL).x();
   const double right = -local_landmark(f.body, f.frame, body::LandmarkId::kArmpitR).x();

@@ -33,6 +33,7 @@ Flesh::Flesh(const Figure& figure) {
     add_leg(figure, side);
   }
   link_regions();
+  link_right_half();
 }
 
 void Flesh::add(Region region, Loft loft, double blend) {
@@ -62,9 +63,25 @@ void Flesh::link_regions() {
   }
 }
 
+void Flesh::link_right_half() {
+  const auto partner = [&](int i) {
+    Vec3 wanted = primitives_[i].loft.bound_center();
+    wanted.x() = -wanted.x();
+    for (std::size_t k = 0; k < primitives_.size(); ++k)
+      if ((primitives_[k].loft.bound_center() - wanted).norm() < 1e-9 &&
+          std::abs(primitives_[k].loft.bound_radius() - primitives_[i].loft.bound_radius()) < 1e-9)
+        return static_cast<int>(k);
+    return i;
+  };
+  for (int r = 0; r < kRegionCount; ++r)
+    for (const int i : visible_[static_cast<int>(mirrored(static_cast<Region>(r)))])
+      visible_right_[r].push_back(partner(i));
+}
+
 double Flesh::value(Region region, const Vec3& p) const {
   double total = 1.0;
-  for (const int i : visible_[static_cast<int>(region)]) {
+  const auto& visible = p.x() < 0.0 ? visible_right_ : visible_;
+  for (const int i : visible[static_cast<int>(region)]) {
     const Primitive& primitive = primitives_[i];
     const double reach = total + primitive.blend + primitive.loft.bound_radius();
     if (reach < 0.0 || (p - primitive.loft.bound_center()).squaredNorm() > reach * reach) continue;
@@ -76,11 +93,15 @@ double Flesh::value(Region region, const Vec3& p) const {
 }
 
 Vec3 Flesh::gradient(Region region, const Vec3& p, double value) const {
-  Vec3 g;
+  // One-sided, and along x away from the middle plane, so that left and right round alike; in the plane
+  // itself the slope along x is zero by symmetry.
+  Vec3 g = Vec3::Zero();
   for (int c = 0; c < 3; ++c) {
+    if (c == 0 && std::abs(p.x()) < kDerivativeStep) continue;
+    const double step = c == 0 && p.x() < 0.0 ? -kDerivativeStep : kDerivativeStep;
     Vec3 moved = p;
-    moved[c] += kDerivativeStep;
-    g[c] = (this->value(region, moved) - value) / kDerivativeStep;
+    moved[c] += step;
+    g[c] = (this->value(region, moved) - value) / step;
   }
   return g;
 }

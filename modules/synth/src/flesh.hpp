@@ -35,6 +35,13 @@ constexpr int side_of(Region region) {
   return region == Region::kArmL || region == Region::kLegL ? 0 : 1;
 }
 
+constexpr Region mirrored(Region region) {
+  const int side = side_of(region);
+  if (side < 0) return region;
+  const int step = is_digit(region) ? kDigitsPerHand : 1;
+  return static_cast<Region>(static_cast<int>(region) + (side == 0 ? step : -step));
+}
+
 /// Where a digit starts, goes and ends, rest pose.
 struct Digit {
   Vec3 base, along, out, front;
@@ -63,11 +70,15 @@ class Flesh {
   void add_arm(const Figure& figure, int side);
   void add_leg(const Figure& figure, int side);
   void link_regions();
+  void link_right_half();
   Vec3 gradient(Region region, const Vec3& p, double value) const;
 
   std::vector<Primitive> primitives_;
   std::array<std::vector<int>, kRegionCount> own_;      ///< primitives of each region
   std::array<std::vector<int>, kRegionCount> visible_;  ///< own and its tree neighbours', in build order
+  /// As visible_, for points of the right half: the union folds in the mirrored order, so that the body is
+  /// its own mirror image to the last bits.
+  std::array<std::vector<int>, kRegionCount> visible_right_;
 };
 
 }  // namespace bodice::synth

@@ -72,7 +72,14 @@ void Flesh::add_trunk(const Figure& f) {
     const double r = 0.026 * (1.0 + 0.25 * fat), length = (outer - inner).norm();
     const Vec3 along = (outer - inner) / length, front = (z - z.dot(along) * along).normalized();
     add(Region::kTrunk,
-        {inner, along, front.cross(along), front, {{0.0, 0.9 * r, r, r, 0, 0}, {length, r, r, r, 0, 0}}, r, r}, 0.02);
+        {inner,
+         along,
+         front.cross(along),
+         front,
+         {{0.0, 0.9 * r, r, r, 0, 0}, {length, r, r, r, 0, 0}},
+         r,
+         r},
+        0.02);
   }
   for (const double sign : {1.0, -1.0}) {
     const double seat = f.build.seat * (1.0 + 0.35 * fat) * (f.female() > 0.0 ? 1.0 : 0.92);

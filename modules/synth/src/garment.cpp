@@ -46,7 +46,16 @@ bool clear_skin(const engine::Context& context, const Fitting& fitting, Cut& cut
         if (!clear[v]) p += (kGenerous * missing + 1e-6 * fitting.body.stature_m) * cut.outward[v];
       }
   });
-  return std::all_of(clear.begin(), clear.end(), [](char c) { return c != 0; });
+  const auto& t = cut.mesh.triangles;
+  std::vector<char> outside(t.size(), 0);  // a triangle may still cut what its corners avoid
+  engine::parallel_for(context, t.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 middle = (cut.mesh.corner(i, 0) + cut.mesh.corner(i, 1) + cut.mesh.corner(i, 2)) / 3.0;
+      outside[i] = skin.signed_distance(fitting.frame.to_world(middle)) > 0.0;
+    }
+  });
+  const auto holds = [](char c) { return c != 0; };
+  return std::all_of(clear.begin(), clear.end(), holds) && std::all_of(outside.begin(), outside.end(), holds);
 }
 
 /// Winding that faces away from the trunk's axis, or up for a flat sheet.

@@ -15,8 +15,8 @@ PoseAngles both(const ArmAngles& arm, const LegAngles& leg) {
 PoseAngles stride() {
   PoseAngles pose;
   pose.turn = 6.0;
-  pose.arm[0] = {.raise = 14, .forward = -24, .elbow = 12};
-  pose.arm[1] = {.raise = 14, .forward = 28, .elbow = 22};
+  pose.arm[0] = {.raise = 20, .forward = -24, .elbow = 12};
+  pose.arm[1] = {.raise = 20, .forward = 28, .elbow = 22};
   pose.leg[0] = {.flex = 28, .spread = 2, .knee = 6, .ankle = 4};
   pose.leg[1] = {.flex = -18, .spread = 2, .knee = 18, .ankle = -8};
   return pose;

@@ -34,6 +34,10 @@ void relax(const engine::Context& context, const Flesh& flesh, const PatchMesh& 
   for (int i = 0; i < iterations; ++i) {
     engine::parallel_for(context, positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
+        if (is_digit(mesh.region[v])) {  // evening out would draw the few rings of a digit towards the palm
+          next[v] = positions[v];
+          continue;
+        }
         Vec3 mean = Vec3::Zero();
         for (std::size_t k = near.start[v]; k < near.start[v + 1]; ++k) mean += positions[near.vertex[k]];
         mean /= static_cast<double>(near.start[v + 1] - near.start[v]);
@@ -77,8 +81,10 @@ Skin make_skin(const engine::Context& context, const Figure& figure, const Flesh
   return skin;
 }
 
-void settle(const engine::Context& context, const Flesh& flesh, Skin& skin) {
-  project_all(context, flesh, skin.mesh, 4, skin.positions);
+void settle(const engine::Context& context, const Flesh& flesh, Skin& skin, int relaxations) {
+  project_all(context, flesh, skin.mesh, 2, skin.positions);
+  relax(context, flesh, skin.mesh, relaxations, skin.positions);
+  project_all(context, flesh, skin.mesh, 2, skin.positions);
 }
 
 double volume(const PatchMesh& mesh, const std::vector<Vec3>& positions) {

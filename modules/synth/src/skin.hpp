@@ -19,8 +19,8 @@ struct Skin {
 
 Skin make_skin(const engine::Context& context, const Figure& figure, const Flesh& flesh);
 
-/// Moves the skin to another flesh of the same figure.
-void settle(const engine::Context& context, const Flesh& flesh, Skin& skin);
+/// Moves the skin to another flesh of the same figure and evens it out.
+void settle(const engine::Context& context, const Flesh& flesh, Skin& skin, int relaxations);
 
 /// Volume enclosed by quads, cubic units.
 double volume(const PatchMesh& mesh, const std::vector<Vec3>& positions);

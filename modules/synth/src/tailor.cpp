@@ -20,6 +20,13 @@ Levels levels_of(const Fitting& f) {
   return levels;
 }
 
+double tube_top(const Fitting& f) {
+  const auto y = [&](body::LandmarkId id) { return local_landmark(f.body, f.frame, id).y(); };
+  // Arms at 45 degrees part from the trunk by twice the ease at 2.8 times the ease.
+  return std::min(y(body::LandmarkId::kArmpitL), y(body::LandmarkId::kArmpitR)) - 0.006 * f.body.stature_m -
+         2.8 * f.options.ease_m;
+}
+
 Point2 slice_center(const Fitting& f, double y, const PartFilter& wanted) {
   const double half = 0.5 * f.options.edge_length_m;
   geometry::Box box;

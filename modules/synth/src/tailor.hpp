@@ -32,6 +32,8 @@ struct Levels {
   double waist, armpit, neck;
 };
 Levels levels_of(const Fitting& fitting);
+/// The height below the armpits at which there is room for cloth between trunk and arm.
+double tube_top(const Fitting& fitting);
 
 /// The outline of the wanted parts between two heights, widened by the ease; radius 0 where there is no skin.
 Outline ring_outline(const Fitting& fitting, double low, double high, const PartFilter& wanted,
