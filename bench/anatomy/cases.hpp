@@ -24,4 +24,7 @@ struct Case {
 /// Every body of the data folder that has labels. Sorted by name.
 std::vector<Case> file_cases(const std::filesystem::path& data, const std::string& only);
 
+/// A made body of random build, pose, resolution, turn, place and unit.
+Case synth_case(std::uint64_t seed);
+
 }  // namespace bench

@@ -1,4 +1,5 @@
-// anatomy --data DIR [--only TEXT] [--verbose]: a table of how well every body is understood.
+// anatomy_scores [--data DIR] [--only TEXT] [--seeds N] [--verbose]: a table of how well every body is
+// understood.
 #include <cstdio>
 #include <cstring>
 
@@ -19,24 +20,30 @@ void print_row(const bench::Case& c, const bodice::anatomy::Anatomy& a, const be
   std::printf("\n");
 }
 
+void run(const bench::Case& c, bool verbose) {
+  const auto anatomy = bodice::anatomy::analyse({}, c.mesh, {});
+  if (anatomy)
+    print_row(c, *anatomy, bench::score(c, *anatomy), verbose);
+  else
+    std::printf("%-42s %s\n", c.name.c_str(), anatomy.error().sentence().c_str());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string data = "../shared/data", only;
+  std::uint64_t seeds = 0;
   bool verbose = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--data") == 0 && i + 1 < argc) data = argv[++i];
     if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc) only = argv[++i];
+    if (std::strcmp(argv[i], "--seeds") == 0 && i + 1 < argc) seeds = std::stoull(argv[++i]);
     if (std::strcmp(argv[i], "--verbose") == 0) verbose = true;
   }
   std::printf("%-42s %7s %7s %6s %6s %-12s %6s %7s\n", "body", "V", "agree%", "swap%", "worst%", "landmark",
               "height", "ms");
-  for (const bench::Case& c : bench::file_cases(data, only)) {
-    const auto anatomy = bodice::anatomy::analyse({}, c.mesh, {});
-    if (anatomy)
-      print_row(c, *anatomy, bench::score(c, *anatomy), verbose);
-    else
-      std::printf("%-42s %s\n", c.name.c_str(), anatomy.error().sentence().c_str());
-  }
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) run(bench::synth_case(seed), verbose);
+  if (seeds == 0)
+    for (const bench::Case& c : bench::file_cases(data, only)) run(c, verbose);
   return 0;
 }

@@ -15,7 +15,7 @@ using geometry::Vec3;
 
 /// Where around a leg is read, as parts of the way from toe to perineum: the calf and the knee.
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
-constexpr float kHeelFrom = 0.20F, kHeelTo = 0.36F;  ///< where the heel is, as parts of that way
+constexpr float kHeelFrom = 0.20F, kHeelTo = 0.31F;  ///< where the heel is, as parts of that way
 
 /// The heel is the dead end of the foot: the way toe - heel - head is the longest.
 Index find_heel(const EndPoints& ends, End foot, float leg) {
@@ -48,22 +48,33 @@ std::complex<double> least_direction(const Skin& skin, const Isoline& loop, cons
   return harmonic / (loop.girth_m * loop.girth_m);
 }
 
-/// Positive if the leg is the body's left: seen from the trunk, inner follows back counter-clockwise.
+/// Sine of the angle from `first` to `second` around the loop, seen from the trunk.
+double signed_turn(std::complex<double> first, std::complex<double> second) {
+  const double size = std::abs(first) * std::abs(second);
+  return size > 0.0 ? std::imag(second * std::conj(first)) / size : 0.0;
+}
+
+/// Mean over the loops of what `reads` says, for levels of the field that rises towards the trunk.
+template <class Reads>
+double mean_over_loops(const Skin& skin, const Field& field, const std::array<float, kReadAt.size()>& levels,
+                       Reads reads) {
+  double sum = 0.0;
+  for (const auto& lines : geodesic::isolines(skin.mesh, skin.edges, field, levels))
+    if (const Isoline* loop = widest_closed(lines)) sum += reads(*loop);
+  return sum / static_cast<double>(levels.size());
+}
+
+/// Positive if the leg is the body's left: seen from the trunk, inner follows back counter-clockwise. Reads
+/// the back from the heel, on loops at equal distance from the toe.
 double leftness(const Skin& skin, const EndPoints& ends, End foot, End other) {
   const float leg = 0.5F * ends.feet_apart();
   const Field heel = geodesic::distances_from(skin.graph, find_heel(ends, foot, leg));
   std::array<float, kReadAt.size()> levels{};
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = kReadAt[i] * leg;
-  double sum = 0.0;
-  for (const auto& lines : geodesic::isolines(skin.mesh, skin.edges, ends.field[foot], levels)) {
-    const Isoline* loop = widest_closed(lines);
-    if (loop == nullptr) continue;
-    const auto back = least_direction(skin, *loop, heel);
-    const auto inner = least_direction(skin, *loop, ends.field[other]);
-    const double size = std::abs(back) * std::abs(inner);
-    if (size > 0.0) sum += turning(skin, *loop, ends.field[foot]) * std::imag(inner * std::conj(back)) / size;
-  }
-  return sum / static_cast<double>(levels.size());
+  return mean_over_loops(skin, ends.field[foot], levels, [&](const Isoline& loop) {
+    return turning(skin, loop, ends.field[foot]) *
+           signed_turn(least_direction(skin, loop, heel), least_direction(skin, loop, ends.field[other]));
+  });
 }
 
 }  // namespace

@@ -1,0 +1,66 @@
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include <bodice/engine/random.hpp>
+#include <bodice/synth/body.hpp>
+
+#include "cases.hpp"
+
+namespace bench {
+namespace {
+
+using bodice::body::Part;
+using bodice::geometry::Vec3;
+
+/// The class that the data's labels would give a true part.
+int coarse_of(Part part) {
+  constexpr int table[bodice::body::kPartCount] = {0, 1, 1, 1, 1, 2, 2, 3, 7, 4, 8, 5, 9, 6, 10};
+  return table[static_cast<int>(part)];
+}
+
+bodice::synth::BodyOptions options_of(std::uint64_t seed) {
+  using bodice::synth::Pose;
+  bodice::engine::Random random(seed);
+  bodice::synth::BodyOptions o;
+  o.sex = random.below(2) == 0 ? bodice::body::Sex::kFemale : bodice::body::Sex::kMale;
+  o.stature_m = random.uniform(1.45, 1.95);
+  o.mass_kg = random.uniform(18.0, 36.0) * o.stature_m * o.stature_m;
+  o.pose = static_cast<Pose>(random.below(static_cast<std::uint64_t>(Pose::kRandom) + 1));
+  o.vertices = static_cast<int>(random.uniform(1500.0, 14000.0));
+  o.seed = seed + 1;
+  return o;
+}
+
+/// Any turn, place and unit: none of them may matter.
+void move_anywhere(std::uint64_t seed, Case& c) {
+  bodice::engine::Random random(seed, 1);
+  const Eigen::Quaterniond turn =
+      Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
+  const double scale = std::pow(10.0, random.uniform(-3.0, 3.0));
+  const Vec3 shift = 10.0 * scale * Vec3(random.normal(), random.normal(), random.normal());
+  const auto moved = [&](const Vec3& p) { return Vec3(scale * (turn * p) + shift); };
+  for (Vec3& p : c.mesh.positions) p = moved(p);
+  for (auto& [name, p] : c.landmarks) p = moved(p);
+  c.stature *= scale;
+}
+
+}  // namespace
+
+Case synth_case(std::uint64_t seed) {
+  Case c{"synth/" + std::to_string(seed), {}, {}, {}, 0.0};
+  const auto options = options_of(seed);
+  const auto body = bodice::synth::make_body({}, options);
+  if (!body) return c;
+  c.name += " pose " + std::to_string(static_cast<int>(options.pose)) + " bmi " +
+            std::to_string(static_cast<int>(options.mass_kg / options.stature_m / options.stature_m));
+  c.mesh = body->mesh;
+  for (const Part part : body->part) c.truth.push_back(coarse_of(part));
+  for (const auto& mark : body->landmarks)
+    c.landmarks[std::string(bodice::body::name(mark.id))] = mark.position;
+  c.stature = body->stature_m;
+  move_anywhere(seed, c);
+  return c;
+}
+
+}  // namespace bench
