@@ -42,14 +42,16 @@ Draft run_tier(const engine::Context& context, const LabelledSkin& skin, const F
     const std::int64_t deadline =
         context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(options.time_budget_s, 1e6));
     engine::StageTimer tight(context, stages, "tight");
-    Draft draft = fit_tight(context, skin, options, count, (relief ? 0.5 : 1.0) * options.time_budget_s);
+    const SkinSource source = make_skin_source(context, skin, options.parts);
+    Draft draft = fit_tight(context, source, options, count, (relief ? 0.5 : 1.0) * options.time_budget_s);
     tight.stop();
     if (!relief) return draft;
     engine::StageTimer timer(context, stages, "relief");
-    add_relief(context, skin, options, deadline, draft);
+    add_relief(context, source, options, deadline, draft);
     return draft;
   }
   engine::StageTimer timer(context, stages, "fit");
+  if (options.tier == Tier::kSolid) return fit_solid(context, skin, options, count);
   return fit_paper(context, skin, options, count);
 }
 

@@ -5,9 +5,10 @@
 #include <numbers>
 
 #include <bodice/engine/parallel.hpp>
-#include <bodice/engine/random.hpp>
 #include <bodice/fitting/proxy_distance.hpp>
 #include <bodice/geometry/sampling.hpp>
+
+#include "interior_grid.hpp"
 
 namespace bodice::fitting {
 namespace {
@@ -92,23 +93,20 @@ void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& 
   accuracy.skin_outside_percent = counted > 0.0 ? 100.0 * uncovered / counted : 0.0;
 }
 
-/// Interior points by rejection from the bounding box; when parts are left out, only those that a wanted
-/// part's skin is nearest to.
+/// Of the points of an interior grid, those that a wanted part's skin is nearest to.
 void measure_interior(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
                       const LabelledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts,
                       Accuracy& accuracy) {
-  const geometry::Box box = geometry::bounding_box(skin.mesh.positions);
-  constexpr std::size_t kTries = 12 * kInteriorSamples;
-  std::vector<std::int8_t> state(kTries, -1);
-  const engine::Random random(0xB0D1CE, 1);
-  engine::parallel_for(context, kTries, 256, [&](std::size_t begin, std::size_t end) {
+  const double volume = std::abs(geometry::signed_volume(skin.mesh));
+  const std::vector<Vec3> grid = interior_grid(skin.mesh, std::cbrt(volume / kInteriorSamples));
+  std::vector<std::int8_t> state(grid.size(), -1);
+  const bool all_parts = parts == (1u << body::kPartCount) - 1;
+  engine::parallel_for(context, grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 u(random.uniform_at(3 * i), random.uniform_at(3 * i + 1), random.uniform_at(3 * i + 2));
-      const Vec3 p = box.low + u.cwiseProduct(box.size());
-      const geometry::SurfacePoint s = distance.nearest(p);
-      if (!(s.signed_distance < 0.0)) continue;
-      const auto part = static_cast<int>(skin.part[skin.mesh.triangles[s.triangle][0]]);
-      if ((parts >> part) & 1u) state[i] = proxy_distance(proxy, p).distance <= 0.0;
+      const auto hit = all_parts ? std::nullopt : distance.nearest_within(grid[i], 10.0 * skin.stature_m);
+      if (!all_parts && !hit) continue;
+      const auto part = hit ? static_cast<int>(skin.part[skin.mesh.triangles[hit->triangle][0]]) : 0;
+      if (all_parts || ((parts >> part) & 1u)) state[i] = proxy_distance(proxy, grid[i]).distance <= 0.0;
     }
   });
   const auto inside = std::count_if(state.begin(), state.end(), [](std::int8_t s) { return s >= 0; });
@@ -146,7 +144,8 @@ Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& p
   engine::parallel_for(context, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (settle(proxy, probes[i], tolerance_m))
-        probes[i].gap_m = std::abs(distance.nearest(probes[i].point).signed_distance);
+        if (const auto hit = distance.nearest_within(probes[i].point, 10.0 * skin.stature_m))
+          probes[i].gap_m = std::abs(hit->signed_distance);
   });
   Measured result;
   result.accuracy.gap_m = gaps(probes, proxy, -1);

@@ -84,12 +84,13 @@ void start_part(const engine::Context& context, const Balls& balls, int count, d
 
 }  // namespace
 
-std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const LabelledSkin& skin,
-                                                std::uint32_t parts, int count) {
+std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const SkinSource& source,
+                                                int count) {
+  const LabelledSkin& skin = source.skin;
   const std::size_t samples = std::clamp<std::size_t>(40 * static_cast<std::size_t>(count), 1500, 12000);
   std::array<Balls, body::kPartCount> of_part;
   std::array<double, body::kPartCount> demand_of{};
-  for (const InscribedBall& b : inscribed_balls(context, skin, parts, samples, 3)) {
+  for (const InscribedBall& b : inscribed_balls(context, source, samples, 3)) {
     of_part[static_cast<int>(b.part)].push_back(b);
     demand_of[static_cast<int>(b.part)] += demand(b, skin.stature_m);
   }

@@ -6,37 +6,37 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/sampling.hpp>
 
+#include "buried_skin.hpp"
+
 namespace bodice::fitting {
 namespace {
 
 constexpr std::size_t kGrain = 256;
-constexpr double kBuriedStep =
-    2e-4;  // of stature, about .3 mm: beyond rounding, within any fold worth keeping
 
-/// Even samples of the wanted parts' skin.
-std::vector<geometry::SurfaceSample> wanted_skin(const LabelledSkin& skin, std::uint32_t parts,
-                                                 std::size_t count, std::uint64_t seed) {
+/// Even samples of the skin that counts.
+std::vector<geometry::SurfaceSample> wanted_skin(const SkinSource& source, std::size_t count,
+                                                 std::uint64_t seed) {
+  const LabelledSkin& skin = source.skin;
   auto samples = geometry::sample_surface(skin.mesh, count, seed);
   std::erase_if(samples, [&](const geometry::SurfaceSample& s) {
     const auto part = static_cast<int>(skin.part[skin.mesh.triangles[s.triangle][0]]);
-    return ((parts >> part) & 1u) == 0;
+    return ((source.parts >> part) & 1u) == 0 || source.buried[s.triangle];
   });
   return samples;
 }
 
-/// The skin lies at most |offset| away, at the foot that the point was pushed from; only where something else
-/// is nearer does the sign need the winding number.
-double exact_distance(const geometry::MeshDistance& distance, const Vec3& point, double offset) {
+/// The skin lies at most |offset| away, at the foot that the point was pushed from. Where other skin is
+/// nearer, its normal tells the side; the winding number is asked only where the normal cannot: at sharp
+/// edges and next to buried skin.
+double exact_distance(const SkinSource& source, const Vec3& point, double offset) {
+  const geometry::MeshDistance& distance = *source.skin.distance;
   const auto hit = distance.nearest_within(point, std::abs(offset) * (1.0 + 1e-9));
   if (!hit) return offset;
   const double d = std::abs(hit->signed_distance);
   if (d >= std::abs(offset) * (1.0 - 1e-6)) return offset;
+  const double side = hit->normal.dot(point - hit->point);
+  if (!source.buried[hit->triangle] && std::abs(side) > 0.7 * d) return side < 0.0 ? -d : d;
   return distance.inside(point) ? -d : d;
-}
-
-/// Posed bodies interpenetrate: skin that lies inside another limb is no boundary of the body.
-bool buried(const geometry::MeshDistance& distance, const Vec3& on_skin, const Vec3& normal, double step_m) {
-  return distance.inside(on_skin + step_m * normal);
 }
 
 double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const Vec3& inward, double radius) {
@@ -55,13 +55,16 @@ double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const 
 
 }  // namespace
 
-std::vector<DistanceSample> sample_near_skin(const engine::Context& context, const LabelledSkin& skin,
-                                             std::uint32_t parts, const SampleOptions& options) {
-  const auto surface = wanted_skin(skin, parts, options.count, options.seed);
+SkinSource make_skin_source(const engine::Context& context, const LabelledSkin& skin, std::uint32_t parts) {
+  return {skin, parts, buried_triangles(context, skin.mesh, *skin.distance, skin.stature_m)};
+}
+
+std::vector<DistanceSample> sample_near_skin(const engine::Context& context, const SkinSource& source,
+                                             const SampleOptions& options) {
+  const LabelledSkin& skin = source.skin;
+  const auto surface = wanted_skin(source, options.count, options.seed);
   std::vector<DistanceSample> samples(surface.size());
   const engine::Random random(options.seed, 17);
-  std::vector<std::uint8_t> keep(surface.size());
-  const double step_m = kBuriedStep * skin.stature_m;
   engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t t = surface[i].triangle;
@@ -71,22 +74,17 @@ std::vector<DistanceSample> sample_near_skin(const engine::Context& context, con
       double offset = on_skin ? 0.0 : (options.outward_m + options.inward_m) * u - options.inward_m;
       if (kind >= 1.0 - options.far) offset = options.outward_m + (options.far_m - options.outward_m) * u;
       const Vec3 p = surface[i].point + offset * normal;
-      keep[i] = !buried(*skin.distance, surface[i].point, normal, step_m);
-      if (!keep[i]) continue;
-      samples[i] = {p, on_skin ? 0.0 : exact_distance(*skin.distance, p, offset),
+      samples[i] = {p, on_skin ? 0.0 : exact_distance(source, p, offset),
                     skin.part[skin.mesh.triangles[t][0]]};
     }
   });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    if (keep[i]) samples[kept++] = samples[i];
-  samples.resize(kept);
   return samples;
 }
 
-std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const LabelledSkin& skin,
-                                           std::uint32_t parts, std::size_t count, std::uint64_t seed) {
-  const auto surface = wanted_skin(skin, parts, count, seed);
+std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const SkinSource& source,
+                                           std::size_t count, std::uint64_t seed) {
+  const LabelledSkin& skin = source.skin;
+  const auto surface = wanted_skin(source, count, seed);
   std::vector<InscribedBall> balls(surface.size());
   engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

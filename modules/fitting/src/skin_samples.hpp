@@ -25,9 +25,17 @@ struct SampleOptions {
   std::uint64_t seed = 0;
 };
 
-/// Deterministic, parallel; samples of unwanted parts are left out. About 2 microseconds a sample.
-std::vector<DistanceSample> sample_near_skin(const engine::Context& context, const LabelledSkin& skin,
-                                             std::uint32_t parts, const SampleOptions& options);
+/// The skin that counts: that of the wanted parts, less what is buried in other limbs.
+struct SkinSource {
+  const LabelledSkin& skin;
+  std::uint32_t parts = 0;
+  std::vector<std::uint8_t> buried;  ///< #F
+};
+SkinSource make_skin_source(const engine::Context& context, const LabelledSkin& skin, std::uint32_t parts);
+
+/// Deterministic, parallel. About 2 microseconds a sample.
+std::vector<DistanceSample> sample_near_skin(const engine::Context& context, const SkinSource& source,
+                                             const SampleOptions& options);
 
 struct InscribedBall {
   Vec3 centre, skin;  ///< it touches the skin there
@@ -39,7 +47,7 @@ struct InscribedBall {
 /// Based on: Jaehwan Ma, Sang Won Bae, Sunghee Choi. 3D medial axis point approximation using nearest
 /// neighbors and the normal field. 2012. (shrinking balls) Differs: nearest point of the surface, not of a
 /// point set.
-std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const LabelledSkin& skin,
-                                           std::uint32_t parts, std::size_t count, std::uint64_t seed);
+std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const SkinSource& source,
+                                           std::size_t count, std::uint64_t seed);
 
 }  // namespace bodice::fitting

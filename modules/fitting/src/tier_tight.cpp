@@ -27,20 +27,20 @@ struct Scaling {
 
 }  // namespace
 
-Draft fit_tight(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+Draft fit_tight(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count, double time_budget_s) {
+  const LabelledSkin& skin = source.skin;
   const std::int64_t deadline =
       context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(time_budget_s, 1e6));
   Draft draft;
   draft.data.tier = proxy::Tier::kTight;
-  draft.data.ellipsoids = medial_start(context, skin, options.parts, count);
+  draft.data.ellipsoids = medial_start(context, source, count);
   const Scaling scaling{geometry::bounding_box(skin.mesh.positions).center(),
                         kScaledStature / skin.stature_m};
   const double mm = 1e-3 / scaling.scale;
   const std::size_t samples = std::clamp<std::size_t>(180 * static_cast<std::size_t>(count), 6000, 60000);
-  TightProblem problem(
-      sample_near_skin(context, skin, options.parts, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11}),
-      scaling.origin, scaling.scale, TightLoss{});
+  TightProblem problem(sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11}),
+                       scaling.origin, scaling.scale, TightLoss{});
   std::vector<geometry::Ellipsoid> state;
   for (const auto& e : draft.data.ellipsoids) state.push_back(scaling.in(e.shape));
 
