@@ -1,12 +1,11 @@
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <Eigen/Geometry>
 
 #include <bodice/io/files.hpp>
 #include <bodice/io/scene.hpp>
 
+#include "../color.hpp"
 #include "../scene_check.hpp"
 #include "../unit_sphere.hpp"
 #include "glb_builder.hpp"
@@ -22,15 +21,6 @@ constexpr float kEllipsoidAlpha = 0.55f;
 constexpr std::array<float, 3> kSkin = {0.80f, 0.76f, 0.73f};
 /// Beyond this many diagonals from the origin the nodes carry the offset, so that floats keep their digits.
 constexpr double kFarDiagonals = 16.0;
-
-/// Vertex colours and base colours are linear in glTF.
-float linear(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
-}
-
-Vec3f linear(std::span<const float, 3> srgb) {
-  return {linear(srgb[0]), linear(srgb[1]), linear(srgb[2])};
-}
 
 class SceneWriter {
  public:
@@ -98,10 +88,10 @@ class SceneWriter {
     if (!scene_.part.empty()) {
       std::vector<Vec3f> colors;
       colors.reserve(scene_.part.size());
-      for (const body::Part part : scene_.part) colors.push_back(linear(part_color(part)));
+      for (const body::Part part : scene_.part) colors.push_back(to_linear(part_color(part)));
       attributes["COLOR_0"] = glb_.add_vectors(colors);
     }
-    const Vec3f base = scene_.part.empty() ? linear(std::span(kSkin)) : Vec3f(Vec3f::Ones());
+    const Vec3f base = scene_.part.empty() ? to_linear(std::span(kSkin)) : Vec3f(Vec3f::Ones());
     const Json primitive = {{"attributes", attributes},
                             {"indices", glb_.add_triangles(body.triangles)},
                             {"material", add_material("skin", base, 1.0f, false)}};
@@ -125,7 +115,7 @@ class SceneWriter {
       const std::string part_name(name(ellipsoid.part));
       if (mesh_of[part] == kNone) {
         const std::size_t material =
-            add_material(part_name.c_str(), linear(part_color(ellipsoid.part)), kEllipsoidAlpha, false);
+            add_material(part_name.c_str(), to_linear(part_color(ellipsoid.part)), kEllipsoidAlpha, false);
         const Json primitive = {{"attributes", attributes}, {"indices", indices}, {"material", material}};
         mesh_of[part] = glb_.add("meshes", {{"name", "ellipsoid_" + part_name}, {"primitives", {primitive}}});
       }
@@ -156,7 +146,7 @@ class SceneWriter {
     Json primitive = {
         {"attributes", {{"POSITION", glb_.add_positions(positions)}, {"NORMAL", glb_.add_vectors(normals)}}},
         {"indices", glb_.add_triangles(track.mesh.triangles)},
-        {"material", add_material(track.name.c_str(), linear(std::span(color)), 1.0f, true)}};
+        {"material", add_material(track.name.c_str(), to_linear(std::span(color)), 1.0f, true)}};
     for (const auto& frame : track.frames)
       primitive["targets"].push_back(add_target(track.mesh.triangles, frame, positions, normals));
     Json mesh = {{"name", track.name}, {"primitives", {primitive}}};

@@ -1,7 +1,6 @@
 #include "stage.hpp"
 
 #include <array>
-#include <span>
 
 namespace bodice::io {
 
@@ -24,14 +23,6 @@ View light_view(const geometry::Box& box, const View& eye) {
 }
 
 }  // namespace
-
-float to_linear(float srgb) {
-  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
-}
-
-Vec3f to_linear(std::span<const float, 3> srgb) {
-  return {to_linear(srgb[0]), to_linear(srgb[1]), to_linear(srgb[2])};
-}
 
 Actor make_actor(const geometry::TriMesh& mesh, const Vec3f& color, bool two_sided) {
   Actor actor;

@@ -1,7 +1,6 @@
 // What stands before the camera, and the light on it.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "raster.hpp"
@@ -17,9 +16,6 @@ struct Actor {
 };
 
 Actor make_actor(const geometry::TriMesh& mesh, const Vec3f& color, bool two_sided);
-
-float to_linear(float srgb);
-Vec3f to_linear(std::span<const float, 3> srgb);
 
 /// A key light over the left shoulder of the eye, with soft shadows; light from the sky, a little from the
 /// ground.

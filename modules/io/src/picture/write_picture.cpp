@@ -3,6 +3,7 @@
 #include <bodice/io/files.hpp>
 #include <bodice/io/scene.hpp>
 
+#include "../color.hpp"
 #include "../scene_check.hpp"
 #include "../unit_sphere.hpp"
 #include "panel.hpp"

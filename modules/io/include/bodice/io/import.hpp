@@ -23,10 +23,12 @@ struct ImportOptions {
 
 struct ImportedMesh {
   std::filesystem::path file;
-  std::string mesh;                              ///< name of the mesh or group that was taken
-  std::string unit;                              ///< "m", "cm", ...; "unknown" with a warning when none fits
-  geometry::Frame frame;                         ///< file coordinates to inside
-  geometry::TriMesh skin;                        ///< repaired, metres, y up
+  std::string mesh;        ///< name of the mesh or group that was taken
+  std::string unit;        ///< "m", "cm", ...; "unknown" with a warning when none fits
+  geometry::Frame frame;   ///< file coordinates to inside
+  geometry::TriMesh skin;  ///< repaired, metres, y up
+  /// #input vertices -> skin vertex or kNoIndex. Input vertices are the file's own, mesh after mesh; for OBJ,
+  /// FBX and Collada, whose readers split them by corner, those of the chosen meshes in order of first use.
   std::vector<geometry::Index> vertex_of_input;  ///< #input vertices of that mesh -> skin vertex or kNoIndex
   geometry::RepairReport repair;
   std::size_t input_vertices = 0, input_triangles = 0;

@@ -38,7 +38,7 @@ engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& 
 
 struct PictureOptions {
   int width = 640, height = 960;  ///< of one view, pixels
-  bool show_ellipsoids = false;
+  bool show_ellipsoids = false;   ///< in place of the skin
   bool show_garments = true;
 };
 

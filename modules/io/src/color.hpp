@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+
+#include <Eigen/Core>
+
+namespace bodice::io {
+
+/// sRGB 0..1 to linear light: what glTF's colours and our own shading are in. IEC 61966-2-1.
+inline float to_linear(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+inline Eigen::Vector3f to_linear(std::span<const float, 3> srgb) {
+  return {to_linear(srgb[0]), to_linear(srgb[1]), to_linear(srgb[2])};
+}
+
+}  // namespace bodice::io
