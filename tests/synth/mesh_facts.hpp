@@ -13,13 +13,13 @@
 namespace bodice_test {
 
 struct MeshFacts {
-  long euler = 0;                 ///< vertices - edges + triangles
+  long euler = 0;  ///< vertices - edges + triangles
   long components = 0;
   long boundary_loops = 0;
-  long repeated_half_edges = 0;   ///< the same directed edge twice: fins or inconsistent winding
+  long repeated_half_edges = 0;  ///< the same directed edge twice: fins or inconsistent winding
   long boundary_edges = 0;
-  long slivers = 0;               ///< triangles of quality below 0.1
-  double worst_quality = 1.0;     ///< 4 sqrt(3) area over the sum of squared edges; 1 is equilateral
+  long slivers = 0;            ///< triangles of quality below 0.1
+  double worst_quality = 1.0;  ///< 4 sqrt(3) area over the sum of squared edges; 1 is equilateral
 };
 
 inline MeshFacts facts_of(const bodice::geometry::TriMesh& mesh) {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include <doctest/doctest.h>
 #include <bodice/engine/hash.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
-#include <doctest/doctest.h>
 
 #include "mesh_facts.hpp"
 
@@ -19,8 +19,9 @@ using geometry::Vec3;
 using synth::BodyOptions;
 using synth::Pose;
 
-constexpr std::array kAllPoses = {Pose::kA,     Pose::kT,   Pose::kArmsDown, Pose::kArmsUp, Pose::kStride,    Pose::kSit,
-                                  Pose::kSquat, Pose::kRun, Pose::kKick,     Pose::kLying,  Pose::kHandstand, Pose::kRandom};
+constexpr std::array kAllPoses = {Pose::kA,      Pose::kT,     Pose::kArmsDown,  Pose::kArmsUp,
+                                  Pose::kStride, Pose::kSit,   Pose::kSquat,     Pose::kRun,
+                                  Pose::kKick,   Pose::kLying, Pose::kHandstand, Pose::kRandom};
 
 synth::Body made(const BodyOptions& options, const engine::Context& context = {}) {
   auto body = synth::make_body(context, options);
@@ -87,11 +88,20 @@ TEST_CASE("a standing body has the stature asked for, and its volume weighs what
     double stature, mass;
   };
   using enum body::Sex;
-  for (const Case& c : {Case{kFemale, 1.68, 62}, {kMale, 1.78, 78}, {kFemale, 1.6, 45}, {kMale, 1.9, 68}, {kFemale, 1.65, 115},
-                        {kMale, 1.75, 150}, {kMale, 0.4, 2.0}, {kFemale, 2.6, 110}, {kFemale, 1.7, 29.0}, {kMale, 1.7, 202.0}}) {
+  for (const Case& c : {Case{kFemale, 1.68, 62},
+                        {kMale, 1.78, 78},
+                        {kFemale, 1.6, 45},
+                        {kMale, 1.9, 68},
+                        {kFemale, 1.65, 115},
+                        {kMale, 1.75, 150},
+                        {kMale, 0.4, 2.0},
+                        {kFemale, 2.6, 110},
+                        {kFemale, 1.7, 29.0},
+                        {kMale, 1.7, 202.0}}) {
     CAPTURE(c.stature);
     CAPTURE(c.mass);
-    BodyOptions options{.sex = c.sex, .stature_m = c.stature, .mass_kg = c.mass, .pose = Pose::kArmsDown, .vertices = 6000};
+    BodyOptions options{
+        .sex = c.sex, .stature_m = c.stature, .mass_kg = c.mass, .pose = Pose::kArmsDown, .vertices = 6000};
     CHECK(height(made(options)) == doctest::Approx(c.stature).epsilon(0.01));
     options.pose = Pose::kA;
     const synth::Body a = made(options);
@@ -206,8 +216,9 @@ TEST_CASE("one body has the same shape at all resolutions") {
   for (const Vec3& p : coarse.mesh.positions) worst = std::max(worst, std::abs(skin.signed_distance(p)));
   CHECK(worst < 0.008 * coarse.stature_m);
   for (int k = 0; k < body::kLandmarkCount; ++k)
-    CHECK((coarse.landmarks[static_cast<std::size_t>(k)].position - fine.landmarks[static_cast<std::size_t>(k)].position).norm() <
-          0.02 * coarse.stature_m);
+    CHECK((coarse.landmarks[static_cast<std::size_t>(k)].position -
+           fine.landmarks[static_cast<std::size_t>(k)].position)
+              .norm() < 0.02 * coarse.stature_m);
 }
 
 TEST_CASE("random poses do not run limbs through the body") {

@@ -15,8 +15,9 @@
 namespace bodice::synth {
 namespace {
 
-constexpr int kPushes = 24;        // each gains what is missing; slanted skin needs several
-constexpr double kGenerous = 1.3;  // a push of just the missing distance would end a little short
+constexpr int kPushes = 24;          // each gains what is missing; slanted skin needs several
+constexpr double kLeastPush = 2e-4;  // of stature: ends a slow approach along slanted skin
+constexpr double kGenerous = 1.3;    // a push of just the missing distance would end a little short
 
 engine::Result<Cut> cut_garment(const Fitting& fitting) {
   switch (fitting.options.kind) {
@@ -43,7 +44,7 @@ bool clear_skin(const engine::Context& context, const Fitting& fitting, Cut& cut
         Vec3& p = cut.mesh.positions[v];
         const double missing = fitting.options.ease_m - skin.signed_distance(fitting.frame.to_world(p));
         clear[v] = missing <= 0.0;
-        if (!clear[v]) p += (kGenerous * missing + 1e-6 * fitting.body.stature_m) * cut.outward[v];
+        if (!clear[v]) p += (kGenerous * missing + kLeastPush * fitting.body.stature_m) * cut.outward[v];
       }
   });
   const auto& t = cut.mesh.triangles;

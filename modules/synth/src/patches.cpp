@@ -71,7 +71,8 @@ std::vector<double> Patches::class_lengths(const std::vector<Vec3>& cage_positio
     sum[e.edge_class] += (cage_positions[e.a] - cage_positions[e.b]).norm();
     number[e.edge_class] += 1.0;
   }
-  for (int c = 0; c < class_count_; ++c) sum[c] /= number[c];
+  // Snapped, so that left and right do not round apart over the last bits.
+  for (int c = 0; c < class_count_; ++c) sum[c] = 1e-9 * std::round(1e9 * sum[c] / number[c]);
   return sum;
 }
 
