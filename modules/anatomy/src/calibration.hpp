@@ -33,18 +33,14 @@ struct Border {
   }
 };
 
-inline constexpr Border kNeck{
-    {-1.0000F, 0.5847F, 0.5847F, 0.0000F, 0.0000F, -0.2463F, 0.0905F, 0.0000F, -0.4358F}};
+inline constexpr Border kNeck{{-1.0F, 0.5847F, 0.5847F, 0.0F, 0.0F, -0.2463F, 0.0905F, 0.0F, -0.4358F}};
 inline constexpr Border kShoulder{
-    {0.1145F, -1.0000F, 0.3448F, 0.0952F, 0.0000F, -0.1003F, 0.0643F, 0.2490F, -0.0731F}};
-inline constexpr Border kElbow{
-    {0.0000F, -1.0000F, 0.6712F, 0.0000F, 0.0000F, 0.0000F, 0.0000F, 0.0000F, -0.2360F}};
-inline constexpr Border kKnee{
-    {0.0000F, 0.0000F, 0.0000F, -1.0000F, 0.1524F, 0.0000F, 0.0000F, 0.0000F, 0.1961F}};
-inline constexpr Border kHip{
-    {0.0000F, 0.0000F, 0.0000F, -1.0000F, 0.4637F, 0.0839F, -0.0079F, -0.1032F, 0.2291F}};
+    {0.1162F, -1.0F, 0.3432F, 0.09648F, 0.0F, -0.1022F, 0.06307F, 0.2477F, -0.07219F}};
+inline constexpr Border kElbow{{0.0F, -1.0F, 0.6712F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, -0.236F}};
+inline constexpr Border kKnee{{0.0F, 0.0F, 0.0F, -1.0F, 0.1524F, 0.0F, 0.0F, 0.0F, 0.1961F}};
+inline constexpr Border kHip{{0.0F, 0.0F, 0.0F, -1.0F, 0.4695F, 0.08566F, -0.008306F, -0.1068F, 0.2259F}};
 inline constexpr Border kWaist{
-    {-1.0000F, -0.1821F, -0.1821F, 0.6066F, 0.6066F, -0.1288F, 0.0503F, 0.3154F, -0.2007F}};
+    {-1.0F, -0.1818F, -0.1818F, 0.606F, 0.606F, -0.1374F, 0.05014F, 0.3229F, -0.2008F}};
 
 /// A place is the vertex whose features lie nearest to the mean, by the spread among bodies.
 template <int N>
@@ -65,17 +61,15 @@ struct Signature {
 
 /// Both feet, feet difference, hands difference (zero at the crown), front, back.
 inline constexpr Signature<5> kPerineum{
-    {1.0112F, 0.0041803F, -0.0021551F, 0.33888F, 0.38808F},
-    {117.98F,  19.122F,  -1.2065F, -10.711F, 4.5814F,  0.0F,     65.451F, -4.0746F, -0.60873F,
-     0.60213F, 0.0F,     0.0F,     25.501F,  0.84678F, 0.26221F, 0.0F,    0.0F,     0.0F,
-     31.353F,  -9.4816F, 0.0F,     0.0F,     0.0F,     0.0F,     19.322F}};
+    {1.011F, 0.0F, 0.0F, 0.3389F, 0.3881F},
+    {113.3F, 0.0F, 0.0F, -10.11F, 4.229F, 0.0F,   62.97F,  -3.542F, 0.0F, 0.0F, 0.0F, 0.0F,  25.44F,
+     0.0F,   0.0F, 0.0F, 0.0F,    0.0F,   31.35F, -9.482F, 0.0F,    0.0F, 0.0F, 0.0F, 19.32F}};
 
 /// Own hand, other hand, own foot, front, back, perineum.
 inline constexpr Signature<6> kArmpit{
-    {0.42241F, 0.6371F, 0.73303F, 0.17925F, 0.11994F, 0.58964F},
-    {50.292F,  -6.3439F, 2.004F,   24.953F, -24.23F, 1.4056F,  0.0F,    53.257F, 9.5417F,
-     -2.1293F, -46.389F, -2.6307F, 0.0F,    0.0F,    29.501F,  -2.244F, 14.547F, -3.4921F,
-     0.0F,     0.0F,     0.0F,     56.728F, -10.2F,  -10.483F, 0.0F,    0.0F,    0.0F,
-     0.0F,     34.424F,  -7.5F,    0.0F,    0.0F,    0.0F,     0.0F,    0.0F,    25.836F}};
+    {0.4224F, 0.6371F, 0.733F, 0.1792F, 0.1199F, 0.5892F},
+    {50.36F, -6.498F, 1.919F, 24.52F,  -24.35F, 2.103F,  0.0F, 53.3F, 9.556F, -1.931F, -46.3F,  -2.933F,
+     0.0F,   0.0F,    29.47F, -2.411F, 14.58F,  -3.272F, 0.0F, 0.0F,  0.0F,   56.77F,  -9.882F, -10.67F,
+     0.0F,   0.0F,    0.0F,   0.0F,    34.65F,  -8.152F, 0.0F, 0.0F,  0.0F,   0.0F,    0.0F,    25.97F}};
 
 }  // namespace bodice::anatomy
