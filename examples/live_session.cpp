@@ -1,0 +1,65 @@
+// A try-on: frames go on while the next body is prepared behind them, on the same workers.
+//
+//     submit(body A)                         submit(body B)
+//        |  prepare A ......... coarse, finer   |  prepare B ....... coarse, finer
+//        v                        |      |      v                      |
+//     frame frame frame frame  [A]frame frame [A+]frame frame frame [B]frame ...
+//
+// A result takes effect between two frames only.
+
+#include <cstdio>
+
+#include <bodice/synth/garment.hpp>
+#include <bodice/tryon/session.hpp>
+
+using namespace bodice;
+
+namespace {
+
+/// A skirt cut to the first body that the session shows.
+engine::Result<tryon::WornGarment> skirt_for(const engine::Context& context,
+                                             const tryon::SegmentedSkin& skin) {
+  auto made = synth::make_garment(context,
+                                  {.mesh = skin.input.skin,
+                                   .part = skin.anatomy.part,
+                                   .landmarks = skin.anatomy.landmarks,
+                                   .stature_m = skin.anatomy.stature_m},
+                                  {.kind = synth::GarmentKind::kSkirt});
+  if (!made) return std::move(made).error();
+  return tryon::WornGarment{.name = "skirt", .mesh = std::move(made->mesh), .held = std::move(made->pinned)};
+}
+
+}  // namespace
+
+int main() {
+  const auto workers = engine::make_tbb_executor();
+  const engine::Context context{.executor = workers.get()};
+  tryon::Session session(context, {.fit = {.tier = proxy::Tier::kTight}});
+
+  engine::Ticket ticket = session.submit(synth::BodyOptions{.vertices = 4500});
+  bool dressed = false;
+  int refinements = 0;
+  std::uint64_t in_force = 0;
+  for (int frame = 0; frame < 100000; ++frame) {
+    const tryon::FrameOutcome outcome = session.frame(1.0 / 60.0);
+    if (outcome.has_body && !dressed) {
+      auto skirt = skirt_for(context, *session.body()->skin);
+      if (!skirt) return std::printf("%s\n", skirt.error().sentence().c_str()), 1;
+      if (auto worn = session.dress({*skirt}); !worn)
+        return std::printf("%s\n", worn.error().sentence().c_str()), 1;
+      dressed = true;
+    }
+    if (outcome.proxy_hash != in_force) {
+      in_force = outcome.proxy_hash;
+      ++refinements;
+      std::printf("frame %d: proxy %d of this body, %zu ellipsoids\n", frame, session.body()->refinement,
+                  session.body()->proxy.ellipsoids().size());
+    }
+    if (!outcome.has_body) session.pipeline().run_pending();  // for an executor without a worker to spare
+    if (ticket.done() && dressed) break;
+  }
+  const auto prepared = ticket.wait();
+  if (!prepared) return std::printf("%s\n", prepared.error().sentence().c_str()), 1;
+  std::printf("%d proxies took effect while frames ran\n", refinements);
+  return dressed && refinements > 0 ? 0 : 1;
+}
