@@ -26,12 +26,12 @@ std::uint64_t hash_of(const geometry::TriMesh& mesh) {
 }
 
 int starting_count(const LabelledSkin& skin, const FitOptions& options) {
-  int count = kDefaultEllipsoids;
-  if (options.mu_torso_m && options.mu_limbs_m) count = 10 * kMostEllipsoids;
-  if (options.budget_us) count = count_within_budget(options.tier, *options.budget_us);
-  if (options.target_error_m && !options.budget_us)
-    count = count_for_error(options.tier, *options.target_error_m, skin.stature_m);
-  return options.max_ellipsoids ? std::min(count, std::max(1, *options.max_ellipsoids)) : count;
+  const int most = options.max_ellipsoids.value_or(10 * kMostEllipsoids);
+  if (options.budget_us) return std::min(most, count_within_budget(options.tier, *options.budget_us));
+  if (options.target_error_m)
+    return std::min(most, count_for_error(options.tier, *options.target_error_m, skin.stature_m));
+  if (options.mu_torso_m && options.mu_limbs_m) return most;
+  return options.max_ellipsoids.value_or(kDefaultEllipsoids);
 }
 
 Draft run_tier(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options, int count,
@@ -51,7 +51,8 @@ Draft run_tier(const engine::Context& context, const LabelledSkin& skin, const F
     return draft;
   }
   engine::StageTimer timer(context, stages, "fit");
-  if (options.tier == Tier::kSolid) return fit_solid(context, skin, options, count);
+  if (options.tier == Tier::kSolid)
+    return fit_solid(context, make_skin_source(context, skin, options.parts), options, count);
   return fit_paper(context, skin, options, count);
 }
 

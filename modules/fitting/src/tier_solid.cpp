@@ -6,7 +6,10 @@
 
 #include "interior_grid.hpp"
 #include "items.hpp"
+#include "medial_start.hpp"
+#include "scaling.hpp"
 #include "tiers.hpp"
+#include "tight_descent.hpp"
 
 namespace bodice::fitting {
 namespace {
@@ -14,6 +17,9 @@ namespace {
 constexpr double kAnchors = 2500.0;     // interior points that take part in clustering
 constexpr double kWitnesses = 16000.0;  // interior points that must end up covered
 constexpr int kRepairPasses = 8;
+constexpr double kMinRadius = 3e-4;        // of stature
+constexpr float kUncoveredWeight = 20.0f;  // a millimetre of bare skin counts as 20 mm^2 of bulge
+constexpr int kCoveringIterations = 30;
 
 /// The points that a cluster's ellipsoid must hold.
 std::vector<Vec3> enclosed_points(const Items& items, const Cluster& cluster) {
@@ -72,27 +78,103 @@ bool cover(const engine::Context& context, const Items& items, const std::vector
   return false;
 }
 
+/// By thresholds: bisecting refinement over triangles and interior points.
+Allocation clusters_by_threshold(const engine::Context& context, const Items& items, const LabelledSkin& skin,
+                                 const FitOptions& options, int count) {
+  const RefineOptions refine{.sigma_m = 2e-3 * skin.stature_m, .min_radius_m = kMinRadius * skin.stature_m};
+  return allocate(context, items, make_regions(items), refine, {*options.mu_torso_m, *options.mu_limbs_m},
+                  static_cast<std::size_t>(count));
+}
+
+/// By count: a short descent that leaves no skin uncovered if it can help it says where the ellipsoids should
+/// be; each item goes to the one that holds it best.
+std::vector<geometry::Ellipsoid> covering_shapes(const engine::Context& context, const SkinSource& source,
+                                                 int count, std::vector<body::Part>& parts) {
+  const Scaling scaling(source.skin);
+  const double mm = scaling.mm();
+  const std::size_t samples = std::clamp<std::size_t>(60 * static_cast<std::size_t>(count), 3000, 40000);
+  const TightLoss covering{.uncovered_weight = kUncoveredWeight};
+  TightProblem problem(sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.7, 0.1, 200 * mm, 5}),
+                       scaling.origin, scaling.scale, covering);
+  std::vector<geometry::Ellipsoid> shapes;
+  for (const auto& e : medial_start(context, source, count)) {
+    shapes.push_back(scaling.in(e.shape));
+    parts.push_back(e.part);
+  }
+  DescentOptions descent;
+  descent.max_iterations = kCoveringIterations;
+  descend(context, problem, shapes, descent);
+  for (auto& e : shapes) e = scaling.out(e);
+  return shapes;
+}
+
+/// Level of the worst of an item's points.
+double item_level(const Items& items, Index item, const geometry::Ellipsoid& e) {
+  double worst = 0.0;
+  for (const Index p : items.encloses[item]) worst = std::max(worst, geometry::level(e, items.points[p]));
+  return worst;
+}
+
+void fit_members(const engine::Context& context, const Items& items, double min_radius_m,
+                 std::vector<Cluster>& clusters) {
+  engine::parallel_for(context, clusters.size(), 2, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      clusters[k].ellipsoid = mvee(enclosed_points(items, clusters[k]), {1e-4, min_radius_m}).ellipsoid;
+  });
+}
+
+/// Each item to the ellipsoid where its level is least; empty ellipsoids are dropped; then enclosing
+/// ellipsoids.
+std::vector<Cluster> enclose(const engine::Context& context, const Items& items,
+                             const std::vector<geometry::Ellipsoid>& shapes,
+                             const std::vector<body::Part>& parts, double min_radius_m) {
+  std::vector<std::size_t> home(items.where.size());
+  engine::parallel_for(context, home.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double least = 1e300;
+      for (std::size_t k = 0; k < shapes.size(); ++k) {
+        // The centroid of the item is a cheap bound: its level is at most the worst of the points'.
+        if (geometry::level(shapes[k], items.where[i]) >= least) continue;
+        const double level = item_level(items, static_cast<Index>(i), shapes[k]);
+        if (level < least) least = level, home[i] = k;
+      }
+    }
+  });
+  std::vector<Cluster> clusters(shapes.size());
+  for (std::size_t i = 0; i < home.size(); ++i) clusters[home[i]].items.push_back(static_cast<Index>(i));
+  for (std::size_t k = 0; k < shapes.size(); ++k) clusters[k].part = parts[k];
+  std::erase_if(clusters, [](const Cluster& c) { return c.items.empty(); });
+  fit_members(context, items, min_radius_m, clusters);
+  return clusters;
+}
+
 }  // namespace
 
-Draft fit_solid(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+Draft fit_solid(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count) {
+  const LabelledSkin& skin = source.skin;
   const double volume = std::abs(geometry::signed_volume(skin.mesh));
-  const bool all_parts = options.parts == (1u << body::kPartCount) - 1;
+  const double min_radius_m = kMinRadius * skin.stature_m;
   const Items items =
       solid_items(skin, options.parts, interior_grid(skin.mesh, std::cbrt(volume / kAnchors)));
-  const RefineOptions refine{.sigma_m = 2e-3 * skin.stature_m, .min_radius_m = 3e-4 * skin.stature_m};
-  const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
-  const Allocation done =
-      allocate(context, items, make_regions(items), refine, mu, static_cast<std::size_t>(count));
-  std::vector<Cluster> clusters = done.clusters();
-  // A body of some parts only has no inside of its own: its anchors are what it covers.
-  const std::vector<Vec3> witnesses =
-      all_parts ? interior_grid(skin.mesh, std::cbrt(volume / kWitnesses)) : std::vector<Vec3>{};
-  cover(context, items, witnesses, refine.min_radius_m, clusters);
   Draft draft;
   draft.data.tier = proxy::Tier::kSolid;
-  draft.mu = done.in_force;
-  draft.thresholds_reached = done.reached;
+  std::vector<Cluster> clusters;
+  if (options.mu_torso_m && options.mu_limbs_m) {
+    const Allocation done = clusters_by_threshold(context, items, skin, options, count);
+    clusters = done.clusters();
+    draft.mu = done.in_force;
+    draft.thresholds_reached = done.reached;
+  } else {
+    std::vector<body::Part> parts;
+    const auto shapes = covering_shapes(context, source, count, parts);
+    clusters = enclose(context, items, shapes, parts, min_radius_m);
+  }
+  // A body of some parts only has no inside of its own: its anchors are what it covers.
+  const bool all_parts = options.parts == (1u << body::kPartCount) - 1;
+  const std::vector<Vec3> witnesses =
+      all_parts ? interior_grid(skin.mesh, std::cbrt(volume / kWitnesses)) : std::vector<Vec3>{};
+  cover(context, items, witnesses, min_radius_m, clusters);
   for (const Cluster& c : clusters) draft.data.ellipsoids.push_back({c.ellipsoid, c.part});
   return draft;
 }

@@ -1,32 +1,13 @@
 #include <algorithm>
 
 #include <bodice/engine/clock.hpp>
-#include <bodice/engine/context.hpp>
 
 #include "medial_start.hpp"
+#include "scaling.hpp"
 #include "tiers.hpp"
 #include "tight_descent.hpp"
 
 namespace bodice::fitting {
-namespace {
-
-/// The optimisation runs on a body of this height at the origin, so that its tolerances are lengths.
-constexpr double kScaledStature = 1.7;
-
-struct Scaling {
-  Vec3 origin;
-  double scale;
-
-  geometry::Ellipsoid in(const geometry::Ellipsoid& e) const {
-    return {(e.center - origin) * scale, e.axes, e.radii * scale};
-  }
-  geometry::Ellipsoid out(const geometry::Ellipsoid& e) const {
-    return {e.center / scale + origin, e.axes, e.radii / scale};
-  }
-};
-
-}  // namespace
-
 Draft fit_tight(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count, double time_budget_s) {
   const LabelledSkin& skin = source.skin;
@@ -35,9 +16,8 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   Draft draft;
   draft.data.tier = proxy::Tier::kTight;
   draft.data.ellipsoids = medial_start(context, source, count);
-  const Scaling scaling{geometry::bounding_box(skin.mesh.positions).center(),
-                        kScaledStature / skin.stature_m};
-  const double mm = 1e-3 / scaling.scale;
+  const Scaling scaling(skin);
+  const double mm = scaling.mm();
   const std::size_t samples = std::clamp<std::size_t>(180 * static_cast<std::size_t>(count), 6000, 60000);
   TightProblem problem(sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11}),
                        scaling.origin, scaling.scale, TightLoss{});

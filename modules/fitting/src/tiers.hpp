@@ -20,7 +20,7 @@ Draft fit_paper(const engine::Context& context, const LabelledSkin& skin, const 
 
 /// No leaks: whole triangles and interior points are clustered and enclosed, and what the union still misses
 /// inside is added until nothing is.
-Draft fit_solid(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+Draft fit_solid(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count);
 
 /// All ellipsoids optimised together against the exact signed distance, from medial clusters; anytime.
