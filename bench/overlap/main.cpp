@@ -78,7 +78,7 @@ void draw(Workload& work, Executor& executor, const std::string& svg_path, const
   Trace trace(1u << 20);
   TracedBlocks traced(work, executor);
   measure({"picture", true, 60.0}, traced, executor, 0.4, &trace);
-  if (!svg_path.empty()) std::ofstream(svg_path) << timeline_svg(trace, 120.0, 190.0);
+  if (!svg_path.empty()) std::ofstream(svg_path) << timeline_svg(trace, "fit a body", 60.0);
   if (!trace_path.empty()) {
     if (const auto written = trace.write(trace_path); !written)
       std::fprintf(stderr, "%s\n", written.error().sentence().c_str());
@@ -89,22 +89,27 @@ void draw(Workload& work, Executor& executor, const std::string& svg_path, const
 
 int main(int argc, char** argv) {
   CLI::App app("Frames beside preprocessing: frame times, and time until the first and the final result");
-  bool quick = false;
+  bool quick = false, picture_only = false;
   int workers = 0;
   double slice_us = 200.0;
   int vertices = 0;
   std::string csv_path, svg_path, trace_path;
   app.add_flag("--quick", quick, "Shorter runs");
+  app.add_flag("--picture-only", picture_only, "No table, only --svg and --trace");
   app.add_option("--workers", workers, "Workers, the caller included; 0: one a hardware thread");
   app.add_option("--slice-us", slice_us, "Length of a background block of the synthetic work");
   app.add_option("--body", vertices, "Real work: cloth frames, and fitting a body of so many vertices");
   app.add_option("--csv", csv_path, "Write the rows here, too");
-  app.add_option("--svg", svg_path, "Draw a timeline of 70 ms");
+  app.add_option("--svg", svg_path, "Draw a timeline of 60 ms");
   app.add_option("--trace", trace_path, "Write the trace of the drawn run (Chrome trace events)");
   CLI11_PARSE(app, argc, argv);
 
   const auto executor = make_tbb_executor(workers);
   const auto work = vertices > 0 ? make_body_work(vertices) : make_synthetic(slice_us);
+  if (picture_only) {
+    draw(*work, *executor, svg_path, trace_path);
+    return 0;
+  }
   const double foreground_ms = foreground_fit_ms(*work, *executor);
   std::printf("%s; %d workers\nfit alone, in the foreground: %.0f ms\n\n", work->describe().c_str(),
               executor->concurrency(), foreground_ms);

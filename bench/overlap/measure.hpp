@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <bodice/engine/frame_pipeline.hpp>
@@ -33,7 +34,8 @@ Row measure(const Condition& condition, Workload& work, bodice::engine::Executor
 /// Milliseconds of the preparation alone, all workers, nothing beside it.
 double foreground_fit_ms(const Workload& work, bodice::engine::Executor& executor);
 
-/// A picture of `trace` between two moments: a lane a thread, frames and background work told apart.
-std::string timeline_svg(const bodice::engine::Trace& trace, double from_ms, double to_ms);
+/// A picture of `length_ms` of `trace`, from 10 ms after the first event of the given name: a lane a thread,
+/// frames and background work told apart.
+std::string timeline_svg(const bodice::engine::Trace& trace, std::string_view from_event, double length_ms);
 
 }  // namespace bodice_bench

@@ -47,50 +47,72 @@ void append_legend(std::string& svg, double y) {
   append_text(svg, x, y + 12.0, "&#9650; result published");
 }
 
+struct Bar {
+  std::size_t lane;
+  double left, right;
+  std::string_view fill;
+  double height;
+};
+
+// Bars of one kind that touch on paper become one.
+void add_bar(std::vector<Bar>& bars, const Bar& bar) {
+  for (auto last = bars.rbegin(); last != bars.rend() && last - bars.rbegin() < 64; ++last) {
+    if (last->lane != bar.lane || last->fill != bar.fill) continue;
+    if (bar.left - last->right > 0.25) break;
+    last->right = std::max(last->right, bar.right);
+    return;
+  }
+  bars.push_back(bar);
+}
+
 }  // namespace
 
-std::string timeline_svg(const Trace& trace, double from_ms, double to_ms) {
+std::string timeline_svg(const Trace& trace, std::string_view from_event, double length_ms) {
   const auto events = trace.events();
-  std::vector<std::thread::id> threads;
-  const std::int64_t start_ns = events.empty() ? 0 : events.front().begin_ns;
-  const double scale = (kWidth - kLeft - 20.0) / (to_ms - from_ms);
+  const auto first =
+      std::ranges::find(events, from_event, [](const TraceEvent& e) { return std::string_view(e.name); });
+  const std::int64_t start_ns = first == events.end() ? 0 : first->begin_ns + 10'000'000;
+  const double scale = (kWidth - kLeft - 20.0) / length_ms;
   auto x_of = [&](std::int64_t ns) {
-    const double ms = std::clamp(static_cast<double>(ns - start_ns) * 1e-6, from_ms, to_ms);
-    return kLeft + (ms - from_ms) * scale;
+    return kLeft + std::clamp(static_cast<double>(ns - start_ns) * 1e-6, 0.0, length_ms) * scale;
   };
-  std::string body;
+  std::vector<std::thread::id> threads;
+  std::vector<Bar> bars;
+  std::string marks;
   for (const TraceEvent& event : events) {
-    auto lane = std::ranges::find(threads, event.thread);
-    if (lane == threads.end()) lane = threads.insert(threads.end(), event.thread);
-    const double y = kTop + kLane * static_cast<double>(lane - threads.begin());
-    const double x = x_of(event.begin_ns), width = x_of(event.end_ns) - x;
-    const bool inside = static_cast<double>(event.end_ns - start_ns) * 1e-6 >= from_ms &&
-                        static_cast<double>(event.begin_ns - start_ns) * 1e-6 <= to_ms;
-    if (!inside) continue;
+    auto found = std::ranges::find(threads, event.thread);
+    if (found == threads.end()) found = threads.insert(threads.end(), event.thread);
+    const auto lane = static_cast<std::size_t>(found - threads.begin());
+    const double left = x_of(event.begin_ns), right = x_of(event.end_ns);
+    if (right <= kLeft || left >= kLeft + length_ms * scale) continue;
     if (event.begin_ns == event.end_ns) {
-      append_text(body, x - 5.0, y + kLane, "&#9650;");
+      append_text(marks, left - 5.0, kTop + kLane * static_cast<double>(lane + 1), "&#9650;");
     } else {
-      append_rect(body, x, y + (kLane - 4.0 - height_of(event.name)) / 2, width, height_of(event.name),
-                  fill_of(event.name));
+      add_bar(bars, {lane, left, right, fill_of(event.name), height_of(event.name)});
     }
   }
-  const double height = kTop + kLane * static_cast<double>(threads.size()) + 60.0;
+  std::string body;
+  for (const Bar& bar : bars) {
+    const double y = kTop + kLane * static_cast<double>(bar.lane) + (kLane - 4.0 - bar.height) / 2;
+    append_rect(body, bar.left, y, bar.right - bar.left, bar.height, bar.fill);
+  }
+  const double height = kTop + kLane * static_cast<double>(threads.size()) + 40.0;
   std::string svg =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 960 " +
       std::to_string(static_cast<int>(height)) +
-      "\" font-family=\"sans-serif\" font-size=\"13\" stroke=\"none\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"white\"/>\n";
+      "\" font-family=\"sans-serif\" font-size=\"13\" stroke=\"none\">\n<rect width=\"960\" height=\"" +
+      std::to_string(static_cast<int>(height)) + "\" fill=\"white\"/>\n";
   append_legend(svg, 10.0);
   for (std::size_t i = 0; i < threads.size(); ++i) {
     append_text(svg, 8.0, kTop + kLane * (static_cast<double>(i) + 0.55),
                 i == 0 ? "host" : "worker " + std::to_string(i));
   }
-  svg += body;
+  svg += body + marks;
   for (int tick = 0; tick <= 5; ++tick) {
-    const double ms = (to_ms - from_ms) * tick / 5;
+    const double ms = length_ms * tick / 5;
     char label[32];
     std::snprintf(label, sizeof label, "%.0f ms", ms);
-    append_text(svg, kLeft + ms * scale - 12.0, height - 20.0, label);
+    append_text(svg, kLeft + ms * scale - 12.0, height - 15.0, label);
   }
   return svg + "</svg>\n";
 }

@@ -1,0 +1,12 @@
+// The code block of engine/README.md, which CMakeLists.txt copies into a source file.
+#include <doctest/doctest.h>
+
+#include <bodice/engine/result.hpp>
+
+bodice::engine::Result<double> mean_length();
+
+TEST_CASE("the code in the README compiles and computes what it says") {
+  const auto mean = mean_length();
+  REQUIRE(mean.ok());
+  CHECK(*mean == 2.0);
+}
