@@ -42,7 +42,7 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
     return no_body("its five ends do not lie at the distances of a head, two hands and two feet.");
 
   StageTimer anatomy_timer(context, anatomy.stages, "anatomy");
-  const Sides sides = find_sides(skin, *found);
+  const Sides sides = find_sides(context, skin, *found);
   const BodyEnds ends = in_body_order(*found, sides);
   const BodyCoordinates coordinates(context, skin, ends);
   const Landmarks marks = find_landmarks(context, skin, coordinates);

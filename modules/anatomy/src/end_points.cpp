@@ -58,15 +58,14 @@ struct Candidates {
 
 Candidates farthest_points(const Skin& skin) {
   Candidates c;
-  Field nearest = geodesic::distances_from(skin.graph, start_vertex(skin));
-  for (std::size_t k = 0; k < kCandidates; ++k) {
-    const Index v = farthest(nearest);
-    if (v == kNoIndex || nearest[v] == 0.0F) break;
+  Field nearest;
+  for (Index v = start_vertex(skin); c.vertex.size() < kCandidates; v = farthest(nearest)) {
+    if (!nearest.empty() && !(v != kNoIndex && nearest[v] > 0.0F)) break;
     c.vertex.push_back(v);
     c.field.push_back(geodesic::distances_from(skin.graph, v));
     const Field& field = c.field.back();
-    for (std::size_t i = 0; i < field.size(); ++i)
-      nearest[i] = k == 0 ? field[i] : std::min(nearest[i], field[i]);
+    if (nearest.empty()) nearest = field;
+    for (std::size_t i = 0; i < field.size(); ++i) nearest[i] = std::min(nearest[i], field[i]);
   }
   return c;
 }

@@ -13,7 +13,6 @@ using geodesic::Isoline;
 using geometry::Index;
 using geometry::kNoIndex;
 
-constexpr std::size_t kGrain = 4096;
 /// No joint's loop lies further from the end of its limb, in the coordinate of that end: beyond, the border's
 /// zero line means nothing.
 constexpr float kNeckReach = 0.40F, kElbowReach = 0.36F, kKneeReach = 0.40F;
@@ -28,15 +27,13 @@ double confidence_of(float misfit) {
 }
 
 /// The border's loop: the longest closed zero line near the limb's end.
-Girth border_loop(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
-                  const Border& border, int side, Coordinate end, float reach) {
+Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Border& border, int side,
+                  Coordinate end, float reach) {
   Field score(skin.mesh.positions.size());
-  engine::parallel_for(context, score.size(), kGrain, [&](std::size_t begin, std::size_t stop) {
-    for (std::size_t v = begin; v < stop; ++v) {
-      const CoordinateArray x = coordinates.at(v, side);
-      score[v] = x[end] < reach ? border(x) : std::min(border(x), -1e-6F);
-    }
-  });
+  for (std::size_t v = 0; v < score.size(); ++v) {
+    const CoordinateArray x = coordinates.at(v, side);
+    score[v] = x[end] < reach ? border(x) : std::min(border(x), -1e-6F);
+  }
   const float zero = 0.0F;
   const auto lines = geodesic::isolines(skin.mesh, skin.edges, score, {&zero, 1})[0];
   const Isoline* best = nullptr;
@@ -79,12 +76,15 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
   Landmarks marks;
   marks.perineum = coordinates.perineum();
   marks.perineum_confidence = confidence_of(coordinates.perineum_misfit());
-  marks.neck = border_loop(context, skin, coordinates, kNeck, 0, kFromHead, kNeckReach);
-  for (int side = 0; side < 2; ++side) {
-    marks.elbow[side] = border_loop(context, skin, coordinates, kElbow, side, kOwnHand, kElbowReach);
-    marks.knee[side] = border_loop(context, skin, coordinates, kKnee, side, kOwnFoot, kKneeReach);
-    find_armpit(context, coordinates, side, marks);
-  }
+  constexpr std::size_t kTasks = 7;  // the neck, and elbow, knee and armpit of both sides
+  engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
+    const int side = static_cast<int>(task % 2);
+    if (task == 6) marks.neck = border_loop(skin, coordinates, kNeck, 0, kFromHead, kNeckReach);
+    if (task < 2) marks.elbow[side] = border_loop(skin, coordinates, kElbow, side, kOwnHand, kElbowReach);
+    if (task == 2 || task == 3)
+      marks.knee[side] = border_loop(skin, coordinates, kKnee, side, kOwnFoot, kKneeReach);
+    if (task == 4 || task == 5) find_armpit(context, coordinates, side, marks);
+  });
   return marks;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <complex>
 
+#include <bodice/engine/parallel.hpp>
+
 #include "curve.hpp"
 
 namespace bodice::anatomy {
@@ -79,9 +81,13 @@ double leftness(const Skin& skin, const EndPoints& ends, End foot, End other) {
 
 }  // namespace
 
-Sides find_sides(const Skin& skin, const EndPoints& ends) {
-  const double a = leftness(skin, ends, kFootA, kFootB), b = leftness(skin, ends, kFootB, kFootA);
-  return {a - b >= 0.0, std::min(1.0, std::abs(a - b) / 2.0)};
+Sides find_sides(const engine::Context& context, const Skin& skin, const EndPoints& ends) {
+  std::array<double, 2> left{};
+  engine::parallel_for(context, 2, 1, [&](std::size_t i, std::size_t) {
+    left[i] = i == 0 ? leftness(skin, ends, kFootA, kFootB) : leftness(skin, ends, kFootB, kFootA);
+  });
+  const double difference = left[0] - left[1];
+  return {difference >= 0.0, std::min(1.0, 0.5 * std::abs(difference))};
 }
 
 }  // namespace bodice::anatomy
