@@ -1,48 +1,28 @@
 // One frame: substeps of predict, solve, contact.
 // Based on: Miles Macklin, Kier Storey, Michelle Lu, Pierre Terdiman, Nuttapong Chentanez, Stefan Jeschke,
 // Matthias Mueller. Small Steps in Physics Simulation. 2019. - algorithm 1
+// Differs: coarse levels first. With several sweeps a substep each gets its share of the compliance instead
+// of a stored multiplier: soft constraints sum to the same force, stiff ones do not feel it.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
 
 #include "pack.hpp"
+#include "plan.hpp"
 #include "state.hpp"
 
 namespace bodice::cloth {
 namespace {
 
-struct Plan {
-  int substeps = 0;
-  float substep_s = 0.0f;
-  double simulated_s = 0.0;
-  std::uint32_t limits = 0;
-};
-
-float fastest(const Particles& p) {
+double fastest(const Particles& p) {
   float v2 = 0.0f;
   for (std::size_t i = 0; i < p.count(); ++i) {
     v2 = std::max(v2, p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
   }
-  return std::sqrt(v2);
-}
-
-// As many substeps as were asked for, more if the frame is long or a particle would travel too far in one.
-Plan plan_frame(const State& s, double dt_s) {
-  Plan plan;
-  if (!(dt_s > 0.0)) return plan;
-  plan.simulated_s = std::min(dt_s, kMaxSubsteps * kMaxSubstep_s);
-  if (plan.simulated_s < dt_s) plan.limits |= kTimeCut;
-  const double travel = plan.simulated_s * (static_cast<double>(fastest(s.particles)) +
-                                            plan.simulated_s * s.options.environment.gravity_m_s2.norm());
-  double wanted = s.options.substeps;
-  wanted = std::max(wanted, std::ceil(plan.simulated_s / kMaxSubstep_s - 1e-9));
-  wanted = std::max(wanted, std::ceil(travel / static_cast<double>(s.max_travel_m)));
-  plan.substeps = static_cast<int>(std::min(wanted, static_cast<double>(kMaxSubsteps)));
-  if (plan.substeps > s.options.substeps) plan.limits |= kMoreSubsteps;
-  plan.substep_s = static_cast<float>(plan.simulated_s / plan.substeps);
-  return plan;
+  return static_cast<double>(std::sqrt(v2));
 }
 
 // Slows particle i to the travel allowed; puts it to rest if its velocity is not finite.
@@ -86,41 +66,71 @@ std::uint32_t reset_lost(Particles& p) {
   return limits;
 }
 
-void begin_frame(const engine::Context& context, State& s) {
-  update_air(context, s.options.environment, s.options.seed, s.time_s, s.particles, s.air);
+void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
   Particles& p = s.particles;
+  update_air(context, s.options.environment, s.options.seed, s.time_s, p, s.air);
   for (std::size_t i = 0; i < p.count(); ++i) {
-    p.weight[i] = p.inverse_mass[i] * (s.contacts.touching[i] ? 1.0f / kTouchingMass : 1.0f);
+    const float share = sleeps(s.sleep, i) ? 0.0f : (s.contacts.touching[i] ? 1.0f / kTouchingMass : 1.0f);
+    p.weight[i] = p.inverse_mass[i] * share;
   }
   update_weights(p, s.coarse);
+  begin_sleep_frame(p, s.sleep);
+  if (s.options.self_collision && !(plan.limits & kNoSelfContact)) find_close_pairs(context, p, s.self);
+}
+
+void solve(const engine::Context& context, const Plan& plan, int substep, State& s) {
+  solve_coarse(context, s.coarse, s.particles);
+  const bool bend = !(plan.limits & kBendingHalved) || substep % 2 == 0;
+  const float inverse_h2 = static_cast<float>(s.options.iterations) / (plan.substep_s * plan.substep_s);
+  for (int iteration = 0; iteration < s.options.iterations; ++iteration) {
+    if (bend) solve_bend(context, s.bend, inverse_h2, s.particles);
+    solve_stretch(context, s.stretch, inverse_h2, s.particles);
+  }
+  if (s.options.self_collision && !(plan.limits & kNoSelfContact)) push_apart(context, s.self, s.particles);
+}
+
+void end_frame(const Plan& plan, State& s) {
+  settle_pins(s.pins);
+  const Environment& e = s.options.environment;
+  end_sleep_frame(s.stretch, plan.simulated_s, s.particles, s.sleep);
+  if (e.gust > 0.0 && e.wind_m_s != Vec3::Zero()) wake_all(s.sleep);  // the air never rests
+  s.time_s += plan.simulated_s;
+}
+
+// A body that moved or changed may have taken a sleeper's support away.
+void meet_collider(const collision::Collider* collider, State& s) {
+  const Vec3 before = s.particles.origin;
+  if (collider != nullptr) rebase(s.particles, collider->origin());
+  if (collider != s.last_collider || before != s.particles.origin) wake_all(s.sleep);
+  s.last_collider = collider;
 }
 
 }  // namespace
 
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
                     State& s) {
-  if (collider != nullptr) rebase(s.particles, collider->origin());
-  const Plan plan = plan_frame(s, dt_s);
+  const auto start = std::chrono::steady_clock::now();
+  meet_collider(collider, s);
+  const Plan plan =
+      plan_frame(s.options, dt_s, fastest(s.particles), static_cast<double>(s.max_travel_m), s.budget.level);
   FrameReport report;
   report.substeps = plan.substeps;
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
-  if (plan.substeps > 0) begin_frame(context, s);
+  if (plan.substeps > 0) begin_frame(context, plan, s);
   for (int substep = 0; substep < plan.substeps; ++substep) {
     report.limits |= predict(context, plan.substep_s, s);
     move_pins(s.pins, (substep + 1.0) / plan.substeps, s.particles);
-    solve_coarse(context, s.coarse, s.particles);
-    for (int iteration = 0; iteration < s.options.iterations; ++iteration) {
-      solve_bend(context, s.bend, plan.substep_s, s.particles);
-      solve_stretch(context, s.stretch, plan.substep_s, s.particles);
-    }
+    solve(context, plan, substep, s);
     report.limits |= reset_lost(s.particles);
     report.contacts.add(finish_substep(context, collider, s.options, static_cast<float>(s.fabric.friction),
                                        plan.substep_s, s.contacts, s.particles));
   }
-  if (plan.substeps > 0) settle_pins(s.pins);
-  s.time_s += plan.simulated_s;
+  if (plan.substeps > 0) end_frame(plan, s);
   measure(context, s, report);
+  learn(s.options,
+        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count(),
+        s.budget);
   return report;
 }
 

@@ -101,7 +101,7 @@ void accelerate(const Environment& environment, const Air& air, float substep_s,
   const auto gz = static_cast<float>(environment.gravity_m_s2[2]) * substep_s;
   const float pressure = 0.5f * static_cast<float>(environment.air_density_kg_m3) * substep_s;
   for (std::size_t i = begin; i < end; ++i) {
-    const float free = p.inverse_mass[i] > 0.0f ? 1.0f : 0.0f;
+    const float free = p.weight[i] > 0.0f ? 1.0f : 0.0f;  // neither pinned nor asleep
     const float rx = air.wind_x[i] - p.vx[i], ry = air.wind_y[i] - p.vy[i], rz = air.wind_z[i] - p.vz[i];
     const float speed = std::sqrt(rx * rx + ry * ry + rz * rz);
     // dv/dt = k |r| r, implicit in r: the share k / (1 + k) of the relative velocity is taken over.

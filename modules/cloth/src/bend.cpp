@@ -56,7 +56,7 @@ void measure(const BendConstraints& c, std::size_t first, const Particles& p, La
     for (int k = 0; k < kLanes; ++k) at[q][1][k] = p.y[corner[k]];
     for (int k = 0; k < kLanes; ++k) at[q][2][k] = p.z[corner[k]];
   }
-  const float *k0 = &c.k[0][first], *k1 = &c.k[1][first], *k2 = &c.k[2][first], *k3 = &c.k[3][first];
+  const float *k1 = &c.k[1][first], *k2 = &c.k[2][first], *k3 = &c.k[3][first];
   for (int k = 0; k < kLanes; ++k) {
     // Differences to the first corner: the weights sum to zero, and small numbers keep their digits.
     const float ex = at[1][0][k] - at[0][0][k], ey = at[1][1][k] - at[0][1][k],
@@ -74,18 +74,18 @@ void measure(const BendConstraints& c, std::size_t first, const Particles& p, La
     const float bz = k1[k] * ez + k2[k] * cz + k3[k] * dz;
     value[k] = n[0][k] * bx + n[1][k] * by + n[2][k] * bz - c.rest_m[first + k];
   }
-  static_cast<void>(k0);
 }
 
 template <int kLanes>
 void solve_pack(const BendConstraints& c, std::size_t first, float inverse_h2, Particles& p) {
-  Lanes<kLanes> value, n[3];
+  Lanes<kLanes> value, n[3], w[4];
   measure(c, first, p, value, n);
   for (int k = 0; k < kLanes; ++k) {
     float weight = c.compliance[first + k] * inverse_h2 + kTinyWeight;
     for (int q = 0; q < 4; ++q) {
       const auto corner = static_cast<std::size_t>(q);
-      weight += c.w[corner][first + k] * c.k[corner][first + k] * c.k[corner][first + k];
+      w[corner][k] = p.weight[c.corner[corner][first + k]];
+      weight += w[corner][k] * c.k[corner][first + k] * c.k[corner][first + k];
     }
     value[k] = -value[k] / weight;
   }
@@ -93,7 +93,7 @@ void solve_pack(const BendConstraints& c, std::size_t first, float inverse_h2, P
     const auto corner = static_cast<std::size_t>(q);
     for (int k = 0; k < kLanes; ++k) {
       const Index i = c.corner[corner][first + k];
-      const float move = value[k] * c.w[corner][first + k] * c.k[corner][first + k];
+      const float move = value[k] * w[corner][k] * c.k[corner][first + k];
       p.x[i] += move * n[0][k], p.y[i] += move * n[1][k], p.z[i] += move * n[2][k];
     }
   }
@@ -115,7 +115,6 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
       const Index i = corners[4 * h + q];
       out.corner[q].push_back(i);
       out.k[q].push_back(static_cast<float>(s.k[q]));
-      out.w[q].push_back(particles.inverse_mass[i]);
     }
     out.rest_m.push_back(static_cast<float>(s.rest));
     out.compliance.push_back(static_cast<float>(s.area / bend_n_m));
@@ -123,9 +122,8 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
   return out;
 }
 
-void solve_bend(const engine::Context& context, const BendConstraints& constraints, float substep_s,
+void solve_bend(const engine::Context& context, const BendConstraints& constraints, float inverse_h2,
                 Particles& particles) {
-  const float inverse_h2 = 1.0f / (substep_s * substep_s);
   for_each_pack(context, constraints.color_begin, [&](std::size_t first, auto lanes) {
     solve_pack<decltype(lanes)::value>(constraints, first, inverse_h2, particles);
   });

@@ -15,7 +15,6 @@ namespace bodice::cloth {
 struct BendConstraints {
   std::array<std::vector<Index>, 4> corner;  ///< the edge's ends, then the two opposite corners
   std::array<std::vector<float>, 4> k;       ///< cotangent weights, they sum to zero
-  std::array<std::vector<float>, 4> w;       ///< inverse masses
   std::vector<float> rest_m;
   std::vector<float> compliance;  ///< metres a newton
   std::vector<std::uint32_t> color_begin;
@@ -26,8 +25,8 @@ struct BendConstraints {
 BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, double bend_n_m,
                           const Particles& particles);
 
-/// One Gauss-Seidel sweep over all colours.
-void solve_bend(const engine::Context& context, const BendConstraints& constraints, float substep_s,
+/// One Gauss-Seidel sweep over all colours; `inverse_h2` is sweeps a substep over its length squared.
+void solve_bend(const engine::Context& context, const BendConstraints& constraints, float inverse_h2,
                 Particles& particles);
 
 /// Potential energy of all hinges, joules. Serial.

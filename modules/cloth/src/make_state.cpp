@@ -10,6 +10,9 @@ namespace {
 // Share of the strain limit that coarse limits allow: distances along edges are 2 % too long as it is.
 constexpr double kCoarseSlack = 0.25;
 
+// Layers keep this share of the median edge apart: below 0.71 a particle passes through the middle of a quad.
+constexpr double kSelfRadius = 0.75;
+
 engine::Result<void> check(const SolverOptions& o) {
   auto bad = [](const std::string& what, const char* remedy) {
     return engine::Error{engine::ErrorCode::kInvalidArgument, "Solver option " + what + ".", remedy};
@@ -23,6 +26,7 @@ engine::Result<void> check(const SolverOptions& o) {
   if (!(o.thickness_m >= 0.0) || !std::isfinite(o.thickness_m)) {
     return bad("thickness_m is " + std::to_string(o.thickness_m), "Give metres, zero or more.");
   }
+  if (!(o.budget_us >= 0.0)) return bad("budget_us is " + std::to_string(o.budget_us), "Give zero or more.");
   const Environment& e = o.environment;
   if (!e.gravity_m_s2.allFinite() || !e.wind_m_s.allFinite() || !std::isfinite(e.gust) ||
       !(e.air_density_kg_m3 >= 0.0) || !std::isfinite(e.air_density_kg_m3)) {
@@ -102,6 +106,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.bend = make_bend(mesh, topology, fabric.bend_n_m, s.particles);
   s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
   s.air = make_air(mesh);
+  s.self = make_self_contact(mesh, topology, kSelfRadius * welded->median_edge_m);
+  s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count());
   s.scratch.resize(std::max(s.particles.count(), s.stretch.count()));
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());

@@ -33,14 +33,16 @@ void measure_motion(State& s, FrameReport& report) {
   double kinetic = 0.0, gravity = 0.0;
   for (std::size_t i = 0; i < p.count(); ++i) {
     const float v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
-    s.scratch[i] = std::sqrt(v2);
+    s.scratch[i] = s.sleep.speed[i];
     const auto mass = static_cast<double>(p.mass[i]);
     kinetic += 0.5 * mass * static_cast<double>(v2);
     gravity -= mass * s.options.environment.gravity_m_s2.dot(p.world(i));
     report.finite = report.finite && std::isfinite(p.x[i] + p.y[i] + p.z[i] + v2);
   }
+  report.asleep = s.sleep.asleep;
   report.kinetic_energy_j = kinetic;
-  report.potential_energy_j = gravity + stretch_energy(s.stretch, p) + bend_energy(s.bend, p);
+  report.gravity_energy_j = gravity;
+  report.elastic_energy_j = stretch_energy(s.stretch, p) + bend_energy(s.bend, p);
   report.median_speed_m_s = quantile(s.scratch, p.count(), 0.5);
 }
 

@@ -34,16 +34,16 @@ struct Lanes {
 template <class Solve>
 void for_each_pack(const engine::Context& context, std::span<const std::uint32_t> color_begin,
                    Solve&& solve) {
-  for (std::size_t c = 0; c + 1 < color_begin.size(); ++c) {
+  const std::size_t colors = color_begin.empty() ? 0 : color_begin.size() - 1;
+  for (std::size_t c = 0; c < colors; ++c) {
     const std::size_t base = color_begin[c];
-    engine::parallel_for(context, color_begin[c + 1] - base, kConstraintGrain,
-                         [&](std::size_t begin, std::size_t end) {
-                           std::size_t i = begin;
-                           for (; i + kPackLanes <= end; i += kPackLanes) {
-                             solve(base + i, std::integral_constant<int, kPackLanes>());
-                           }
-                           for (; i < end; ++i) solve(base + i, std::integral_constant<int, 1>());
-                         });
+    auto solve_block = [&](std::size_t begin, std::size_t end) {
+      std::size_t i = begin;
+      for (; i + kPackLanes <= end; i += kPackLanes)
+        solve(base + i, std::integral_constant<int, kPackLanes>());
+      for (; i < end; ++i) solve(base + i, std::integral_constant<int, 1>());
+    };
+    engine::parallel_for(context, color_begin[c + 1] - base, kConstraintGrain, solve_block);
   }
 }
 

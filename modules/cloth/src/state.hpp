@@ -11,6 +11,9 @@
 #include "contact.hpp"
 #include "particles.hpp"
 #include "pins.hpp"
+#include "plan.hpp"
+#include "self_contact.hpp"
+#include "sleep.hpp"
 #include "stretch.hpp"
 
 namespace bodice::cloth {
@@ -26,8 +29,12 @@ struct State {
   std::vector<CoarseLevel> coarse;
   Air air;
   ContactState contacts;
-  std::vector<float> scratch;  ///< max(#P, #E), for medians
-  float max_travel_m = 0.0f;   ///< a substep
+  SelfContact self;
+  Sleep sleep;
+  Budget budget;
+  const collision::Collider* last_collider = nullptr;  ///< compared, never read
+  std::vector<float> scratch;                          ///< max(#P, #E), for medians
+  float max_travel_m = 0.0f;                           ///< a substep
   double time_s = 0.0;
 
   std::vector<Vec3> input;                ///< #V, where dropped vertices stay

@@ -72,9 +72,8 @@ StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& t
   return out;
 }
 
-void solve_stretch(const engine::Context& context, const StretchConstraints& constraints, float substep_s,
+void solve_stretch(const engine::Context& context, const StretchConstraints& constraints, float inverse_h2,
                    Particles& particles) {
-  const float inverse_h2 = 1.0f / (substep_s * substep_s);
   for_each_pack(context, constraints.color_begin, [&](std::size_t first, auto lanes) {
     solve_pack<decltype(lanes)::value>(constraints, first, inverse_h2, particles);
   });

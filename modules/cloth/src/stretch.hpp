@@ -25,8 +25,8 @@ struct StretchConstraints {
 StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
                                 const Particles& particles);
 
-/// One Gauss-Seidel sweep over all colours.
-void solve_stretch(const engine::Context& context, const StretchConstraints& constraints, float substep_s,
+/// One Gauss-Seidel sweep over all colours; `inverse_h2` is sweeps a substep over its length squared.
+void solve_stretch(const engine::Context& context, const StretchConstraints& constraints, float inverse_h2,
                    Particles& particles);
 
 /// Potential energy of all edges, joules. Serial.

@@ -29,14 +29,21 @@ struct SolverOptions {
   collision::Response response = collision::Response::kNearest;
   Environment environment;
   std::uint64_t seed = 0;
+  /// Time a frame may take; 0: no budget. A frame above it makes the next ones do without, in this order:
+  /// self-contact, bending on every second substep, half of the substeps. The clock then takes part in the
+  /// result, so that equal bits are promised only without a budget.
+  double budget_us = 0.0;
 };
 
 /// What a frame had to leave out or bound, as bits of FrameReport::limits.
 enum FrameLimit : std::uint32_t {
-  kTimeCut = 1u << 0,        ///< dt_s was above what kMaxSubsteps substeps may cover; the rest was dropped
-  kMoreSubsteps = 1u << 1,   ///< more substeps than asked for, because dt_s or the speeds were large
-  kSpeedClamped = 1u << 2,   ///< a particle would have crossed kMaxTravel in a substep and was slowed
-  kParticlesReset = 1u << 3  ///< a particle became NaN or infinite and was put back where it was
+  kTimeCut = 1u << 0,         ///< dt_s was above what kMaxSubsteps substeps may cover; the rest was dropped
+  kMoreSubsteps = 1u << 1,    ///< more substeps than asked for, because dt_s or the speeds were large
+  kSpeedClamped = 1u << 2,    ///< a particle would have crossed kMaxTravel in a substep and was slowed
+  kParticlesReset = 1u << 3,  ///< a particle became NaN or infinite and was put back where it was
+  kNoSelfContact = 1u << 4,   ///< dropped for the budget
+  kBendingHalved = 1u << 5,   ///< for the budget: on every second substep only
+  kSubstepsHalved = 1u << 6   ///< for the budget
 };
 
 /// A substep is never longer than this: beyond it a fold crosses the body's thin parts in one step.
@@ -49,10 +56,12 @@ inline constexpr double kMaxTravel = 0.05;
 struct FrameReport {
   collision::ContactReport contacts;            ///< summed over the substeps
   double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain, elongation only
-  double median_speed_m_s = 0.0;
+  double median_speed_m_s = 0.0;                ///< of the distances covered in the frame
   double kinetic_energy_j = 0.0;
-  double potential_energy_j = 0.0;  ///< elastic, and gravity's relative to the world's origin
-  double simulated_s = 0.0;         ///< dt_s, unless kTimeCut
+  double gravity_energy_j = 0.0;  ///< potential, relative to the world's origin
+  double elastic_energy_j = 0.0;  ///< of edges and hinges as they stand, what a sweep left over included
+  double simulated_s = 0.0;       ///< dt_s, unless kTimeCut
+  std::size_t asleep = 0;         ///< particles that hold still
   int substeps = 0;
   std::uint32_t limits = 0;  ///< FrameLimit bits
   bool finite = true;

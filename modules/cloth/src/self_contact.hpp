@@ -1,0 +1,38 @@
+// Layers of one garment keep apart: particles repel each other. Not covered: edges and faces between
+// particles, and layers that already passed through each other (the side is not remembered).
+#pragma once
+
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+
+#include "particles.hpp"
+#include "topology.hpp"
+
+namespace bodice::cloth {
+
+inline constexpr std::size_t kMaxClose = 8;  ///< pairs kept a particle; the nearest in memory order
+
+struct SelfContact {
+  float radius_m = 0.0f;                ///< particles are kept this far apart, or as far as they were at rest
+  std::vector<Vec3> rest;               ///< #P
+  std::vector<Index> ring_begin, ring;  ///< edge neighbours, CSR
+  std::vector<Index> cell_begin;        ///< #buckets + 1
+  std::vector<Index> cell_particle;     ///< #P, by bucket, ascending inside one
+  std::vector<Index> bucket;            ///< #P
+  std::vector<Index> close;             ///< #P * kMaxClose
+  std::vector<float> close_m;           ///< #P * kMaxClose, distance each pair must keep
+  std::vector<std::uint8_t> close_count;  ///< #P
+  std::vector<float> dx, dy, dz;          ///< #P, metres, corrections of this sweep
+};
+
+SelfContact make_self_contact(const geometry::TriMesh& mesh, const Topology& topology, double radius_m);
+
+/// Finds the pairs that may meet in this frame: nearer than twice the radius. O(#P).
+void find_close_pairs(const engine::Context& context, const Particles& particles, SelfContact& self);
+
+/// One Jacobi sweep: each particle sums its pairs' corrections from the same positions, so that neither order
+/// nor workers matter.
+void push_apart(const engine::Context& context, SelfContact& self, Particles& particles);
+
+}  // namespace bodice::cloth

@@ -1,0 +1,31 @@
+// Particles that hardly moved for a while hold still, so that a garment at rest is at rest.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "particles.hpp"
+#include "stretch.hpp"
+
+namespace bodice::cloth {
+
+struct Sleep {
+  std::vector<float> start_x, start_y, start_z;  ///< #P, metres, at the start of the frame
+  std::vector<float> speed;                      ///< #P, metres a second, mean over the frame
+  std::vector<float> quiet_s;                    ///< #P, how long the particle has been slow
+  std::size_t asleep = 0;
+};
+
+Sleep make_sleep(std::size_t particles);
+
+/// A sleeping particle is one that the constraints cannot move.
+bool sleeps(const Sleep& sleep, std::size_t particle);
+
+void begin_sleep_frame(const Particles& particles, Sleep& sleep);
+
+/// Speeds of the frame; who falls asleep, and who wakes because a neighbour or the body moves it.
+void end_sleep_frame(const StretchConstraints& edges, double frame_s, Particles& particles, Sleep& sleep);
+
+void wake_all(Sleep& sleep);
+
+}  // namespace bodice::cloth

@@ -1,0 +1,133 @@
+// Determinism, memory, rest and layers.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "fixtures.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60.0;
+
+cloth::SolverOptions windy() {
+  cloth::SolverOptions options;
+  options.environment.wind_m_s = Vec3(3, 0, 1);
+  options.environment.gust = 0.5;
+  options.seed = 11;
+  return options;
+}
+
+std::uint64_t hash_after(engine::Executor& executor, int frames) {
+  const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3(0.2, 0.15, 0.2));
+  // More particles than a block of any loop holds, so that workers share every kind of loop.
+  cloth::Solver solver = make_solver(sheet(80, 80, 0.8, 0.8, Vec3(-0.4, 1.16, -0.4)), {}, cotton(), windy());
+  const engine::Context context{.executor = &executor};
+  for (int frame = 0; frame < frames; ++frame) solver.step(context, body, kFrame_s);
+  return solver.hash();
+}
+
+}  // namespace
+
+TEST_CASE("a garment in gusts has the same bits for any number of workers") {
+  const std::uint64_t serial = hash_after(engine::inline_executor(), 12);
+  for (const int workers : {1, 2, 3, 7}) {
+    CHECK(hash_after(*engine::make_tbb_executor(workers), 12) == serial);
+  }
+}
+
+TEST_CASE("a step allocates nothing once warm") {
+  const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
+  cloth::Solver solver = make_solver(sheet(30, 30, 0.8, 0.8, Vec3(-0.4, 1.21, -0.4)), {}, cotton(), windy());
+  const engine::Context context;
+  for (int frame = 0; frame < 3; ++frame) solver.step(context, body, kFrame_s);
+  const std::size_t before = allocations;
+  for (int frame = 0; frame < 5; ++frame) solver.step(context, body, kFrame_s);
+  CHECK(allocations == before);
+}
+
+TEST_CASE("a sheet on a body comes to rest and never gains energy on the way") {
+  const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3(0.25, 0.2, 0.25));
+  cloth::Solver solver = make_solver(sheet(24, 24, 0.7, 0.7, Vec3(-0.35, 1.21, -0.35)), {}, cotton(), {});
+  const engine::Context context;
+  cloth::FrameReport report = solver.step(context, body, kFrame_s);
+  double energy = report.kinetic_energy_j + report.gravity_energy_j;
+  const double weight_energy =
+      0.14 * 0.7 * 0.7 * 9.81 * 0.35;  // joules it could lose by falling by half its width
+  for (int frame = 0; frame < 600; ++frame) {
+    report = solver.step(context, body, kFrame_s);
+    const double now = report.kinetic_energy_j + report.gravity_energy_j;
+    CHECK(now < energy + 0.01 * weight_energy);
+    energy = std::min(energy, now);
+  }
+  CHECK(report.median_speed_m_s < 1e-3);
+}
+
+TEST_CASE("a wind of no gusts carries, and a seed changes gusts only") {
+  auto drift = [](double gust, std::uint64_t seed) {
+    cloth::SolverOptions options = windy();
+    options.environment.gust = gust;
+    options.seed = seed;
+    cloth::Solver solver = make_solver(sheet(8, 8, 0.4, 0.4, Vec3::Zero()), {}, cotton(), options);
+    const engine::Context context;
+    for (int frame = 0; frame < 10; ++frame) solver.step(context, kFrame_s);
+    return solver.hash();
+  };
+  CHECK(drift(0.0, 1) == drift(0.0, 2));
+  CHECK(drift(0.5, 1) == drift(0.5, 1));
+  CHECK(drift(0.5, 1) != drift(0.5, 2));
+}
+
+TEST_CASE("a layer dropped on another lies on it") {
+  const collision::Collider body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.5, 3));
+  TriMesh mesh = sheet(16, 16, 0.4, 0.4, Vec3(-0.2, 0.5, -0.2));
+  const TriMesh top = sheet(16, 16, 0.4, 0.4, Vec3(-0.19, 0.53, -0.19));
+  const auto first = static_cast<Index>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), top.positions.begin(), top.positions.end());
+  for (const auto& t : top.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const engine::Context context;
+  auto mean_gap = [&](bool self) {
+    cloth::SolverOptions options;
+    options.self_collision = self;
+    cloth::Solver solver = make_solver(mesh, {}, cotton(), options);
+    for (int frame = 0; frame < 90; ++frame) solver.step(context, body, kFrame_s);
+    const auto now = positions(solver, mesh.positions.size());
+    double gap = 0.0;
+    for (Index v = 0; v < first; ++v) gap += (now[v + first][1] - now[v][1]) / first;
+    return gap;
+  };
+  CHECK(mean_gap(true) > 0.004);
+  CHECK(std::abs(mean_gap(false)) < 0.002);
+}
+
+TEST_CASE("a budget that cannot be met drops work in the stated order and says so") {
+  cloth::SolverOptions options;
+  options.budget_us = 1e-3;
+  cloth::Solver solver = make_solver(sheet(8, 8, 0.4, 0.4, Vec3::Zero()), {}, cotton(), options);
+  const engine::Context context;
+  constexpr std::uint32_t kBits = cloth::kNoSelfContact | cloth::kBendingHalved | cloth::kSubstepsHalved;
+  std::vector<std::uint32_t> dropped;
+  for (int frame = 0; frame < 5; ++frame) dropped.push_back(solver.step(context, kFrame_s).limits & kBits);
+  CHECK(dropped == std::vector<std::uint32_t>{0, cloth::kNoSelfContact,
+                                              cloth::kNoSelfContact | cloth::kBendingHalved, kBits, kBits});
+}

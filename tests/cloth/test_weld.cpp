@@ -1,0 +1,77 @@
+// Seams become one particle, damage is dropped and told, and every input vertex finds its particle.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include <bodice/cloth/weld.hpp>
+
+#include "fixtures.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+// Every triangle with corners of its own: as files with seams everywhere come.
+TriMesh soup(const TriMesh& mesh, double jitter_m) {
+  TriMesh out;
+  for (const auto& t : mesh.triangles) {
+    const auto first = static_cast<Index>(out.positions.size());
+    for (const Index v : t) {
+      const double side = out.positions.size() % 2 == 0 ? 1.0 : -1.0;
+      out.positions.push_back(mesh.positions[v] + Vec3::Constant(side * jitter_m));
+    }
+    out.triangles.push_back({first, first + 1, first + 2});
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a soup of triangles welds back to the sheet at any scale and place") {
+  for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
+    for (const double shift : {0.0, 1e3}) {
+      const TriMesh flat = sheet(7, 5, 0.7 * scale, 0.5 * scale, Vec3::Constant(shift * scale));
+      const TriMesh torn = soup(flat, 1e-5 * scale);
+      const auto welded = cloth::weld(torn);
+      REQUIRE(welded.ok());
+      CHECK(welded->mesh.positions.size() == flat.positions.size());
+      CHECK(welded->mesh.triangles.size() == flat.triangles.size());
+      CHECK(welded->warnings.empty());
+      for (std::size_t v = 0; v < torn.positions.size(); ++v) {
+        const Vec3& particle = welded->mesh.positions[welded->particle_of_vertex[v]];
+        REQUIRE((particle - torn.positions[v]).norm() < 1e-4 * scale);
+      }
+    }
+  }
+}
+
+TEST_CASE("damaged vertices and triangles are dropped and reported, the rest stays") {
+  TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3::Zero());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  mesh.positions[12] = Vec3(nan, 0, 0);  // the middle: its triangles go
+  mesh.positions.push_back(Vec3(9, 9, 9));
+  mesh.triangles.push_back({0, 1, 1});
+  mesh.triangles.push_back(mesh.triangles.front());
+  mesh.triangles.push_back({0, 1, 4000});
+  const auto welded = cloth::weld(mesh);
+  REQUIRE(welded.ok());
+  CHECK(welded->mesh.positions.size() == 24);
+  CHECK(welded->particle_of_vertex[12] == geometry::kNoIndex);
+  CHECK(welded->particle_of_vertex.back() == geometry::kNoIndex);
+  REQUIRE(welded->warnings.size() == 3);
+  CHECK(welded->warnings[0].code == "garment-vertices-not-finite");
+  CHECK(welded->warnings[1].code == "garment-vertices-isolated");
+  CHECK(welded->warnings[2].code == "garment-triangles-dropped");
+}
+
+TEST_CASE("a garment without a usable triangle is one clear error") {
+  TriMesh line;
+  line.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)};
+  line.triangles = {{0, 1, 2}};
+  for (const TriMesh& mesh : {TriMesh{}, line}) {
+    const auto welded = cloth::weld(mesh);
+    REQUIRE_FALSE(welded.ok());
+    CHECK(welded.error().code == engine::ErrorCode::kUnusableGeometry);
+  }
+}
