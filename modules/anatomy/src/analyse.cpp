@@ -1,8 +1,10 @@
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/engine/stage_timer.hpp>
 
+#include "diagnose.hpp"
 #include "landmarks.hpp"
 #include "segment.hpp"
+#include "stature.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -14,7 +16,6 @@ using geometry::Vec3;
 
 /// Above this the five ends do not lie as a body's do.
 constexpr double kWorstMisfit = 3.0;
-constexpr double kFairMisfit = 1.2;
 
 Error no_body(const std::string& why) {
   return {ErrorCode::kUnusableGeometry, "No human body can be made out: " + why,
@@ -46,7 +47,7 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   const BodyEnds ends = in_body_order(*found, sides);
   const BodyCoordinates coordinates(context, skin, ends);
   const Landmarks marks = find_landmarks(context, skin, coordinates);
-  anatomy.stature_m = static_cast<double>(coordinates.size_m());
+  anatomy.stature_m = find_stature(skin, ends, marks);
   anatomy.up = upwards(skin, marks);
   anatomy.landmarks = as_list(skin, ends, marks);
   anatomy_timer.stop();
@@ -54,10 +55,7 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   StageTimer segment_timer(context, anatomy.stages, "segment");
   anatomy.part = segment(context, skin, coordinates);
   segment_timer.stop();
-  if (found->misfit > kFairMisfit)
-    anatomy.warnings.push_back({"unusual-body", "",
-                                "The ends of the body lie at unusual distances from each other.",
-                                "Check the landmarks; welded hands or legs shorten the way between them."});
+  anatomy.warnings = diagnose(skin, *found, sides, coordinates, marks);
   return anatomy;
 }
 

@@ -13,17 +13,13 @@ struct SkinPoint {
 };
 
 struct Midline {
-  SkinPoint front;     ///< of the chest: the middle of the way from hand to hand over the breastbone
-  SkinPoint back;      ///< the same over the back
-  SkinPoint perineum;  ///< between the legs, as far from the crown over the belly as over the back
+  SkinPoint front;  ///< of the chest: the middle of the way from hand to hand over the breastbone
+  SkinPoint back;   ///< the same over the back
 };
 
 Midline find_midline(const Skin& skin, const BodyEnds& ends);
 
 /// Distances from a point on an edge.
 geodesic::Field distances_from(const Skin& skin, const SkinPoint& point);
-
-/// The end of the point's edge that is nearer.
-geometry::Index nearest_vertex(const Skin& skin, const SkinPoint& point);
 
 }  // namespace bodice::anatomy

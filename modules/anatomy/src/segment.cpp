@@ -6,6 +6,7 @@
 #include <limits>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
 
 #include "islands.hpp"
 
@@ -19,6 +20,7 @@ constexpr std::size_t kGrain = 2048;
 constexpr float kHeadReach = 0.40F, kArmReach = 0.60F, kLegReach = 0.66F;
 /// Chest height: this much nearer to the waist border than the neck border is.
 constexpr float kChestShare = 0.5F;
+constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
 Part on_side(Part left, int side) {
   return static_cast<Part>(static_cast<int>(left) + side);
@@ -39,23 +41,19 @@ Part part_of(const BodyCoordinates& coordinates, std::size_t v) {
   return on_side((1.0F - kChestShare) * waist > kChestShare * -neck ? Part::kTorsoUL : Part::kTorsoML, side);
 }
 
-/// Eyes, teeth, clothes and debris follow the nearest vertex of the body.
+/// Eyes, teeth, clothes and debris follow the nearest skin of the body.
 void attach_pieces(const engine::Context& context, const Skin& skin, std::vector<Part>& part) {
   if (skin.components < 2) return;
+  geometry::TriMesh body{skin.mesh.positions, {}};
+  for (const auto& t : skin.mesh.triangles)
+    if (skin.component[t[0]] == 0) body.triangles.push_back(t);
+  const geometry::MeshDistance distance(context, body);
   engine::parallel_for(context, part.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       if (skin.component[v] == 0) continue;
-      double least = std::numeric_limits<double>::infinity();
-      std::size_t nearest = v;
-      for (std::size_t w = 0; w < part.size(); ++w) {
-        if (skin.component[w] != 0) continue;
-        const double d = (skin.mesh.positions[w] - skin.mesh.positions[v]).squaredNorm();
-        if (d < least) {
-          least = d;
-          nearest = w;
-        }
-      }
-      part[v] = part[nearest];
+      const geometry::SurfacePoint at =
+          distance.nearest_within(skin.mesh.positions[v], kAnywhere).value_or(geometry::SurfacePoint{});
+      if (at.triangle != geometry::kNoIndex) part[v] = part[body.triangles[at.triangle][0]];
     }
   });
 }

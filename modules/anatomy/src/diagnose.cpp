@@ -1,0 +1,108 @@
+#include "diagnose.hpp"
+
+#include <cmath>
+
+namespace bodice::anatomy {
+namespace {
+
+using engine::Warning;
+
+/// Above this the five ends lie at unusual distances, in deviations.
+constexpr double kFairMisfit = 2.0;
+/// Below these confidences a place is named in a warning.
+constexpr double kUncertain = 0.35, kUncertainSides = 0.3;
+/// Left and right differ by more than poses explain, of the stature.
+constexpr double kAsymmetry = 0.12;
+/// A hand welded to a thigh makes the way from hand to foot shorter than this, of the stature; legs welded
+/// together the way from foot to foot.
+constexpr double kHandToFoot = 1.0, kFootToFoot = 0.86;
+
+/// Handles of the closed body: 0 for any skin without welds between limbs.
+int handles(const Skin& skin) {
+  long euler = 0;
+  for (const geometry::Index c : skin.component) euler += c == 0;
+  for (const auto& ends : skin.edges.ends) euler -= skin.component[ends[0]] == 0;
+  for (const auto& t : skin.mesh.triangles) euler += skin.component[t[0]] == 0;
+  return static_cast<int>((2 - euler) / 2);
+}
+
+void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
+  if (skin.edges.boundary > 0)
+    warnings.push_back({"holes", "",
+                        std::to_string(skin.edges.boundary) + " edges of the skin border a hole.",
+                        "Close the holes if distances around them matter."});
+  if (skin.components > 1)
+    warnings.push_back({"extra-pieces", "",
+                        std::to_string(skin.components - 1) +
+                            " pieces are not connected to the body and take the part of the nearest skin.",
+                        "Remove eyes, clothes or scan debris to leave them out."});
+  const int count = skin.edges.boundary == 0 && skin.edges.non_manifold == 0 ? handles(skin) : 0;
+  if (count > 0)
+    warnings.push_back(
+        {"limbs-fused", "",
+         "The skin has " + std::to_string(count) +
+             " handles: parts that touch are welded to each other, so ways along it are cut short.",
+         "Separate what touches, or give a pose with arms and legs apart."});
+}
+
+void check_welds(const BodyEnds& ends, double size, std::vector<Warning>& warnings) {
+  constexpr std::array<const char*, 2> forearm{"forearm_l", "forearm_r"};
+  for (int side = 0; side < 2; ++side)
+    if (static_cast<double>((*ends.from_hand[side])[ends.foot[side]]) < kHandToFoot * size)
+      warnings.push_back(
+          {"hand-fused-to-leg", forearm[side],
+           "The way along the skin from this hand to its foot is too short.",
+           "Separate the hand from the thigh, or give a pose with the arms away from the body."});
+  if (static_cast<double>(ends.feet_apart) < kFootToFoot * size)
+    warnings.push_back({"legs-fused", "thigh_l", "The way along the skin from foot to foot is too short.",
+                        "Separate the legs, or give a pose with the legs apart."});
+}
+
+void check_symmetry(const BodyEnds& ends, double size, std::vector<Warning>& warnings) {
+  const auto differ = [&](const auto& vertex) {
+    return std::abs(static_cast<double>((*ends.from_head)[vertex[0]]) -
+                    static_cast<double>((*ends.from_head)[vertex[1]])) > kAsymmetry * size;
+  };
+  if (differ(ends.hand))
+    warnings.push_back({"arms-differ", "upper_arm_l", "One arm is much longer along the skin than the other.",
+                        "Check for a missing hand or an arm welded to the body."});
+  if (differ(ends.foot))
+    warnings.push_back({"legs-differ", "thigh_l", "One leg is much longer along the skin than the other.",
+                        "Check for a missing foot or legs welded together."});
+}
+
+void check_places(const Landmarks& marks, std::vector<Warning>& warnings) {
+  const auto uncertain = [&](double confidence, const char* code, const char* part, const char* what) {
+    if (confidence < kUncertain)
+      warnings.push_back({code, part, std::string("The ") + what + " could not be placed with confidence.",
+                          "Check this border in the result."});
+  };
+  uncertain(marks.perineum_confidence, "perineum-uncertain", "thigh_l", "perineum");
+  uncertain(marks.armpit_confidence[0], "armpit-uncertain", "upper_arm_l", "left armpit");
+  uncertain(marks.armpit_confidence[1], "armpit-uncertain", "upper_arm_r", "right armpit");
+  uncertain(marks.neck.confidence, "neck-uncertain", "head", "neck");
+}
+
+}  // namespace
+
+std::vector<Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
+                              const BodyCoordinates& coordinates, const Landmarks& marks) {
+  std::vector<Warning> warnings;
+  const auto size = static_cast<double>(coordinates.size_m());
+  check_surface(skin, warnings);
+  check_welds(coordinates.ends(), size, warnings);
+  check_symmetry(coordinates.ends(), size, warnings);
+  check_places(marks, warnings);
+  if (found.misfit > kFairMisfit)
+    warnings.push_back({"unusual-body", "", "The ends of the body lie at unusual distances from each other.",
+                        "Check the landmarks: welded, missing or very long limbs change these distances."});
+  if (sides.confidence < kUncertainSides)
+    warnings.push_back({"sides-uncertain", "", "Left and right could not be told apart with confidence.",
+                        "Check that the triangles are wound outwards and the feet are whole."});
+  if (!coordinates.midline_found())
+    warnings.push_back({"midline-not-found", "torso_ml", "No closed line runs around the middle of the body.",
+                        "Close holes at chest and back, or separate welded limbs."});
+  return warnings;
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,13 @@
+// What may be wrong with a body or with what was understood of it.
+#pragma once
+
+#include <bodice/engine/result.hpp>
+
+#include "landmarks.hpp"
+
+namespace bodice::anatomy {
+
+std::vector<engine::Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
+                                      const BodyCoordinates& coordinates, const Landmarks& marks);
+
+}  // namespace bodice::anatomy
