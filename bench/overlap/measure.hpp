@@ -34,7 +34,7 @@ Row measure(const Condition& condition, Workload& work, bodice::engine::Executor
 /// Milliseconds of the preparation alone, all workers, nothing beside it.
 double foreground_fit_ms(const Workload& work, bodice::engine::Executor& executor);
 
-/// A picture of `length_ms` of `trace`, from 10 ms after the first event of the given name: a lane a thread,
+/// A picture of `length_ms` of `trace`, from 400 ms after the first event of the given name: a lane a thread,
 /// frames and background work told apart.
 std::string timeline_svg(const bodice::engine::Trace& trace, std::string_view from_event, double length_ms);
 

@@ -71,7 +71,7 @@ std::string timeline_svg(const Trace& trace, std::string_view from_event, double
   const auto events = trace.events();
   const auto first =
       std::ranges::find(events, from_event, [](const TraceEvent& e) { return std::string_view(e.name); });
-  const std::int64_t start_ns = first == events.end() ? 0 : first->begin_ns + 10'000'000;
+  const std::int64_t start_ns = first == events.end() ? 0 : first->begin_ns + 400'000'000;
   const double scale = (kWidth - kLeft - 20.0) / length_ms;
   auto x_of = [&](std::int64_t ns) {
     return kLeft + std::clamp(static_cast<double>(ns - start_ns) * 1e-6, 0.0, length_ms) * scale;
