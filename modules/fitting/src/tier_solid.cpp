@@ -15,10 +15,9 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kAnchors = 2500.0;     // interior points that take part in clustering
-constexpr double kWitnesses = 16000.0;  // interior points that must end up covered
+constexpr double kWitnesses = 40000.0;  // interior points that must end up covered
 constexpr int kRepairPasses = 8;
-constexpr double kMinRadius = 3e-4;        // of stature
-constexpr float kUncoveredWeight = 20.0f;  // a millimetre of bare skin counts as 20 mm^2 of bulge
+constexpr double kMinRadius = 3e-4;  // of stature
 constexpr int kCoveringIterations = 30;
 
 /// The points that a cluster's ellipsoid must hold.
@@ -86,16 +85,15 @@ Allocation clusters_by_threshold(const engine::Context& context, const Items& it
                   static_cast<std::size_t>(count));
 }
 
-/// By count: a short descent that leaves no skin uncovered if it can help it says where the ellipsoids should
-/// be; each item goes to the one that holds it best.
+/// By count: a short descent says where the ellipsoids should be; each item goes to the one that holds it
+/// best.
 std::vector<geometry::Ellipsoid> covering_shapes(const engine::Context& context, const SkinSource& source,
                                                  int count, std::vector<body::Part>& parts) {
   const Scaling scaling(source.skin);
   const double mm = scaling.mm();
   const std::size_t samples = std::clamp<std::size_t>(60 * static_cast<std::size_t>(count), 3000, 40000);
-  const TightLoss covering{.uncovered_weight = kUncoveredWeight};
   TightProblem problem(sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.7, 0.1, 200 * mm, 5}),
-                       scaling.origin, scaling.scale, covering);
+                       scaling.origin, scaling.scale, TightLoss{});
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : medial_start(context, source, count)) {
     shapes.push_back(scaling.in(e.shape));

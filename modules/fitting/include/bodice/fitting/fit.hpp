@@ -33,6 +33,7 @@ struct FitOptions {
   std::optional<double> budget_us;               ///< collision time a frame for 10k particles
   std::optional<double> mu_torso_m, mu_limbs_m;  ///< the paper's thresholds; automatic if absent
   double time_budget_s = 2.0;                    ///< for the anytime tiers
+  bool reclassify_points = false;  ///< the paper tier's eq. (8): .2 mm of E for two to three times the work
   std::uint64_t seed = 0;
   std::uint32_t parts = (1u << body::kPartCount) - 1;  ///< bit a part: only these are fitted
   /// Called with each better proxy of an anytime tier, from the calling thread's task.

@@ -9,7 +9,8 @@
 //   tables)
 //        F     = sum_k W_k F_k / sum_k W_k - margin,                            (relief)
 //              W_k = max(0, 1 - (d_k - d_owner) / reach.blend)^2
-// (5) is continuous: W_k falls to zero, with its slope, before k stops being near the owner.
+// (5) is continuous: W_k falls to zero, with its slope, before k stops being near the owner. What
+// remains is the ellipsoids' own medial disks, deep inside, where the nearest point is not unique.
 // reach scales with the body, so that a proxy in another unit is the same proxy: relief_reach().
 //
 // The table is read at w by the octahedral map. With s = |w_x| + |w_y| + |w_z|, p = (w_x, w_y) / s; where

@@ -1,0 +1,219 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <bodice/engine/executor.hpp>
+#include <bodice/fitting/fit.hpp>
+#include <bodice/fitting/proxy_distance.hpp>
+
+#include "shapes.hpp"
+
+using namespace bodice;
+using fitting::FitOptions;
+using fitting_test::Skin;
+using fitting_test::three_ellipsoids;
+using geometry::Vec3;
+using proxy::Tier;
+
+namespace {
+
+FitOptions options_for(Tier tier, int count) {
+  FitOptions options;
+  options.tier = tier;
+  options.max_ellipsoids = count;
+  options.time_budget_s = 1e4;  // the optimisation's own stop decides, so that results are reproducible
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("fit: every tier finds three separate ellipsoids") {
+  const Skin skin = three_ellipsoids();
+  for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief}) {
+    const auto result = fitting::fit({}, skin.view(), options_for(tier, 3));
+    REQUIRE(result.ok());
+    CHECK(result->proxy.tier() == tier);
+    CHECK(result->proxy.ellipsoids().size() == 3);
+    // A 48-gon's skin lies up to a quarter of a percent of a radius inside the true ellipsoid.
+    CHECK(result->accuracy.gap_m.mean < 1.0e-3);
+    CHECK(result->accuracy.interior_covered_percent > 99.5);
+    for (const auto& e : result->proxy.ellipsoids()) {
+      if (e.part != body::Part::kTorsoUL) continue;
+      CHECK((e.shape.center - Vec3(0.0, 0.5, 0.0)).norm() < 3e-3);
+      Vec3 radii = e.shape.radii;
+      std::sort(radii.data(), radii.data() + 3);
+      CHECK((radii - Vec3(0.10, 0.16, 0.24)).cwiseAbs().maxCoeff() < 3e-3);
+    }
+  }
+}
+
+TEST_CASE("fit: the paper's ellipsoids hold every vertex, the solid tier's every triangle and the inside") {
+  const Skin skin = three_ellipsoids();
+  for (const Tier tier : {Tier::kPaper, Tier::kSolid}) {
+    const auto result = fitting::fit({}, skin.view(), options_for(tier, 24));
+    REQUIRE(result.ok());
+    CHECK(result->proxy.ellipsoids().size() <= 24);
+    double worst = -1.0;
+    for (const Vec3& p : skin.mesh.positions)
+      worst = std::max(worst, fitting::proxy_distance(result->proxy, p).distance);
+    CHECK(worst < 1e-7);
+  }
+  for (const int count : {6, 12, 24, 48}) {
+    const auto result = fitting::fit({}, skin.view(), options_for(Tier::kSolid, count));
+    REQUIRE(result.ok());
+    CHECK(result->accuracy.skin_outside_percent == 0.0);
+    CHECK(result->accuracy.interior_covered_percent == 100.0);
+  }
+}
+
+TEST_CASE("fit: more accurate tiers are more accurate where ellipsoids must be shared out") {
+  Skin skin;  // a bent pair that one ellipsoid cannot follow, under one label
+  fitting_test::add_ellipsoid(skin, {Vec3(0, 0.25, 0), geometry::Mat3::Identity(), Vec3(0.08, 0.25, 0.08)},
+                              body::Part::kThighL);
+  fitting_test::add_ellipsoid(skin, {Vec3(0.3, 0.8, 0), geometry::Mat3::Identity(), Vec3(0.25, 0.06, 0.08)},
+                              body::Part::kThighL);
+  skin.stature_m = 1.0;
+  for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v) {  // waves of 3 mm that tables can follow
+    Vec3& p = skin.mesh.positions[v];
+    p.z() *= 1.0 + 0.04 * std::sin(60.0 * p.x()) * std::cos(50.0 * p.y());
+  }
+  const auto paper = fitting::fit({}, skin.view(), options_for(Tier::kPaper, 8));
+  const auto tight = fitting::fit({}, skin.view(), options_for(Tier::kTight, 8));
+  const auto relief = fitting::fit({}, skin.view(), options_for(Tier::kRelief, 8));
+  REQUIRE((paper.ok() && tight.ok() && relief.ok()));
+  CHECK(tight->accuracy.gap_m.mean < 0.5 * paper->accuracy.gap_m.mean);
+  CHECK(relief->accuracy.gap_m.mean < 0.7 * tight->accuracy.gap_m.mean);
+  CHECK(relief->proxy.bytes() <= 128 * 1024);
+}
+
+TEST_CASE("fit: thresholds in, thresholds kept, and reported") {
+  const Skin skin = three_ellipsoids();
+  FitOptions options;
+  options.tier = Tier::kPaper;
+  options.mu_torso_m = 0.004;
+  options.mu_limbs_m = 0.002;
+  const auto result = fitting::fit({}, skin.view(), options);
+  REQUIRE(result.ok());
+  CHECK(result->mu_torso_m == 0.004);
+  CHECK(result->mu_limbs_m == 0.002);
+  CHECK(result->warnings.empty());
+  for (const auto& part : result->parts)
+    CHECK(part.radial_error_mean_m <= (body::is_torso(part.part) ? 0.004 : 0.002));
+  // The automatic thresholds are the worst errors that the count leaves.
+  const auto automatic = fitting::fit({}, skin.view(), options_for(Tier::kPaper, 30));
+  REQUIRE(automatic.ok());
+  CHECK(automatic->mu_torso_m > 0.0);
+  CHECK(automatic->mu_limbs_m > 0.0);
+}
+
+TEST_CASE("fit: a target error that cannot be reached is said") {
+  const Skin skin = three_ellipsoids();
+  FitOptions options = options_for(Tier::kPaper, 4);
+  options.target_error_m = 1e-6;
+  const auto result = fitting::fit({}, skin.view(), options);
+  REQUIRE(result.ok());
+  REQUIRE(result->warnings.size() == 1);
+  CHECK(result->warnings[0].code == "target-error-not-reached");
+  options.target_error_m = 0.1;
+  CHECK(fitting::fit({}, skin.view(), options)->warnings.empty());
+}
+
+TEST_CASE("fit: the same bits for 1, 2, 3 and 7 workers, every tier") {
+  const Skin skin = three_ellipsoids();
+  for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief}) {
+    const auto serial = fitting::fit({}, skin.view(), options_for(tier, 12));
+    REQUIRE(serial.ok());
+    for (const int workers : {2, 3, 7}) {
+      const auto executor = engine::make_tbb_executor(workers);
+      engine::Context context;
+      context.executor = executor.get();
+      const auto result = fitting::fit(context, skin.view(), options_for(tier, 12));
+      REQUIRE(result.ok());
+      CHECK(result->proxy.hash() == serial->proxy.hash());
+    }
+  }
+}
+
+TEST_CASE("fit: scale and distance from the origin change nothing but the scale") {
+  const double gap =
+      fitting::fit({}, three_ellipsoids().view(), options_for(Tier::kTight, 6))->accuracy.gap_m.mean;
+  for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+    const Skin skin = three_ellipsoids(scale);
+    for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief}) {
+      const auto result = fitting::fit({}, skin.view(), options_for(tier, 6));
+      REQUIRE(result.ok());
+      CHECK(std::isfinite(result->accuracy.gap_m.mean));
+      if (tier == Tier::kTight) CHECK(result->accuracy.gap_m.mean / scale < 1.5 * gap + 1e-4);
+    }
+  }
+  const Skin far = three_ellipsoids(1.0, Vec3(1e4, 0.0, -1e4));
+  const auto result = fitting::fit({}, far.view(), options_for(Tier::kTight, 6));
+  REQUIRE(result.ok());
+  CHECK(result->accuracy.gap_m.mean < 1.5 * gap + 1e-4);
+}
+
+TEST_CASE("fit: improvements are published in order and are valid proxies") {
+  const Skin skin = three_ellipsoids();
+  FitOptions options = options_for(Tier::kRelief, 6);
+  std::vector<Tier> seen;
+  options.on_improved = [&](const proxy::BodyProxy& proxy) { seen.push_back(proxy.tier()); };
+  REQUIRE(fitting::fit({}, skin.view(), options).ok());
+  REQUIRE(seen.size() >= 2);
+  CHECK(seen.front() == Tier::kTight);
+  CHECK(seen.back() == Tier::kRelief);
+}
+
+TEST_CASE("fit: no time still gives a valid proxy; only the wanted parts are fitted") {
+  const Skin skin = three_ellipsoids();
+  FitOptions options = options_for(Tier::kRelief, 6);
+  options.time_budget_s = 0.0;
+  options.parts = 1u << static_cast<int>(body::Part::kHead);
+  const auto result = fitting::fit({}, skin.view(), options);
+  REQUIRE(result.ok());
+  for (const auto& e : result->proxy.ellipsoids()) CHECK(e.part == body::Part::kHead);
+  CHECK(result->parts.size() == 1);
+}
+
+TEST_CASE("fit: bad input gets one clear sentence") {
+  const Skin good = three_ellipsoids();
+  const auto code = [](const fitting::LabelledSkin& skin, const FitOptions& options) {
+    const auto result = fitting::fit({}, skin, options);
+    return result.ok() ? std::string() : result.error().sentence();
+  };
+  Skin bad = good;
+  bad.part.pop_back();
+  CHECK(code(bad.view(), {}).find("labels") != std::string::npos);
+  bad = good;
+  bad.mesh.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
+  CHECK(code(bad.view(), {}).find("Vertex 5") != std::string::npos);
+  bad = good;
+  bad.mesh.triangles[3][1] = 1u << 30;
+  CHECK(code(bad.view(), {}).find("Triangle 3") != std::string::npos);
+  bad = good;
+  bad.stature_m = 0.0;
+  CHECK(code(bad.view(), {}).find("stature_m") != std::string::npos);
+  bad = good;
+  bad.mesh.triangles.clear();
+  CHECK(code(bad.view(), {}).find("no triangles") != std::string::npos);
+  FitOptions options;
+  options.max_ellipsoids = 0;
+  CHECK(code(good.view(), options).find("max_ellipsoids") != std::string::npos);
+  options = {};
+  options.parts = 1u << static_cast<int>(body::Part::kCalfR);
+  CHECK(code(good.view(), options).find("no skin") != std::string::npos);
+}
+
+TEST_CASE("fit: cancelled work says so") {
+  const Skin skin = three_ellipsoids();
+  engine::CancelSource source;
+  source.cancel();
+  engine::Context context;
+  context.cancel = source.token();
+  const auto result = fitting::fit(context, skin.view(), options_for(Tier::kTight, 6));
+  REQUIRE_FALSE(result.ok());
+  CHECK(result.error().code == engine::ErrorCode::kCancelled);
+}
