@@ -85,11 +85,13 @@ TEST_CASE("a garment thrown at the body at 50 m/s does not end inside or beyond 
 
 TEST_CASE("small, large and far scenes drape as the same scene at home") {
   for (const double scale : {1e-3, 1.0, 30.0}) {
-    for (const double shift : {0.0, scale < 1.0 ? 10.0 : 1e4}) {  // 10 km, or 10 m from a 1 mm body
+    for (const double shift : {0.0, 1e4}) {
+      cloth::SolverOptions options;
+      options.thickness_m = 1e-3 * scale;
       const Vec3 center = Vec3(shift, scale, -shift);
       const collision::Collider body = ellipsoid_body(center, Vec3::Constant(0.2 * scale));
       const TriMesh mesh = sheet(10, 10, 0.6 * scale, 0.6 * scale, center + scale * Vec3(-0.3, 0.21, -0.3));
-      const Outcome out = run(mesh, {}, body, 1.0 / 60.0, 30);
+      const Outcome out = run(mesh, options, body, 1.0 / 60.0, 30);
       CHECK(out.report.contacts.contacts > 0);
       CHECK(out.report.contacts.unresolved == 0);
       CHECK(out.reach < 3.0 * scale);
