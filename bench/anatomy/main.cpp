@@ -1,9 +1,10 @@
-// anatomy_scores [--data DIR] [--only TEXT] [--seeds N] [--verbose]: a table of how well every body is
-// understood.
+// anatomy_scores [--data DIR] [--only TEXT] [--seeds N] [--verbose] [--sheet FILE.png]: a table of how well
+// every body is understood.
 #include <cstdio>
 #include <cstring>
 
 #include "score.hpp"
+#include "sheet.hpp"
 
 namespace {
 
@@ -20,30 +21,38 @@ void print_row(const bench::Case& c, const bodice::anatomy::Anatomy& a, const be
   std::printf("\n");
 }
 
-void run(const bench::Case& c, bool verbose) {
+void run(const bench::Case& c, bool verbose, bench::Sheet& sheet) {
   const auto anatomy = bodice::anatomy::analyse({}, c.mesh, {});
-  if (anatomy)
-    print_row(c, *anatomy, bench::score(c, *anatomy), verbose);
-  else
+  if (!anatomy) {
     std::printf("%-42s %s\n", c.name.c_str(), anatomy.error().sentence().c_str());
+    return;
+  }
+  print_row(c, *anatomy, bench::score(c, *anatomy), verbose);
+  sheet.add(c, *anatomy);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string data = "../shared/data", only;
+  std::string data = "../shared/data", only, picture;
   std::uint64_t seeds = 0;
   bool verbose = false;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--data") == 0 && i + 1 < argc) data = argv[++i];
     if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc) only = argv[++i];
     if (std::strcmp(argv[i], "--seeds") == 0 && i + 1 < argc) seeds = std::stoull(argv[++i]);
+    if (std::strcmp(argv[i], "--sheet") == 0 && i + 1 < argc) picture = argv[++i];
     if (std::strcmp(argv[i], "--verbose") == 0) verbose = true;
   }
   std::printf("%-42s %7s %7s %6s %6s %-12s %6s %7s\n", "body", "V", "agree%", "swap%", "worst%", "landmark",
               "height", "ms");
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) run(bench::synth_case(seed), verbose);
+  bench::Sheet sheet;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) run(bench::synth_case(seed), verbose, sheet);
   if (seeds == 0)
-    for (const bench::Case& c : bench::file_cases(data, only)) run(c, verbose);
+    for (const bench::Case& c : bench::file_cases(data, only)) run(c, verbose, sheet);
+  if (!picture.empty() && !sheet.write(picture)) {
+    std::fprintf(stderr, "could not write %s\n", picture.c_str());
+    return 1;
+  }
   return 0;
 }
