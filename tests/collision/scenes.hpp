@@ -1,7 +1,10 @@
 // Proxies and particles that the suite shares: deterministic, made from a seed.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -61,6 +64,39 @@ inline bodice::proxy::BodyProxy proxy_of(const bodice::proxy::BodyProxy::Data& d
 
 inline bodice::proxy::BodyProxy proxy_of(const std::vector<Ellipsoid>& shapes) {
   return proxy_of(data_of(shapes));
+}
+
+/// Random tables of height +-h_m, and of as much slope, on every ellipsoid, of the tier that has them. Border
+/// nodes are tied as the octahedral map asks.
+inline bodice::proxy::BodyProxy::Data with_relief(bodice::proxy::BodyProxy::Data data, int nodes, double h_m,
+                                                  std::uint64_t seed) {
+  bodice::engine::Random random(seed);
+  data.tier = bodice::proxy::Tier::kRelief;
+  for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) {
+    bodice::proxy::ReliefTable table;
+    table.nodes_per_side = static_cast<std::uint16_t>(nodes);
+    table.h_scale_m = static_cast<float>(2.0 * h_m);
+    table.h_offset_m = static_cast<float>(-h_m);
+    table.a_scale = static_cast<float>(2.0 * h_m);
+    table.a_offset = static_cast<float>(-h_m);
+    table.first_texel = static_cast<std::uint32_t>(data.texels.size());
+    data.relief.push_back(table);
+    const std::size_t first = data.texels.size();
+    const auto texel = [&](int i, int j) -> bodice::proxy::ReliefTexel& {
+      return data.texels[first + static_cast<std::size_t>(j * nodes + i)];
+    };
+    for (int i = 0; i < nodes * nodes; ++i)
+      data.texels.push_back(
+          {static_cast<std::uint8_t>(random.below(256)), static_cast<std::uint8_t>(random.below(256))});
+    for (int i = 0; i < nodes; ++i) {
+      texel(nodes - 1 - i, 0) = texel(i, 0);
+      texel(nodes - 1 - i, nodes - 1) = texel(i, nodes - 1);
+      texel(0, nodes - 1 - i) = texel(0, i);
+      texel(nodes - 1, nodes - 1 - i) = texel(nodes - 1, i);
+    }
+    texel(nodes - 1, 0) = texel(0, nodes - 1) = texel(nodes - 1, nodes - 1) = texel(0, 0);
+  }
+  return data;
 }
 
 /// Particles with their storage.

@@ -15,6 +15,42 @@ Cloud around_origin(std::uint64_t seed, int count, double half_side) {
   return cloud;
 }
 
+/// Half of them in a cube, half in and just around the ellipsoids.
+Cloud among(const std::vector<Ellipsoid>& shapes, const Vec3& origin, int count, double half_side) {
+  Cloud cloud = around_origin(11, count / 2, half_side);
+  engine::Random random(12);
+  for (int i = 0; i < count / 2; ++i) {
+    const Ellipsoid& e = shapes[random.below(shapes.size())];
+    const Vec3 unit = random_vector(random, 1.0);
+    cloud.add(e.center + e.axes * e.radii.cwiseProduct(unit) - origin, random_vector(random, 1.0));
+  }
+  return cloud;
+}
+
+/// The lowest distance of the cloud to the union, by brute force in double.
+double lowest_m(const std::vector<Ellipsoid>& shapes, const Collider& collider, const Cloud& cloud) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    lowest = std::min(lowest, brute_force(shapes, cloud.position(i) + collider.origin()).signed_distance);
+  return lowest;
+}
+
+std::vector<Ellipsoid> ball(double radius_m) {
+  std::vector<Ellipsoid> shapes(1);
+  shapes[0].radii.setConstant(radius_m);
+  return shapes;
+}
+
+/// A limb: a chain of overlapping ellipsoids along x, 5 cm thick.
+std::vector<Ellipsoid> limb() {
+  std::vector<Ellipsoid> shapes(9);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    shapes[k].center.x() = 0.08 * (static_cast<double>(k) - 4.0);
+    shapes[k].radii = Vec3(0.08, 0.05, 0.045);
+  }
+  return shapes;
+}
+
 }  // namespace
 
 TEST_CASE("after the nearest response no particle is inside, whatever the union looks like") {
@@ -23,22 +59,222 @@ TEST_CASE("after the nearest response no particle is inside, whatever the union 
     double least_m, largest_m;
   };
   for (const Scene scene :
-       {Scene{1, 0.05, 0.3}, {2, 0.1, 0.3}, {12, 0.05, 0.3}, {80, 0.02, 0.4}, {8, 0.001, 1.0}}) {
-    const auto shapes = random_ellipsoids(7, scene.ellipsoids, 0.4, scene.least_m, scene.largest_m);
-    const Collider collider(proxy_of(shapes));
+       {Scene{1, 0.05, 0.3}, {2, 0.1, 0.3}, {12, 0.05, 0.3}, {80, 0.02, 0.4}, {8, 0.001, 1.0}})
     for (const float thickness_m : {0.0f, 0.004f}) {
-      Cloud cloud = around_origin(11, 20000, 0.8);
+      const auto shapes = random_ellipsoids(7, scene.ellipsoids, 0.4, scene.least_m, scene.largest_m);
+      const Collider collider(proxy_of(shapes));
+      Cloud cloud = among(shapes, collider.origin(), 20000, 0.8);
       const ContactReport report = collider.resolve({}, cloud.particles(), {.thickness_m = thickness_m});
-      CHECK(report.contacts > 100);
-      CHECK(report.unresolved == 0);
-      double lowest_m = 1.0;
-      for (std::size_t i = 0; i < cloud.size(); ++i) {
-        const double d = brute_force(shapes, cloud.position(i) + collider.origin()).signed_distance;
-        lowest_m = std::min(lowest_m, d - double{thickness_m});
-      }
       CAPTURE(scene.ellipsoids);
       CAPTURE(thickness_m);
-      CHECK(lowest_m > -1e-6);
+      CHECK(report.contacts > 4000);
+      CHECK(report.unresolved == 0);
+      CHECK(lowest_m(shapes, collider, cloud) - double{thickness_m} > -1e-6);
+      // What is clear stays: a second call finds nothing and moves nothing.
+      const Cloud settled = cloud;
+      CHECK(collider.resolve({}, cloud.particles(), {.thickness_m = thickness_m}).contacts == 0);
+      CHECK(cloud.x == settled.x);
     }
+}
+
+TEST_CASE("extreme shapes: needles, discs, identical, nested and tangent ellipsoids, particles at centres") {
+  std::vector<std::vector<Ellipsoid>> scenes;
+  scenes.push_back(random_ellipsoids(5, 6, 0.2, 0.001, 1.0));
+  scenes.push_back(std::vector<Ellipsoid>(50, random_ellipsoids(5, 1, 0.1, 0.1, 0.3)[0]));
+  auto nested = std::vector<Ellipsoid>(6, scenes.back()[0]);
+  for (std::size_t k = 0; k < nested.size(); ++k) nested[k].radii *= 1.0 - 0.1 * static_cast<double>(k);
+  scenes.push_back(nested);
+  auto tangent = ball(0.25);
+  tangent.push_back(tangent[0]);
+  tangent[0].center.x() = 0.25;
+  tangent[1].center.x() = -0.25;
+  scenes.push_back(tangent);
+  for (const auto& shapes : scenes) {
+    const Collider collider(proxy_of(shapes));
+    Cloud cloud = around_origin(3, 5000, 0.5);
+    for (const Ellipsoid& e : shapes) cloud.add(e.center - collider.origin());
+    for (int i = 0; i < 2000; ++i)
+      cloud.z[static_cast<std::size_t>(i)] = static_cast<float>(shapes[0].center.z() - collider.origin().z());
+    const ContactReport report = collider.resolve({}, cloud.particles(), {});
+    CHECK(report.contacts > 0);
+    CHECK(report.unresolved == 0);
+    CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
   }
+}
+
+TEST_CASE("outside a single ellipsoid the response is its nearest point") {
+  const auto shapes = random_ellipsoids(21, 1, 0.1, 0.1, 0.4);
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud = around_origin(2, 5000, 0.3);
+  const Cloud before = cloud;
+  collider.resolve({}, cloud.particles(), {});
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const auto at = geometry::nearest_point(shapes[0], before.position(i) + collider.origin());
+    if (at.signed_distance >= 0.0) continue;
+    CHECK((cloud.position(i) + collider.origin() - at.point).norm() < 2e-6);
+  }
+}
+
+TEST_CASE("a particle in a crease goes to the crease, which no single push finds") {
+  auto shapes = ball(0.5);
+  shapes.push_back(shapes[0]);
+  shapes[0].center.x() = -0.4;
+  shapes[1].center.x() = 0.4;
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  cloud.add(Vec3(0.001, 0.28, 0.0));
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  CHECK(report.contacts == 1);
+  CHECK(report.fallbacks == 0);
+  // The spheres cross in the circle x = 0, y^2 + z^2 = 0.5^2 - 0.4^2.
+  CHECK(cloud.position(0).x() == doctest::Approx(0.0).epsilon(1e-3).scale(1.0));
+  CHECK(cloud.position(0).y() == doctest::Approx(0.3).epsilon(1e-3));
+}
+
+TEST_CASE("velocity: the inward part goes, friction slows the rest by at most its share") {
+  const Collider collider(proxy_of(ball(1.0)));
+  for (const float friction : {0.0f, 0.3f, 2.0f}) {
+    Cloud cloud;
+    cloud.add(Vec3(0, 0.999, 0), Vec3(1.0, -2.0, 0.0));
+    cloud.add(Vec3(0, 0.999, 0), Vec3(1.0, 2.0, 0.0));
+    collider.resolve({}, cloud.particles(), {.friction = friction});
+    const double along = std::max(0.0, 1.0 - 2.0 * double{friction});
+    CHECK(cloud.velocity(0).x() == doctest::Approx(along).epsilon(1e-5).scale(1.0));
+    CHECK(cloud.velocity(0).y() == doctest::Approx(0.0).epsilon(1e-5).scale(1.0));
+    // Already on its way out: nothing to remove.
+    CHECK(cloud.velocity(1).y() == doctest::Approx(2.0).epsilon(1e-5));
+    CHECK(cloud.velocity(1).x() == doctest::Approx(1.0).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("a moving body drags what it touches with its own velocity") {
+  auto shapes = ball(1.0);
+  Collider collider(proxy_of(shapes));
+  shapes[0].center.x() = 0.03;
+  collider.move_to(shapes, 0.01);
+  const Vec3 velocity = collider.surface_velocity(0, Vec3(0.0, 1.0, 0.0));
+  CHECK((velocity - Vec3(3.0, 0.0, 0.0)).norm() < 1e-5);
+  Cloud cloud;
+  cloud.add(Vec3(0.03, 0.999, 0.0), Vec3(0.0, -10.0, 0.0));
+  collider.resolve({}, cloud.particles(), {.friction = 5.0f});
+  CHECK((cloud.velocity(0) - Vec3(3.0, 0.0, 0.0)).norm() < 1e-3);
+}
+
+TEST_CASE("the paper's case 3: a particle leaves on the side where it came in") {
+  const auto shapes = limb();
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(6);
+  Cloud cloud;
+  for (int i = 0; i < 500; ++i) {
+    const double x = random.uniform(-0.25, 0.25);
+    // Fell from above to below the middle: the nearest way out would be downward.
+    cloud.add(Vec3(x, random.uniform(-0.03, -0.005), 0.0), Vec3(0, -20, 0));
+    cloud.add_safe(Vec3(x, 0.07, 0.0));
+  }
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  CHECK(report.wrong_side == 500);
+  CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
+  for (std::size_t i = 0; i < cloud.size(); ++i) CHECK(cloud.y[i] > 0.03f);
+}
+
+TEST_CASE("nothing tunnels through a limb at speeds up to 1000 m/s") {
+  const auto shapes = limb();
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(8);
+  for (const double speed_m_s : {10.0, 100.0, 1000.0}) {
+    Cloud cloud;
+    const double path_m = speed_m_s / 60.0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 from(random.uniform(-0.3, 0.3), 0.06 + random.uniform(0.0, 0.05),
+                      random.uniform(-0.02, 0.02));
+      cloud.add(from - Vec3(0, path_m, 0), Vec3(0, -speed_m_s, 0));
+      cloud.add_safe(from);
+    }
+    const ContactReport report = collider.resolve({}, cloud.particles(), {});
+    CHECK(report.unresolved == 0);
+    int through = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) through += cloud.y[i] < 0.0f;
+    CAPTURE(speed_m_s);
+    CHECK(through == 0);
+  }
+}
+
+TEST_CASE("sliding along a limb is not taken for tunnelling") {
+  const auto shapes = limb();
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  for (int i = 0; i < 64; ++i) {
+    const double angle = 0.1 * i;
+    cloud.add(Vec3(0.01, 0.0495 * std::cos(angle + 0.2), 0.0445 * std::sin(angle + 0.2)));
+    cloud.add_safe(Vec3(0.0, 0.0501 * std::cos(angle), 0.0451 * std::sin(angle)));
+  }
+  CHECK(collider.resolve({}, cloud.particles(), {}).wrong_side == 0);
+}
+
+TEST_CASE("a deep start comes out over several calls, no faster than it is allowed") {
+  const auto shapes = ball(0.5);
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud = around_origin(4, 500, 0.25);
+  int calls = 0;
+  for (std::uint64_t pending = 1; pending > 0 && calls < 100; ++calls) {
+    const Cloud before = cloud;
+    const ContactReport report = collider.resolve({}, cloud.particles(), {.max_push_m = 0.02f});
+    pending = report.pending;
+    CHECK(report.unresolved == 0);
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      CHECK((cloud.position(i) - before.position(i)).norm() < 0.0201);
+  }
+  CHECK(calls >= 20);
+  CHECK(calls <= 27);
+  CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
+}
+
+TEST_CASE("relief: after the response no particle is below the corrected surface") {
+  const auto shapes = random_ellipsoids(12, 40, 0.4, 0.06, 0.25);
+  const auto proxy = proxy_of(with_relief(data_of(shapes), 16, 0.003, 5));
+  const Collider collider(proxy);
+  Cloud cloud = around_origin(3, 20000, 0.7);
+  const ContactReport report = collider.resolve({}, cloud.particles(), {.thickness_m = 0.001f});
+  CHECK(report.contacts > 1000);
+  CHECK(report.unresolved == 0);
+  std::vector<Contact> contacts(cloud.size());
+  collider.query({}, cloud.particles(), contacts);
+  float lowest = 1.0f;
+  for (const Contact& c : contacts) lowest = std::min(lowest, c.signed_distance);
+  CHECK(lowest > 0.001f - 5e-5f);
+}
+
+TEST_CASE("the paper's response leaves particles inside where ellipsoids meet, and says how many") {
+  const auto shapes = random_ellipsoids(7, 40, 0.4, 0.05, 0.3);
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud = around_origin(11, 10000, 0.6);
+  const ContactReport report = collider.resolve({}, cloud.particles(), {.response = Response::kPaper});
+  std::uint64_t inside = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    inside += brute_force(shapes, cloud.position(i) + collider.origin()).signed_distance < -1e-6 * 0.8;
+  CHECK(inside > 0);
+  CHECK(std::abs(static_cast<double>(report.unresolved) - static_cast<double>(inside)) <= 2.0);
+}
+
+TEST_CASE("the paper's response on one ellipsoid: along the central ray, speed scaled by the lengths") {
+  const Collider collider(proxy_of(ball(1.0)));
+  Cloud cloud;
+  cloud.add(Vec3(0.5, 0.0, 0.0), Vec3(0.0, 3.0, 0.0));
+  const ContactReport report = collider.resolve({}, cloud.particles(), {.response = Response::kPaper});
+  CHECK(report.contacts == 1);
+  CHECK(cloud.x[0] == doctest::Approx(1.0));
+  // |c P0| / (|c P0| + |P0 p0|) = 1 / (1 + 0.5)
+  CHECK(cloud.vy[0] == doctest::Approx(2.0));
+}
+
+TEST_CASE("the margin is part of the surface") {
+  auto data = data_of(ball(0.5));
+  data.margin_m = 0.01;
+  const Collider collider(proxy_of(data));
+  CHECK(collider.query({0.0f, 0.6f, 0.0f}).signed_distance == doctest::Approx(0.09));
+  CHECK(collider.query({0.0f, 0.6f, 0.0f}).point[1] == doctest::Approx(0.51));
+  Cloud cloud;
+  cloud.add(Vec3(0.0, 0.505, 0.0));
+  collider.resolve({}, cloud.particles(), {.thickness_m = 0.002f});
+  CHECK(cloud.y[0] == doctest::Approx(0.512));
 }

@@ -1,6 +1,8 @@
 #include "baked.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
 
@@ -48,6 +50,7 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes) {
     cull.center[axis].assign(padded, nowhere);
   }
   cull.shortest.assign(padded, 0.0f);
+  for (std::vector<float>& values : cull.baked) values.assign(padded, 1.0f);
   update(shapes);
 }
 
@@ -55,6 +58,8 @@ void Baked::update(const std::vector<Ellipsoid>& shapes) {
   double size_m = 0.0;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     ellipsoids[k] = bake(shapes[k]);
+    const auto values = std::bit_cast<std::array<float, kBakedFloats>>(ellipsoids[k]);
+    for (std::size_t i = 0; i < values.size(); ++i) cull.baked[i][k] = values[i];
     const geometry::Box box = geometry::bounding_box(shapes[k]);
     for (int axis = 0; axis < 3; ++axis) {
       cull.low[axis][k] = static_cast<float>(box.low[axis]);

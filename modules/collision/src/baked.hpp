@@ -20,11 +20,13 @@ struct BakedEllipsoid {
 };
 inline constexpr int kBakedFloats = sizeof(BakedEllipsoid) / sizeof(float);
 
-/// Boxes and inner balls for culling, one array a number, padded to kPad with boxes infinitely far away.
+/// The same, and boxes and inner balls, one array a number, for sixteen ellipsoids at a time; padded to kPad
+/// with boxes infinitely far away. Neighbours in space should be neighbours here.
 struct CullArrays {
-  std::vector<float> low[3], high[3];  ///< metres
-  std::vector<float> center[3];        ///< metres
-  std::vector<float> shortest;         ///< r2, metres: radius of the ball inside
+  std::vector<float> baked[kBakedFloats];  ///< the members of BakedEllipsoid, in order
+  std::vector<float> low[3], high[3];      ///< metres
+  std::vector<float> center[3];            ///< metres
+  std::vector<float> shortest;             ///< r2, metres: radius of the ball inside
 };
 
 struct Baked {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "tolerances.hpp"
 
@@ -9,32 +10,70 @@ namespace bodice::collision {
 
 namespace {
 
-enum class Place { kNear, kFar, kNotFinite };
+using Order = std::span<const std::uint32_t>;
 
-Place place_of(const Particles& p, std::uint32_t i) {
-  const float largest = std::max({std::abs(p.x[i]), std::abs(p.y[i]), std::abs(p.z[i])});
-  // Zero times NaN or Inf is NaN, and a NaN is not equal to itself.
-  float sum = p.x[i] * 0.0f + p.y[i] * 0.0f + p.z[i] * 0.0f;
-  if (p.vx) sum += p.vx[i] * 0.0f + p.vy[i] * 0.0f + p.vz[i] * 0.0f;
-  if (!(sum == 0.0f)) return Place::kNotFinite;
-  return largest < kFarthest ? Place::kNear : Place::kFar;
+void copy_lanes(const float* from, Order order, std::size_t begin, int count, float* to) {
+  if (order.empty()) {
+    std::memcpy(to, from + begin, static_cast<std::size_t>(count) * sizeof(float));
+    return;
+  }
+  const std::uint32_t* index = order.data() + begin;
+  for (int lane = 0; lane < count; ++lane) to[lane] = from[index[lane]];
 }
 
-void load_lane(const Particles& p, std::uint32_t i, int lane, Block& block) {
-  block.x[lane] = p.x[i];
-  block.y[lane] = p.y[i];
-  block.z[lane] = p.z[i];
-  if (block.has_velocity) {
-    block.vx[lane] = p.vx[i];
-    block.vy[lane] = p.vy[i];
-    block.vz[lane] = p.vz[i];
+/// No NaN, no Inf and nothing too far; without a branch, so that it compiles to vector code.
+bool all_near(const float* values, int count) {
+  int outside = 0;
+  for (int lane = 0; lane < count; ++lane) outside += !(std::abs(values[lane]) < kFarthest);
+  return outside == 0;
+}
+
+bool usable_lane(const Block& block, int lane) {
+  bool usable = true;
+  for (const float* values : {block.x, block.y, block.z}) usable &= std::abs(values[lane]) < kFarthest;
+  for (const float* values : {block.vx, block.vy, block.vz})
+    if (block.has_velocity) usable &= std::isfinite(values[lane]);
+  return usable;
+}
+
+bool finite_lane(const Block& block, int lane) {
+  bool finite = true;
+  for (const float* values : {block.x, block.y, block.z}) finite &= std::isfinite(values[lane]);
+  for (const float* values : {block.vx, block.vy, block.vz})
+    if (block.has_velocity) finite &= std::isfinite(values[lane]);
+  return finite;
+}
+
+void move_lane(int from, int to, Gathered& g) {
+  Block& b = g.block;
+  for (float* values : {b.x, b.y, b.z, b.vx, b.vy, b.vz, b.sx, b.sy, b.sz}) values[to] = values[from];
+  g.index[to] = g.index[from];
+}
+
+/// Takes the lanes out that floats cannot handle; the others close up.
+void drop_unusable(Gathered& g) {
+  int kept = 0;
+  for (int lane = 0; lane < g.block.count; ++lane) {
+    if (usable_lane(g.block, lane))
+      move_lane(lane, kept++, g);
+    else if (finite_lane(g.block, lane))
+      g.far[g.far_count++] = g.index[lane];
+    else
+      ++g.not_finite;
   }
-  if (!block.has_safe) return;
-  const bool usable = std::abs(p.safe_x[i]) < kFarthest && std::abs(p.safe_y[i]) < kFarthest &&
-                      std::abs(p.safe_z[i]) < kFarthest;
-  block.sx[lane] = usable ? p.safe_x[i] : p.x[i];
-  block.sy[lane] = usable ? p.safe_y[i] : p.y[i];
-  block.sz[lane] = usable ? p.safe_z[i] : p.z[i];
+  g.block.count = kept;
+}
+
+/// A safe position that is not usable counts as none: the particle's own place says nothing.
+void mend_safe(Block& block) {
+  for (int lane = 0; lane < block.count; ++lane) {
+    bool usable = true;
+    for (const float* values : {block.sx, block.sy, block.sz}) usable &= std::abs(values[lane]) < kFarthest;
+    if (usable) continue;
+    block.sx[lane] = block.x[lane];
+    block.sy[lane] = block.y[lane];
+    block.sz[lane] = block.z[lane];
+  }
 }
 
 /// Repeats the last lane up to a whole vector of any width, so that no lane holds anything unset.
@@ -50,47 +89,38 @@ void pad(Block& block) {
   }
 }
 
-float half_diagonal(const Block& block) {
-  float sum = 0.0f;
-  for (const float* values : {block.x, block.y, block.z}) {
-    float low = values[0], high = values[0];
-    for (int lane = 1; lane < block.count; ++lane) {
-      low = std::min(low, values[lane]);
-      high = std::max(high, values[lane]);
-    }
-    sum += 0.25f * (high - low) * (high - low);
-  }
-  return std::sqrt(sum);
-}
-
 }  // namespace
 
 void gather(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
             std::size_t end, Gathered& out) {
   Block& block = out.block;
-  block.count = 0;
+  const int count = block.count = static_cast<int>(end - begin);
   block.has_velocity = particles.vx != nullptr;
   block.has_safe = particles.safe_x != nullptr;
   out.far_count = 0;
   out.not_finite = 0;
-  for (std::size_t at = begin; at < end; ++at) {
-    const std::uint32_t i = order.empty() ? static_cast<std::uint32_t>(at) : order[at];
-    switch (place_of(particles, i)) {
-      case Place::kNotFinite:
-        ++out.not_finite;
-        break;
-      case Place::kFar:
-        out.far[out.far_count++] = i;
-        break;
-      case Place::kNear:
-        load_lane(particles, i, block.count, block);
-        out.index[block.count++] = i;
-        break;
-    }
+  for (int lane = 0; lane < count; ++lane)
+    out.index[lane] = order.empty() ? static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(lane)
+                                    : order[begin + static_cast<std::size_t>(lane)];
+  copy_lanes(particles.x, order, begin, count, block.x);
+  copy_lanes(particles.y, order, begin, count, block.y);
+  copy_lanes(particles.z, order, begin, count, block.z);
+  bool near = all_near(block.x, count) && all_near(block.y, count) && all_near(block.z, count);
+  if (block.has_velocity) {
+    copy_lanes(particles.vx, order, begin, count, block.vx);
+    copy_lanes(particles.vy, order, begin, count, block.vy);
+    copy_lanes(particles.vz, order, begin, count, block.vz);
+    near = near && all_near(block.vx, count) && all_near(block.vy, count) && all_near(block.vz, count);
   }
-  if (block.count == 0) return;
-  pad(block);
-  if (!order.empty()) out.radius_m = half_diagonal(block);
+  if (block.has_safe) {
+    copy_lanes(particles.safe_x, order, begin, count, block.sx);
+    copy_lanes(particles.safe_y, order, begin, count, block.sy);
+    copy_lanes(particles.safe_z, order, begin, count, block.sz);
+    if (!all_near(block.sx, count) || !all_near(block.sy, count) || !all_near(block.sz, count))
+      mend_safe(block);
+  }
+  if (!near) drop_unusable(out);
+  if (block.count > 0) pad(block);
 }
 
 void scatter(const Gathered& gathered, int lane, const Particles& particles) {

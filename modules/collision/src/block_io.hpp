@@ -17,7 +17,6 @@ struct Gathered {
   std::uint32_t far[kBlock];    ///< finite but too far for floats
   int far_count = 0;
   std::uint64_t not_finite = 0;
-  float radius_m = 0.0f;  ///< half the diagonal of the block's box
 };
 
 /// Gathers particles [begin, end), at most kBlock, of `order` (of the arrays if it is empty). Particles with

@@ -69,10 +69,11 @@ std::size_t Collider::size() const noexcept {
 void Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
   const std::size_t count = std::min(shapes.size(), impl_->shapes.size());
   for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t at = impl_->internal[k];
     geometry::Ellipsoid now = shapes[k];
     now.center -= impl_->origin;
-    impl_->motion[k] = motion_between(impl_->shapes[k], now, dt_s);
-    impl_->shapes[k] = now;
+    impl_->motion[at] = motion_between(impl_->shapes[at], now, dt_s);
+    impl_->shapes[at] = now;
   }
   impl_->moving = dt_s > 0.0;
   impl_->moved_dt_s = dt_s;
@@ -82,7 +83,7 @@ void Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
 
 Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point) const noexcept {
   if (!impl_->moving || ellipsoid >= impl_->motion.size()) return Vec3::Zero();
-  return impl_->motion[ellipsoid].at(local_point);
+  return impl_->motion[impl_->internal[ellipsoid]].at(local_point);
 }
 
 Contact Collider::query(const float (&local_point)[3]) const noexcept {

@@ -1,7 +1,10 @@
 #include "collider_impl.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
+#include <numeric>
 
 #include "tolerances.hpp"
 
@@ -10,6 +13,8 @@ namespace bodice::collision {
 using geometry::Vec3;
 
 namespace {
+
+constexpr double kSlab_m = 0.15;  // height of the slabs by which ellipsoids are ordered
 
 Vec3 middle_of(const proxy::BodyProxy& proxy) {
   geometry::Box box;
@@ -21,11 +26,26 @@ Vec3 middle_of(const proxy::BodyProxy& proxy) {
   return box.empty() ? Vec3(Vec3::Zero()) : box.center();
 }
 
-std::vector<geometry::Ellipsoid> local_shapes(const Vec3& origin, const proxy::BodyProxy& proxy) {
+/// By height, then across: sixteen consecutive ones are neighbours. Equal centres keep their order, so that
+/// the lowest index still wins a tie between identical ellipsoids.
+std::vector<std::uint32_t> spatial_order(const proxy::BodyProxy& proxy) {
+  std::vector<std::uint32_t> order(proxy.ellipsoids().size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t k) {
+    const Vec3 cell = (proxy.ellipsoids()[k].shape.center / kSlab_m).array().floor();
+    return std::array<double, 3>{cell.y(), cell.x(), cell.z()};
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  return order;
+}
+
+std::vector<geometry::Ellipsoid> local_shapes(const Vec3& origin, const proxy::BodyProxy& proxy,
+                                              std::span<const std::uint32_t> order) {
   std::vector<geometry::Ellipsoid> shapes;
-  shapes.reserve(proxy.ellipsoids().size());
-  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) {
-    shapes.push_back(e.shape);
+  shapes.reserve(order.size());
+  for (const std::uint32_t k : order) {
+    shapes.push_back(proxy.ellipsoids()[k].shape);
     shapes.back().center -= origin;
   }
   return shapes;
@@ -83,12 +103,15 @@ std::span<const std::uint32_t> indices(const ParticleOrder* order) {
 
 Collider::Impl::Impl(const proxy::BodyProxy& proxy)
     : origin(middle_of(proxy)),
+      original(spatial_order(proxy)),
       margin_m(proxy.margin_m()),
-      shapes(local_shapes(origin, proxy)),
+      shapes(local_shapes(origin, proxy, original)),
       field(shapes),
       baked(shapes) {
-  if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy);
-  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) part.push_back(e.part);
+  if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy, original);
+  internal.resize(original.size());
+  for (std::uint32_t k = 0; k < original.size(); ++k) internal[original[k]] = k;
+  for (const std::uint32_t k : original) part.push_back(proxy.ellipsoids()[k].part);
   motion.resize(shapes.size());
 }
 
@@ -102,7 +125,7 @@ Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec
     contact.point[axis] = static_cast<float>(point[axis]);
     contact.normal[axis] = static_cast<float>(normal[axis]);
   }
-  contact.ellipsoid = ellipsoid;
+  contact.ellipsoid = ellipsoid < original.size() ? original[ellipsoid] : kNoEllipsoid;
   return contact;
 }
 
@@ -120,7 +143,6 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
                                 std::span<Contact> contacts, ParticleOrder* order) const {
   Gathered gathered;
   gather(particles, indices(order), begin, end, gathered);
-  if (order) order->note_radius(begin / kBlock, gathered.radius_m);
   const int known = gathered.block.count + gathered.far_count;
   if (known < static_cast<int>(end - begin) || field.size() == 0)
     for (std::size_t i = begin; i < end; ++i) contacts[order ? order->order()[i] : i] = nothing();
@@ -131,6 +153,7 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
   if (block.count == 0) return;
   BlockContacts found;
   const bool settled = query_block(baked, tables(), block, found);
+  if (order && settled) order->note_radius(begin / kBlock, found.radius_m);
   const float margin = static_cast<float>(margin_m);
   for (int lane = 0; lane < block.count; ++lane) {
     Contact& contact = contacts[gathered.index[lane]];
@@ -146,7 +169,7 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
     contact.normal[0] = found.nx[lane];
     contact.normal[1] = found.ny[lane];
     contact.normal[2] = found.nz[lane];
-    contact.ellipsoid = found.owner[lane];
+    contact.ellipsoid = found.owner[lane] < original.size() ? original[found.owner[lane]] : kNoEllipsoid;
   }
 }
 
@@ -178,7 +201,6 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   if (field.size() == 0) return;
   Gathered gathered;
   gather(particles, indices(order), begin, end, gathered);
-  if (order) order->note_radius(begin / kBlock, gathered.radius_m);
   report.not_finite += gathered.not_finite;
   for (int i = 0; i < gathered.far_count; ++i) resolve_exactly(particles, gathered.far[i], options, report);
   Block& block = gathered.block;
@@ -192,6 +214,8 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
     response.hard = everyone;
     response.contact = response.pending = 0;
     response.iterations = 0;
+  } else if (order) {
+    order->note_radius(begin / kBlock, response.radius_m);
   }
   for (std::uint64_t left = response.contact; left != 0; left &= left - 1) {
     const int lane = std::countr_zero(left);

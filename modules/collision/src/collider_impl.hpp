@@ -34,6 +34,9 @@ struct Collider::Impl {
                        std::uint32_t ellipsoid) const;
 
   geometry::Vec3 origin;
+  /// Ellipsoids are kept in a spatial order, in which everything below and every index inside the module is:
+  /// original[k] is the proxy's index of ellipsoid k, internal[] its inverse.
+  std::vector<std::uint32_t> original, internal;
   double margin_m;
   std::vector<geometry::Ellipsoid> shapes;  ///< local frame, now
   UnionField field;

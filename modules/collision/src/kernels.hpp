@@ -26,6 +26,7 @@ struct alignas(64) BlockContacts {
   float distance[kBlock];  ///< metres, without margin
   float nx[kBlock], ny[kBlock], nz[kBlock];
   std::uint32_t owner[kBlock];
+  float radius_m = 0.0f;  ///< of the block: half its box's diagonal
 };
 
 /// What a response asks of the kernel.
@@ -44,6 +45,7 @@ struct alignas(64) BlockResponse {
   std::uint64_t pending = 0;     ///< of those: held back by max_push_m
   std::uint64_t hard = 0;        ///< not settled and left untouched: for the exact side
   std::uint32_t iterations = 0;  ///< most pushes
+  float radius_m = 0.0f;         ///< of the block: half its box's diagonal
 };
 
 /// Signed distance, normal and owner of every lane; false if too many ellipsoids are near for the kernel.

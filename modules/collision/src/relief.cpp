@@ -21,7 +21,7 @@ ReliefReach relief_reach(double stature_m) {
   return {0.020 * scale, 0.030 * scale, 0.003 * scale};
 }
 
-ReliefTables::ReliefTables(const proxy::BodyProxy& proxy) {
+ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order) {
   const ReliefReach reach = relief_reach(proxy.stature_m());
   in_m = static_cast<float>(reach.in_m);
   out_m = static_cast<float>(reach.out_m);
@@ -32,7 +32,7 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy) {
     texels.push_back(t.a);
   }
   texels.resize(texels.size() + 4);
-  for (std::size_t k = 0; k < proxy.relief().size(); ++k) {
+  for (const std::uint32_t k : order) {
     const proxy::ReliefTable& from = proxy.relief()[k];
     BakedTable table;
     table.first_byte = static_cast<std::int32_t>(2 * from.first_texel);

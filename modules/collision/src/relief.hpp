@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bodice/proxy/body_proxy.hpp>
@@ -26,8 +27,8 @@ struct BakedTable {
 };
 
 struct ReliefTables {
-  /// `proxy` must have tables, one an ellipsoid.
-  explicit ReliefTables(const proxy::BodyProxy& proxy);
+  /// `proxy` must have tables, one an ellipsoid; tables[k] becomes that of ellipsoid order[k].
+  ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order);
 
   std::vector<BakedTable> tables;
   std::vector<std::uint8_t> texels;  ///< pairs h, a; padded, since kernels read two texels at a time

@@ -101,7 +101,10 @@ ParticleReport resolve_relief(const UnionField& field, const ReliefTables& relie
   }
   report.ellipsoid = start.owner;
   if (!x && !inside) return report;
-  report.outcome = x ? Outcome::kResolved : Outcome::kUnresolved;
+  // Tables of one ellipsoid's two sides meet in a step inside it: what counts is the place that is stored.
+  const bool certain =
+      x && exit.at(x->cast<float>().cast<double>()).distance_m >= clearance_m - kReliefCertificate_m;
+  report.outcome = certain ? Outcome::kResolved : Outcome::kUnresolved;
   Halfspaces contact;
   contact.add({exit.at(x.value_or(p)).gradient.stableNormalized(), 0.0});
   move(p, x.value_or(p), contact, options, report, particle);

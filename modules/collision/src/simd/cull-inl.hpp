@@ -25,7 +25,8 @@ struct Candidates {
   alignas(64) float distance[kMaxCandidates + 16];
   alignas(64) float nx[kMaxCandidates + 16], ny[kMaxCandidates + 16], nz[kMaxCandidates + 16];
   float middle[3];
-  float reach_m = 0.0f;  ///< pushes up to this long meet no ellipsoid that is not among them
+  float radius_m = 0.0f;  ///< of the block
+  float reach_m = 0.0f;   ///< pushes up to this long meet no ellipsoid that is not among them
 };
 
 struct Extent {
@@ -88,36 +89,31 @@ HWY_INLINE float ball_bound(const CullArrays& cull, const Extent& e) {
   return hn::GetLane(hn::MinOfLanes(f, least)) + e.radius;
 }
 
-/// Ellipsoids whose box is within `window` of the block's; false if they are too many.
-HWY_INLINE bool near_boxes(const CullArrays& cull, const Extent& e, float window, Candidates& out) {
+/// Exact distance and normal, at the block's middle, of the ellipsoids whose boxes are within `window` of the
+/// block's; false if they are too many. `least` receives the least distance, or 1e30.
+HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Candidates& out, float& least) {
   const std::size_t width = hn::Lanes(f);
+  const V3 middle = broadcast3(e.middle);
+  V lowest = all(1e30f);
+  std::memcpy(out.middle, e.middle, sizeof(out.middle));
   out.count = 0;
-  for (std::size_t k = 0; k < cull.shortest.size(); k += width) {
-    const M near = hn::Le(box_distance(cull, e, k), all(window));
+  for (std::size_t k = 0; k < baked.cull.shortest.size(); k += width) {
+    // Inside a box its distance is zero, whatever the depth.
+    const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
     if (hn::AllFalse(f, near)) continue;
     if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
+    const Foot foot = foot_of(consecutive(baked.cull, k), middle);
+    lowest = hn::Min(lowest, hn::IfThenElse(near, foot.distance, all(1e30f)));
     const VI index = hn::Iota(I(), static_cast<std::int32_t>(k));
-    out.count +=
-        static_cast<int>(hn::CompressStore(index, hn::RebindMask(I(), near), I(), out.index + out.count));
+    const int at = out.count;
+    (void)hn::CompressStore(foot.distance, near, f, out.distance + at);
+    (void)hn::CompressStore(foot.normal.x, near, f, out.nx + at);
+    (void)hn::CompressStore(foot.normal.y, near, f, out.ny + at);
+    (void)hn::CompressStore(foot.normal.z, near, f, out.nz + at);
+    out.count += static_cast<int>(hn::CompressStore(index, hn::RebindMask(I(), near), I(), out.index + at));
   }
+  least = hn::GetLane(hn::MinOfLanes(f, lowest));
   return true;
-}
-
-/// Exact distance and normal of every candidate at the block's middle. Returns the least distance.
-HWY_INLINE float tangents(const Baked& baked, const Extent& e, Candidates& out) {
-  const int width = static_cast<int>(hn::Lanes(f));
-  for (int i = 0; i < width; ++i) out.index[out.count + i] = 0;
-  V least = all(1e30f);
-  for (int c = 0; c < out.count; c += width) {
-    const Shape s = gather(baked.ellipsoids.data(), hn::Load(I(), out.index + c));
-    const Foot foot = foot_of(s, broadcast3(e.middle));
-    hn::Store(foot.distance, f, out.distance + c);
-    store3(foot.normal, out.nx + c, out.ny + c, out.nz + c);
-    const M valid = hn::FirstN(f, static_cast<std::size_t>(out.count - c));
-    least = hn::Min(least, hn::IfThenElse(valid, foot.distance, all(1e30f)));
-  }
-  std::memcpy(out.middle, e.middle, sizeof(out.middle));
-  return hn::GetLane(hn::MinOfLanes(f, least));
 }
 
 /// Keeps the candidates whose tangent plane comes within `window` of some place of the block's box, and puts
@@ -148,9 +144,10 @@ HWY_INLINE void keep_within(const Extent& e, float window, Candidates& c) {
 /// All ellipsoids that can own a particle of the block, or lie within `beyond_m` of the owner's distance.
 HWY_INLINE bool cull_for_query(const Baked& baked, const Block& block, float beyond_m, Candidates& out) {
   const Extent e = extent_of(block);
+  out.radius_m = e.radius;
   const float slack = baked.rounding_m + 1e-6f * e.radius + beyond_m;
-  if (!near_boxes(baked.cull, e, ball_bound(baked.cull, e) + slack, out)) return false;
-  const float least = tangents(baked, e, out);
+  float least;
+  if (!tangents(baked, e, ball_bound(baked.cull, e) + slack, out, least)) return false;
   keep_within(e, least + e.radius + slack, out);
   return true;
 }
@@ -159,17 +156,19 @@ HWY_INLINE bool cull_for_query(const Baked& baked, const Block& block, float bey
 HWY_INLINE bool cull_for_response(const Baked& baked, const Block& block, float clearance_m,
                                   Candidates& out) {
   const Extent e = extent_of(block);
+  out.radius_m = e.radius;
   const float slack = baked.rounding_m + 1e-6f * e.radius;
-  if (!near_boxes(baked.cull, e, clearance_m + slack, out)) return false;
-  if (out.count == 0) return true;
-  const float depth = clearance_m - (tangents(baked, e, out) - e.radius);
-  if (depth <= 0.0f) out.count = 0;
-  if (depth <= 0.0f) return true;
+  float least;
+  if (!tangents(baked, e, clearance_m + slack, out, least)) return false;
+  const float depth = clearance_m - (least - e.radius);
+  if (out.count == 0 || depth <= 0.0f) {
+    out.count = 0;
+    return true;
+  }
   // A push can be longer than the depth where surfaces meet; the exact side takes what is longer than this.
   out.reach_m = 1.5f * depth;
   const float window = clearance_m + out.reach_m + slack;
-  if (!near_boxes(baked.cull, e, window, out)) return false;
-  tangents(baked, e, out);
+  if (!tangents(baked, e, window, out, least)) return false;
   keep_within(e, window, out);
   return true;
 }

@@ -42,20 +42,18 @@ HWY_INLINE Shape broadcast(const BakedEllipsoid& e) {
 using I = hn::RebindToSigned<F>;
 using VI = hn::Vec<I>;
 
-HWY_INLINE V field(const BakedEllipsoid* table, VI first_float, std::size_t offset) {
-  return hn::GatherIndex(f, reinterpret_cast<const float*>(table) + offset, first_float);
+HWY_INLINE V field(const CullArrays& cull, std::size_t which, std::size_t k) {
+  return hn::LoadU(f, cull.baked[which].data() + k);
 }
-HWY_INLINE V3 field3(const BakedEllipsoid* table, VI first_float, std::size_t offset) {
-  return {field(table, first_float, offset), field(table, first_float, offset + 1),
-          field(table, first_float, offset + 2)};
+HWY_INLINE V3 field3(const CullArrays& cull, std::size_t which, std::size_t k) {
+  return {field(cull, which, k), field(cull, which + 1, k), field(cull, which + 2, k)};
 }
 
-/// Ellipsoid table[index[lane]] in each lane.
-HWY_INLINE Shape gather(const BakedEllipsoid* table, VI index) {
-  const VI at = hn::Mul(index, hn::Set(I(), kBakedFloats));
-  return {field3(table, at, 0), field3(table, at, 3), field3(table, at, 6), field3(table, at, 9),
-          field(table, at, 12), field(table, at, 13), field(table, at, 14), field(table, at, 15),
-          field(table, at, 16), field(table, at, 17), field(table, at, 18)};
+/// Ellipsoid k + lane in each lane.
+HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
+  return {field3(c, 0, k), field3(c, 3, k), field3(c, 6, k), field3(c, 9, k),
+          field(c, 12, k), field(c, 13, k), field(c, 14, k), field(c, 15, k),
+          field(c, 16, k), field(c, 17, k), field(c, 18, k)};
 }
 
 struct Foot {
@@ -66,7 +64,12 @@ struct Foot {
   V u;         ///< the root
 };
 
-constexpr int kMaxNewton = 24;  // 2 to 4 near a limb-like ellipsoid; 1:1000 needs up to 20
+constexpr int kUsualNewton =
+    2;                          // after the step from the surface: enough for particles near limb-like shapes
+constexpr int kMaxNewton = 24;  // what 1:1000 can need
+constexpr float kSettled = 1e-3f;  // residual before the last step; Newton squares it
+// u = t + r2^2 in units of r0^2, relative to the smallest of which (1:1000) this is still a millionth.
+constexpr float kLeastRoot = 1e-12f;
 
 /// w_j = a_j / (u + gap_j), and the sums that Newton needs.
 struct Secular {
@@ -74,48 +77,59 @@ struct Secular {
   V norm2, slope;
 };
 
-HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
-  const V one = all(1.0f);
-  const V i0 = hn::Div(one, hn::Add(u, gap0));
-  const V i1 = hn::Div(one, hn::Add(u, gap1));
-  const V i2 = hn::Div(one, u);
-  const V3 w = {hn::Mul(a.x, i0), hn::Mul(a.y, i1), hn::Mul(a.z, i2)};
+HWY_INLINE Secular secular(V3 w, V3 inverse) {
   const V3 w2 = {hn::Mul(w.x, w.x), hn::Mul(w.y, w.y), hn::Mul(w.z, w.z)};
-  return {w, hn::Add(w2.x, hn::Add(w2.y, w2.z)), dot(w2, {i0, i1, i2})};
+  return {w, hn::Add(w2.x, hn::Add(w2.y, w2.z)), dot(w2, inverse)};
 }
 
-/// The unit foot direction for a = r o |y|, all components >= 0; `u` receives the root.
-HWY_INLINE V3 foot_direction(V3 a, const Shape& s, V& u) {
+HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
+  const V3 inverse = {reciprocal(hn::Add(u, gap0)), reciprocal(hn::Add(u, gap1)), reciprocal(u)};
+  return secular({hn::Mul(a.x, inverse.x), hn::Mul(a.y, inverse.y), hn::Mul(a.z, inverse.z)}, inverse);
+}
+
+/// One Newton step on 1 / |w|: u += (|w| - 1) |w|^2 / sum w^2 / e; `residual` receives |w| - 1.
+HWY_INLINE V newton(const Secular& g, V u, V low, V& residual) {
+  const V least = all(1e-35f);  // w = 0 at the centre: the step is then of no use, but must be finite
+  const V norm2 = hn::Max(g.norm2, least);
+  residual = hn::MulSub(norm2, inverse_sqrt(norm2), all(1.0f));
+  return hn::Max(low, hn::MulAdd(hn::Mul(residual, norm2), reciprocal(hn::Max(g.slope, least)), u));
+}
+
+/// The unit foot direction for a = r o |y|, all components >= 0, and the root.
+HWY_INLINE V3 foot_direction(V3 y, V3 a, const Shape& s, V& u) {
   const V zero = hn::Zero(f), one = all(1.0f);
-  const V floor = all(1e-30f);
   // |w| >= 1 at each of these, so none lies right of the root (except the floor, on the medial disk).
+  const V a2 = hn::Max(dot(a, a), all(1e-35f));
   const V start = hn::Max(hn::Max(a.z, hn::Sub(a.x, s.gap0)),
-                          hn::Max(hn::Sub(a.y, s.gap1), hn::Sub(hn::Sqrt(dot(a, a)), s.gap0)));
-  const V low = hn::Max(start, floor);
-  // Particles are near the surface, where u = r2^2.
-  u = hn::Max(low, hn::Mul(s.radius2, s.radius2));
+                          hn::Max(hn::Sub(a.y, s.gap1), hn::MulSub(a2, inverse_sqrt(a2), s.gap0)));
+  const V low = hn::Max(start, all(kLeastRoot));
+  // Particles are near the surface, where u = r2^2 and w = y / r.
+  const V3 inverse_r = {one, s.inverse1, s.inverse2};
+  const V3 at_surface = {y.x, hn::Mul(y.y, s.inverse1), hn::Mul(y.z, s.inverse2)};
+  const V3 inverse_r2 = {one, hn::Mul(inverse_r.y, inverse_r.y), hn::Mul(inverse_r.z, inverse_r.z)};
+  V residual;
+  u = newton(secular(at_surface, inverse_r2), hn::Mul(s.radius2, s.radius2), low, residual);
   Secular g = evaluate(a, s.gap0, s.gap1, u);
-  M active = hn::Gt(g.norm2, zero);
-  for (int step = 0; step < kMaxNewton; ++step) {
-    const V norm = hn::Sqrt(g.norm2);
-    const V residual = hn::Sub(norm, one);
-    const V slope = hn::IfThenElse(active, g.slope, one);
-    const V next = hn::Max(low, hn::Add(u, hn::Div(hn::Mul(residual, g.norm2), slope)));
-    u = hn::IfThenElse(active, next, u);
+  for (int step = 0; step < kUsualNewton; ++step) {
+    u = newton(g, u, low, residual);
     g = evaluate(a, s.gap0, s.gap1, u);
-    // Quadratic: what is left after this step is the square of what was left before.
-    active = hn::And(active, hn::Gt(hn::Abs(residual), all(3e-4f)));
+  }
+  // A lane goes on by its own residual, so that its result does not depend on its neighbours.
+  M active = hn::Gt(hn::Abs(residual), all(kSettled));
+  for (int step = kUsualNewton; step < kMaxNewton; ++step) {
     active = hn::And(active, hn::Or(hn::Gt(u, low), hn::Gt(g.norm2, one)));
     if (hn::AllFalse(f, active)) break;
+    const V next = newton(g, u, low, residual);
+    u = hn::IfThenElse(active, next, u);
+    g = evaluate(a, s.gap0, s.gap1, u);
+    active = hn::And(active, hn::Gt(hn::Abs(residual), all(kSettled)));
   }
   // On the medial disk |w| < 1 even at the pole: the shortest axis takes the rest.
   const V across = hn::MulAdd(g.w.x, g.w.x, hn::Mul(g.w.y, g.w.y));
-  const M medial = hn::Or(hn::And(hn::Le(u, low), hn::Lt(g.norm2, one)), hn::Eq(g.norm2, zero));
+  const M medial = hn::And(hn::Le(u, all(kLeastRoot)), hn::Lt(g.norm2, one));
   const V rest = hn::Sqrt(hn::Max(zero, hn::Sub(one, across)));
   const V z = hn::IfThenElse(medial, hn::Max(rest, g.w.z), g.w.z);
-  const V norm2 = hn::MulAdd(z, z, across);
-  const V inverse = hn::Div(one, hn::Sqrt(norm2));
-  return {hn::Mul(g.w.x, inverse), hn::Mul(g.w.y, inverse), hn::Mul(z, inverse)};
+  return scaled({g.w.x, g.w.y, z}, inverse_sqrt(hn::MulAdd(z, z, across)));
 }
 
 HWY_INLINE Foot foot_of(const Shape& s, V3 p) {
@@ -124,10 +138,10 @@ HWY_INLINE Foot foot_of(const Shape& s, V3 p) {
   result.y = {dot(s.row0, q), dot(s.row1, q), dot(s.row2, q)};
   const V3 y = absolute(result.y);
   const V3 a = {y.x, hn::Mul(s.radius1, y.y), hn::Mul(s.radius2, y.z)};
-  result.w = foot_direction(a, s, result.u);
+  result.w = foot_direction(y, a, s, result.u);
   const V3 w = result.w;
   const V3 g = {w.x, hn::Mul(w.y, s.inverse1), hn::Mul(w.z, s.inverse2)};
-  const V inverse = hn::Div(s.longest, hn::Sqrt(dot(g, g)));
+  const V inverse = hn::Mul(s.longest, inverse_sqrt(dot(g, g)));
   const V3 n = scaled(g, inverse);  // unit normal times r0, first octant
   const V3 foot = {w.x, hn::Mul(s.radius1, w.y), hn::Mul(s.radius2, w.z)};
   result.distance = dot(n, y - foot);

@@ -15,6 +15,7 @@ HWY_INLINE bool query_lanes(const Baked& baked, const ReliefTables* relief, cons
                             BlockContacts& out) {
   Candidates candidates;
   if (!cull_for_query(baked, block, relief ? relief->blend_m : 0.0f, candidates)) return false;
+  out.radius_m = candidates.radius_m;
   const int width = static_cast<int>(hn::Lanes(f));
   for (int i = 0; i < block.count; i += width) {
     const V3 p = load3(block.x + i, block.y + i, block.z + i);

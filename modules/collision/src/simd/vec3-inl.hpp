@@ -25,6 +25,24 @@ struct V3 {
 HWY_INLINE V all(float value) {
   return hn::Set(f, value);
 }
+// Division and square root keep a vector unit busy for ten times as long as an estimate and a Newton step,
+// which is good to two roundings. v must be in [1e-37, 1e37].
+HWY_INLINE V reciprocal(V v) {
+  V r = hn::ApproximateReciprocal(v);
+#if HWY_TARGET == HWY_NEON
+  r = hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f)));  // starts from 8 bits instead of 12
+#endif
+  return hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f)));
+}
+HWY_INLINE V inverse_sqrt(V v) {
+  V r = hn::ApproximateReciprocalSqrt(v);
+  const V half = hn::Mul(all(0.5f), v);
+#if HWY_TARGET == HWY_NEON
+  r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, all(1.5f)));
+#endif
+  return hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, all(1.5f)));
+}
+
 HWY_INLINE V3 operator+(V3 a, V3 b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }

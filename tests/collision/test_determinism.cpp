@@ -1,0 +1,165 @@
+#include <doctest/doctest.h>
+#include <hwy/targets.h>
+
+#include <bodice/engine/hash.hpp>
+
+#include "../engine/allocation_count.hpp"
+#include "scenes.hpp"
+
+using namespace bodice;
+using namespace bodice::collision;
+using namespace bodice_test;
+
+namespace {
+
+constexpr int kParticles = 30000;
+
+proxy::BodyProxy scene(bool relief) {
+  const auto data = data_of(random_ellipsoids(31, 89, 0.6, 0.04, 0.2));
+  return proxy_of(relief ? with_relief(data, 16, 0.002, 3) : data);
+}
+
+Cloud random_cloud() {
+  engine::Random random(77);
+  Cloud cloud;
+  for (int i = 0; i < kParticles; ++i) cloud.add(random_vector(random, 0.8), random_vector(random, 1.0));
+  return cloud;
+}
+
+std::uint64_t hash_of(const Cloud& cloud) {
+  engine::Hasher hasher;
+  for (const auto* values : {&cloud.x, &cloud.y, &cloud.z, &cloud.vx, &cloud.vy, &cloud.vz})
+    hasher.add(std::span<const float>(*values));
+  return hasher.value();
+}
+
+/// Runs `body` once for every instruction set that this machine has.
+template <class Body>
+void on_every_target(Body&& body) {
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    const std::int64_t target = left & -left;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    body(hwy::TargetName(target));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace
+
+TEST_CASE("the same bits for any number of workers, with and without a workspace") {
+  for (const bool relief : {false, true}) {
+    const Collider collider(scene(relief));
+    const auto run = [&](engine::Executor& executor, bool with_workspace) {
+      engine::Context context{.executor = &executor};
+      Cloud cloud = random_cloud();
+      Workspace workspace;
+      for (int call = 0; call < 3; ++call) {
+        if (with_workspace)
+          collider.resolve(context, cloud.particles(), {.thickness_m = 0.002f}, workspace);
+        else
+          collider.resolve(context, cloud.particles(), {.thickness_m = 0.002f});
+        for (float& y : cloud.y) y -= 0.002f;
+      }
+      return hash_of(cloud);
+    };
+    for (const bool with_workspace : {false, true}) {
+      const std::uint64_t serial = run(engine::inline_executor(), with_workspace);
+      for (const int workers : {1, 2, 5})
+        CHECK(run(*engine::make_tbb_executor(workers), with_workspace) == serial);
+    }
+  }
+}
+
+TEST_CASE("a query does not depend on which particles share a block") {
+  const Collider collider(scene(false));
+  Cloud cloud = random_cloud();
+  std::vector<Contact> together(cloud.size()), ordered(cloud.size());
+  collider.query({}, cloud.particles(), together);
+  Workspace workspace;
+  collider.query({}, cloud.particles(), ordered, workspace);
+  int differ = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Contact alone = i % 50 == 0 ? collider.query({cloud.x[i], cloud.y[i], cloud.z[i]}) : together[i];
+    differ += together[i].signed_distance != ordered[i].signed_distance ||
+              together[i].ellipsoid != ordered[i].ellipsoid;
+    differ += together[i].signed_distance != alone.signed_distance;
+  }
+  CHECK(differ == 0);
+}
+
+TEST_CASE("every instruction set gives the same answers to two micrometres") {
+  for (const bool relief : {false, true}) {
+    const Collider collider(scene(relief));
+    Cloud cloud = random_cloud();
+    std::vector<Contact> best(cloud.size()), other(cloud.size());
+    collider.query({}, cloud.particles(), best);
+    int targets = 0;
+    on_every_target([&](const char* name) {
+      CAPTURE(name);
+      ++targets;
+      collider.query({}, cloud.particles(), other);
+      double worst_m = 0.0;
+      for (std::size_t i = 0; i < cloud.size(); ++i)
+        worst_m =
+            std::max(worst_m, std::abs(double{best[i].signed_distance} - double{other[i].signed_distance}));
+      CHECK(worst_m < (relief ? 1e-5 : 2e-6));
+    });
+    CHECK(targets >= 1);
+  }
+}
+
+TEST_CASE("every instruction set resolves every particle") {
+  for (const bool relief : {false, true}) {
+    const Collider collider(scene(relief));
+    on_every_target([&](const char* name) {
+      CAPTURE(name);
+      Cloud cloud = random_cloud();
+      CHECK(collider.resolve({}, cloud.particles(), {}).unresolved == 0);
+      const ContactReport again = collider.resolve({}, cloud.particles(), {});
+      CHECK(again.deepest_m < 1e-6f);
+    });
+  }
+}
+
+TEST_CASE("warm queries and responses allocate nothing") {
+  if (!counts_allocations()) return;
+  for (const bool relief : {false, true}) {
+    const Collider collider(scene(relief));
+    Cloud cloud = random_cloud();
+    std::vector<Contact> contacts(cloud.size());
+    Workspace workspace;
+    const auto frame = [&] {
+      for (float& y : cloud.y) y -= 0.001f;
+      collider.query({}, cloud.particles(), contacts);
+      collider.query({}, cloud.particles(), contacts, workspace);
+      collider.resolve({}, cloud.particles(), {}, workspace);
+      collider.resolve({}, cloud.particles(), {});
+    };
+    frame();
+    const std::size_t before = allocations();
+    for (int i = 0; i < 3; ++i) frame();
+    CHECK(allocations() == before);
+  }
+}
+
+TEST_CASE("moving to the pose it is in changes nothing, and allocates nothing") {
+  const auto proxy = scene(false);
+  Collider moved(proxy), still(proxy);
+  std::vector<Ellipsoid> shapes;
+  for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
+  const std::size_t before = allocations();
+  moved.move_to(shapes, 0.01);
+  if (counts_allocations()) CHECK(allocations() == before);
+  Cloud a = random_cloud(), b = a;
+  moved.resolve({}, a.particles(), {});
+  still.resolve({}, b.particles(), {});
+  CHECK(a.x == b.x);
+  CHECK(a.y == b.y);
+  // The body's own velocity is that of two roundings.
+  double worst_m_s = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    worst_m_s = std::max(worst_m_s, (a.velocity(i) - b.velocity(i)).norm());
+  CHECK(worst_m_s < 1e-5);
+}
