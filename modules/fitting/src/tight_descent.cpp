@@ -22,7 +22,7 @@ constexpr double kMaxShift = 0.02;  // of the scaled stature, an iteration
 constexpr double kMaxLogRadius = 0.2;
 constexpr double kMaxTurn_rad = 0.2;
 constexpr double kMinRadius = 0.002;
-constexpr double kStopGain = 0.004;  // of the cost, over kStopWindow iterations
+constexpr double kStopGain = 0.002;  // of the cost, over kStopWindow iterations
 constexpr int kStopWindow = 48;
 constexpr std::size_t kLeastSkin = 4;  // samples; with fewer an ellipsoid stands for nothing
 
@@ -34,7 +34,7 @@ struct State {
 Ellipsoid stepped(const Ellipsoid& e, const NormalBlock& block, double damping) {
   NormalBlock::Matrix a = block.jtj;
   const double typical = a.trace() / 9.0;
-  for (int j = 0; j < 9; ++j) a(j, j) += damping * (a(j, j) + 0.05 * typical) + 1e-4 * typical + 1e-12;
+  for (int j = 0; j < 9; ++j) a(j, j) += damping * (a(j, j) + 0.005 * typical) + 1e-4 * typical + 1e-12;
   const NormalBlock::Vector step = -a.ldlt().solve(block.jtr);
   if (!step.allFinite()) return e;
   Ellipsoid next = e;
