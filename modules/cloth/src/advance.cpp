@@ -93,6 +93,8 @@ void end_frame(const Plan& plan, State& s) {
   settle_pins(s.pins);
   const Environment& e = s.options.environment;
   end_sleep_frame(s.stretch, plan.simulated_s, s.particles, s.sleep);
+  s.self.travel_m +=
+      plan.simulated_s * static_cast<double>(*std::max_element(s.sleep.speed.begin(), s.sleep.speed.end()));
   if (e.gust > 0.0 && e.wind_m_s != Vec3::Zero()) wake_all(s.sleep);  // the air never rests
   s.time_s += plan.simulated_s;
 }

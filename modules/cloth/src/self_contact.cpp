@@ -17,6 +17,8 @@ namespace {
 
 constexpr float kSearch = 2.0f;  // radii: pairs this near may meet within the frame
 
+constexpr double kFresh = 0.4;  // radii the fastest may travel between searches; half is the bound
+
 struct Cell {
   int x, y, z;
 };
@@ -114,7 +116,8 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Topology& top
 }
 
 void find_close_pairs(const engine::Context& context, const Particles& particles, SelfContact& self) {
-  if (!(self.radius_m > 0.0f)) return;
+  if (!(self.radius_m > 0.0f) || self.travel_m < kFresh * static_cast<double>(self.radius_m)) return;
+  self.travel_m = 0.0;
   const float inverse_side = 1.0f / (kSearch * self.radius_m);
   sort_into_buckets(particles, inverse_side, self);
   engine::parallel_for(context, particles.count(), kParticleGrain / 4,
