@@ -22,7 +22,7 @@ void print_row(const bench::Case& c, const bodice::anatomy::Anatomy& a, const be
 }
 
 void run(const bench::Case& c, bool verbose, bench::Sheet& sheet) {
-  const auto anatomy = bodice::anatomy::analyse({}, c.mesh, {});
+  const auto anatomy = bodice::anatomy::analyse({}, c.mesh, {bodice::body::find_profile("ansur2").value()});
   if (!anatomy) {
     std::printf("%-42s %s\n", c.name.c_str(), anatomy.error().sentence().c_str());
     return;

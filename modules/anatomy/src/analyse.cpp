@@ -31,7 +31,7 @@ Vec3 upwards(const Skin& skin, const Landmarks& marks) {
 }  // namespace
 
 engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
-                                const Options&) {
+                                const Options& options) {
   if (mesh.empty()) return no_body("the mesh has no triangles.");
   Anatomy anatomy;
   StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
@@ -55,7 +55,7 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   StageTimer segment_timer(context, anatomy.stages, "segment");
   anatomy.part = segment(context, skin, coordinates);
   segment_timer.stop();
-  anatomy.warnings = diagnose(skin, *found, sides, coordinates, marks);
+  anatomy.warnings = diagnose(skin, *found, sides, coordinates, marks, options.profile, anatomy.stature_m);
   return anatomy;
 }
 

@@ -83,16 +83,44 @@ void check_places(const Landmarks& marks, std::vector<Warning>& warnings) {
   uncertain(marks.neck.confidence, "neck-uncertain", "head", "neck");
 }
 
+/// What the way along the skin adds to a survey's straight measure (the foot, mostly), and how far builds,
+/// poses and the estimate of the stature spread; of the stature.
+constexpr double kFootAlongSkin = 0.07, kLegSpread = 0.08, kArmSpread = 0.08;
+
+/// The survey is a cross-check only: children and cartoon figures differ from it and are still understood.
+void check_proportions(const BodyEnds& ends, const Landmarks& marks, const body::ProportionProfile& profile,
+                       double stature, std::vector<Warning>& warnings) {
+  const body::Proportions survey = profile.either();
+  if (!(survey.crotch_height > 0.0) || !(stature > 0.0)) return;
+  constexpr std::array<const char*, 2> thigh{"thigh_l", "thigh_r"}, upper_arm{"upper_arm_l", "upper_arm_r"};
+  const auto compare = [&](double measured_m, double expected, double spread, const char* part,
+                           const char* what) {
+    if (std::abs(measured_m / stature - expected) > spread)
+      warnings.push_back(
+          {"unusual-proportions", part,
+           std::string("The ") + what + " is unusual for a body of profile " + profile.name + ".",
+           "Nothing to do for a child or a stylised figure; else check the landmarks."});
+  };
+  for (int side = 0; side < 2; ++side) {
+    compare(static_cast<double>((*ends.from_foot[side])[marks.perineum]),
+            survey.crotch_height + kFootAlongSkin, kLegSpread, thigh[side], "length of this leg");
+    compare(static_cast<double>((*ends.from_hand[side])[marks.armpit[side]]), survey.fingertip_to_armpit,
+            kArmSpread, upper_arm[side], "length of this arm");
+  }
+}
+
 }  // namespace
 
 std::vector<Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
-                              const BodyCoordinates& coordinates, const Landmarks& marks) {
+                              const BodyCoordinates& coordinates, const Landmarks& marks,
+                              const body::ProportionProfile& profile, double stature) {
   std::vector<Warning> warnings;
   const auto size = static_cast<double>(coordinates.size_m());
   check_surface(skin, warnings);
   check_welds(coordinates.ends(), size, warnings);
   check_symmetry(coordinates.ends(), size, warnings);
   check_places(marks, warnings);
+  check_proportions(coordinates.ends(), marks, profile, stature, warnings);
   if (found.misfit > kFairMisfit)
     warnings.push_back({"unusual-body", "", "The ends of the body lie at unusual distances from each other.",
                         "Check the landmarks: welded, missing or very long limbs change these distances."});

@@ -3,11 +3,14 @@
 
 #include <bodice/engine/result.hpp>
 
+#include <bodice/body/proportions.hpp>
+
 #include "landmarks.hpp"
 
 namespace bodice::anatomy {
 
 std::vector<engine::Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
-                                      const BodyCoordinates& coordinates, const Landmarks& marks);
+                                      const BodyCoordinates& coordinates, const Landmarks& marks,
+                                      const body::ProportionProfile& profile, double stature);
 
 }  // namespace bodice::anatomy

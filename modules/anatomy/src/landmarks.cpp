@@ -16,6 +16,9 @@ using geometry::kNoIndex;
 /// No joint's loop lies further from the end of its limb, in the coordinate of that end: beyond, the border's
 /// zero line means nothing.
 constexpr float kNeckReach = 0.40F, kElbowReach = 0.36F, kKneeReach = 0.40F;
+/// Skin weights put the border a little below the knee's centre of turning: how far the joint's loop lies
+/// beyond the border, as a score.
+constexpr float kKneeBeyond = 0.0115F;
 /// The armpit lies this far from its own hand, of hand to hand.
 constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
 /// A signature this many deviations off is no evidence any more.
@@ -27,12 +30,13 @@ double confidence_of(float misfit) {
 }
 
 /// The border's loop: the longest closed zero line near the limb's end.
-Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Border& border, int side,
-                  Coordinate end, float reach) {
+Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Border& border, float beyond,
+                  int side, Coordinate end, float reach) {
   Field score(skin.mesh.positions.size());
   for (std::size_t v = 0; v < score.size(); ++v) {
     const CoordinateArray x = coordinates.at(v, side);
-    score[v] = x[end] < reach ? border(x) : std::min(border(x), -1e-6F);
+    const float s = border(x) + beyond;
+    score[v] = x[end] < reach ? s : std::min(s, -1e-6F);
   }
   const float zero = 0.0F;
   const auto lines = geodesic::isolines(skin.mesh, skin.edges, score, {&zero, 1})[0];
@@ -79,10 +83,11 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
   constexpr std::size_t kTasks = 7;  // the neck, and elbow, knee and armpit of both sides
   engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
     const int side = static_cast<int>(task % 2);
-    if (task == 6) marks.neck = border_loop(skin, coordinates, kNeck, 0, kFromHead, kNeckReach);
-    if (task < 2) marks.elbow[side] = border_loop(skin, coordinates, kElbow, side, kOwnHand, kElbowReach);
+    if (task == 6) marks.neck = border_loop(skin, coordinates, kNeck, 0.0F, 0, kFromHead, kNeckReach);
+    if (task < 2)
+      marks.elbow[side] = border_loop(skin, coordinates, kElbow, 0.0F, side, kOwnHand, kElbowReach);
     if (task == 2 || task == 3)
-      marks.knee[side] = border_loop(skin, coordinates, kKnee, side, kOwnFoot, kKneeReach);
+      marks.knee[side] = border_loop(skin, coordinates, kKnee, kKneeBeyond, side, kOwnFoot, kKneeReach);
     if (task == 4 || task == 5) find_armpit(context, coordinates, side, marks);
   });
   return marks;
