@@ -7,7 +7,9 @@
 //
 // A result takes effect between two frames only.
 
+#include <chrono>
 #include <cstdio>
+#include <thread>
 
 #include <bodice/synth/garment.hpp>
 #include <bodice/tryon/session.hpp>
@@ -40,7 +42,9 @@ int main() {
   bool dressed = false;
   int refinements = 0;
   std::uint64_t in_force = 0;
-  for (int frame = 0; frame < 100000; ++frame) {
+  auto next_display = std::chrono::steady_clock::now();
+  for (int frame = 0; frame < 3600; ++frame) {
+    std::this_thread::sleep_until(next_display += std::chrono::microseconds(16667));  // a display's 60 Hz
     const tryon::FrameOutcome outcome = session.frame(1.0 / 60.0);
     if (outcome.has_body && !dressed) {
       auto skirt = skirt_for(context, *session.body()->skin);

@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.25)
 # For each layer and each header of each layer: a file that sees what the first layer's users see includes the
 # header. It must preprocess if the layer uses the other, directly or not, and must fail otherwise.
 include("${TABLE}")

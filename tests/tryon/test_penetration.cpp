@@ -25,7 +25,7 @@ TEST_CASE("particles inside a ball are counted at their depth") {
 TEST_CASE("a sheet through a ball is pierced although its corners are outside") {
   const engine::Context context;
   const geometry::MeshDistance skin(context, bodice_test::icosphere(1.0, 4));
-  const std::vector<Vec3> corners = {{-3, 0, -3}, {3, 0, -3}, {0, 0, 3}, {-3, 9, -3}, {3, 9, -3}, {0, 9, 3}};
+  const std::vector<Vec3> corners = {{-3, 0, -3}, {3, 0, -3}, {0, 0, 6}, {-3, 9, -3}, {3, 9, -3}, {0, 9, 6}};
   const std::vector<geometry::Triangle> triangles = {{0, 1, 2}, {3, 4, 5}};
   CHECK(tryon::penetration(context, skin, corners).over_1mm == 0);
   CHECK(tryon::pierced_share(context, skin, corners, triangles) == doctest::Approx(0.5));

@@ -112,6 +112,7 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
   auto solver = cloth::Solver::make(all.mesh, all.held, fabric, solver_options(options, proxy));
   if (!solver) return std::move(solver).error();
   const collision::Collider collider(proxy);
+  solver->move_pins(held_positions(all, collider, options.solver.thickness_m));
 
   Recorder recorder(garments, all);
   std::vector<Vec3> positions(all.mesh.positions.size());

@@ -89,7 +89,14 @@ struct Session::Impl {
   engine::FramePipeline pipeline;
   LiveStream bodies;  // after the pipeline: streams must go first
   std::optional<cloth::Solver> solver;
-  std::size_t vertices = 0;
+  Wardrobe wardrobe;
+  const LiveBody* fitted_to = nullptr;  // the body whose surface the pins lie on
+
+  /// Once a proxy, not once a frame: this one may allocate.
+  void hold_garments_on(const LiveBody& body) {
+    solver->move_pins(held_positions(wardrobe, body.collider, options.solver.thickness_m));
+    fitted_to = &body;
+  }
 };
 
 Session::Session(const engine::Context& context, SessionOptions options)
@@ -105,7 +112,7 @@ engine::Ticket Session::submit(BodySource source) {
 }
 
 engine::Result<void> Session::dress(const std::vector<WornGarment>& garments) {
-  const Wardrobe all = join(garments);
+  Wardrobe all = join(garments);
   cloth::Fabric fabric = impl_->options.fabric;
   if (fabric.name.empty()) {
     auto cotton = cloth::find_fabric("cotton");
@@ -115,7 +122,8 @@ engine::Result<void> Session::dress(const std::vector<WornGarment>& garments) {
   auto solver = cloth::Solver::make(all.mesh, all.held, fabric, impl_->options.solver);
   if (!solver) return std::move(solver).error();
   impl_->solver.emplace(std::move(solver).value());
-  impl_->vertices = all.mesh.positions.size();
+  impl_->wardrobe = std::move(all);
+  impl_->fitted_to = nullptr;
   return {};
 }
 
@@ -125,6 +133,7 @@ FrameOutcome Session::frame(double dt_s) {
     const LiveBody* body = impl_->bodies.current();
     outcome.has_body = body != nullptr;
     if (body) outcome.proxy_hash = body->proxy.hash();
+    if (body && body != impl_->fitted_to && impl_->solver) impl_->hold_garments_on(*body);
     // Without a body the garments would fall to the floor before there is anything to wear them.
     if (body && impl_->solver) outcome.cloth = impl_->solver->step(context, body->collider, dt_s);
   });
@@ -136,7 +145,7 @@ const LiveBody* Session::body() const noexcept {
 }
 
 std::size_t Session::vertices() const noexcept {
-  return impl_->vertices;
+  return impl_->wardrobe.mesh.positions.size();
 }
 
 void Session::positions(std::span<geometry::Vec3> out) const {

@@ -17,4 +17,22 @@ Wardrobe join(const std::vector<WornGarment>& garments) {
   return all;
 }
 
+std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,
+                                           double thickness_m) {
+  const std::size_t count = wardrobe.held.size();
+  std::vector<float> x(count), y(count), z(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const geometry::Vec3 local = wardrobe.mesh.positions[wardrobe.held[i]] - collider.origin();
+    x[i] = static_cast<float>(local.x());
+    y[i] = static_cast<float>(local.y());
+    z[i] = static_cast<float>(local.z());
+  }
+  collider.resolve({}, {.count = count, .x = x.data(), .y = y.data(), .z = z.data()},
+                   {.thickness_m = static_cast<float>(thickness_m)});
+  std::vector<geometry::Vec3> world(count);
+  for (std::size_t i = 0; i < count; ++i)
+    world[i] = collider.origin() + geometry::Vec3(double{x[i]}, double{y[i]}, double{z[i]});
+  return world;
+}
+
 }  // namespace bodice::tryon

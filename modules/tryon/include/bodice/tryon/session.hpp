@@ -66,7 +66,8 @@ class Session {
   /// Puts garments on, in place of those worn; not in a frame. They wait where they are for the first body.
   engine::Result<void> dress(const std::vector<WornGarment>& garments);
 
-  /// A frame boundary, then dt_s of cloth. Allocates nothing once warm.
+  /// A frame boundary, then dt_s of cloth. Allocates nothing once warm, but for the first frame of a new
+  /// proxy.
   FrameOutcome frame(double dt_s);
 
   /// The body in force, or null before the first; valid until the next frame().

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <bodice/collision/collider.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::tryon {
@@ -22,5 +23,10 @@ struct Wardrobe {
 
 /// Joins the garments, in order. O(vertices).
 Wardrobe join(const std::vector<WornGarment>& garments);
+
+/// Where the held vertices are to be: their own places, pushed out of the collider where they lie inside it,
+/// as a waistband lies on the body that it is on. #held, world metres.
+std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,
+                                           double thickness_m);
 
 }  // namespace bodice::tryon

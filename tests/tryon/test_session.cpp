@@ -1,0 +1,92 @@
+// Bodies prepared behind the frames: they take effect at boundaries, the newest wins, a run can be repeated.
+
+#include <doctest/doctest.h>
+
+#include <bodice/tryon/session.hpp>
+
+using namespace bodice;
+
+namespace {
+
+/// A square of cloth above the head of the built-in body.
+tryon::WornGarment sheet() {
+  constexpr int kSide = 12;
+  tryon::WornGarment cloth{.name = "sheet"};
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j)
+      cloth.mesh.positions.push_back({0.04 * (i - kSide / 2), 1.75, 0.04 * (j - kSide / 2)});
+  for (geometry::Index i = 0; i + 1 < kSide; ++i)
+    for (geometry::Index j = 0; j + 1 < kSide; ++j) {
+      const geometry::Index a = i * kSide + j, b = a + 1, c = a + kSide, d = c + 1;
+      cloth.mesh.triangles.push_back({a, b, c});
+      cloth.mesh.triangles.push_back({b, d, c});
+    }
+  return cloth;
+}
+
+std::uint64_t run_deterministic(engine::Executor& executor) {
+  const engine::Context context{.executor = &executor};
+  tryon::SessionOptions options;
+  options.pipeline.mode = engine::PipelineMode::kDeterministic;
+  options.pipeline.delay_frames = 3;
+  options.fit.tier = proxy::Tier::kSolid;
+  tryon::Session session(context, options);
+  REQUIRE(session.dress({sheet()}).ok());
+  session.submit(synth::BodyOptions{.vertices = 2600});
+  for (int frame = 0; frame < 12; ++frame) session.frame(1.0 / 60.0);
+  REQUIRE(session.body() != nullptr);
+  return session.hash();
+}
+
+}  // namespace
+
+TEST_CASE("garments wait for their body, then fall on it") {
+  const auto executor = engine::make_tbb_executor(2);
+  const engine::Context context{.executor = executor.get()};
+  tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
+  REQUIRE(session.dress({sheet()}).ok());
+  CHECK(session.vertices() == 144);
+  std::vector<geometry::Vec3> at(session.vertices());
+  session.frame(1.0 / 60.0);
+  session.positions(at);
+  CHECK(at[0].y() == doctest::Approx(1.75));  // no body yet
+
+  const engine::Ticket ticket = session.submit(synth::BodyOptions{.vertices = 2600});
+  REQUIRE(ticket.wait().ok());
+  for (int frame = 0; frame < 60; ++frame) CHECK(session.frame(1.0 / 60.0).cloth.finite);
+  REQUIRE(session.body() != nullptr);
+  session.positions(at);
+  CHECK(at[0].y() < 1.74);
+  CHECK(at[0].y() > 1.2);  // caught by head or shoulders, not fallen through
+}
+
+TEST_CASE("a newer body takes the place of one still in work") {
+  const auto executor = engine::make_tbb_executor(2);
+  const engine::Context context{.executor = executor.get()};
+  tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
+  engine::Ticket first =
+      session.submit(synth::BodyOptions{.stature_m = 1.5, .mass_kg = 50, .vertices = 8850});
+  engine::Ticket second =
+      session.submit(synth::BodyOptions{.stature_m = 1.9, .mass_kg = 80, .vertices = 2600});
+  REQUIRE(second.wait().ok());
+  session.frame(1.0 / 60.0);
+  REQUIRE(session.body() != nullptr);
+  CHECK(session.body()->proxy.stature_m() > 1.75);
+  const auto superseded = first.wait();
+  if (!superseded) CHECK(superseded.error().code == engine::ErrorCode::kCancelled);
+}
+
+TEST_CASE("a body that cannot be read is an error of its ticket, and the frames go on") {
+  const engine::Context context;
+  tryon::Session session(context, {});
+  const engine::Ticket ticket = session.submit(tryon::BodyFile{"nowhere.obj"});
+  const auto result = ticket.wait();
+  REQUIRE_FALSE(result.ok());
+  CHECK(result.error().sentence().find("nowhere.obj") != std::string::npos);
+  CHECK_FALSE(session.frame(1.0 / 60.0).has_body);
+}
+
+TEST_CASE("in deterministic mode a run repeats to the bit, whatever the workers") {
+  const std::uint64_t serial = run_deterministic(engine::inline_executor());
+  for (const int workers : {2, 3}) CHECK(run_deterministic(*engine::make_tbb_executor(workers)) == serial);
+}
