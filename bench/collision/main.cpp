@@ -1,0 +1,182 @@
+// What a query and a response cost a particle, at which error, beside what else can answer: one thread, one
+// run, CPU time, median and min of the repeats, interleaved so that a slow minute hits all rows alike.
+// Usage: collision_costs [particles [repeats [fit seconds [rows.csv]]]]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "peers.hpp"
+#include "subject.hpp"
+
+namespace {
+
+using bodice::collision::Collider;
+using bodice::collision::Contact;
+using bodice::collision::Workspace;
+using bodice::proxy::Tier;
+
+constexpr double kBand_m = 0.03;
+constexpr int kEllipsoids = 89;
+
+struct Row {
+  std::string name;
+  std::function<void()> work;
+  double particles;
+  std::vector<double> ns = {};  ///< a particle, one a repeat
+
+  double median() const { return ns[ns.size() / 2]; }
+};
+
+void measure(std::vector<Row>& rows, int repeats) {
+  for (Row& row : rows) row.work();
+  for (int r = 0; r < repeats; ++r)
+    for (Row& row : rows) {
+      row.work();  // what came before has filled the caches with its own data
+      const double start = bench::cpu_s();
+      row.work();
+      row.ns.push_back(1e9 * (bench::cpu_s() - start) / row.particles);
+    }
+  for (Row& row : rows) std::sort(row.ns.begin(), row.ns.end());
+}
+
+/// Mean and 95th percentile of | |found| - |truth| |, mm, where the truth is within the band.
+std::string error_of(const std::vector<float>& found, const std::vector<double>& truth, bool with_sign) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double value = static_cast<double>(found[i]);
+    errors.push_back(1e3 * std::abs(with_sign ? value - truth[i] : std::abs(value) - std::abs(truth[i])));
+  }
+  std::sort(errors.begin(), errors.end());
+  double sum = 0.0;
+  for (const double e : errors) sum += e;
+  char text[64];
+  std::snprintf(text, sizeof(text), "%.2f / %.2f", sum / static_cast<double>(errors.size()),
+                errors[errors.size() * 95 / 100]);
+  return text;
+}
+
+/// One proxy: its particles in both orders, and room for the answers.
+struct Contender {
+  std::string name;
+  Collider collider;
+  bench::Cloud coherent, random, moved;
+  std::vector<Contact> contacts;
+  Workspace kept_query, kept_response;
+
+  Contender(std::string label, const bodice::proxy::BodyProxy& proxy, const bench::Cloud& ordered,
+            const bench::Cloud& shuffled)
+      : name(std::move(label)),
+        collider(proxy),
+        coherent(bench::local(ordered, collider)),
+        random(bench::local(shuffled, collider)),
+        moved(coherent),
+        contacts(ordered.size()) {}
+
+  std::vector<float> distances() {
+    collider.query({}, coherent.particles(), contacts);
+    std::vector<float> d;
+    for (const Contact& c : contacts) d.push_back(c.signed_distance);
+    return d;
+  }
+};
+
+void add_rows(Contender& c, std::vector<Row>& rows) {
+  const auto n = static_cast<double>(c.coherent.size());
+  rows.push_back(
+      {c.name + ": query, coherent", [&c] { c.collider.query({}, c.coherent.particles(), c.contacts); }, n});
+  rows.push_back({c.name + ": query, random, order kept",
+                  [&c] { c.collider.query({}, c.random.particles(), c.contacts, c.kept_query); }, n});
+  rows.push_back({c.name + ": query, random, sorted anew",
+                  [&c] {
+                    Workspace fresh;
+                    c.collider.query({}, c.random.particles(), c.contacts, fresh);
+                  },
+                  n});
+  rows.push_back({c.name + ": response, coherent (with a copy)",
+                  [&c] {
+                    c.moved = c.coherent;
+                    c.collider.resolve({}, c.moved.particles(), {});
+                  },
+                  n});
+  rows.push_back({c.name + ": response, random, order kept (with a copy)",
+                  [&c] {
+                    c.moved = c.random;
+                    c.collider.resolve({}, c.moved.particles(), {}, c.kept_response);
+                  },
+                  n});
+}
+
+std::string processor() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+void write_csv(const std::string& file, const std::vector<Row>& rows, int repeats) {
+  std::ofstream out(file);
+  out << "# " << processor() << "; " << BENCH_COMPILER << "; " << BENCH_FLAGS << "; repeats " << repeats
+      << "\n";
+  out << "row,ns_median,ns_min\n";
+  for (const Row& row : rows)
+    out << '"' << row.name << "\"," << row.median() << ',' << row.ns.front() << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::size_t count = argc > 1 ? static_cast<std::size_t>(std::atol(argv[1])) : 100000;
+  const int repeats = argc > 2 ? std::max(1, std::atoi(argv[2])) : 11;
+  const double fit_s = argc > 3 ? std::atof(argv[3]) : 4.0;
+
+  const auto body = bench::make_subject(8850);
+  const bodice::geometry::MeshDistance skin({}, body.mesh);
+  const bench::Cloud random = bench::near_skin(body.mesh, count, kBand_m, 1);
+  const bench::Cloud coherent = bench::coherent(random);
+  std::vector<double> truth;
+  for (std::size_t i = 0; i < count; ++i) truth.push_back(skin.signed_distance(coherent.at(i)));
+
+  std::printf(
+      "%s; %s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
+      "repeats\n\n",
+      processor().c_str(), BENCH_COMPILER, BENCH_FLAGS, count, 1e3 * kBand_m, body.mesh.positions.size(),
+      repeats);
+
+  std::vector<std::unique_ptr<Contender>> contenders;
+  for (const Tier tier : {Tier::kTight, Tier::kRelief}) {
+    const auto proxy = bench::fit_subject(body, skin, tier, kEllipsoids, fit_s);
+    const std::string label = std::string(bodice::proxy::name(tier)) + ", " +
+                              std::to_string(proxy.ellipsoids().size()) + " ellipsoids";
+    contenders.push_back(std::make_unique<Contender>(label, proxy, coherent, random));
+    std::printf("%s: error %s mm, %.0f kB\n", label.c_str(),
+                error_of(contenders.back()->distances(), truth, true).c_str(),
+                1e-3 * static_cast<double>(proxy.bytes()));
+  }
+  std::vector<bench::Peer> peers = bench::embree_peers(body.mesh, kBand_m + 0.001);
+  if (peers.empty()) std::printf("Embree is not installed here: not measured\n");
+  for (const double cell_m : {0.010, 0.005}) peers.push_back(bench::grid_peer(body.mesh, skin, cell_m));
+  std::vector<float> distances(count);
+  std::vector<Row> rows;
+  for (auto& contender : contenders) add_rows(*contender, rows);
+  for (bench::Peer& peer : peers) {
+    peer.query(coherent, distances);
+    std::printf("%s: error %s mm, build %.1f ms, %.0f kB\n", peer.name.c_str(),
+                error_of(distances, truth, peer.bytes > 0.0).c_str(), peer.build_ms, 1e-3 * peer.bytes);
+    rows.push_back(
+        {peer.name + ", coherent", [&] { peer.query(coherent, distances); }, static_cast<double>(count)});
+    rows.push_back(
+        {peer.name + ", random", [&] { peer.query(random, distances); }, static_cast<double>(count)});
+  }
+  measure(rows, repeats);
+  std::printf("\n| question | ns a particle, median | min |\n|---|---|---|\n");
+  for (const Row& row : rows)
+    std::printf("| %s | %.1f | %.1f |\n", row.name.c_str(), row.median(), row.ns.front());
+  if (argc > 4) write_csv(argv[4], rows, repeats);
+  return 0;
+}

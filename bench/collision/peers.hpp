@@ -1,0 +1,31 @@
+// The rivals, each behind the same question: the signed (or unsigned) distance of every particle to the skin.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "subject.hpp"
+
+namespace bench {
+
+struct Peer {
+  std::string name;
+  double build_ms = 0.0;  ///< what a body that moves pays every frame
+  double bytes = 0.0;     ///< 0: not known
+  std::function<void(const Cloud&, std::span<float> distance_m)> query;
+};
+
+/// A dense grid of signed distances, trilinear: exact to the cell's size, rebuilt when the body moves.
+Peer grid_peer(const bodice::geometry::TriMesh& mesh, const bodice::geometry::MeshDistance& skin,
+               double cell_m);
+
+/// Embree's point query over the skin's triangles, within `reach_m`, unsigned; nothing where it is missing.
+std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double reach_m);
+
+/// CPU seconds of this process, for one-threaded work: what preemption takes is not counted.
+double cpu_s();
+
+}  // namespace bench
