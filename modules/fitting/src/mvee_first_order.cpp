@@ -28,7 +28,16 @@ struct Khachiyan {
   Square inverse = Square::Identity();
 
   explicit Khachiyan(const PointFrame& f) : frame(f), u(f.kept.size()), kappa(f.kept.size()) {
-    std::fill(u.begin(), u.end(), 1.0 / static_cast<double>(u.size()));
+    // A few extremes are a far better start than all points; unless they do not span the set.
+    for (int axis = 0; axis < R; ++axis) {
+      const auto [low, high] = std::minmax_element(frame.y[axis].begin(), frame.y[axis].end());
+      u[static_cast<std::size_t>(low - frame.y[axis].begin())] += 1.0;
+      u[static_cast<std::size_t>(high - frame.y[axis].begin())] += 1.0;
+    }
+    Square moment = Square::Zero();
+    for (std::size_t i = 0; i < u.size(); ++i)
+      if (u[i] > 0.0) moment += u[i] * point(i) * point(i).transpose();
+    if (!(moment.determinant() > 1e-6)) std::fill(u.begin(), u.end(), 1.0);
   }
 
   Lifted point(std::size_t i) const {
