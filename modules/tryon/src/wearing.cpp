@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 
+#include <bodice/geometry/adjacency.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
 namespace bodice::tryon {
@@ -12,7 +12,7 @@ namespace {
 using geometry::Index;
 using geometry::Vec3;
 
-/// A waistband holds vertices up to this far below its edge, as a fraction of stature (about 1.5 cm).
+/// A waistband holds vertices this near its edge, as a fraction of stature (about 1.5 cm).
 constexpr double kWaistbandHeight = 0.009;
 /// A piece is worn only if some of it comes this near the skin, as a fraction of stature.
 constexpr double kWornWithin = 0.06;
@@ -31,22 +31,44 @@ double armpit_height(const SegmentedSkin& body) {
   return height;
 }
 
-/// Vertices on an edge that only one triangle has, seams closed by position first.
-std::vector<bool> boundary_vertices(const geometry::TriMesh& mesh) {
-  std::map<std::pair<Index, Index>, int> uses;
-  for (const geometry::Triangle& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++uses[std::minmax(t[k], t[(k + 1) % 3])];
-  std::vector<bool> on_boundary(mesh.positions.size(), false);
-  for (const auto& [edge, count] : uses)
-    if (count == 1) on_boundary[edge.first] = on_boundary[edge.second] = true;
-  return on_boundary;
-}
-
 struct Piece {
   double top = -std::numeric_limits<double>::infinity();
-  double boundary_top = -std::numeric_limits<double>::infinity();
   bool worn = false;
+  std::vector<Index> waistband;                                        ///< the rim nearest the head
+  double waistband_height = -std::numeric_limits<double>::infinity();  ///< mean over the rim: it may slant
 };
+
+std::vector<Piece> find_pieces(const geometry::TriMesh& mesh, const geometry::Components& components,
+                               const SegmentedSkin& body) {
+  std::vector<Piece> pieces(components.area.size());
+  const double near_m = kWornWithin * body.anatomy.stature_m;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    Piece& piece = pieces[components.of_vertex[v]];
+    piece.top = std::max(piece.top, height_of(mesh.positions[v], body));
+    piece.worn = piece.worn || body.distance->nearest_within(mesh.positions[v], near_m).has_value();
+  }
+  for (std::vector<Index>& rim : geometry::boundary_loops(mesh, geometry::build_adjacency(mesh))) {
+    double height = 0.0;
+    for (const Index v : rim) height += height_of(mesh.positions[v], body);
+    height /= static_cast<double>(rim.size());
+    Piece& piece = pieces[components.of_vertex[rim.front()]];
+    if (height <= piece.waistband_height) continue;
+    piece.waistband_height = height;
+    piece.waistband = std::move(rim);
+  }
+  return pieces;
+}
+
+/// Marks the vertices within the band's width of its rim.
+void mark_band(const geometry::TriMesh& mesh, const std::vector<Index>& rim, double width_m,
+               std::vector<bool>& held) {
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+    for (const Index on_rim : rim)
+      if ((mesh.positions[v] - mesh.positions[on_rim]).squaredNorm() <= width_m * width_m) {
+        held[v] = true;
+        break;
+      }
+}
 
 }  // namespace
 
@@ -55,28 +77,16 @@ std::vector<Index> held_vertices(const geometry::TriMesh& garment, const Segment
   if (!welded) return {};
   const geometry::TriMesh& mesh = welded->mesh;
   const geometry::Components components = geometry::connected_components(mesh);
-  const std::vector<bool> on_boundary = boundary_vertices(mesh);
-  const double stature_m = body.anatomy.stature_m;
-
-  std::vector<Piece> pieces(components.area.size());
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    Piece& piece = pieces[components.of_vertex[v]];
-    const double height = height_of(mesh.positions[v], body);
-    piece.top = std::max(piece.top, height);
-    if (on_boundary[v]) piece.boundary_top = std::max(piece.boundary_top, height);
-    if (!piece.worn && body.distance->nearest_within(mesh.positions[v], kWornWithin * stature_m))
-      piece.worn = true;
-  }
-
   const double shoulder = armpit_height(body);
+  std::vector<bool> in_band(mesh.positions.size(), false);
+  for (const Piece& piece : find_pieces(mesh, components, body))
+    if (piece.worn && piece.top <= shoulder)
+      mark_band(mesh, piece.waistband, kWaistbandHeight * body.anatomy.stature_m, in_band);
+
   std::vector<Index> held;
   for (std::size_t i = 0; i < garment.positions.size(); ++i) {
     const Index v = welded->vertex_of_input[i];
-    if (v == geometry::kNoIndex) continue;
-    const Piece& piece = pieces[components.of_vertex[v]];
-    if (!piece.worn || piece.top > shoulder) continue;
-    if (height_of(mesh.positions[v], body) > piece.boundary_top - kWaistbandHeight * stature_m)
-      held.push_back(static_cast<Index>(i));
+    if (v != geometry::kNoIndex && in_band[v]) held.push_back(static_cast<Index>(i));
   }
   return held;
 }
