@@ -1,4 +1,4 @@
-// anatomy_scores [--data DIR] [--only TEXT] [--seeds N] [--verbose] [--sheet FILE.png]: a table of how well
+// anatomy [--data DIR] [--only TEXT] [--seeds N] [--verbose] [--sheet FILE.png]: a table of how well
 // every body is understood.
 #include <cstdio>
 #include <cstring>

@@ -1,6 +1,6 @@
 // What a query and a response cost a particle, at which error, beside what else can answer: one thread, one
 // run, CPU time, median and min of the repeats, interleaved so that a slow minute hits all rows alike.
-// Usage: collision_costs [particles [repeats [fit seconds [rows.csv]]]]
+// Usage: collision [particles [repeats [fit seconds [rows.csv]]]]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // How long do frames take while a body is prepared, and how long does the body take behind the frames?
 //
-//     build/release/bench/overlap_times [--quick] [--workers N] [--body 200000] [--csv FILE] [--svg FILE]
+//     build/release/bench/overlap [--quick] [--workers N] [--body 200000] [--csv FILE] [--svg FILE]
 //     [--trace FILE]
 #include <cstdio>
 #include <fstream>

@@ -1,6 +1,6 @@
 // How does each stage scale with workers, what is the serial part, and what does scheduling cost?
 //
-//     build/release/bench/scaling_tables [--quick] [--workers N] [--stage TEXT] [--out FOLDER]
+//     build/release/bench/scaling [--quick] [--workers N] [--stage TEXT] [--out FOLDER]
 //
 // FOLDER gets scaling.md, scaling.csv and scaling.svg.
 #include <cstdio>

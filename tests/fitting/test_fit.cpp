@@ -25,7 +25,6 @@ FitOptions options_for(Tier tier, int count) {
   FitOptions options;
   options.tier = tier;
   options.max_ellipsoids = count;
-  options.time_budget_s = 1e4;  // the optimisation's own stop decides, so that results are reproducible
   return options;
 }
 

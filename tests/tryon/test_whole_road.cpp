@@ -18,7 +18,7 @@ namespace {
 tryon::PreparedBody prepare(const engine::Context& context, proxy::Tier tier) {
   auto skin = tryon::segment_builtin(context, {.vertices = 4500}, {});
   REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
-  auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = tier, .time_budget_s = 0.5});
+  auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = tier});
   REQUIRE_MESSAGE(body.ok(), body.error().sentence());
   return std::move(body).value();
 }

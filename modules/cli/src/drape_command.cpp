@@ -16,7 +16,7 @@ struct DrapeCommand {
   std::vector<double> wind_m_s;
   double thickness_mm = 2.0;
   bool no_picture = false;
-  tryon::DrapeOptions drape;
+  tryon::DrapeOptions drape{.solver = {.substeps = 16}};
 };
 
 engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const DrapeCommand& command,

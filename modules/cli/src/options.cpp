@@ -35,9 +35,9 @@ std::vector<std::string> keys(const Map& map) {
 void add_fit_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Speed against accuracy";
   command
-      .add_option(
-          "--tier", o.tier,
-          "paper (as published), solid (no leaks, milliseconds), tight (about 1 mm), relief (below 1 mm)")
+      .add_option("--tier", o.tier,
+                  "paper (as published), solid (no leaks), tight (1 to 2 mm), relief (a third of a "
+                  "millimetre; the default)")
       ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}))
       ->group(group)
       ->capture_default_str();
@@ -65,10 +65,11 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
                   "the paper's threshold for head and limbs (default: automatic)")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  command.add_option("--time-budget-s", o.time_budget_s, "stop refining after this long")
+  command
+      .add_option("--time-budget-s", o.time_budget_s,
+                  "stop refining after this long (default: when nothing is gained; runs repeat to the bit)")
       ->check(CLI::PositiveNumber)
-      ->group(group)
-      ->capture_default_str();
+      ->group(group);
   command.add_option("--region-of", o.region_of, "fit only the parts that this garment can touch")
       ->group(group);
   command.add_option("--region-margin-mm", o.region_margin_mm, "how far that garment can reach")

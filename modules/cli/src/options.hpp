@@ -26,9 +26,8 @@ struct CommonOptions {
   int vertices = 8850;
 
   std::string tier;
-  std::optional<double> target_error_mm, budget_us, mu_torso_mm, mu_limbs_mm;
+  std::optional<double> time_budget_s, target_error_mm, budget_us, mu_torso_mm, mu_limbs_mm;
   std::optional<int> max_ellipsoids;
-  double time_budget_s = 2.0;
   std::string region_of;
   double region_margin_mm = 50.0;
 

@@ -16,6 +16,8 @@
 namespace bodice::fitting {
 namespace {
 
+constexpr double kNoTimeLimit_s = 1e6;
+
 std::uint64_t hash_of(const geometry::TriMesh& mesh) {
   engine::Hasher hasher;
   for (const Vec3& p : mesh.positions)
@@ -39,11 +41,12 @@ Draft run_tier(const engine::Context& context, const LabelledSkin& skin, const F
   using proxy::Tier;
   if (options.tier == Tier::kTight || options.tier == Tier::kRelief) {
     const bool relief = options.tier == Tier::kRelief;
+    const double budget_s = options.time_budget_s.value_or(kNoTimeLimit_s);
     const std::int64_t deadline =
-        context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(options.time_budget_s, 1e6));
+        context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(budget_s, kNoTimeLimit_s));
     engine::StageTimer tight(context, stages, "tight");
     const SkinSource source = make_skin_source(context, skin, options.parts);
-    Draft draft = fit_tight(context, source, options, count, (relief ? 0.5 : 1.0) * options.time_budget_s);
+    Draft draft = fit_tight(context, source, options, count, (relief ? 0.5 : 1.0) * budget_s);
     tight.stop();
     if (!relief) return draft;
     engine::StageTimer timer(context, stages, "relief");

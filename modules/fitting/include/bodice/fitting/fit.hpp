@@ -27,12 +27,13 @@ struct LabelledSkin {
 };
 
 struct FitOptions {
-  proxy::Tier tier = proxy::Tier::kTight;
+  proxy::Tier tier = proxy::Tier::kRelief;
   std::optional<double> target_error_m;  ///< mean gap wanted; gives the ellipsoid count and thresholds
   std::optional<int> max_ellipsoids;
   std::optional<double> budget_us;               ///< collision time a frame for 10k particles
   std::optional<double> mu_torso_m, mu_limbs_m;  ///< the paper's thresholds; automatic if absent
-  double time_budget_s = 2.0;                    ///< for the anytime tiers
+  /// The anytime tiers stop after this long; absent: when they gain no more, which makes runs repeatable.
+  std::optional<double> time_budget_s;
   bool reclassify_points = false;  ///< the paper tier's eq. (8): .2 mm of E for two to three times the work
   std::uint64_t seed = 0;
   std::uint32_t parts = (1u << body::kPartCount) - 1;  ///< bit a part: only these are fitted
