@@ -7,17 +7,10 @@
 
 #include <Eigen/Geometry>
 
-#include <bodice/engine/parallel.hpp>
-#include <bodice/geometry/mesh_distance.hpp>
-
-#include "tailor.hpp"
+#include "keep_ease.hpp"
 
 namespace bodice::synth {
 namespace {
-
-constexpr int kPushes = 24;          // each gains what is missing; slanted skin needs several
-constexpr double kLeastPush = 2e-4;  // of stature: ends a slow approach along slanted skin
-constexpr double kGenerous = 1.3;    // a push of just the missing distance would end a little short
 
 engine::Result<Cut> cut_garment(const Fitting& fitting) {
   switch (fitting.options.kind) {
@@ -32,31 +25,6 @@ engine::Result<Cut> cut_garment(const Fitting& fitting) {
   }
   return engine::Error{engine::ErrorCode::kInvalidArgument, "There is no such garment.",
                        "Use a GarmentKind."};
-}
-
-/// Moves vertices outward until all keep the ease; false if some cannot.
-bool clear_skin(const engine::Context& context, const Fitting& fitting, Cut& cut) {
-  const geometry::MeshDistance skin(context, fitting.body.mesh);
-  std::vector<char> clear(cut.mesh.positions.size(), 0);
-  engine::parallel_for(context, clear.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v)
-      for (int push = 0; push < kPushes && !clear[v]; ++push) {
-        Vec3& p = cut.mesh.positions[v];
-        const double missing = fitting.options.ease_m - skin.signed_distance(fitting.frame.to_world(p));
-        clear[v] = missing <= 0.0;
-        if (!clear[v]) p += (kGenerous * missing + kLeastPush * fitting.body.stature_m) * cut.outward[v];
-      }
-  });
-  const auto& t = cut.mesh.triangles;
-  std::vector<char> outside(t.size(), 0);  // a triangle may still cut what its corners avoid
-  engine::parallel_for(context, t.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Vec3 middle = (cut.mesh.corner(i, 0) + cut.mesh.corner(i, 1) + cut.mesh.corner(i, 2)) / 3.0;
-      outside[i] = skin.signed_distance(fitting.frame.to_world(middle)) > 0.0;
-    }
-  });
-  const auto holds = [](char c) { return c != 0; };
-  return std::all_of(clear.begin(), clear.end(), holds) && std::all_of(outside.begin(), outside.end(), holds);
 }
 
 /// Winding that faces away from the trunk's axis, or up for a flat sheet.
@@ -90,10 +58,11 @@ engine::Result<Garment> make_garment(const engine::Context& context, const Segme
     const auto frame = trunk_frame(body);
     if (!frame) return frame.error();
     if (const auto error = check(body, options)) return *error;
-    const Fitting fitting{body, options, frame.value(), LocalSkin(body, frame.value())};
+    const Fitting fitting{body, options, frame.value(), LocalSkin(body, frame.value()),
+                          geometry::MeshDistance(context, body.mesh)};
     auto cut = cut_garment(fitting);
     if (!cut) return cut.error();
-    if (!clear_skin(context, fitting, cut.value()))
+    if (!keep_ease(context, fitting, cut.value()))
       return engine::Error{engine::ErrorCode::kUnusableGeometry,
                            "The garment cannot keep its ease from this body.",
                            "Choose a smaller ease, or a pose with the arms away from the trunk."};

@@ -47,29 +47,6 @@ Vec3 local_landmark(const SegmentedBody& body, const TrunkFrame& frame, body::La
   return frame.to_local(body.landmarks[static_cast<std::size_t>(id)].position);
 }
 
-LocalSkin::LocalSkin(const SegmentedBody& body, const TrunkFrame& frame) : body_(body) {
-  local_.reserve(body.mesh.positions.size());
-  for (const Vec3& p : body.mesh.positions) local_.push_back(frame.to_local(p));
-}
-
-std::vector<Vec3> LocalSkin::slab(int axis, double low, double high, const PartFilter& wanted) const {
-  std::vector<Vec3> points;
-  const auto cut = [&](const Vec3& a, const Vec3& b, double plane) {
-    if ((a[axis] < plane) == (b[axis] < plane)) return;
-    points.push_back(a + (plane - a[axis]) / (b[axis] - a[axis]) * (b - a));
-  };
-  for (const geometry::Triangle& t : body_.mesh.triangles) {
-    if (!wanted(body_.part[t[0]]) || !wanted(body_.part[t[1]]) || !wanted(body_.part[t[2]])) continue;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 &a = local_[t[k]], &b = local_[t[(k + 1) % 3]];
-      if (a[axis] >= low && a[axis] <= high) points.push_back(a);
-      cut(a, b, low);
-      cut(a, b, high);
-    }
-  }
-  return points;
-}
-
 std::vector<Point2> convex_hull(std::vector<Point2> points) {
   std::sort(points.begin(), points.end(),
             [](const Point2& a, const Point2& b) { return a.x < b.x || (a.x == b.x && a.z < b.z); });

@@ -37,12 +37,17 @@ using PartFilter = std::function<bool(body::Part)>;
 class LocalSkin {
  public:
   LocalSkin(const SegmentedBody& body, const TrunkFrame& frame);
+  /// Points of the closed curves in which the plane at height y cuts the skin; only curves of which at least
+  /// `least_share` of the length is of wanted parts, and those whole: a label that strays over a border moves
+  /// nothing. O(#F).
+  std::vector<Vec3> slice(double y, const PartFilter& wanted, double least_share = 0.5) const;
   /// Points of the skin with low <= coordinate <= high along `axis` (0 x, 1 y, 2 z), ends included.
   std::vector<Vec3> slab(int axis, double low, double high, const PartFilter& wanted) const;
 
  private:
   const SegmentedBody& body_;
   std::vector<Vec3> local_;
+  std::vector<std::array<double, 2>> height_;  ///< #F: lowest and highest corner
 };
 
 /// Convex hull, counter-clockwise from the lowest x. Based on: A. M. Andrew. Another efficient algorithm for

@@ -3,6 +3,8 @@
 
 #include <bodice/engine/context.hpp>
 
+#include <bodice/geometry/mesh_distance.hpp>
+
 #include "outline.hpp"
 
 namespace bodice::synth {
@@ -13,6 +15,8 @@ struct Fitting {
   const GarmentOptions& options;
   TrunkFrame frame;
   LocalSkin skin;
+  geometry::MeshDistance distance;  ///< in the world
+  double signed_distance(const Vec3& local) const { return distance.signed_distance(frame.to_world(local)); }
 };
 
 /// Positions in the trunk's frame until finish() turns them to the world.
@@ -32,10 +36,12 @@ struct Levels {
   double waist, armpit, neck;
 };
 Levels levels_of(const Fitting& fitting);
-/// The height below the armpits at which there is room for cloth between trunk and arm.
+/// The greatest height below the armpits at which there is room for cloth between trunk and arm. Judged by
+/// the skin itself: an armpit's landmark may be some centimetres above the fold.
 double tube_top(const Fitting& fitting);
 
-/// The outline of the wanted parts between two heights, widened by the ease; radius 0 where there is no skin.
+/// The outline of the wanted parts' slices at two heights and between them, widened by the ease; radius 0
+/// where there is no skin.
 Outline ring_outline(const Fitting& fitting, double low, double high, const PartFilter& wanted,
                      const Point2& center);
 /// The middle of the slice's box.
