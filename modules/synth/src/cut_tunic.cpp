@@ -21,6 +21,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPanelShare = 0.8;      // of the armpits' distance: the panels' width
 constexpr double kFrontNeckline = 0.55;  // of the way from the armpits' height over the front to the shoulder
 constexpr double kBackNeckline = 0.7;
+constexpr double kStrap = 0.02;  // of stature: the least width over a shoulder
 
 struct Plan {
   int front = 0;                      ///< cells across a panel
@@ -111,9 +112,10 @@ Plan make_plan(const Fitting& f) {
   for (const Vec3& p : f.skin.slab(1, levels.neck - 0.06 * h, levels.neck + 0.01 * h,
                                    [](Part part) { return part == Part::kHead; }))
     neck = std::max(neck, std::abs(p.x()));
-  const double share = std::clamp((neck + 1.5 * f.options.ease_m) / plan.half_width, 0.0, 0.8);
-  plan.hole_begin =
-      std::clamp(static_cast<int>(std::floor(0.5 * (1.0 - share) * plan.front)), 1, plan.front / 2 - 1);
+  const double cell = 2.0 * plan.half_width / plan.front, room = neck + 1.5 * f.options.ease_m;
+  const int most = plan.front / 2 - 1,
+            strap = std::clamp(static_cast<int>(std::lround(kStrap * h / cell)), 1, most);
+  plan.hole_begin = std::clamp(static_cast<int>(std::floor((plan.half_width - room) / cell)), strap, most);
   plan.hole_end = plan.front - plan.hole_begin;
   return plan;
 }

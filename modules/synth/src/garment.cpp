@@ -55,10 +55,11 @@ std::optional<engine::Error> check(const SegmentedBody& body, const GarmentOptio
 engine::Result<Garment> make_garment(const engine::Context& context, const SegmentedBody& body,
                                      const GarmentOptions& options) {
   try {
-    const auto frame = trunk_frame(body);
-    if (!frame) return frame.error();
+    const auto leaning = trunk_frame(body);
+    if (!leaning) return leaning.error();
     if (const auto error = check(body, options)) return *error;
-    const Fitting fitting{body, options, frame.value(), LocalSkin(body, frame.value()),
+    const TrunkFrame frame = upright(body, leaning.value());
+    const Fitting fitting{body, options, frame, LocalSkin(body, frame),
                           geometry::MeshDistance(context, body.mesh)};
     auto cut = cut_garment(fitting);
     if (!cut) return cut.error();

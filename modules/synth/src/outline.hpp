@@ -50,6 +50,10 @@ class LocalSkin {
   std::vector<std::array<double, 2>> height_;  ///< #F: lowest and highest corner
 };
 
+/// The frame with its y axis through the middle of the pelvis. A perineum's landmark lies on the skin, often
+/// well to the front, and a trunk frame through it leans. Unchanged when the skin there is no closed trunk.
+TrunkFrame upright(const SegmentedBody& body, const TrunkFrame& frame);
+
 /// Convex hull, counter-clockwise from the lowest x. Based on: A. M. Andrew. Another efficient algorithm for
 /// convex hulls in two dimensions. 1979.
 std::vector<Point2> convex_hull(std::vector<Point2> points);

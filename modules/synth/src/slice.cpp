@@ -1,12 +1,18 @@
 // Slices of the skin across the trunk's axes.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "outline.hpp"
 
 namespace bodice::synth {
 namespace {
+
+constexpr double kPelvis = 0.25;        // of the way from perineum to neck
+constexpr double kGreatestLean = 0.25;  // of that way: beyond it the slice is of something else
 
 Vec3 crossing(const Vec3& a, const Vec3& b, int axis, double plane) {
   return a + (plane - a[axis]) / (b[axis] - a[axis]) * (b - a);
@@ -110,6 +116,23 @@ std::vector<Vec3> LocalSkin::slab(int axis, double low, double high, const PartF
     }
   }
   return points;
+}
+
+TrunkFrame upright(const SegmentedBody& body, const TrunkFrame& frame) {
+  const Vec3 neck = local_landmark(body, frame, body::LandmarkId::kNeck);
+  geometry::Box box;
+  for (const Vec3& p : LocalSkin(body, frame).slice(kPelvis * neck.y(), body::is_torso)) box.extend(p);
+  if (box.empty() ||
+      std::max(std::abs(box.center().x()), std::abs(box.center().z())) > kGreatestLean * neck.y())
+    return frame;
+  TrunkFrame turned = frame;
+  const Vec3 up = frame.axes * (neck - box.center()), left = frame.axes.col(0);
+  turned.axes.col(1) = up.normalized();
+  turned.axes.col(2) = left.cross(up).normalized();
+  turned.axes.col(0) = turned.axes.col(1).cross(turned.axes.col(2));
+  const Vec3 top = frame.to_world(neck);
+  turned.origin = top + turned.axes.col(1).dot(frame.origin - top) * turned.axes.col(1);
+  return turned;
 }
 
 }  // namespace bodice::synth
