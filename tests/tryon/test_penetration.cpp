@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <bodice/tryon/penetration.hpp>
+#include <bodice/tryon/wardrobe.hpp>
 #include <bodice_test/shapes.hpp>
 
 using namespace bodice;
@@ -29,4 +30,17 @@ TEST_CASE("a sheet through a ball is pierced although its corners are outside") 
   const std::vector<geometry::Triangle> triangles = {{0, 1, 2}, {3, 4, 5}};
   CHECK(tryon::penetration(context, skin, corners).over_1mm == 0);
   CHECK(tryon::pierced_share(context, skin, corners, triangles) == doctest::Approx(0.5));
+}
+
+TEST_CASE("coarser cloth is kept further off, within bounds") {
+  auto square = [](double edge_m) {
+    geometry::TriMesh mesh;
+    mesh.positions = {{0, 0, 0}, {edge_m, 0, 0}, {0, edge_m, 0}, {edge_m, edge_m, 0}};
+    mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+    return mesh;
+  };
+  CHECK(tryon::covering_thickness_m(square(0.005), 1.7) == doctest::Approx(0.0015).epsilon(0.1));
+  CHECK(tryon::covering_thickness_m(square(0.04), 1.7) > 0.003);
+  CHECK(tryon::covering_thickness_m(square(0.5), 1.7) == doctest::Approx(0.008));
+  CHECK(tryon::covering_thickness_m({}, 1.7) == doctest::Approx(0.0015));
 }

@@ -14,7 +14,7 @@ struct DrapeCommand {
   std::vector<std::string> garments;
   std::string made = "skirt", output = "drape.glb", hold = "auto", fabric = "cotton";
   std::vector<double> wind_m_s;
-  double thickness_mm = 2.0;
+  std::optional<double> thickness_mm;
   bool no_picture = false;
   tryon::DrapeOptions drape{.solver = {.substeps = 16}};
 };
@@ -75,7 +75,7 @@ engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, c
   if (!fabric) return std::move(fabric).error();
   options.fabric = std::move(fabric).value();
   options.solver.seed = command.common.seed;
-  options.solver.thickness_m = command.thickness_mm * 1e-3;
+  if (command.thickness_mm) options.thickness_m = *command.thickness_mm * 1e-3;
   if (!command.wind_m_s.empty())
     options.solver.environment.wind_m_s =
         frame.rotation() * geometry::Vec3(command.wind_m_s[0], command.wind_m_s[1], command.wind_m_s[2]);
@@ -131,10 +131,10 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
   sub.add_option("--fabric", c.fabric, "cotton, silk, denim, jersey, leather")
       ->group(group)
       ->capture_default_str();
-  sub.add_option("--thickness-mm", c.thickness_mm, "distance that particles keep from the skin")
+  sub.add_option("--thickness-mm", c.thickness_mm,
+                 "distance that particles keep from the skin (default: so that triangles stay out too)")
       ->check(CLI::Range(0.0, 100.0))
-      ->group(group)
-      ->capture_default_str();
+      ->group(group);
   sub.add_option("--keep", c.drape.kept_frames, "frames kept in the GLB")
       ->check(CLI::Range(2, 10000))
       ->group(group)

@@ -32,8 +32,10 @@ void add_body(std::string& text, const tryon::PreparedBody& body) {
 }
 
 void add_drape(std::string& text, const tryon::DrapeReport& d) {
-  add_line(text, "drape       %d frames, %zu particles, %.2f ms a frame (median), %.2f ms (99 %%)", d.frames,
-           d.particles, d.frame_ms_median, d.frame_ms_p99);
+  add_line(
+      text,
+      "drape       %d frames, %zu particles %.1f mm off the skin, %.2f ms a frame (median), %.2f ms (99 %%)",
+      d.frames, d.particles, d.thickness_m * 1e3, d.frame_ms_median, d.frame_ms_p99);
   add_line(text,
            "true skin   %zu particles deeper than 1 mm at the end; deepest ever %.2f mm (frame %d); %.2f %% "
            "of the "

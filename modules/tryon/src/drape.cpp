@@ -90,8 +90,10 @@ class Recorder {
   std::vector<io::GarmentTrack> tracks_;
 };
 
-cloth::SolverOptions solver_options(const DrapeOptions& options, const proxy::BodyProxy& proxy) {
+cloth::SolverOptions solver_options(const DrapeOptions& options, const proxy::BodyProxy& proxy,
+                                    const geometry::TriMesh& garments) {
   cloth::SolverOptions solver = options.solver;
+  solver.thickness_m = options.thickness_m.value_or(covering_thickness_m(garments, proxy.stature_m()));
   if (proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
   return solver;
 }
@@ -109,10 +111,11 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
     if (!cotton) return std::move(cotton).error();
     fabric = std::move(cotton).value();
   }
-  auto solver = cloth::Solver::make(all.mesh, all.held, fabric, solver_options(options, proxy));
+  const cloth::SolverOptions solver_settings = solver_options(options, proxy, all.mesh);
+  auto solver = cloth::Solver::make(all.mesh, all.held, fabric, solver_settings);
   if (!solver) return std::move(solver).error();
   const collision::Collider collider(proxy);
-  solver->move_pins(held_positions(all, collider, options.solver.thickness_m));
+  solver->move_pins(held_positions(all, collider, solver_settings.thickness_m));
 
   Recorder recorder(garments, all);
   std::vector<Vec3> positions(all.mesh.positions.size());
@@ -122,6 +125,7 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
   DrapeReport& report = result.report;
   report.frames = options.frames;
   report.particles = solver->particles();
+  report.thickness_m = solver_settings.thickness_m;
 
   solver->positions(positions);
   recorder.keep(positions, 0.0);

@@ -1,6 +1,16 @@
 #include <bodice/tryon/wardrobe.hpp>
 
+#include <algorithm>
+
 namespace bodice::tryon {
+namespace {
+
+constexpr double kClothThickness_m = 0.0015;
+constexpr double kMostThickness_m = 0.008;  // beyond it the gap is what one sees
+constexpr double kLimbRadius =
+    0.03;  // of stature: thighs and upper arms, the tightest turns that cloth covers
+
+}  // namespace
 
 Wardrobe join(const std::vector<WornGarment>& garments) {
   Wardrobe all;
@@ -15,6 +25,19 @@ Wardrobe join(const std::vector<WornGarment>& garments) {
   }
   all.first_vertex.push_back(all.mesh.positions.size());
   return all;
+}
+
+double covering_thickness_m(const geometry::TriMesh& garment, double stature_m) {
+  std::vector<double> squared;
+  for (std::size_t t = 0; t < garment.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const double length = (garment.corner(t, k) - garment.corner(t, (k + 1) % 3)).squaredNorm();
+      if (length > 0.0 && length < stature_m * stature_m) squared.push_back(length);
+    }
+  if (squared.empty()) return kClothThickness_m;
+  const auto long_edge = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 9 / 10);
+  std::nth_element(squared.begin(), long_edge, squared.end());
+  return std::min(kMostThickness_m, kClothThickness_m + *long_edge / (8.0 * kLimbRadius * stature_m));
 }
 
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,

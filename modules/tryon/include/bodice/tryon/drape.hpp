@@ -1,6 +1,7 @@
 // A prepared body and garments in, draped garments and an honest account of the true skin out.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,10 @@ namespace bodice::tryon {
 struct DrapeOptions {
   int frames = 120;
   double dt_s = 1.0 / 60.0;
-  int kept_frames = 31;  ///< at most this many frames are kept for output, first and last included
-  cloth::Fabric fabric;  ///< empty name: cotton
-  cloth::SolverOptions solver;
+  int kept_frames = 31;         ///< at most this many frames are kept for output, first and last included
+  cloth::Fabric fabric;         ///< empty name: cotton
+  cloth::SolverOptions solver;  ///< its thickness_m is not used: see below
+  std::optional<double> thickness_m;  ///< kept between particles and skin; absent: covering_thickness_m()
 };
 
 /// Penetration is measured in the skin's exact signed distance, never in the proxy.
@@ -27,6 +29,7 @@ struct DrapeReport {
   std::size_t penetration_over_1mm = 0;  ///< particles deeper than 1 mm at the last frame
   double penetration_max_m = 0.0;        ///< deepest of any particle in any frame
   double penetration_end_m = 0.0;        ///< deepest at the last frame
+  double thickness_m = 0.0;              ///< in force
   int worst_frame = 0;
   double pierced_share = 0.0;    ///< of the cloth's area, inside the skin at the end
   std::size_t inside_union = 0;  ///< particles inside any ellipsoid (relief: the proxy) at the end

@@ -24,6 +24,10 @@ struct Wardrobe {
 /// Joins the garments, in order. O(vertices).
 Wardrobe join(const std::vector<WornGarment>& garments);
 
+/// A thickness that keeps triangles out of the skin, not only their corners: 1.5 mm plus the height of the
+/// arc over a long edge (90 % are shorter) on a limb, at most 8 mm. O(#edges).
+double covering_thickness_m(const geometry::TriMesh& garment, double stature_m);
+
 /// Where the held vertices are to be: their own places, pushed out of the collider where they lie inside it,
 /// as a waistband lies on the body that it is on. #held, world metres.
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,
