@@ -21,7 +21,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPanelShare = 0.8;      // of the armpits' distance: the panels' width
 constexpr double kFrontNeckline = 0.55;  // of the way from the armpits' height over the front to the shoulder
 constexpr double kBackNeckline = 0.7;
-constexpr double kStrap = 0.02;  // of stature: the least width over a shoulder
+constexpr double kStrap = 0.02;  // of stature: width over a shoulder, where the neck leaves it
 
 struct Plan {
   int front = 0;                      ///< cells across a panel
@@ -93,6 +93,30 @@ std::vector<double> arch_angles(const Outline& outline, int pieces) {
   return even_angles(closed, 2 * pieces, 0.0);
 }
 
+/// Half of the room that a neck hole needs to lie clear of the neck's foot.
+double neck_width(const Fitting& f) {
+  const double h = f.body.stature_m, y = levels_of(f).neck;
+  double neck = 0.0;
+  for (const Vec3& p :
+       f.skin.slab(1, y - 0.06 * h, y + 0.01 * h, [](Part part) { return part == Part::kHead; }))
+    neck = std::max(neck, std::abs(p.x()));
+  return neck + 1.5 * f.options.ease_m;
+}
+
+/// Whether cloth at +-x, and half a cell further in, passes over the shoulders without climbing the neck.
+bool beside_neck(const Fitting& f, double x) {
+  const auto highest = [&](double from, double to, bool head) {
+    double y = -1e9;
+    for (const Vec3& p : f.skin.slab(0, from, to, [&](Part part) { return (part == Part::kHead) == head; }))
+      y = std::max(y, p.y());
+    return y;
+  };
+  const double in = x - 0.5 * f.options.edge_length_m - f.options.ease_m,
+               out = x + 0.5 * f.options.edge_length_m;
+  return highest(in, out, true) <= highest(in, out, false) &&
+         highest(-out, -in, true) <= highest(-out, -in, false);
+}
+
 Plan make_plan(const Fitting& f) {
   const double h = f.body.stature_m, edge = f.options.edge_length_m;
   const Levels levels = levels_of(f);
@@ -108,14 +132,11 @@ Plan make_plan(const Fitting& f) {
   plan.rows = std::max(8, 2 * static_cast<int>(std::lround(0.5 * over / edge)));
   plan.hole_front = static_cast<int>(std::lround(0.5 * kFrontNeckline * plan.rows));
   plan.hole_back = plan.rows - static_cast<int>(std::lround(0.5 * kBackNeckline * plan.rows));
-  double neck = 0.0;
-  for (const Vec3& p : f.skin.slab(1, levels.neck - 0.06 * h, levels.neck + 0.01 * h,
-                                   [](Part part) { return part == Part::kHead; }))
-    neck = std::max(neck, std::abs(p.x()));
-  const double cell = 2.0 * plan.half_width / plan.front, room = neck + 1.5 * f.options.ease_m;
-  const int most = plan.front / 2 - 1,
-            strap = std::clamp(static_cast<int>(std::lround(kStrap * h / cell)), 1, most);
-  plan.hole_begin = std::clamp(static_cast<int>(std::floor((plan.half_width - room) / cell)), strap, most);
+  const double cell = 2.0 * plan.half_width / plan.front;
+  const int most = plan.front / 2 - 1;
+  plan.hole_begin = std::clamp(static_cast<int>((plan.half_width - neck_width(f)) / cell), 1, most);
+  const int strap = std::clamp(static_cast<int>(std::lround(kStrap * h / cell)), plan.hole_begin, most);
+  for (int i = plan.hole_begin + 1; i <= strap && beside_neck(f, plan.x(i)); ++i) plan.hole_begin = i;
   plan.hole_end = plan.front - plan.hole_begin;
   return plan;
 }
