@@ -151,3 +151,18 @@ TEST_CASE("labels are one line a vertex, in the input's units") {
   CHECK(count == skin->input.skin.positions.size());
   CHECK(highest_z == doctest::Approx(168.0).epsilon(0.03));
 }
+
+TEST_CASE("an ellipsoid carries the part of the skin that it stands for, wherever the fit moved it") {
+  const auto executor = engine::make_tbb_executor(2);
+  const engine::Context context{.executor = executor.get()};
+  const tryon::PreparedBody body = prepare(context, proxy::Tier::kTight);
+  const geometry::TriMesh& mesh = body.skin.input.skin;
+  int agree = 0;
+  for (const proxy::ProxyEllipsoid& e : body.fit.proxy.ellipsoids()) {
+    const geometry::SurfacePoint nearest = body.skin.distance->nearest(e.shape.center);
+    agree += body.skin.anatomy.part[mesh.triangles[nearest.triangle][0]] == e.part;
+  }
+  // Those on a border may go either way.
+  CHECK(agree > 0.8 * static_cast<double>(body.fit.proxy.ellipsoids().size()));
+  for (const fitting::PartFit& part : body.fit.parts) CHECK_MESSAGE(part.ellipsoids > 0, body::name(part.part));
+}

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 
 #include <bodice/engine/clock.hpp>
 
@@ -8,6 +9,24 @@
 #include "tight_descent.hpp"
 
 namespace bodice::fitting {
+namespace {
+
+/// The descent moves ellipsoids to where they are needed, out of the part they started in: each takes the
+/// part that most of its skin samples have (ties: the first part); one without skin keeps its own.
+void take_parts(const TightProblem& problem, std::span<const DistanceSample> samples,
+                std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
+  std::vector<std::array<int, body::kPartCount>> votes(ellipsoids.size());
+  const std::vector<std::uint32_t> owner = problem.skin_owner();
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    if (owner[i] != TightProblem::kNoOwner) ++votes[owner[i]][static_cast<int>(samples[i].part)];
+  for (std::size_t k = 0; k < ellipsoids.size(); ++k) {
+    const auto most = std::max_element(votes[k].begin(), votes[k].end());
+    if (*most > 0) ellipsoids[k].part = static_cast<body::Part>(most - votes[k].begin());
+  }
+}
+
+}  // namespace
+
 Draft fit_tight(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count, double time_budget_s) {
   const LabelledSkin& skin = source.skin;
@@ -19,8 +38,9 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   const Scaling scaling(skin);
   const double mm = scaling.mm();
   const std::size_t samples = std::clamp<std::size_t>(180 * static_cast<std::size_t>(count), 6000, 60000);
-  TightProblem problem(sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11}),
-                       scaling.origin, scaling.scale, TightLoss{});
+  const std::vector<DistanceSample> near_skin =
+      sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11});
+  TightProblem problem(near_skin, scaling.origin, scaling.scale, TightLoss{});
   std::vector<geometry::Ellipsoid> state;
   for (const auto& e : draft.data.ellipsoids) state.push_back(scaling.in(e.shape));
 
@@ -33,12 +53,14 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
     if (!options.on_improved) return;
     take(found);
     proxy::BodyProxy::Data data = draft.data;
+    take_parts(problem, near_skin, data.ellipsoids);
     data.stature_m = skin.stature_m;
     data.frame = skin.frame;
     if (auto proxy = proxy::BodyProxy::make(std::move(data))) options.on_improved(*proxy);
   };
   const DescentReport report = descend(context, problem, state, descent);
   take(state);
+  take_parts(problem, near_skin, draft.data.ellipsoids);
   for (auto idle = report.idle.rbegin(); idle != report.idle.rend(); ++idle)
     if (draft.data.ellipsoids.size() > 1)
       draft.data.ellipsoids.erase(draft.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(*idle));

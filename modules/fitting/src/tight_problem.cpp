@@ -172,10 +172,17 @@ std::vector<double> TightProblem::use_of_each() const {
 
 std::vector<std::size_t> TightProblem::skin_of_each() const {
   std::vector<std::size_t> held(ellipsoids_, 0);
+  for (const std::uint32_t e : skin_owner())
+    if (e != kNoOwner) ++held[e];
+  return held;
+}
+
+std::vector<std::uint32_t> TightProblem::skin_owner() const {
+  std::vector<std::uint32_t> owner(owner_.size(), kNoOwner);
   for (std::size_t i = 0; i < owner_.size(); ++i)
     if (std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far)
-      ++held[ellipsoid_of_pair_[owner_[i]]];
-  return held;
+      owner[i] = ellipsoid_of_pair_[owner_[i]];
+  return owner;
 }
 
 std::vector<double> TightProblem::gains() const {

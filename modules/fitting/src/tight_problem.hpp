@@ -34,6 +34,7 @@ struct NormalBlock {
 class TightProblem {
  public:
   static constexpr int kNear = 6;
+  static constexpr std::uint32_t kNoOwner = ~0u;
 
   TightProblem(std::span<const DistanceSample> samples, const Vec3& origin, double scale,
                const TightLoss& loss);
@@ -58,6 +59,8 @@ class TightProblem {
   std::vector<double> use_of_each() const;
   /// Owned samples on or just off the skin, within 5 mm.
   std::vector<std::size_t> skin_of_each() const;
+  /// #S: the ellipsoid that a sample counts for in skin_of_each(), or kNoOwner.
+  std::vector<std::uint32_t> skin_owner() const;
   /// Fall of the cost since remember(), by ellipsoid (owner before or after).
   std::vector<double> gains() const;
   std::vector<NormalBlock> normal_equations(const engine::Context& context,
