@@ -74,6 +74,19 @@ TEST_CASE("a skirt fits a stride and a seat") {
   }
 }
 
+// Rows of equal height leave the lap to one row of cells several times the asked edge long.
+TEST_CASE("a seated skirt has rows over the lap") {
+  const synth::Body body = made({.pose = Pose::kSit, .vertices = 4000});
+  const auto skirt = synth::make_garment({}, segmented(body), {});
+  REQUIRE(skirt.ok());
+  const geometry::TriMesh& mesh = skirt.value().mesh;
+  double longest = 0.0;
+  for (const geometry::Triangle& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k)
+      longest = std::max(longest, (mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).norm());
+  CHECK(longest < 4.0 * synth::GarmentOptions{}.edge_length_m);
+}
+
 TEST_CASE("edges and ease are options") {
   const synth::Body body = made({});
   const geometry::MeshDistance skin({}, body.mesh);
@@ -118,6 +131,8 @@ TEST_CASE("a body that cannot wear the garment is one clear sentence") {
   CHECK(code_of(segmented(body), {.ease_m = 1.0}) == engine::ErrorCode::kInvalidArgument);
   const synth::Body raised = made({.pose = Pose::kArmsUp, .vertices = 2500});
   CHECK(code_of(segmented(raised), {.kind = GarmentKind::kPoncho}) == engine::ErrorCode::kUnusableGeometry);
+  const synth::Body squatting = made({.pose = Pose::kSquat, .vertices = 2500});  // thighs against the chest
+  CHECK(code_of(segmented(squatting), {.kind = GarmentKind::kTunic}) == engine::ErrorCode::kUnusableGeometry);
 }
 
 }  // namespace

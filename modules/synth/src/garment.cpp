@@ -27,6 +27,17 @@ engine::Result<Cut> cut_garment(const Fitting& fitting) {
                        "Use a GarmentKind."};
 }
 
+constexpr double kGreatestStretch = 10.0;  // of the edge length: cloth around a limb that is in its way
+
+bool is_torn(const Cut& cut, double edge_length_m) {
+  const auto& p = cut.mesh.positions;
+  const double most = kGreatestStretch * edge_length_m;
+  return std::any_of(cut.mesh.triangles.begin(), cut.mesh.triangles.end(), [&](const geometry::Triangle& t) {
+    return std::max({(p[t[0]] - p[t[1]]).norm(), (p[t[1]] - p[t[2]]).norm(), (p[t[2]] - p[t[0]]).norm()}) >
+           most;
+  });
+}
+
 /// Winding that faces away from the trunk's axis, or up for a flat sheet.
 void face_outward(Cut& cut) {
   double facing = 0.0;
@@ -67,6 +78,10 @@ engine::Result<Garment> make_garment(const engine::Context& context, const Segme
       return engine::Error{engine::ErrorCode::kUnusableGeometry,
                            "The garment cannot keep its ease from this body.",
                            "Choose a smaller ease, or a pose with the arms away from the trunk."};
+    if (is_torn(cut.value(), options.edge_length_m))
+      return engine::Error{engine::ErrorCode::kUnusableGeometry,
+                           "The garment would be torn between limbs that are in its way.",
+                           "Choose a pose with the limbs away from the trunk, or another garment."};
     face_outward(cut.value());
     Garment garment{std::move(cut.value().mesh), std::move(cut.value().pinned)};
     for (Vec3& p : garment.mesh.positions) p = fitting.frame.to_world(p);
