@@ -12,7 +12,10 @@ ran=0
 while IFS= read -r line; do
   case $line in
     "" | "#"*) ;;
-    "bash "*) bash -n "$source_dir/${line#bash }" ;;
+    "bash "*)
+      script=${line#bash } script=${script%%[[:space:]]*}
+      bash -n "$source_dir/$script"
+      ;;
     *)
       echo "+ $line"
       bash -euo pipefail -c "$line" >output.txt 2>&1 || { cat output.txt; exit 1; }
