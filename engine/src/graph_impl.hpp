@@ -6,6 +6,7 @@
 
 #include <bodice/engine/task_graph.hpp>
 #include <bodice/engine/trace.hpp>
+#include "ready_set.hpp"
 
 namespace bodice::engine {
 
@@ -29,16 +30,21 @@ struct TaskGraph::Impl {
   struct Run;
   void start();
 
-  std::mutex mutex_;  // guards what follows, and `ended`, during a run
-  std::vector<std::uint32_t> missing_;
-  std::vector<std::uint32_t> ready_;  // a heap of ranks
-  std::size_t tasks_ended_ = 0;
-  std::size_t working_ = 0;  // threads in Run::work
-  bool unwinding_ = false;
-  std::size_t failed_rank_ = 0;  // tasks of higher rank no longer start
+  std::vector<std::uint32_t> rank_at_;   // place -> rank; places in the order in which ready tasks start
+  std::vector<std::uint32_t> place_of_;  // rank -> place
+
+  ReadySet ready_;  // places
+  std::vector<std::atomic<std::uint32_t>> missing_;
+  std::atomic<std::size_t> working_{0};  // threads in Run::work
+  std::atomic<bool> unwinding_{false};
+  std::atomic<std::size_t> limit_{0};  // tasks of this rank or a higher one no longer start
+
+  std::mutex failure_mutex_;
   std::optional<Error> error_;
   std::exception_ptr exception_;
+
   std::mutex progress_mutex_;
+  std::size_t tasks_ended_ = 0;  // counted where progress is told
   std::atomic<bool> running_{false};
 };
 

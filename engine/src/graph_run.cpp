@@ -1,6 +1,7 @@
-// A run of a task graph. Every worker draws the best ready task from one heap; the worker that makes more
-// tasks ready than it can run itself invites others with a nested bulk. Nobody waits for a task: a worker
-// that finds the heap empty leaves, so that it is free for loops inside the tasks that still run.
+// A run of a task graph. Every worker takes the first of the ready tasks; the worker that makes more tasks
+// ready than it can run itself invites others with a nested bulk. Nobody waits for a task: a worker that
+// finds none ready leaves, so that it is free for loops inside the tasks that still run. What all workers
+// share on the way from one task to the next is a word of the ready set, no lock.
 #include <algorithm>
 
 #include "graph_impl.hpp"
@@ -22,41 +23,15 @@ struct TaskGraph::Impl::Run {
   const Context& context;
   const OnProgress* on_progress;
 
-  bool starts_later(std::uint32_t a, std::uint32_t b) const {
-    const int priority_a = graph.node(a).priority, priority_b = graph.node(b).priority;
-    return priority_a != priority_b ? priority_a < priority_b : a > b;
-  }
-  auto heap_order() const {
-    return [this](std::uint32_t a, std::uint32_t b) { return starts_later(a, b); };
-  }
-
-  void push(std::uint32_t rank) {
-    graph.ready_.push_back(rank);
-    std::ranges::push_heap(graph.ready_, heap_order());
-  }
-
-  // Takes the next task into `rank`, or leaves work() and returns false.
-  bool pop(std::uint32_t& rank) {
-    const std::lock_guard lock(graph.mutex_);
-    while (!graph.unwinding_ && !graph.ready_.empty()) {
-      std::ranges::pop_heap(graph.ready_, heap_order());
-      rank = graph.ready_.back();
-      graph.ready_.pop_back();
-      if (rank <= graph.failed_rank_) return true;
+  bool take(std::uint32_t& rank) {
+    for (std::size_t place = 0; !graph.unwinding_ && graph.ready_.take_least(place);) {
+      rank = graph.rank_at_[place];
+      if (rank < graph.limit_) return true;
     }
-    --graph.working_;
     return false;
   }
 
-  void fail(std::size_t rank, std::optional<Error> error, std::exception_ptr exception) {
-    const std::lock_guard lock(graph.mutex_);
-    if (rank >= graph.failed_rank_) return;
-    graph.failed_rank_ = rank;
-    graph.error_ = std::move(error);
-    graph.exception_ = std::move(exception);
-  }
-
-  void execute(std::uint32_t rank) {
+  void execute(std::uint32_t rank, int depth) {
     const detail::GraphNode& node = graph.node(rank);
     try {
       context.checkpoint();
@@ -66,7 +41,7 @@ struct TaskGraph::Impl::Run {
         result = node.body(context);
       }
       if (!result) return fail(rank, result.error(), nullptr);
-      finish(rank);
+      finish(rank, depth);
     } catch (const Cancelled&) {
       cancel(rank);
     } catch (...) {
@@ -74,70 +49,81 @@ struct TaskGraph::Impl::Run {
     }
   }
 
+  void fail(std::size_t rank, std::optional<Error> error, std::exception_ptr exception) {
+    const std::lock_guard lock(graph.failure_mutex_);
+    if (rank >= graph.limit_) return;
+    graph.limit_ = rank;
+    graph.error_ = std::move(error);
+    graph.exception_ = std::move(exception);
+  }
+
   // A cancelled run starts nothing more, so it takes the place below every rank; the first one is told.
   void cancel(std::uint32_t rank) {
-    const std::lock_guard lock(graph.mutex_);
+    const std::lock_guard lock(graph.failure_mutex_);
     const bool first = !graph.error_ || graph.error_->code != ErrorCode::kCancelled;
     if (first) graph.error_ = cancelled_error(graph.node(rank).name);
     graph.exception_ = nullptr;
-    graph.failed_rank_ = 0;
-    graph.ready_.clear();
+    graph.limit_ = 0;
   }
 
-  void finish(std::uint32_t rank) {
+  void finish(std::uint32_t rank, int depth) {
     std::unique_lock<std::mutex> in_order;
     if (on_progress) in_order = std::unique_lock(graph.progress_mutex_);
-    std::size_t ended = 0;
-    {
-      const std::lock_guard lock(graph.mutex_);
-      graph.ended[rank] = 1;
-      ended = ++graph.tasks_ended_;
-      for (const std::uint32_t next : graph.successors[rank]) {
-        if (--graph.missing_[next] == 0) push(next);
-      }
+    graph.ended[rank] = 1;
+    bool more = false;
+    for (const std::uint32_t next : graph.successors[rank]) {
+      if (graph.missing_[next].fetch_sub(1) != 1) continue;
+      graph.ready_.insert(graph.place_of_[next]);
+      more = true;
     }
-    if (on_progress) (*on_progress)({ended, graph.tasks_total, graph.node(rank).name});
+    if (on_progress) (*on_progress)({++graph.tasks_ended_, graph.tasks_total, graph.node(rank).name});
+    if (in_order) in_order.unlock();
+    if (more) invite(depth);
   }
 
-  // How many more workers have something to do; with too deep a nest, tells all to return instead.
-  std::size_t invitations(int depth) {
-    const std::lock_guard lock(graph.mutex_);
+  // Calls in as many workers as have something to do beside this one; too deep in a nest, tells all to
+  // return and start afresh instead.
+  void invite(int depth) {
     const auto workers = static_cast<std::size_t>(context.executor->concurrency());
-    if (graph.ready_.size() < 2 || graph.working_ >= workers) return 0;
-    if (depth < kMaxDepth) return std::min(graph.ready_.size() - 1, workers - graph.working_);
-    graph.unwinding_ = true;
-    return 0;
+    const std::size_t working = graph.working_;
+    if (working >= workers) return;
+    const std::size_t ready = graph.ready_.count();
+    if (ready < 2) return;
+    if (depth == kMaxDepth) {
+      graph.unwinding_ = true;
+      return;
+    }
+    const std::size_t guests = std::min(ready - 1, workers - working);
+    context.executor->bulk(guests + 1, [&](std::size_t) { work(depth + 1); });
   }
 
   void work(int depth) {
-    {
-      const std::lock_guard lock(graph.mutex_);
+    do {
       ++graph.working_;
-    }
-    for (std::uint32_t rank = 0; pop(rank);) {
-      execute(rank);
-      const std::size_t more = invitations(depth);
-      if (more > 0) context.executor->bulk(more + 1, [&](std::size_t) { work(depth + 1); });
-    }
+      for (std::uint32_t rank = 0; take(rank);) execute(rank, depth);
+      --graph.working_;
+      // One who made tasks ready a moment ago may have counted on this worker, and invited nobody.
+    } while (!graph.unwinding_ && !graph.ready_.empty());
   }
 
   void work_all() {
-    do {
+    const auto workers = static_cast<std::size_t>(context.executor->concurrency());
+    for (std::size_t ready = graph.ready_.count(); ready > 0; ready = graph.ready_.count()) {
       graph.unwinding_ = false;
-      const auto workers = static_cast<std::size_t>(context.executor->concurrency());
-      context.executor->bulk(std::min(workers, graph.ready_.size()), [&](std::size_t) { work(0); });
-    } while (!graph.ready_.empty());
+      context.executor->bulk(std::min(workers, ready), [&](std::size_t) { work(0); });
+    }
   }
 };
 
 void TaskGraph::Impl::start() {
   tasks_ended_ = 0;
-  failed_rank_ = nodes.size();
+  limit_ = nodes.size();
+  unwinding_ = false;
   error_.reset();
   exception_ = nullptr;
   ready_.clear();
-  missing_ = needed_tasks;
   for (std::uint32_t rank = 0; rank < nodes.size(); ++rank) {
+    missing_[rank] = needed_tasks[rank];
     if (!node(rank).is_input) ended[rank] = 0;
   }
 }
@@ -159,9 +145,9 @@ Result<void> TaskGraph::Impl::run(const Context& context, const OnProgress* on_p
       return Error{ErrorCode::kInvalidArgument, "Task graph: input '" + node(rank).name + "' was never set.",
                    "Call set() before run()."};
     }
-    if (!node(rank).is_input && needed_tasks[rank] == 0) run.push(rank);
+    if (!node(rank).is_input && needed_tasks[rank] == 0) ready_.insert(place_of_[rank]);
   }
-  if (!ready_.empty()) run.work_all();
+  run.work_all();
   if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
   if (error_) return std::move(*error_);
   return {};

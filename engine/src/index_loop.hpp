@@ -16,6 +16,9 @@ class IndexLoop {
 
   /// Runs bodies until no index is left to draw. Exceptions are kept for rethrow().
   void work() noexcept {
+    // In a short loop a draw that finds nothing costs as much as a body: one who comes late only looks, and
+    // who draws the last index knows that it is the last.
+    if (next_.load(std::memory_order_relaxed) >= count_) return;
     for (;;) {
       const std::size_t index = next_.fetch_add(1, std::memory_order_relaxed);
       if (index >= count_) return;
@@ -25,6 +28,7 @@ class IndexLoop {
         fail(index);
         return;
       }
+      if (index + 1 == count_) return;
     }
   }
 

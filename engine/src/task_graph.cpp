@@ -1,5 +1,9 @@
 #include <bodice/engine/task_graph.hpp>
 
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
 #include "graph_impl.hpp"
 
 namespace bodice::engine {
@@ -20,8 +24,14 @@ TaskGraph::Impl::Impl(std::vector<detail::GraphNode> nodes_in, std::vector<std::
       ++needed_tasks[rank];
     }
   }
-  ready_.reserve(nodes.size());
-  missing_.reserve(nodes.size());
+  rank_at_ = std::vector<std::uint32_t>(nodes.size());
+  std::iota(rank_at_.begin(), rank_at_.end(), 0u);
+  std::ranges::stable_sort(rank_at_, std::ranges::greater(),
+                           [this](std::uint32_t rank) { return node(rank).priority; });
+  place_of_.resize(nodes.size());
+  for (std::uint32_t place = 0; place < nodes.size(); ++place) place_of_[rank_at_[place]] = place;
+  ready_.resize(nodes.size());
+  missing_ = std::vector<std::atomic<std::uint32_t>>(nodes.size());
 }
 
 TaskGraph::TaskGraph(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

@@ -51,14 +51,13 @@ class TbbExecutor final : public Executor {
       arena_.execute([&] { spread(loop, count); });
     } else if (place == Place::kArena || attached_) {
       spread_isolated(loop, count);
-    } else if (outside_callers_.fetch_add(1) == 0) {
+    } else if (!entered_.exchange(true, std::memory_order_acquire)) {
       spread_isolated(loop, count);
-      outside_callers_.fetch_sub(1);
+      entered_.store(false, std::memory_order_release);
     } else {
       // The arena keeps one slot for a thread from outside. TBB would have a second one wait and run
       // whatever is there meanwhile, for as long as that takes; it does better alone.
       loop.work();
-      outside_callers_.fetch_sub(1);
     }
     loop.rethrow();
   }
@@ -155,7 +154,7 @@ class TbbExecutor final : public Executor {
   const bool attached_ = false;
   int concurrency_ = 1;
   std::vector<Slot> slots_;
-  std::atomic<int> outside_callers_{0};
+  std::atomic<bool> entered_{false};  // by a thread from outside
   std::mutex started_mutex_;
   std::condition_variable all_ended_;
   int started_ = 0;
