@@ -1,5 +1,5 @@
 // Based on: Piyush Kumar, E. Alper Yildirim. Minimum-Volume Enclosing Ellipsoids and Core Sets. 2005.
-// Differs: the core set starts from 26 directional extremes, grows by the worst point of each octant, sheds
+// Differs: the core set starts from 14 directional extremes, grows by the worst point of each octant, sheds
 // idle points, and is solved by a damped Newton method (mvee_dual.hpp), so a handful of scans reaches 1e-7.
 #include <bodice/fitting/mvee.hpp>
 
@@ -22,32 +22,30 @@ Eigen::Matrix<double, R + 1, 1> lifted(const PointFrame& frame, std::size_t i) {
   return q;
 }
 
-/// The points farthest along the 3^R - 1 directions with components -1, 0, 1.
+/// The points farthest along the axes and the diagonals, and the one that the frame was grown from: with the
+/// farthest along each axis it spans the set, so that M is positive definite from the start.
 template <int R>
 void add_extremes(const PointFrame& frame, ActiveSet<R + 1>& set) {
-  constexpr int kDirections = R == 3 ? 13 : 4;
-  std::array<std::size_t, 2 * kDirections> chosen{};
+  constexpr int kDiagonals = 1 << (R - 1), kDirections = R + kDiagonals;
+  std::array<std::size_t, 2 * kDirections + 1> chosen{};
   const std::size_t n = frame.kept.size();
-  for (int k = 0; k < kDirections; ++k) {
-    // Codes 1..13 in balanced ternary cover each direction once up to sign.
-    std::array<double, 3> w{};
-    for (int j = 0, code = k + 1; j < R; ++j) {
-      const int digit = code % 3;
-      w[j] = digit == 2 ? -1.0 : digit;
-      code = code / 3 + (digit == 2 ? 1 : 0);
+  std::array<double, kDirections> low, high;
+  low.fill(1e300), high.fill(-1e300);
+  for (std::size_t i = 0; i < n; ++i) {
+    std::array<double, kDirections> along;
+    for (int j = 0; j < R; ++j) along[j] = frame.y[j][i];
+    for (int d = 0; d < kDiagonals; ++d) {
+      along[R + d] = along[0];
+      for (int j = 1; j < R; ++j) along[R + d] += (d >> (j - 1)) & 1 ? along[j] : -along[j];
     }
-    double low = 1e300, high = -1e300;
-    for (std::size_t i = 0; i < n; ++i) {
-      double along = 0.0;
-      for (int j = 0; j < R; ++j) along += w[j] * frame.y[j][i];
-      if (along < low) low = along, chosen[2 * k] = i;
-      if (along > high) high = along, chosen[2 * k + 1] = i;
+    for (int k = 0; k < kDirections; ++k) {
+      if (along[k] < low[k]) low[k] = along[k], chosen[2 * k] = i;
+      if (along[k] > high[k]) high[k] = along[k], chosen[2 * k + 1] = i;
     }
   }
   std::sort(chosen.begin(), chosen.end());
   const auto end = std::unique(chosen.begin(), chosen.end());
   for (auto i = chosen.begin(); i != end; ++i) set.add(lifted<R>(frame, *i), 1.0);
-  set.normalise();
 }
 
 /// Adds the worst violator of each orthant; returns the largest kappa / N - 1 over all points.
@@ -92,8 +90,8 @@ Mvee solve(const PointFrame& frame, const MveeOptions& options) {
     if (excess_all <= tolerance) break;
   }
   set.drop_idle();
-  finish<R>(frame, set.q.leftCols(set.size).template topRows<R>(), set.u.head(set.size), options.min_radius_m,
-            result);
+  finish<R>(frame, set.q.leftCols(set.size).template topRows<R>(),
+            Eigen::Map<const Eigen::VectorXd>(set.u.data(), set.size), options.min_radius_m, result);
   return result;
 }
 

@@ -1,111 +1,157 @@
 // The dual of the enclosing-ellipsoid problem on a small active set.
 // Based on: Michael J. Todd. Minimum-Volume Ellipsoids: Theory and Algorithms. 2016. - chapters 2 and 3
 // (lifting q = (y, 1); maximise ln det sum u q q^T over the simplex; optimal when every
-// kappa = q^T M^-1 q <= N). Differs: the simplex is replaced by the penalty N sum u, which has the same
-// optimum and needs no constraint; steps are damped Newton (the objective is self-concordant) with an active
-// set on u >= 0; multiplicative steps warm it up.
+// kappa = q^T M^-1 q <= N).
+// Based on: Radoslav Harman, Luc Pronzato. Improvements on removing nonoptimal support points in D-optimum
+// design algorithms. 2007. - eq. (6) (which points cannot carry weight).
+// Differs: the simplex is replaced by the penalty N sum u, which has the same optimum and needs no
+// constraint; steps are Newton's, projected on u >= 0 and taken only if ln det rises, else damped and cut at
+// the first weight that vanishes (the objective is self-concordant); multiplicative steps warm it up.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "small_cholesky.hpp"
+
 namespace bodice::fitting {
 
-/// Points lifted to N = rank + 1 dimensions with their weights u.
+/// Points lifted to N = rank + 1 dimensions with their weights u, and what measure() found of them.
 template <int N>
 struct ActiveSet {
   static constexpr int kCapacity = 64;
   using Lifted = Eigen::Matrix<double, N, 1>;
   using Square = Eigen::Matrix<double, N, N>;
-  using Lifteds = Eigen::Matrix<double, N, Eigen::Dynamic, Eigen::ColMajor, N, kCapacity>;
-  using Weights = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kCapacity, 1>;
-  using Hessian =
-      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kCapacity, kCapacity>;
+  using Weights = std::array<double, kCapacity>;
 
-  Eigen::Matrix<double, N, kCapacity> q;
-  Eigen::Matrix<double, kCapacity, 1> u;
+  Eigen::Matrix<double, N, kCapacity> q, z;  ///< points, and L^-1 q with M = L L^T
+  Weights u{}, kappa{};
   int size = 0;
+  double log_det = -std::numeric_limits<double>::infinity();  ///< of M
 
   bool full() const { return size == kCapacity; }
   void add(const Lifted& point, double weight) {
     q.col(size) = point;
     u[size++] = weight;
   }
-  void drop_idle() {
+  template <class Keep>
+  void keep_if(Keep&& keep) {
     int kept = 0;
-    for (int i = 0; i < size; ++i)
-      if (u[i] > 0.0) {
-        q.col(kept) = q.col(i);
-        u[kept++] = u[i];
-      }
+    for (int i = 0; i < size; ++i) {
+      if (!keep(i)) continue;
+      q.col(kept) = q.col(i);
+      z.col(kept) = z.col(i);
+      kappa[kept] = kappa[i];
+      u[kept++] = u[i];
+    }
     size = kept;
   }
-  void normalise() { u.head(size) /= u.head(size).sum(); }
+  void drop_idle() {
+    keep_if([this](int i) { return u[i] > 0.0; });
+  }
+  void normalise() {
+    double sum = 0.0;
+    for (int i = 0; i < size; ++i) sum += u[i];
+    for (int i = 0; i < size; ++i) u[i] /= sum;
+  }
   Square moment() const {
-    return q.leftCols(size) * u.head(size).asDiagonal() * q.leftCols(size).transpose();
+    Square m = Square::Zero();
+    for (int i = 0; i < size; ++i)
+      if (u[i] > 0.0) m += (u[i] * q.col(i)) * q.col(i).transpose();
+    return m;
+  }
+  /// Normalises the weights and finds z, kappa and log_det; false if M is not positive definite.
+  bool measure() {
+    normalise();
+    const Eigen::LLT<Square> llt(moment());
+    if (llt.info() != Eigen::Success) return false;
+    const Square l = llt.matrixL();
+    double diagonal = 1.0;
+    for (int j = 0; j < N; ++j) diagonal *= l(j, j);
+    log_det = 2.0 * std::log(diagonal);
+    Square inverse = Square::Zero();
+    for (int c = 0; c < N; ++c)
+      for (int r = c; r < N; ++r) {
+        double sum = r == c ? 1.0 : 0.0;
+        for (int k = c; k < r; ++k) sum -= l(r, k) * inverse(k, c);
+        inverse(r, c) = sum / l(r, r);
+      }
+    for (int i = 0; i < size; ++i) {
+      z.col(i).noalias() = inverse.lazyProduct(q.col(i));
+      kappa[i] = z.col(i).squaredNorm();
+    }
+    return std::isfinite(log_det);
+  }
+  /// Largest kappa / N - 1: the duality gap is at most N/2 times this.
+  double excess() const { return kappa[worst()] / N - 1.0; }
+  int worst() const {
+    return static_cast<int>(std::max_element(kappa.begin(), kappa.begin() + size) - kappa.begin());
   }
 };
 
-/// L^-1 q of every active point, so that kappa are squared column norms; false if M is not positive definite.
+/// Removes the points that cannot carry weight in this set's solution, given how far the weights are from it,
+/// unless the others alone would not span the space yet. Leaves the set measured.
 template <int N>
-bool whitened(const ActiveSet<N>& set, typename ActiveSet<N>::Lifteds& z) {
-  const Eigen::LLT<typename ActiveSet<N>::Square> llt(set.moment());
-  if (llt.info() != Eigen::Success) return false;
-  z = set.q.leftCols(set.size);
-  llt.matrixL().solveInPlace(z);
-  return z.allFinite();
+void drop_hopeless(ActiveSet<N>& set, double excess) {
+  const double root = std::sqrt(std::max(0.0, excess * (4.0 + excess - 4.0 / N)));
+  // A hair below the bound, so that rounding of kappa removes nothing that lies on it.
+  const double bound = N * (1.0 + 0.5 * excess - 0.5 * root) * (1.0 - 1e-9);
+  if (*std::min_element(set.kappa.begin(), set.kappa.begin() + set.size) >= bound) return;
+  const ActiveSet<N> before = set;
+  set.keep_if([&](int i) { return set.kappa[i] >= bound; });
+  constexpr double kMostLost = 1.0;  // of ln det
+  if (set.size == 0 || !set.measure() || set.log_det < before.log_det - kMostLost) set = before;
 }
 
-/// One Newton direction on the free weights; entering weights whose direction points out are freed of it.
+/// Newton's direction over the weights that are positive or whose kappa asks them to be; zero for others.
+/// Returns the Newton decrement, or a negative number if the system could not be solved.
 template <int N>
-typename ActiveSet<N>::Weights newton_direction(const ActiveSet<N>& set,
-                                                const typename ActiveSet<N>::Lifteds& z,
-                                                const typename ActiveSet<N>::Weights& kappa, int entering,
-                                                double& decrement) {
+double newton_direction(const ActiveSet<N>& set, typename ActiveSet<N>::Weights& direction) {
   using Set = ActiveSet<N>;
-  typename Set::Weights direction = Set::Weights::Zero(set.size);
-  for (int attempt = 0; attempt < 2; ++attempt) {
-    std::array<int, Set::kCapacity> free;
-    int m = 0;
-    for (int i = 0; i < set.size; ++i)
-      if (set.u[i] > 0.0 || (i == entering && attempt == 0)) free[m++] = i;
-    typename Set::Lifteds zf(N, m);
-    typename Set::Weights g(m);
+  std::array<int, Set::kCapacity> free;
+  int m = 0;
+  for (int i = 0; i < set.size; ++i)
+    if (set.u[i] > 0.0 || set.kappa[i] > N) free[m++] = i;
+  double decrement = -1.0;
+  constexpr int kAttempts = 4;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    SmallCholesky<Set::kCapacity> h(m);
+    typename Set::Weights d;
     for (int a = 0; a < m; ++a) {
-      zf.col(a) = z.col(free[a]);
-      g[a] = kappa[free[a]] - N;
+      for (int b = 0; b <= a; ++b) {
+        const double along = set.z.col(free[a]).dot(set.z.col(free[b]));
+        h(a, b) = along * along;
+      }
+      d[a] = set.kappa[free[a]] - N;
     }
-    const typename Set::Hessian gram = zf.transpose() * zf;
-    typename Set::Hessian h = gram.cwiseAbs2();
     // K o K has rank at most N (N + 1) / 2; the gradient lies in its range, so a small ridge is harmless.
-    h.diagonal().array() += 1e-11 * h.diagonal().maxCoeff();
-    const typename Set::Weights d = h.llt().solve(g);
-    if (!d.allFinite()) break;
-    decrement = std::sqrt(std::max(0.0, d.dot(g)));
-    bool blocked = false;
-    direction.setZero();
+    h.add_ridge(1e-11);
+    if (!h.factor()) return -1.0;
+    h.solve(d.data());
+    double squared = 0.0;
+    direction.fill(0.0);
+    int kept = 0;
     for (int a = 0; a < m; ++a) {
-      direction[free[a]] = d[a];
-      blocked = blocked || (set.u[free[a]] == 0.0 && d[a] <= 0.0);
+      if (!std::isfinite(d[a])) return -1.0;
+      squared += d[a] * (set.kappa[free[a]] - N);
+      const bool points_out = set.u[free[a]] == 0.0 && d[a] <= 0.0;
+      if (!points_out) direction[free[a]] = d[a], free[kept++] = free[a];
     }
-    if (!blocked) break;
+    decrement = std::sqrt(std::max(0.0, squared));
+    if (kept == m) break;
+    m = kept;
   }
-  return direction;
-}
-
-/// Largest kappa / N - 1 with the weights normalised: the duality gap is at most N/2 times this.
-template <int N>
-double excess(const ActiveSet<N>& set, const typename ActiveSet<N>::Weights& kappa) {
-  return kappa.maxCoeff() * set.u.head(set.size).sum() / N - 1.0;
+  return decrement;
 }
 
 /// Moves along `direction` as far as self-concordance and u >= 0 allow; a weight that reaches zero is zero.
 template <int N>
-void take_step(ActiveSet<N>& set, const typename ActiveSet<N>::Weights& direction, double decrement) {
+void cut_step(ActiveSet<N>& set, const typename ActiveSet<N>::Weights& direction, double decrement) {
   double length = decrement < 0.25 ? 1.0 : 1.0 / (1.0 + decrement);
   int blocking = -1;
   for (int i = 0; i < set.size; ++i)
@@ -113,25 +159,40 @@ void take_step(ActiveSet<N>& set, const typename ActiveSet<N>::Weights& directio
       length = -set.u[i] / direction[i];
       blocking = i;
     }
-  set.u.head(set.size) += length * direction;
+  for (int i = 0; i < set.size; ++i) set.u[i] = std::max(0.0, set.u[i] + length * direction[i]);
   if (blocking >= 0) set.u[blocking] = 0.0;
-  set.u.head(set.size) = set.u.head(set.size).cwiseMax(0.0);
+}
+
+/// A whole Newton step, projected on u >= 0, if that raises ln det; else a damped one. Leaves the set
+/// measured; false if it cannot be.
+template <int N>
+bool newton_step(ActiveSet<N>& set) {
+  typename ActiveSet<N>::Weights direction;
+  const double decrement = newton_direction(set, direction);
+  if (decrement < 0.0) return false;
+  const typename ActiveSet<N>::Weights before = set.u;
+  const double log_det_before = set.log_det;
+  for (int i = 0; i < set.size; ++i) set.u[i] = std::max(0.0, set.u[i] + direction[i]);
+  if (set.measure() && set.log_det >= log_det_before) return true;
+  set.u = before;
+  cut_step(set, direction, decrement);
+  return set.measure();
 }
 
 /// One Wolfe-Atwood step: towards the worst point, or away from the least useful one. Always ascends.
 template <int N>
-void wolfe_atwood_step(ActiveSet<N>& set, const typename ActiveSet<N>::Weights& kappa) {
-  int worst = 0, least = -1;
+void wolfe_atwood_step(ActiveSet<N>& set) {
+  const int worst = set.worst();
+  int least = -1;
   for (int i = 0; i < set.size; ++i) {
-    if (kappa[i] > kappa[worst]) worst = i;
-    if (set.u[i] > 0.0 && (least < 0 || kappa[i] < kappa[least])) least = i;
+    if (set.u[i] > 0.0 && (least < 0 || set.kappa[i] < set.kappa[least])) least = i;
   }
-  const bool away = N - kappa[least] > kappa[worst] - N;
+  const bool away = N - set.kappa[least] > set.kappa[worst] - N;
   const int i = away ? least : worst;
-  double step = (kappa[i] - N) / (N * (kappa[i] - 1.0));
+  double step = (set.kappa[i] - N) / (N * (set.kappa[i] - 1.0));
   if (away) step = std::max(step, -set.u[i] / (1.0 - set.u[i]));
   if (!std::isfinite(step)) return;
-  set.u.head(set.size) *= 1.0 - step;
+  for (int j = 0; j < set.size; ++j) set.u[j] *= 1.0 - step;
   set.u[i] = away && set.u[i] + step < 1e-15 ? 0.0 : set.u[i] + step;
 }
 
@@ -139,33 +200,26 @@ void wolfe_atwood_step(ActiveSet<N>& set, const typename ActiveSet<N>::Weights& 
 /// Returns the excess reached.
 template <int N>
 double maximise_dual(ActiveSet<N>& set, double tolerance) {
-  using Set = ActiveSet<N>;
   constexpr int kNewtonSteps = 80, kFirstOrderSteps = 2000;
-  typename Set::Lifteds z(N, set.size);
-  typename Set::Weights kappa(set.size);
   double reached = 1e300;
+  if (!set.measure()) return reached;
   for (int step = 0; step < kNewtonSteps + kFirstOrderSteps; ++step) {
-    set.normalise();
-    if (!whitened(set, z)) return reached;
-    kappa = z.colwise().squaredNorm().transpose();
-    reached = excess(set, kappa);
+    reached = set.excess();
     if (reached <= tolerance) break;
-    if (step >= kNewtonSteps) {
-      wolfe_atwood_step(set, kappa);
-      continue;
+    if (step < kNewtonSteps && reached <= 0.5) {
+      drop_hopeless(set, reached);
+      if (newton_step(set)) continue;
+      if (!set.measure()) return reached;
     }
-    if (reached > 0.5) {  // far away: cheap multiplicative steps before Newton pays
-      set.u.head(set.size).array() *= kappa.array() / N;
-      continue;
+    const bool enters = set.u[set.worst()] == 0.0;  // which multiplying cannot change
+    if (step < kNewtonSteps && reached > 0.5 && !enters) {
+      // Far away: cheap multiplicative steps before Newton pays.
+      for (int i = 0; i < set.size; ++i) set.u[i] *= set.kappa[i] / N;
+    } else {
+      wolfe_atwood_step(set);
     }
-    int entering = 0;
-    for (int i = 1; i < set.size; ++i)
-      if (kappa[i] > kappa[entering]) entering = i;
-    double decrement = 0.0;
-    const typename Set::Weights d = newton_direction(set, z, kappa, entering, decrement);
-    take_step(set, d, decrement);
+    if (!set.measure()) return reached;
   }
-  set.normalise();
   return reached;
 }
 

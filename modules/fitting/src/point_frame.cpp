@@ -9,26 +9,26 @@
 namespace bodice::fitting {
 namespace {
 
-/// The residual p - origin with the directions so far removed.
-Vec3 residual(const Vec3& p, const PointFrame& frame, int directions) {
-  Vec3 r = p - frame.origin;
-  for (int j = 0; j < directions; ++j) r -= frame.axes.col(j).dot(r) * frame.axes.col(j);
-  return r;
+/// A power of two near 1 / (largest coordinate), so that squares neither overflow nor vanish; 0 if all do.
+double safe_scale(const PointFrame& frame) {
+  double largest = 0.0;
+  for (const Vec3& p : frame.kept) largest = std::max(largest, (p - frame.origin).cwiseAbs().maxCoeff());
+  return largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 0.0;
 }
 
-/// The unit direction of the farthest residual, or zero length if all residuals vanish.
-Vec3 farthest_direction(const PointFrame& frame, int directions) {
+/// The unit direction of the farthest residual p - origin with the directions so far removed, or zero length
+/// if all residuals vanish.
+template <int Directions>
+Vec3 farthest_direction(const PointFrame& frame, double scale) {
   Vec3 best = Vec3::Zero();
-  double best_length = 0.0;
+  double farthest = 0.0;
   for (const Vec3& p : frame.kept) {
-    const Vec3 r = residual(p, frame, directions);
-    const double length = r.stableNorm();
-    if (length > best_length) {
-      best_length = length;
-      best = r / length;
-    }
+    Vec3 r = scale * (p - frame.origin);
+    if constexpr (Directions == 1) r -= frame.axes.col(0).dot(r) * frame.axes.col(0);
+    const double squared = r.squaredNorm();
+    if (squared > farthest) farthest = squared, best = r;
   }
-  return best;
+  return farthest > 0.0 ? Vec3(best / std::sqrt(farthest)) : best;
 }
 
 Vec3 any_orthogonal(const Vec3& a) {
@@ -38,10 +38,11 @@ Vec3 any_orthogonal(const Vec3& a) {
 }
 
 void choose_axes(PointFrame& frame) {
-  Vec3 first = farthest_direction(frame, 0);
+  const double scale = safe_scale(frame);
+  const Vec3 first = farthest_direction<0>(frame, scale);
   if (first.squaredNorm() == 0.0) return;
   frame.axes.col(0) = first;
-  Vec3 second = farthest_direction(frame, 1);
+  Vec3 second = farthest_direction<1>(frame, scale);
   second -= first.dot(second) * first;
   frame.axes.col(1) = second.squaredNorm() > 0.25 ? Vec3(second.normalized()) : any_orthogonal(first);
   frame.axes.col(2) = first.cross(Vec3(frame.axes.col(1))).normalized();
@@ -50,16 +51,19 @@ void choose_axes(PointFrame& frame) {
 /// Projects on the axes and moves the origin to the middle of each range.
 void project(PointFrame& frame) {
   const std::size_t n = frame.kept.size();
-  for (int j = 0; j < 3; ++j) {
-    auto& y = frame.y[j];
-    y.resize(n);
-    for (std::size_t i = 0; i < n; ++i) y[i] = frame.axes.col(j).dot(frame.kept[i] - frame.origin);
-    const auto [low, high] = std::minmax_element(y.begin(), y.end());
-    const double middle = 0.5 * (*low + *high);
-    frame.extent[j] = 0.5 * (*high - *low);
-    for (double& value : y) value -= middle;
-    frame.origin += middle * frame.axes.col(j);
+  for (auto& y : frame.y) y.resize(n);
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 along = frame.axes.transpose() * (frame.kept[i] - frame.origin);
+    for (int j = 0; j < 3; ++j) frame.y[j][i] = along[j];
+    low = low.cwiseMin(along);
+    high = high.cwiseMax(along);
   }
+  const Vec3 middle = 0.5 * (low + high);
+  frame.extent = 0.5 * (high - low);
+  frame.origin += frame.axes * middle;
+  for (int j = 0; j < 3; ++j)
+    for (double& value : frame.y[j]) value -= middle[j];
 }
 
 void sort_axes(PointFrame& frame) {
