@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <queue>
 #include <string_view>
 
 #include "graph_impl.hpp"
@@ -43,18 +45,19 @@ std::optional<Error> find_bad_node(const std::vector<detail::GraphNode>& nodes) 
 // Kahn's algorithm, least number first, so that the order is a function of the graph alone.
 std::vector<std::uint32_t> topological_order(const std::vector<detail::GraphNode>& nodes) {
   std::vector<std::size_t> missing(nodes.size());
-  for (std::size_t i = 0; i < nodes.size(); ++i) missing[i] = nodes[i].needs.size();
+  std::vector<std::vector<std::uint32_t>> successors(nodes.size());
+  std::priority_queue<std::uint32_t, std::vector<std::uint32_t>, std::greater<>> ready;
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    missing[i] = nodes[i].needs.size();
+    if (missing[i] == 0) ready.push(i);
+    for (const std::uint32_t needed : nodes[i].needs) successors[needed].push_back(i);
+  }
   std::vector<std::uint32_t> order;
-  std::vector<bool> placed(nodes.size(), false);
-  for (bool moved = true; moved;) {
-    moved = false;
-    for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-      if (placed[i] || missing[i] > 0) continue;
-      placed[i] = moved = true;
-      order.push_back(i);
-      for (std::uint32_t j = 0; j < nodes.size(); ++j) {
-        missing[j] -= static_cast<std::size_t>(std::ranges::count(nodes[j].needs, i));
-      }
+  while (!ready.empty()) {
+    order.push_back(ready.top());
+    ready.pop();
+    for (const std::uint32_t next : successors[order.back()]) {
+      if (--missing[next] == 0) ready.push(next);
     }
   }
   return order;

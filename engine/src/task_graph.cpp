@@ -55,6 +55,11 @@ void TaskGraph::mark_set(std::uint32_t node, const std::shared_ptr<void>& slot) 
   if (impl_->nodes[node].is_input) impl_->ended[impl_->rank_of[node]] = 1;
 }
 
+void TaskGraph::mark_taken(std::uint32_t node, const std::shared_ptr<void>& slot) {
+  if (node >= impl_->nodes.size() || impl_->nodes[node].slot != slot) return;
+  impl_->ended[impl_->rank_of[node]] = 0;
+}
+
 bool TaskGraph::ended(std::uint32_t node, const std::shared_ptr<void>& slot) const {
   return node < impl_->nodes.size() && impl_->nodes[node].slot == slot &&
          impl_->ended[impl_->rank_of[node]] != 0;

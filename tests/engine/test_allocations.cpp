@@ -1,6 +1,8 @@
 // What runs every frame must not allocate once it is warm.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -16,13 +18,18 @@ using namespace bodice::engine;
 
 namespace {
 
-// Allocations in 200 calls after 200 calls to warm up.
+// The fewest allocations in any of several rounds of 200 calls, after one to warm up. On a busy machine a
+// worker may come for the first time in a later round, and TBB makes its memory then; what allocates in each
+// call allocates in each round.
 template <class Work>
 std::size_t allocations_when_warm(Work&& work) {
-  for (int i = 0; i < 200; ++i) work();
-  const std::size_t before = bodice_test::allocations();
-  for (int i = 0; i < 200; ++i) work();
-  return bodice_test::allocations() - before;
+  std::size_t fewest = SIZE_MAX;
+  for (int round = 0; round < 100 && fewest > 0; ++round) {
+    const std::size_t before = bodice_test::allocations();
+    for (int i = 0; i < 200; ++i) work();
+    if (round > 0) fewest = std::min(fewest, bodice_test::allocations() - before);
+  }
+  return fewest;
 }
 
 }  // namespace

@@ -65,6 +65,51 @@ TEST_CASE("a graph hands typed values on, and runs again with another input") {
     graph->set(number, 8);
     REQUIRE(graph->run(context).ok());
     CHECK(graph->get(text) == "4/8");
+    CHECK(graph->take(text) == "4/8");
+    CHECK(graph->find(text) == nullptr);
+    REQUIRE(graph->run(context).ok());
+    CHECK(graph->get(text) == "4/8");
+    CHECK(graph->take(number) == 8);
+    CHECK(!graph->run(context).ok());  // an input that was taken must be set again
+  }
+}
+
+TEST_CASE("a graph far wider and deeper than its workers runs each task once") {
+  constexpr int kLayers = 40, kWide = 150;  // more than 4,096 tasks: two words of leaves above one another
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    GraphBuilder builder;
+    std::vector<Output<int>> layer;
+    for (int i = 0; i < kWide; ++i) {
+      layer.push_back(builder.add("0/" + std::to_string(i), [i](const Context&) { return i; }));
+    }
+    for (int l = 1; l < kLayers; ++l) {
+      std::vector<Output<int>> next;
+      for (int i = 0; i < kWide; ++i) {
+        next.push_back(builder.add(
+            std::to_string(l) + "/" + std::to_string(i),
+            [](const Context&, const int& a, const int& b) { return (a + b) % 1009; }, layer[i],
+            layer[(i * 7 + l) % kWide]));
+      }
+      layer = next;
+    }
+    auto graph = std::move(builder).build();
+    REQUIRE(graph.ok());
+    std::vector<int> expected(kWide);
+    std::iota(expected.begin(), expected.end(), 0);
+    for (int l = 1; l < kLayers; ++l) {
+      const std::vector<int> before = expected;
+      for (int i = 0; i < kWide; ++i) expected[i] = (before[i] + before[(i * 7 + l) % kWide]) % 1009;
+    }
+    for (int run = 0; run < 3; ++run) {
+      std::size_t ended = 0;
+      REQUIRE(
+          graph->run(Context{.executor = executor.get()}, [&](const Progress& p) { ended = p.ended; }).ok());
+      CHECK(ended == kLayers * kWide);
+      bool same = true;
+      for (int i = 0; i < kWide; ++i) same = same && graph->get(layer[i]) == expected[i];
+      CHECK(same);
+    }
   }
 }
 

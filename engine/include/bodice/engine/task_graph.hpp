@@ -236,6 +236,13 @@ class TaskGraph {
     return *output.slot_->value;
   }
 
+  /// Moves the result out, which the graph then no longer has. Precondition: as of get().
+  template <class T>
+  T take(const Output<T>& output) {
+    mark_taken(output.node_, output.slot_);
+    return std::move(*output.slot_->value);
+  }
+
   std::size_t size() const;
   /// The graph in the DOT language: inputs are boxes, edges run with the data.
   std::string dump_dot() const;
@@ -245,6 +252,7 @@ class TaskGraph {
   struct Impl;
   explicit TaskGraph(std::unique_ptr<Impl> impl);
   void mark_set(std::uint32_t node, const std::shared_ptr<void>& slot);
+  void mark_taken(std::uint32_t node, const std::shared_ptr<void>& slot);
   bool ended(std::uint32_t node, const std::shared_ptr<void>& slot) const;
   std::unique_ptr<Impl> impl_;
 };
