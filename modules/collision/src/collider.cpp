@@ -48,6 +48,8 @@ void ContactReport::add(const ContactReport& other) {
   pending += other.pending;
   wrong_side += other.wrong_side;
   fallbacks += other.fallbacks;
+  pinched += other.pinched;
+  judged_exactly += other.judged_exactly;
   not_finite += other.not_finite;
   max_iterations = std::max(max_iterations, other.max_iterations);
   deepest_m = std::max(deepest_m, other.deepest_m);

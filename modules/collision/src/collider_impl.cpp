@@ -84,6 +84,7 @@ void count(const ParticleReport& particle, body::Part part, ContactReport& repor
   report.pending += particle.outcome == Outcome::kPending;
   report.wrong_side += particle.wrong_side;
   report.fallbacks += particle.fallback;
+  report.pinched += particle.pinched;
   report.max_iterations = std::max(report.max_iterations, static_cast<std::uint32_t>(particle.iterations));
   report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
 }
@@ -175,6 +176,7 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
 
 void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i,
                                      const ResolveOptions& options, ContactReport& report) const {
+  ++report.judged_exactly;
   ParticleState state = load(particles, i);
   const double clearance_m = margin_m + double{options.thickness_m};
   if (moving) {
@@ -186,10 +188,8 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   ParticleReport one;
   if (options.response == Response::kPaper)
     one = resolve_paper(field, clearance_m, state);
-  else if (relief)
-    one = resolve_relief(field, *relief, clearance_m, options, state);
   else
-    one = resolve_nearest(field, clearance_m, options, state);
+    one = resolve_nearest(field, tables(), clearance_m, options, state);
   if (one.outcome == Outcome::kClear) return;
   store(state, particles, i);
   count(one, part[one.ellipsoid], report);

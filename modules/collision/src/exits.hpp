@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "near_field.hpp"
 #include "union_field.hpp"
 
 namespace bodice::collision {
@@ -24,6 +25,12 @@ struct Entry {
 /// Nothing if the segment stays clear, or if `safe` itself is not.
 std::optional<Entry> first_entry(const UnionField& field, const geometry::Vec3& safe, const geometry::Vec3& p,
                                  double clearance_m);
+
+/// The same for the corrected distance of relief.hpp, which is not convex: steps of half the distance, and of
+/// kPathStep where that is less. What is thinner along the path is stepped over; the place found is clear.
+std::optional<Entry> first_relief_entry(NearField& near, const UnionField& field, const ReliefTables& relief,
+                                        const geometry::Vec3& safe, const geometry::Vec3& p,
+                                        double clearance_m);
 
 /// Whether the segment passes through some ellipsoid and out again at a place where its surface has turned
 /// by more than 60 degrees: less is a particle that slides over a curved surface.

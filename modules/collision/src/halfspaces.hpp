@@ -1,10 +1,13 @@
 // A handful of half-spaces and the nearest point of their intersection: what a contact with several
 // ellipsoids comes down to, for positions and (through the origin) for velocities.
-// Based on: Clifford Hildreth. A Quadratic Programming Procedure. 1957. (coordinate ascent on the dual)
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <Eigen/LU>
 
 #include <bodice/geometry/types.hpp>
 
@@ -14,12 +17,14 @@ namespace bodice::collision {
 struct Halfspace {
   geometry::Vec3 normal;
   double offset_m;
+
+  double gap_m(const geometry::Vec3& x) const { return offset_m - normal.dot(x); }  ///< > 0: x violates it
 };
 
-/// Up to three half-spaces; three already fix a point of space.
+/// Up to four half-spaces: three fix a point of space, one more is being replaced.
 class Halfspaces {
  public:
-  static constexpr int kCapacity = 3;
+  static constexpr int kCapacity = 4;
 
   int size() const { return size_; }
   const Halfspace& operator[](int i) const { return items_[i]; }
@@ -27,7 +32,14 @@ class Halfspaces {
   void add(const Halfspace& h) {
     if (!full()) items_[size_++] = h;
   }
+  void replace(int i, const Halfspace& h) { items_[i] = h; }
 
+  /// All planes set back by `by_m`.
+  Halfspaces lowered(double by_m) const {
+    Halfspaces result = *this;
+    for (int i = 0; i < size_; ++i) result.items_[i].offset_m -= by_m;
+    return result;
+  }
   /// The same normals with every plane through the origin: the cone of velocities that do not go in.
   Halfspaces cone() const {
     Halfspaces result = *this;
@@ -35,26 +47,77 @@ class Halfspaces {
     return result;
   }
 
-  /// The nearest point of the intersection to `p`, to `tolerance`; where the normals nearly oppose each
-  /// other it stops short, which violation() tells. At most kSweeps passes over the set.
-  geometry::Vec3 project(const geometry::Vec3& p, double tolerance) const {
-    double push[kCapacity] = {0.0, 0.0, 0.0};
-    geometry::Vec3 x = p;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      double largest = 0.0;
-      for (int i = 0; i < size_; ++i) {
-        const double step = std::max(-push[i], items_[i].offset_m - items_[i].normal.dot(x));
-        push[i] += step;
-        x += step * items_[i].normal;
-        largest = std::max(largest, std::abs(step));
-      }
-      if (size_ < 2 || largest <= tolerance) break;
+  double largest_gap_m(const geometry::Vec3& x) const {
+    double largest = 0.0;
+    for (int i = 0; i < size_; ++i) largest = std::max(largest, items_[i].gap_m(x));
+    return largest;
+  }
+
+  /// The nearest point of the intersection to `p`, each plane to `tolerance_m`; nothing if the intersection
+  /// is empty or so far off that the planes are as good as parallel.
+  std::optional<geometry::Vec3> nearest(const geometry::Vec3& p, double tolerance_m) const {
+    if (largest_gap_m(p) <= tolerance_m) return p;
+    // Whatever set of planes gives multipliers >= 0 and a point in all half-spaces gives the nearest.
+    for (int i = 0; i < size_; ++i)
+      if (const auto x = on_planes<1>({i}, p, tolerance_m)) return x;
+    for (int i = 0; i < size_; ++i)
+      for (int j = i + 1; j < size_; ++j)
+        if (const auto x = on_planes<2>({i, j}, p, tolerance_m)) return x;
+    for (int left_out = size_ - 1; size_ >= 3 && left_out >= (size_ == 3 ? 2 : 0); --left_out) {
+      std::array<int, 3> three{};
+      for (int i = 0, n = 0; i < size_ && n < 3; ++i)
+        if (size_ == 3 || i != left_out) three[static_cast<std::size_t>(n++)] = i;
+      if (const auto x = on_planes<3>(three, p, tolerance_m)) return x;
     }
-    return x;
+    return std::nullopt;
+  }
+
+  struct Place {
+    geometry::Vec3 x;
+    double short_by_m;  ///< by how much the planes had to be set back; zero: all are kept
+  };
+
+  /// The place within `longest_m` of p that is in all half-spaces, or misses them by as little as can be:
+  /// midway between planes that face each other.
+  Place least_violating(const geometry::Vec3& p, double longest_m, double tolerance_m) const {
+    const auto reach = [&](double back_m) -> std::optional<geometry::Vec3> {
+      const auto x = lowered(back_m).nearest(p, tolerance_m);
+      return x && (*x - p).norm() <= longest_m ? x : std::nullopt;
+    };
+    if (const auto x = reach(0.0)) return {*x, 0.0};
+    double low = 0.0, high = largest_gap_m(p);  // set back by so much, p itself will do
+    Place best{p, high};
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (low + high);
+      const auto x = reach(middle);
+      if (x) best = {*x, middle};
+      (x ? high : low) = middle;
+    }
+    return best;
   }
 
  private:
-  static constexpr int kSweeps = 32;
+  static constexpr int kHalvings = 10;
+
+  /// The projection to the planes of `chosen`, if every one of them pushes and it lies in all half-spaces.
+  template <int N>
+  std::optional<geometry::Vec3> on_planes(const std::array<int, N>& chosen, const geometry::Vec3& p,
+                                          double tolerance_m) const {
+    Eigen::Matrix<double, 3, N> normals;
+    Eigen::Matrix<double, N, 1> gaps;
+    for (int i = 0; i < N; ++i) {
+      normals.col(i) = items_[chosen[static_cast<std::size_t>(i)]].normal;
+      gaps[i] = items_[chosen[static_cast<std::size_t>(i)]].gap_m(p);
+    }
+    const Eigen::Matrix<double, N, N> gram = normals.transpose() * normals;
+    if (!(std::abs(gram.determinant()) > kParallel)) return std::nullopt;
+    const Eigen::Matrix<double, N, 1> push = gram.inverse() * gaps;
+    if (!(push.minCoeff() >= 0.0)) return std::nullopt;
+    const geometry::Vec3 x = p + normals * push;
+    return largest_gap_m(x) <= tolerance_m ? std::optional(x) : std::nullopt;
+  }
+
+  static constexpr double kParallel = 1e-9;  // squared sine of the angle between planes
   Halfspace items_[kCapacity];
   int size_ = 0;
 };

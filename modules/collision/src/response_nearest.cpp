@@ -1,10 +1,12 @@
-// Differs from the paper's section 4: the nearest point of the union instead of the central ray of one
-// ellipsoid. Every violated ellipsoid adds the half-space beyond its tangent plane; by convexity a point in
-// all of them is outside all of those ellipsoids, so that a crease is met once and does not cycle.
+// Differs from the paper's section 4: the nearest point of the union, or of its corrected surface, instead of
+// the central ray of one ellipsoid; where a particle came from decides between the sides of a limb; where two
+// limbs leave no room for the clearance it rests midway, still outside of both.
 #include <cmath>
+#include <limits>
 
 #include "exits.hpp"
 #include "response.hpp"
+#include "settle.hpp"
 #include "tolerances.hpp"
 
 namespace bodice::collision {
@@ -13,32 +15,9 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr int kMaxRounds = 6;  // a body's creases join two or three ellipsoids
-
-/// The tangent half-space at the foot, raised by the clearance and the overshoot that rounding needs.
-Halfspace beyond(const Owner& owner, double clearance_m) {
-  const Vec3& n = owner.at.normal;
-  return {n, n.dot(owner.at.point) + clearance_m};
-}
-
-/// Iterates to a point that is clear of every ellipsoid; false if the rounds run out or the way is long.
-bool iterate(const UnionField& field, const Vec3& p, const Owner& deepest, double clearance_m, double slack_m,
-             Halfspaces& contact, Vec3& x, int& iterations) {
-  const double longest = kLongestPush * (clearance_m - deepest.at.signed_distance) + slack_m;
-  Owner worst = deepest;
-  for (iterations = 1; iterations <= kMaxRounds && !contact.full(); ++iterations) {
-    contact.add(beyond(worst, clearance_m + slack_m));
-    x = contact.project(p, 0.1 * slack_m);
-    if ((x - p).norm() > longest) return false;
-    worst = field.owner(x, clearance_m);
-    if (worst.ellipsoid == kNoEllipsoid) return true;
-  }
-  return false;
-}
-
 /// Takes the inward part out of the velocity and slows the rest by Coulomb friction, restitution 0.
 void correct_velocity(const Halfspaces& contact, double friction, Vec3& velocity) {
-  const Vec3 along = contact.cone().project(velocity, 0.0);
+  const Vec3 along = contact.cone().nearest(velocity, 0.0).value_or(Vec3::Zero());
   const double impulse = (along - velocity).norm();
   const double speed = along.norm();
   velocity =
@@ -51,25 +30,17 @@ Halfspaces single(const Vec3& normal) {
   return result;
 }
 
-/// Back to where the path from the safe position met the union, if leaving at `x` would be on another side.
-bool back_to_entry(const UnionField& field, const ParticleState& particle, double clearance_m,
-                   const Vec3& normal, Vec3& x, Halfspaces& contact) {
-  if (!particle.has_safe) return false;
-  const auto entry = first_entry(field, particle.safe, particle.position, clearance_m);
-  if (!entry || entry->normal.dot(normal) >= kSlidingCosine) return false;
-  x = entry->point;
-  contact = single(entry->normal);
-  return true;
-}
-
-}  // namespace
-
-void move(const Vec3& p, const Vec3& x, const Halfspaces& contact, const ResolveOptions& options,
-          ParticleReport& report, ParticleState& particle) {
+/// The particle goes to `x`, or as far on the way as it may in this call.
+void move(const Vec3& x, const Halfspaces& contact, const ResolveOptions& options, ParticleReport& report,
+          ParticleState& particle) {
+  const Vec3 p = particle.position;
   const double push = (x - p).norm();
+  // Undoing the particle's own path is not a push.
+  const double own_path = particle.has_safe ? (p - particle.safe).norm() : 0.0;
+  const double limit = double{options.max_push_m} + own_path;
   particle.position = x;
-  if (!report.wrong_side && push > double{options.max_push_m}) {
-    particle.position = p + (x - p) * (double{options.max_push_m} / push);
+  if (push > limit) {
+    particle.position = p + (x - p) * (limit / push);
     report.outcome = Outcome::kPending;
   }
   if (!particle.has_velocity) return;
@@ -78,39 +49,140 @@ void move(const Vec3& p, const Vec3& x, const Halfspaces& contact, const Resolve
   particle.velocity = relative + particle.surface_velocity;
 }
 
-ParticleReport resolve_nearest(const UnionField& field, double clearance_m, const ResolveOptions& options,
-                               ParticleState& particle) {
-  ParticleReport report;
-  const Vec3 p = particle.position;
-  const double slack_m = kCertificate * (field.size_m() + p.cwiseAbs().maxCoeff());
-  const Owner deepest = field.owner(p, clearance_m);
-  Halfspaces contact;
-  Vec3 x = p;
-  if (deepest.ellipsoid == kNoEllipsoid) {
-    if (!particle.has_safe || !passes_through(field, particle.safe, p)) return report;
-    const auto entry = first_entry(field, particle.safe, p, clearance_m);
-    if (!entry) return report;
-    x = entry->point;
-    contact = single(entry->normal);
-    report.ellipsoid = entry->ellipsoid;
-    report.wrong_side = true;
-    report.outcome = Outcome::kResolved;
-  } else {
-    report.ellipsoid = deepest.ellipsoid;
-    report.depth_m = clearance_m - deepest.at.signed_distance;
-    report.outcome = Outcome::kResolved;
-    if (!iterate(field, p, deepest, clearance_m, slack_m, contact, x, report.iterations)) {
-      report.fallback = true;
-      contact = single(deepest.at.normal);
-      const auto exit = exit_along_ray(field, p, deepest.at.normal, clearance_m);
-      if (exit) x = *exit + slack_m * deepest.at.normal;
-      if (!exit) report.outcome = Outcome::kUnresolved;
-    }
-    report.wrong_side = back_to_entry(field, particle, clearance_m, contact[0].normal, x, contact);
-    if (report.wrong_side) report.outcome = Outcome::kResolved;
+class Resolver {
+ public:
+  Resolver(const UnionField& field, const ReliefTables* relief, double clearance_m,
+           const ResolveOptions& options, ParticleState& particle)
+      : field_(field),
+        relief_(relief),
+        options_(options),
+        particle_(particle),
+        p_(particle.position),
+        clearance_m_(clearance_m),
+        surface_m_(std::min(clearance_m, clearance_m - double{options.thickness_m})),
+        slack_m_(kCertificate * (field.size_m() + p_.cwiseAbs().maxCoeff())),
+        overshoot_m_(relief ? std::max(slack_m_, kReliefOvershoot * double{relief->blend_m}) : slack_m_),
+        certificate_m_(relief ? kReliefCertificate_m : slack_m_),
+        near_(field, relief, clearance_m + 2.0 * overshoot_m_) {}
+
+  ParticleReport run() {
+    near_.expect(p_, 0.0);
+    const ReliefSample start = near_.at(p_);
+    const bool inside = start.distance_m < clearance_m_;
+    if (!inside && !(particle_.has_safe && passes_through(field_, particle_.safe, p_))) return report_;
+    report_.ellipsoid = start.owner;
+    x_ = p_;
+    if (inside) settle_from(start);
+    const bool stuck = inside && !outside(x_);
+    if (particle_.has_safe && (!inside || stuck || long_path())) return_to_entry(inside, stuck);
+    if (!inside && report_.ellipsoid == kNoEllipsoid) return report_;  // the path met nothing
+    if (inside && !outside(x_)) leave_along_normal();
+    judge();
+    move(x_, contact_, options_, report_, particle_);
+    return report_;
   }
-  move(p, x, contact, options, report, particle);
-  return report;
+
+ private:
+  double stored_distance(const Vec3& x) { return near_.at(x.cast<float>().cast<double>()).distance_m; }
+  bool outside(const Vec3& x) { return stored_distance(x) >= surface_m_ - certificate_m_; }
+  bool long_path() const { return (p_ - particle_.safe).norm() > kLongPath * near_.shortest_radius_m(); }
+
+  void settle_from(const ReliefSample& start) {
+    report_.depth_m = clearance_m_ - start.distance_m;
+    const double longest_m = kLongestPush * report_.depth_m + overshoot_m_;
+    const Settled settled = settle(near_, p_, start, clearance_m_, overshoot_m_, longest_m);
+    report_.iterations = settled.rounds;
+    x_ = settled.place;
+    contact_ = settled.contact;
+  }
+
+  /// Back to where the path met the union, if leaving at x would be on another side, or inside.
+  void return_to_entry(bool inside, bool stuck) {
+    const double kept_m = std::min(clearance_m_, near_.at(particle_.safe).distance_m);
+    if (kept_m < surface_m_ - certificate_m_) return;  // the safe position is not
+    const auto entry = relief_ ? first_relief_entry(near_, field_, *relief_, particle_.safe, p_, kept_m)
+                               : first_entry(field_, particle_.safe, p_, kept_m);
+    if (!entry) return;
+    const bool other_side = !inside || entry->normal.dot(contact_[0].normal) < kSlidingCosine;
+    if (!other_side && !stuck) return;
+    x_ = slide(*entry, kept_m);
+    contact_ = single(entry->normal);
+    report_.wrong_side = other_side;
+    report_.fallback = stuck;
+    if (!inside) report_.ellipsoid = entry->ellipsoid;
+  }
+
+  /// What is left of the path beyond the entry, along the surface: a particle that is pulled through a limb
+  /// is held by it but not glued to it. The entry itself if that leads nowhere clear.
+  Vec3 slide(const Entry& entry, double kept_m) {
+    const Vec3 rest = p_ - entry.point;
+    const Vec3 along = rest - entry.normal.dot(rest) * entry.normal;
+    const double longest_m = std::min(along.norm(), kLongPath * near_.shortest_radius_m());
+    if (!(longest_m > overshoot_m_)) return entry.point;
+    const Vec3 q = entry.point + longest_m * along.stableNormalized();
+    const ReliefSample there = near_.at(q);
+    if (there.distance_m >= kept_m) return q;
+    const Settled settled = settle(near_, q, there, kept_m, overshoot_m_, longest_m);
+    const bool same_side = settled.contact[0].normal.dot(entry.normal) > kSlidingCosine;
+    return settled.clear && same_side ? settled.place : entry.point;
+  }
+
+  /// What planes do not settle: a fold with no room in it, where a push that is bounded rests midway, or a
+  /// place deep between ellipsoids, from where the ray along a normal leads out for certain.
+  void leave_along_normal() {
+    const double size_m = field_.size_m();
+    const bool fold = stored_distance(x_) > surface_m_ - kFoldDepth * size_m;
+    if (fold && std::isfinite(options_.max_push_m)) return;
+    report_.fallback = true;
+    std::optional<Vec3> best;
+    for (int i = 0; i < contact_.size(); ++i) {
+      const auto out = exit_along(contact_[i].normal);
+      if (out && (!best || (*out - p_).norm() < (*best - p_).norm())) best = out;
+    }
+    if (!best) best = exit_along(Vec3::UnitY());
+    if (!best) return;
+    x_ = *best;
+    contact_ = single((x_ - p_).stableNormalized());
+  }
+
+  std::optional<Vec3> exit_along(const Vec3& direction) {
+    const double highest_m = relief_ ? double{relief_->highest_m} : 0.0;
+    const auto far = exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + highest_m);
+    if (!far || !relief_) return far ? std::optional<Vec3>(*far + slack_m_ * direction) : far;
+    Vec3 in = p_, out = *far;
+    for (int i = 0; i < kExitHalvings; ++i) {
+      const Vec3 middle = 0.5 * (in + out);
+      (near_.at(middle).distance_m >= clearance_m_ + overshoot_m_ ? out : in) = middle;
+    }
+    return out;
+  }
+
+  /// What counts is the place that is stored.
+  void judge() {
+    const double distance_m = stored_distance(x_);
+    report_.outcome = Outcome::kResolved;
+    report_.pinched = distance_m < clearance_m_ - certificate_m_;
+    if (distance_m >= surface_m_ - certificate_m_) return;
+    report_.outcome = std::isfinite(options_.max_push_m) ? Outcome::kPending : Outcome::kUnresolved;
+  }
+
+  const UnionField& field_;
+  const ReliefTables* relief_;
+  const ResolveOptions& options_;
+  ParticleState& particle_;
+  const Vec3 p_;
+  const double clearance_m_, surface_m_, slack_m_, overshoot_m_, certificate_m_;
+  NearField near_;
+  Vec3 x_ = Vec3::Zero();
+  Halfspaces contact_;
+  ParticleReport report_;
+};
+
+}  // namespace
+
+ParticleReport resolve_nearest(const UnionField& field, const ReliefTables* relief, double clearance_m,
+                               const ResolveOptions& options, ParticleState& particle) {
+  return Resolver(field, relief, clearance_m, options, particle).run();
 }
 
 }  // namespace bodice::collision

@@ -29,6 +29,30 @@ inline constexpr double kEndSlack = 1e-2;
 /// along the normal is shorter.
 inline constexpr double kLongestPush = 4.0;
 
+/// Rounds of cutting planes a particle: a body's creases join two or three ellipsoids, a bent surface takes
+/// Newton two or three steps.
+inline constexpr int kSettleRounds = 10;
+
+/// Share of what is missing to the clearance to which the place midway between two surfaces is found.
+inline constexpr double kMidway = 0.05;
+
+/// Share of relief's blending by which pushes overshoot, so that Newton's steps over a bent surface arrive
+/// from below: 6 micrometres of 3 mm.
+inline constexpr double kReliefOvershoot = 2e-3;
+
+/// A path longer than this share of the shortest radius around may have changed sides.
+inline constexpr double kLongPath = 0.3;
+
+/// Least step along a path through relief, share of the union's size: a quarter of a millimetre of a body.
+inline constexpr double kPathStep = 3e-4;
+
+/// Depth, share of the union's size, up to which a place without room around is taken for a fold of the skin,
+/// where limbs overlap: a centimetre of a body.
+inline constexpr double kFoldDepth = 1e-2;
+
+/// Halvings of a ray between a particle and a clear place: of a metre, to a micrometre.
+inline constexpr int kExitHalvings = 20;
+
 /// Coordinates beyond this, metres, are not sorted with the rest and go to the exact side: their squares must
 /// stay in float range over the smallest radius that a proxy may have.
 inline constexpr float kFarthest = 1e9f;

@@ -9,15 +9,18 @@
 #endif
 
 #include "simd/sample-inl.hpp"
+#include "tolerances.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kPlainRounds = 4;
 constexpr int kReliefRounds = 6;
-constexpr float kOvershoot = 2e-3f;  // of the 3 mm over which relief blends: 6 micrometres
+constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
+// Pushes longer than this many depths come from surfaces that nearly face each other: for the exact side.
+constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
 // A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
-constexpr float kShortPath = 0.3f;
+constexpr float kShortPath = static_cast<float>(kLongPath);
 
 /// The half-spaces { x : n . x >= offset } in force; the second only where `two`.
 struct Pair {
@@ -139,6 +142,13 @@ HWY_INLINE M moved_far(const Block& block, int i, V3 p, float limit_m) {
   return hn::Gt(dot(path, path), all(limit_m * limit_m));
 }
 
+/// Undoing a particle's own path is not a push.
+HWY_INLINE V own_path(const Block& block, int i, V3 p) {
+  if (!block.has_safe) return hn::Zero(f);
+  const V3 path = p - load3(block.sx + i, block.sy + i, block.sz + i);
+  return hn::Sqrt(dot(path, path));
+}
+
 HWY_INLINE float shortest_radius(const Baked& baked, const Candidates& c) {
   float least = 1e30f;
   for (int i = 0; i < c.count; ++i)
@@ -166,10 +176,12 @@ HWY_INLINE void resolve_vector(const Baked& baked, const ReliefTables* relief, c
                            : settle_plain(baked, c, clearance, p, first, contact);
   V3 push = s.position - p;
   const V length2 = dot(push, push);
-  const M beyond = hn::Gt(length2, all(c.reach_m * c.reach_m));
+  const V depth = hn::Sub(surface, first.distance);
+  const V longest = hn::Min(all(c.reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
+  const M beyond = hn::Gt(length2, hn::Mul(longest, longest));
   const M hard = hn::And(contact, hn::Or(s.open, beyond));
   contact = hn::AndNot(hard, contact);
-  const V limit = all(clearance.max_push_m);
+  const V limit = hn::Add(all(clearance.max_push_m), own_path(block, i, p));
   const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
   const V share = hn::Div(limit, hn::Sqrt(hn::Max(length2, all(1e-30f))));
   const V3 position = select(pending, along(p, share, push), s.position);
@@ -181,7 +193,7 @@ HWY_INLINE void resolve_vector(const Baked& baked, const ReliefTables* relief, c
     const V3 slowed = corrected_velocity(s.contact, clearance.friction, v - body) + body;
     store3(select(contact, slowed, v), block.vx + i, block.vy + i, block.vz + i);
   }
-  hn::Store(hn::Sub(surface, first.distance), f, out.depth + i);
+  hn::Store(depth, f, out.depth + i);
   hn::Store(first.owner, I(), reinterpret_cast<std::int32_t*>(out.owner) + i);
   out.contact |= bits(contact) << i;
   out.pending |= bits(pending) << i;

@@ -41,7 +41,8 @@ struct ResolveOptions {
   Response response = Response::kNearest;
   float thickness_m = 0.0f;  ///< kept between particle and surface
   float friction = 0.3f;     ///< Coulomb coefficient
-  /// Longest move a call: particles that start deep inside come out over several calls (`pending`).
+  /// Longest move a call, beyond taking back the path from the safe position: particles that start deep inside
+  /// come out over several calls (`pending`), and those in a fold of the body without room stay midway in it.
   float max_push_m = std::numeric_limits<float>::infinity();
 };
 
@@ -51,9 +52,11 @@ struct ContactReport {
   std::uint64_t contacts_by_part[body::kPartCount] = {};
   std::uint64_t unresolved = 0;  ///< still inside after the fallback; zero, or `paper` mode
   std::uint64_t pending = 0;     ///< on their way out, held back by max_push_m
+  std::uint64_t pinched = 0;     ///< put midway where two surfaces leave less room than the thickness
   std::uint64_t wrong_side = 0;  ///< put back on the side of the body that their path came from
   std::uint64_t fallbacks = 0;   ///< resolved by the certified fallback
-  std::uint64_t not_finite = 0;  ///< NaN or Inf, left alone
+  std::uint64_t judged_exactly = 0;  ///< not settled by the float kernels; includes some without contact
+  std::uint64_t not_finite = 0;      ///< NaN or Inf, left alone
   std::uint32_t max_iterations = 0;
   float deepest_m = 0.0f;  ///< depth of the deepest particle before the response
   void add(const ContactReport& other);

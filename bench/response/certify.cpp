@@ -1,0 +1,158 @@
+// After a response no particle is inside: millions of random particles in and around fitted bodies, judged by
+// the ellipsoids in double (plain tiers) or by the proxy's own query (relief). The paper's response beside
+// it.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/random.hpp>
+#include <bodice/fitting/fit.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/synth/body.hpp>
+
+#include "modes.hpp"
+
+namespace bench {
+
+using namespace bodice;
+using geometry::Vec3;
+
+namespace {
+
+constexpr std::size_t kBatch = 100000;
+constexpr double kReliefBar_m = 5e-5;
+
+struct Count {
+  std::size_t particles = 0, inside = 0, wrong_side = 0;
+  double deepest_m = 0.0;
+  collision::ContactReport report;
+};
+
+struct Batch {
+  std::vector<float> x, y, z, sx, sy, sz;
+  collision::Particles view(bool with_safe) {
+    collision::Particles p{.count = x.size(), .x = x.data(), .y = y.data(), .z = z.data()};
+    if (with_safe) p.safe_x = sx.data(), p.safe_y = sy.data(), p.safe_z = sz.data();
+    return p;
+  }
+};
+
+/// Half in the box, half in and around ellipsoids; last places up to 5 cm away.
+Batch random_batch(const proxy::BodyProxy& proxy, const Vec3& origin, std::size_t count,
+                   engine::Random& random) {
+  Vec3 low = Vec3::Constant(1e9), high = -low;
+  for (const auto& e : proxy.ellipsoids()) {
+    const auto box = geometry::bounding_box(e.shape);
+    low = low.cwiseMin(box.low), high = high.cwiseMax(box.high);
+  }
+  const auto in_cube = [&](double half) {
+    const double a = random.uniform(-half, half), b = random.uniform(-half, half);
+    return Vec3(a, b, random.uniform(-half, half));
+  };
+  Batch batch;
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec3 p = 0.5 * (low + high) + (high - low).cwiseProduct(in_cube(0.55));
+    if (i % 2 == 0) {
+      const auto& e = proxy.ellipsoids()[random.below(proxy.ellipsoids().size())].shape;
+      p = e.center + e.axes * e.radii.cwiseProduct(in_cube(1.0));
+    }
+    p -= origin;
+    const Vec3 s = p + in_cube(0.05);
+    batch.x.push_back(static_cast<float>(p.x()));
+    batch.y.push_back(static_cast<float>(p.y()));
+    batch.z.push_back(static_cast<float>(p.z()));
+    batch.sx.push_back(static_cast<float>(s.x()));
+    batch.sy.push_back(static_cast<float>(s.y()));
+    batch.sz.push_back(static_cast<float>(s.z()));
+  }
+  return batch;
+}
+
+/// Depth of a particle below the proxy's surface, metres; zero or less outside.
+double depth_m(const proxy::BodyProxy& proxy, const collision::Collider& collider, const float (&at)[3]) {
+  if (!proxy.relief().empty()) return -double{collider.query(at).signed_distance};
+  const Vec3 p = collider.origin() + Vec3(double{at[0]}, double{at[1]}, double{at[2]});
+  double deepest = -1.0;
+  for (const auto& e : proxy.ellipsoids())
+    if (geometry::level(e.shape, p) < 1.0)
+      deepest = std::max(deepest, proxy.margin_m() - geometry::nearest_point(e.shape, p).signed_distance);
+  return deepest;
+}
+
+Count certify(const proxy::BodyProxy& proxy, const collision::ResolveOptions& options, bool with_safe,
+              std::size_t particles, std::uint64_t seed) {
+  const collision::Collider collider(proxy);
+  const double bar_m = proxy.relief().empty() ? 1e-6 * proxy.stature_m() : kReliefBar_m;
+  engine::Random random(seed);
+  Count count;
+  while (count.particles < particles) {
+    Batch batch =
+        random_batch(proxy, collider.origin(), std::min(kBatch, particles - count.particles), random);
+    collision::Workspace workspace;
+    count.report.add(collider.resolve({}, batch.view(with_safe), options, workspace));
+    for (std::size_t i = 0; i < batch.x.size(); ++i) {
+      const double depth = depth_m(proxy, collider, {batch.x[i], batch.y[i], batch.z[i]});
+      count.inside += depth > bar_m;
+      count.deepest_m = std::max(count.deepest_m, depth);
+    }
+    count.particles += batch.x.size();
+  }
+  return count;
+}
+
+proxy::BodyProxy fit_body(synth::Pose pose, std::uint64_t seed, proxy::Tier tier) {
+  synth::BodyOptions options;
+  options.pose = pose;
+  options.seed = seed;
+  options.vertices = 4500;
+  auto body = synth::make_body({}, options);
+  if (!body) std::puts(body.error().sentence().c_str()), std::exit(1);
+  const geometry::MeshDistance skin({}, body->mesh);
+  auto fit = fitting::fit(
+      {}, {.mesh = body->mesh, .part = body->part, .stature_m = body->stature_m, .distance = &skin},
+      {.tier = tier});
+  if (!fit) std::puts(fit.error().sentence().c_str()), std::exit(1);
+  return fit->proxy;
+}
+
+}  // namespace
+
+bool certify_random(std::span<char*> arguments) {
+  const auto total = static_cast<std::size_t>(arguments.empty() ? 1e6 : std::atof(arguments[0]));
+  const struct {
+    const char* name;
+    synth::Pose pose;
+  } poses[] = {{"A", synth::Pose::kA}, {"arms down", synth::Pose::kArmsDown}, {"sit", synth::Pose::kSit}};
+  const std::size_t share = total / (4 * 3 * 3);
+  std::printf(
+      "| tier | pose | response | particles | contacts | inside (bar 0) | deepest mm | pinched | fallbacks | "
+      "wrong side | unresolved (bar 0) | exactly judged %% | rounds "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+  bool good = true;
+  for (const proxy::Tier tier :
+       {proxy::Tier::kPaper, proxy::Tier::kSolid, proxy::Tier::kTight, proxy::Tier::kRelief})
+    for (const auto& pose : poses) {
+      const proxy::BodyProxy proxy = fit_body(pose.pose, 1, tier);
+      for (int mode = 0; mode < 4; ++mode) {
+        const char* names[] = {"nearest", "nearest, 3 mm", "nearest, from a last place", "paper"};
+        collision::ResolveOptions options{.thickness_m = mode == 1 ? 0.003f : 0.0f};
+        if (mode == 3) options.response = collision::Response::kPaper;
+        const Count c = certify(proxy, options, mode == 2, share, 77 + static_cast<std::uint64_t>(mode));
+        const auto u = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+        std::printf("| %s | %s | %s | %zu | %llu | %zu | %.4f | %llu | %llu | %llu | %llu | %.2f | %u |\n",
+                    std::string(proxy::name(tier)).c_str(), pose.name, names[mode], c.particles,
+                    u(c.report.contacts), c.inside, 1e3 * c.deepest_m, u(c.report.pinched),
+                    u(c.report.fallbacks), u(c.report.wrong_side), u(c.report.unresolved),
+                    100.0 * static_cast<double>(c.report.judged_exactly) / static_cast<double>(c.particles),
+                    c.report.max_iterations);
+        std::fflush(stdout);
+        good = good && (mode == 3 || (c.inside == 0 && c.report.unresolved == 0));
+      }
+    }
+  return good;
+}
+
+}  // namespace bench

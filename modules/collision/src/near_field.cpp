@@ -1,0 +1,121 @@
+#include "near_field.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace bodice::collision {
+
+using geometry::NearestPoint;
+using geometry::Vec3;
+
+namespace {
+
+double blend_of(const ReliefTables* relief) {
+  return relief ? double{relief->blend_m} : 0.0;
+}
+
+}  // namespace
+
+/// Ellipsoids farther than this from a place neither own it below below_m nor blend into its owner.
+double NearField::window_m() const {
+  return below_m_ + (relief_ ? double{relief_->highest_m} + double{relief_->blend_m} : 0.0);
+}
+
+void NearField::expect(const Vec3& center, double radius_m) {
+  center_ = center;
+  radius_m_ = radius_m;
+  candidate_count_ = 0;
+  crowded_ = false;
+  shortest_m_ = std::numeric_limits<double>::infinity();
+  const double within_m = window_m() + radius_m;
+  for (std::uint32_t k = 0; k < field_.size(); ++k) {
+    if (field_.lower_bound(k, center) >= within_m) continue;
+    const NearestPoint at = geometry::nearest_point(field_.shape(k), center);
+    if (at.signed_distance >= within_m) continue;
+    shortest_m_ = std::min(shortest_m_, field_.shape(k).radii.minCoeff());
+    if (candidate_count_ == kMost) {
+      crowded_ = true;
+      return;
+    }
+    candidates_[candidate_count_++] = {k, at.signed_distance, at.normal};
+  }
+}
+
+void NearField::meet(std::uint32_t k, const Vec3& x) {
+  const NearestPoint at = geometry::nearest_point(field_.shape(k), x);
+  least_m_ = std::min(least_m_, at.signed_distance);
+  // What lies beyond the blending is dropped when room is needed; the window only shrinks.
+  if (foot_count_ == kMost) {
+    const double last_m = least_m_ + blend_of(relief_);
+    const auto kept = std::remove_if(feet_, feet_ + foot_count_,
+                                     [&](const Foot& f) { return f.at.signed_distance > last_m; });
+    foot_count_ = static_cast<int>(kept - feet_);
+  }
+  if (foot_count_ < kMost) feet_[foot_count_++] = {k, at};
+}
+
+void NearField::collect_near(const Vec3& x) {
+  double bounds[kMost];
+  int first = 0;
+  for (int i = 0; i < candidate_count_; ++i) {
+    bounds[i] = candidates_[i].distance_m + candidates_[i].normal.dot(x - center_);
+    if (bounds[i] < bounds[first]) first = i;
+  }
+  if (candidate_count_ == 0 || bounds[first] >= window_m()) return;
+  meet(candidates_[first].ellipsoid, x);
+  for (int i = 0; i < candidate_count_; ++i)
+    if (i != first && bounds[i] <= least_m_ + blend_of(relief_)) meet(candidates_[i].ellipsoid, x);
+}
+
+void NearField::collect_all(const Vec3& x) {
+  for (std::uint32_t k = 0; k < field_.size(); ++k)
+    if (field_.lower_bound(k, x) <= least_m_ + blend_of(relief_)) meet(k, x);
+}
+
+ReliefSample NearField::blend() {
+  ReliefSample result{below_m_, Vec3::Zero(), kNoEllipsoid};
+  double weights = 0.0, distance = 0.0;
+  for (int i = 0; i < foot_count_; ++i) {
+    const Foot& foot = feet_[i];
+    const double over_m = foot.at.signed_distance - least_m_;
+    const bool owns = over_m == 0.0 && result.owner == kNoEllipsoid;
+    if (!relief_ && !owns) continue;
+    const double root = relief_ ? 1.0 - over_m / double{relief_->blend_m} : 1.0;
+    if (!(root > 0.0)) continue;
+    const ReliefSample one = relief_ ? correct(field_, *relief_, foot.ellipsoid, foot.at)
+                                     : ReliefSample{foot.at.signed_distance, foot.at.normal, foot.ellipsoid};
+    weights += root * root;
+    distance += root * root * one.distance_m;
+    result.gradient += root * root * one.gradient;
+    if (owns) result.owner = foot.ellipsoid;
+    Share& slot = shares_[std::min(share_count_, kShares - 1)];
+    slot = {root * root, one};
+    share_count_ = std::min(share_count_ + 1, kShares);
+    if (owns) std::swap(shares_[0], slot);
+  }
+  if (result.owner == kNoEllipsoid) return result;
+  result.distance_m = distance / weights;
+  result.gradient /= weights;
+  return result;
+}
+
+ReliefSample NearField::at(const Vec3& x) {
+  ++evaluations_;
+  const double away_m = (x - center_).norm();
+  if (!(away_m <= radius_m_)) expect(x, std::max(radius_m_, 0.5 * away_m));
+  foot_count_ = share_count_ = 0;
+  least_m_ = std::numeric_limits<double>::infinity();
+  if (crowded_) {
+    least_m_ = window_m();
+    collect_all(x);
+    if (foot_count_ == 0) return {below_m_, Vec3::Zero(), kNoEllipsoid};
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < foot_count_; ++i) least = std::min(least, feet_[i].at.signed_distance);
+    least_m_ = least;
+  } else {
+    collect_near(x);
+  }
+  return blend();
+}
+
+}  // namespace bodice::collision
