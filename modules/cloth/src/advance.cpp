@@ -70,8 +70,7 @@ void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
   Particles& p = s.particles;
   update_air(context, s.options.environment, s.options.seed, s.time_s, p, s.air);
   for (std::size_t i = 0; i < p.count(); ++i) {
-    const float share = sleeps(s.sleep, i) ? 0.0f : (s.contacts.touching[i] ? 1.0f / kTouchingMass : 1.0f);
-    p.weight[i] = p.inverse_mass[i] * share;
+    p.weight[i] = sleeps(s.sleep, i) ? 0.0f : p.inverse_mass[i];
   }
   update_weights(p, s.coarse);
   begin_sleep_frame(p, s.sleep);
@@ -86,7 +85,7 @@ void solve(const engine::Context& context, const Plan& plan, int substep, State&
     if (bend) solve_bend(context, s.bend, inverse_h2, s.particles);
     solve_stretch(context, s.stretch, inverse_h2, s.particles);
   }
-  if (s.options.self_collision && !(plan.limits & kNoSelfContact)) push_apart(context, s.self, s.particles);
+  if (s.options.self_collision && !(plan.limits & kNoSelfContact)) push_apart(context, s.contacts.touching, s.self, s.particles);
 }
 
 void end_frame(const Plan& plan, State& s) {

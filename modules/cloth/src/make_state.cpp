@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "check_options.hpp"
 #include "state.hpp"
 
 namespace bodice::cloth {
@@ -12,28 +13,6 @@ constexpr double kCoarseSlack = 0.25;
 
 // Layers keep this share of the median edge apart: below 0.71 a particle passes through the middle of a quad.
 constexpr double kSelfRadius = 0.75;
-
-engine::Result<void> check(const SolverOptions& o) {
-  auto bad = [](const std::string& what, const char* remedy) {
-    return engine::Error{engine::ErrorCode::kInvalidArgument, "Solver option " + what + ".", remedy};
-  };
-  if (o.substeps < 1 || o.substeps > kMaxSubsteps) {
-    return bad("substeps is " + std::to_string(o.substeps), "Choose 1 to 128.");
-  }
-  if (o.iterations < 1 || o.iterations > 64) {
-    return bad("iterations is " + std::to_string(o.iterations), "Choose 1 to 64.");
-  }
-  if (!(o.thickness_m >= 0.0) || !std::isfinite(o.thickness_m)) {
-    return bad("thickness_m is " + std::to_string(o.thickness_m), "Give metres, zero or more.");
-  }
-  if (!(o.budget_us >= 0.0)) return bad("budget_us is " + std::to_string(o.budget_us), "Give zero or more.");
-  const Environment& e = o.environment;
-  if (!e.gravity_m_s2.allFinite() || !e.wind_m_s.allFinite() || !std::isfinite(e.gust) ||
-      !(e.air_density_kg_m3 >= 0.0) || !std::isfinite(e.air_density_kg_m3)) {
-    return bad("environment has a value that is not finite or a negative air density", "Give finite values.");
-  }
-  return {};
-}
 
 // Particles in Morton order; the map from vertices follows.
 void reorder(WeldedGarment& garment) {

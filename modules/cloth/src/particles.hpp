@@ -11,9 +11,6 @@ using geometry::Index;
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// A particle that touches the body weighs this many times more to the constraints: what the body will take
-/// back must not first travel through the garment. Depth and slip shrink alike, so friction's cone stays.
-inline constexpr float kTouchingMass = 8.0f;
 /// A pinned particle's mass to a coarse node, in its own masses.
 inline constexpr float kPinnedMass = 1e3f;
 

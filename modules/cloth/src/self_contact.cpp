@@ -17,6 +17,10 @@ namespace {
 
 constexpr float kSearch = 2.0f;  // radii: pairs this near may meet within the frame
 
+// A particle that lies on the body gives way this much less to another layer: what the body will take back
+// would let the outer layer sink into the inner one.
+constexpr float kTouchingMass = 8.0f;
+
 constexpr double kFresh = 0.4;  // radii the fastest may travel between searches; half is the bound
 
 struct Cell {
@@ -78,20 +82,25 @@ void find_close(const Particles& p, SelfContact& s, Index i, float inverse_side)
   }
 }
 
-void correction(const Particles& p, SelfContact& s, std::size_t i) {
+float yielding(const Particles& p, const std::vector<std::uint8_t>& touching, std::size_t i) {
+  return touching[i] ? p.weight[i] / kTouchingMass : p.weight[i];
+}
+
+void correction(const Particles& p, const std::vector<std::uint8_t>& touching, SelfContact& s, std::size_t i) {
+  const float own = yielding(p, touching, i);
   float x = 0.0f, y = 0.0f, z = 0.0f;
-  int touching = 0;
+  int pushes = 0;
   for (std::size_t k = i * kMaxClose; k < i * kMaxClose + s.close_count[i]; ++k) {
     const Index j = s.close[k];
     const float ex = p.x[i] - p.x[j], ey = p.y[i] - p.y[j], ez = p.z[i] - p.z[j];
     const float length = std::sqrt(ex * ex + ey * ey + ez * ez + kTinyLength2);
     if (length >= s.close_m[k]) continue;
-    const float share = p.weight[i] / (p.weight[i] + p.weight[j] + kTinyWeight);
+    const float share = own / (own + yielding(p, touching, j) + kTinyWeight);
     const float move = share * (s.close_m[k] - length) / length;
     x += move * ex, y += move * ey, z += move * ez;
-    ++touching;
+    ++pushes;
   }
-  const float scale = touching > 1 ? 1.0f / static_cast<float>(touching) : 1.0f;
+  const float scale = pushes > 1 ? 1.0f / static_cast<float>(pushes) : 1.0f;
   s.dx[i] = scale * x, s.dy[i] = scale * y, s.dz[i] = scale * z;
 }
 
@@ -127,9 +136,10 @@ void find_close_pairs(const engine::Context& context, const Particles& particles
                        });
 }
 
-void push_apart(const engine::Context& context, SelfContact& self, Particles& particles) {
+void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, SelfContact& self,
+                Particles& particles) {
   engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) correction(particles, self, i);
+    for (std::size_t i = begin; i < end; ++i) correction(particles, touching, self, i);
   });
   engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -35,7 +35,8 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Topology& top
 void find_close_pairs(const engine::Context& context, const Particles& particles, SelfContact& self);
 
 /// One Jacobi sweep: each particle sums its pairs' corrections from the same positions, so that neither order
-/// nor workers matter.
-void push_apart(const engine::Context& context, SelfContact& self, Particles& particles);
+/// nor workers matter. `touching`: who lies on the body, #P.
+void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, SelfContact& self,
+                Particles& particles);
 
 }  // namespace bodice::cloth

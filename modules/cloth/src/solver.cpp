@@ -2,6 +2,7 @@
 
 #include <bodice/engine/hash.hpp>
 
+#include "check_options.hpp"
 #include "state.hpp"
 
 namespace bodice::cloth {
@@ -36,6 +37,13 @@ FrameReport Solver::step(const engine::Context& context, double dt_s) {
 
 void Solver::move_pins(std::span<const geometry::Vec3> world_positions) {
   set_pin_targets(world_positions, impl_->state.pins);
+}
+
+engine::Result<void> Solver::set_environment(const Environment& environment) {
+  if (auto good = check(environment); !good) return good;
+  impl_->state.options.environment = environment;
+  wake_all(impl_->state.sleep);
+  return {};
 }
 
 void Solver::set_velocity(const geometry::Vec3& velocity_m_s) {

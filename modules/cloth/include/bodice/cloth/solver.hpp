@@ -87,6 +87,8 @@ class Solver {
   /// Where the pinned vertices are to be at the end of the next step, in the order given to make(); they
   /// move there in a straight line over its substeps. Values that are not finite leave their pin where it is.
   void move_pins(std::span<const geometry::Vec3> world_positions);
+  /// Gravity and air from the next step on; wakes what sleeps. kInvalidArgument as in make().
+  engine::Result<void> set_environment(const Environment& environment);
   /// Gives every free particle this velocity.
   void set_velocity(const geometry::Vec3& velocity_m_s);
 

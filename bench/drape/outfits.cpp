@@ -1,0 +1,60 @@
+#include "outfits.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include <bodice/proxy/proxy_file.hpp>
+#include <bodice/tryon/wearing.hpp>
+
+namespace bench {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace bodice;
+
+template <class T>
+T or_exit(engine::Result<T> result) {
+  if (result) return std::move(result).value();
+  std::fprintf(stderr, "%s\n", result.error().sentence().c_str());
+  std::exit(1);
+}
+
+}  // namespace
+
+std::vector<Outfit> find_outfits(const fs::path& data, const std::string& only) {
+  std::ifstream in(data / "garments" / "garments.json");
+  std::vector<Outfit> outfits;
+  for (const auto& entry : nlohmann::json::parse(in)) {
+    const std::string file = entry["file"], body = entry["body"], pose = entry["pose"];
+    if (file.find(only) == std::string::npos) continue;
+    outfits.push_back({file.substr(0, file.rfind('.')), data / "garments" / file,
+                       data / "bodies" / (body + "_" + pose + ".obj")});
+  }
+  return outfits;
+}
+
+Body load_body(const engine::Context& context, const fs::path& file, proxy::Tier tier,
+               const fs::path& cache) {
+  tryon::SegmentedSkin skin = or_exit(tryon::segment_file(context, file, {}));
+  const fs::path kept = cache / (file.stem().string() + "_" + std::string(proxy::name(tier)) + ".bodice");
+  if (!cache.empty() && fs::exists(kept)) return {std::move(skin), or_exit(proxy::load(kept))};
+  tryon::PreparedBody fitted = or_exit(tryon::fit_proxy(context, std::move(skin), {.tier = tier}));
+  if (!cache.empty()) {
+    fs::create_directories(cache);
+    if (const auto saved = proxy::save(fitted.fit.proxy, kept); !saved)
+      std::fprintf(stderr, "%s\n", saved.error().sentence().c_str());
+  }
+  return {std::move(fitted.skin), std::move(fitted.fit.proxy)};
+}
+
+tryon::WornGarment load_garment(const engine::Context& context, const Outfit& outfit, const Body& body) {
+  io::ImportedMesh mesh = or_exit(io::import_garment(context, outfit.garment, body.skin.input.frame));
+  tryon::WornGarment worn{.name = outfit.name, .mesh = std::move(mesh.skin)};
+  worn.held = tryon::held_vertices(worn.mesh, body.skin);
+  return worn;
+}
+
+}  // namespace bench

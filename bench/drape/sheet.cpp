@@ -1,0 +1,50 @@
+#include "sheet.hpp"
+
+#include <algorithm>
+
+namespace bench {
+namespace {
+
+using bodice::geometry::Index;
+using bodice::geometry::TriMesh;
+using bodice::geometry::Vec3;
+
+/// Bodies stand on a diagonal, so that none hides another from the front or from the side.
+constexpr int kColumns = 7;
+constexpr double kColumn_m = 1.8, kRow_m = 2.1;
+
+void append(const std::vector<Vec3>& positions, const std::vector<bodice::geometry::Triangle>& triangles,
+            const Vec3& place, TriMesh& to) {
+  const auto first = static_cast<Index>(to.positions.size());
+  for (const Vec3& p : positions) to.positions.push_back(p + place);
+  for (const auto& t : triangles) to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+}  // namespace
+
+void Sheet::add(const Body& body, const bodice::tryon::WornGarment& garment,
+                const std::vector<Vec3>& positions) {
+  const int column = count_ % kColumns, row = count_ / kColumns;
+  ++count_;
+  const TriMesh& skin = body.skin.input.skin;
+  const Vec3 middle = bodice::geometry::bounding_box(skin.positions).center();
+  const Vec3 place(kColumn_m * column - middle.x(), -kRow_m * row, kColumn_m * column - middle.z());
+  append(skin.positions, skin.triangles, place, bodies_);
+  append(positions, garment.mesh.triangles, place, garments_.mesh);
+}
+
+bool Sheet::write(const std::filesystem::path& png) const {
+  bodice::io::Scene scene;
+  scene.body = &bodies_;
+  scene.garments.push_back(garments_);
+  scene.garments[0].name = "cloth";
+  scene.garments[0].frames = {garments_.mesh.positions};
+  scene.garments[0].time_s = {0.0};
+  const int columns = std::min(count_, kColumns), rows = (count_ + kColumns - 1) / kColumns;
+  const std::size_t first = 0;
+  return bodice::io::write_picture(scene, {&first, 1}, png,
+                                   {.width = 300 * columns, .height = 350 * std::max(rows, 1)})
+      .ok();
+}
+
+}  // namespace bench
