@@ -4,8 +4,9 @@
 #include <utility>
 
 #include <bodice/engine/parallel.hpp>
-#include <bodice/engine/stage_timer.hpp>
-#include <bodice/geometry/mesh_repair.hpp>
+
+#include "load_body.hpp"
+#include "segment_tasks.hpp"
 
 namespace bodice::tryon {
 namespace {
@@ -21,9 +22,12 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-engine::Result<body::ProportionProfile> profile_or_default(const SegmentOptions& options) {
-  if (!options.profile.name.empty()) return options.profile;
-  return body::find_profile("ansur2");
+engine::Result<SegmentedSkin> segment_source(const engine::Context& context, const BodySource& source,
+                                             const SegmentOptions& options, const Progress& progress) {
+  tell(progress, "load", 0.0);
+  auto input = load_body(context, source, options.import);
+  if (!input) return std::move(input).error();
+  return segment_mesh(context, std::move(input).value(), options, progress);
 }
 
 }  // namespace
@@ -42,71 +46,40 @@ std::vector<engine::StageTime> PreparedBody::all_stages() const {
 
 engine::Result<SegmentedSkin> segment_file(const engine::Context& context, const std::filesystem::path& file,
                                            const SegmentOptions& options, const Progress& progress) {
-  tell(progress, "load", 0.0);
-  auto input = io::import_body(context, file, options.import);
-  if (!input) return std::move(input).error();
-  return segment_mesh(context, std::move(input).value(), options, progress);
+  return segment_source(context, BodyFile{file}, options, progress);
 }
 
 engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, const synth::BodyOptions& body,
                                               const SegmentOptions& options, const Progress& progress) {
-  tell(progress, "make body", 0.0);
-  io::ImportedMesh input;
-  engine::StageTimer load(context, input.stages, "load");
-  auto made = synth::make_body(context, body);
-  load.stop();
-  if (!made) return std::move(made).error();
-  engine::StageTimer check(context, input.stages, "check");
-  auto repaired = geometry::repair(context, made->mesh);
-  check.stop();
-  if (!repaired) return std::move(repaired).error();
-
-  input.file = "built-in";
-  input.mesh = body.sex == body::Sex::kFemale ? "female" : "male";
-  input.unit = "m";
-  input.skin = std::move(repaired->mesh);
-  input.vertex_of_input = std::move(repaired->vertex_of_input);
-  input.repair = std::move(repaired->report);
-  input.input_vertices = made->mesh.positions.size();
-  input.input_triangles = made->mesh.triangles.size();
-  return segment_mesh(context, std::move(input), options, progress);
+  return segment_source(context, body, options, progress);
 }
 
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress) {
-  auto profile = profile_or_default(options);
-  if (!profile) return std::move(profile).error();
   tell(progress, "segment", 0.0);
-  auto found = anatomy::analyse(context, input.skin, {.profile = std::move(profile).value()});
-  if (!found) {
-    engine::Error error = std::move(found).error();
-    error.message = input.file.string() + ": " + error.message;
-    return error;
-  }
+  engine::GraphBuilder builder;
+  auto mesh = builder.input<io::ImportedMesh>("body");
+  auto skin = add_segment_tasks(builder, mesh, options);
+  if (!skin) return std::move(skin).error();
+  auto graph = std::move(builder).build();
+  if (!graph) return std::move(graph).error();
+  graph->set(mesh, std::move(input));
+  if (auto run = graph->run(context); !run) return std::move(run).error();
+  return std::move(*graph->take(*skin));
+}
 
-  SegmentedSkin skin;
-  skin.input = std::move(input);
-  skin.anatomy = std::move(found).value();
-  skin.stages = skin.input.stages;
-  append(skin.stages, skin.anatomy.stages);
-  {
-    engine::StageTimer timer(context, skin.stages, "distance");
-    skin.distance = std::make_shared<const MeshDistance>(context, skin.input.skin);
-  }
-  skin.warnings = skin.input.warnings;
-  append(skin.warnings, skin.anatomy.warnings);
-  return skin;
+fitting::LabelledSkin labelled(const SegmentedSkin& skin) {
+  return {.mesh = skin.input.skin,
+          .part = skin.anatomy.part,
+          .stature_m = skin.anatomy.stature_m,
+          .frame = skin.input.frame,
+          .distance = skin.distance.get()};
 }
 
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress) {
   tell(progress, "fit", 0.0);
-  const fitting::LabelledSkin labelled{.mesh = skin.input.skin,
-                                       .part = skin.anatomy.part,
-                                       .stature_m = skin.anatomy.stature_m,
-                                       .frame = skin.input.frame,
-                                       .distance = skin.distance.get()};
-  auto fit = fitting::fit(context, labelled, options);
+  auto fit = fitting::fit(context, labelled(skin), options);
   if (!fit) {
     engine::Error error = std::move(fit).error();
     error.message = skin.input.file.string() + ": " + error.message;

@@ -9,74 +9,13 @@ namespace {
 using LiveStream = engine::Stream<LiveBody>;
 using LiveSink = engine::Sink<LiveBody>;
 
-engine::Result<SegmentedSkin> segment(const engine::Context& context, const BodySource& source,
-                                      const SegmentOptions& options) {
-  struct Visitor {
-    const engine::Context& context;
-    const SegmentOptions& options;
-    engine::Result<SegmentedSkin> operator()(const BodyFile& body) const {
-      return segment_file(context, body.file, options);
-    }
-    engine::Result<SegmentedSkin> operator()(const synth::BodyOptions& body) const {
-      return segment_builtin(context, body, options);
-    }
-    engine::Result<SegmentedSkin> operator()(const io::ImportedMesh& body) const {
-      return segment_mesh(context, body, options);
-    }
+/// Publishes each proxy with its collider ready, so that a frame only takes a pointer.
+OnProxy publish_to(LiveSink& sink) {
+  return [&sink, next = 0](const std::shared_ptr<const SegmentedSkin>& skin,
+                           const proxy::BodyProxy& proxy) mutable {
+    sink.publish(std::make_shared<const LiveBody>(LiveBody{
+        .skin = skin, .proxy = proxy, .collider = collision::Collider(proxy), .refinement = next++}));
   };
-  return std::visit(Visitor{context, options}, source);
-}
-
-/// Publishes the proxies of one body, each with its collider ready, so that a frame only takes a pointer.
-class Publisher {
- public:
-  Publisher(std::shared_ptr<const SegmentedSkin> skin, LiveSink& sink)
-      : skin_(std::move(skin)), sink_(sink) {}
-
-  void publish(const proxy::BodyProxy& proxy) {
-    if (last_hash_ == proxy.hash()) return;
-    last_hash_ = proxy.hash();
-    sink_.publish(std::make_shared<const LiveBody>(LiveBody{
-        .skin = skin_, .proxy = proxy, .collider = collision::Collider(proxy), .refinement = next_++}));
-  }
-
- private:
-  std::shared_ptr<const SegmentedSkin> skin_;
-  LiveSink& sink_;
-  std::optional<std::uint64_t> last_hash_;
-  int next_ = 0;
-};
-
-fitting::LabelledSkin labelled(const SegmentedSkin& skin) {
-  return {.mesh = skin.input.skin,
-          .part = skin.anatomy.part,
-          .stature_m = skin.anatomy.stature_m,
-          .frame = skin.input.frame,
-          .distance = skin.distance.get()};
-}
-
-/// Coarse first: a solid proxy is there in milliseconds; the asked-for tier follows with each improvement.
-engine::Result<void> prepare(const engine::Context& context, const BodySource& source,
-                             const SessionOptions& options, LiveSink& sink) {
-  auto segmented = segment(context, source, options.segment);
-  if (!segmented) return std::move(segmented).error();
-  const auto skin = std::make_shared<const SegmentedSkin>(std::move(segmented).value());
-  Publisher publisher(skin, sink);
-
-  fitting::FitOptions fit = options.fit;
-  if (fit.tier > proxy::Tier::kSolid) {
-    fitting::FitOptions coarse;
-    coarse.tier = proxy::Tier::kSolid;
-    coarse.parts = fit.parts;
-    auto first = fitting::fit(context, labelled(*skin), coarse);
-    if (!first) return std::move(first).error();
-    publisher.publish(first->proxy);
-  }
-  fit.on_improved = [&](const proxy::BodyProxy& better) { publisher.publish(better); };
-  auto last = fitting::fit(context, labelled(*skin), fit);
-  if (!last) return std::move(last).error();
-  publisher.publish(last->proxy);
-  return {};
 }
 
 }  // namespace
@@ -105,10 +44,18 @@ Session::Session(const engine::Context& context, SessionOptions options)
 Session::~Session() = default;
 
 engine::Ticket Session::submit(BodySource source) {
-  return impl_->bodies.submit("prepare body", [source = std::move(source), options = impl_->options](
-                                                  const engine::Context& context, LiveSink& sink) {
-    return prepare(context, source, options, sink);
-  });
+  PreparationOptions options{.segment = impl_->options.segment, .fit = impl_->options.fit};
+  if (impl_->options.region_margin_m && impl_->solver) {
+    options.garments = {impl_->wardrobe.mesh};
+    options.region_margin_m = *impl_->options.region_margin_m;
+  }
+  return impl_->bodies.submit("prepare body",
+                              [source = std::move(source), options = std::move(options)](
+                                  const engine::Context& context, LiveSink& sink) -> engine::Result<void> {
+                                auto preparation = Preparation::make(options, publish_to(sink));
+                                if (!preparation) return std::move(preparation).error();
+                                return preparation->run(context, source);
+                              });
 }
 
 engine::Result<void> Session::dress(const std::vector<WornGarment>& garments) {

@@ -56,6 +56,9 @@ engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, co
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress = {});
 
+/// The skin as fitting takes it; valid as long as the skin.
+fitting::LabelledSkin labelled(const SegmentedSkin& skin);
+
 /// Fits a proxy to a segmented skin.
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress = {});

@@ -9,16 +9,15 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
-#include <variant>
 #include <vector>
 
 #include <bodice/cloth/solver.hpp>
 #include <bodice/engine/frame_pipeline.hpp>
 #include <bodice/tryon/drape.hpp>
-#include <bodice/tryon/prepare.hpp>
+#include <bodice/tryon/preparation.hpp>
 
 namespace bodice::tryon {
 
@@ -26,14 +25,11 @@ struct SessionOptions {
   engine::PipelineOptions pipeline;
   SegmentOptions segment;
   fitting::FitOptions fit;  ///< its on_improved is the session's
-  cloth::Fabric fabric;     ///< empty name: cotton
+  /// Given: a submitted body is fitted only where a garment worn at that moment is within this distance.
+  std::optional<double> region_margin_m;
+  cloth::Fabric fabric;  ///< empty name: cotton
   cloth::SolverOptions solver;
 };
-
-struct BodyFile {
-  std::filesystem::path file;
-};
-using BodySource = std::variant<BodyFile, synth::BodyOptions, io::ImportedMesh>;
 
 /// A body as the frames see it. Each refinement of its proxy is a new one, with the same skin.
 struct LiveBody {

@@ -1,0 +1,69 @@
+#include "segment_tasks.hpp"
+
+#include <utility>
+
+#include <bodice/engine/stage_timer.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+using geometry::MeshDistance;
+
+struct DistanceField {
+  std::shared_ptr<const MeshDistance> distance;
+  std::vector<engine::StageTime> stages;
+};
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+DistanceField measure_distances(const engine::Context& context, const io::ImportedMesh& mesh) {
+  DistanceField field;
+  const engine::StageTimer timer(context, field.stages, "distance");
+  field.distance = std::make_shared<const MeshDistance>(context, mesh.skin);
+  return field;
+}
+
+std::shared_ptr<SegmentedSkin> join(const engine::Context&, const io::ImportedMesh& mesh,
+                                    const anatomy::Anatomy& anatomy, const DistanceField& field) {
+  auto skin = std::make_shared<SegmentedSkin>(SegmentedSkin{.input = mesh,
+                                                            .anatomy = anatomy,
+                                                            .distance = field.distance,
+                                                            .stages = mesh.stages,
+                                                            .warnings = mesh.warnings});
+  append(skin->stages, anatomy.stages);
+  append(skin->stages, field.stages);
+  append(skin->warnings, anatomy.warnings);
+  return skin;
+}
+
+}  // namespace
+
+engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks(
+    engine::GraphBuilder& builder, const engine::Output<io::ImportedMesh>& mesh,
+    const SegmentOptions& options) {
+  body::ProportionProfile profile = options.profile;
+  if (profile.name.empty()) {
+    auto usual = body::find_profile("ansur2");
+    if (!usual) return std::move(usual).error();
+    profile = std::move(usual).value();
+  }
+  auto anatomy = builder.add(
+      "anatomy",
+      [profile](const engine::Context& context,
+                const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
+        auto found = anatomy::analyse(context, body.skin, {.profile = profile});
+        if (found) return found;
+        engine::Error error = std::move(found).error();
+        error.message = body.file.string() + ": " + error.message;
+        return error;
+      },
+      mesh);
+  auto field = builder.add("distance field", measure_distances, mesh);
+  builder.set_priority(anatomy, 1);  // the longer of the two
+  return builder.add("skin", join, mesh, anatomy, field);
+}
+
+}  // namespace bodice::tryon
