@@ -70,15 +70,18 @@ std::size_t Collider::size() const noexcept {
 
 void Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
   const std::size_t count = std::min(shapes.size(), impl_->shapes.size());
+  double travel_m = 0.0;
   for (std::size_t k = 0; k < count; ++k) {
     const std::uint32_t at = impl_->internal[k];
     geometry::Ellipsoid now = shapes[k];
     now.center -= impl_->origin;
     impl_->motion[at] = motion_between(impl_->shapes[at], now, dt_s);
+    travel_m = std::max(travel_m, travel_between(impl_->shapes[at], now));
     impl_->shapes[at] = now;
   }
   impl_->moving = dt_s > 0.0;
   impl_->moved_dt_s = dt_s;
+  impl_->travel_m = static_cast<float>(1.001 * travel_m);
   impl_->field.update(impl_->shapes);
   impl_->baked.update(impl_->shapes);
 }

@@ -183,7 +183,10 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
     const Owner carrier = field.owner(state.position, std::numeric_limits<double>::infinity());
     state.surface_velocity = motion[carrier.ellipsoid].at(state.position);
     // Where the safe position is now, had it stuck to the body.
-    state.safe += motion[carrier.ellipsoid].at(state.safe) * moved_dt_s;
+    state.motion = motion;
+    state.dt_s = moved_dt_s;
+    state.before = state.safe;
+    state.safe = state.path_start(carrier.ellipsoid);
   }
   ParticleReport one;
   if (options.response == Response::kPaper)
@@ -206,8 +209,13 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   Block& block = gathered.block;
   if (block.count == 0) return;
   const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
-                            static_cast<float>(kCertificate * field.size_m()), options.friction,
-                            options.max_push_m, moving ? motion.data() : nullptr};
+                            static_cast<float>(kCertificate * field.size_m()),
+                            options.friction,
+                            options.max_push_m,
+                            moving ? motion.data() : nullptr,
+                            static_cast<float>(moved_dt_s),
+                            moving ? travel_m : 0.0f,
+                            options.blend_m};
   BlockResponse response;
   const std::uint64_t everyone = ~std::uint64_t{0} >> (kBlock - block.count);
   if (options.response == Response::kPaper || !resolve_block(baked, tables(), clearance, block, response)) {

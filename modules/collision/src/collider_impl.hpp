@@ -46,6 +46,7 @@ struct Collider::Impl {
   std::vector<SurfaceMotion> motion;
   bool moving = false;
   double moved_dt_s = 0.0;
+  float travel_m = 0.0f;  ///< longest way of any of its material in the last move
 };
 
 }  // namespace bodice::collision

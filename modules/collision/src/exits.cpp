@@ -93,9 +93,11 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
   return entry;
 }
 
-bool passes_through(const UnionField& field, const Vec3& from, const Vec3& to) {
-  const geometry::Box segment{from.cwiseMin(to), from.cwiseMax(to)};
+std::uint32_t passed_through(const UnionField& field, const ParticleState& particle) {
+  const Vec3& to = particle.position;
   for (std::size_t k = 0; k < field.size(); ++k) {
+    const Vec3 from = particle.path_start(k);
+    const geometry::Box segment{from.cwiseMin(to), from.cwiseMax(to)};
     const geometry::Box& box = field.box(k);
     if ((box.low.array() > segment.high.array()).any() || (box.high.array() < segment.low.array()).any())
       continue;
@@ -107,9 +109,9 @@ bool passes_through(const UnionField& field, const Vec3& from, const Vec3& to) {
     if (!inside || inside->begin < -kEndSlack || inside->end > 1.0 + kEndSlack) continue;
     const Vec3 in = (a + inside->begin * b).cwiseQuotient(e.radii).normalized();
     const Vec3 out = (a + inside->end * b).cwiseQuotient(e.radii).normalized();
-    if (in.dot(out) < kSlidingCosine) return true;
+    if (in.dot(out) < kSlidingCosine) return static_cast<std::uint32_t>(k);
   }
-  return false;
+  return kNoEllipsoid;
 }
 
 }  // namespace bodice::collision

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "near_field.hpp"
+#include "response.hpp"
 #include "union_field.hpp"
 
 namespace bodice::collision {
@@ -26,14 +27,16 @@ struct Entry {
 std::optional<Entry> first_entry(const UnionField& field, const geometry::Vec3& safe, const geometry::Vec3& p,
                                  double clearance_m);
 
-/// The same for the corrected distance of relief.hpp, which is not convex: steps of half the distance, and of
-/// kPathStep where that is less. What is thinner along the path is stepped over; the place found is clear.
-std::optional<Entry> first_relief_entry(NearField& near, const UnionField& field, const ReliefTables& relief,
-                                        const geometry::Vec3& safe, const geometry::Vec3& p,
-                                        double clearance_m);
+/// The same for a surface that bulges out of the plain ellipsoids by up to `bulge_m` and is not convex
+/// (relief, fillets): steps of half the distance, and of kPathStep where that is less. What is thinner along
+/// the path is stepped over; the place found is clear.
+std::optional<Entry> first_bent_entry(NearField& near, const UnionField& field, double bulge_m,
+                                      const geometry::Vec3& safe, const geometry::Vec3& p,
+                                      double clearance_m);
 
-/// Whether the segment passes through some ellipsoid and out again at a place where its surface has turned
-/// by more than 60 degrees: less is a particle that slides over a curved surface.
-bool passes_through(const UnionField& field, const geometry::Vec3& from, const geometry::Vec3& to);
+/// The ellipsoid that the particle's path passed through, as that ellipsoid sees it, and out again at a place
+/// where its surface has turned by more than 60 degrees: less is a particle that slides over a curved
+/// surface. kNoEllipsoid if there is none.
+std::uint32_t passed_through(const UnionField& field, const ParticleState& particle);
 
 }  // namespace bodice::collision

@@ -36,6 +36,9 @@ struct Clearance {
   float friction;
   float max_push_m;
   const SurfaceMotion* motion;  ///< an ellipsoid; null: the body rests
+  float dt_s = 0.0f;            ///< that the motion took
+  float travel_m = 0.0f;        ///< that no place of the body moved farther than
+  float blend_m = 0.0f;         ///< of the smooth union; zero: creases stay sharp
 };
 
 struct alignas(64) BlockResponse {

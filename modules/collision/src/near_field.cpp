@@ -1,6 +1,7 @@
 #include "near_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace bodice::collision {
@@ -8,17 +9,9 @@ namespace bodice::collision {
 using geometry::NearestPoint;
 using geometry::Vec3;
 
-namespace {
-
-double blend_of(const ReliefTables* relief) {
-  return relief ? double{relief->blend_m} : 0.0;
-}
-
-}  // namespace
-
 /// Ellipsoids farther than this from a place neither own it below below_m nor blend into its owner.
 double NearField::window_m() const {
-  return below_m_ + (relief_ ? double{relief_->highest_m} + double{relief_->blend_m} : 0.0);
+  return below_m_ + bulge_m_ + blend_m_;
 }
 
 void NearField::expect(const Vec3& center, double radius_m) {
@@ -46,7 +39,7 @@ void NearField::meet(std::uint32_t k, const Vec3& x) {
   least_m_ = std::min(least_m_, at.signed_distance);
   // What lies beyond the blending is dropped when room is needed; the window only shrinks.
   if (foot_count_ == kMost) {
-    const double last_m = least_m_ + blend_of(relief_);
+    const double last_m = least_m_ + blend_m_;
     const auto kept = std::remove_if(feet_, feet_ + foot_count_,
                                      [&](const Foot& f) { return f.at.signed_distance > last_m; });
     foot_count_ = static_cast<int>(kept - feet_);
@@ -64,37 +57,66 @@ void NearField::collect_near(const Vec3& x) {
   if (candidate_count_ == 0 || bounds[first] >= window_m()) return;
   meet(candidates_[first].ellipsoid, x);
   for (int i = 0; i < candidate_count_; ++i)
-    if (i != first && bounds[i] <= least_m_ + blend_of(relief_)) meet(candidates_[i].ellipsoid, x);
+    if (i != first && bounds[i] <= least_m_ + blend_m_) meet(candidates_[i].ellipsoid, x);
 }
 
 void NearField::collect_all(const Vec3& x) {
   for (std::uint32_t k = 0; k < field_.size(); ++k)
-    if (field_.lower_bound(k, x) <= least_m_ + blend_of(relief_)) meet(k, x);
+    if (field_.lower_bound(k, x) <= least_m_ + blend_m_) meet(k, x);
 }
 
+/// Newton on a convex function of the root, from above.
+double NearField::smooth_root_m() const {
+  double root = least_m_;
+  for (int step = 0; step < kRootSteps; ++step) {
+    double sum = -1.0, slope = 0.0;
+    for (int i = 0; i < foot_count_; ++i) {
+      const double u = std::max(0.0, 1.0 - (feet_[i].at.signed_distance - root) / blend_m_);
+      sum += u * u;
+      slope += u;
+    }
+    if (!(sum > 0.0)) break;
+    root -= 0.5 * blend_m_ * sum / slope;
+  }
+  return root;
+}
+
+/// Zero: the ellipsoid at this distance takes no part.
+double NearField::weight_root(double distance_m, double root_m) const {
+  if (blend_m_ > 0.0) return std::max(0.0, 1.0 - (distance_m - root_m) / blend_m_);
+  return distance_m <= least_m_ ? 1.0 : 0.0;
+}
+
+ReliefSample NearField::share_of(const Foot& foot) const {
+  if (relief_) return correct(field_, *relief_, foot.ellipsoid, foot.at);
+  return {foot.at.signed_distance, foot.at.normal, foot.ellipsoid};
+}
+
+/// Relief averages the corrected distances of those that are nearest; a smooth union takes its root.
 ReliefSample NearField::blend() {
   ReliefSample result{below_m_, Vec3::Zero(), kNoEllipsoid};
+  const bool smooth = !relief_ && blend_m_ > 0.0;
+  const double root_m = smooth ? smooth_root_m() : least_m_;
   double weights = 0.0, distance = 0.0;
   for (int i = 0; i < foot_count_; ++i) {
     const Foot& foot = feet_[i];
-    const double over_m = foot.at.signed_distance - least_m_;
-    const bool owns = over_m == 0.0 && result.owner == kNoEllipsoid;
-    if (!relief_ && !owns) continue;
-    const double root = relief_ ? 1.0 - over_m / double{relief_->blend_m} : 1.0;
+    const double root = weight_root(foot.at.signed_distance, root_m);
     if (!(root > 0.0)) continue;
-    const ReliefSample one = relief_ ? correct(field_, *relief_, foot.ellipsoid, foot.at)
-                                     : ReliefSample{foot.at.signed_distance, foot.at.normal, foot.ellipsoid};
-    weights += root * root;
-    distance += root * root * one.distance_m;
-    result.gradient += root * root * one.gradient;
+    const bool owns = foot.at.signed_distance == least_m_ && result.owner == kNoEllipsoid;
+    if (!bent() && !owns) continue;
+    const double weight = smooth ? root : root * root;
+    const ReliefSample one = share_of(foot);
+    weights += weight;
+    distance += weight * one.distance_m;
+    result.gradient += weight * one.gradient;
     if (owns) result.owner = foot.ellipsoid;
     Share& slot = shares_[std::min(share_count_, kShares - 1)];
-    slot = {root * root, one};
+    slot = {weight, one};
     share_count_ = std::min(share_count_ + 1, kShares);
     if (owns) std::swap(shares_[0], slot);
   }
   if (result.owner == kNoEllipsoid) return result;
-  result.distance_m = distance / weights;
+  result.distance_m = smooth ? root_m : distance / weights;
   result.gradient /= weights;
   return result;
 }

@@ -2,9 +2,12 @@
 // kernels settle the common case in floats and hand over what is left.
 #pragma once
 
+#include <span>
+
 #include <bodice/collision/collider.hpp>
 
 #include "relief_field.hpp"
+#include "surface_motion.hpp"
 #include "union_field.hpp"
 
 namespace bodice::collision {
@@ -19,10 +22,18 @@ enum class Outcome : std::uint8_t {
 struct ParticleState {
   geometry::Vec3 position;
   geometry::Vec3 velocity;
-  geometry::Vec3 safe;
+  geometry::Vec3 safe;  ///< carried along by the ellipsoid that the particle is nearest to
   geometry::Vec3 surface_velocity = geometry::Vec3::Zero();  ///< of the body where the particle is
   bool has_velocity = false;
   bool has_safe = false;
+  std::span<const SurfaceMotion> motion;           ///< one an ellipsoid; empty: the body rests
+  double dt_s = 0.0;                               ///< that the motion took
+  geometry::Vec3 before = geometry::Vec3::Zero();  ///< the safe position as it was, dt_s ago
+
+  /// Where the path begins as ellipsoid k sees it.
+  geometry::Vec3 path_start(std::size_t k) const {
+    return motion.empty() ? safe : motion[k].carry(before, dt_s);
+  }
 };
 
 /// What happened to one particle.

@@ -54,22 +54,21 @@ class Resolver {
   Resolver(const UnionField& field, const ReliefTables* relief, double clearance_m,
            const ResolveOptions& options, ParticleState& particle)
       : field_(field),
-        relief_(relief),
         options_(options),
         particle_(particle),
         p_(particle.position),
         clearance_m_(clearance_m),
         surface_m_(std::min(clearance_m, clearance_m - double{options.thickness_m})),
         slack_m_(kCertificate * (field.size_m() + p_.cwiseAbs().maxCoeff())),
-        overshoot_m_(relief ? std::max(slack_m_, kReliefOvershoot * double{relief->blend_m}) : slack_m_),
-        certificate_m_(relief ? kReliefCertificate_m : slack_m_),
-        near_(field, relief, clearance_m + 2.0 * overshoot_m_) {}
+        near_(field, relief, double{options.blend_m}, clearance_m + 2.0 * slack_m_),
+        overshoot_m_(std::max(slack_m_, kReliefOvershoot * near_.blend_m())),
+        certificate_m_(relief ? kReliefCertificate_m : slack_m_) {}
 
   ParticleReport run() {
     near_.expect(p_, 0.0);
     const ReliefSample start = near_.at(p_);
     const bool inside = start.distance_m < clearance_m_;
-    if (!inside && !(particle_.has_safe && passes_through(field_, particle_.safe, p_))) return report_;
+    if (!inside && !passed_through_something()) return report_;
     report_.ellipsoid = start.owner;
     x_ = p_;
     if (inside) settle_from(start);
@@ -83,6 +82,15 @@ class Resolver {
   }
 
  private:
+  /// If so, the path is taken as the ellipsoid sees it that was passed through.
+  bool passed_through_something() {
+    const std::uint32_t through =
+        particle_.has_safe ? passed_through(field_, particle_) : std::uint32_t{kNoEllipsoid};
+    if (through == kNoEllipsoid) return false;
+    particle_.safe = particle_.path_start(through);
+    return true;
+  }
+
   double stored_distance(const Vec3& x) { return near_.at(x.cast<float>().cast<double>()).distance_m; }
   bool outside(const Vec3& x) { return stored_distance(x) >= surface_m_ - certificate_m_; }
   bool long_path() const { return (p_ - particle_.safe).norm() > kLongPath * near_.shortest_radius_m(); }
@@ -100,8 +108,9 @@ class Resolver {
   void return_to_entry(bool inside, bool stuck) {
     const double kept_m = std::min(clearance_m_, near_.at(particle_.safe).distance_m);
     if (kept_m < surface_m_ - certificate_m_) return;  // the safe position is not
-    const auto entry = relief_ ? first_relief_entry(near_, field_, *relief_, particle_.safe, p_, kept_m)
-                               : first_entry(field_, particle_.safe, p_, kept_m);
+    const auto entry = near_.bent()
+                           ? first_bent_entry(near_, field_, near_.bulge_m(), particle_.safe, p_, kept_m)
+                           : first_entry(field_, particle_.safe, p_, kept_m);
     if (!entry) return;
     const bool other_side = !inside || entry->normal.dot(contact_[0].normal) < kSlidingCosine;
     if (!other_side && !stuck) return;
@@ -146,9 +155,8 @@ class Resolver {
   }
 
   std::optional<Vec3> exit_along(const Vec3& direction) {
-    const double highest_m = relief_ ? double{relief_->highest_m} : 0.0;
-    const auto far = exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + highest_m);
-    if (!far || !relief_) return far ? std::optional<Vec3>(*far + slack_m_ * direction) : far;
+    const auto far = exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + near_.bulge_m());
+    if (!far || !near_.bent()) return far ? std::optional<Vec3>(*far + slack_m_ * direction) : far;
     Vec3 in = p_, out = *far;
     for (int i = 0; i < kExitHalvings; ++i) {
       const Vec3 middle = 0.5 * (in + out);
@@ -167,12 +175,12 @@ class Resolver {
   }
 
   const UnionField& field_;
-  const ReliefTables* relief_;
   const ResolveOptions& options_;
   ParticleState& particle_;
   const Vec3 p_;
-  const double clearance_m_, surface_m_, slack_m_, overshoot_m_, certificate_m_;
+  const double clearance_m_, surface_m_, slack_m_;
   NearField near_;
+  const double overshoot_m_, certificate_m_;
   Vec3 x_ = Vec3::Zero();
   Halfspaces contact_;
   ParticleReport report_;

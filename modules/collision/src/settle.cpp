@@ -2,8 +2,8 @@
 // Every place that is found below the clearance adds the half-space beyond its tangent plane; the next place
 // is the nearest in all of them. Plain ellipsoids are convex, so that a point in all half-spaces is outside
 // of all those ellipsoids, and a crease is met once and does not cycle.
-// Differs: with relief the newest plane of an ellipsoid replaces its older ones, which is Newton's method
-// along one surface. Planes that face each other are set back until they meet.
+// Differs: with relief or fillets the newest plane of an ellipsoid replaces its older ones, which is Newton's
+// method along one surface. Planes that face each other are set back until they meet.
 #include "settle.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 /// The planes in force and whose they are.
 class Planes {
  public:
-  Planes(bool relief, double target_m) : relief_(relief), target_m_(target_m) {}
+  Planes(bool bent, double target_m) : bent_(bent), target_m_(target_m) {}
 
   const Halfspaces& halfspaces() const { return planes_; }
 
@@ -56,7 +56,7 @@ class Planes {
 
   /// The place of this owner's older plane, a free one, or that of the plane which x is farthest beyond.
   int slot(std::uint32_t owner, const Vec3& x) const {
-    for (int i = 0; relief_ && i < planes_.size(); ++i)
+    for (int i = 0; bent_ && i < planes_.size(); ++i)
       if (owner_[i] == owner) return i;
     if (!planes_.full()) return planes_.size();
     int idle = 0;
@@ -65,7 +65,7 @@ class Planes {
     return idle;
   }
 
-  bool relief_;
+  bool bent_;
   double target_m_;
   Halfspaces planes_;
   std::uint32_t owner_[Halfspaces::kCapacity] = {};
@@ -76,14 +76,18 @@ class Planes {
 Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double clearance_m,
                double overshoot_m, double longest_m) {
   const double target_m = clearance_m + overshoot_m;
-  Planes planes(near.has_relief(), target_m);
+  Planes planes(near.bent(), target_m);
   Settled best{p, start, {}, 0, start.distance_m >= clearance_m};
   near.expect(p, longest_m);
   ReliefSample here = near.at(p);
   Vec3 x = p;
-  for (best.rounds = 1; best.rounds <= kSettleRounds && !best.clear; ++best.rounds) {
+  while (best.rounds < kSettleRounds && !best.clear) {
+    ++best.rounds;
     planes.put(x, here, near.shares());
-    const auto next = planes.halfspaces().least_violating(p, longest_m, 0.1 * overshoot_m);
+    // The nearest point to p diverges where a surface bends within its depth; a step from x does not.
+    const Vec3 base = near.bent() && best.rounds > kNearestRounds ? x : p;
+    const double left_m = std::max(0.0, longest_m - (base - p).norm());
+    const auto next = planes.halfspaces().least_violating(base, left_m, 0.1 * overshoot_m);
     x = next.x;
     here = near.at(x);
     const bool better = here.distance_m > best.at.distance_m;

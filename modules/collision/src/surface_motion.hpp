@@ -13,9 +13,14 @@ struct SurfaceMotion {
   float shift[3] = {};
 
   geometry::Vec3 at(const geometry::Vec3& x) const;
+  /// Where the material is now that was at `before` dt_s ago.
+  geometry::Vec3 carry(const geometry::Vec3& before, double dt_s) const;
 };
 
 /// A material point keeps its place in the ellipsoid's frame, in shares of the radii.
 SurfaceMotion motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now, double dt_s);
+
+/// No material of the ellipsoid moved farther than this between the poses, metres.
+double travel_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now);
 
 }  // namespace bodice::collision

@@ -33,6 +33,9 @@ inline constexpr double kLongestPush = 4.0;
 /// Newton two or three steps.
 inline constexpr int kSettleRounds = 10;
 
+/// Of these the first look for the nearest place even on a bent surface.
+inline constexpr int kNearestRounds = 3;
+
 /// Share of what is missing to the clearance to which the place midway between two surfaces is found.
 inline constexpr double kMidway = 0.05;
 

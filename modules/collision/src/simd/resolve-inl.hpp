@@ -9,6 +9,7 @@
 #endif
 
 #include "simd/sample-inl.hpp"
+#include "simd/smooth-inl.hpp"
 #include "tolerances.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -78,11 +79,30 @@ HWY_INLINE Settled settle_plain(const Baked& baked, const Candidates& c, const C
   return s;
 }
 
-/// Relief: Newton along the gradient of F.
-HWY_INLINE Settled settle_relief(const Baked& baked, const ReliefTables& relief, const Candidates& c,
-                                 const Clearance& clearance, V3 p, const Sample& first, M contact) {
+/// What surfaces that are not plain ellipsoids add to the clearance: nothing farther than this from every
+/// ellipsoid is below it; and the length over which they bend.
+struct Bent {
+  float reach_m, blend_m;
+};
+
+HWY_INLINE Bent bent_by(const ReliefTables* relief, const Clearance& clearance) {
+  if (relief) return {relief->highest_m, relief->blend_m};
+  return {clearance.blend_m, clearance.blend_m};
+}
+
+/// F at p, of whichever kind.
+HWY_INLINE Sample bent_distance(const Baked& baked, const ReliefTables* relief, const Candidates& c,
+                                const Clearance& clearance, V3 p, V below) {
+  if (relief) return relief_distance(baked, *relief, c, p, below);
+  return smooth_distance(baked, clearance.blend_m, c, p, below);
+}
+
+/// Relief or a smooth union: Newton along the gradient of F.
+HWY_INLINE Settled settle_bent(const Baked& baked, const ReliefTables* relief, const Candidates& c,
+                               const Clearance& clearance, V3 p, const Sample& first, M contact) {
+  const Bent bent = bent_by(relief, clearance);
   // The surface bends between steps; a share of the blending more lets Newton arrive from below.
-  const V target = all(clearance.distance_m + clearance.slack_m + kOvershoot * relief.blend_m);
+  const V target = all(clearance.distance_m + clearance.slack_m + kOvershoot * bent.blend_m);
   Settled s;
   s.open = contact;
   s.position = p;
@@ -91,8 +111,8 @@ HWY_INLINE Settled settle_relief(const Baked& baked, const ReliefTables& relief,
     const V norm2 = hn::Max(dot(at.gradient, at.gradient), all(0.25f));
     const V step = hn::Div(hn::Sub(target, at.distance), norm2);
     s.position = select(s.open, along(s.position, step, at.gradient), s.position);
-    const V below = hn::IfThenElse(s.open, all(clearance.distance_m + relief.highest_m), all(-1e30f));
-    const Sample next = relief_distance(baked, relief, c, s.position, below);
+    const V below = hn::IfThenElse(s.open, all(clearance.distance_m + bent.reach_m), all(-1e30f));
+    const Sample next = bent_distance(baked, relief, c, clearance, s.position, below);
     const M owned = hn::RebindMask(f, hn::Gt(next.owner, hn::Set(I(), -1)));
     at.gradient = select(hn::And(s.open, owned), next.gradient, at.gradient);
     at.distance = next.distance;
@@ -137,9 +157,18 @@ HWY_INLINE std::uint64_t bits(M m) {
   return result;
 }
 
-HWY_INLINE M moved_far(const Block& block, int i, V3 p, float limit_m) {
-  const V3 path = p - load3(block.sx + i, block.sy + i, block.sz + i);
-  return hn::Gt(dot(path, path), all(limit_m * limit_m));
+/// Paths, relative to the ellipsoid that owns the place, longer than the limit. Without an owner any
+/// ellipsoid may have come past.
+HWY_INLINE M moved_far(const Block& block, const Clearance& clearance, int i, V3 p, VI owner, float limit_m) {
+  V3 path = p - load3(block.sx + i, block.sy + i, block.sz + i);
+  V limit = all(limit_m);
+  if (clearance.motion) {
+    const V3 carried = scaled(surface_velocity(clearance.motion, owner, p), all(clearance.dt_s));
+    const M owned = hn::RebindMask(f, hn::Gt(owner, hn::Set(I(), -1)));
+    path = select(owned, path - carried, path);
+    limit = hn::IfThenElse(owned, limit, all(std::max(0.0f, limit_m - clearance.travel_m)));
+  }
+  return hn::Gt(dot(path, path), hn::Mul(limit, limit));
 }
 
 /// Undoing a particle's own path is not a push.
@@ -163,17 +192,19 @@ HWY_INLINE void resolve_vector(const Baked& baked, const ReliefTables* relief, c
   const V3 p = load3(block.x + i, block.y + i, block.z + i);
   const M valid = hn::FirstN(f, static_cast<std::size_t>(block.count - i));
   const V surface = all(clearance.distance_m);
-  const V below = relief ? hn::Add(surface, all(relief->highest_m)) : surface;
-  const Sample first = sample(baked, relief, c, p, below);
+  const bool plain = !relief && !(clearance.blend_m > 0.0f);
+  const Sample first = plain ? least_distance(baked, c, p, surface)
+                             : bent_distance(baked, relief, c, clearance, p,
+                                             all(clearance.distance_m + bent_by(relief, clearance).reach_m));
   const M owned = hn::RebindMask(f, hn::Gt(first.owner, hn::Set(I(), -1)));
   M contact = hn::And(valid, hn::And(owned, hn::Lt(first.distance, surface)));
   M far = hn::MaskFromVec(hn::Zero(f));
-  if (block.has_safe) far = hn::And(valid, moved_far(block, i, p, short_path_m));
+  if (block.has_safe) far = hn::And(valid, moved_far(block, clearance, i, p, first.owner, short_path_m));
   contact = hn::AndNot(far, contact);
   out.hard |= bits(far) << i;
   if (hn::AllFalse(f, contact)) return;
-  const Settled s = relief ? settle_relief(baked, *relief, c, clearance, p, first, contact)
-                           : settle_plain(baked, c, clearance, p, first, contact);
+  const Settled s = plain ? settle_plain(baked, c, clearance, p, first, contact)
+                          : settle_bent(baked, relief, c, clearance, p, first, contact);
   V3 push = s.position - p;
   const V length2 = dot(push, push);
   const V depth = hn::Sub(surface, first.distance);
@@ -206,8 +237,9 @@ HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, co
   out.contact = out.pending = out.hard = 0;
   out.iterations = 0;
   Candidates candidates;
-  const float beyond_m = relief ? relief->highest_m + relief->blend_m : 0.0f;
-  if (!cull_for_response(baked, block, clearance.distance_m + beyond_m, candidates)) return false;
+  const float beyond_m = relief ? relief->highest_m + relief->blend_m : 2.0f * clearance.blend_m;
+  const float travel_m = block.has_safe ? clearance.travel_m : 0.0f;
+  if (!cull_for_response(baked, block, clearance.distance_m + beyond_m + travel_m, candidates)) return false;
   out.radius_m = candidates.radius_m;
   if (candidates.count == 0) return true;
   const float short_path_m = kShortPath * shortest_radius(baked, candidates);
