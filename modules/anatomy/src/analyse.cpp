@@ -4,6 +4,7 @@
 #include "diagnose.hpp"
 #include "landmarks.hpp"
 #include "segment.hpp"
+#include "split_pinches.hpp"
 #include "stature.hpp"
 
 namespace bodice::anatomy {
@@ -28,14 +29,9 @@ Vec3 upwards(const Skin& skin, const Landmarks& marks) {
   return length > 0.0 ? Vec3(up / length) : Vec3(Vec3::UnitY());
 }
 
-}  // namespace
-
-engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
-                                const Options& options) {
-  if (mesh.empty()) return no_body("the mesh has no triangles.");
-  Anatomy anatomy;
+engine::Result<Anatomy> understand(const engine::Context& context, const Skin& skin, const Options& options,
+                                   Anatomy anatomy) {
   StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
-  const Skin skin = make_skin(context, mesh);
   const std::optional<EndPoints> found = find_end_points(context, skin);
   geodesic_timer.stop();
   if (!found) return no_body("its skin has no five ends far from each other.");
@@ -57,6 +53,37 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   segment_timer.stop();
   anatomy.warnings = diagnose(skin, *found, sides, coordinates, marks, options.profile, anatomy.stature_m);
   return anatomy;
+}
+
+/// Back from the skin whose pinched vertices were split to the one that was given.
+void forget_copies(const SplitSkin& split, std::size_t vertices, Anatomy& anatomy) {
+  anatomy.part.resize(vertices);
+  for (body::Landmark& mark : anatomy.landmarks)
+    if (mark.vertex != geometry::kNoIndex && mark.vertex >= vertices)
+      mark.vertex = split.origin[mark.vertex - vertices];
+  anatomy.warnings.push_back(
+      {"skin-touches", "",
+       "The skin touches itself in " + std::to_string(split.origin.size()) +
+           " welded vertices; they were taken apart, so that no way along the skin leads across.",
+       "Weld less, or move the parts that touch apart."});
+}
+
+}  // namespace
+
+engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
+                                const Options& options) {
+  if (mesh.empty()) return no_body("the mesh has no triangles.");
+  Anatomy anatomy;
+  StageTimer skin_timer(context, anatomy.stages, "skin");
+  const Skin skin = make_skin(context, mesh);
+  SplitSkin split;
+  if (!surely_unpinched(skin)) split = split_pinches(skin);
+  skin_timer.stop();
+  if (split.origin.empty()) return understand(context, skin, options, std::move(anatomy));
+  const Skin apart = make_skin(context, split.mesh);
+  auto result = understand(context, apart, options, std::move(anatomy));
+  if (result.ok()) forget_copies(split, mesh.positions.size(), *result);
+  return result;
 }
 
 }  // namespace bodice::anatomy

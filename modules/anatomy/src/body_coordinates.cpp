@@ -5,6 +5,7 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "nearest_signature.hpp"
+#include "shoulder_level.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -16,6 +17,8 @@ using geometry::Index;
 constexpr float kSizeToStature = 2.19F;
 /// The perineum is about half way between the feet.
 constexpr float kPerineumFrom = 0.45F, kPerineumTo = 0.58F;
+/// Where the loop around an arm usually widens, from fingertip to fingertip: for arms on which it does not.
+constexpr float kUsualShoulder = 0.425F;
 
 /// The vertex half way between two ends, where the midline cannot be traced.
 SkinPoint half_way(const Skin& skin, const Field& from, Index to) {
@@ -35,23 +38,46 @@ SkinPoint half_way(const Skin& skin, const Field& from, Index to) {
 }  // namespace
 
 BodyCoordinates::BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyEnds& ends)
-    : ends_(ends), midline_(find_midline(skin, ends)) {
-  size_ = (ends.head_to_feet + ends.feet_apart) / kSizeToStature;
-  midline_found_ = midline_.front.found() && midline_.back.found();
-  if (!midline_.front.found()) midline_.front = half_way(skin, *ends.from_hand[0], ends.hand[1]);
-  if (!midline_.back.found()) midline_.back = midline_.front;
+    : ends_(ends) {
+  measure_lengths();
+  constexpr std::size_t kTasks = 4;  // the midline, the merge of the legs, two shoulders
+  engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
+    if (task == 0) find_middle(skin);
+    if (task == 1) merge_ = find_leg_merge(skin, ends);
+    if (task >= 2) shoulder_[task - 2] = shoulder_level(skin, *ends.from_hand[task - 2], ends.hands_apart);
+  });
   engine::parallel_for(context, 2, 1, [&](std::size_t i, std::size_t) {
     (i == 0 ? from_front_ : from_back_) = distances_from(skin, i == 0 ? midline_.front : midline_.back);
   });
-  find_perineum(context);
+  find_perineum(context, skin);
   from_perineum_ = geodesic::distances_from(skin.graph, perineum_);
   trunk_ = from_perineum_[ends.head];
 }
 
-void BodyCoordinates::find_perineum(const engine::Context& context) {
+void BodyCoordinates::find_middle(const Skin& skin) {
+  midline_ = find_midline(skin, ends_);
+  midline_found_ = midline_.front.found() && midline_.back.found();
+  if (!midline_.front.found()) midline_.front = half_way(skin, *ends_.from_hand[0], ends_.hand[1]);
+  if (!midline_.back.found()) midline_.back = midline_.front;
+}
+
+void BodyCoordinates::measure_lengths() {
+  size_ = (ends_.head_to_feet + ends_.feet_apart) / kSizeToStature;
+  for (int side = 0; side < 2; ++side) {
+    head_to_hand_[side] = (*ends_.from_head)[ends_.hand[side]];
+    head_to_foot_[side] = (*ends_.from_head)[ends_.foot[side]];
+    hand_to_foot_[side] = (*ends_.from_hand[side])[ends_.foot[side]];
+  }
+}
+
+void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& skin) {
   const Field &left_hand = *ends_.from_hand[0], &right_hand = *ends_.from_hand[1];
   const Field &left_foot = *ends_.from_foot[0], &right_foot = *ends_.from_foot[1];
   const float tilt = left_hand[ends_.head] - right_hand[ends_.head];
+  const float half_way = merge_.at.found() ? merge_.distance : 0.5F * ends_.feet_apart;
+  const float merge_forward =
+      merge_.at.found() ? value_at(skin, merge_.at, from_back_) - value_at(skin, merge_.at, from_front_)
+                        : 0.0F;
   const NearestSignature found = nearest_signature(
       context, left_foot.size(),
       [&](std::size_t v) {
@@ -59,24 +85,35 @@ void BodyCoordinates::find_perineum(const engine::Context& context) {
         return feet > 2.0F * kPerineumFrom * ends_.feet_apart && feet < 2.0F * kPerineumTo * ends_.feet_apart;
       },
       [&](std::size_t v) {
-        return kPerineum.distance2({(left_foot[v] + right_foot[v]) / ends_.feet_apart,
+        return kPerineum.distance2({(left_foot[v] + right_foot[v]) / (2.0F * half_way),
                                     (left_foot[v] - right_foot[v]) / ends_.feet_apart,
                                     (left_hand[v] - right_hand[v] - tilt) / ends_.hands_apart,
-                                    from_front_[v] / size_, from_back_[v] / size_});
+                                    from_front_[v] / size_, from_back_[v] / size_,
+                                    0.5F * (merge_forward - from_back_[v] + from_front_[v]) / size_});
       });
   perineum_ = found.vertex;
   perineum_misfit_ = found.misfit;
 }
 
 CoordinateArray BodyCoordinates::at(std::size_t v, int side) const {
-  return {(*ends_.from_head)[v] / size_,
-          (*ends_.from_hand[side])[v] / ends_.hands_apart,
-          (*ends_.from_hand[1 - side])[v] / ends_.hands_apart,
-          (*ends_.from_foot[side])[v] / ends_.feet_apart,
-          (*ends_.from_foot[1 - side])[v] / ends_.feet_apart,
-          from_front_[v] / size_,
-          from_back_[v] / size_,
-          from_perineum_[v] / trunk_};
+  const float head = (*ends_.from_head)[v];
+  const std::array<float, 2> hand{(*ends_.from_hand[0])[v], (*ends_.from_hand[1])[v]};
+  const std::array<float, 2> foot{(*ends_.from_foot[0])[v], (*ends_.from_foot[1])[v]};
+  const float shoulder = shoulder_[side] > 0.0F ? shoulder_[side] : kUsualShoulder * ends_.hands_apart;
+  CoordinateArray x{};
+  x[kFromHead] = head / size_;
+  x[kOwnHand] = hand[side] / ends_.hands_apart;
+  x[kOtherHand] = hand[1 - side] / ends_.hands_apart;
+  x[kOwnFoot] = foot[side] / ends_.feet_apart;
+  x[kOtherFoot] = foot[1 - side] / ends_.feet_apart;
+  x[kFromFront] = from_front_[v] / size_;
+  x[kFromBack] = from_back_[v] / size_;
+  x[kFromPerineum] = from_perineum_[v] / trunk_;
+  x[kHandFootDetour] = (hand[side] + foot[side]) / hand_to_foot_[side];
+  x[kHeadHandDetour] = 0.5F * ((head + hand[0]) / head_to_hand_[0] + (head + hand[1]) / head_to_hand_[1]);
+  x[kHeadFootDetour] = 0.5F * ((head + foot[0]) / head_to_foot_[0] + (head + foot[1]) / head_to_foot_[1]);
+  x[kPastShoulder] = (hand[side] - shoulder) / ends_.hands_apart;
+  return x;
 }
 
 }  // namespace bodice::anatomy

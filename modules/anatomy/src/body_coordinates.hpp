@@ -4,7 +4,7 @@
 #pragma once
 
 #include "calibration.hpp"
-#include "midline.hpp"
+#include "leg_merge.hpp"
 
 namespace bodice::anatomy {
 
@@ -24,17 +24,24 @@ class BodyCoordinates {
   float size_m() const { return size_; }
   const BodyEnds& ends() const { return ends_; }
   const Midline& midline() const { return midline_; }
+  const LegMerge& leg_merge() const { return merge_; }
+  /// Where the loop around the arm widens, metres from the fingertip; 0 if it does not. See shoulder_level.
+  float shoulder_level_m(int side) const { return shoulder_[side]; }
 
  private:
-  void find_perineum(const engine::Context& context);
+  void find_middle(const Skin& skin);
+  void measure_lengths();
+  void find_perineum(const engine::Context& context, const Skin& skin);
 
   const BodyEnds& ends_;
   Midline midline_;
+  LegMerge merge_;
   geodesic::Field from_front_, from_back_, from_perineum_;
   geometry::Index perineum_ = geometry::kNoIndex;
   float perineum_misfit_ = 0.0F;
   float size_ = 0.0F;
   float trunk_ = 0.0F;  ///< perineum to crown along the skin
+  std::array<float, 2> head_to_hand_{}, head_to_foot_{}, hand_to_foot_{}, shoulder_{};
   bool midline_found_ = true;
 };
 

@@ -20,12 +20,7 @@ double turning(const Skin& skin, const geodesic::Isoline& loop, std::span<const 
 
 float value_at(const Skin& skin, const geodesic::Isoline& loop, std::size_t point,
                std::span<const float> field) {
-  const auto [a, b] = skin.edges.ends[loop.edges[point]];
-  const double from_a = (loop.points[point] - skin.mesh.positions[a]).norm();
-  const double from_b = (loop.points[point] - skin.mesh.positions[b]).norm();
-  const double length = from_a + from_b;
-  const auto t = static_cast<float>(length > 0.0 ? from_a / length : 0.5);
-  return (1.0F - t) * field[a] + t * field[b];
+  return value_at(skin, SkinPoint{loop.edges[point], loop.points[point]}, field);
 }
 
 const geodesic::Isoline* widest_closed(const std::vector<geodesic::Isoline>& lines) {

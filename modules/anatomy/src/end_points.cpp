@@ -72,29 +72,32 @@ Candidates farthest_points(const Skin& skin) {
 
 /// A head is a ball; a mouth that the skin lines is nearer to its middle than this part of its radius.
 constexpr double kOuterHead = 0.7;
-constexpr float kHeadBall = 0.3F;  // of the size
+constexpr float kHeadBall = 0.30F;  // of the size
+/// What counts as head for its ball, from the crown down, of the size.
+constexpr float kHeadHeight = 0.15F;
 
-/// The vertex near `end` that is farthest from the ends in `from` and outside `keep_out` of `middle`.
-Index refine(const Skin& skin, const EndPoints& ends, End end, float radius, std::span<const End> from,
-             const geometry::Vec3& middle, double keep_out) {
+struct Ball {
+  geometry::Vec3 center = geometry::Vec3::Zero();
+  double radius = 0.0;
+};
+
+/// The vertex within `radius` of `end` that is farthest from the ends in `from`, among those that `may` be
+/// it.
+template <class May>
+Index refine(const EndPoints& ends, End end, float radius, std::span<const End> from, May may) {
   Index best = ends.vertex[end];
   float most = -1.0F;
   for (std::size_t v = 0; v < ends.field[end].size(); ++v) {
     if (!(ends.field[end][v] <= radius)) continue;
     float sum = 0.0F;
     for (const End f : from) sum += ends.field[f][v];
-    if (sum > most && (skin.mesh.positions[v] - middle).norm() >= keep_out) {
+    if (sum > most && may(v)) {
       most = sum;
       best = static_cast<Index>(v);
     }
   }
   return best;
 }
-
-struct Ball {
-  geometry::Vec3 center = geometry::Vec3::Zero();
-  double radius = 0.0;
-};
 
 /// The head as a ball: what lies no nearer to the feet than a head's height below its far end.
 Ball head_ball(const Skin& skin, const EndPoints& ends, float size) {
@@ -103,7 +106,7 @@ Ball head_ball(const Skin& skin, const EndPoints& ends, float size) {
   float top = 0.0F;
   for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v)
     if (near(v)) top = std::max(top, reach(v));
-  const auto in_head = [&](std::size_t v) { return near(v) && reach(v) > top - 0.5F * kHeadBall * size; };
+  const auto in_head = [&](std::size_t v) { return near(v) && reach(v) > top - kHeadHeight * size; };
   Ball ball;
   double weight = 0.0;
   for (std::size_t f = 0; f < skin.mesh.triangles.size(); ++f) {
@@ -130,11 +133,14 @@ void refine_all(const engine::Context& context, const Skin& skin, float size, En
   constexpr std::array<End, 2> feet{kFootA, kFootB};
   constexpr std::array<End, 1> head{kHead};
   const Ball ball = head_ball(skin, ends, size);
+  const auto outer = [&](std::size_t v) {
+    return (skin.mesh.positions[v] - ball.center).norm() >= kOuterHead * ball.radius;
+  };
   std::array<Index, kEndCount> refined{};
   for (int e = 0; e < kEndCount; ++e)
-    refined[e] =
-        e == kHead ? refine(skin, ends, kHead, kHeadBall * size, feet, ball.center, kOuterHead * ball.radius)
-                   : refine(skin, ends, static_cast<End>(e), kRefineRadius * size, head, ball.center, 0.0);
+    refined[e] = e == kHead ? refine(ends, kHead, kHeadBall * size, feet, outer)
+                            : refine(ends, static_cast<End>(e), kRefineRadius * size, head,
+                                     [](std::size_t) { return true; });
   std::vector<Index> moved;
   std::vector<int> which;
   for (int e = 0; e < kEndCount; ++e)

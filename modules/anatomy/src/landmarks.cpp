@@ -21,6 +21,12 @@ constexpr float kNeckReach = 0.40F, kElbowReach = 0.36F, kKneeReach = 0.40F;
 constexpr float kKneeBeyond = 0.0115F;
 /// The armpit lies this far from its own hand, of hand to hand.
 constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
+/// It is near the level where the arm widens (of hand to hand), and near the shortest way from hand to foot.
+constexpr float kNearShoulder = 0.06F, kArmpitDetour = 1.10F;
+/// The ways around the chest that count for one side lie beyond its forearm, nearer to its own hand, and under
+/// the arm: ways over the neck are shorter on heavy bodies.
+constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
+constexpr float kLeastHalfChest = 0.02F;  // of the size
 /// A signature this many deviations off is no evidence any more.
 constexpr double kHopelessMisfit = 12.0;
 
@@ -47,18 +53,35 @@ Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Bo
   return {best->centroid, skin.edges.ends[best->edges[0]][0], best->girth_m, best->closed ? 1.0 : 0.5};
 }
 
+/// Half the girth of the chest on one side: the shortest way from the midline's front to its back under the
+/// arm, of the size. 0 if there is none.
+float half_chest(const BodyCoordinates& coordinates, int side) {
+  float least = 0.0F;
+  for (std::size_t v = 0; v < coordinates.from_perineum().size(); ++v) {
+    const CoordinateArray x = coordinates.at(v, side);
+    if (!(x[kOwnHand] > kChestFrom && x[kOwnHand] < kOwnSide * x[kOtherHand])) continue;
+    if (!(x[kHandFootDetour] < kUnderArm)) continue;
+    const float around = x[kFromFront] + x[kFromBack];
+    if (least == 0.0F || around < least) least = around;
+  }
+  return least;
+}
+
 void find_armpit(const engine::Context& context, const BodyCoordinates& coordinates, int side,
                  Landmarks& marks) {
+  const float half = std::max(half_chest(coordinates, side), kLeastHalfChest);
   const NearestSignature found = nearest_signature(
       context, coordinates.from_perineum().size(),
       [&](std::size_t v) {
-        const float hand = coordinates.at(v, side)[kOwnHand];
-        return hand > kArmpitFrom && hand < kArmpitTo;
+        const CoordinateArray x = coordinates.at(v, side);
+        return x[kOwnHand] > kArmpitFrom && x[kOwnHand] < kArmpitTo &&
+               std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
       },
       [&](std::size_t v) {
         const CoordinateArray x = coordinates.at(v, side);
-        return kArmpit.distance2(
-            {x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack], x[kFromPerineum]});
+        return kArmpit.distance2({x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack],
+                                  x[kFromPerineum], x[kPastShoulder], (x[kFromFront] - x[kFromBack]) / half,
+                                  (x[kFromFront] + x[kFromBack]) / half, x[kHandFootDetour]});
       });
   marks.armpit[side] = found.vertex;
   marks.armpit_confidence[side] = confidence_of(found.misfit);

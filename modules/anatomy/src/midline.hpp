@@ -5,13 +5,6 @@
 
 namespace bodice::anatomy {
 
-/// A point on an edge of the skin.
-struct SkinPoint {
-  geometry::Index edge = geometry::kNoIndex;
-  geometry::Vec3 position = geometry::Vec3::Zero();
-  bool found() const { return edge != geometry::kNoIndex; }
-};
-
 struct Midline {
   SkinPoint front;  ///< of the chest: the middle of the way from hand to hand over the breastbone
   SkinPoint back;   ///< the same over the back

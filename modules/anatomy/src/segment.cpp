@@ -17,7 +17,7 @@ using body::Part;
 
 constexpr std::size_t kGrain = 2048;
 /// Beyond these distances from the limb's end a border's sign means nothing.
-constexpr float kHeadReach = 0.40F, kArmReach = 0.60F, kLegReach = 0.66F;
+constexpr float kHeadReach = 0.48F, kArmReach = 0.60F, kLegReach = 0.66F;
 /// Where between the borders of waist and neck, by their scores, the chest line lies: about .73 of the
 /// stature.
 constexpr float kChestShare = 0.65F;

@@ -17,4 +17,13 @@ geometry::Vec3 normal_at_edge(const Skin& skin, geometry::Index edge) {
   return geometry::area_vector(skin.mesh, skin.edges.triangles[edge][0]);
 }
 
+float value_at(const Skin& skin, const SkinPoint& point, std::span<const float> field) {
+  const auto [a, b] = skin.edges.ends[point.edge];
+  const double from_a = (point.position - skin.mesh.positions[a]).norm();
+  const double from_b = (point.position - skin.mesh.positions[b]).norm();
+  const double length = from_a + from_b;
+  const auto t = static_cast<float>(length > 0.0 ? from_a / length : 0.5);
+  return (1.0F - t) * field[a] + t * field[b];
+}
+
 }  // namespace bodice::anatomy

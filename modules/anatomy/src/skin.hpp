@@ -14,6 +14,16 @@ struct Skin {
   std::size_t components = 0;
 };
 
+/// A point on an edge of the skin.
+struct SkinPoint {
+  geometry::Index edge = geometry::kNoIndex;
+  geometry::Vec3 position = geometry::Vec3::Zero();
+  bool found() const { return edge != geometry::kNoIndex; }
+};
+
+/// The field at a point, between the ends of its edge. Precondition: point.found().
+float value_at(const Skin& skin, const SkinPoint& point, std::span<const float> field);
+
 Skin make_skin(const engine::Context& context, const geometry::TriMesh& mesh);
 
 /// Twice the outward area of the triangle that meets the edge first: which side of a curve is outside.

@@ -22,7 +22,7 @@ struct Anatomy {
   std::vector<body::Landmark> landmarks;  ///< one each of LandmarkId; confidence 0 where nothing was found
   std::vector<body::Part> part;           ///< #V; every vertex has one
   std::vector<engine::Warning> warnings;
-  std::vector<engine::StageTime> stages;  ///< geodesic, anatomy, segment
+  std::vector<engine::StageTime> stages;  ///< skin, geodesic, anatomy, segment
 };
 
 /// Finds the landmarks and segments. Pose, place, turn and scale of the mesh do not matter.
