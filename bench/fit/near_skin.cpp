@@ -5,7 +5,7 @@
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/engine/random.hpp>
-#include <bodice/fitting/proxy_distance.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 #include <bodice/geometry/sampling.hpp>
 
 namespace fit_bench {
@@ -65,7 +65,7 @@ NearSkin judge(const engine::Context& context, const proxy::BodyProxy& proxy,
   engine::parallel_for(context, probes.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (probes[i].signed_distance_m < kNear_m)
-        value[i] = fitting::proxy_distance(proxy, probes[i].point).distance;
+        value[i] = proxy::proxy_distance(proxy, probes[i].point).distance;
   });
   NearSkin result;
   std::vector<double> errors;

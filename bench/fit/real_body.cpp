@@ -1,6 +1,8 @@
 #include "real_body.hpp"
 
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 
@@ -52,6 +54,17 @@ void split_torso(LabelledBody& body) {
   }
 }
 
+/// The number after "stature_m" in the file of truths beside a body: a sitting body is less high than tall.
+std::optional<double> stature(const std::filesystem::path& json) {
+  std::ifstream in(json);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  const std::size_t key = text.find("stature");
+  const std::size_t colon = key == std::string::npos ? key : text.find(':', key);
+  if (colon == std::string::npos) return std::nullopt;
+  const double value = std::strtod(text.c_str() + colon + 1, nullptr);
+  return value > 0.0 ? std::optional(value) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels) {
@@ -62,7 +75,8 @@ std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::fi
   while (in >> label) body.part.push_back(kPartOfClass[label & 15]);
   if (body.part.size() != body.mesh.positions.size()) return std::nullopt;
   split_torso(body);
-  body.stature_m = bodice::geometry::bounding_box(body.mesh.positions).size().y();
+  const auto truth = stature(std::filesystem::path(obj).replace_extension(".json"));
+  body.stature_m = truth.value_or(bodice::geometry::bounding_box(body.mesh.positions).size().y());
   return body;
 }
 

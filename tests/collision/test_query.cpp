@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include <bodice/fitting/proxy_distance.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
 #include "scenes.hpp"
 
@@ -195,7 +195,7 @@ TEST_CASE("relief agrees with the definition that fitting trains against") {
     double worst_m = 0.0, worst_cosine = 1.0;
     int off_normals = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      const auto truth = fitting::proxy_distance(proxy, cloud.position(i) + collider.origin());
+      const auto truth = proxy::proxy_distance(proxy, cloud.position(i) + collider.origin());
       worst_m = std::max(worst_m, std::abs(truth.distance - double{contacts[i].signed_distance}));
       const float* n = contacts[i].normal;
       const double cosine = truth.normal.dot(Vec3(double{n[0]}, double{n[1]}, double{n[2]}));

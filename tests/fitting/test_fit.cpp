@@ -8,7 +8,7 @@
 
 #include <bodice/engine/executor.hpp>
 #include <bodice/fitting/fit.hpp>
-#include <bodice/fitting/proxy_distance.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
 #include "shapes.hpp"
 
@@ -58,7 +58,7 @@ TEST_CASE("fit: the paper's ellipsoids hold every vertex, the solid tier's every
     CHECK(result->proxy.ellipsoids().size() <= 24);
     double worst = -1.0;
     for (const Vec3& p : skin.mesh.positions)
-      worst = std::max(worst, fitting::proxy_distance(result->proxy, p).distance);
+      worst = std::max(worst, proxy::proxy_distance(result->proxy, p).distance);
     CHECK(worst < 1e-7);
   }
   for (const int count : {6, 12, 24, 48}) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bodice/proxy/proxy_distance.hpp>
+
 namespace bodice::collision {
 
 namespace {
@@ -16,13 +18,8 @@ void find_sorted_axes(const geometry::Vec3& radii, std::int32_t (&sorted_axis)[3
 
 }  // namespace
 
-ReliefReach relief_reach(double stature_m) {
-  const double scale = stature_m / 1.70;
-  return {0.020 * scale, 0.030 * scale, 0.003 * scale};
-}
-
 ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order) {
-  const ReliefReach reach = relief_reach(proxy.stature_m());
+  const proxy::ReliefReach reach = proxy::relief_reach(proxy.stature_m());
   in_m = static_cast<float>(reach.in_m);
   out_m = static_cast<float>(reach.out_m);
   blend_m = static_cast<float>(reach.blend_m);

@@ -1,5 +1,5 @@
 // The relief tables of a proxy as the kernels and the exact side read them. The definition of the corrected
-// distance is in bodice/proxy/body_proxy.hpp and, with the blending, below.
+// distance, with its reaches, is in bodice/proxy/proxy_distance.hpp:
 //
 //   F_k = d_k - h_k(w) - a_k(w) clamp(d_k, -in, out) / out,   w the unit direction of the foot
 //   F   = sum_k W_k F_k / sum_k W_k,   W_k = max(0, 1 - (d_k - min d) / blend)^2
@@ -35,11 +35,5 @@ struct ReliefTables {
   float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
   float highest_m = 0.0f;  ///< F_k >= d_k - highest_m
 };
-
-/// How far a proxy's tables reach: 20 mm in, 30 mm out, blended over 3 mm, at a stature of 1.70 m.
-struct ReliefReach {
-  double in_m, out_m, blend_m;
-};
-ReliefReach relief_reach(double stature_m);
 
 }  // namespace bodice::collision

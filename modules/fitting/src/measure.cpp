@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include <bodice/engine/parallel.hpp>
-#include <bodice/fitting/proxy_distance.hpp>
 #include <bodice/geometry/sampling.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
 #include "interior_grid.hpp"
 
@@ -55,7 +55,7 @@ std::vector<SurfaceProbe> surface_probes(const proxy::BodyProxy::Data& proxy) {
 bool settle(const proxy::BodyProxy::Data& proxy, SurfaceProbe& probe, double tolerance_m) {
   constexpr int kSteps = 8;
   for (int step = 0; step < kSteps; ++step) {
-    const ProxyDistance f = proxy_distance(proxy, probe.point);
+    const proxy::ProxyDistance f = proxy::proxy_distance(proxy, probe.point);
     if (std::abs(f.distance) <= tolerance_m) return f.owner == probe.ellipsoid;
     if (step == 0 && proxy.relief.empty() && f.distance < -proxy.margin_m - tolerance_m) return false;
     probe.point -= f.distance * f.normal;
@@ -79,7 +79,7 @@ void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& 
     for (std::size_t i = begin; i < end; ++i) {
       const geometry::Index corner = skin.mesh.triangles[samples[i].triangle][0];
       if ((parts >> static_cast<int>(skin.part[corner])) & 1u)
-        outside[i] = std::max(0.0, proxy_distance(proxy, samples[i].point).distance);
+        outside[i] = std::max(0.0, proxy::proxy_distance(proxy, samples[i].point).distance);
     }
   });
   double counted = 0.0, uncovered = 0.0;
@@ -106,7 +106,8 @@ void measure_interior(const engine::Context& context, const proxy::BodyProxy::Da
       const auto hit = all_parts ? std::nullopt : distance.nearest_within(grid[i], 10.0 * skin.stature_m);
       if (!all_parts && !hit) continue;
       const auto part = hit ? static_cast<int>(skin.part[skin.mesh.triangles[hit->triangle][0]]) : 0;
-      if (all_parts || ((parts >> part) & 1u)) state[i] = proxy_distance(proxy, grid[i]).distance <= 0.0;
+      if (all_parts || ((parts >> part) & 1u))
+        state[i] = proxy::proxy_distance(proxy, grid[i]).distance <= 0.0;
     }
   });
   const auto inside = std::count_if(state.begin(), state.end(), [](std::int8_t s) { return s >= 0; });

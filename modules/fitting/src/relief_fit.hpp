@@ -1,20 +1,30 @@
-// The tables of the relief tier: regularised least squares over the samples that each ellipsoid answers for.
+// The tables of the relief tier: how large each is, and what it holds.
 #pragma once
 
 #include <span>
+#include <vector>
 
-#include "skin_samples.hpp"
+#include "relief_answers.hpp"
 
 namespace bodice::fitting {
 
 /// Tables may use this much together with the ellipsoids.
 inline constexpr std::size_t kReliefBytes = 128 * 1024;
 
-/// The largest side whose tables keep a proxy of `ellipsoids` within kReliefBytes, 4..48; 0 if none does.
-int relief_nodes_per_side(std::size_t ellipsoids);
+/// Texels that keep a proxy of `ellipsoids` within `bytes`; 0 if there is no room for useful tables.
+std::size_t texels_within(std::size_t ellipsoids, std::size_t bytes);
 
-/// Fills data.relief and data.texels for data.ellipsoids. Deterministic, parallel over ellipsoids.
-void fit_relief(const engine::Context& context, std::span<const DistanceSample> samples, int nodes_per_side,
-                proxy::BodyProxy::Data& data);
+/// Equal sides that use up to `texels`.
+std::vector<int> equal_sides(std::size_t ellipsoids, std::size_t texels);
+
+/// Sides that use up to `texels` where they lower the error most: #E errors in, #E nodes per side out.
+std::vector<int> shared_sides(std::span<const double> error, std::size_t texels);
+
+/// Fills data.relief and data.texels from the answers; returns each ellipsoid's share of the error that is
+/// left (shared_sides takes it). Raises the weights of deep samples that would be reported outside.
+/// Deterministic, parallel.
+std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& answers,
+                               std::span<const int> nodes_per_side, int solver_steps,
+                               proxy::BodyProxy::Data& data);
 
 }  // namespace bodice::fitting

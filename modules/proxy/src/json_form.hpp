@@ -9,7 +9,7 @@
 namespace bodice::proxy {
 
 inline constexpr std::string_view kJsonFormat = "bodice-proxy";
-inline constexpr int kJsonVersion = 1;
+inline constexpr int kJsonVersion = 2;
 inline constexpr std::array<std::string_view, 3> kAxisNames = {"x", "y", "z"};
 inline constexpr std::string_view kHexDigits = "0123456789abcdef";
 

@@ -21,7 +21,7 @@ namespace bodice::proxy {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'B', 'O', 'D', 'I', 'C', 'E', 'P', 'X'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint64_t kEllipsoidBytes = 124, kTableBytes = 24, kTexelBytes = 2, kChecksumBytes = 8;
 
 engine::Error damaged(std::string what) {

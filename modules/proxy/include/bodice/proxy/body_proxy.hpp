@@ -31,14 +31,8 @@ struct ProxyEllipsoid {
   std::int16_t bone = kNoBone;  ///< the skeleton joint that carries it, if any
 };
 
-/// How far from an ellipsoid's surface its relief's slope reaches, inward and outward, metres.
-inline constexpr double kReliefReachInM = 0.020;
-inline constexpr double kReliefReachOutM = 0.030;
-
-/// A table of corrections to one ellipsoid's distance, over the octahedral map of the unit sphere.
-/// F(x) = d - h(w) - a(w) clamp(d, -reach_in, reach_out) / reach_out, with d the signed distance to the
-/// ellipsoid, w the unit direction of the foot in the ellipsoid's frame; h and a, both lengths, are bilinear
-/// between nodes. Reaches: kReliefReachInM, kReliefReachOutM.
+/// A table of corrections to one ellipsoid's distance, over the octahedral map of the unit sphere; what it
+/// means is defined in proxy_distance.hpp. h and a, both lengths, are bilinear between nodes.
 struct ReliefTable {
   std::uint16_t nodes_per_side = 0;           ///< N, 2..kMaxReliefNodes; 0: no table
   float h_scale_m = 0.0f, h_offset_m = 0.0f;  ///< h = offset + scale * byte / 255

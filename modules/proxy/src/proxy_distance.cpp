@@ -1,11 +1,11 @@
-#include <bodice/fitting/proxy_distance.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
 
-namespace bodice::fitting {
+namespace bodice::proxy {
 namespace {
 
 /// Table values at a direction and their derivatives along the square's axes.
@@ -27,13 +27,13 @@ Eigen::Matrix<double, 2, 3> map_jacobian(const Vec3& w) {
   return folded;
 }
 
-TableValue read(const proxy::ReliefTable& table, std::span<const proxy::ReliefTexel> texels, const Vec3& w) {
+TableValue read(const ReliefTable& table, std::span<const ReliefTexel> texels, const Vec3& w) {
   const int n = table.nodes_per_side;
   const TableStencil stencil = table_stencil(w, n);
   std::array<double, 4> h, a;
   TableValue value;
   for (int k = 0; k < 4; ++k) {
-    const proxy::ReliefTexel texel = texels[table.first_texel + stencil.node[k]];
+    const ReliefTexel texel = texels[table.first_texel + stencil.node[k]];
     h[k] = static_cast<double>(table.h_offset_m) + static_cast<double>(table.h_scale_m) * texel.h / 255.0;
     a[k] = static_cast<double>(table.a_offset) + static_cast<double>(table.a_scale) * texel.a / 255.0;
     value.h += stencil.weight[k] * h[k];
@@ -62,29 +62,29 @@ struct Corrected {
 };
 
 /// Eq. (3) and its gradient: n (1 - a clamp'/out) - D (G - w (G . (w / e)) / sum(w^2 / e)).
-Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const proxy::ReliefTable& table,
-                    std::span<const proxy::ReliefTexel> texels, const ReliefReach& reach) {
+Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const ReliefTable& table,
+                    std::span<const ReliefTexel> texels, const ReliefReach& reach) {
   const double d = c.foot.signed_distance;
   if (table.nodes_per_side < 2) return {d, c.foot.normal};
   const Vec3 w = (e.axes.transpose() * (c.foot.point - e.center)).cwiseQuotient(e.radii).normalized();
   const TableValue value = read(table, texels, w);
-  const double clamped = std::clamp(d, -reach.in, reach.out);
-  const bool slopes = d > -reach.in && d < reach.out;
+  const double clamped = std::clamp(d, -reach.in_m, reach.out_m);
+  const bool slopes = d > -reach.in_m && d < reach.out_m;
   const double t = d / w.cwiseQuotient(e.radii).norm();  // x - foot = t w / r in the ellipsoid's frame
   const Vec3 evolute = (e.radii.cwiseAbs2().array() + t).matrix();
   const Vec3 n = e.axes.transpose() * c.foot.normal;
-  const Vec3 g = value.dh + clamped / reach.out * value.da;
-  Vec3 local = n * (1.0 - (slopes ? value.a / reach.out : 0.0));
+  const Vec3 g = value.dh + clamped / reach.out_m * value.da;
+  Vec3 local = n * (1.0 - (slopes ? value.a / reach.out_m : 0.0));
   const Vec3 w_e = w.cwiseQuotient(evolute);
   const double along = w.dot(w_e);
   if (evolute.minCoeff() > 1e-9 * e.radii.cwiseAbs2().maxCoeff() && along > 0.0)
     local -= e.radii.cwiseQuotient(evolute).cwiseProduct(g - w * (g.dot(w_e) / along));
-  return {d - value.h - value.a * clamped / reach.out, e.axes * local};
+  return {d - value.h - value.a * clamped / reach.out_m, e.axes * local};
 }
 
-ProxyDistance evaluate(std::span<const proxy::ProxyEllipsoid> ellipsoids,
-                       std::span<const proxy::ReliefTable> relief, std::span<const proxy::ReliefTexel> texels,
-                       double stature_m, double margin_m, const Vec3& point) {
+ProxyDistance evaluate(std::span<const ProxyEllipsoid> ellipsoids, std::span<const ReliefTable> relief,
+                       std::span<const ReliefTexel> texels, double stature_m, double margin_m,
+                       const Vec3& point) {
   ProxyDistance result;
   result.distance = std::numeric_limits<double>::infinity();
   const ReliefReach reach = relief_reach(stature_m);
@@ -92,7 +92,7 @@ ProxyDistance evaluate(std::span<const proxy::ProxyEllipsoid> ellipsoids,
   for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
     const geometry::Ellipsoid& e = ellipsoids[k].shape;
     const double bound = (point - e.center).norm() - e.radii.maxCoeff();  // d_k is at least this
-    const double keep = relief.empty() ? 0.0 : reach.blend;
+    const double keep = relief.empty() ? 0.0 : reach.blend_m;
     if (bound > result.distance + keep) continue;
     const geometry::NearestPoint foot = geometry::nearest_point(e, point);
     if (foot.signed_distance < result.distance) {
@@ -107,7 +107,7 @@ ProxyDistance evaluate(std::span<const proxy::ProxyEllipsoid> ellipsoids,
     double weights = 0.0, sum = 0.0;
     Vec3 gradient = Vec3::Zero();
     for (const Candidate& c : near) {
-      const double ramp = std::max(0.0, 1.0 - (c.foot.signed_distance - least) / reach.blend);
+      const double ramp = std::max(0.0, 1.0 - (c.foot.signed_distance - least) / reach.blend_m);
       if (ramp == 0.0) continue;
       const Corrected f = corrected(ellipsoids[c.index].shape, c, relief[c.index], texels, reach);
       weights += ramp * ramp;
@@ -126,17 +126,18 @@ ProxyDistance evaluate(std::span<const proxy::ProxyEllipsoid> ellipsoids,
 
 ReliefReach relief_reach(double stature_m) {
   constexpr double kReferenceStature_m = 1.70;
+  constexpr ReliefReach kReference{0.030, 0.030, 0.003};
   const double scale = stature_m > 0.0 ? stature_m / kReferenceStature_m : 1.0;
-  return {0.020 * scale, 0.030 * scale, 0.003 * scale};
+  return {kReference.in_m * scale, kReference.out_m * scale, kReference.blend_m * scale};
 }
 
-ProxyDistance proxy_distance(const proxy::BodyProxy& proxy, const Vec3& point) {
+ProxyDistance proxy_distance(const BodyProxy& proxy, const Vec3& point) {
   return evaluate(proxy.ellipsoids(), proxy.relief(), proxy.texels(), proxy.stature_m(), proxy.margin_m(),
                   point);
 }
 
-ProxyDistance proxy_distance(const proxy::BodyProxy::Data& data, const Vec3& point) {
+ProxyDistance proxy_distance(const BodyProxy::Data& data, const Vec3& point) {
   return evaluate(data.ellipsoids, data.relief, data.texels, data.stature_m, data.margin_m, point);
 }
 
-}  // namespace bodice::fitting
+}  // namespace bodice::proxy

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include <bodice/engine/random.hpp>
-#include <bodice/fitting/proxy_distance.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
 using namespace bodice;
-using fitting::Vec3;
+using geometry::Vec3;
 
 namespace {
 
@@ -29,7 +29,7 @@ proxy::BodyProxy::Data relief_pair() {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
         // A function of the direction alone: tied nodes get the same bytes by themselves.
-        const Vec3 w = fitting::octahedral_direction(2.0 * i / (n - 1) - 1.0, 2.0 * j / (n - 1) - 1.0);
+        const Vec3 w = proxy::octahedral_direction(2.0 * i / (n - 1) - 1.0, 2.0 * j / (n - 1) - 1.0);
         const auto byte = [](double v) { return static_cast<std::uint8_t>(std::lround(127.5 * (1.0 + v))); };
         data.texels.push_back({byte(w.x() * w.y() + 0.3 * w.z()), byte(w.z() * w.x())});
       }
@@ -46,9 +46,9 @@ TEST_CASE("octahedral map: there and back, over the whole sphere and its seams")
     if (i % 3 == 0) w.z() = 0.0;
     if (i % 7 == 0) w.x() = 0.0;
     w.normalize();
-    const auto [x, y] = fitting::octahedral_map(w);
+    const auto [x, y] = proxy::octahedral_map(w);
     CHECK(std::abs(x) <= 1.0 + 1e-12);
-    CHECK((fitting::octahedral_direction(x, y) - w).norm() < 1e-12);
+    CHECK((proxy::octahedral_direction(x, y) - w).norm() < 1e-12);
   }
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("proxy distance: without tables it is the least of the exact distances
     double least = 1e300;
     for (const auto& e : data.ellipsoids)
       least = std::min(least, geometry::nearest_point(e.shape, p).signed_distance);
-    CHECK(fitting::proxy_distance(data, p).distance == doctest::Approx(least - 0.002).epsilon(1e-12));
+    CHECK(proxy::proxy_distance(data, p).distance == doctest::Approx(least - 0.002).epsilon(1e-12));
   }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("proxy distance: relief is continuous across owners and seams") {
   for (int i = 0; i < 4000; ++i) {
     const Vec3 p = Vec3(0.05, 0.05, 0.0) + random.uniform(0.05, 0.25) * random_unit(random);
     const Vec3 q = p + 1e-6 * random_unit(random);
-    const auto a = fitting::proxy_distance(data, p), b = fitting::proxy_distance(data, q);
+    const auto a = proxy::proxy_distance(data, p), b = proxy::proxy_distance(data, q);
     if (a.distance < -0.03) continue;  // the foot itself jumps across an ellipsoid's medial disk
     changes += a.owner != b.owner;
     jump = std::max(jump, std::abs(a.distance - b.distance));
@@ -83,15 +83,14 @@ TEST_CASE("proxy distance: relief is continuous across owners and seams") {
   // Walk across the owner border on purpose: bisect until the owner changes within a nanometre.
   for (int i = 0; i < 200; ++i) {
     Vec3 p = 0.2 * random_unit(random), q = Vec3(0.11, 0.08, 0.0) + 0.2 * random_unit(random);
-    const auto owner = fitting::proxy_distance(data, p).owner;
-    if (fitting::proxy_distance(data, q).owner == owner) continue;
+    const auto owner = proxy::proxy_distance(data, p).owner;
+    if (proxy::proxy_distance(data, q).owner == owner) continue;
     while ((p - q).norm() > 1e-9) {
       const Vec3 m = 0.5 * (p + q);
-      (fitting::proxy_distance(data, m).owner == owner ? p : q) = m;
+      (proxy::proxy_distance(data, m).owner == owner ? p : q) = m;
     }
     ++changes;
-    CHECK(std::abs(fitting::proxy_distance(data, p).distance - fitting::proxy_distance(data, q).distance) <
-          1e-7);
+    CHECK(std::abs(proxy::proxy_distance(data, p).distance - proxy::proxy_distance(data, q).distance) < 1e-7);
   }
   CHECK(changes > 20);
 }
@@ -108,12 +107,12 @@ TEST_CASE("proxy distance: the gradient of a single table matches finite differe
     const double h = 1e-7;
     Vec3 slope;
     for (int j = 0; j < 3; ++j)
-      slope[j] = (fitting::proxy_distance(data, p + h * Vec3::Unit(j)).distance -
-                  fitting::proxy_distance(data, p - h * Vec3::Unit(j)).distance) /
+      slope[j] = (proxy::proxy_distance(data, p + h * Vec3::Unit(j)).distance -
+                  proxy::proxy_distance(data, p - h * Vec3::Unit(j)).distance) /
                  (2.0 * h);
     ++checked;
     // At a few points the difference straddles a cell's edge, where the gradient jumps.
-    off += (slope.normalized() - fitting::proxy_distance(data, p).normal).norm() > 1e-4;
+    off += (slope.normalized() - proxy::proxy_distance(data, p).normal).norm() > 1e-4;
   }
   CHECK(checked == 500);
   CHECK(off <= 5);
@@ -130,11 +129,11 @@ TEST_CASE("proxy distance: scales with the body") {
   engine::Random random(6);
   for (int i = 0; i < 200; ++i) {
     const Vec3 p = 0.3 * random_unit(random);
-    CHECK(fitting::proxy_distance(large, s * p).distance / s ==
-          doctest::Approx(fitting::proxy_distance(small, p).distance).epsilon(1e-5));
+    CHECK(proxy::proxy_distance(large, s * p).distance / s ==
+          doctest::Approx(proxy::proxy_distance(small, p).distance).epsilon(1e-5));
   }
 }
 
 TEST_CASE("proxy distance: an empty proxy is infinitely far") {
-  CHECK(std::isinf(fitting::proxy_distance(proxy::BodyProxy::Data{}, Vec3::Zero()).distance));
+  CHECK(std::isinf(proxy::proxy_distance(proxy::BodyProxy::Data{}, Vec3::Zero()).distance));
 }

@@ -4,22 +4,22 @@
 // For a point x and ellipsoid k (centre c, axes R, radii r):
 //   (1)  d_k   exact signed distance to the ellipsoid's surface, negative inside; f_k its nearest point
 //   (2)  w_k   = R^T (f_k - c) / r, component by component: a unit vector, the foot on the unit sphere
-//   (3)  F_k   = d_k - h_k(w_k) - a_k(w_k) clamp(d_k, -reach.in, reach.out) / reach.out   (d_k without
-//   tables) (4)  owner = argmin_k d_k, the lowest index on a tie (5)  F     = d_owner - margin (tiers without
-//   tables)
-//        F     = sum_k W_k F_k / sum_k W_k - margin,                            (relief)
-//              W_k = max(0, 1 - (d_k - d_owner) / reach.blend)^2
+//   (3)  F_k   = d_k - h_k(w_k) - a_k(w_k) clamp(d_k, -reach.in, reach.out) / reach.out  (no table: d_k)
+//   (4)  owner = argmin_k d_k, the lowest index on a tie
+//   (5)  F     = d_owner - margin                                                        (no tables)
+//        F     = sum_k W_k F_k / sum_k W_k - margin                                      (relief)
+//        W_k   = max(0, 1 - (d_k - d_owner) / reach.blend)^2
 // (5) is continuous: W_k falls to zero, with its slope, before k stops being near the owner. What
 // remains is the ellipsoids' own medial disks, deep inside, where the nearest point is not unique.
 // reach scales with the body, so that a proxy in another unit is the same proxy: relief_reach().
 //
 // The table is read at w by the octahedral map. With s = |w_x| + |w_y| + |w_z|, p = (w_x, w_y) / s; where
 // w_z < 0, p = ((1 - |p_y|) sign(p_x), (1 - |p_x|) sign(p_y)), sign(0) = +1. Nodes lie on a grid of N x N
-// over
-// [-1, 1]^2, row-major with x fastest: node (i, j) at p = (2 i / (N-1) - 1, 2 j / (N-1) - 1), texel
-// first_texel + j N + i. Read bilinearly. Writers give border nodes that map to the same direction the same
-// bytes ((i, 0) = (N-1-i, 0), (i, N-1) = (N-1-i, N-1), (0, j) = (0, N-1-j), (N-1, j) = (N-1, N-1-j), the four
-// corners alike), so that readers need no special case and h, a are continuous on the sphere.
+// over [-1, 1]^2, row-major with x fastest: node (i, j) at p = (2 i / (N-1) - 1, 2 j / (N-1) - 1), texel
+// first_texel + j N + i. N may differ from ellipsoid to ellipsoid. Read bilinearly. Writers give border
+// nodes that map to the same direction the same bytes ((i, 0) = (N-1-i, 0), (i, N-1) = (N-1-i, N-1),
+// (0, j) = (0, N-1-j), (N-1, j) = (N-1, N-1-j), the four corners alike), so that readers need no special
+// case and h, a are continuous on the sphere.
 // Source of the map: Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014.
 #pragma once
 
@@ -29,16 +29,16 @@
 
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::fitting {
+namespace bodice::proxy {
 
 using geometry::Vec3;
 
-/// The lengths of eq. (3) and (5), metres.
+/// The lengths of eq. (3) and (5).
 struct ReliefReach {
-  double in = 0.0, out = 0.0, blend = 0.0;
+  double in_m = 0.0, out_m = 0.0, blend_m = 0.0;
 };
 
-/// 20 mm inward, 30 mm outward and 3 mm of blending on a body of 1.70 m, in proportion on others.
+/// 30 mm inward, 30 mm outward and 3 mm of blending on a body of 1.70 m, in proportion on others.
 ReliefReach relief_reach(double stature_m);
 
 /// Position on the square [-1, 1]^2 of a unit direction.
@@ -60,9 +60,9 @@ struct ProxyDistance {
 };
 
 /// F at one point. Exact and slow: O(#ellipsoids). Thread-safe. A proxy without ellipsoids is infinitely far.
-ProxyDistance proxy_distance(const proxy::BodyProxy& proxy, const Vec3& point);
+ProxyDistance proxy_distance(const BodyProxy& proxy, const Vec3& point);
 
 /// The same on loose data, for proxies still being made.
-ProxyDistance proxy_distance(const proxy::BodyProxy::Data& data, const Vec3& point);
+ProxyDistance proxy_distance(const BodyProxy::Data& data, const Vec3& point);
 
-}  // namespace bodice::fitting
+}  // namespace bodice::proxy

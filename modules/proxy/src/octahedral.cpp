@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bodice/fitting/proxy_distance.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
-namespace bodice::fitting {
+namespace bodice::proxy {
 namespace {
 
 double sign(double value) {
@@ -39,4 +39,4 @@ TableStencil table_stencil(const Vec3& direction, int nodes_per_side) {
           {(1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t}};
 }
 
-}  // namespace bodice::fitting
+}  // namespace bodice::proxy
