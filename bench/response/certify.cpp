@@ -125,7 +125,10 @@ bool certify_random(std::span<char*> arguments) {
   const struct {
     const char* name;
     synth::Pose pose;
-  } poses[] = {{"A", synth::Pose::kA}, {"arms down", synth::Pose::kArmsDown}, {"sit", synth::Pose::kSit}};
+    std::uint64_t seed;
+  } poses[] = {{"A", synth::Pose::kA, 0},
+               {"arms down, another body", synth::Pose::kArmsDown, 3},
+               {"sit, a third", synth::Pose::kSit, 5}};
   const std::size_t share = total / (4 * 3 * 3);
   std::printf(
       "| tier | pose | response | particles | contacts | inside (bar 0) | deepest mm | pinched | fallbacks | "
@@ -135,7 +138,7 @@ bool certify_random(std::span<char*> arguments) {
   for (const proxy::Tier tier :
        {proxy::Tier::kPaper, proxy::Tier::kSolid, proxy::Tier::kTight, proxy::Tier::kRelief})
     for (const auto& pose : poses) {
-      const proxy::BodyProxy proxy = fit_body(pose.pose, 1, tier);
+      const proxy::BodyProxy proxy = fit_body(pose.pose, pose.seed, tier);
       for (int mode = 0; mode < 4; ++mode) {
         const char* names[] = {"nearest", "nearest, 3 mm", "nearest, from a last place", "paper"};
         collision::ResolveOptions options{.thickness_m = mode == 1 ? 0.003f : 0.0f};

@@ -93,8 +93,7 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
   return entry;
 }
 
-std::uint32_t passed_through(const UnionField& field, const ParticleState& particle) {
-  const Vec3& to = particle.position;
+std::uint32_t passed_through(const UnionField& field, const ParticleState& particle, const Vec3& to) {
   for (std::size_t k = 0; k < field.size(); ++k) {
     const Vec3 from = particle.path_start(k);
     const geometry::Box segment{from.cwiseMin(to), from.cwiseMax(to)};

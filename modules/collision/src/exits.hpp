@@ -34,9 +34,10 @@ std::optional<Entry> first_bent_entry(NearField& near, const UnionField& field, 
                                       const geometry::Vec3& safe, const geometry::Vec3& p,
                                       double clearance_m);
 
-/// The ellipsoid that the particle's path passed through, as that ellipsoid sees it, and out again at a place
-/// where its surface has turned by more than 60 degrees: less is a particle that slides over a curved
-/// surface. kNoEllipsoid if there is none.
-std::uint32_t passed_through(const UnionField& field, const ParticleState& particle);
+/// The ellipsoid that the path from the particle's safe position to `end` passed through, as that ellipsoid
+/// sees it, and out again at a place where its surface has turned by more than 60 degrees: less is a particle
+/// that slides over a curved surface. kNoEllipsoid if there is none.
+std::uint32_t passed_through(const UnionField& field, const ParticleState& particle,
+                             const geometry::Vec3& end);
 
 }  // namespace bodice::collision

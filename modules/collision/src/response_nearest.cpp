@@ -61,7 +61,8 @@ class Resolver {
         surface_m_(std::min(clearance_m, clearance_m - double{options.thickness_m})),
         slack_m_(kCertificate * (field.size_m() + p_.cwiseAbs().maxCoeff())),
         near_(field, relief, double{options.blend_m}, clearance_m + 2.0 * slack_m_),
-        overshoot_m_(std::max(slack_m_, kReliefOvershoot * near_.blend_m())),
+        overshoot_m_(std::max(slack_m_, std::min(kReliefOvershoot * near_.blend_m(),
+                                                 relief ? near_.blend_m() : kFilletOvershoot * slack_m_))),
         certificate_m_(relief ? kReliefCertificate_m : slack_m_) {}
 
   ParticleReport run() {
@@ -85,7 +86,7 @@ class Resolver {
   /// If so, the path is taken as the ellipsoid sees it that was passed through.
   bool passed_through_something() {
     const std::uint32_t through =
-        particle_.has_safe ? passed_through(field_, particle_) : std::uint32_t{kNoEllipsoid};
+        particle_.has_safe ? passed_through(field_, particle_, p_) : std::uint32_t{kNoEllipsoid};
     if (through == kNoEllipsoid) return false;
     particle_.safe = particle_.path_start(through);
     return true;
@@ -112,7 +113,7 @@ class Resolver {
                            ? first_bent_entry(near_, field_, near_.bulge_m(), particle_.safe, p_, kept_m)
                            : first_entry(field_, particle_.safe, p_, kept_m);
     if (!entry) return;
-    const bool other_side = !inside || entry->normal.dot(contact_[0].normal) < kSlidingCosine;
+    const bool other_side = !inside || entry->normal.dot(contact_[0].normal) < kSlidingCosine || !reached(x_);
     if (!other_side && !stuck) return;
     x_ = slide(*entry, kept_m);
     contact_ = single(entry->normal);
@@ -126,15 +127,19 @@ class Resolver {
   Vec3 slide(const Entry& entry, double kept_m) {
     const Vec3 rest = p_ - entry.point;
     const Vec3 along = rest - entry.normal.dot(rest) * entry.normal;
+    near_.expect(entry.point, 0.0);
     const double longest_m = std::min(along.norm(), kLongPath * near_.shortest_radius_m());
     if (!(longest_m > overshoot_m_)) return entry.point;
     const Vec3 q = entry.point + longest_m * along.stableNormalized();
     const ReliefSample there = near_.at(q);
-    if (there.distance_m >= kept_m) return q;
+    if (there.distance_m >= kept_m) return reached(q) ? q : entry.point;
     const Settled settled = settle(near_, q, there, kept_m, overshoot_m_, longest_m);
     const bool same_side = settled.contact[0].normal.dot(entry.normal) > kSlidingCosine;
-    return settled.clear && same_side ? settled.place : entry.point;
+    return settled.clear && same_side && reached(settled.place) ? settled.place : entry.point;
   }
+
+  /// Whether the way from the safe position leads there without passing through anything.
+  bool reached(const Vec3& x) const { return passed_through(field_, particle_, x) == kNoEllipsoid; }
 
   /// What planes do not settle: a fold with no room in it, where a push that is bounded rests midway, or a
   /// place deep between ellipsoids, from where the ray along a normal leads out for certain.

@@ -43,6 +43,9 @@ inline constexpr double kMidway = 0.05;
 /// from below: 6 micrometres of 3 mm.
 inline constexpr double kReliefOvershoot = 2e-3;
 
+/// The same for fillets, which are smooth: in certificates, so that what rests in one does not chatter.
+inline constexpr double kFilletOvershoot = 20.0;
+
 /// A path longer than this share of the shortest radius around may have changed sides.
 inline constexpr double kLongPath = 0.3;
 

@@ -80,14 +80,15 @@ HWY_INLINE Settled settle_plain(const Baked& baked, const Candidates& c, const C
 }
 
 /// What surfaces that are not plain ellipsoids add to the clearance: nothing farther than this from every
-/// ellipsoid is below it; and the length over which they bend.
+/// ellipsoid is below it; and how far beyond the clearance is aimed at.
 struct Bent {
-  float reach_m, blend_m;
+  float reach_m, overshoot_m;
 };
 
 HWY_INLINE Bent bent_by(const ReliefTables* relief, const Clearance& clearance) {
-  if (relief) return {relief->highest_m, relief->blend_m};
-  return {clearance.blend_m, clearance.blend_m};
+  if (relief) return {relief->highest_m, kOvershoot * relief->blend_m};
+  constexpr float kFillet = static_cast<float>(kFilletOvershoot);
+  return {clearance.blend_m, std::min(kOvershoot * clearance.blend_m, kFillet * clearance.slack_m)};
 }
 
 /// F at p, of whichever kind.
@@ -102,7 +103,7 @@ HWY_INLINE Settled settle_bent(const Baked& baked, const ReliefTables* relief, c
                                const Clearance& clearance, V3 p, const Sample& first, M contact) {
   const Bent bent = bent_by(relief, clearance);
   // The surface bends between steps; a share of the blending more lets Newton arrive from below.
-  const V target = all(clearance.distance_m + clearance.slack_m + kOvershoot * bent.blend_m);
+  const V target = all(clearance.distance_m + clearance.slack_m + bent.overshoot_m);
   Settled s;
   s.open = contact;
   s.position = p;
@@ -168,7 +169,7 @@ HWY_INLINE M moved_far(const Block& block, const Clearance& clearance, int i, V3
     path = select(owned, path - carried, path);
     limit = hn::IfThenElse(owned, limit, all(std::max(0.0f, limit_m - clearance.travel_m)));
   }
-  return hn::Gt(dot(path, path), hn::Mul(limit, limit));
+  return hn::Ge(dot(path, path), hn::Mul(limit, limit));
 }
 
 /// Undoing a particle's own path is not a push.

@@ -1,0 +1,134 @@
+// The response at the edges of what a scene can hold.
+#include <doctest/doctest.h>
+
+#include <numeric>
+
+#include "scenes.hpp"
+
+using namespace bodice;
+using namespace bodice::collision;
+using namespace bodice_test;
+
+namespace {
+
+/// Particles at the centre, on the axes, on the symmetry planes and at random inside of `e`, local frame.
+Cloud inside_of(const Ellipsoid& e, const Vec3& origin) {
+  engine::Random random(3);
+  Cloud cloud;
+  for (int i = 0; i < 27; ++i) {
+    const Vec3 on_grid(0.4 * (i % 3 - 1), 0.4 * (i / 3 % 3 - 1), 0.4 * (i / 9 - 1));
+    cloud.add(e.center + e.axes * e.radii.cwiseProduct(on_grid) - origin);
+  }
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 at = 0.57 * random_vector(random, 1.0);
+    cloud.add(e.center + e.axes * e.radii.cwiseProduct(at) - origin);
+  }
+  return cloud;
+}
+
+}  // namespace
+
+TEST_CASE("aspects to 1:1000 and radii from a micrometre to a thousand kilometres") {
+  engine::Random random(2);
+  for (const double scale_m : {1e-6, 1e-3, 1.0, 1e3, 1e6})
+    for (const double aspect : {1.0, 10.0, 100.0, 1000.0}) {
+      std::vector<Ellipsoid> shapes(2);
+      shapes[0].radii = scale_m * Vec3(1.0, 1.0 / std::sqrt(aspect), 1.0 / aspect);
+      shapes[1].radii = scale_m * Vec3(1.0 / aspect, 1.0, 1.0);
+      shapes[0].axes = random_rotation(random);
+      shapes[1].center = 0.5 * scale_m * random_direction(random);
+      const Collider collider(proxy_of(shapes));
+      for (const Ellipsoid& e : shapes) {
+        Cloud cloud = inside_of(e, collider.origin());
+        const ContactReport report = collider.resolve({}, cloud.particles(), {});
+        double lowest_m = scale_m;
+        for (std::size_t i = 0; i < cloud.size(); ++i)
+          lowest_m =
+              std::min(lowest_m, brute_force(shapes, cloud.position(i) + collider.origin()).signed_distance);
+        CAPTURE(scale_m);
+        CAPTURE(aspect);
+        CHECK(report.unresolved == 0);
+        CHECK(lowest_m > -1e-6 * scale_m);
+      }
+    }
+}
+
+TEST_CASE("four thousand ellipsoids, apart and on one place") {
+  const auto one = random_ellipsoids(8, 1, 0.1, 0.1, 0.3)[0];
+  for (const auto& shapes : {random_ellipsoids(4, 4096, 1.0, 0.02, 0.1), std::vector<Ellipsoid>(4096, one)}) {
+    const Collider collider(proxy_of(shapes));
+    engine::Random random(6);
+    Cloud cloud;
+    for (int i = 0; i < 1000; ++i) cloud.add(random_vector(random, 0.4));
+    const ContactReport report = collider.resolve({}, cloud.particles(), {});
+    CHECK(report.contacts > 5);
+    CHECK(report.unresolved == 0);
+    double lowest_m = 1.0;
+    for (std::size_t i = 0; i < cloud.size(); ++i)
+      lowest_m =
+          std::min(lowest_m, brute_force(shapes, cloud.position(i) + collider.origin()).signed_distance);
+    CHECK(lowest_m > -1e-6);
+  }
+}
+
+TEST_CASE("particles that are not numbers are left alone, counted, and spoil none of their neighbours") {
+  const auto shapes = random_ellipsoids(7, 10, 0.2, 0.1, 0.2);
+  const Collider collider(proxy_of(shapes));
+  const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
+  engine::Random random(6);
+  Cloud cloud, clean;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p = random_vector(random, 0.3);
+    cloud.add(p);
+    if (i % 10 != 3) clean.add(p);
+    if (i % 10 == 3) (i % 20 == 3 ? cloud.x : cloud.vz).back() = bad[i % 3 == 0];
+  }
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  collider.resolve({}, clean.particles(), {});
+  CHECK(report.not_finite == 100);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (i % 10 == 3) continue;
+    CHECK((cloud.position(i) - clean.position(at++)).norm() < 1e-6);
+  }
+}
+
+TEST_CASE("contacts are counted by part, and the deepest is told") {
+  std::vector<Ellipsoid> shapes(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    shapes[k].center.x() = static_cast<double>(k);
+    shapes[k].radii.setConstant(0.2);
+  }
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i <= k; ++i) cloud.add(Vec3(k, 0.15 + 0.01 * i, 0.0) - collider.origin());
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  CHECK(report.contacts == 6);
+  for (int k = 0; k < 3; ++k) CHECK(report.contacts_by_part[k] == static_cast<std::uint64_t>(k + 1));
+  CHECK(std::accumulate(std::begin(report.contacts_by_part), std::end(report.contacts_by_part), 0u) == 6u);
+  CHECK(report.deepest_m == doctest::Approx(0.05).epsilon(1e-4));
+  CHECK(report.max_iterations >= 1);
+}
+
+TEST_CASE("two hundred thousand random particles: none inside, shells and solids alike") {
+  for (const std::uint64_t seed : {1u, 2u})
+    for (const bool shell : {false, true}) {
+      const auto shapes =
+          shell ? random_ellipsoids(seed, 60, 0.5, 0.01, 0.15) : random_ellipsoids(seed, 30, 0.3, 0.1, 0.3);
+      const Collider collider(proxy_of(shapes));
+      engine::Random random(seed);
+      Cloud cloud;
+      for (int i = 0; i < 50000; ++i) cloud.add(random_vector(random, 0.7));
+      const ContactReport report = collider.resolve({}, cloud.particles(), {});
+      CHECK(report.unresolved == 0);
+      CHECK(report.pinched == 0);
+      int inside = 0;
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Vec3 p = cloud.position(i) + collider.origin();
+        for (const Ellipsoid& e : shapes)
+          inside += geometry::level(e, p) < 1.0 && geometry::nearest_point(e, p).signed_distance < -1e-6;
+      }
+      CHECK(inside == 0);
+    }
+}

@@ -1,0 +1,152 @@
+// Where surfaces meet or face each other: pinches, folds, creases and their fillets.
+#include <doctest/doctest.h>
+
+#include "scenes.hpp"
+
+using namespace bodice;
+using namespace bodice::collision;
+using namespace bodice_test;
+
+namespace {
+
+/// Two balls along x, their surfaces `gap_m` apart at the origin; negative: they overlap.
+std::vector<Ellipsoid> two_balls(double radius_m, double gap_m) {
+  std::vector<Ellipsoid> shapes(2);
+  for (Ellipsoid& e : shapes) e.radii.setConstant(radius_m);
+  shapes[0].center.x() = -radius_m - 0.5 * gap_m;
+  shapes[1].center.x() = radius_m + 0.5 * gap_m;
+  return shapes;
+}
+
+/// The direction in which the response took velocity out of a particle that falls onto the pair at x.
+Vec3 normal_at(const Collider& collider, double x, float blend_m) {
+  Cloud cloud;
+  const Vec3 fall(0.0, -1.0, 0.0);
+  // Balls of 0.5 m at -+0.4: the surface, sunk by half a millimetre.
+  const double y = std::sqrt(0.25 - std::pow(0.4 - std::abs(x), 2)) - 5e-4;
+  cloud.add(Vec3(x, y, 0.0), fall);
+  const ContactReport report =
+      collider.resolve({}, cloud.particles(), {.friction = 0.0f, .blend_m = blend_m});
+  REQUIRE(report.contacts == 1);
+  return (cloud.velocity(0) - fall).normalized();
+}
+
+double largest_jump_rad(float blend_m) {
+  const Collider collider(proxy_of(two_balls(0.5, -0.2)));
+  double largest = 0.0;
+  Vec3 last = normal_at(collider, -0.05, blend_m);
+  for (int i = -499; i <= 500; ++i) {
+    const Vec3 n = normal_at(collider, 1e-4 * i, blend_m);
+    largest = std::max(largest, std::acos(std::clamp(n.dot(last), -1.0, 1.0)));
+    last = n;
+  }
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("a particle in a gap narrower than the clearance goes midway, and stays there") {
+  for (const bool relief : {false, true}) {
+    const auto data = data_of(two_balls(0.1, 0.002));
+    const Collider collider(proxy_of(relief ? with_relief(data, 8, 1e-5, 5) : data));
+    Cloud cloud;
+    cloud.add(Vec3(0.0008, 0.0, 0.0), Vec3(0.5, 0.0, 0.0));
+    const ContactReport report = collider.resolve({}, cloud.particles(), {.thickness_m = 0.003f});
+    CAPTURE(relief);
+    CHECK(report.pinched == 1);
+    CHECK(report.unresolved == 0);
+    CHECK(std::abs(cloud.x[0]) < 2e-4f);
+    CHECK(cloud.position(0).norm() < 0.012);
+    CHECK(std::abs(cloud.vx[0]) < 1e-3f);
+    const Vec3 settled = cloud.position(0);
+    for (int i = 0; i < 50; ++i) collider.resolve({}, cloud.particles(), {.thickness_m = 0.003f});
+    CHECK(std::abs(cloud.x[0]) < 2e-4f);
+    CHECK((cloud.position(0) - settled).norm() < 0.03);  // out of the wedge, if at all, and never through
+  }
+}
+
+TEST_CASE("a particle in a fold without room is not thrown, and its push is bounded") {
+  const auto shapes = two_balls(0.1, -0.002);
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  cloud.add(Vec3(0.0004, 0.0, 0.0));
+  Vec3 last = cloud.position(0);
+  for (int i = 0; i < 100; ++i) {
+    const ContactReport report =
+        collider.resolve({}, cloud.particles(), {.thickness_m = 0.003f, .max_push_m = 0.001f});
+    CHECK(report.unresolved == 0);
+    CHECK((cloud.position(0) - last).norm() < 1.01e-3);
+    last = cloud.position(0);
+  }
+  CHECK(std::abs(cloud.x[0]) < 0.005f);
+  CHECK(last.norm() < 0.03);
+}
+
+TEST_CASE("without a bound the same particle leaves the fold for certain") {
+  const auto shapes = two_balls(0.1, -0.002);
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  cloud.add(Vec3(0.0004, 0.0, 0.0));
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  CHECK(report.unresolved == 0);
+  CHECK(brute_force(shapes, cloud.position(0) + collider.origin()).signed_distance > -1e-6);
+}
+
+TEST_CASE("fillets turn the normal's jump at a crease into a turn") {
+  const double sharp_rad = largest_jump_rad(0.0f), smooth_rad = largest_jump_rad(0.02f);
+  CHECK(sharp_rad > 0.5);
+  CHECK(smooth_rad < 0.05);
+}
+
+TEST_CASE("with fillets no particle is inside, and where one ellipsoid is near nothing changes") {
+  const auto shapes = random_ellipsoids(7, 40, 0.4, 0.05, 0.3);
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(5);
+  Cloud cloud, plain;
+  for (int i = 0; i < 20000; ++i) cloud.add(random_vector(random, 0.7));
+  plain = cloud;
+  const ContactReport report = collider.resolve({}, cloud.particles(), {.blend_m = 0.01f});
+  collider.resolve({}, plain.particles(), {});
+  CHECK(report.contacts > 1500);
+  CHECK(report.unresolved == 0);
+  double lowest_m = 1.0;
+  int lone = 0, differing = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3 p = plain.position(i) + collider.origin();
+    const Vec3 end = cloud.position(i) + collider.origin();
+    lowest_m = std::min(lowest_m, brute_force(shapes, end).signed_distance);
+    int near = 0;
+    for (const Ellipsoid& e : shapes) near += geometry::nearest_point(e, p).signed_distance < 0.02;
+    if (near != 1) continue;
+    ++lone;
+    differing += (end - p).norm() > 1e-4;
+  }
+  CHECK(lowest_m > -1e-6);
+  CHECK(lone > 200);
+  CHECK(differing < lone / 10);  // deep particles take another of two ways out
+}
+
+TEST_CASE("a particle at rest in a crease does not chatter") {
+  const auto shapes = two_balls(0.5, -0.2);
+  const Collider collider(proxy_of(shapes));
+  for (const float blend_m : {0.0f, 0.02f}) {
+    Cloud cloud;
+    cloud.add(Vec3(0.001, 0.302, 0.0005));
+    constexpr double kSubstep_s = 1.0 / 960.0;
+    Vec3 velocity = Vec3::Zero(), last = cloud.position(0);
+    double moved_m = 0.0;
+    for (int step = 0; step < 2000; ++step) {
+      velocity.y() -= 9.81 * kSubstep_s;
+      const Vec3 p = cloud.position(0) + velocity * kSubstep_s;
+      cloud = Cloud();
+      cloud.add(p, velocity);
+      collider.resolve({}, cloud.particles(), {.blend_m = blend_m});
+      velocity = cloud.velocity(0);
+      if (step >= 1900) moved_m = std::max(moved_m, (cloud.position(0) - last).norm());
+      last = cloud.position(0);
+    }
+    CAPTURE(blend_m);
+    CHECK(std::abs(last.x()) < 0.002);
+    CHECK(moved_m < 2e-5);
+  }
+}
