@@ -29,6 +29,18 @@ Vec3 upwards(const Skin& skin, const Landmarks& marks) {
   return length > 0.0 ? Vec3(up / length) : Vec3(Vec3::UnitY());
 }
 
+/// Each confidence after what the second way says; at the distance that is called a contradiction, half is
+/// left.
+void weigh(const SecondWays& second, Landmarks& marks) {
+  constexpr double kNothingLeft = 1.5;
+  marks.neck.confidence = agreed(marks.neck.confidence, second.neck, kNothingLeft * kNeckApart);
+  marks.perineum_confidence =
+      agreed(marks.perineum_confidence, second.perineum, kNothingLeft * kPerineumApart);
+  for (int side = 0; side < 2; ++side)
+    marks.armpit_confidence[side] =
+        agreed(marks.armpit_confidence[side], second.armpit[side], kNothingLeft * kArmpitApart);
+}
+
 engine::Result<Anatomy> understand(const engine::Context& context, const Skin& skin, const Options& options,
                                    Anatomy anatomy) {
   StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
@@ -42,7 +54,9 @@ engine::Result<Anatomy> understand(const engine::Context& context, const Skin& s
   const Sides sides = find_sides(context, skin, *found);
   const BodyEnds ends = in_body_order(*found, sides);
   const BodyCoordinates coordinates(context, skin, ends);
-  const Landmarks marks = find_landmarks(context, skin, coordinates);
+  Landmarks marks = find_landmarks(context, skin, coordinates);
+  const SecondWays second = ask_second_ways(context, skin, coordinates, marks);
+  weigh(second, marks);
   anatomy.stature_m = find_stature(skin, ends, marks);
   anatomy.up = upwards(skin, marks);
   anatomy.landmarks = as_list(skin, ends, marks);
@@ -51,7 +65,8 @@ engine::Result<Anatomy> understand(const engine::Context& context, const Skin& s
   StageTimer segment_timer(context, anatomy.stages, "segment");
   anatomy.part = segment(context, skin, coordinates);
   segment_timer.stop();
-  anatomy.warnings = diagnose(skin, *found, sides, coordinates, marks, options.profile, anatomy.stature_m);
+  anatomy.warnings =
+      diagnose(skin, *found, sides, coordinates, marks, second, options.profile, anatomy.stature_m);
   return anatomy;
 }
 

@@ -83,6 +83,23 @@ void check_places(const Landmarks& marks, std::vector<Warning>& warnings) {
   uncertain(marks.neck.confidence, "neck-uncertain", "head", "neck");
 }
 
+/// Two independent ways that contradict each other: the first is used, and the reader is told.
+void check_second_ways(const SecondWays& second, std::vector<Warning>& warnings) {
+  const auto differ = [&](double apart, double most, const char* code, const char* part, const char* text) {
+    if (apart > most)
+      warnings.push_back(
+          {code, part, text, "Check this border in the result; welded or touching parts often cause it."});
+  };
+  differ(second.neck, kNeckApart, "neck-disagrees", "head",
+         "The neck's border and its narrowest place lie far from each other.");
+  differ(second.perineum, kPerineumApart, "perineum-disagrees", "thigh_l",
+         "The perineum and the place where the legs join along the skin lie far from each other.");
+  constexpr std::array<const char*, 2> upper_arm{"upper_arm_l", "upper_arm_r"};
+  for (int side = 0; side < 2; ++side)
+    differ(second.armpit[side], kArmpitApart, "armpit-disagrees", upper_arm[side],
+           "The armpit and the place where the arm widens into the trunk lie far from each other.");
+}
+
 /// What the way along the skin adds to a survey's straight measure (the foot, mostly), and how far builds,
 /// poses and the estimate of the stature spread; of the stature.
 constexpr double kFootAlongSkin = 0.07, kLegSpread = 0.08, kArmSpread = 0.08;
@@ -113,13 +130,15 @@ void check_proportions(const BodyEnds& ends, const Landmarks& marks, const body:
 
 std::vector<Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
                               const BodyCoordinates& coordinates, const Landmarks& marks,
-                              const body::ProportionProfile& profile, double stature) {
+                              const SecondWays& second, const body::ProportionProfile& profile,
+                              double stature) {
   std::vector<Warning> warnings;
   const auto size = static_cast<double>(coordinates.size_m());
   check_surface(skin, warnings);
   check_welds(coordinates.ends(), size, warnings);
   check_symmetry(coordinates.ends(), size, warnings);
   check_places(marks, warnings);
+  check_second_ways(second, warnings);
   check_proportions(coordinates.ends(), marks, profile, stature, warnings);
   if (found.misfit > kFairMisfit)
     warnings.push_back({"unusual-body", "", "The ends of the body lie at unusual distances from each other.",

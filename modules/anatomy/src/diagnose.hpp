@@ -5,12 +5,13 @@
 
 #include <bodice/body/proportions.hpp>
 
-#include "landmarks.hpp"
+#include "second_ways.hpp"
 
 namespace bodice::anatomy {
 
 std::vector<engine::Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
                                       const BodyCoordinates& coordinates, const Landmarks& marks,
-                                      const body::ProportionProfile& profile, double stature);
+                                      const SecondWays& second, const body::ProportionProfile& profile,
+                                      double stature);
 
 }  // namespace bodice::anatomy

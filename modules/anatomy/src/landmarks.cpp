@@ -23,8 +23,8 @@ constexpr float kKneeBeyond = 0.0115F;
 constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
 /// It is near the level where the arm widens (of hand to hand), and near the shortest way from hand to foot.
 constexpr float kNearShoulder = 0.06F, kArmpitDetour = 1.10F;
-/// The ways around the chest that count for one side lie beyond its forearm, nearer to its own hand, and under
-/// the arm: ways over the neck are shorter on heavy bodies.
+/// The ways around the chest that count for one side lie beyond its forearm, nearer to its own hand, and
+/// under the arm: ways over the neck are shorter on heavy bodies.
 constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
 constexpr float kLeastHalfChest = 0.02F;  // of the size
 /// A signature this many deviations off is no evidence any more.

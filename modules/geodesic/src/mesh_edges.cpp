@@ -72,4 +72,17 @@ MeshEdges mesh_edges(const geometry::TriMesh& mesh) {
   return edges;
 }
 
+EdgesOfVertex edges_of_vertex(std::size_t vertices, const MeshEdges& edges) {
+  EdgesOfVertex around;
+  around.offset.assign(vertices + 1, 0);
+  for (const auto& ends : edges.ends)
+    for (const Index v : ends) ++around.offset[v + 1];
+  for (std::size_t v = 1; v <= vertices; ++v) around.offset[v] += around.offset[v - 1];
+  around.edge.resize(2 * edges.ends.size());
+  std::vector<Index> next(around.offset.begin(), around.offset.end() - 1);
+  for (std::size_t e = 0; e < edges.ends.size(); ++e)
+    for (const Index v : edges.ends[e]) around.edge[next[v]++] = static_cast<Index>(e);
+  return around;
+}
+
 }  // namespace bodice::geodesic

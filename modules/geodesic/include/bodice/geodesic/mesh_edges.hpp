@@ -22,4 +22,12 @@ struct MeshEdges {
 /// O(#V + #F). Precondition: every index of a triangle is below #V.
 MeshEdges mesh_edges(const geometry::TriMesh& mesh);
 
+/// The edges at each vertex, in compressed rows: those of v are edge[offset[v]] .. edge[offset[v + 1]).
+struct EdgesOfVertex {
+  std::vector<geometry::Index> offset, edge;
+};
+
+/// O(#V + #E).
+EdgesOfVertex edges_of_vertex(std::size_t vertices, const MeshEdges& edges);
+
 }  // namespace bodice::geodesic

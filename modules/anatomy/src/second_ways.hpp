@@ -1,0 +1,26 @@
+// Landmarks once more, by ways that use no table of where they lie: what the first ways are checked against.
+#pragma once
+
+#include "landmarks.hpp"
+
+namespace bodice::anatomy {
+
+/// How far the second way's answer lies from the first's, of the size; negative where it has no answer.
+struct SecondWays {
+  double neck = -1.0;      ///< centre of the least girth between head and shoulders, as in the paper
+  double perineum = -1.0;  ///< where the legs' loops merge
+  std::array<double, 2> armpit{-1.0, -1.0};  ///< level where the loop around the arm widens into the trunk
+};
+
+SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
+                           const BodyCoordinates& coordinates, const Landmarks& marks);
+
+/// A first answer's confidence after the second: apart by this much or more (of the size) leaves nothing; no
+/// second answer halves it.
+double agreed(double confidence, double apart, double most);
+
+/// Apart by this much, of the size, the two ways contradict each other. The neck's two ways mean its base and
+/// its narrowest place, which lie some 4 % apart.
+inline constexpr double kNeckApart = 0.10, kPerineumApart = 0.07, kArmpitApart = 0.055;
+
+}  // namespace bodice::anatomy

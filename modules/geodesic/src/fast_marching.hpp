@@ -1,0 +1,11 @@
+#pragma once
+
+#include <bodice/geodesic/distance.hpp>
+
+namespace bodice::geodesic {
+
+/// Distances by a front that crosses triangles. O(#F log #V).
+Field fast_marching(const geometry::TriMesh& mesh, const MeshEdges& edges, const EdgesOfVertex& around,
+                    std::span<const Seed> seeds);
+
+}  // namespace bodice::geodesic
