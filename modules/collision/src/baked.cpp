@@ -37,13 +37,33 @@ BakedEllipsoid bake(const Ellipsoid& shape) {
   return result;
 }
 
+BoundEllipsoid bake_bound(const Ellipsoid& shape) {
+  const geometry::Mat3 to_ball = shape.radii.cwiseInverse().asDiagonal() * shape.axes.transpose();
+  const Vec3 offset = -(to_ball * shape.center);
+  BoundEllipsoid result;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column)
+      result.to_ball[3 * row + column] = static_cast<float>(to_ball(row, column));
+    result.offset[row] = static_cast<float>(offset[row]);
+    result.inverse_radius[row] = static_cast<float>(1.0 / shape.radii[row]);
+  }
+  return result;
+}
+
 }  // namespace
 
-Baked::Baked(const std::vector<Ellipsoid>& shapes) {
+Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32_t>& names_of_shapes)
+    : names(names_of_shapes.begin(), names_of_shapes.end()) {
   const std::size_t padded = (shapes.size() + kPad - 1) / kPad * kPad;
-  // The padding's boxes are beyond every window, its balls hold nothing.
+  // The padding is beyond every window.
   const float nowhere = std::numeric_limits<float>::max();
   ellipsoids.resize(shapes.size());
+  bounds.resize(shapes.size());
+  for (std::vector<float>& values : cull.bound) values.assign(padded, 0.0f);
+  for (int axis = 0; axis < 3; ++axis) {
+    cull.bound[kBoundOffset + axis].assign(padded, 1e18f);
+    cull.bound[kBoundInverse + axis].assign(padded, 1.0f);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     cull.low[axis].assign(padded, nowhere);
     cull.high[axis].assign(padded, nowhere);
@@ -56,10 +76,15 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes) {
 
 void Baked::update(const std::vector<Ellipsoid>& shapes) {
   double size_m = 0.0;
+  longest_m = 0.0f;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     ellipsoids[k] = bake(shapes[k]);
     const auto values = std::bit_cast<std::array<float, kBakedFloats>>(ellipsoids[k]);
     for (std::size_t i = 0; i < values.size(); ++i) cull.baked[i][k] = values[i];
+    bounds[k] = bake_bound(shapes[k]);
+    const float* const bound = bounds[k].to_ball;  // the members follow each other without padding
+    for (std::size_t i = 0; i < kBoundFloats; ++i) cull.bound[i][k] = bound[i];
+    longest_m = std::max(longest_m, static_cast<float>(shapes[k].radii.maxCoeff()));
     const geometry::Box box = geometry::bounding_box(shapes[k]);
     for (int axis = 0; axis < 3; ++axis) {
       cull.low[axis][k] = static_cast<float>(box.low[axis]);

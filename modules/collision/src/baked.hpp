@@ -20,10 +20,19 @@ struct BakedEllipsoid {
 };
 inline constexpr int kBakedFloats = sizeof(BakedEllipsoid) / sizeof(float);
 
+/// One ellipsoid for the bound: u = to_ball p + offset is p where the ellipsoid is the unit ball.
+struct alignas(64) BoundEllipsoid {
+  float to_ball[9];         ///< diag(1 / r) R^T, 1/metres
+  float offset[3];          ///< - to_ball c
+  float inverse_radius[3];  ///< 1/metres
+};
+inline constexpr int kBoundFloats = 15, kBoundOffset = 9, kBoundInverse = 12;
+
 /// The same, and boxes and inner balls, one array a number, for sixteen ellipsoids at a time; padded to kPad
 /// with boxes infinitely far away. Neighbours in space should be neighbours here.
 struct CullArrays {
   std::vector<float> baked[kBakedFloats];  ///< the members of BakedEllipsoid, in order
+  std::vector<float> bound[kBoundFloats];  ///< the members of BoundEllipsoid, in order
   std::vector<float> low[3], high[3];      ///< metres
   std::vector<float> center[3];            ///< metres
   std::vector<float> shortest;             ///< r2, metres: radius of the ball inside
@@ -32,14 +41,17 @@ struct CullArrays {
 struct Baked {
   static constexpr std::size_t kPad = 16;  // the widest vector's floats
 
-  explicit Baked(const std::vector<geometry::Ellipsoid>& shapes);
+  Baked(const std::vector<geometry::Ellipsoid>& shapes, const std::vector<std::uint32_t>& names_of_shapes);
   /// Rewrites everything for other shapes of the same number; allocates nothing.
   void update(const std::vector<geometry::Ellipsoid>& shapes);
 
   std::size_t size() const { return ellipsoids.size(); }
 
   std::vector<BakedEllipsoid> ellipsoids;
+  std::vector<BoundEllipsoid> bounds;
+  std::vector<std::int32_t> names;  ///< the proxy's index of each
   CullArrays cull;
+  float longest_m = 0.0f;   ///< the longest radius of all
   float rounding_m = 0.0f;  ///< what float arithmetic can be off by at the union's size
 };
 

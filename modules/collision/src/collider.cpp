@@ -32,11 +32,11 @@ class SharedReport {
   ContactReport total_;
 };
 
-/// Calls work(begin, end) for every block of [begin, end).
+/// Calls work(begin, end) for every `size` particles of [begin, end).
 template <class Work>
-void by_blocks(std::size_t begin, std::size_t end, Work&& work) {
-  for (std::size_t at = begin; at < end; at += kBlock)
-    work(at, std::min(at + static_cast<std::size_t>(kBlock), end));
+void by_blocks(std::size_t begin, std::size_t end, int size, Work&& work) {
+  for (std::size_t at = begin; at < end; at += static_cast<std::size_t>(size))
+    work(at, std::min(at + static_cast<std::size_t>(size), end));
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ Contact Collider::query(const float (&local_point)[3]) const noexcept {
 void Collider::query(const engine::Context& context, const Particles& particles,
                      std::span<Contact> contacts) const {
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+    by_blocks(begin, end, kBatch, [&](std::size_t from, std::size_t to) {
       impl_->query_some(particles, from, to, contacts, nullptr);
     });
   });
@@ -111,7 +111,7 @@ void Collider::query(const engine::Context& context, const Particles& particles,
                      Workspace& workspace) const {
   workspace.order_->refresh(particles);
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+    by_blocks(begin, end, kBatch, [&](std::size_t from, std::size_t to) {
       impl_->query_some(particles, from, to, contacts, workspace.order_.get());
     });
   });
@@ -147,7 +147,7 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
   SharedReport total;
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
     ContactReport report;
-    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+    by_blocks(begin, end, kBlock, [&](std::size_t from, std::size_t to) {
       impl_->resolve_some(particles, from, to, options, nullptr, report);
     });
     total.add(report);
@@ -161,7 +161,7 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
   SharedReport total;
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
     ContactReport report;
-    by_blocks(begin, end, [&](std::size_t from, std::size_t to) {
+    by_blocks(begin, end, kBlock, [&](std::size_t from, std::size_t to) {
       impl_->resolve_some(particles, from, to, options, workspace.order_.get(), report);
     });
     total.add(report);

@@ -108,7 +108,7 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
       margin_m(proxy.margin_m()),
       shapes(local_shapes(origin, proxy, original)),
       field(shapes),
-      baked(shapes) {
+      baked(shapes, original) {
   if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy, original);
   internal.resize(original.size());
   for (std::uint32_t k = 0; k < original.size(); ++k) internal[original[k]] = k;
@@ -138,40 +138,6 @@ Contact Collider::Impl::exact_contact(const Vec3& p) const {
   }
   const Owner owner = field.owner(p, std::numeric_limits<double>::infinity());
   return make_contact(p, owner.at.signed_distance, owner.at.normal, owner.ellipsoid);
-}
-
-void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
-                                std::span<Contact> contacts, ParticleOrder* order) const {
-  Gathered gathered;
-  gather(particles, indices(order), begin, end, gathered);
-  const int known = gathered.block.count + gathered.far_count;
-  if (known < static_cast<int>(end - begin) || field.size() == 0)
-    for (std::size_t i = begin; i < end; ++i) contacts[order ? order->order()[i] : i] = nothing();
-  if (field.size() == 0) return;
-  for (int i = 0; i < gathered.far_count; ++i)
-    contacts[gathered.far[i]] = exact_contact(at(particles.x, particles.y, particles.z, gathered.far[i]));
-  const Block& block = gathered.block;
-  if (block.count == 0) return;
-  BlockContacts found;
-  const bool settled = query_block(baked, tables(), block, found);
-  if (order && settled) order->note_radius(begin / kBlock, found.radius_m);
-  const float margin = static_cast<float>(margin_m);
-  for (int lane = 0; lane < block.count; ++lane) {
-    Contact& contact = contacts[gathered.index[lane]];
-    if (!settled) {
-      contact = exact_contact(at(block.x, block.y, block.z, static_cast<std::size_t>(lane)));
-      continue;
-    }
-    const float d = found.distance[lane] - margin;
-    contact.signed_distance = d;
-    contact.point[0] = block.x[lane] - d * found.nx[lane];
-    contact.point[1] = block.y[lane] - d * found.ny[lane];
-    contact.point[2] = block.z[lane] - d * found.nz[lane];
-    contact.normal[0] = found.nx[lane];
-    contact.normal[1] = found.ny[lane];
-    contact.normal[2] = found.nz[lane];
-    contact.ellipsoid = found.owner[lane] < original.size() ? original[found.owner[lane]] : kNoEllipsoid;
-  }
 }
 
 void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i,

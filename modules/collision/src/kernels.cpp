@@ -19,8 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-bool query(const Baked& baked, const ReliefTables* relief, const Block& block, BlockContacts& out) {
-  return query_lanes(baked, relief, block, out);
+bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  return query_batch_lanes(baked, relief, batch);
 }
 
 bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,
@@ -42,8 +42,8 @@ HWY_EXPORT(query);
 HWY_EXPORT(resolve);
 HWY_EXPORT(target);
 
-bool query_block(const Baked& baked, const ReliefTables* relief, const Block& block, BlockContacts& out) {
-  return HWY_DYNAMIC_DISPATCH(query)(baked, relief, block, out);
+bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  return HWY_DYNAMIC_DISPATCH(query)(baked, relief, batch);
 }
 
 bool resolve_block(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,

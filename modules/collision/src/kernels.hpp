@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include <bodice/collision/collider.hpp>
+
 #include "baked.hpp"
 #include "relief.hpp"
 #include "surface_motion.hpp"
@@ -11,6 +13,19 @@
 namespace bodice::collision {
 
 inline constexpr int kBlock = 64;  ///< particles a block: culling costs about as much as two of them
+
+/// Particles a query works on at a time: what their first answers leave open shares vectors.
+inline constexpr int kBatch = 256;
+
+/// What a query reads and writes.
+struct QueryBatch {
+  const float *x, *y, *z;      ///< metres, local frame; aligned to 64 bytes, repeated up to a whole block
+  const std::uint32_t* index;  ///< into contacts, a particle
+  int count;                   ///< at most kBatch
+  float margin_m;
+  Contact* contacts;                ///< of the whole call
+  float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal
+};
 
 /// Particles of one block, gathered; lanes beyond `count` repeat the last one.
 struct alignas(64) Block {
@@ -20,13 +35,6 @@ struct alignas(64) Block {
   int count = 0;
   bool has_velocity = false;
   bool has_safe = false;
-};
-
-struct alignas(64) BlockContacts {
-  float distance[kBlock];  ///< metres, without margin
-  float nx[kBlock], ny[kBlock], nz[kBlock];
-  std::uint32_t owner[kBlock];
-  float radius_m = 0.0f;  ///< of the block: half its box's diagonal
 };
 
 /// What a response asks of the kernel.
@@ -51,8 +59,8 @@ struct alignas(64) BlockResponse {
   float radius_m = 0.0f;         ///< of the block: half its box's diagonal
 };
 
-/// Signed distance, normal and owner of every lane; false if too many ellipsoids are near for the kernel.
-bool query_block(const Baked& baked, const ReliefTables* relief, const Block& block, BlockContacts& out);
+/// Fills in the contacts of the batch; false, and some left as they were, if too many ellipsoids are near.
+bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 
 /// The nearest response in place; false if too many ellipsoids are near for the kernel.
 bool resolve_block(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,

@@ -28,19 +28,22 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
     texels.push_back(t.h);
     texels.push_back(t.a);
   }
-  texels.resize(texels.size() + 4);
+  texels.resize(texels.size() + 16);
   for (const std::uint32_t k : order) {
     const proxy::ReliefTable& from = proxy.relief()[k];
     BakedTable table;
+    find_sorted_axes(proxy.ellipsoids()[k].shape.radii, table.sorted_axis);
+    if (from.nodes_per_side == 0) {
+      tables.push_back(table);  // flat: of two nodes and no height
+      continue;
+    }
     table.first_byte = static_cast<std::int32_t>(2 * from.first_texel);
     table.nodes = from.nodes_per_side;
     table.h_scale_m = from.h_scale_m / 255.0f;
     table.h_offset_m = from.h_offset_m;
     table.a_scale = from.a_scale / 255.0f / out_m;
     table.a_offset = from.a_offset / out_m;
-    find_sorted_axes(proxy.ellipsoids()[k].shape.radii, table.sorted_axis);
     tables.push_back(table);
-    if (table.nodes == 0) continue;
     const float h = std::max(from.h_offset_m, from.h_offset_m + from.h_scale_m);
     const float a = std::max(std::abs(from.a_offset), std::abs(from.a_offset + from.a_scale));
     highest_m = std::max(highest_m, h + a * std::max(in_m, out_m) / out_m);

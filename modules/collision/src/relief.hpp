@@ -20,7 +20,7 @@ namespace bodice::collision {
 /// One ellipsoid's table; bytes already scaled to metres (h) and to per metre of distance (a / out).
 struct BakedTable {
   std::int32_t first_byte = 0;
-  std::int32_t nodes = 0;  ///< per side; 0: no table
+  std::int32_t nodes = 2;  ///< per side
   float h_scale_m = 0.0f, h_offset_m = 0.0f;
   float a_scale = 0.0f, a_offset = 0.0f;
   std::int32_t sorted_axis[3] = {0, 1, 2};  ///< where BakedEllipsoid keeps the proxy's axes x, y, z

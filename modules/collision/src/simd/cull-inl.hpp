@@ -39,14 +39,7 @@ HWY_INLINE void extend(V3& low, V3& high, V3 p) {
   high = {hn::Max(high.x, p.x), hn::Max(high.y, p.y), hn::Max(high.z, p.z)};
 }
 
-/// The box of the particles and, where they have any, of the paths from their safe positions.
-HWY_INLINE Extent extent_of(const Block& block) {
-  const int width = static_cast<int>(hn::Lanes(f));
-  V3 low = load3(block.x, block.y, block.z), high = low;
-  for (int i = width; i < block.count; i += width)
-    extend(low, high, load3(block.x + i, block.y + i, block.z + i));
-  for (int i = 0; block.has_safe && i < block.count; i += width)
-    extend(low, high, load3(block.sx + i, block.sy + i, block.sz + i));
+HWY_INLINE Extent extent_between(V3 low, V3 high) {
   const float lows[3] = {hn::GetLane(hn::MinOfLanes(f, low.x)), hn::GetLane(hn::MinOfLanes(f, low.y)),
                          hn::GetLane(hn::MinOfLanes(f, low.z))};
   const float highs[3] = {hn::GetLane(hn::MaxOfLanes(f, high.x)), hn::GetLane(hn::MaxOfLanes(f, high.y)),
@@ -62,6 +55,23 @@ HWY_INLINE Extent extent_of(const Block& block) {
   return e;
 }
 
+HWY_INLINE Extent extent_of_lanes(const float* x, const float* y, const float* z, int count) {
+  V3 low = load3(x, y, z), high = low;
+  for (int i = kWidth; i < count; i += kWidth) extend(low, high, load3(x + i, y + i, z + i));
+  return extent_between(low, high);
+}
+
+/// The box of the particles and, where they have any, of the paths from their safe positions.
+HWY_INLINE Extent extent_of(const Block& block) {
+  const int width = static_cast<int>(hn::Lanes(f));
+  V3 low = load3(block.x, block.y, block.z), high = low;
+  for (int i = width; i < block.count; i += width)
+    extend(low, high, load3(block.x + i, block.y + i, block.z + i));
+  for (int i = 0; block.has_safe && i < block.count; i += width)
+    extend(low, high, load3(block.sx + i, block.sy + i, block.sz + i));
+  return extent_between(low, high);
+}
+
 /// Distance from the block's box to the ellipsoids' boxes, sixteen floats or fewer at a time.
 HWY_INLINE V box_distance(const CullArrays& cull, const Extent& e, std::size_t k) {
   V sum = hn::Zero(f);
@@ -72,21 +82,6 @@ HWY_INLINE V box_distance(const CullArrays& cull, const Extent& e, std::size_t k
     sum = hn::MulAdd(outside, outside, sum);
   }
   return hn::Sqrt(sum);
-}
-
-/// No particle of the block is farther than this from the union: the nearest ball inside an ellipsoid.
-HWY_INLINE float ball_bound(const CullArrays& cull, const Extent& e) {
-  const std::size_t width = hn::Lanes(f);
-  V least = all(1e30f);
-  for (std::size_t k = 0; k < cull.shortest.size(); k += width) {
-    V sum = hn::Zero(f);
-    for (int axis = 0; axis < 3; ++axis) {
-      const V to = hn::Sub(hn::LoadU(f, cull.center[axis].data() + k), all(e.middle[axis]));
-      sum = hn::MulAdd(to, to, sum);
-    }
-    least = hn::Min(least, hn::Sub(hn::Sqrt(sum), hn::LoadU(f, cull.shortest.data() + k)));
-  }
-  return hn::GetLane(hn::MinOfLanes(f, least)) + e.radius;
 }
 
 /// Exact distance and normal, at the block's middle, of the ellipsoids whose boxes are within `window` of the
@@ -139,17 +134,6 @@ HWY_INLINE void keep_within(const Extent& e, float window, Candidates& c) {
   std::swap(c.nx[0], c.nx[nearest]);
   std::swap(c.ny[0], c.ny[nearest]);
   std::swap(c.nz[0], c.nz[nearest]);
-}
-
-/// All ellipsoids that can own a particle of the block, or lie within `beyond_m` of the owner's distance.
-HWY_INLINE bool cull_for_query(const Baked& baked, const Block& block, float beyond_m, Candidates& out) {
-  const Extent e = extent_of(block);
-  out.radius_m = e.radius;
-  const float slack = baked.rounding_m + 1e-6f * e.radius + beyond_m;
-  float least;
-  if (!tangents(baked, e, ball_bound(baked.cull, e) + slack, out, least)) return false;
-  keep_within(e, least + e.radius + slack, out);
-  return true;
 }
 
 /// All ellipsoids that a particle of the block is below the clearance of, or can be pushed into.

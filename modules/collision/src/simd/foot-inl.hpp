@@ -2,14 +2,17 @@
 // Based on: David Eberly. Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013.
 // Differs: the root is sought in u = t + r2^2, which does not cancel next to the pole; Newton on 1 / |w(u)|
 // (Jorge J. More, Danny C. Sorensen. Computing a Trust Region Step. 1983), which is concave, so that every
-// step but the first comes from the left of the root; a lane stops by its own residual, so that its result
-// does not depend on its neighbours.
+// step but the first comes from the left of the root, lengthened as Halley's; a lane stops by its own
+// residual, so that its result does not depend on its neighbours.
 #if defined(BODICE_COLLISION_FOOT_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_FOOT_INL_
 #undef BODICE_COLLISION_FOOT_INL_
 #else
 #define BODICE_COLLISION_FOOT_INL_
 #endif
+
+// Products that are added are written as fused, so that the compiler has no choice: a lane's result must not
+// depend on the loop in which it is computed.
 
 #include <cstddef>
 
@@ -39,9 +42,6 @@ HWY_INLINE Shape broadcast(const BakedEllipsoid& e) {
           all(e.longest_m)};
 }
 
-using I = hn::RebindToSigned<F>;
-using VI = hn::Vec<I>;
-
 HWY_INLINE V field(const CullArrays& cull, std::size_t which, std::size_t k) {
   return hn::LoadU(f, cull.baked[which].data() + k);
 }
@@ -64,22 +64,23 @@ struct Foot {
   V u;         ///< the root
 };
 
-constexpr int kUsualNewton =
-    2;                          // after the step from the surface: enough for particles near limb-like shapes
-constexpr int kMaxNewton = 24;  // what 1:1000 can need
-constexpr float kSettled = 1e-3f;  // residual before the last step; Newton squares it
+constexpr int kUsualSteps = 2;         // the one from the surface included: enough near limb-like shapes
+constexpr int kMaxSteps = 24;          // what 1:1000 can need
+constexpr int kHalleySteps = 4;        // then Newton, which cannot overshoot twice
+constexpr float kSettled = 1e-3f;      // of |w|^2 - 1, before the last correction, which squares it
+constexpr float kLeastHalley = 0.25f;  // the curvature may lengthen a step fourfold
 // u = t + r2^2 in units of r0^2, relative to the smallest of which (1:1000) this is still a millionth.
 constexpr float kLeastRoot = 1e-12f;
 
-/// w_j = a_j / (u + gap_j), and the sums that Newton needs.
+/// w_j = a_j / (u + gap_j), and the sums of w_j^2 / (u + gap_j)^n that its derivatives need, n = 0, 1, 2.
 struct Secular {
-  V3 w;
-  V norm2, slope;
+  V3 w, slope;  // slope_j = w_j / (u + gap_j)
+  V norm2, first, second;
 };
 
 HWY_INLINE Secular secular(V3 w, V3 inverse) {
-  const V3 w2 = {hn::Mul(w.x, w.x), hn::Mul(w.y, w.y), hn::Mul(w.z, w.z)};
-  return {w, hn::Add(w2.x, hn::Add(w2.y, w2.z)), dot(w2, inverse)};
+  const V3 slope = {hn::Mul(w.x, inverse.x), hn::Mul(w.y, inverse.y), hn::Mul(w.z, inverse.z)};
+  return {w, slope, dot(w, w), dot(w, slope), dot(slope, slope)};
 }
 
 HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
@@ -87,49 +88,75 @@ HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
   return secular({hn::Mul(a.x, inverse.x), hn::Mul(a.y, inverse.y), hn::Mul(a.z, inverse.z)}, inverse);
 }
 
-/// One Newton step on 1 / |w|: u += (|w| - 1) |w|^2 / sum w^2 / e; `residual` receives |w| - 1.
-HWY_INLINE V newton(const Secular& g, V u, V low, V& residual) {
-  const V least = all(1e-35f);  // w = 0 at the centre: the step is then of no use, but must be finite
+constexpr float kLeastNorm2 = 1e-35f;  // w = 0 at the centre: a step is then of no use, but must be finite
+
+/// Newton's step on 1 / |w|: (|w| - 1) |w|^2 / sum w^2 / e; Halley divides it by 1 + half its curvature.
+template <bool kHalley>
+HWY_INLINE V next_root(const Secular& g, V u, V low) {
+  const V one = all(1.0f), least = all(kLeastNorm2);
   const V norm2 = hn::Max(g.norm2, least);
-  residual = hn::MulSub(norm2, inverse_sqrt(norm2), all(1.0f));
-  return hn::Max(low, hn::MulAdd(hn::Mul(residual, norm2), reciprocal(hn::Max(g.slope, least)), u));
+  const V inverse = reciprocal(hn::Max(g.first, least));
+  const V excess = hn::MulSub(norm2, inverse_sqrt(norm2), one), scale = hn::Mul(norm2, inverse);
+  V longer = one;
+  if constexpr (kHalley) {
+    // 1 - 3/2 step (S_0 S_2 - S_1^2) / (S_0 S_1)
+    const V bend = hn::NegMulAdd(g.first, reciprocal(norm2), hn::Mul(g.second, inverse));
+    const V half = hn::Mul(hn::Mul(all(1.5f), excess), scale);
+    longer = reciprocal(hn::Max(hn::NegMulAdd(half, bend, one), all(kLeastHalley)));
+  }
+  const V next = hn::MulAdd(hn::Mul(excess, scale), longer, u);
+  return hn::IfThenElse(hn::Gt(next, low), next, low);  // low where the step is NaN: sums have overflowed
+}
+
+/// Lanes that need another step; a lane judges by itself, so that its result does not depend on its
+/// neighbours.
+HWY_INLINE M unsettled(const Secular& g, V u, V low) {
+  const M off = hn::Gt(hn::Abs(hn::Sub(g.norm2, all(1.0f))), all(kSettled));
+  return hn::And(off, hn::Or(hn::Gt(u, low), hn::Gt(g.norm2, all(1.0f))));
+}
+
+template <bool kHalley>
+HWY_INLINE void step_where(M active, V3 a, const Shape& s, V low, V& u, Secular& g) {
+  u = hn::IfThenElse(active, next_root<kHalley>(g, u, low), u);
+  g = evaluate(a, s.gap0, s.gap1, u);
 }
 
 /// The unit foot direction for a = r o |y|, all components >= 0, and the root.
 HWY_INLINE V3 foot_direction(V3 y, V3 a, const Shape& s, V& u) {
-  const V zero = hn::Zero(f), one = all(1.0f);
+  const V one = all(1.0f);
   // |w| >= 1 at each of these, so none lies right of the root (except the floor, on the medial disk).
-  const V a2 = hn::Max(dot(a, a), all(1e-35f));
-  const V start = hn::Max(hn::Max(a.z, hn::Sub(a.x, s.gap0)),
-                          hn::Max(hn::Sub(a.y, s.gap1), hn::MulSub(a2, inverse_sqrt(a2), s.gap0)));
+  const V a2 = hn::Max(dot(a, a), all(kLeastNorm2));
+  const V start =
+      hn::Max(hn::Max(a.z, hn::Sub(a.x, s.gap0)),
+              hn::Max(hn::MulSub(s.radius1, y.y, s.gap1), hn::MulSub(a2, inverse_sqrt(a2), s.gap0)));
   const V low = hn::Max(start, all(kLeastRoot));
   // Particles are near the surface, where u = r2^2 and w = y / r.
-  const V3 inverse_r = {one, s.inverse1, s.inverse2};
-  const V3 at_surface = {y.x, hn::Mul(y.y, s.inverse1), hn::Mul(y.z, s.inverse2)};
-  const V3 inverse_r2 = {one, hn::Mul(inverse_r.y, inverse_r.y), hn::Mul(inverse_r.z, inverse_r.z)};
-  V residual;
-  u = newton(secular(at_surface, inverse_r2), hn::Mul(s.radius2, s.radius2), low, residual);
-  Secular g = evaluate(a, s.gap0, s.gap1, u);
-  for (int step = 0; step < kUsualNewton; ++step) {
-    u = newton(g, u, low, residual);
+  const V3 inverse_r2 = {one, hn::Mul(s.inverse1, s.inverse1), hn::Mul(s.inverse2, s.inverse2)};
+  Secular g = secular({y.x, hn::Mul(y.y, s.inverse1), hn::Mul(y.z, s.inverse2)}, inverse_r2);
+  u = hn::Mul(s.radius2, s.radius2);
+  for (int step = 0; step < kUsualSteps; ++step) {
+    u = next_root<true>(g, u, low);
     g = evaluate(a, s.gap0, s.gap1, u);
   }
-  // A lane goes on by its own residual, so that its result does not depend on its neighbours.
-  M active = hn::Gt(hn::Abs(residual), all(kSettled));
-  for (int step = kUsualNewton; step < kMaxNewton; ++step) {
-    active = hn::And(active, hn::Or(hn::Gt(u, low), hn::Gt(g.norm2, one)));
-    if (hn::AllFalse(f, active)) break;
-    const V next = newton(g, u, low, residual);
-    u = hn::IfThenElse(active, next, u);
-    g = evaluate(a, s.gap0, s.gap1, u);
-    active = hn::And(active, hn::Gt(hn::Abs(residual), all(kSettled)));
+  M active = unsettled(g, u, low);
+  for (int step = kUsualSteps; step < kMaxSteps && !hn::AllFalse(f, active); ++step) {
+    if (step < kHalleySteps)
+      step_where<true>(active, a, s, low, u, g);
+    else
+      step_where<false>(active, a, s, low, u, g);
+    active = hn::And(active, unsettled(g, u, low));
   }
   // On the medial disk |w| < 1 even at the pole: the shortest axis takes the rest.
-  const V across = hn::MulAdd(g.w.x, g.w.x, hn::Mul(g.w.y, g.w.y));
   const M medial = hn::And(hn::Le(u, all(kLeastRoot)), hn::Lt(g.norm2, one));
-  const V rest = hn::Sqrt(hn::Max(zero, hn::Sub(one, across)));
-  const V z = hn::IfThenElse(medial, hn::Max(rest, g.w.z), g.w.z);
-  return scaled({g.w.x, g.w.y, z}, inverse_sqrt(hn::MulAdd(z, z, across)));
+  // The last step, to first order: |w|^2 falls by twice the first sum.
+  const V excess = hn::Mul(all(0.5f), hn::Sub(g.norm2, one));
+  const V last = hn::IfThenZeroElse(medial, hn::Mul(excess, reciprocal(hn::Max(g.first, all(kLeastNorm2)))));
+  const V3 w = along(g.w, hn::Neg(last), g.slope);
+  u = hn::Add(u, last);
+  const V across = hn::MulAdd(w.x, w.x, hn::Mul(w.y, w.y));
+  const V rest = hn::Sqrt(hn::Max(hn::Zero(f), hn::Sub(one, across)));
+  const V z = hn::IfThenElse(medial, hn::Max(rest, w.z), w.z);
+  return scaled({w.x, w.y, z}, inverse_sqrt(hn::MulAdd(z, z, across)));
 }
 
 HWY_INLINE Foot foot_of(const Shape& s, V3 p) {
@@ -143,8 +170,8 @@ HWY_INLINE Foot foot_of(const Shape& s, V3 p) {
   const V3 g = {w.x, hn::Mul(w.y, s.inverse1), hn::Mul(w.z, s.inverse2)};
   const V inverse = hn::Mul(s.longest, inverse_sqrt(dot(g, g)));
   const V3 n = scaled(g, inverse);  // unit normal times r0, first octant
-  const V3 foot = {w.x, hn::Mul(s.radius1, w.y), hn::Mul(s.radius2, w.z)};
-  result.distance = dot(n, y - foot);
+  const V3 off = {hn::Sub(y.x, w.x), hn::NegMulAdd(s.radius1, w.y, y.y), hn::NegMulAdd(s.radius2, w.z, y.z)};
+  result.distance = dot(n, off);
   const V3 m = {hn::CopySign(n.x, result.y.x), hn::CopySign(n.y, result.y.y), hn::CopySign(n.z, result.y.z)};
   result.normal = {hn::MulAdd(s.row0.x, m.x, hn::MulAdd(s.row1.x, m.y, hn::Mul(s.row2.x, m.z))),
                    hn::MulAdd(s.row0.y, m.x, hn::MulAdd(s.row1.y, m.y, hn::Mul(s.row2.y, m.z))),

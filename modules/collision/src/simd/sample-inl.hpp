@@ -83,7 +83,8 @@ HWY_INLINE Sample relief_distance(const Baked& baked, const ReliefTables& relief
     if (hn::AllTrue(f, hn::Eq(root, hn::Zero(f)))) continue;
     const std::size_t k = static_cast<std::size_t>(c.index[near[i]]);
     const Shape s = broadcast(baked.ellipsoids[k]);
-    const Corrected one = corrected(relief, relief.tables[k], s, foot_kept ? *foot_kept : foot_of(s, p));
+    const Corrected one =
+        corrected(relief, broadcast(relief.tables[k]), s, foot_kept ? *foot_kept : foot_of(s, p));
     const V weight = hn::Mul(root, root);
     weights = hn::Add(weights, weight);
     value = hn::MulAdd(weight, one.value, value);
@@ -100,13 +101,6 @@ HWY_INLINE Sample relief_distance(const Baked& baked, const ReliefTables& relief
 /// F at p; `below` bounds what is of interest, as a distance to plain ellipsoids.
 HWY_INLINE Sample sample(const Baked& baked, const ReliefTables* relief, const Candidates& c, V3 p, V below) {
   return relief ? relief_distance(baked, *relief, c, p, below) : least_distance(baked, c, p, below);
-}
-
-HWY_INLINE V3 unit(V3 a) {
-  const V norm2 = dot(a, a);
-  const M fine = hn::Gt(norm2, hn::Zero(f));
-  const V inverse = hn::Div(all(1.0f), hn::Sqrt(hn::IfThenElse(fine, norm2, all(1.0f))));
-  return scaled(a, inverse);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -7,14 +7,69 @@
 #endif
 
 #include "relief.hpp"
-#include "simd/foot-inl.hpp"
+#include "simd/lookup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-HWY_INLINE V pick(V3 a, std::int32_t axis) {
-  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+/// The table of each lane's ellipsoid: the members of BakedTable.
+struct TableLanes {
+  VI first_byte, nodes, axis0, axis1;
+  V h_scale, h_offset, a_scale, a_offset;
+};
+
+HWY_INLINE TableLanes broadcast(const BakedTable& t) {
+  return {hn::Set(I(), t.first_byte),
+          hn::Set(I(), t.nodes),
+          hn::Set(I(), t.sorted_axis[0]),
+          hn::Set(I(), t.sorted_axis[1]),
+          all(t.h_scale_m),
+          all(t.h_offset_m),
+          all(t.a_scale),
+          all(t.a_offset)};
 }
+
+template <int kTables>
+HWY_INLINE TableLanes table_of(const Columns& columns, VI column) {
+  const Lookup<kTables> at(column);
+  const auto number = [&](int i) { return at(columns.table[i]); };
+  const auto integer = [&](int i) { return hn::BitCast(I(), at(columns.table[i])); };
+  return {integer(0), integer(1), integer(6), integer(7), number(2), number(3), number(4), number(5)};
+}
+
+/// Between the axes of the proxy, which the table is over, and those by falling radius.
+class AxisOrder {
+ public:
+  explicit HWY_INLINE AxisOrder(const TableLanes& t)
+      : first0_(is(t.axis0, 0)),
+        first1_(is(t.axis0, 1)),
+        first2_(is(t.axis0, 2)),
+        second0_(is(t.axis1, 0)),
+        second1_(is(t.axis1, 1)),
+        second2_(is(t.axis1, 2)) {}
+
+  HWY_INLINE V3 to_proxy(V3 sorted) const {
+    return {choose(first0_, first1_, sorted.x, sorted.y, sorted.z),
+            choose(second0_, second1_, sorted.x, sorted.y, sorted.z),
+            choose(hn::Not(hn::Or(first0_, second0_)), hn::Not(hn::Or(first1_, second1_)), sorted.x, sorted.y,
+                   sorted.z)};
+  }
+  HWY_INLINE V3 to_sorted(V3 proxy) const {
+    return {choose(first0_, second0_, proxy.x, proxy.y, proxy.z),
+            choose(first1_, second1_, proxy.x, proxy.y, proxy.z),
+            choose(first2_, second2_, proxy.x, proxy.y, proxy.z)};
+  }
+
+ private:
+  static HWY_INLINE M is(VI axis, std::int32_t which) {
+    return hn::RebindMask(f, hn::Eq(axis, hn::Set(I(), which)));
+  }
+  static HWY_INLINE V choose(M a, M b, V if_a, V if_b, V otherwise) {
+    return hn::IfThenElse(a, if_a, hn::IfThenElse(b, if_b, otherwise));
+  }
+
+  M first0_, first1_, first2_, second0_, second1_, second2_;
+};
 
 /// sign(v) with sign(0) = +1.
 HWY_INLINE V sign_of(V v) {
@@ -34,7 +89,7 @@ HWY_INLINE Octahedral to_square(V3 w) {
   const V one = all(1.0f);
   Octahedral o;
   o.sign = {sign_of(w.x), sign_of(w.y), sign_of(w.z)};
-  o.inverse = hn::Div(one, hn::Add(hn::Abs(w.x), hn::Add(hn::Abs(w.y), hn::Abs(w.z))));
+  o.inverse = reciprocal(hn::Add(hn::Abs(w.x), hn::Add(hn::Abs(w.y), hn::Abs(w.z))));
   o.flat_x = hn::Mul(w.x, o.inverse);
   o.flat_y = hn::Mul(w.y, o.inverse);
   o.below = hn::Lt(w.z, hn::Zero(f));
@@ -80,11 +135,10 @@ struct Corrected {
 
 /// The part of grad F_k that comes from h and a varying over the sphere: G is d(h + a d) / dw.
 HWY_INLINE V3 tangential(const Shape& s, const Foot& foot, V3 w, V3 slope) {
-  const V one = all(1.0f);
-  const V3 inverse = {hn::Div(one, hn::Add(foot.u, s.gap0)), hn::Div(one, hn::Add(foot.u, s.gap1)),
-                      hn::Div(one, foot.u)};
+  const V3 inverse = {reciprocal(hn::Add(foot.u, s.gap0)), reciprocal(hn::Add(foot.u, s.gap1)),
+                      reciprocal(foot.u)};
   const V3 we = {hn::Mul(w.x, inverse.x), hn::Mul(w.y, inverse.y), hn::Mul(w.z, inverse.z)};
-  const V ratio = hn::Div(dot(slope, we), dot(w, we));
+  const V ratio = hn::Mul(dot(slope, we), reciprocal(dot(w, we)));
   const V3 rest = {hn::NegMulAdd(w.x, ratio, slope.x), hn::NegMulAdd(w.y, ratio, slope.y),
                    hn::NegMulAdd(w.z, ratio, slope.z)};
   const V x = hn::Mul(inverse.x, rest.x);
@@ -96,36 +150,31 @@ HWY_INLINE V3 tangential(const Shape& s, const Foot& foot, V3 w, V3 slope) {
           hn::MulAdd(s.row0.z, x, hn::MulAdd(s.row1.z, y, hn::Mul(s.row2.z, z)))};
 }
 
-HWY_INLINE Corrected corrected(const ReliefTables& relief, const BakedTable& table, const Shape& s,
+HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& table, const Shape& s,
                                const Foot& foot) {
-  if (table.nodes == 0) return {foot.distance, foot.normal};
+  const AxisOrder axes(table);
   const V3 w = {hn::CopySign(foot.w.x, foot.y.x), hn::CopySign(foot.w.y, foot.y.y),
                 hn::CopySign(foot.w.z, foot.y.z)};
-  const Octahedral o = to_square(
-      {pick(w, table.sorted_axis[0]), pick(w, table.sorted_axis[1]), pick(w, table.sorted_axis[2])});
-  const float half = 0.5f * static_cast<float>(table.nodes - 1);
-  const V last = all(static_cast<float>(table.nodes - 2));
-  const V column = hn::MulAdd(o.x, all(half), all(half)), row = hn::MulAdd(o.y, all(half), all(half));
+  const Octahedral o = to_square(axes.to_proxy(w));
+  const V nodes = hn::ConvertTo(f, table.nodes);
+  const V half = hn::MulSub(all(0.5f), nodes, all(0.5f)), last = hn::Sub(nodes, all(2.0f));
+  const V column = hn::MulAdd(o.x, half, half), row = hn::MulAdd(o.y, half, half);
   const V i = hn::Max(hn::Zero(f), hn::Min(hn::Floor(column), last));
   const V j = hn::Max(hn::Zero(f), hn::Min(hn::Floor(row), last));
-  const VI texel = hn::Add(hn::Mul(hn::ConvertTo(I(), j), hn::Set(I(), table.nodes)), hn::ConvertTo(I(), i));
-  const VI at = hn::Add(hn::Add(texel, texel), hn::Set(I(), table.first_byte));
+  const VI texel = hn::ConvertTo(I(), hn::MulAdd(j, nodes, i));  // exact: below 2^24
+  const VI at = hn::Add(hn::Add(texel, texel), table.first_byte);
   const auto* base = reinterpret_cast<const std::int32_t*>(relief.texels.data());
   const VI upper = hn::GatherOffset(I(), base, at);
-  const VI lower = hn::GatherOffset(I(), base, hn::Add(at, hn::Set(I(), 2 * table.nodes)));
+  const VI lower = hn::GatherOffset(I(), base, hn::Add(at, hn::Add(table.nodes, table.nodes)));
   const V u = hn::Sub(column, i), v = hn::Sub(row, j);
-  const Bilinear h = bilinear(upper, lower, 0, u, v, all(table.h_scale_m), all(table.h_offset_m));
-  const Bilinear a = bilinear(upper, lower, 1, u, v, all(table.a_scale), all(table.a_offset));
+  const Bilinear h = bilinear(upper, lower, 0, u, v, table.h_scale, table.h_offset);
+  const Bilinear a = bilinear(upper, lower, 1, u, v, table.a_scale, table.a_offset);
   const V clamped = hn::Min(hn::Max(foot.distance, all(-relief.in_m)), all(relief.out_m));
   const M moving = hn::Eq(clamped, foot.distance);
-  const V gx = hn::Mul(all(half), hn::MulAdd(a.gx, clamped, h.gx));
-  const V gy = hn::Mul(all(half), hn::MulAdd(a.gy, clamped, h.gy));
+  const V gx = hn::Mul(half, hn::MulAdd(a.gx, clamped, h.gx));
+  const V gy = hn::Mul(half, hn::MulAdd(a.gy, clamped, h.gy));
   const V3 slope = from_square(o, gx, gy);
-  V sorted[3];
-  sorted[table.sorted_axis[0]] = slope.x;
-  sorted[table.sorted_axis[1]] = slope.y;
-  sorted[table.sorted_axis[2]] = slope.z;
-  const V3 side = tangential(s, foot, w, {sorted[0], sorted[1], sorted[2]});
+  const V3 side = tangential(s, foot, w, axes.to_sorted(slope));
   const V along_normal = hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f));
   return {hn::Sub(foot.distance, hn::MulAdd(a.value, clamped, h.value)),
           scaled(foot.normal, along_normal) - side};

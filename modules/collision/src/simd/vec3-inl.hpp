@@ -16,7 +16,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::CappedTag<float, 16>;
 using V = hn::Vec<F>;
 using M = hn::Mask<F>;
+using I = hn::RebindToSigned<F>;
+using VI = hn::Vec<I>;
 constexpr F f;
+constexpr int kWidth = static_cast<int>(hn::MaxLanes(F()));
 
 struct V3 {
   V x, y, z;
@@ -27,21 +30,35 @@ HWY_INLINE V all(float value) {
 }
 // Division and square root keep a vector unit busy for ten times as long as an estimate and a Newton step,
 // which is good to two roundings. v must be in [1e-37, 1e37].
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+HWY_INLINE V estimated_inverse_sqrt(V v) {
+  return hn::Div(all(1.0f), hn::Sqrt(v));
+}
+HWY_INLINE V reciprocal(V v) {
+  return hn::Div(all(1.0f), v);
+}
+HWY_INLINE V inverse_sqrt(V v) {
+  return estimated_inverse_sqrt(v);
+}
+#else
+HWY_INLINE V newton_inverse_sqrt(V v, V r) {
+  return hn::Mul(r, hn::NegMulAdd(hn::Mul(hn::Mul(all(0.5f), v), r), r, all(1.5f)));
+}
+/// 1 / sqrt(v) to the share kEstimate, for what only has to bound.
+HWY_INLINE V estimated_inverse_sqrt(V v) {
+  const V r = hn::ApproximateReciprocalSqrt(v);
+  return HWY_TARGET == HWY_NEON ? newton_inverse_sqrt(v, r) : r;  // starts from 8 bits instead of 12
+}
 HWY_INLINE V reciprocal(V v) {
   V r = hn::ApproximateReciprocal(v);
-#if HWY_TARGET == HWY_NEON
-  r = hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f)));  // starts from 8 bits instead of 12
-#endif
+  if (HWY_TARGET == HWY_NEON) r = hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f)));
   return hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f)));
 }
 HWY_INLINE V inverse_sqrt(V v) {
-  V r = hn::ApproximateReciprocalSqrt(v);
-  const V half = hn::Mul(all(0.5f), v);
-#if HWY_TARGET == HWY_NEON
-  r = hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, all(1.5f)));
-#endif
-  return hn::Mul(r, hn::NegMulAdd(hn::Mul(half, r), r, all(1.5f)));
+  return newton_inverse_sqrt(v, estimated_inverse_sqrt(v));
 }
+#endif
+constexpr float kEstimate = 5e-4f;  // 1.5 * 2^-12 at worst
 
 HWY_INLINE V3 operator+(V3 a, V3 b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
@@ -64,6 +81,12 @@ HWY_INLINE V3 select(M m, V3 yes, V3 no) {
 }
 HWY_INLINE V3 absolute(V3 a) {
   return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)};
+}
+HWY_INLINE V3 unit(V3 a) {
+  const V norm2 = dot(a, a);
+  const M fine = hn::Gt(norm2, hn::Zero(f));
+  const V inverse = hn::Div(all(1.0f), hn::Sqrt(hn::IfThenElse(fine, norm2, all(1.0f))));
+  return scaled(a, inverse);
 }
 HWY_INLINE V3 load3(const float* x, const float* y, const float* z) {
   return {hn::Load(f, x), hn::Load(f, y), hn::Load(f, z)};

@@ -1,0 +1,39 @@
+// A lower bound of the distance to an ellipsoid at a seventh of the foot's cost.
+// With k0 = |diag(1/r) R^T (p - c)|, a convex function of p that is 1 on the surface, and k1 / k0 = |grad
+// k0|: k0 at the foot is at least k0(p) + grad k0 . (foot - p), so that the distance outside is at least (k0
+// - 1) k0 / k1; inside, a step of (1 - k0) k0 / k1 along the gradient reaches k0 >= 1, so that the depth is
+// at most that. Near the surface it is the distance to first order.
+// By the same inequality the ellipsoid lies behind the plane at L along the gradient from q, which bounds the
+// distance from below everywhere: d(p) >= L(q) + m(q) . (p - q), m the unit gradient.
+#if defined(BODICE_COLLISION_BOUND_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_BOUND_INL_
+#undef BODICE_COLLISION_BOUND_INL_
+#else
+#define BODICE_COLLISION_BOUND_INL_
+#endif
+
+#include "baked.hpp"
+#include "simd/vec3-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+/// L of one ellipsoid at a vector of points, metres, to the share kEstimate of |L| + the longest radius; NaN
+/// at the centre and where squares overflow, which a caller must take for "no bound".
+HWY_INLINE V lower_bound(const BoundEllipsoid& e, V3 p) {
+  const auto row = [&](const float* a, float offset) {
+    return hn::MulAdd(all(a[0]), p.x, hn::MulAdd(all(a[1]), p.y, hn::MulAdd(all(a[2]), p.z, all(offset))));
+  };
+  const V3 u = {row(e.to_ball, e.offset[0]), row(e.to_ball + 3, e.offset[1]),
+                row(e.to_ball + 6, e.offset[2])};
+  const V3 v = {hn::Mul(u.x, all(e.inverse_radius[0])), hn::Mul(u.y, all(e.inverse_radius[1])),
+                hn::Mul(u.z, all(e.inverse_radius[2]))};
+  const V square = dot(u, u);
+  const V excess = hn::NegMulAdd(square, estimated_inverse_sqrt(square), square);
+  return hn::Mul(excess, estimated_inverse_sqrt(dot(v, v)));
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,87 @@
+// One answer a particle, out of those of its ellipsoids.
+#if defined(BODICE_COLLISION_COMBINE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_COMBINE_INL_
+#undef BODICE_COLLISION_COMBINE_INL_
+#else
+#define BODICE_COLLISION_COMBINE_INL_
+#endif
+
+#include <cstring>
+
+#include "simd/pairs-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+using Batched = Answers<kBatch>;
+
+/// Plain ellipsoids: the nearest; of equals, that of the lowest index.
+HWY_INLINE void combine_nearest(const Pairs& pairs, Batched& out) {
+  const auto& a = pairs.answers;
+  for (int i = 0; i < pairs.count; ++i) {
+    const int lane = pairs.lane[i];
+    if (a.distance[i] > out.distance[lane]) continue;
+    if (a.distance[i] == out.distance[lane] && a.name[i] > out.name[lane]) continue;
+    out.distance[lane] = a.distance[i];
+    out.gx[lane] = a.gx[i];
+    out.gy[lane] = a.gy[i];
+    out.gz[lane] = a.gz[i];
+    out.name[lane] = a.name[i];
+  }
+}
+
+/// (max(0, 1 - (d - least) / blend))^2
+HWY_INLINE V weight_of(V distance, V least, V per_blend) {
+  const V root = hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Sub(distance, least), per_blend, all(1.0f)));
+  return hn::Mul(root, root);
+}
+
+HWY_INLINE void multiply(float* values, V by) {
+  hn::StoreU(hn::Mul(hn::LoadU(f, values), by), f, values);
+}
+
+/// Relief: all within the blending of the nearest, weighted; distance and gradient of the blend, the name of
+/// the nearest. The answers of the pairs are overwritten.
+HWY_INLINE void combine_blended(const ReliefTables& relief, int count, Pairs& pairs, Batched& out) {
+  auto& a = pairs.answers;
+  alignas(64) float least[kBatch], weight[kBatch];
+  alignas(64) float pair_weight[Pairs::kSize];
+  const V per_blend = all(1.0f / relief.blend_m);
+  std::memcpy(least, out.distance, sizeof(least));
+  for (int i = 0; i < pairs.count; ++i) {
+    const int lane = pairs.lane[i];
+    const bool nearer =
+        a.distance[i] < least[lane] || (a.distance[i] == least[lane] && a.name[i] < out.name[lane]);
+    least[lane] = nearer ? a.distance[i] : least[lane];
+    out.name[lane] = nearer ? a.name[i] : out.name[lane];
+  }
+  for (int i = 0; i < count; i += kWidth) {
+    const V w = weight_of(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend);
+    hn::Store(w, f, weight + i);
+    for (float* values : {out.value, out.gx, out.gy, out.gz}) multiply(values + i, w);
+  }
+  hn::StoreU(hn::Zero(I()), I(), pairs.lane + pairs.count);  // a last vector's rest
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    const V near = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
+    const V w = weight_of(hn::Load(f, a.distance + i), near, per_blend);
+    hn::Store(w, f, pair_weight + i);
+    for (float* values : {a.value, a.gx, a.gy, a.gz}) multiply(values + i, w);
+  }
+  for (int i = 0; i < pairs.count; ++i) {
+    const int lane = pairs.lane[i];
+    weight[lane] += pair_weight[i];
+    out.value[lane] += a.value[i];
+    out.gx[lane] += a.gx[i];
+    out.gy[lane] += a.gy[i];
+    out.gz[lane] += a.gz[i];
+  }
+  for (int i = 0; i < count; i += kWidth) {
+    hn::Store(hn::Div(hn::Load(f, out.value + i), hn::Load(f, weight + i)), f, out.distance + i);
+    store3(unit(load3(out.gx + i, out.gy + i, out.gz + i)), out.gx + i, out.gy + i, out.gz + i);
+  }
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
