@@ -11,7 +11,7 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "gust.hpp"
-#include "pack.hpp"
+#include "tiny.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -78,7 +78,7 @@ Air make_air(const geometry::TriMesh& mesh) {
   }
   for (auto* a : {&air.tri_x, &air.tri_y, &air.tri_z}) a->assign(mesh.triangles.size(), 0.0f);
   for (auto* a : {&air.nx, &air.ny, &air.nz, &air.area_m2, &air.wind_x, &air.wind_y, &air.wind_z}) {
-    a->assign(count, 0.0f);
+    a->assign((count + 3) / 4 * 4, 0.0f);
   }
   return air;
 }
@@ -96,22 +96,24 @@ void update_air(const engine::Context& context, const Environment& environment, 
 
 void accelerate(const Environment& environment, const Air& air, float substep_s, std::size_t begin,
                 std::size_t end, Particles& p) {
-  const auto gx = static_cast<float>(environment.gravity_m_s2[0]) * substep_s;
-  const auto gy = static_cast<float>(environment.gravity_m_s2[1]) * substep_s;
-  const auto gz = static_cast<float>(environment.gravity_m_s2[2]) * substep_s;
-  const float pressure = 0.5f * static_cast<float>(environment.air_density_kg_m3) * substep_s;
-  for (std::size_t i = begin; i < end; ++i) {
-    const float free = p.weight[i] > 0.0f ? 1.0f : 0.0f;  // neither pinned nor asleep
-    const float rx = air.wind_x[i] - p.vx[i], ry = air.wind_y[i] - p.vy[i], rz = air.wind_z[i] - p.vz[i];
-    const float speed = std::sqrt(rx * rx + ry * ry + rz * rz);
+  const Float4 gx = splat(static_cast<float>(environment.gravity_m_s2[0]) * substep_s);
+  const Float4 gy = splat(static_cast<float>(environment.gravity_m_s2[1]) * substep_s);
+  const Float4 gz = splat(static_cast<float>(environment.gravity_m_s2[2]) * substep_s);
+  const Float4 pressure = splat(0.5f * static_cast<float>(environment.air_density_kg_m3) * substep_s);
+  for (std::size_t i = begin; i < end; i += 4) {
+    const Float4 vx = load(&p.vx[i]), vy = load(&p.vy[i]), vz = load(&p.vz[i]);
+    const Float4 rx = load(&air.wind_x[i]) - vx, ry = load(&air.wind_y[i]) - vy,
+                 rz = load(&air.wind_z[i]) - vz;
+    const Float4 speed = root(rx * rx + ry * ry + rz * rz);
     // dv/dt = k |r| r, implicit in r: the share k / (1 + k) of the relative velocity is taken over.
-    const float rate = pressure * air.area_m2[i] * speed * p.inverse_mass[i];
-    const float along = rate * kTangentCoefficient / (1.0f + rate * kTangentCoefficient);
-    const float across = rate * kNormalCoefficient / (1.0f + rate * kNormalCoefficient) - along;
-    const float normal = across * (rx * air.nx[i] + ry * air.ny[i] + rz * air.nz[i]);
-    p.vx[i] += free * (gx + along * rx + normal * air.nx[i]);
-    p.vy[i] += free * (gy + along * ry + normal * air.ny[i]);
-    p.vz[i] += free * (gz + along * rz + normal * air.nz[i]);
+    const Float4 rate = pressure * load(&air.area_m2[i]) * speed * load(&p.inverse_mass[i]);
+    const Float4 along = rate * kTangentCoefficient / (1.0f + rate * kTangentCoefficient);
+    const Float4 across = rate * kNormalCoefficient / (1.0f + rate * kNormalCoefficient) - along;
+    const Float4 nx = load(&air.nx[i]), ny = load(&air.ny[i]), nz = load(&air.nz[i]);
+    const Float4 normal = across * (rx * nx + ry * ny + rz * nz);
+    store(&p.vx[i], vx + gx + along * rx + normal * nx);
+    store(&p.vy[i], vy + gy + along * ry + normal * ny);
+    store(&p.vz[i], vz + gz + along * rz + normal * nz);
   }
 }
 

@@ -28,7 +28,8 @@ Air make_air(const geometry::TriMesh& mesh);
 void update_air(const engine::Context& context, const Environment& environment, std::uint64_t seed,
                 double time_s, const Particles& particles, Air& air);
 
-/// Adds gravity and air to the velocities [begin, end) over a substep. Stable for any wind and step: the
+/// Adds gravity and air to the velocities [begin, end) over a substep, four at a time: begin is a multiple of
+/// four, the last four may reach beyond end. Stable for any wind and step: the
 /// relative velocity decays, it never overshoots.
 void accelerate(const Environment& environment, const Air& air, float substep_s, std::size_t begin,
                 std::size_t end, Particles& particles);

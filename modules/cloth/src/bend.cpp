@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bodice/cloth/coloring.hpp>
+#include <bodice/engine/parallel.hpp>
 
-#include "pack.hpp"
+#include "tiny.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -45,58 +45,49 @@ Stencil stencil(const geometry::TriMesh& mesh, const Hinge& h) {
   return s;
 }
 
-// n . K x - rest and the unit normal n; n is zero where the hinge is folded shut.
-template <int kLanes>
-void measure(const BendConstraints& c, std::size_t first, const Particles& p, Lanes<kLanes>& value,
-             Lanes<kLanes> (&n)[3]) {
-  Lanes<kLanes> at[4][3];
-  for (int q = 0; q < 4; ++q) {
-    const Index* corner = &c.corner[static_cast<std::size_t>(q)][first];
-    for (int k = 0; k < kLanes; ++k) at[q][0][k] = p.x[corner[k]];
-    for (int k = 0; k < kLanes; ++k) at[q][1][k] = p.y[corner[k]];
-    for (int k = 0; k < kLanes; ++k) at[q][2][k] = p.z[corner[k]];
-  }
-  const float *k1 = &c.k[1][first], *k2 = &c.k[2][first], *k3 = &c.k[3][first];
-  for (int k = 0; k < kLanes; ++k) {
+struct Bent {
+  Float4 value;       // n . K x - rest
+  Float4 nx, ny, nz;  // unit normal; zero where the hinge is folded shut
+};
+
+Bent measure(const BendConstraints& c, std::size_t first, const Float4 (&at)[4][kPack]) {
+  Float4 e[kPack], f[kPack], bent[kPack];
+  for (std::size_t k = 0; k < kPack; ++k) {
     // Differences to the first corner: the weights sum to zero, and small numbers keep their digits.
-    const float ex = at[1][0][k] - at[0][0][k], ey = at[1][1][k] - at[0][1][k],
-                ez = at[1][2][k] - at[0][2][k];
-    const float cx = at[2][0][k] - at[0][0][k], cy = at[2][1][k] - at[0][1][k],
-                cz = at[2][2][k] - at[0][2][k];
-    const float dx = at[3][0][k] - at[0][0][k], dy = at[3][1][k] - at[0][1][k],
-                dz = at[3][2][k] - at[0][2][k];
-    const float fx = cx - dx, fy = cy - dy, fz = cz - dz;
-    const float nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
-    const float scale = 1.0f / std::sqrt(nx * nx + ny * ny + nz * nz + kTinyLength2);
-    n[0][k] = nx * scale, n[1][k] = ny * scale, n[2][k] = nz * scale;
-    const float bx = k1[k] * ex + k2[k] * cx + k3[k] * dx;
-    const float by = k1[k] * ey + k2[k] * cy + k3[k] * dy;
-    const float bz = k1[k] * ez + k2[k] * cz + k3[k] * dz;
-    value[k] = n[0][k] * bx + n[1][k] * by + n[2][k] * bz - c.rest_m[first + k];
+    const Float4 to_c = at[2][k] - at[0][k], to_d = at[3][k] - at[0][k];
+    e[k] = at[1][k] - at[0][k], f[k] = to_c - to_d;
+    bent[k] = c.k[1][first + k] * e[k] + c.k[2][first + k] * to_c + c.k[3][first + k] * to_d;
   }
+  transpose(e[0], e[1], e[2], e[3]);
+  transpose(f[0], f[1], f[2], f[3]);
+  transpose(bent[0], bent[1], bent[2], bent[3]);
+  const Float4 nx = e[1] * f[2] - e[2] * f[1], ny = e[2] * f[0] - e[0] * f[2], nz = e[0] * f[1] - e[1] * f[0];
+  const Float4 scale = 1.0f / root(nx * nx + ny * ny + nz * nz + kTinyLength2);
+  const Float4 along = nx * bent[0] + ny * bent[1] + nz * bent[2];
+  return {scale * along - load(&c.rest_m[first]), scale * nx, scale * ny, scale * nz};
 }
 
-template <int kLanes>
-void solve_pack(const BendConstraints& c, std::size_t first, float inverse_h2, Particles& p) {
-  Lanes<kLanes> value, n[3], w[4];
-  measure(c, first, p, value, n);
-  for (int k = 0; k < kLanes; ++k) {
-    float weight = c.compliance[first + k] * inverse_h2 + kTinyWeight;
-    for (int q = 0; q < 4; ++q) {
-      const auto corner = static_cast<std::size_t>(q);
-      w[corner][k] = p.weight[c.corner[corner][first + k]];
-      weight += w[corner][k] * c.k[corner][first + k] * c.k[corner][first + k];
-    }
-    value[k] = -value[k] / weight;
+void load_corners(const BendConstraints& c, std::size_t first, const Point* p, Float4 (&at)[4][kPack]) {
+  for (std::size_t q = 0; q < 4; ++q)
+    for (std::size_t k = 0; k < kPack; ++k) at[q][k] = load(p[c.corner[q][first + k]]);
+}
+
+void solve_pack(const BendConstraints& c, std::size_t pack, Float4 inverse_h2, Point* p) {
+  const std::size_t first = pack * kPack;
+  Float4 at[4][kPack], w[4];
+  load_corners(c, first, p, at);
+  const Bent bent = measure(c, first, at);
+  Float4 weight = load(&c.compliance[first]) * inverse_h2 + kTinyWeight;
+  for (std::size_t q = 0; q < 4; ++q) {
+    const Float4 k = load(&c.k[q][first]);
+    w[q] = weights(at[q][0], at[q][1], at[q][2], at[q][3]) * k;
+    weight += w[q] * k;
   }
-  for (int q = 0; q < 4; ++q) {
-    const auto corner = static_cast<std::size_t>(q);
-    for (int k = 0; k < kLanes; ++k) {
-      const Index i = c.corner[corner][first + k];
-      const float move = value[k] * w[corner][k] * c.k[corner][first + k];
-      p.x[i] += move * n[0][k], p.y[i] += move * n[1][k], p.z[i] += move * n[2][k];
-    }
-  }
+  const Float4 move = -bent.value / weight;
+  Float4 m[kPack] = {move * bent.nx, move * bent.ny, move * bent.nz, splat(0.0f)};
+  transpose(m[0], m[1], m[2], m[3]);
+  for (std::size_t q = 0; q < 4; ++q)
+    for (std::size_t k = 0; k < kPack; ++k) store(p[c.corner[q][first + k]], at[q][k] + w[q][k] * m[k]);
 }
 
 }  // namespace
@@ -107,13 +98,12 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
   if (bend_n_m <= 0.0) return out;
   std::vector<Index> corners;
   for (const Hinge& h : topology.hinges) corners.insert(corners.end(), {h.a, h.b, h.c, h.d});
-  const Coloring coloring = color(corners, 4, particles.count());
-  out.color_begin = coloring.begin;
-  for (const std::uint32_t h : coloring.order) {
-    const Stencil s = stencil(mesh, topology.hinges[h]);
+  out.schedule = make_schedule(corners, 4, particles.count());
+  for (std::size_t slot = 0; slot < out.schedule.slot.size(); ++slot) {
+    const std::uint32_t h = out.schedule.slot[slot];
+    const Stencil s = h == kIdle ? Stencil{{}, 0.0, 1.0} : stencil(mesh, topology.hinges[h]);
     for (std::size_t q = 0; q < 4; ++q) {
-      const Index i = corners[4 * h + q];
-      out.corner[q].push_back(i);
+      out.corner[q].push_back(h == kIdle ? out.schedule.idle[slot / kPack] : corners[4 * h + q]);
       out.k[q].push_back(static_cast<float>(s.k[q]));
     }
     out.rest_m.push_back(static_cast<float>(s.rest));
@@ -122,22 +112,33 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
   return out;
 }
 
-void solve_bend(const engine::Context& context, const BendConstraints& constraints, float inverse_h2,
-                Particles& particles) {
-  for_each_pack(context, constraints.color_begin, [&](std::size_t first, auto lanes) {
-    solve_pack<decltype(lanes)::value>(constraints, first, inverse_h2, particles);
-  });
+void solve_bend_block(const BendConstraints& c, std::size_t block, float inverse_h2, Particles& p) {
+  if (c.schedule.packs() == 0) return;
+  for (std::size_t pack = c.schedule.block_begin[block]; pack < c.schedule.block_begin[block + 1]; ++pack)
+    solve_pack(c, pack, splat(inverse_h2), p.point.data());
 }
 
-double bend_energy(const BendConstraints& constraints, const Particles& particles) {
-  double energy = 0.0;
-  for (std::size_t h = 0; h < constraints.count(); ++h) {
-    Lanes<1> value, n[3];
-    measure(constraints, h, particles, value, n);
-    energy += 0.5 * static_cast<double>(value[0]) * static_cast<double>(value[0]) /
-              static_cast<double>(constraints.compliance[h]);
-  }
-  return energy;
+void solve_bend_across(const engine::Context& context, const BendConstraints& c, float inverse_h2,
+                       Particles& p) {
+  for_each_across(context, c.schedule,
+                  [&](std::size_t pack) { solve_pack(c, pack, splat(inverse_h2), p.point.data()); });
+}
+
+double bend_energy(const engine::Context& context, const BendConstraints& c, const Particles& p) {
+  return engine::ordered_reduce(
+      context, c.schedule.packs(), reduce_grain(c.schedule.packs()), 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double energy = 0.0;
+        for (std::size_t pack = begin; pack < end; ++pack) {
+          Float4 at[4][kPack];
+          load_corners(c, pack * kPack, p.point.data(), at);
+          const Float4 value = measure(c, pack * kPack, at).value;
+          const Float4 twice = value * value / load(&c.compliance[pack * kPack]);
+          energy += 0.5 * static_cast<double>(twice[0] + twice[1] + twice[2] + twice[3]);
+        }
+        return energy;
+      },
+      [](double l, double r) { return l + r; });
 }
 
 }  // namespace bodice::cloth

@@ -7,29 +7,33 @@
 #include <bodice/engine/context.hpp>
 
 #include "particles.hpp"
+#include "schedule.hpp"
 #include "topology.hpp"
 
 namespace bodice::cloth {
 
-/// #H each, grouped by colour. The constraint is n . sum_i k_i x_i - rest, n the hinge's normal.
+/// A slot of the schedule each; idle slots have weights of zero. The constraint is n . sum_i k_i x_i - rest,
+/// n the hinge's normal.
 struct BendConstraints {
+  Schedule schedule;
   std::array<std::vector<Index>, 4> corner;  ///< the edge's ends, then the two opposite corners
   std::array<std::vector<float>, 4> k;       ///< cotangent weights, they sum to zero
   std::vector<float> rest_m;
   std::vector<float> compliance;  ///< metres a newton
-  std::vector<std::uint32_t> color_begin;
-
-  std::size_t count() const { return rest_m.size(); }
 };
 
 BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, double bend_n_m,
                           const Particles& particles);
 
-/// One Gauss-Seidel sweep over all colours; `inverse_h2` is sweeps a substep over its length squared.
-void solve_bend(const engine::Context& context, const BendConstraints& constraints, float inverse_h2,
-                Particles& particles);
+/// A Gauss-Seidel sweep is all blocks, in any order, then what lies across them. `inverse_h2` is sweeps a
+/// substep over its length squared.
+void solve_bend_block(const BendConstraints& constraints, std::size_t block, float inverse_h2,
+                      Particles& particles);
+void solve_bend_across(const engine::Context& context, const BendConstraints& constraints, float inverse_h2,
+                       Particles& particles);
 
-/// Potential energy of all hinges, joules. Serial.
-double bend_energy(const BendConstraints& constraints, const Particles& particles);
+/// Potential energy of all hinges, joules.
+double bend_energy(const engine::Context& context, const BendConstraints& constraints,
+                   const Particles& particles);
 
 }  // namespace bodice::cloth

@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <bodice/engine/parallel.hpp>
 
 #include "cloth_distance.hpp"
-#include "pack.hpp"
+#include "tiny.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -35,10 +36,11 @@ void pick_nodes(const geometry::TriMesh& mesh, ClothDistance& distance, double s
 }
 
 void offer_parent(CoarseLevel& level, Index particle, Index node, float share) {
+  Parents& parents = level.parents[particle];
   for (std::size_t k = 0; k < kParents; ++k) {
-    if (share <= level.share[k][particle]) continue;
-    std::swap(share, level.share[k][particle]);
-    std::swap(node, level.parent[k][particle]);
+    if (share <= parents.share[k]) continue;
+    std::swap(share, parents.share[k]);
+    std::swap(node, parents.node[k]);
   }
 }
 
@@ -60,64 +62,60 @@ CoarseLevel make_level(const geometry::TriMesh& mesh, ClothDistance& distance, d
   CoarseLevel level;
   const std::size_t count = mesh.positions.size();
   pick_nodes(mesh, distance, spacing, level);
-  for (std::size_t k = 0; k < kParents; ++k)
-    level.parent[k].assign(count, 0), level.share[k].assign(count, 0.0f);
+  level.parents.assign(count, {});
   std::vector<Index> node_of(count, geometry::kNoIndex);
   for (Index n = 0; n < level.node.size(); ++n) node_of[level.node[n]] = n;
   tie_nodes(distance, spacing, slack, level, node_of);
-  for (std::size_t i = 0; i < count; ++i) {
-    float sum = 0.0f;
-    for (const auto& share : level.share) sum += share[i];
-    for (auto& share : level.share) share[i] /= sum;
+  for (Parents& parents : level.parents) {
+    const float sum = std::accumulate(parents.share.begin(), parents.share.end(), 0.0f);
+    for (float& share : parents.share) share /= sum;
   }
-  for (auto* a : {&level.x, &level.y, &level.z, &level.weight}) a->assign(level.node.size(), 0.0f);
+  level.at.resize(level.node.size()), level.move.resize(level.node.size());
   return level;
 }
 
-void pull(CoarseLevel& level) {
-  for (std::size_t c = 0; c < level.a.size(); ++c) {
-    const Index a = level.a[c], b = level.b[c];
-    const float dx = level.x[a] - level.x[b], dy = level.y[a] - level.y[b], dz = level.z[a] - level.z[b];
-    const float length2 = dx * dx + dy * dy + dz * dz;
-    if (length2 <= level.limit_m[c] * level.limit_m[c]) continue;
-    const float length = std::sqrt(length2);
-    const float scale =
-        (length - level.limit_m[c]) / (length * (level.weight[a] + level.weight[b] + kTinyWeight));
-    const float to_a = -scale * level.weight[a], to_b = scale * level.weight[b];
-    level.x[a] += to_a * dx, level.y[a] += to_a * dy, level.z[a] += to_a * dz;
-    level.x[b] += to_b * dx, level.y[b] += to_b * dy, level.z[b] += to_b * dz;
-  }
+// One tie; true if it was too long.
+bool pull(CoarseLevel& level, std::size_t c) {
+  Point &a = level.at[level.a[c]], &b = level.at[level.b[c]];
+  const Float4 at_a = load(a), at_b = load(b), d = xyz(at_a - at_b), dd = d * d;
+  const float length2 = dd[0] + dd[1] + dd[2], limit = level.limit_m[c];
+  if (length2 <= limit * limit) return false;
+  const float length = std::sqrt(length2);
+  const float scale = (length - limit) / (length * (a.weight + b.weight + kTinyWeight));
+  store(b, at_b + scale * b.weight * d);
+  store(a, at_a - scale * a.weight * d);
+  return true;
+}
+
+bool pull(CoarseLevel& level) {
+  bool any = false;
+  for (std::size_t c = 0; c < level.a.size(); ++c) any = pull(level, c) || any;
+  return any;
 }
 
 // The nodes' displacements, shared out to the particles they carry.
 void carry(const engine::Context& context, const CoarseLevel& level, Particles& p) {
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      float x = 0.0f, y = 0.0f, z = 0.0f;
-      for (std::size_t k = 0; k < kParents; ++k) {
-        const Index n = level.parent[k][i];
-        x += level.share[k][i] * level.x[n];
-        y += level.share[k][i] * level.y[n];
-        z += level.share[k][i] * level.z[n];
-      }
-      const float follow = p.inverse_mass[i] > 0.0f ? p.weight[i] * p.mass[i] : 0.0f;
-      p.x[i] += follow * x, p.y[i] += follow * y, p.z[i] += follow * z;
+      if (p.point[i].weight == 0.0f) continue;
+      const Parents& parents = level.parents[i];
+      Float4 sum = splat(0.0f);
+      for (std::size_t k = 0; k < kParents; ++k) sum += parents.share[k] * load(level.move[parents.node[k]]);
+      store(p.point[i], load(p.point[i]) + sum);
     }
   });
 }
 
 void load_nodes(const Particles& p, CoarseLevel& level) {
   for (std::size_t n = 0; n < level.node.size(); ++n) {
-    const Index i = level.node[n];
-    level.x[n] = p.x[i], level.y[n] = p.y[i], level.z[n] = p.z[i];
+    const Point& from = p.point[level.node[n]];
+    level.at[n].x = from.x, level.at[n].y = from.y, level.at[n].z = from.z;
   }
 }
 
 void to_displacements(const Particles& p, CoarseLevel& level) {
-  for (std::size_t n = 0; n < level.node.size(); ++n) {
-    const Index i = level.node[n];
-    level.x[n] -= p.x[i], level.y[n] -= p.y[i], level.z[n] -= p.z[i];
-  }
+  for (std::size_t n = 0; n < level.node.size(); ++n)
+    store(level.move[n], xyz(load(level.at[n]) - load(p.point[level.node[n]])));
 }
 
 }  // namespace
@@ -136,13 +134,15 @@ std::vector<CoarseLevel> make_coarse(const geometry::TriMesh& mesh, const Topolo
 
 void update_weights(const Particles& p, std::vector<CoarseLevel>& levels) {
   for (CoarseLevel& level : levels) {
-    std::fill(level.weight.begin(), level.weight.end(), 0.0f);
+    for (Point& node : level.at) node.weight = 0.0f;  // masses first
     for (std::size_t i = 0; i < p.count(); ++i) {
-      const float mass = p.weight[i] > 0.0f ? 1.0f / p.weight[i] : kPinnedMass * p.mass[i];
-      for (std::size_t k = 0; k < kParents; ++k) level.weight[level.parent[k][i]] += level.share[k][i] * mass;
+      const float weight = p.point[i].weight, mass = weight > 0.0f ? 1.0f / weight : kPinnedMass * p.mass[i];
+      const Parents& parents = level.parents[i];
+      for (std::size_t k = 0; k < kParents; ++k) level.at[parents.node[k]].weight += parents.share[k] * mass;
     }
     for (std::size_t n = 0; n < level.node.size(); ++n) {
-      level.weight[n] = p.weight[level.node[n]] > 0.0f ? 1.0f / level.weight[n] : 0.0f;
+      float& weight = level.at[n].weight;
+      weight = p.point[level.node[n]].weight > 0.0f ? 1.0f / weight : 0.0f;
     }
   }
 }
@@ -150,7 +150,12 @@ void update_weights(const Particles& p, std::vector<CoarseLevel>& levels) {
 void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& particles) {
   for (CoarseLevel& level : levels) {
     load_nodes(particles, level);
-    for (int sweep = 0; sweep < level.sweeps; ++sweep) pull(level);
+    bool moved = false;
+    for (int sweep = 0; sweep < level.sweeps; ++sweep) {
+      if (!pull(level)) break;  // all within their limits: a further sweep would find the same
+      moved = true;
+    }
+    if (!moved) continue;
     to_displacements(particles, level);
     carry(context, level, particles);
   }

@@ -14,15 +14,20 @@ namespace bodice::cloth {
 
 inline constexpr std::size_t kParents = 4;
 
+/// Nodes that carry a particle.
+struct Parents {
+  std::array<Index, kParents> node = {};
+  std::array<float, kParents> share = {};  ///< they sum to one
+};
+
 struct CoarseLevel {
   int sweeps = 1;
-  std::vector<Index> node;                          ///< #N, the particle at each node
-  std::vector<float> x, y, z;                       ///< #N, metres
-  std::vector<float> weight;                        ///< #N, inverse mass of all that a node stands for
-  std::vector<Index> a, b;                          ///< #C, nodes that must not part further than ...
-  std::vector<float> limit_m;                       ///< ... this
-  std::array<std::vector<Index>, kParents> parent;  ///< #P each, nodes that carry a particle
-  std::array<std::vector<float>, kParents> share;   ///< #P each, they sum to one
+  std::vector<Index> node;       ///< #N, the particle at each node
+  std::vector<Point> at;         ///< #N; its weight is the inverse mass of all that the node stands for
+  std::vector<Point> move;       ///< #N, metres, of the last solve
+  std::vector<Index> a, b;       ///< #C, nodes that must not part further than ...
+  std::vector<float> limit_m;    ///< ... this
+  std::vector<Parents> parents;  ///< #P
 };
 
 /// Levels from the coarsest to the finest; none for a garment of a few edges. The limit is the distance along
@@ -30,7 +35,7 @@ struct CoarseLevel {
 std::vector<CoarseLevel> make_coarse(const geometry::TriMesh& mesh, const Topology& topology,
                                      double median_edge_m, double slack);
 
-/// Sums the inverse masses of the nodes from Particles::weight. Once a frame.
+/// Sums the masses of the nodes from the points' weights. Whenever those change.
 void update_weights(const Particles& particles, std::vector<CoarseLevel>& levels);
 
 /// Pulls nodes together that are further apart than their limit, and the particles with them.

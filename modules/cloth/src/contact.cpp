@@ -4,12 +4,12 @@
 // 2020. - section 3.5 (static friction on positions, zero restitution on velocities)
 #include "contact.hpp"
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
 
-#include "pack.hpp"
+#include "tiny.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -27,23 +27,20 @@ collision::Particles view(Particles& p, bool with_velocities) {
   return v;
 }
 
-void keep_pinned(ContactState& s, Particles& p, std::size_t i) {
-  p.x[i] = s.before_x[i], p.y[i] = s.before_y[i], p.z[i] = s.before_z[i];
-}
-
-void velocity_from_positions(Particles& p, std::size_t i, float inverse_h) {
-  p.vx[i] = (p.x[i] - p.old_x[i]) * inverse_h;
-  p.vy[i] = (p.y[i] - p.old_y[i]) * inverse_h;
-  p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
+void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end, float inverse_h) {
+  for (std::size_t i = begin; i < end; ++i) p.vx[i] = (p.x[i] - p.old_x[i]) * inverse_h;
+  for (std::size_t i = begin; i < end; ++i) p.vy[i] = (p.y[i] - p.old_y[i]) * inverse_h;
+  for (std::size_t i = begin; i < end; ++i) p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
 }
 
 // The push out is `depth` along n. Friction may take back that much times mu of the displacement along the
 // surface; no velocity is left along n.
-void friction_and_velocity(const ContactState& s, Particles& p, std::size_t i, float mu, float inverse_h) {
-  const float px = p.x[i] - s.before_x[i], py = p.y[i] - s.before_y[i], pz = p.z[i] - s.before_z[i];
+void friction_and_velocity(Particles& p, std::size_t i, float mu, float inverse_h) {
+  const Point& before = p.point[i];
+  const float px = p.x[i] - before.x, py = p.y[i] - before.y, pz = p.z[i] - before.z;
   const float depth = std::sqrt(px * px + py * py + pz * pz);
   const float nx = px / depth, ny = py / depth, nz = pz / depth;
-  float dx = p.x[i] - p.old_x[i], dy = p.y[i] - p.old_y[i], dz = p.z[i] - p.old_z[i];
+  const float dx = p.x[i] - p.old_x[i], dy = p.y[i] - p.old_y[i], dz = p.z[i] - p.old_z[i];
   const float along_n = dx * nx + dy * ny + dz * nz;
   const float tx = dx - along_n * nx, ty = dy - along_n * ny, tz = dz - along_n * nz;
   const float slip = std::sqrt(tx * tx + ty * ty + tz * tz);
@@ -52,43 +49,56 @@ void friction_and_velocity(const ContactState& s, Particles& p, std::size_t i, f
   p.vx[i] = kept * tx * inverse_h, p.vy[i] = kept * ty * inverse_h, p.vz[i] = kept * tz * inverse_h;
 }
 
+void respond(Particles& p, ContactState& s, std::size_t i, bool paper, float mu, float inverse_h) {
+  const Point& before = p.point[i];
+  if (p.inverse_mass[i] == 0.0f) p.x[i] = before.x, p.y[i] = before.y, p.z[i] = before.z;
+  s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
+  if (s.touching[i] && !paper) friction_and_velocity(p, i, mu, inverse_h);
+}
+
 }  // namespace
 
 ContactState make_contacts(std::size_t particles) {
   ContactState s;
-  for (auto* a : {&s.before_x, &s.before_y, &s.before_z}) a->assign(particles, 0.0f);
   s.touching.assign(particles, 0);
   return s;
 }
 
-collision::ContactReport finish_substep(const engine::Context& context, const collision::Collider* collider,
-                                        const SolverOptions& options, float friction, float substep_s,
-                                        ContactState& s, Particles& p) {
-  const float inverse_h = 1.0f / substep_s;
-  const bool paper = options.response == collision::Response::kPaper;
-  std::copy(p.x.begin(), p.x.end(), s.before_x.begin());
-  std::copy(p.y.begin(), p.y.end(), s.before_y.begin());
-  std::copy(p.z.begin(), p.z.end(), s.before_z.begin());
-  if (paper || collider == nullptr) {
-    for (std::size_t i = 0; i < p.count(); ++i) velocity_from_positions(p, i, inverse_h);
-  }
-  collision::ContactReport report;
-  if (collider == nullptr) return report;
-  report = collider->resolve(context, view(p, paper),
-                             {.response = options.response,
-                              .thickness_m = static_cast<float>(options.thickness_m),
-                              .friction = paper ? friction : 0.0f,
-                              .max_push_m = kRecovery_m_s * substep_s});
+std::uint32_t take_from_points(const engine::Context& context, Particles& p) {
+  std::atomic<std::uint32_t> limits{0};
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (p.inverse_mass[i] == 0.0f) keep_pinned(s, p, i);
-      s.touching[i] = p.x[i] != s.before_x[i] || p.y[i] != s.before_y[i] || p.z[i] != s.before_z[i];
-      if (paper) continue;
-      if (s.touching[i])
-        friction_and_velocity(s, p, i, friction, inverse_h);
-      else
-        velocity_from_positions(p, i, inverse_h);
+      Point& at = p.point[i];
+      if (!std::isfinite(at.x + at.y + at.z)) {
+        at.x = p.old_x[i], at.y = p.old_y[i], at.z = p.old_z[i];
+        limits.fetch_or(kParticlesReset, std::memory_order_relaxed);
+      }
+      p.x[i] = at.x, p.y[i] = at.y, p.z[i] = at.z;
     }
+  });
+  return limits.load();
+}
+
+collision::ContactReport meet_body(const engine::Context& context, const collision::Collider* collider,
+                                   const SolverOptions& options, float friction, float substep_s,
+                                   ContactState& s, Particles& p) {
+  const float inverse_h = 1.0f / substep_s;
+  const bool paper = options.response == collision::Response::kPaper;
+  auto velocities = [&](std::size_t begin, std::size_t end) {
+    velocities_from_positions(p, begin, end, inverse_h);
+  };
+  if (paper || collider == nullptr) engine::parallel_for(context, p.count(), kParticleGrain, velocities);
+  if (collider == nullptr) return {};
+  const collision::ContactReport report =
+      collider->resolve(context, view(p, paper),
+                        {.response = options.response,
+                         .thickness_m = static_cast<float>(options.thickness_m),
+                         .friction = paper ? friction : 0.0f,
+                         .max_push_m = kRecovery_m_s * substep_s},
+                        s.workspace);
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    if (!paper) velocities(begin, end);
+    for (std::size_t i = begin; i < end; ++i) respond(p, s, i, paper, friction, inverse_h);
   });
   return report;
 }

@@ -10,18 +10,21 @@
 
 namespace bodice::cloth {
 
-/// Scratch of contacts, #P each.
 struct ContactState {
-  std::vector<float> before_x, before_y, before_z;  ///< metres, before the collider's response
-  std::vector<std::uint8_t> touching;               ///< moved by the collider in the last substep
+  std::vector<std::uint8_t> touching;  ///< #P, moved by the collider in the last substep
+  collision::Workspace workspace;
 };
 
 ContactState make_contacts(std::size_t particles);
 
-/// Positions are those after the constraints, old_* those at the start of the substep. Sets the velocities of
-/// all particles. `collider` may be null: no body.
-collision::ContactReport finish_substep(const engine::Context& context, const collision::Collider* collider,
-                                        const SolverOptions& options, float friction, float substep_s,
-                                        ContactState& state, Particles& particles);
+/// Takes the positions from the points, which keep them. A particle that is not finite goes back to where the
+/// substep began. Returns FrameLimit bits.
+std::uint32_t take_from_points(const engine::Context& context, Particles& particles);
+
+/// Positions are those after the constraints, as the points are; old_* those at the start of the substep.
+/// Sets the velocities of all particles. `collider` may be null: no body.
+collision::ContactReport meet_body(const engine::Context& context, const collision::Collider* collider,
+                                   const SolverOptions& options, float friction, float substep_s,
+                                   ContactState& state, Particles& particles);
 
 }  // namespace bodice::cloth

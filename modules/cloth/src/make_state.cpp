@@ -36,10 +36,9 @@ Pins make_pins(const WeldedGarment& garment, std::span<const Index> pinned,
     const bool known =
         v < garment.particle_of_vertex.size() && garment.particle_of_vertex[v] != geometry::kNoIndex;
     pins.particle.push_back(known ? garment.particle_of_vertex[v] : geometry::kNoIndex);
-    pins.from.push_back(known ? garment.mesh.positions[pins.particle.back()] : Vec3(Vec3::Zero()));
+    pins.to.push_back(known ? garment.mesh.positions[pins.particle.back()] : Vec3(Vec3::Zero()));
     if (!known) ++unknown;
   }
-  pins.to = pins.from;
   if (unknown > 0) {
     warnings.push_back({"garment-pins-dropped", "garment",
                         std::to_string(unknown) + " pins name a vertex that does not exist or was dropped.",
@@ -85,10 +84,11 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.bend = make_bend(mesh, topology, fabric.bend_n_m, s.particles);
   s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
   s.air = make_air(mesh);
-  s.self = make_self_contact(mesh, topology, kSelfRadius * welded->median_edge_m);
+  s.self = make_self_contact(s.particles, kSelfRadius * welded->median_edge_m);
+  s.ring = make_ring(mesh, topology);
   s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count());
-  s.scratch.resize(std::max(s.particles.count(), s.stretch.count()));
+  s.scratch.resize(std::max(s.particles.count(), s.stretch.a.size()));
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
   s.input = resting_places(garment, mesh);
   s.particle_of_vertex = std::move(welded->particle_of_vertex);

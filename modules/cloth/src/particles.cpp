@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "schedule.hpp"
+
 namespace bodice::cloth {
 namespace {
 
@@ -53,10 +55,12 @@ Particles make_particles(const geometry::TriMesh& mesh, double density_kg_m2,
                          const std::vector<bool>& pinned) {
   Particles p;
   const std::size_t count = mesh.positions.size();
-  for (auto* array : {&p.x, &p.y, &p.z, &p.old_x, &p.old_y, &p.old_z, &p.vx, &p.vy, &p.vz, &p.mass,
-                      &p.inverse_mass, &p.weight}) {
-    array->assign(count, 0.0f);
+  p.size = count;
+  for (auto* array :
+       {&p.x, &p.y, &p.z, &p.old_x, &p.old_y, &p.old_z, &p.vx, &p.vy, &p.vz, &p.mass, &p.inverse_mass}) {
+    array->assign((count + 3) / 4 * 4, 0.0f);
   }
+  p.point.assign(count + idle_particles(count) + 3, Point{});
   p.origin = geometry::bounding_box(mesh.positions).center();
   const std::vector<double> mass = vertex_masses(mesh, density_kg_m2);
   for (std::size_t i = 0; i < count; ++i) {
@@ -67,7 +71,6 @@ Particles make_particles(const geometry::TriMesh& mesh, double density_kg_m2,
     p.mass[i] = static_cast<float>(mass[i]);
     p.inverse_mass[i] = pinned[i] ? 0.0f : static_cast<float>(1.0 / mass[i]);
   }
-  p.weight = p.inverse_mass;
   return p;
 }
 

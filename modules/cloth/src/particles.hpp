@@ -5,6 +5,8 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
+#include "vec4.hpp"
+
 namespace bodice::cloth {
 
 using geometry::Index;
@@ -14,17 +16,19 @@ using geometry::Vec3;
 /// A pinned particle's mass to a coarse node, in its own masses.
 inline constexpr float kPinnedMass = 1e3f;
 
-/// #P each; world position = origin + (x, y, z).
+/// #P each, up to the next multiple of four; world position = origin + (x, y, z). Within a substep the
+/// positions are in `point`: x, y, z hold them before and after the constraints' part of it.
 struct Particles {
+  std::size_t size = 0;
   Vec3 origin = Vec3::Zero();
   std::vector<float> x, y, z;              ///< metres
   std::vector<float> old_x, old_y, old_z;  ///< metres, at the start of the substep
   std::vector<float> vx, vy, vz;           ///< metres a second
   std::vector<float> mass;                 ///< kilograms, the pinned ones too
   std::vector<float> inverse_mass;         ///< 0: pinned
-  std::vector<float> weight;               ///< inverse mass as the constraints see it
+  std::vector<Point> point;                ///< #P, those that idle slots of a schedule name, three more
 
-  std::size_t count() const { return x.size(); }
+  std::size_t count() const { return size; }
   Vec3 world(std::size_t i) const {
     return origin + Vec3(static_cast<double>(x[i]), static_cast<double>(y[i]), static_cast<double>(z[i]));
   }

@@ -10,16 +10,15 @@ namespace bodice::cloth {
 
 struct Pins {
   std::vector<Index> particle;  ///< one a pin of make(); kNoIndex: dropped
-  std::vector<Vec3> from;       ///< world metres, at the start of the frame
-  std::vector<Vec3> to;         ///< world metres, at its end
+  std::vector<Vec3> to;         ///< world metres, at the end of the frame
 };
 
 void set_pin_targets(std::span<const Vec3> world_positions, Pins& pins);
 
-/// Puts the pins at the share t of their way; after it old_* stays, so that contacts see their path.
-void move_pins(const Pins& pins, double t, Particles& particles);
+/// Gives each pin the velocity that takes it to its target in `time_s`.
+void aim_pins(const Pins& pins, double time_s, Particles& particles);
 
-/// The frame is over: the pins rest where they are.
-void settle_pins(Pins& pins);
+/// The frame is over: the pins are where they were to be, free of rounding.
+void settle_pins(const Pins& pins, Particles& particles);
 
 }  // namespace bodice::cloth

@@ -1,16 +1,11 @@
-// Based on: Matthias Teschner et al. Optimized Spatial Hashing for Collision Detection of Deformable Objects.
-// 2003.
-// Differs: buckets are filled by a counting sort, so that their order is that of the particles.
 #include "self_contact.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
-#include <bodice/engine/random.hpp>
 
-#include "pack.hpp"
+#include "tiny.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -23,127 +18,87 @@ constexpr float kTouchingMass = 8.0f;
 
 constexpr double kFresh = 0.4;  // radii the fastest may travel between searches; half is the bound
 
-struct Cell {
-  int x, y, z;
-};
-
-int to_cell(float value, float inverse_side) {
-  return static_cast<int>(std::floor(std::clamp(value * inverse_side, -1e8f, 1e8f)));
+float distance2(const Point& a, const Point& b) {
+  const Float4 d = load(a) - load(b), dd = d * d;
+  return dd[0] + dd[1] + dd[2];
 }
 
-Index bucket_of(const Cell& c, std::size_t buckets) {
-  const auto x = static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.x));
-  const auto y = static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.y));
-  const auto z = static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.z));
-  return static_cast<Index>(engine::mix64(x * 73856093u ^ y * 19349663u ^ z * 83492791u) & (buckets - 1));
+void offer(const Ring& ring, SelfContact& s, Index i, Index j) {
+  const auto joined = ring.of(i);
+  if (s.close_count[i] == kMaxClose || std::find(joined.begin(), joined.end(), j) != joined.end()) return;
+  const std::size_t at = i * kMaxClose + s.close_count[i]++;
+  s.close[at] = j;
+  s.close_m[at] = std::min(s.radius_m, std::sqrt(distance2(s.rest[i], s.rest[j])));
 }
 
-void sort_into_buckets(const Particles& p, float inverse_side, SelfContact& s) {
-  const std::size_t buckets = s.cell_begin.size() - 1;
-  std::fill(s.cell_begin.begin(), s.cell_begin.end(), 0);
-  for (std::size_t i = 0; i < p.count(); ++i) {
-    const Cell c{to_cell(p.x[i], inverse_side), to_cell(p.y[i], inverse_side), to_cell(p.z[i], inverse_side)};
-    s.bucket[i] = bucket_of(c, buckets);
-    ++s.cell_begin[s.bucket[i] + 1];
-  }
-  for (std::size_t b = 0; b < buckets; ++b) s.cell_begin[b + 1] += s.cell_begin[b];
-  for (std::size_t i = p.count(); i-- > 0;)
-    s.cell_particle[--s.cell_begin[s.bucket[i] + 1]] = static_cast<Index>(i);
-  // Each begin[b + 1] now holds the start of bucket b: shift back.
-  std::rotate(s.cell_begin.begin(), s.cell_begin.begin() + 1, s.cell_begin.end());
-  s.cell_begin[buckets] = static_cast<Index>(p.count());
-}
-
-bool joined(const SelfContact& s, Index i, Index j) {
-  const auto begin = s.ring.begin() + s.ring_begin[i], end = s.ring.begin() + s.ring_begin[i + 1];
-  return std::find(begin, end, j) != end;
-}
-
-void offer(const Particles& p, SelfContact& s, Index i, Index j) {
-  const float x = p.x[i] - p.x[j], y = p.y[i] - p.y[j], z = p.z[i] - p.z[j];
-  const float reach = kSearch * s.radius_m;
-  if (j == i || x * x + y * y + z * z > reach * reach || joined(s, i, j)) return;
-  const std::size_t at = i * kMaxClose;
-  for (std::size_t k = 0; k < s.close_count[i]; ++k) {
-    if (s.close[at + k] == j) return;  // two of the 27 cells may share a bucket
-  }
-  if (s.close_count[i] == kMaxClose) return;
-  s.close_m[at + s.close_count[i]] = std::min(s.radius_m, static_cast<float>((s.rest[i] - s.rest[j]).norm()));
-  s.close[at + s.close_count[i]++] = j;
-}
-
-void find_close(const Particles& p, SelfContact& s, Index i, float inverse_side) {
+void find_close(const Ring& ring, const Particles& p, SelfContact& s, Index i) {
+  const Point& own = p.point[i];
+  const float reach2 = kSearch * kSearch * s.radius_m * s.radius_m;
   s.close_count[i] = 0;
-  const Cell c{to_cell(p.x[i], inverse_side), to_cell(p.y[i], inverse_side), to_cell(p.z[i], inverse_side)};
-  for (int n = 0; n < 27; ++n) {
-    const Cell near{c.x + n % 3 - 1, c.y + n / 3 % 3 - 1, c.z + n / 9 - 1};
-    const Index b = bucket_of(near, s.cell_begin.size() - 1);
-    for (Index k = s.cell_begin[b]; k < s.cell_begin[b + 1]; ++k) offer(p, s, i, s.cell_particle[k]);
-  }
+  s.grid.visit_near(own, [&](const CellGrid::Entry& other) {
+    if (other.particle != i && distance2(own, other.at) <= reach2) offer(ring, s, i, other.particle);
+  });
 }
 
-float yielding(const Particles& p, const std::vector<std::uint8_t>& touching, std::size_t i) {
-  return touching[i] ? p.weight[i] / kTouchingMass : p.weight[i];
+float yielding(const Particles& p, const std::vector<std::uint8_t>& touching, Index i) {
+  return touching[i] ? p.point[i].weight / kTouchingMass : p.point[i].weight;
 }
 
-void correction(const Particles& p, const std::vector<std::uint8_t>& touching, SelfContact& s, std::size_t i) {
+Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching, const SelfContact& s,
+                  Index i) {
   const float own = yielding(p, touching, i);
-  float x = 0.0f, y = 0.0f, z = 0.0f;
-  int pushes = 0;
+  const Float4 at = load(p.point[i]);
+  Float4 sum = splat(0.0f);
+  float pushes = 0.0f;
   for (std::size_t k = i * kMaxClose; k < i * kMaxClose + s.close_count[i]; ++k) {
     const Index j = s.close[k];
-    const float ex = p.x[i] - p.x[j], ey = p.y[i] - p.y[j], ez = p.z[i] - p.z[j];
-    const float length = std::sqrt(ex * ex + ey * ey + ez * ez + kTinyLength2);
-    if (length >= s.close_m[k]) continue;
+    const float length2 = distance2(p.point[i], p.point[j]);
+    if (length2 >= s.close_m[k] * s.close_m[k]) continue;
+    const float length = std::sqrt(length2 + kTinyLength2);
     const float share = own / (own + yielding(p, touching, j) + kTinyWeight);
-    const float move = share * (s.close_m[k] - length) / length;
-    x += move * ex, y += move * ey, z += move * ez;
-    ++pushes;
+    sum += share * (s.close_m[k] - length) / length * xyz(at - load(p.point[j]));
+    pushes += 1.0f;
   }
-  const float scale = pushes > 1 ? 1.0f / static_cast<float>(pushes) : 1.0f;
-  s.dx[i] = scale * x, s.dy[i] = scale * y, s.dz[i] = scale * z;
+  return pushes > 1.0f ? sum / pushes : sum;
 }
 
 }  // namespace
 
-SelfContact make_self_contact(const geometry::TriMesh& mesh, const Topology& topology, double radius_m) {
+SelfContact make_self_contact(const Particles& particles, double radius_m) {
   SelfContact s;
-  const std::size_t count = mesh.positions.size();
+  const std::size_t count = particles.count();
   s.radius_m = static_cast<float>(radius_m);
-  s.rest = mesh.positions;
-  s.ring_begin.assign(count + 1, 0);
-  for (const Edge& e : topology.edges) ++s.ring_begin[e.a + 1], ++s.ring_begin[e.b + 1];
-  for (std::size_t i = 0; i < count; ++i) s.ring_begin[i + 1] += s.ring_begin[i];
-  s.ring.resize(2 * topology.edges.size());
-  std::vector<Index> next(s.ring_begin.begin(), s.ring_begin.end() - 1);
-  for (const Edge& e : topology.edges) s.ring[next[e.a]++] = e.b, s.ring[next[e.b]++] = e.a;
-  s.cell_begin.assign(std::bit_ceil(2 * count) + 1, 0);
-  s.cell_particle.assign(count, 0), s.bucket.assign(count, 0), s.close_count.assign(count, 0);
+  for (std::size_t i = 0; i < count; ++i)
+    s.rest.push_back({particles.x[i], particles.y[i], particles.z[i], 0});
+  s.grid = make_cell_grid(s.rest, kSearch * s.radius_m);
+  s.close_count.assign(count, 0), s.active.assign(count, 0), s.move.assign(count, {});
   s.close.assign(count * kMaxClose, 0), s.close_m.assign(count * kMaxClose, 0.0f);
-  for (auto* a : {&s.dx, &s.dy, &s.dz}) a->assign(count, 0.0f);
   return s;
 }
 
-void find_close_pairs(const engine::Context& context, const Particles& particles, SelfContact& self) {
+void find_close_pairs(const engine::Context& context, const Ring& ring, const Particles& particles,
+                      SelfContact& self) {
   if (!(self.radius_m > 0.0f) || self.travel_m < kFresh * static_cast<double>(self.radius_m)) return;
   self.travel_m = 0.0;
-  const float inverse_side = 1.0f / (kSearch * self.radius_m);
-  sort_into_buckets(particles, inverse_side, self);
-  engine::parallel_for(context, particles.count(), kParticleGrain / 4,
-                       [&](std::size_t begin, std::size_t end) {
-                         for (std::size_t i = begin; i < end; ++i)
-                           find_close(particles, self, static_cast<Index>(i), inverse_side);
-                       });
+  self.grid.fill({particles.point.data(), particles.count()});
+  engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) find_close(ring, particles, self, static_cast<Index>(i));
+  });
+  self.active_count = 0;
+  for (Index i = 0; i < particles.count(); ++i)
+    if (self.close_count[i] > 0) self.active[self.active_count++] = i;
 }
 
 void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, SelfContact& self,
                 Particles& particles) {
-  engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) correction(particles, touching, self, i);
+  engine::parallel_for(context, self.active_count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      store(self.move[k], correction(particles, touching, self, self.active[k]));
   });
-  engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      particles.x[i] += self.dx[i], particles.y[i] += self.dy[i], particles.z[i] += self.dz[i];
+  engine::parallel_for(context, self.active_count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      Point& point = particles.point[self.active[k]];
+      store(point, load(point) + load(self.move[k]));
     }
   });
 }

@@ -7,32 +7,33 @@
 
 #include <bodice/engine/context.hpp>
 
+#include "cell_grid.hpp"
 #include "particles.hpp"
 #include "topology.hpp"
 
 namespace bodice::cloth {
 
-inline constexpr std::size_t kMaxClose = 8;  ///< pairs kept a particle; the nearest in memory order
+inline constexpr std::size_t kMaxClose = 8;  ///< pairs kept a particle; the first in the grid's order
 
 struct SelfContact {
   float radius_m = 0.0f;  ///< particles are kept this far apart, or as far as they were at rest
   double travel_m = std::numeric_limits<double>::infinity();  ///< of the fastest since the pairs were found
-  std::vector<Vec3> rest;                                     ///< #P
-  std::vector<Index> ring_begin, ring;                        ///< edge neighbours, CSR
-  std::vector<Index> cell_begin;                              ///< #buckets + 1
-  std::vector<Index> cell_particle;                           ///< #P, by bucket, ascending inside one
-  std::vector<Index> bucket;                                  ///< #P
-  std::vector<Index> close;                                   ///< #P * kMaxClose
+  CellGrid grid;
+  std::vector<Point> rest;                ///< #P, metres, in the particles' frame of the start
+  std::vector<Index> close;               ///< #P * kMaxClose
   std::vector<float> close_m;             ///< #P * kMaxClose, distance each pair must keep
   std::vector<std::uint8_t> close_count;  ///< #P
-  std::vector<float> dx, dy, dz;          ///< #P, metres, corrections of this sweep
+  std::vector<Index> active;              ///< particles with pairs, ascending; the first active_count
+  std::size_t active_count = 0;
+  std::vector<Point> move;  ///< an active particle each, metres, corrections of this sweep
 };
 
-SelfContact make_self_contact(const geometry::TriMesh& mesh, const Topology& topology, double radius_m);
+SelfContact make_self_contact(const Particles& particles, double radius_m);
 
 /// Finds the pairs nearer than twice the radius, unless none of the last search can have been missed: two
 /// particles that each moved half a radius since are still a radius apart. O(#P).
-void find_close_pairs(const engine::Context& context, const Particles& particles, SelfContact& self);
+void find_close_pairs(const engine::Context& context, const Ring& ring, const Particles& particles,
+                      SelfContact& self);
 
 /// One Jacobi sweep: each particle sums its pairs' corrections from the same positions, so that neither order
 /// nor workers matter. `touching`: who lies on the body, #P.

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bodice/engine/parallel.hpp>
+
+#include "tiny.hpp"
+
 namespace bodice::cloth {
 namespace {
 
@@ -22,31 +26,32 @@ bool sleeps(const Sleep& sleep, std::size_t particle) {
   return sleep.quiet_s[particle] >= kQuiet_s;
 }
 
-void begin_sleep_frame(const Particles& p, Sleep& sleep) {
-  std::copy(p.x.begin(), p.x.end(), sleep.start_x.begin());
-  std::copy(p.y.begin(), p.y.end(), sleep.start_y.begin());
-  std::copy(p.z.begin(), p.z.end(), sleep.start_z.begin());
+void begin_sleep_frame(const Particles& p, std::size_t begin, std::size_t end, Sleep& sleep) {
+  const auto first = static_cast<std::ptrdiff_t>(begin), last = static_cast<std::ptrdiff_t>(end);
+  std::copy(p.x.begin() + first, p.x.begin() + last, sleep.start_x.begin() + first);
+  std::copy(p.y.begin() + first, p.y.begin() + last, sleep.start_y.begin() + first);
+  std::copy(p.z.begin() + first, p.z.begin() + last, sleep.start_z.begin() + first);
 }
 
-void end_sleep_frame(const StretchConstraints& edges, double frame_s, Particles& p, Sleep& sleep) {
+void end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& p,
+                     Sleep& sleep) {
   const auto per_s = static_cast<float>(1.0 / frame_s);
-  for (std::size_t i = 0; i < p.count(); ++i) {
-    const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
-                dz = p.z[i] - sleep.start_z[i];
-    sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
-    const bool slow = sleep.speed[i] < kSlow_m_s;
-    sleep.quiet_s[i] = slow ? std::min(kQuiet_s, sleep.quiet_s[i] + static_cast<float>(frame_s)) : 0.0f;
-  }
-  for (std::size_t e = 0; e < edges.count(); ++e) {
-    const Index a = edges.a[e], b = edges.b[e];
-    if (std::max(sleep.speed[a], sleep.speed[b]) > kWaking_m_s) sleep.quiet_s[a] = sleep.quiet_s[b] = 0.0f;
-  }
-  sleep.asleep = 0;
-  for (std::size_t i = 0; i < p.count(); ++i) {
-    if (!sleeps(sleep, i)) continue;
-    ++sleep.asleep;
-    p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
-  }
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
+                  dz = p.z[i] - sleep.start_z[i];
+      sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
+    }
+  });
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      float around = 0.0f;
+      for (const Index j : ring.of(i)) around = std::max(around, sleep.speed[j]);
+      const bool quiet = sleep.speed[i] < kSlow_m_s && around <= kWaking_m_s;
+      sleep.quiet_s[i] = quiet ? std::min(kQuiet_s, sleep.quiet_s[i] + static_cast<float>(frame_s)) : 0.0f;
+      if (sleeps(sleep, i)) p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
+    }
+  });
 }
 
 void wake_all(Sleep& sleep) {

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <bodice/engine/context.hpp>
+
 #include "particles.hpp"
-#include "stretch.hpp"
+#include "topology.hpp"
 
 namespace bodice::cloth {
 
@@ -13,7 +15,6 @@ struct Sleep {
   std::vector<float> start_x, start_y, start_z;  ///< #P, metres, at the start of the frame
   std::vector<float> speed;                      ///< #P, metres a second, mean over the frame
   std::vector<float> quiet_s;                    ///< #P, how long the particle has been slow
-  std::size_t asleep = 0;
 };
 
 Sleep make_sleep(std::size_t particles);
@@ -21,10 +22,11 @@ Sleep make_sleep(std::size_t particles);
 /// A sleeping particle is one that the constraints cannot move.
 bool sleeps(const Sleep& sleep, std::size_t particle);
 
-void begin_sleep_frame(const Particles& particles, Sleep& sleep);
+void begin_sleep_frame(const Particles& particles, std::size_t begin, std::size_t end, Sleep& sleep);
 
 /// Speeds of the frame; who falls asleep, and who wakes because a neighbour or the body moves it.
-void end_sleep_frame(const StretchConstraints& edges, double frame_s, Particles& particles, Sleep& sleep);
+void end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& particles,
+                     Sleep& sleep);
 
 void wake_all(Sleep& sleep);
 

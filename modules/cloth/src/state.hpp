@@ -29,11 +29,12 @@ struct State {
   std::vector<CoarseLevel> coarse;
   Air air;
   ContactState contacts;
+  Ring ring;
   SelfContact self;
   Sleep sleep;
   Budget budget;
   const collision::Collider* last_collider = nullptr;  ///< compared, never read
-  std::vector<float> scratch;                          ///< max(#P, #E), for medians
+  std::vector<float> scratch;                          ///< max(#P, slots of edges), for medians
   float max_travel_m = 0.0f;                           ///< a substep
   double time_s = 0.0;
 

@@ -9,10 +9,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bodice/cloth/coloring.hpp>
 #include <bodice/engine/parallel.hpp>
 
-#include "pack.hpp"
+#include "tiny.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -25,30 +24,40 @@ double edge_stiffness(const Edge& edge, double length, const Fabric& fabric) {
   return edge.diagonal ? fabric.shear_n_m / shape : fabric.stretch_n_m * shape;
 }
 
-template <int kLanes>
-void solve_pack(const StretchConstraints& c, std::size_t first, float inverse_h2, Particles& p) {
+void solve_pack(const StretchConstraints& c, std::size_t pack, Float4 inverse_h2, Point* p) {
+  const std::size_t first = pack * kPack;
   const Index *a = &c.a[first], *b = &c.b[first];
-  Lanes<kLanes> dx, dy, dz, wa, wb, scale;
-  for (int k = 0; k < kLanes; ++k) {
-    dx[k] = p.x[a[k]] - p.x[b[k]];
-    dy[k] = p.y[a[k]] - p.y[b[k]];
-    dz[k] = p.z[a[k]] - p.z[b[k]];
-    wa[k] = p.weight[a[k]];
-    wb[k] = p.weight[b[k]];
+  Float4 at_a[kPack], at_b[kPack], d[kPack];
+  for (std::size_t k = 0; k < kPack; ++k) {
+    at_a[k] = load(p[a[k]]), at_b[k] = load(p[b[k]]);
+    d[k] = xyz(at_a[k] - at_b[k]);
   }
-  for (int k = 0; k < kLanes; ++k) {
-    const float length = std::sqrt(dx[k] * dx[k] + dy[k] * dy[k] + dz[k] * dz[k] + kTinyLength2);
-    const float w = wa[k] + wb[k];
-    const float soft =
-        (length - c.rest_m[first + k]) / (w + c.compliance[first + k] * inverse_h2 + kTinyWeight);
-    const float hard = (length - c.limit_m[first + k]) / (w + kTinyWeight);
-    scale[k] = std::max(soft, hard) / length;  // hard is above soft only beyond the limit
+  const Float4 wa = weights(at_a[0], at_a[1], at_a[2], at_a[3]);
+  const Float4 wb = weights(at_b[0], at_b[1], at_b[2], at_b[3]);
+  Float4 x = d[0], y = d[1], z = d[2], none = d[3];
+  transpose(x, y, z, none);
+  const Float4 length = root(x * x + y * y + z * z + kTinyLength2);
+  const Float4 w = wa + wb + kTinyWeight;
+  const Float4 soft = (length - load(&c.rest_m[first])) / (w + load(&c.compliance[first]) * inverse_h2);
+  const Float4 hard = (length - load(&c.limit_m[first])) / w;
+  const Float4 scale = max(soft, hard) / length;  // hard is above soft only beyond the limit
+  const Float4 to_a = scale * wa, to_b = scale * wb;
+  for (std::size_t k = 0; k < kPack; ++k) {
+    store(p[a[k]], at_a[k] - to_a[k] * d[k]);
+    store(p[b[k]], at_b[k] + to_b[k] * d[k]);
   }
-  for (int k = 0; k < kLanes; ++k) {
-    const float to_a = -scale[k] * wa[k], to_b = scale[k] * wb[k];
-    p.x[a[k]] += to_a * dx[k], p.y[a[k]] += to_a * dy[k], p.z[a[k]] += to_a * dz[k];
-    p.x[b[k]] += to_b * dx[k], p.y[b[k]] += to_b * dy[k], p.z[b[k]] += to_b * dz[k];
-  }
+}
+
+// Strains of a pack and twice its energy.
+Float4 measure_pack(const StretchConstraints& c, std::size_t pack, const Point* p, Float4& strain) {
+  const std::size_t first = pack * kPack;
+  Float4 d[kPack];
+  for (std::size_t k = 0; k < kPack; ++k) d[k] = load(p[c.a[first + k]]) - load(p[c.b[first + k]]);
+  transpose(d[0], d[1], d[2], d[3]);
+  const Float4 rest = load(&c.rest_m[first]);
+  const Float4 longer = root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - rest;
+  strain = longer / (rest + 1e-30f);
+  return longer * longer / load(&c.compliance[first]);
 }
 
 }  // namespace
@@ -57,37 +66,49 @@ StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& t
                                 const Particles& particles) {
   std::vector<Index> ends;
   for (const Edge& edge : topology.edges) ends.push_back(edge.a), ends.push_back(edge.b);
-  const Coloring coloring = color(ends, 2, particles.count());
   StretchConstraints out;
-  out.color_begin = coloring.begin;
-  for (const std::uint32_t e : coloring.order) {
-    const Edge& edge = topology.edges[e];
-    const double length = (mesh.positions[edge.a] - mesh.positions[edge.b]).norm();
+  out.schedule = make_schedule(ends, 2, particles.count());
+  for (std::size_t slot = 0; slot < out.schedule.slot.size(); ++slot) {
+    const std::uint32_t e = out.schedule.slot[slot];
+    const Index idle = out.schedule.idle[slot / kPack];
+    const Edge edge = e == kIdle ? Edge{idle, idle, 0.0, false} : topology.edges[e];
+    const double length = e == kIdle ? 0.0 : (mesh.positions[edge.a] - mesh.positions[edge.b]).norm();
     out.a.push_back(edge.a), out.b.push_back(edge.b);
     out.rest_m.push_back(static_cast<float>(length));
     out.limit_m.push_back(static_cast<float>(length * (1.0 + fabric.max_stretch)));
-    const double stiffness = edge_stiffness(edge, length, fabric);
+    const double stiffness = e == kIdle ? 1.0 : edge_stiffness(edge, length, fabric);
     out.compliance.push_back(static_cast<float>(1.0 / std::max(stiffness, 1e-9)));
   }
+  out.edges = topology.edges.size();
   return out;
 }
 
-void solve_stretch(const engine::Context& context, const StretchConstraints& constraints, float inverse_h2,
-                   Particles& particles) {
-  for_each_pack(context, constraints.color_begin, [&](std::size_t first, auto lanes) {
-    solve_pack<decltype(lanes)::value>(constraints, first, inverse_h2, particles);
-  });
+void solve_stretch_block(const StretchConstraints& c, std::size_t block, float inverse_h2, Particles& p) {
+  for (std::size_t pack = c.schedule.block_begin[block]; pack < c.schedule.block_begin[block + 1]; ++pack)
+    solve_pack(c, pack, splat(inverse_h2), p.point.data());
 }
 
-double stretch_energy(const StretchConstraints& c, const Particles& p) {
-  double energy = 0.0;
-  for (std::size_t e = 0; e < c.count(); ++e) {
-    const float dx = p.x[c.a[e]] - p.x[c.b[e]], dy = p.y[c.a[e]] - p.y[c.b[e]],
-                dz = p.z[c.a[e]] - p.z[c.b[e]];
-    const double stretch = static_cast<double>(std::sqrt(dx * dx + dy * dy + dz * dz) - c.rest_m[e]);
-    energy += 0.5 * stretch * stretch / static_cast<double>(c.compliance[e]);
-  }
-  return energy;
+void solve_stretch_across(const engine::Context& context, const StretchConstraints& c, float inverse_h2,
+                          Particles& p) {
+  for_each_across(context, c.schedule,
+                  [&](std::size_t pack) { solve_pack(c, pack, splat(inverse_h2), p.point.data()); });
+}
+
+double measure_stretch(const engine::Context& context, const StretchConstraints& c, const Particles& p,
+                       std::span<float> strain) {
+  return engine::ordered_reduce(
+      context, c.schedule.packs(), reduce_grain(c.schedule.packs()), 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double energy = 0.0;
+        for (std::size_t pack = begin; pack < end; ++pack) {
+          Float4 own;
+          const Float4 twice = measure_pack(c, pack, p.point.data(), own);
+          store(&strain[pack * kPack], own);
+          energy += 0.5 * static_cast<double>(twice[0] + twice[1] + twice[2] + twice[3]);
+        }
+        return energy;
+      },
+      [](double l, double r) { return l + r; });
 }
 
 }  // namespace bodice::cloth

@@ -1,35 +1,40 @@
 // Edges as distance constraints with a physical compliance and a strain limit.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <bodice/cloth/fabric.hpp>
 #include <bodice/engine/context.hpp>
 
 #include "particles.hpp"
+#include "schedule.hpp"
 #include "topology.hpp"
 
 namespace bodice::cloth {
 
-/// #E each, grouped by colour.
+/// A slot of the schedule each; idle slots are edges of no length and no weight.
 struct StretchConstraints {
+  Schedule schedule;
+  std::size_t edges = 0;
   std::vector<Index> a, b;
   std::vector<float> rest_m;
   std::vector<float> limit_m;     ///< longest length allowed
   std::vector<float> compliance;  ///< metres a newton
-  std::vector<std::uint32_t> color_begin;
-
-  std::size_t count() const { return a.size(); }
 };
 
 StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
                                 const Particles& particles);
 
-/// One Gauss-Seidel sweep over all colours; `inverse_h2` is sweeps a substep over its length squared.
-void solve_stretch(const engine::Context& context, const StretchConstraints& constraints, float inverse_h2,
-                   Particles& particles);
+/// A Gauss-Seidel sweep is all blocks, in any order, then what lies across them. `inverse_h2` is sweeps a
+/// substep over its length squared.
+void solve_stretch_block(const StretchConstraints& constraints, std::size_t block, float inverse_h2,
+                         Particles& particles);
+void solve_stretch_across(const engine::Context& context, const StretchConstraints& constraints,
+                          float inverse_h2, Particles& particles);
 
-/// Potential energy of all edges, joules. Serial.
-double stretch_energy(const StretchConstraints& constraints, const Particles& particles);
+/// Potential energy of all edges, joules, and the strain of each slot (0 of idle ones).
+double measure_stretch(const engine::Context& context, const StretchConstraints& constraints,
+                       const Particles& particles, std::span<float> strain);
 
 }  // namespace bodice::cloth

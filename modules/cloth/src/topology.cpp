@@ -59,4 +59,15 @@ Topology find_topology(const TriMesh& mesh) {
   return out;
 }
 
+Ring make_ring(const TriMesh& mesh, const Topology& topology) {
+  Ring ring;
+  ring.begin.assign(mesh.positions.size() + 1, 0);
+  for (const Edge& e : topology.edges) ++ring.begin[e.a + 1], ++ring.begin[e.b + 1];
+  for (std::size_t i = 1; i < ring.begin.size(); ++i) ring.begin[i] += ring.begin[i - 1];
+  ring.neighbour.resize(2 * topology.edges.size());
+  std::vector<Index> next(ring.begin.begin(), ring.begin.end() - 1);
+  for (const Edge& e : topology.edges) ring.neighbour[next[e.a]++] = e.b, ring.neighbour[next[e.b]++] = e.a;
+  return ring;
+}
+
 }  // namespace bodice::cloth

@@ -1,6 +1,7 @@
 // What the constraints hang on: the edges of a welded garment and the hinges across them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <bodice/geometry/tri_mesh.hpp>
@@ -24,6 +25,18 @@ struct Topology {
   std::vector<Edge> edges;    ///< sorted by (a, b)
   std::vector<Hinge> hinges;  ///< in the order of their edges; k - 1 for an edge with k triangles
 };
+
+/// The particles that edges join to each, in CSR form.
+struct Ring {
+  std::vector<Index> begin;  ///< #P + 1, offsets into neighbour
+  std::vector<Index> neighbour;
+
+  std::span<const Index> of(std::size_t i) const {
+    return {neighbour.data() + begin[i], neighbour.data() + begin[i + 1]};
+  }
+};
+
+Ring make_ring(const geometry::TriMesh& mesh, const Topology& topology);
 
 /// O(n log n). The winding of the triangles does not matter.
 Topology find_topology(const geometry::TriMesh& mesh);
