@@ -6,6 +6,7 @@
 #include <bodice/engine/random.hpp>
 
 #include "made.hpp"
+#include "remesh.hpp"
 
 using namespace bodice;
 using body::LandmarkId;
@@ -82,6 +83,65 @@ TEST_CASE("turn, place, scale and the order of vertices do not change the answer
     for (std::size_t v = 0; v < order.size(); ++v) differ += found->part[order[v]] != reference->part[v];
     CHECK(differ < order.size() / 200);
   }
+}
+
+TEST_CASE("finer and coarser meshes of one body give the same landmarks") {
+  synth::BodyOptions options;
+  options.vertices = 12500;
+  const auto body = synth::make_body({}, options);
+  REQUIRE(body.ok());
+  const auto reference = analyse(body->mesh);
+  REQUIRE(reference.ok());
+  const auto same_as_reference = [&](const geometry::TriMesh& mesh) {
+    const auto found = analyse(mesh);
+    REQUIRE(found.ok());
+    for (int i = 0; i < body::kLandmarkCount; ++i) {
+      CAPTURE(std::string(body::kLandmarkNames[i]));
+      CHECK((reference->landmarks[i].position - found->landmarks[i].position).norm() <
+            0.01 * reference->stature_m);
+    }
+    CHECK(found->stature_m == doctest::Approx(reference->stature_m).epsilon(0.01));
+  };
+  const auto fine = remesh::refined(remesh::refined(body->mesh));
+  CHECK(fine.positions.size() > 190000);
+  same_as_reference(fine);
+  const auto coarse = remesh::decimated(body->mesh, 1500);
+  CHECK(coarse.positions.size() <= 1500);
+  same_as_reference(coarse);
+}
+
+TEST_CASE("a forearm welded to the trunk in one vertex is taken apart, and said") {
+  synth::BodyOptions options;
+  options.vertices = 5000;
+  options.pose = synth::Pose::kArmsDown;
+  const auto body = synth::make_body({}, options);
+  REQUIRE(body.ok());
+  const auto reference = analyse(body->mesh);
+  REQUIRE(reference.ok());
+  geometry::Index arm = 0, other = 0;
+  double least = 1e9;
+  for (geometry::Index v = 0; v < body->part.size(); ++v)
+    for (geometry::Index w = 0; w < body->part.size() && body->part[v] == body::Part::kForearmL; ++w) {
+      const bool apart = body->part[w] == body::Part::kThighL || body->part[w] == body::Part::kTorsoLL;
+      const double d = (body->mesh.positions[v] - body->mesh.positions[w]).norm();
+      if (apart && d < least) {
+        least = d;
+        arm = v;
+        other = w;
+      }
+    }
+  geometry::TriMesh welded = body->mesh;
+  for (auto& t : welded.triangles)
+    for (auto& v : t)
+      if (v == arm) v = other;
+  const auto found = analyse(welded);
+  REQUIRE(found.ok());
+  std::size_t differ = 0;
+  for (std::size_t v = 0; v < found->part.size(); ++v)
+    differ += v != arm && found->part[v] != reference->part[v];
+  CHECK(differ < found->part.size() / 100);
+  CHECK(std::any_of(found->warnings.begin(), found->warnings.end(),
+                    [](const engine::Warning& w) { return w.code == "skin-touches"; }));
 }
 
 TEST_CASE("any number of workers gives the same bits") {

@@ -6,6 +6,7 @@
 
 #include "nearest_signature.hpp"
 #include "shoulder_level.hpp"
+#include "soft_place.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -78,19 +79,22 @@ void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& 
   const float merge_forward =
       merge_.at.found() ? value_at(skin, merge_.at, from_back_) - value_at(skin, merge_.at, from_front_)
                         : 0.0F;
+  const auto distance2 = [&](std::size_t v) {
+    return kPerineum.distance2({(left_foot[v] + right_foot[v]) / (2.0F * half_way),
+                                (left_foot[v] - right_foot[v]) / ends_.feet_apart,
+                                (left_hand[v] - right_hand[v] - tilt) / ends_.hands_apart,
+                                from_front_[v] / size_, from_back_[v] / size_,
+                                0.5F * (merge_forward - from_back_[v] + from_front_[v]) / size_});
+  };
   const NearestSignature found = nearest_signature(
       context, left_foot.size(),
       [&](std::size_t v) {
         const float feet = left_foot[v] + right_foot[v];
         return feet > 2.0F * kPerineumFrom * ends_.feet_apart && feet < 2.0F * kPerineumTo * ends_.feet_apart;
       },
-      [&](std::size_t v) {
-        return kPerineum.distance2({(left_foot[v] + right_foot[v]) / (2.0F * half_way),
-                                    (left_foot[v] - right_foot[v]) / ends_.feet_apart,
-                                    (left_hand[v] - right_hand[v] - tilt) / ends_.hands_apart,
-                                    from_front_[v] / size_, from_back_[v] / size_,
-                                    0.5F * (merge_forward - from_back_[v] + from_front_[v]) / size_});
-      });
+      distance2);
+  perineum_place_ = soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(size_),
+                               [&](Index v) { return std::exp(-0.5F * distance2(v)); });
   perineum_ = found.vertex;
   perineum_misfit_ = found.misfit;
 }

@@ -16,6 +16,7 @@ class BodyCoordinates {
   /// side 0: seen from the body's left, 1: from its right.
   CoordinateArray at(std::size_t vertex, int side) const;
   geometry::Index perineum() const { return perineum_; }
+  const geometry::Vec3& perineum_place() const { return perineum_place_; }
   float perineum_misfit() const { return perineum_misfit_; }
   const geodesic::Field& from_perineum() const { return from_perineum_; }
   /// False where no closed line runs around the middle, for instance on welded limbs.
@@ -38,6 +39,7 @@ class BodyCoordinates {
   LegMerge merge_;
   geodesic::Field from_front_, from_back_, from_perineum_;
   geometry::Index perineum_ = geometry::kNoIndex;
+  geometry::Vec3 perineum_place_ = geometry::Vec3::Zero();
   float perineum_misfit_ = 0.0F;
   float size_ = 0.0F;
   float trunk_ = 0.0F;  ///< perineum to crown along the skin

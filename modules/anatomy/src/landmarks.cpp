@@ -4,6 +4,7 @@
 
 #include "curve.hpp"
 #include "nearest_signature.hpp"
+#include "soft_place.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -27,6 +28,8 @@ constexpr float kNearShoulder = 0.06F, kArmpitDetour = 1.10F;
 /// under the arm: ways over the neck are shorter on heavy bodies.
 constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
 constexpr float kLeastHalfChest = 0.02F;  // of the size
+/// How much nearer to the feet the dome of the head reaches, of head to feet plus foot to foot.
+constexpr float kDome = 0.02F;
 /// A signature this many deviations off is no evidence any more.
 constexpr double kHopelessMisfit = 12.0;
 
@@ -67,9 +70,15 @@ float half_chest(const BodyCoordinates& coordinates, int side) {
   return least;
 }
 
-void find_armpit(const engine::Context& context, const BodyCoordinates& coordinates, int side,
-                 Landmarks& marks) {
+void find_armpit(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
+                 int side, Landmarks& marks) {
   const float half = std::max(half_chest(coordinates, side), kLeastHalfChest);
+  const auto distance2 = [&](std::size_t v) {
+    const CoordinateArray x = coordinates.at(v, side);
+    return kArmpit.distance2({x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack],
+                              x[kFromPerineum], x[kPastShoulder], (x[kFromFront] - x[kFromBack]) / half,
+                              (x[kFromFront] + x[kFromBack]) / half, x[kHandFootDetour]});
+  };
   const NearestSignature found = nearest_signature(
       context, coordinates.from_perineum().size(),
       [&](std::size_t v) {
@@ -77,12 +86,10 @@ void find_armpit(const engine::Context& context, const BodyCoordinates& coordina
         return x[kOwnHand] > kArmpitFrom && x[kOwnHand] < kArmpitTo &&
                std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
       },
-      [&](std::size_t v) {
-        const CoordinateArray x = coordinates.at(v, side);
-        return kArmpit.distance2({x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack],
-                                  x[kFromPerineum], x[kPastShoulder], (x[kFromFront] - x[kFromBack]) / half,
-                                  (x[kFromFront] + x[kFromBack]) / half, x[kHandFootDetour]});
-      });
+      distance2);
+  marks.armpit_place[side] =
+      soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(coordinates.size_m()),
+                 [&](Index v) { return std::exp(-0.5F * distance2(v)); });
   marks.armpit[side] = found.vertex;
   marks.armpit_confidence[side] = confidence_of(found.misfit);
 }
@@ -90,6 +97,20 @@ void find_armpit(const engine::Context& context, const BodyCoordinates& coordina
 body::Landmark at_vertex(const Skin& skin, Index v, double confidence) {
   if (v == kNoIndex) return {};
   return {body::LandmarkId::kCrown, skin.mesh.positions[v], v, confidence};
+}
+
+body::Landmark at_place(const geometry::Vec3& place, Index v, double confidence) {
+  if (v == kNoIndex) return {};
+  return {body::LandmarkId::kCrown, place, v, confidence};
+}
+
+/// The crown is the top of a dome: what lies nearly as far from the feet as its farthest vertex has a share.
+geometry::Vec3 crown_place(const Skin& skin, const BodyEnds& ends) {
+  const auto reach = [&](Index v) { return (*ends.from_foot[0])[v] + (*ends.from_foot[1])[v]; };
+  const float dome = kDome * (ends.head_to_feet + ends.feet_apart);
+  const float top = reach(ends.head);
+  return soft_place(skin, ends.head, static_cast<double>(2.0F * dome),
+                    [&](Index v) { return std::max(0.0F, dome - std::abs(top - reach(v))); });
 }
 
 body::Landmark at_girth(const Girth& girth) {
@@ -102,6 +123,7 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
                          const BodyCoordinates& coordinates) {
   Landmarks marks;
   marks.perineum = coordinates.perineum();
+  marks.perineum_place = coordinates.perineum_place();
   marks.perineum_confidence = confidence_of(coordinates.perineum_misfit());
   constexpr std::size_t kTasks = 7;  // the neck, and elbow, knee and armpit of both sides
   engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
@@ -111,25 +133,26 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
       marks.elbow[side] = border_loop(skin, coordinates, kElbow, 0.0F, side, kOwnHand, kElbowReach);
     if (task == 2 || task == 3)
       marks.knee[side] = border_loop(skin, coordinates, kKnee, kKneeBeyond, side, kOwnFoot, kKneeReach);
-    if (task == 4 || task == 5) find_armpit(context, coordinates, side, marks);
+    if (task == 4 || task == 5) find_armpit(context, skin, coordinates, side, marks);
   });
   return marks;
 }
 
 std::vector<body::Landmark> as_list(const Skin& skin, const BodyEnds& ends, const Landmarks& marks) {
-  std::vector<body::Landmark> list{at_vertex(skin, ends.head, 1.0),
-                                   at_girth(marks.neck),
-                                   at_vertex(skin, ends.hand[0], 1.0),
-                                   at_vertex(skin, ends.hand[1], 1.0),
-                                   at_girth(marks.elbow[0]),
-                                   at_girth(marks.elbow[1]),
-                                   at_vertex(skin, marks.armpit[0], marks.armpit_confidence[0]),
-                                   at_vertex(skin, marks.armpit[1], marks.armpit_confidence[1]),
-                                   at_vertex(skin, marks.perineum, marks.perineum_confidence),
-                                   at_girth(marks.knee[0]),
-                                   at_girth(marks.knee[1]),
-                                   at_vertex(skin, ends.foot[0], 1.0),
-                                   at_vertex(skin, ends.foot[1], 1.0)};
+  std::vector<body::Landmark> list{
+      at_place(crown_place(skin, ends), ends.head, 1.0),
+      at_girth(marks.neck),
+      at_vertex(skin, ends.hand[0], 1.0),
+      at_vertex(skin, ends.hand[1], 1.0),
+      at_girth(marks.elbow[0]),
+      at_girth(marks.elbow[1]),
+      at_place(marks.armpit_place[0], marks.armpit[0], marks.armpit_confidence[0]),
+      at_place(marks.armpit_place[1], marks.armpit[1], marks.armpit_confidence[1]),
+      at_place(marks.perineum_place, marks.perineum, marks.perineum_confidence),
+      at_girth(marks.knee[0]),
+      at_girth(marks.knee[1]),
+      at_vertex(skin, ends.foot[0], 1.0),
+      at_vertex(skin, ends.foot[1], 1.0)};
   for (int i = 0; i < body::kLandmarkCount; ++i) list[i].id = static_cast<body::LandmarkId>(i);
   return list;
 }

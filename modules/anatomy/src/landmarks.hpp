@@ -19,8 +19,10 @@ struct Landmarks {
   Girth neck;
   std::array<Girth, 2> elbow, knee;
   std::array<geometry::Index, 2> armpit{};
+  std::array<geometry::Vec3, 2> armpit_place{};
   std::array<double, 2> armpit_confidence{};
   geometry::Index perineum = geometry::kNoIndex;
+  geometry::Vec3 perineum_place = geometry::Vec3::Zero();
   double perineum_confidence = 0.0;
 };
 

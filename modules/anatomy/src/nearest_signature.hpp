@@ -8,6 +8,9 @@
 
 namespace bodice::anatomy {
 
+/// How far around the best vertex its neighbours share in the place, of the size.
+inline constexpr double kPlaceRadius = 0.05;
+
 struct NearestSignature {
   geometry::Index vertex = 0;
   float misfit = std::numeric_limits<float>::infinity();  ///< in deviations among bodies
