@@ -1,16 +1,22 @@
-// fit DATA_FOLDER [--tier T] [--count N]... [--body NAME]... [--threads N] [--seconds S]
-// CSV: one line a (body, tier, count) with the fit's own report and the error of the signed distance at
-// points within 30 mm of the skin.
-#include <chrono>
+// fit [DATA_FOLDER] [--tier T]... [--count N]... [--body NAME]... [--synth SEED]... [--svg FILE] [--threads
+// N]
+//     [--seconds S]
+// fit ... --target MM... | --budget US...    what was asked for beside what was achieved
+// CSV: one line a (body, tier, count) with the fit's own report, the error of the signed distance at points
+// within 30 mm of the skin, and what a query costs.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include <bodice/engine/random.hpp>
 #include <bodice/fitting/fit.hpp>
 
+#include "front_svg.hpp"
 #include "near_skin.hpp"
+#include "query_cost.hpp"
 #include "real_body.hpp"
 
 namespace {
@@ -22,6 +28,9 @@ struct Arguments {
   std::vector<proxy::Tier> tiers;
   std::vector<int> counts;
   std::vector<std::string> bodies;
+  std::vector<int> seeds;
+  std::vector<double> targets_mm, budgets_us;
+  std::filesystem::path svg;
   int threads = 2;
   double seconds = 2.0;
 };
@@ -37,6 +46,14 @@ Arguments parse(int argc, char** argv) {
       a.counts.push_back(std::stoi(argv[++i]));
     } else if (word == "--body" && has_value) {
       a.bodies.emplace_back(argv[++i]);
+    } else if (word == "--synth" && has_value) {
+      a.seeds.push_back(std::stoi(argv[++i]));
+    } else if (word == "--target" && has_value) {
+      a.targets_mm.push_back(std::stod(argv[++i]));
+    } else if (word == "--budget" && has_value) {
+      a.budgets_us.push_back(std::stod(argv[++i]));
+    } else if (word == "--svg" && has_value) {
+      a.svg = argv[++i];
     } else if (word == "--threads" && has_value) {
       a.threads = std::stoi(argv[++i]);
     } else if (word == "--seconds" && has_value) {
@@ -48,7 +65,7 @@ Arguments parse(int argc, char** argv) {
   using proxy::Tier;
   if (a.tiers.empty()) a.tiers = {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief};
   if (a.counts.empty()) a.counts = {8, 16, 32, 55, 89, 200, 400};
-  if (a.bodies.empty()) a.bodies = {"bodies/f_avg_rest"};
+  if (a.bodies.empty() && a.seeds.empty()) a.seeds = {1};
   return a;
 }
 
@@ -59,18 +76,123 @@ double stage_ms(const fitting::FitResult& result, std::string_view name) {
   return ms;
 }
 
-void print_line(const std::string& name, const fitting::FitResult& r, const fit_bench::NearSkin& near) {
+void print_line(const std::string& name, const fitting::FitResult& r, const fit_bench::NearSkin& near,
+                double query_ns) {
   const auto& a = r.accuracy;
   std::printf(
       "%s,%s,%zu,%zu,%.1f,%.1f,%.1f,%.1f,%.3f,%.3f,%.2f,%.3f,%.3f,%.2f,%.3f,%.3f,%.3f,%.3f,%.2f,%d,%.2f,%."
-      "2f\n",
+      "2f,%.1f\n",
       name.c_str(), std::string(proxy::name(r.proxy.tier())).c_str(), r.proxy.ellipsoids().size(),
       r.proxy.bytes(), stage_ms(r, "fit"), stage_ms(r, "tight"), stage_ms(r, "relief"),
       stage_ms(r, "measure"), 1e3 * a.gap_m.mean, 1e3 * a.gap_m.p95, 1e3 * a.gap_m.max,
       a.interior_covered_percent, a.skin_outside_percent, 1e3 * a.skin_outside_depth_m, near.mean_mm,
       near.p95_mm, near.missed_percent, near.false_percent, near.max_mm, near.deep_leaks, 1e3 * r.mu_torso_m,
-      1e3 * r.mu_limbs_m);
+      1e3 * r.mu_limbs_m, query_ns);
   std::fflush(stdout);
+}
+
+struct Subject {
+  std::string name;
+  fit_bench::LabelledBody body;
+  geometry::MeshDistance distance;
+  std::vector<fit_bench::Probe> probes;
+
+  Subject(const engine::Context& context, std::string called, fit_bench::LabelledBody made)
+      : name(std::move(called)),
+        body(std::move(made)),
+        distance(context, body.mesh),
+        probes(fit_bench::near_skin_probes(context, body.mesh, distance)) {}
+
+  fitting::LabelledSkin skin() const { return {body.mesh, body.part, body.stature_m, {}, &distance}; }
+};
+
+/// Calls `each` with every body asked for, one at a time; false if one cannot be had.
+bool for_each_subject(const engine::Context& context, const Arguments& arguments,
+                      const std::function<bool(const Subject&)>& each) {
+  const auto& data = arguments.data;
+  for (const std::string& name : arguments.bodies) {
+    const auto own_labels = data / (name + ".labels.txt");
+    auto body = fit_bench::load(data / (name + ".obj"),
+                                exists(own_labels) ? own_labels : data / "labels/makehuman13380.labels.txt");
+    if (!body) {
+      std::fprintf(stderr, "fit: cannot read %s and its labels\n", name.c_str());
+      return false;
+    }
+    if (!each(Subject(context, name, std::move(*body)))) return false;
+  }
+  for (const int seed : arguments.seeds) {
+    auto body = fit_bench::make_synthetic(static_cast<std::uint64_t>(seed));
+    if (!body || !each(Subject(context, "synth_" + std::to_string(seed), std::move(*body)))) return false;
+  }
+  return true;
+}
+
+std::optional<fitting::FitResult> fitted(const engine::Context& context, const Subject& subject,
+                                         const fitting::FitOptions& options) {
+  auto result = fitting::fit(context, subject.skin(), options);
+  if (result) return std::move(*result);
+  std::fprintf(stderr, "fit: %s\n", result.error().sentence().c_str());
+  return std::nullopt;
+}
+
+bool front(const engine::Context& context, const Arguments& arguments) {
+  std::printf(
+      "body,tier,ellipsoids,bytes,fit_ms,tight_ms,relief_ms,measure_ms,gap_mean_mm,gap_p95_mm,gap_max_mm,"
+      "interior_percent,uncovered_percent,uncovered_mm,near_mean_mm,near_p95_mm,missed_percent,false_percent,"
+      "near_max_mm,deep_leaks,mu_torso_mm,mu_limbs_mm,query_ns\n");
+  std::vector<fit_bench::FrontPoint> points;
+  const bool all = for_each_subject(context, arguments, [&](const Subject& subject) {
+    for (const proxy::Tier tier : arguments.tiers)
+      for (const int count : arguments.counts) {
+        fitting::FitOptions options;
+        options.tier = tier;
+        options.max_ellipsoids = count;
+        options.time_budget_s = arguments.seconds;
+        const auto result = fitted(context, subject, options);
+        if (!result) return false;
+        const auto near = fit_bench::judge(context, result->proxy, subject.probes);
+        print_line(subject.name, *result, near, fit_bench::query_ns(result->proxy, subject.body.mesh));
+        points.push_back({std::string(proxy::name(tier)), static_cast<double>(count), near.mean_mm});
+      }
+    return true;
+  });
+  return all && (arguments.svg.empty() || fit_bench::write_front_svg(arguments.svg, points));
+}
+
+/// One line a (body, number asked for); the last line says how many were met within a fifth.
+bool dial(const engine::Context& context, const Arguments& arguments) {
+  std::printf("body,target_mm,achieved_mm,ratio,budget_us,measured_us,tier,ellipsoids,bytes,total_ms\n");
+  int asked = 0, met = 0;
+  const auto run = [&](const Subject& subject, std::optional<double> target_mm,
+                       std::optional<double> budget_us) {
+    fitting::FitOptions options;
+    if (target_mm) options.target_error_m = 1e-3 * *target_mm;
+    options.budget_us = budget_us;
+    const auto r = fitted(context, subject, options);
+    if (!r) return false;
+    double total_ms = 0.0;
+    for (const auto& stage : r->stages) total_ms += stage.ms;
+    const double achieved = 1e3 * r->accuracy.gap_m.mean;
+    const double us = 10.0 * fit_bench::query_ns(r->proxy, subject.body.mesh);
+    const double ratio = target_mm ? achieved / *target_mm : us / budget_us.value_or(us);
+    ++asked;
+    met += target_mm ? ratio <= 1.2 && ratio >= 1.0 / 1.2 : ratio <= 1.2;
+    std::printf("%s,%.3g,%.3f,%.3f,%.4g,%.1f,%s,%zu,%zu,%.0f\n", subject.name.c_str(),
+                target_mm.value_or(0.0), achieved, ratio, budget_us.value_or(0.0), us,
+                std::string(proxy::name(r->proxy.tier())).c_str(), r->proxy.ellipsoids().size(),
+                r->proxy.bytes(), total_ms);
+    std::fflush(stdout);
+    return true;
+  };
+  const bool all = for_each_subject(context, arguments, [&](const Subject& subject) {
+    for (const double mm : arguments.targets_mm)
+      if (!run(subject, mm, std::nullopt)) return false;
+    for (const double us : arguments.budgets_us)
+      if (!run(subject, std::nullopt, us)) return false;
+    return true;
+  });
+  std::printf("# met %d of %d (bar: all, within a fifth)\n", met, asked);
+  return all;
 }
 
 }  // namespace
@@ -80,35 +202,6 @@ int main(int argc, char** argv) {
   const auto executor = engine::make_tbb_executor(arguments.threads);
   engine::Context context;
   context.executor = executor.get();
-  std::printf(
-      "body,tier,ellipsoids,bytes,fit_ms,tight_ms,relief_ms,measure_ms,gap_mean_mm,gap_p95_mm,gap_max_mm,"
-      "interior_percent,uncovered_percent,uncovered_mm,near_mean_mm,near_p95_mm,missed_percent,false_percent,"
-      "near_max_mm,deep_leaks,mu_torso_mm,mu_limbs_mm\n");
-  for (const std::string& name : arguments.bodies) {
-    const auto own_labels = arguments.data / (name + ".labels.txt");
-    const auto body = fit_bench::load(
-        arguments.data / (name + ".obj"),
-        exists(own_labels) ? own_labels : arguments.data / "labels/makehuman13380.labels.txt");
-    if (!body) {
-      std::fprintf(stderr, "fit: cannot read %s and its labels\n", name.c_str());
-      return 1;
-    }
-    const geometry::MeshDistance distance(context, body->mesh);
-    const auto probes = fit_bench::near_skin_probes(context, body->mesh, distance);
-    for (const proxy::Tier tier : arguments.tiers)
-      for (const int count : arguments.counts) {
-        fitting::FitOptions options;
-        options.tier = tier;
-        options.max_ellipsoids = count;
-        options.time_budget_s = arguments.seconds;
-        const fitting::LabelledSkin skin{body->mesh, body->part, body->stature_m, {}, &distance};
-        const auto result = fitting::fit(context, skin, options);
-        if (!result) {
-          std::fprintf(stderr, "fit: %s\n", result.error().sentence().c_str());
-          return 1;
-        }
-        print_line(name, *result, fit_bench::judge(context, result->proxy, probes));
-      }
-  }
-  return 0;
+  const bool asks = !arguments.targets_mm.empty() || !arguments.budgets_us.empty();
+  return (asks ? dial(context, arguments) : front(context, arguments)) ? 0 : 1;
 }

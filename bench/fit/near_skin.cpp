@@ -5,8 +5,8 @@
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/engine/random.hpp>
-#include <bodice/proxy/proxy_distance.hpp>
 #include <bodice/geometry/sampling.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
 namespace fit_bench {
 namespace {

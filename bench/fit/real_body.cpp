@@ -6,6 +6,9 @@
 #include <sstream>
 #include <string>
 
+#include <bodice/engine/random.hpp>
+#include <bodice/synth/body.hpp>
+
 namespace fit_bench {
 namespace {
 
@@ -78,6 +81,21 @@ std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::fi
   const auto truth = stature(std::filesystem::path(obj).replace_extension(".json"));
   body.stature_m = truth.value_or(bodice::geometry::bounding_box(body.mesh.positions).size().y());
   return body;
+}
+
+std::optional<LabelledBody> make_synthetic(std::uint64_t seed) {
+  using bodice::synth::Pose;
+  constexpr Pose kPoses[] = {Pose::kA, Pose::kT, Pose::kArmsDown, Pose::kStride, Pose::kSit, Pose::kRun};
+  bodice::engine::Random random(seed, 5);
+  bodice::synth::BodyOptions options;
+  options.seed = seed;
+  options.sex = seed % 2 == 0 ? bodice::body::Sex::kFemale : bodice::body::Sex::kMale;
+  options.stature_m = random.uniform(1.5, 1.9);
+  options.mass_kg = random.uniform(19.0, 33.0) * options.stature_m * options.stature_m;
+  options.pose = kPoses[seed % std::size(kPoses)];
+  auto body = bodice::synth::make_body({}, options);
+  if (!body) return std::nullopt;
+  return LabelledBody{std::move(body->mesh), std::move(body->part), body->stature_m};
 }
 
 }  // namespace fit_bench

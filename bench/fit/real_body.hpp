@@ -1,6 +1,7 @@
-// A body from an OBJ file with true labels a vertex, for judging fits without the anatomy layer.
+// Bodies with true labels a vertex, from OBJ files or made, for judging fits without the anatomy layer.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -19,5 +20,8 @@ struct LabelledBody {
 /// `labels` holds one fine class a vertex (head, neck, upper_torso, lower_torso, l_upper_arm, ...). The
 /// torso's two classes are cut into six parts at thirds of its height and at its middle plane.
 std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels);
+
+/// A parametric body that nothing was developed on: sex, mass and pose follow from the seed.
+std::optional<LabelledBody> make_synthetic(std::uint64_t seed);
 
 }  // namespace fit_bench

@@ -12,7 +12,7 @@
 #include <bodice/engine/task_graph.hpp>
 #include <bodice/engine/trace.hpp>
 #include "allocation_count.hpp"
-#include "executors.hpp"
+#include <bodice_test/executors.hpp>
 
 using namespace bodice::engine;
 

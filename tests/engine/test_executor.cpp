@@ -9,7 +9,7 @@
 
 #include <bodice/engine/host_executor.hpp>
 #include <bodice/engine/parallel.hpp>
-#include "executors.hpp"
+#include <bodice_test/executors.hpp>
 
 using namespace bodice::engine;
 using bodice_test::all_executors;

@@ -12,7 +12,7 @@
 #include <bodice/engine/hash.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/engine/trace.hpp>
-#include "executors.hpp"
+#include <bodice_test/executors.hpp>
 
 using namespace bodice::engine;
 using bodice_test::all_executors;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <bodice/engine/parallel.hpp>
-#include "executors.hpp"
+#include <bodice_test/executors.hpp>
 
 using namespace bodice::engine;
 

@@ -8,7 +8,7 @@
 
 #include <bodice/engine/random.hpp>
 #include <bodice/engine/task_graph.hpp>
-#include "executors.hpp"
+#include <bodice_test/executors.hpp>
 
 using namespace bodice::engine;
 

@@ -22,7 +22,8 @@ engine::Result<void> check_options(const FitOptions& options) {
   if (!positive(options.budget_us)) return bad("budget_us is not positive.", "Give microseconds above 0.");
   if (!positive(options.mu_torso_m) || !positive(options.mu_limbs_m))
     return bad("A threshold mu is not positive.", "Give metres above 0, or leave it out.");
-  if (options.time_budget_s && !(*options.time_budget_s >= 0.0)) return bad("time_budget_s is negative or NaN.", "Give seconds.");
+  if (options.time_budget_s && !(*options.time_budget_s >= 0.0))
+    return bad("time_budget_s is negative or NaN.", "Give seconds.");
   if ((options.parts & ((1u << body::kPartCount) - 1)) == 0)
     return bad("No part is selected.", "Set at least one bit of parts.");
   return {};

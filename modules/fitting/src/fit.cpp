@@ -11,12 +11,14 @@
 #include "measure.hpp"
 #include "part_fit.hpp"
 #include "plan.hpp"
+#include "tier_relief.hpp"
 #include "tiers.hpp"
 
 namespace bodice::fitting {
 namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;
+constexpr double kWarnAbove = 1.2;  // times the target: what the dial promises
 
 std::uint64_t hash_of(const geometry::TriMesh& mesh) {
   engine::Hasher hasher;
@@ -27,50 +29,50 @@ std::uint64_t hash_of(const geometry::TriMesh& mesh) {
   return hasher.value();
 }
 
-int starting_count(const LabelledSkin& skin, const FitOptions& options) {
-  const int most = options.max_ellipsoids.value_or(10 * kMostEllipsoids);
-  if (options.budget_us) return std::min(most, count_within_budget(options.tier, *options.budget_us));
-  if (options.target_error_m)
-    return std::min(most, count_for_error(options.tier, *options.target_error_m, skin.stature_m));
-  if (options.mu_torso_m && options.mu_limbs_m) return most;
-  return options.max_ellipsoids.value_or(kDefaultEllipsoids);
-}
-
-Draft run_tier(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options, int count,
-               std::vector<engine::StageTime>& stages) {
+engine::Result<Draft> run_tier(const engine::Context& context, const LabelledSkin& skin,
+                               const FitOptions& options, int count, std::vector<engine::StageTime>& stages) {
   using proxy::Tier;
-  if (options.tier == Tier::kTight || options.tier == Tier::kRelief) {
-    const bool relief = options.tier == Tier::kRelief;
-    const double budget_s = options.time_budget_s.value_or(kNoTimeLimit_s);
-    const std::int64_t deadline =
-        context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(budget_s, kNoTimeLimit_s));
+  if (options.tier == Tier::kTight) {
     engine::StageTimer tight(context, stages, "tight");
     const SkinSource source = make_skin_source(context, skin, options.parts);
-    Draft draft = fit_tight(context, source, options, count, (relief ? 0.5 : 1.0) * budget_s);
-    tight.stop();
-    if (!relief) return draft;
-    engine::StageTimer timer(context, stages, "relief");
-    add_relief(context, source, options, deadline, draft);
-    return draft;
+    return fit_tight(context, source, options, count, options.time_budget_s.value_or(kNoTimeLimit_s));
   }
   engine::StageTimer timer(context, stages, "fit");
-  if (options.tier == Tier::kSolid)
-    return fit_solid(context, make_skin_source(context, skin, options.parts), options, count);
+  if (options.tier == Tier::kSolid) return fit_solid(context, skin, options, count);
   return fit_paper(context, skin, options, count);
 }
 
-/// The count to try next for a target that was missed: gaps fall about with the square root of the count.
-int next_count(int count, double gap_m, double target_m, int most) {
-  const double ratio = gap_m / target_m;
-  return std::clamp(static_cast<int>(std::ceil(count * ratio * ratio)), count + 1, std::max(count + 1, most));
-}
+/// Runs plans one after the other; relief keeps its ellipsoids while only the size of its tables changes.
+class PlanRunner {
+ public:
+  PlanRunner(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+             std::vector<engine::StageTime>& stages)
+      : context_(context), skin_(skin), options_(options), stages_(stages) {}
+
+  engine::Result<Draft> run(const Plan& plan) {
+    options_.tier = plan.tier;
+    if (plan.tier != proxy::Tier::kRelief) return run_tier(context_, skin_, options_, plan.count, stages_);
+    if (relief_ && relief_->count() == plan.count)
+      relief_->resize(plan.relief_bytes);
+    else
+      relief_ = std::make_unique<ReliefRun>(context_, skin_, options_, plan, stages_);
+    return relief_->draft();
+  }
+
+ private:
+  const engine::Context& context_;
+  const LabelledSkin& skin_;
+  FitOptions options_;
+  std::vector<engine::StageTime>& stages_;
+  std::unique_ptr<ReliefRun> relief_;
+};
 
 void add_warnings(const FitOptions& options, const Draft& draft, FitResult& result) {
   if (!draft.thresholds_reached)
     result.warnings.push_back({"thresholds-not-reached", "",
                                "Some ellipsoids are worse than their threshold mu.",
                                "Allow more ellipsoids, or raise the thresholds."});
-  if (options.target_error_m && result.accuracy.gap_m.mean > *options.target_error_m)
+  if (options.target_error_m && result.accuracy.gap_m.mean > kWarnAbove * *options.target_error_m)
     result.warnings.push_back({"target-error-not-reached", "",
                                "The mean gap is " + std::to_string(1e3 * result.accuracy.gap_m.mean) +
                                    " mm where " + std::to_string(1e3 * *options.target_error_m) +
@@ -88,25 +90,29 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
     own = std::make_unique<geometry::MeshDistance>(context, skin.mesh);
     judged.distance = own.get();
   }
-  const int most = options.max_ellipsoids.value_or(kMostEllipsoids);
-  int count = starting_count(skin, options);
+  Dial dial(options, skin.stature_m);
+  PlanRunner runner(context, judged, options, stages);
+  const std::uint64_t source_hash = hash_of(skin.mesh);
   Draft draft;
   Measured measured;
-  constexpr int kTargetTries = 4;
-  for (int attempt = 0; attempt < kTargetTries; ++attempt) {
-    draft = run_tier(context, judged, options, count, stages);
-    draft.data.stature_m = skin.stature_m;
-    draft.data.frame = skin.frame;
-    draft.data.source_hash = hash_of(skin.mesh);
-    if (draft.data.ellipsoids.empty())
+  const auto off_target = [&](const Measured& m) {
+    return std::abs(std::log(m.accuracy.gap_m.mean / options.target_error_m.value_or(m.accuracy.gap_m.mean)));
+  };
+  for (bool first = true, more = true; more; first = false) {
+    auto found = runner.run(dial.plan());
+    if (!found) return found.error();
+    found->data.stature_m = skin.stature_m;
+    found->data.frame = skin.frame;
+    found->data.source_hash = source_hash;
+    if (found->data.ellipsoids.empty())
       return engine::Error{engine::ErrorCode::kUnusableGeometry, "The selected parts have no skin.",
                            "Select parts that occur among the labels."};
     engine::StageTimer timer(context, stages, "measure");
-    measured = measure(context, draft.data, judged, *judged.distance, options.parts);
-    const double gap = measured.accuracy.gap_m.mean;
-    if (!options.target_error_m || gap <= *options.target_error_m || count >= most || options.budget_us)
-      break;
-    count = next_count(count, gap, *options.target_error_m, most);
+    Measured now = measure(context, found->data, judged, *judged.distance, options.parts);
+    more = options.target_error_m && dial.correct(now.accuracy.gap_m.mean);
+    if (!first && off_target(now) > off_target(measured)) continue;
+    draft = std::move(*found);
+    measured = std::move(now);
   }
   const std::vector<proxy::ProxyEllipsoid> ellipsoids = draft.data.ellipsoids;
   auto made = proxy::BodyProxy::make(std::move(draft.data));

@@ -50,31 +50,22 @@ void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c, Columns& columns)
     }
 }
 
-void fill_column(std::vector<Crossing>& column, double x, double z, double low_y, double spacing,
-                 std::vector<Vec3>& points) {
+/// The stretches where the count of signed crossings is above zero; none if the column does not close.
+std::vector<std::pair<double, double>> stretches(std::vector<Crossing>& column) {
+  std::vector<std::pair<double, double>> inside;
   std::sort(column.begin(), column.end(), [](const Crossing& a, const Crossing& b) { return a.y < b.y; });
-  int total = 0;
-  for (const Crossing& c : column) total += c.sign;
-  if (total != 0) return;
-  int inside = 0;
-  for (std::size_t n = 0; n + 1 < column.size(); ++n) {
-    inside += column[n].sign;
-    if (inside <= 0) continue;
-    const double first = std::ceil((column[n].y - low_y) / spacing - 0.5);
-    for (double j = first; low_y + (j + 0.5) * spacing < column[n + 1].y; j += 1.0)
-      points.emplace_back(x, low_y + (j + 0.5) * spacing, z);
+  int depth = 0;
+  for (const Crossing& c : column) {
+    const int before = depth;
+    depth += c.sign;
+    if (before <= 0 && depth > 0) inside.emplace_back(c.y, c.y);
+    if (before > 0 && depth <= 0) inside.back().second = c.y;
   }
+  return depth == 0 ? inside : std::vector<std::pair<double, double>>{};
 }
 
-}  // namespace
-
-std::vector<Vec3> interior_grid(const geometry::TriMesh& mesh, double spacing_m) {
-  constexpr double kMostPoints = 4e6;
-  std::vector<Vec3> points;
-  const geometry::Box box = geometry::bounding_box(mesh.positions);
-  if (box.empty() || !(spacing_m > 0.0)) return points;
+Columns make_columns(const geometry::TriMesh& mesh, const geometry::Box& box, double spacing_m) {
   const Vec3 size = box.size().cwiseMax(1e-9 * box.size().maxCoeff());
-  spacing_m = std::max({spacing_m, std::cbrt(size.prod() / kMostPoints), size.maxCoeff() / 2000.0});
   // An irrational shift keeps columns off the vertices of symmetric meshes.
   const Vec3 low = box.low - Vec3(0.3819660, 0.2360680, 0.4142136) * spacing_m;
   Columns columns{low,
@@ -85,10 +76,45 @@ std::vector<Vec3> interior_grid(const geometry::TriMesh& mesh, double spacing_m)
   columns.crossings.resize(static_cast<std::size_t>(columns.nx) * static_cast<std::size_t>(columns.nz));
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     add_triangle(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2), columns);
+  return columns;
+}
+
+std::vector<InteriorColumn> inside_of(Columns& columns) {
+  std::vector<InteriorColumn> result;
   for (int k = 0; k < columns.nz; ++k)
-    for (int i = 0; i < columns.nx; ++i)
-      fill_column(columns.crossings[static_cast<std::size_t>(k * columns.nx + i)], columns.x(i), columns.z(k),
-                  low.y(), spacing_m, points);
+    for (int i = 0; i < columns.nx; ++i) {
+      auto inside = stretches(columns.crossings[static_cast<std::size_t>(k * columns.nx + i)]);
+      if (!inside.empty()) result.push_back({columns.x(i), columns.z(k), std::move(inside)});
+    }
+  return result;
+}
+
+/// The spacing that keeps the grid below its limits.
+double bounded_spacing(const geometry::Box& box, double spacing_m) {
+  constexpr double kMostPoints = 4e6;
+  const Vec3 size = box.size().cwiseMax(1e-9 * box.size().maxCoeff());
+  return std::max({spacing_m, std::cbrt(size.prod() / kMostPoints), size.maxCoeff() / 2000.0});
+}
+
+}  // namespace
+
+std::vector<InteriorColumn> interior_columns(const geometry::TriMesh& mesh, double spacing_m) {
+  const geometry::Box box = geometry::bounding_box(mesh.positions);
+  if (box.empty() || !(spacing_m > 0.0)) return {};
+  Columns columns = make_columns(mesh, box, bounded_spacing(box, spacing_m));
+  return inside_of(columns);
+}
+
+std::vector<Vec3> interior_grid(const geometry::TriMesh& mesh, double spacing_m) {
+  std::vector<Vec3> points;
+  const geometry::Box box = geometry::bounding_box(mesh.positions);
+  if (box.empty() || !(spacing_m > 0.0)) return points;
+  Columns columns = make_columns(mesh, box, bounded_spacing(box, spacing_m));
+  const double step = columns.spacing, low_y = columns.low.y();
+  for (const InteriorColumn& column : inside_of(columns))
+    for (const auto& [from, to] : column.inside)
+      for (double j = std::ceil((from - low_y) / step - 0.5); low_y + (j + 0.5) * step < to; j += 1.0)
+        points.emplace_back(column.x, low_y + (j + 0.5) * step, column.z);
   return points;
 }
 

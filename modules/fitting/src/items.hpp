@@ -10,11 +10,11 @@ namespace bodice::fitting {
 /// The paper's choice: vertices only.
 Items vertex_items(const LabelledSkin& skin, std::uint32_t parts);
 
-/// The solid tier's: every triangle whole, and interior anchors (voxel centres `spacing_m` apart), so that
-/// the clusters fill the body instead of lining it.
-Items solid_items(const LabelledSkin& skin, std::uint32_t parts, std::span<const Vec3> anchors);
+/// The solid tier's: every triangle whole, where it belongs by most of its corners.
+Items triangle_items(const LabelledSkin& skin, std::uint32_t parts);
 
-/// One region a limb part (k = 1) and one for the torso, seeded by the means of its six parts.
-std::vector<Region> make_regions(const Items& items);
+/// One region a limb part (k = 1) and one for the torso, seeded by the means of its six parts. If that would
+/// be more than `most`, limbs join their neighbours, outer ones first.
+std::vector<Region> make_regions(const Items& items, int most);
 
 }  // namespace bodice::fitting

@@ -13,11 +13,6 @@ namespace {
 
 using Balls = std::vector<InscribedBall>;
 
-/// Thin places need more ellipsoids a square metre than thick ones.
-double demand(const InscribedBall& ball, double stature_m) {
-  return std::pow(std::max(ball.radius_m, 1e-4 * stature_m), -0.7);
-}
-
 /// Greedy highest averages: each ellipsoid goes to the part whose share is least served.
 std::array<int, body::kPartCount> share(const std::array<double, body::kPartCount>& demand_of, int count) {
   std::array<int, body::kPartCount> given{};
@@ -66,8 +61,15 @@ geometry::Ellipsoid from_spread(const std::vector<Vec3>& points, double min_radi
   return e;
 }
 
-void start_part(const engine::Context& context, const Balls& balls, int count, double stature_m,
-                std::vector<proxy::ProxyEllipsoid>& out) {
+}  // namespace
+
+double demand(const InscribedBall& ball, double stature_m) {
+  return std::pow(std::max(ball.radius_m, 1e-4 * stature_m), -0.7);
+}
+
+std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& context,
+                                                    std::span<const InscribedBall> balls, int count,
+                                                    double stature_m) {
   std::vector<Vec3> centres;
   std::vector<double> weights;
   for (const InscribedBall& b : balls) {
@@ -78,11 +80,11 @@ void start_part(const engine::Context& context, const Balls& balls, int count, d
       kmeans(context, centres, weights, farthest_seeds(centres, count), {1e-4 * stature_m, 30});
   std::vector<std::vector<Vec3>> touched(found.centers.size());
   for (std::size_t i = 0; i < balls.size(); ++i) touched[found.of_point[i]].push_back(balls[i].skin);
+  std::vector<proxy::ProxyEllipsoid> ellipsoids;
   for (const auto& points : touched)
-    if (points.size() >= 4) out.push_back({from_spread(points, 1e-3 * stature_m), balls.front().part});
+    if (points.size() >= 4) ellipsoids.push_back({from_spread(points, 1e-3 * stature_m), balls.front().part});
+  return ellipsoids;
 }
-
-}  // namespace
 
 std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const SkinSource& source,
                                                 int count) {
@@ -96,8 +98,11 @@ std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, 
   }
   const auto given = share(demand_of, count);
   std::vector<proxy::ProxyEllipsoid> ellipsoids;
-  for (int p = 0; p < body::kPartCount; ++p)
-    if (given[p] > 0) start_part(context, of_part[p], given[p], skin.stature_m, ellipsoids);
+  for (int p = 0; p < body::kPartCount; ++p) {
+    if (given[p] == 0) continue;
+    const auto more = start_from_balls(context, of_part[p], given[p], skin.stature_m);
+    ellipsoids.insert(ellipsoids.end(), more.begin(), more.end());
+  }
   return ellipsoids;
 }
 

@@ -5,6 +5,15 @@
 
 namespace bodice::fitting {
 
+/// How many ellipsoids a ball's surroundings ask for: thin places need more a square metre than thick ones.
+double demand(const InscribedBall& ball, double stature_m);
+
+/// At most `count` ellipsoids for one part's balls (at least one ball): K-means of the balls' centres, each
+/// ellipsoid from the spread of the skin points that its balls touch. They carry the first ball's part.
+std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& context,
+                                                    std::span<const InscribedBall> balls, int count,
+                                                    double stature_m);
+
 /// About `count` ellipsoids (never more, at least one a part that has skin unless count is smaller): K-means
 /// of the balls' centres part by part, shares by the sum of radius^-0.7, each ellipsoid from the spread of
 /// the skin points its balls touch.

@@ -14,6 +14,9 @@
 
 namespace bodice::fitting {
 
+/// The ellipsoid { centre + half * unit ball }; vanishing columns leave vanishing radii.
+geometry::Ellipsoid spanned(const Vec3& centre, const Mat3& half);
+
 /// Sets result.ellipsoid from `half`, whose columns span it (x = centre + half * unit ball), floors the
 /// radii, grows it to hold every point, and records rank, gap and violation. `dual_log_volume` bounds the
 /// least volume from below (sum of log radii).

@@ -2,46 +2,165 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "relief_fit.hpp"
 
 namespace bodice::fitting {
 namespace {
 
-/// Mean gap at 89 ellipsoids as a fraction of stature, by tier.
-double gap_at_89(proxy::Tier tier) {
+using proxy::Tier;
+
+constexpr int kMostAttempts = 7;
+constexpr double kNearEnough = 1.10;
+/// Fractions of stature. Below the first, plain ellipsoids take more work and time a particle than relief.
+constexpr double kFinestPlain = 1.6e-3 / 1.7;
+constexpr double kFinestOf32 = 0.75e-3 / 1.7, kFinestOf55 = 0.40e-3 / 1.7;
+
+/// gap = at_89 * stature * (89 / count)^power: lines through the development bodies at 16 to 160 ellipsoids.
+struct Law {
+  double at_89, power;
+};
+
+Law law_of(Tier tier) {
   switch (tier) {
-    case proxy::Tier::kPaper:
-      return 0.0090;
-    case proxy::Tier::kSolid:
-      return 0.0075;
-    case proxy::Tier::kTight:
-      return 0.00075;
-    case proxy::Tier::kRelief:
-      return 0.0002;
+    case Tier::kPaper:
+      return {0.0060, 0.5};
+    case Tier::kSolid:
+      return {0.0060, 0.5};
+    case Tier::kTight:
+      return {0.00085, 1.3};
+    case Tier::kRelief:
+      return {0.00013, 0.7};
   }
-  return 0.0090;
+  return {0.0060, 0.5};
+}
+
+/// Of relief's gap at a fixed count, by bytes.
+constexpr double kReliefPower = 0.6;
+
+std::size_t least_bytes(int count) {
+  return static_cast<std::size_t>(count) * (15 * sizeof(float) + sizeof(proxy::ReliefTable) + 2 * 8 * 8);
+}
+
+int relief_count(double target_m, double stature_m, int most) {
+  const double target = target_m / stature_m;
+  return std::min(most, target > kFinestOf32 ? 32 : target > kFinestOf55 ? 55 : kDefaultEllipsoids);
+}
+
+/// The most accurate plan that the budget has time for.
+Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double stature_m) {
+  Plan best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Tier candidate : {Tier::kTight, Tier::kRelief}) {
+    const Tier t = tier.value_or(candidate);
+    const int largest = t == Tier::kRelief ? kDefaultEllipsoids : kMostEllipsoids;
+    const int count = std::min({most, largest, count_within_budget(t, budget_us)});
+    const double gap = predicted_gap_m(t, count, stature_m);
+    if (predicted_frame_us(t, count) > budget_us && std::isfinite(least)) continue;
+    if (gap < least) best = {t, count, kReliefBytes}, least = gap;
+  }
+  return best;
 }
 
 }  // namespace
 
-double predicted_frame_us(proxy::Tier tier, int ellipsoids) {
+double predicted_frame_us(Tier tier, int ellipsoids) {
   // 10,000 particles: nanoseconds a particle times ten.
-  return tier == proxy::Tier::kRelief ? 10.0 * (14.0 + 0.30 * ellipsoids) : 10.0 * (2.0 + 0.065 * ellipsoids);
+  return tier == Tier::kRelief ? 10.0 * (14.0 + 0.30 * ellipsoids) : 10.0 * (2.0 + 0.065 * ellipsoids);
 }
 
-int count_within_budget(proxy::Tier tier, double budget_us) {
+int count_within_budget(Tier tier, double budget_us) {
   int count = 1;
   while (count < kMostEllipsoids && predicted_frame_us(tier, count + 1) <= budget_us) ++count;
   return count;
 }
 
-double predicted_gap_m(proxy::Tier tier, int ellipsoids, double stature_m) {
-  return gap_at_89(tier) * stature_m * std::sqrt(89.0 / std::max(1, ellipsoids));
+double predicted_gap_m(Tier tier, int ellipsoids, double stature_m) {
+  const Law law = law_of(tier);
+  return law.at_89 * stature_m * std::pow(89.0 / std::max(1, ellipsoids), law.power);
 }
 
-int count_for_error(proxy::Tier tier, double target_error_m, double stature_m) {
-  const double ratio = predicted_gap_m(tier, kDefaultEllipsoids, stature_m) / target_error_m;
-  const double count = std::ceil(kDefaultEllipsoids * ratio * ratio);
-  return static_cast<int>(std::clamp(count, 1.0, static_cast<double>(kMostEllipsoids)));
+Dial::Dial(const FitOptions& options, double stature_m)
+    : target_m_(options.target_error_m),
+      most_(options.max_ellipsoids.value_or(kMostEllipsoids)),
+      stature_m_(stature_m),
+      tier_is_free_(!options.tier) {
+  plan_ = {options.tier.value_or(Tier::kRelief), std::min(most_, kDefaultEllipsoids), kReliefBytes};
+  if (options.max_ellipsoids) plan_.count = *options.max_ellipsoids;
+  if (options.mu_torso_m && options.mu_limbs_m) plan_.count = most_ = 10 * kMostEllipsoids;
+  if (options.budget_us) {
+    plan_ = plan_within(*options.budget_us, options.tier, most_, stature_m);
+    most_ = plan_.count;
+    tier_is_free_ = false;
+  }
+  if (!target_m_) return;
+  if (tier_is_free_ && *target_m_ > kFinestPlain * stature_m) plan_.tier = Tier::kTight;
+  if (plan_.tier == Tier::kRelief) {
+    plan_.count = relief_count(*target_m_, stature_m, most_);
+    const double ratio = predicted_gap_m(Tier::kRelief, plan_.count, stature_m) / *target_m_;
+    resize(static_cast<double>(kReliefBytes) * std::pow(ratio, 1.0 / kReliefPower));
+  } else {
+    const Law law = law_of(plan_.tier);
+    resize(89.0 * std::pow(law.at_89 * stature_m / *target_m_, 1.0 / law.power));
+  }
+}
+
+bool Dial::reached(double gap_m) const {
+  return !target_m_ || (gap_m < kNearEnough * *target_m_ && *target_m_ < kNearEnough * gap_m);
+}
+
+double Dial::size() const {
+  return plan_.tier == Tier::kRelief ? static_cast<double>(plan_.relief_bytes) : plan_.count;
+}
+
+/// Along the power law through the tries on either side of the target, or through the last try alone.
+double Dial::wanted_size(double gap_m) const {
+  double power = plan_.tier == Tier::kRelief ? kReliefPower : law_of(plan_.tier).power;
+  const Try* other = nullptr;
+  for (const Try& t : tries_) {
+    const bool opposite = (t.gap_m > *target_m_) != (gap_m > *target_m_);
+    if (t.size != size() && (!other || opposite)) other = &t;
+  }
+  if (other) {
+    const double slope = -std::log(gap_m / other->gap_m) / std::log(size() / other->size);
+    if (std::isfinite(slope)) power = std::clamp(slope, 0.3 * power, 3.0 * power);
+  }
+  return size() * std::pow(gap_m / *target_m_, 1.0 / power);
+}
+
+/// False if nothing changes, or if it has been tried.
+bool Dial::resize(double wanted) {
+  const Plan before = plan_;
+  if (plan_.tier == Tier::kRelief) {
+    const double least = static_cast<double>(std::min(least_bytes(plan_.count), kReliefBytes));
+    plan_.relief_bytes =
+        static_cast<std::size_t>(std::clamp(wanted, least, static_cast<double>(kReliefBytes)));
+  } else {
+    plan_.count = static_cast<int>(std::lround(std::clamp(wanted, 1.0, static_cast<double>(most_))));
+  }
+  const double now = size();
+  const bool known = std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) { return t.size == now; });
+  if (known) plan_ = before;
+  return !known;
+}
+
+/// Relief whose tables are as large or as small as they get: other ellipsoids.
+bool Dial::recount(double gap_m) {
+  if (plan_.tier != Tier::kRelief) return false;
+  const int count = gap_m > *target_m_ ? std::min(most_, kDefaultEllipsoids) : std::max(8, plan_.count / 2);
+  if (count == plan_.count) return false;
+  plan_.count = count;
+  tries_.clear();
+  plan_.relief_bytes = 0;
+  const double full = 0.5 * static_cast<double>(kReliefBytes);
+  return resize(gap_m > *target_m_ ? full : 4.0 * static_cast<double>(least_bytes(count)));
+}
+
+bool Dial::correct(double gap_m) {
+  if (reached(gap_m) || ++attempts_ >= kMostAttempts || !(gap_m > 0.0)) return false;
+  tries_.push_back({size(), gap_m});
+  return resize(wanted_size(gap_m)) || recount(gap_m);
 }
 
 }  // namespace bodice::fitting

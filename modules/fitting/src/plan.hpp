@@ -1,5 +1,7 @@
-// From the one number a user gives to the number of ellipsoids.
+// From the one number a user gives to a tier, a number of ellipsoids and a size of tables.
 #pragma once
+
+#include <vector>
 
 #include <bodice/fitting/fit.hpp>
 
@@ -10,17 +12,52 @@ inline constexpr int kDefaultEllipsoids = 89;
 /// A target error may ask for up to this many.
 inline constexpr int kMostEllipsoids = 400;
 
-/// Collision time a frame of 10,000 particles, from the count: measured constants of the collision layer on
-/// one core (RELIEF.md's machine), so a dial and not a promise. Microseconds.
+struct Plan {
+  proxy::Tier tier = proxy::Tier::kRelief;
+  int count = kDefaultEllipsoids;
+  std::size_t relief_bytes = 0;  ///< of the whole proxy with its tables; relief only
+};
+
+/// Collision time a frame of 10,000 coherent particles, microseconds: a line through bench/fit's query times
+/// at 8 to 89 ellipsoids (one thread, AVX-512). A dial to compare plans with, and no promise on other
+/// machines.
 double predicted_frame_us(proxy::Tier tier, int ellipsoids);
 
 /// The largest count whose predicted time is within the budget, at least 1.
 int count_within_budget(proxy::Tier tier, double budget_us);
 
-/// Mean gap to expect at a count, metres, for a body of this stature: gap ~ count^-0.5, anchored at 89.
+/// Mean gap to expect at a count, metres, for a body of this stature; relief with full tables.
 double predicted_gap_m(proxy::Tier tier, int ellipsoids, double stature_m);
 
-/// The count to start from for a target error, 1..kMostEllipsoids.
-int count_for_error(proxy::Tier tier, double target_error_m, double stature_m);
+/// The search for a plan: tries one, is told what it achieved, tries the next. A target error changes the
+/// count of the plain tiers and the bytes of relief, because new tables on the same ellipsoids are cheap.
+class Dial {
+ public:
+  Dial(const FitOptions& options, double stature_m);
+
+  const Plan& plan() const { return plan_; }
+  /// Whether a gap is as near to the target as the dial promises: a tenth above or below.
+  bool reached(double gap_m) const;
+  /// Takes the gap of the plan just tried; false if there is nothing left to try.
+  bool correct(double gap_m);
+
+ private:
+  struct Try {
+    double size, gap_m;
+  };
+
+  double size() const;
+  double wanted_size(double gap_m) const;
+  bool resize(double size);
+  bool recount(double gap_m);
+
+  std::optional<double> target_m_;
+  int most_ = kMostEllipsoids;
+  double stature_m_ = 0.0;
+  bool tier_is_free_ = false;
+  Plan plan_;
+  std::vector<Try> tries_;  ///< with the plan's tier and, for relief, its count
+  int attempts_ = 0;
+};
 
 }  // namespace bodice::fitting

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
-#include <bodice/fitting/kmeans.hpp>
 #include <bodice/fitting/mvee.hpp>
 
 namespace bodice::fitting {
@@ -17,6 +16,18 @@ body::Part majority_part(const Items& items, std::span<const Index> members) {
   std::array<std::size_t, body::kPartCount> votes{};
   for (const Index i : members) ++votes[static_cast<int>(items.part[i])];
   return static_cast<body::Part>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+}
+
+std::vector<Vec3> points_of(const Items& items, std::span<const Index> members) {
+  std::vector<Vec3> points;
+  for (const Index i : members) points.push_back(items.where[i]);
+  return points;
+}
+
+std::vector<double> weights_of(const Items& items, std::span<const Index> members) {
+  std::vector<double> weights;
+  for (const Index i : members) weights.push_back(items.weight[i]);
+  return weights;
 }
 
 double radial_distance(const geometry::Ellipsoid& e, const Vec3& p) {
@@ -32,14 +43,44 @@ double radial_error(const geometry::Ellipsoid& ellipsoid, std::span<const Vec3> 
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-Refinement::Refinement(const engine::Context& context, const Items& items, Region region,
-                       const RefineOptions& options)
-    : context_(context), items_(items), region_(std::move(region)), options_(options) {
-  for (const Index i : region_.items) {
-    where_.push_back(items_.where[i]);
-    weight_.push_back(items_.weight[i]);
+std::vector<Vec3> enclosed_points(const Items& items, std::span<const Index> members) {
+  std::vector<Vec3> points;
+  if (items.encloses.empty()) {
+    for (const Index i : members) points.push_back(items.where[i]);
+    return points;
   }
+  std::vector<Index> ids;
+  for (const Index i : members) ids.insert(ids.end(), items.encloses[i].begin(), items.encloses[i].end());
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  for (const Index i : ids) points.push_back(items.points[i]);
+  return points;
+}
+
+Refinement::Refinement(const engine::Context& context, const Items& items, const Region& region,
+                       const RefineOptions& options)
+    : context_(context),
+      items_(items),
+      region_(region),
+      options_(options),
+      where_(points_of(items, region_.items)),
+      weight_(weights_of(items, region_.items)),
+      lloyd_(fresh_lloyd()) {
   recluster(region_.seeds);
+}
+
+void Refinement::run(double mu_m, std::size_t most) {
+  // A split that empties a cluster adds none: bounded by the items all the same.
+  for (std::size_t step = 0; step < where_.size() && clusters_.size() < most; ++step) {
+    if (!(worst_error() > mu_m)) break;
+    context_.checkpoint();
+    split_worst();
+  }
+}
+
+/// K-means without a past, measuring from near the region's points.
+Lloyd Refinement::fresh_lloyd() const {
+  return {where_, weight_, where_.empty() ? Vec3(Vec3::Zero()) : where_.front()};
 }
 
 double Refinement::worst_error() const {
@@ -67,12 +108,13 @@ void Refinement::split_worst() {
 }
 
 void Refinement::recluster(std::vector<Vec3> centers) {
-  Clusters found = kmeans(context_, where_, weight_, std::move(centers), {options_.sigma_m, 50});
-  std::vector<std::vector<Index>> members(found.centers.size());
-  for (std::size_t i = 0; i < found.of_point.size(); ++i)
-    members[found.of_point[i]].push_back(region_.items[i]);
-  centers_ = std::move(found.centers);
+  lloyd_.run(context_, std::move(centers), {options_.sigma_m, 50});
+  std::vector<std::vector<Index>> members(lloyd_.centers().size());
+  for (std::size_t i = 0; i < region_.items.size(); ++i)
+    members[lloyd_.of_point()[i]].push_back(region_.items[i]);
+  centers_ = lloyd_.centers();
   set_members(std::move(members));
+  if (centers_.size() != lloyd_.centers().size()) lloyd_ = fresh_lloyd();  // centres were renumbered
   if (options_.reclassify) reclassify();
 }
 
@@ -93,32 +135,15 @@ void Refinement::set_members(std::vector<std::vector<Index>> members) {
   }
   clusters_ = std::move(next);
   centers_ = std::move(centers);
-  engine::parallel_for(context_, changed.size(), 2, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context_, changed.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) fit(clusters_[changed[i]]);
   });
 }
 
-std::vector<Vec3> Refinement::skin_points(const Cluster& cluster) const {
-  std::vector<Index> ids;
-  for (const Index i : cluster.items)
-    if (items_.is_skin[i]) ids.insert(ids.end(), items_.encloses[i].begin(), items_.encloses[i].end());
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  std::vector<Vec3> points;
-  points.reserve(ids.size());
-  for (const Index i : ids) points.push_back(items_.points[i]);
-  return points;
-}
-
 void Refinement::fit(Cluster& cluster) const {
-  std::vector<Vec3> points = skin_points(cluster);
-  const std::size_t skin = points.size();
-  for (const Index i : cluster.items)
-    if (!items_.is_skin[i])
-      for (const Index p : items_.encloses[i]) points.push_back(items_.points[p]);
+  const std::vector<Vec3> points = enclosed_points(items_, cluster.items);
   // A relative volume of 1e-4 moves a radius by a thirty-thousandth: far below every threshold mu.
   cluster.ellipsoid = mvee(points, {1e-4, options_.min_radius_m}).ellipsoid;
-  points.resize(skin);
   cluster.error_m = radial_error(cluster.ellipsoid, points);
   cluster.part = majority_part(items_, cluster.items);
 }
@@ -133,7 +158,7 @@ void Refinement::reclassify() {
     for (const Index i : before[k].items) {
       std::size_t best = k;
       double least = radial_distance(before[k].ellipsoid, items_.where[i]);
-      for (std::size_t j = 0; items_.is_skin[i] && j < before.size(); ++j) {
+      for (std::size_t j = 0; j < before.size(); ++j) {
         if (j == k || geometry::level(before[j].ellipsoid, items_.where[i]) > 1.0) continue;
         const double distance = radial_distance(before[j].ellipsoid, items_.where[i]);
         if (distance < least) least = distance, best = j;

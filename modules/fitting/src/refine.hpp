@@ -1,17 +1,19 @@
 // Bisecting refinement of one region: the paper's steps a to e.
-// Based on: the paper, section 3.3. Differs: steps are driven from outside, so that one budget can be spent
-// over all regions, worst ellipsoid first; only clusters whose members changed are fitted again; a cluster
-// too small to split is left alone, so refinement always ends.
+// Based on: the paper, section 3.3. Differs: ends at a count as well as at a threshold; only clusters whose
+// members changed are fitted again; a cluster too small to split is left alone, so refinement always ends.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <bodice/body/part.hpp>
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
+
+#include "lloyd.hpp"
 
 namespace bodice::fitting {
 
@@ -22,14 +24,17 @@ using geometry::Vec3;
 struct Items {
   std::vector<Vec3> where;     ///< #I, the point that K-means sees
   std::vector<double> weight;  ///< #I
-  std::vector<std::array<Index, 3>>
-      encloses;                       ///< #I, points that the item's ellipsoid must hold (may repeat)
-  std::vector<std::uint8_t> is_skin;  ///< #I, takes part in the fit error
-  std::vector<body::Part> part;       ///< #I
-  std::vector<Vec3> points;           ///< what `encloses` indexes
+  /// #I, points that the item's ellipsoid must hold (may repeat); empty: `where` itself.
+  std::vector<std::array<Index, 3>> encloses;
+  std::vector<body::Part> part;  ///< #I
+  std::vector<Index> triangle;   ///< #I, of the mesh, where items are triangles
+  std::vector<Vec3> points;      ///< what `encloses` indexes
 };
 
+/// Parts that are fitted together: the torso's six, or one limb.
 struct Region {
+  std::string_view name;
+  std::uint32_t parts = 0;  ///< bit a part
   bool torso = false;
   std::vector<Index> items;
   std::vector<Vec3> seeds;  ///< initial centres: 6 for the torso, else 1
@@ -44,37 +49,46 @@ struct RefineOptions {
 struct Cluster {
   std::vector<Index> items;  ///< ascending
   geometry::Ellipsoid ellipsoid;
-  double error_m = 0.0;  ///< E_j, eq. (6), over its skin points
+  double error_m = 0.0;  ///< E_j, eq. (6), over its points
   body::Part part = body::Part::kHead;
 };
+
+/// The points that these items' ellipsoid must hold, each once.
+std::vector<Vec3> enclosed_points(const Items& items, std::span<const Index> members);
 
 /// Eq. (6): mean distance along the ray from the centre between the points and the ellipsoid.
 double radial_error(const geometry::Ellipsoid& ellipsoid, std::span<const Vec3> points);
 
 class Refinement {
  public:
-  Refinement(const engine::Context& context, const Items& items, Region region, const RefineOptions& options);
+  /// The region and the items must outlive the refinement.
+  Refinement(const engine::Context& context, const Items& items, const Region& region,
+             const RefineOptions& options);
+  Refinement(const Refinement&) = delete;
+  Refinement& operator=(const Refinement&) = delete;
 
-  const Region& region() const { return region_; }
   const std::vector<Cluster>& clusters() const { return clusters_; }
   /// E of the worst cluster that can still be split, or 0 when none can.
   double worst_error() const;
   /// Steps b to d. Does nothing when no cluster can be split.
   void split_worst();
+  /// Step e: splits until every error is at most `mu_m` or there are `most` clusters.
+  void run(double mu_m, std::size_t most);
 
  private:
   void recluster(std::vector<Vec3> centers);
   void fit(Cluster& cluster) const;
-  std::vector<Vec3> skin_points(const Cluster& cluster) const;
   void reclassify();
   void set_members(std::vector<std::vector<Index>> members);
+  Lloyd fresh_lloyd() const;
 
   const engine::Context& context_;
   const Items& items_;
-  Region region_;
+  const Region& region_;
   RefineOptions options_;
   std::vector<Vec3> where_;  ///< of the region's items
   std::vector<double> weight_;
+  Lloyd lloyd_;
   std::vector<Vec3> centers_;
   std::vector<Cluster> clusters_;
 };

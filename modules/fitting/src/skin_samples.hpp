@@ -14,6 +14,7 @@ struct DistanceSample {
   Vec3 point;
   double signed_distance_m = 0.0;  ///< to the skin, negative inside
   body::Part part = body::Part::kHead;
+  bool one_sided = false;  ///< asks only not to be nearer than it is: skin that others stand for
 };
 
 struct SampleOptions {

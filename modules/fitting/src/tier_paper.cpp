@@ -1,23 +1,76 @@
+#include <algorithm>
+
 #include "items.hpp"
+#include "region_tasks.hpp"
+#include "share_counts.hpp"
 #include "tiers.hpp"
 
 namespace bodice::fitting {
 
-Draft fit_paper(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
-                int count) {
+void report_thresholds(const std::vector<Region>& regions, const std::vector<FittedRegion>& fitted,
+                       const Thresholds& asked, Draft& draft) {
+  Thresholds worst;
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    for (const double e : fitted[r].error_m) {
+      double& mu = regions[r].torso ? worst.torso_m : worst.limbs_m;
+      mu = std::max(mu, e);
+    }
+  draft.mu = asked.given() ? asked : worst;
+  draft.thresholds_reached =
+      !asked.given() || (worst.torso_m <= asked.torso_m && worst.limbs_m <= asked.limbs_m);
+}
+
+engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context, const Items& items,
+                                                         const std::vector<Region>& regions,
+                                                         const RefineOptions& refine, const Thresholds& mu,
+                                                         int count, const FitOptions& options) {
+  RegionTasks tasks{.verb = "refine"};
+  tasks.on_part = options.on_part;
+  tasks.fit = [&](const engine::Context& inner, const Region& region, int share) {
+    Refinement refinement(inner, items, region, refine);
+    refinement.run(region.torso ? mu.torso_m : mu.limbs_m, static_cast<std::size_t>(share));
+    FittedRegion fitted;
+    for (const Cluster& c : refinement.clusters()) {
+      fitted.ellipsoids.push_back({c.ellipsoid, c.part});
+      fitted.error_m.push_back(c.error_m);
+    }
+    return fitted;
+  };
+  if (mu.given()) {
+    // First without a common limit; only if that takes too many are they shared out.
+    tasks.share = [&](const engine::Context&) { return std::vector<int>(regions.size(), count); };
+    tasks.on_part = nullptr;
+    auto fitted = run_region_tasks(context, regions, tasks);
+    if (!fitted) return fitted;
+    std::size_t total = 0;
+    for (const FittedRegion& f : *fitted) total += f.ellipsoids.size();
+    if (total <= static_cast<std::size_t>(count)) {
+      for (std::size_t r = 0; options.on_part && r < regions.size(); ++r)
+        options.on_part({regions[r].name, regions[r].parts, (*fitted)[r].ellipsoids});
+      return fitted;
+    }
+    tasks.on_part = options.on_part;
+  }
+  tasks.share = [&](const engine::Context& inner) { return share_counts(inner, items, regions, count); };
+  return run_region_tasks(context, regions, tasks);
+}
+
+engine::Result<Draft> fit_paper(const engine::Context& context, const LabelledSkin& skin,
+                                const FitOptions& options, int count) {
   const Items items = vertex_items(skin, options.parts);
+  const std::vector<Region> regions = make_regions(items, count);
   // Pruned stop: centres that move less than this no longer change which ellipsoid fits best.
   const RefineOptions refine{.sigma_m = 2e-3 * skin.stature_m,
                              .min_radius_m = 3e-4 * skin.stature_m,
                              .reclassify = options.reclassify_points};
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
-  const Allocation done =
-      allocate(context, items, make_regions(items), refine, mu, static_cast<std::size_t>(count));
+  const auto fitted = refine_regions(context, items, regions, refine, mu, count, options);
+  if (!fitted) return fitted.error();
   Draft draft;
   draft.data.tier = proxy::Tier::kPaper;
-  draft.mu = done.in_force;
-  draft.thresholds_reached = done.reached;
-  for (const Cluster& c : done.clusters()) draft.data.ellipsoids.push_back({c.ellipsoid, c.part});
+  report_thresholds(regions, *fitted, mu, draft);
+  for (const FittedRegion& f : *fitted)
+    draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());
   return draft;
 }
 

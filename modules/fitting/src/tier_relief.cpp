@@ -1,12 +1,16 @@
+#include "tier_relief.hpp"
+
+#include <algorithm>
+
 #include <bodice/engine/clock.hpp>
+#include <bodice/engine/stage_timer.hpp>
 
 #include "relief_fit.hpp"
-#include "tier_relief.hpp"
-#include "tiers.hpp"
 
 namespace bodice::fitting {
 namespace {
 
+constexpr double kNoTimeLimit_s = 1e6;
 /// First tables that are usable soon, and say where more texels pay; then those that last.
 constexpr std::size_t kFirstNormals = 8000, kNormals = 48000;
 constexpr int kFirstPerNormal = 3, kPerNormal = 6;
@@ -53,14 +57,32 @@ void ReliefTables::fit(std::size_t bytes) {
   fit_tables(context_, answers_, sides, kSteps, data_);
 }
 
-void add_relief(const engine::Context& context, const SkinSource& source, const FitOptions& options,
-                std::int64_t deadline_ns, Draft& draft) {
-  if (texels_within(draft.data.ellipsoids.size(), kReliefBytes) == 0) return;
-  ReliefTables tables(context, source, draft.data);
-  tables.fit_first(kReliefBytes);
+ReliefRun::ReliefRun(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+                     const Plan& plan, std::vector<engine::StageTime>& stages)
+    : context_(context), stages_(stages), count_(plan.count) {
+  const double budget_s = options.time_budget_s.value_or(kNoTimeLimit_s);
+  const std::int64_t deadline =
+      context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(budget_s, kNoTimeLimit_s));
+  engine::StageTimer tight(context, stages, "tight");
+  source_ = std::make_unique<SkinSource>(make_skin_source(context, skin, options.parts));
+  draft_ = fit_tight(context, *source_, options, plan.count, 0.5 * budget_s);
+  tight.stop();
+  if (draft_.data.ellipsoids.empty()) return;
+  engine::StageTimer relief(context, stages, "relief");
+  if (texels_within(draft_.data.ellipsoids.size(), plan.relief_bytes) == 0) return;
+  draft_.data.stature_m = skin.stature_m;
+  draft_.data.frame = skin.frame;
+  tables_ = std::make_unique<ReliefTables>(context, *source_, draft_.data);
+  tables_->fit_first(plan.relief_bytes);
   if (options.on_improved)
-    if (auto proxy = proxy::BodyProxy::make(draft.data)) options.on_improved(*proxy);
-  if (context.clock->now_ns() < deadline_ns) tables.fit(kReliefBytes);
+    if (auto proxy = proxy::BodyProxy::make(draft_.data)) options.on_improved(*proxy);
+  if (context.clock->now_ns() < deadline) tables_->fit(plan.relief_bytes);
+}
+
+void ReliefRun::resize(std::size_t bytes) {
+  if (!tables_ || texels_within(draft_.data.ellipsoids.size(), bytes) == 0) return;
+  engine::StageTimer relief(context_, stages_, "relief");
+  tables_->fit(bytes);
 }
 
 }  // namespace bodice::fitting

@@ -2,9 +2,12 @@
 // costs a solve.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "plan.hpp"
 #include "relief_answers.hpp"
+#include "tiers.hpp"
 
 namespace bodice::fitting {
 
@@ -27,6 +30,30 @@ class ReliefTables {
   proxy::BodyProxy::Data& data_;
   std::vector<double> error_;  ///< #E, of the first tables
   ReliefAnswers answers_;      ///< to the samples of fit(); empty before
+};
+
+/// The relief tier: tight ellipsoids, for half of a time budget, and their tables. Anytime: tells
+/// options.on_improved of the first tables and leaves it at them once the budget is spent. With more
+/// ellipsoids than tables fit (about 1000) the draft stays plain.
+class ReliefRun {
+ public:
+  ReliefRun(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+            const Plan& plan, std::vector<engine::StageTime>& stages);
+  ReliefRun(const ReliefRun&) = delete;
+  ReliefRun& operator=(const ReliefRun&) = delete;
+
+  int count() const { return count_; }
+  const Draft& draft() const { return draft_; }
+  /// Tables of another size for the same ellipsoids.
+  void resize(std::size_t bytes);
+
+ private:
+  const engine::Context& context_;
+  std::vector<engine::StageTime>& stages_;
+  int count_;
+  std::unique_ptr<SkinSource> source_;
+  Draft draft_;
+  std::unique_ptr<ReliefTables> tables_;  ///< null: no room for any
 };
 
 }  // namespace bodice::fitting

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <array>
 
 #include <bodice/engine/clock.hpp>
 
+#include "cover.hpp"
 #include "medial_start.hpp"
 #include "scaling.hpp"
 #include "tiers.hpp"
@@ -11,18 +11,21 @@
 namespace bodice::fitting {
 namespace {
 
-/// The descent moves ellipsoids to where they are needed, out of the part they started in: each takes the
-/// part that most of its skin samples have (ties: the first part); one without skin keeps its own.
-void take_parts(const TightProblem& problem, std::span<const DistanceSample> samples,
+constexpr float kCoveringWeight = 4.0f;  // of uncovered skin, before what is left is covered by growth
+
+/// Every triangle of the wanted, unburied skin into an ellipsoid.
+void cover_skin(const engine::Context& context, const SkinSource& source,
                 std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
-  std::vector<std::array<int, body::kPartCount>> votes(ellipsoids.size());
-  const std::vector<std::uint32_t> owner = problem.skin_owner();
-  for (std::size_t i = 0; i < owner.size(); ++i)
-    if (owner[i] != TightProblem::kNoOwner) ++votes[owner[i]][static_cast<int>(samples[i].part)];
-  for (std::size_t k = 0; k < ellipsoids.size(); ++k) {
-    const auto most = std::max_element(votes[k].begin(), votes[k].end());
-    if (*most > 0) ellipsoids[k].part = static_cast<body::Part>(most - votes[k].begin());
+  const LabelledSkin& skin = source.skin;
+  std::vector<Index> triangles;
+  for (std::size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
+    const auto part = static_cast<int>(skin.part[skin.mesh.triangles[t][0]]);
+    if (((source.parts >> part) & 1u) && !source.buried[t]) triangles.push_back(static_cast<Index>(t));
   }
+  std::vector<geometry::Ellipsoid> shapes;
+  for (const auto& e : ellipsoids) shapes.push_back(e.shape);
+  cover_triangles(context, skin.mesh, triangles, shapes);
+  for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
 }
 
 }  // namespace
@@ -40,7 +43,9 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   const std::size_t samples = std::clamp<std::size_t>(180 * static_cast<std::size_t>(count), 6000, 60000);
   const std::vector<DistanceSample> near_skin =
       sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.5, 0.15, 200 * mm, 11});
-  TightProblem problem(near_skin, scaling.origin, scaling.scale, TightLoss{});
+  TightLoss loss;
+  if (options.covering) loss.uncovered_weight = kCoveringWeight;
+  TightProblem problem(near_skin, scaling.origin, scaling.scale, loss);
   std::vector<geometry::Ellipsoid> state;
   for (const auto& e : draft.data.ellipsoids) state.push_back(scaling.in(e.shape));
 
@@ -64,6 +69,7 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   for (auto idle = report.idle.rbegin(); idle != report.idle.rend(); ++idle)
     if (draft.data.ellipsoids.size() > 1)
       draft.data.ellipsoids.erase(draft.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(*idle));
+  if (options.covering) cover_skin(context, source, draft.data.ellipsoids);
   return draft;
 }
 

@@ -3,8 +3,10 @@
 
 #include <bodice/fitting/fit.hpp>
 
-#include "allocate.hpp"
+#include "refine.hpp"
+#include "region_tasks.hpp"
 #include "skin_samples.hpp"
+#include "thresholds.hpp"
 
 namespace bodice::fitting {
 
@@ -15,21 +17,27 @@ struct Draft {
 };
 
 /// As written: vertices, k-means, enclosing ellipsoids.
-Draft fit_paper(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
-                int count);
+engine::Result<Draft> fit_paper(const engine::Context& context, const LabelledSkin& skin,
+                                const FitOptions& options, int count);
 
-/// No leaks: whole triangles and interior points are clustered and enclosed, and what the union still misses
-/// inside is added until nothing is.
-Draft fit_solid(const engine::Context& context, const SkinSource& source, const FitOptions& options,
-                int count);
+/// The paper's refinement of every region as a task of its own: to the thresholds if they are given and at
+/// most `count` ellipsoids suffice, else to shares of `count`.
+engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context, const Items& items,
+                                                         const std::vector<Region>& regions,
+                                                         const RefineOptions& refine, const Thresholds& mu,
+                                                         int count, const FitOptions& options);
+
+/// No leaks: every triangle ends inside one ellipsoid, and what the union then misses inside is added until
+/// nothing is.
+engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSkin& skin,
+                                const FitOptions& options, int count);
+
+/// The worst E_j by class, and whether the thresholds asked for were reached, into the draft.
+void report_thresholds(const std::vector<Region>& regions, const std::vector<FittedRegion>& fitted,
+                       const Thresholds& asked, Draft& draft);
 
 /// All ellipsoids optimised together against the exact signed distance, from medial clusters; anytime.
 Draft fit_tight(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count, double time_budget_s);
-
-/// Tables on top of a tight draft: a first version, then one from five times the samples unless the deadline
-/// has passed. Leaves a draft with more ellipsoids than tables fit (about 1000) as it is.
-void add_relief(const engine::Context& context, const SkinSource& source, const FitOptions& options,
-                std::int64_t deadline_ns, Draft& draft);
 
 }  // namespace bodice::fitting

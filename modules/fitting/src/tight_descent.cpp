@@ -5,6 +5,7 @@
 #include "tight_descent.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -114,7 +115,7 @@ DescentReport descend(const engine::Context& context, TightProblem& problem,
   double told = report.first_cost, cost_before_move = -1.0, window_cost = report.first_cost;
   int moves = std::max(1, static_cast<int>(ellipsoids.size()) / 12);
   while (report.iterations < options.max_iterations && !(options.out_of_time && options.out_of_time())) {
-    context.cancel.check();
+    context.checkpoint();
     const int i = ++report.iterations;
     iterate(context, problem, state);
     if (i % kRefreshEvery == 0) problem.refresh(context, state.ellipsoids);
@@ -152,6 +153,18 @@ DescentReport descend(const engine::Context& context, TightProblem& problem,
   for (std::size_t k = 0; k < held.size(); ++k)
     if (held[k] < kLeastSkin) report.idle.push_back(k);
   return report;
+}
+
+void take_parts(const TightProblem& problem, std::span<const DistanceSample> samples,
+                std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
+  std::vector<std::array<int, body::kPartCount>> votes(ellipsoids.size());
+  const std::vector<std::uint32_t> owner = problem.skin_owner();
+  for (std::size_t i = 0; i < owner.size(); ++i)
+    if (owner[i] != TightProblem::kNoOwner) ++votes[owner[i]][static_cast<int>(samples[i].part)];
+  for (std::size_t k = 0; k < ellipsoids.size(); ++k) {
+    const auto most = std::max_element(votes[k].begin(), votes[k].end());
+    if (*most > 0) ellipsoids[k].part = static_cast<body::Part>(most - votes[k].begin());
+  }
 }
 
 }  // namespace bodice::fitting

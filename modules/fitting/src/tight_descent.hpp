@@ -25,4 +25,10 @@ struct DescentReport {
 DescentReport descend(const engine::Context& context, TightProblem& problem,
                       std::vector<geometry::Ellipsoid>& ellipsoids, const DescentOptions& options);
 
+/// The descent moves ellipsoids to where they are needed, out of the part they started in: each takes the
+/// part that most of its skin samples have (ties: the first part); one without skin keeps its own. `samples`
+/// are the problem's.
+void take_parts(const TightProblem& problem, std::span<const DistanceSample> samples,
+                std::vector<proxy::ProxyEllipsoid>& ellipsoids);
+
 }  // namespace bodice::fitting

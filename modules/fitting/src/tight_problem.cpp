@@ -13,18 +13,6 @@ namespace {
 
 constexpr std::size_t kGrain = 512;
 
-/// k0 (k0 - 1) / k1 with k0 = |y / r|, k1 = |y / r^2|: near the distance, and cheap.
-float rough_distance(const FootEllipsoid& e, float px, float py, float pz) {
-  const float dx = px - e.c[0], dy = py - e.c[1], dz = pz - e.c[2];
-  float k0 = 1e-12f, k1 = 1e-12f;
-  for (int j = 0; j < 3; ++j) {
-    const float y = (e.rt[j][0] * dx + e.rt[j][1] * dy + e.rt[j][2] * dz) / e.r[j];
-    k0 += y * y;
-    k1 += y * y / (e.r[j] * e.r[j]);
-  }
-  return (k0 - std::sqrt(k0)) / std::sqrt(k1);
-}
-
 std::vector<FootEllipsoid> in_floats(std::span<const geometry::Ellipsoid> ellipsoids) {
   return {ellipsoids.begin(), ellipsoids.end()};
 }
@@ -37,6 +25,7 @@ TightProblem::TightProblem(std::span<const DistanceSample> samples, const Vec3& 
   for (const DistanceSample& s : samples) {
     for (int j = 0; j < 3; ++j) point_[j].push_back(static_cast<float>((s.point[j] - origin[j]) * scale));
     target_.push_back(static_cast<float>(s.signed_distance_m * scale));
+    one_sided_.push_back(s.one_sided);
   }
   pairs_of_.resize(samples.size());
   owner_.resize(samples.size());
@@ -52,19 +41,20 @@ void TightProblem::refresh(const engine::Context& context, std::span<const geome
   const int near = std::min<int>(kNear, static_cast<int>(es.size()));
   std::vector<std::array<std::uint32_t, kNear>> candidates(samples);
   engine::parallel_for(context, samples, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      std::array<float, kNear> best;
-      best.fill(std::numeric_limits<float>::infinity());
-      for (std::uint32_t k = 0; k < es.size(); ++k) {
-        const float d = rough_distance(es[k], point_[0][i], point_[1][i], point_[2][i]);
-        if (!(d < best[near - 1])) continue;
+    std::array<std::array<float, kNear>, kGrain> best;
+    std::array<float, kGrain> d;
+    for (auto& b : best) b.fill(std::numeric_limits<float>::infinity());
+    for (std::uint32_t k = 0; k < es.size(); ++k) {
+      rough_distances(es[k], end - begin, &point_[0][begin], &point_[1][begin], &point_[2][begin], d.data());
+      for (std::size_t i = 0; i < end - begin; ++i) {
+        if (!(d[i] < best[i][near - 1])) continue;
         int slot = near - 1;
-        for (; slot > 0 && d < best[slot - 1]; --slot) {
-          best[slot] = best[slot - 1];
-          candidates[i][slot] = candidates[i][slot - 1];
+        for (; slot > 0 && d[i] < best[i][slot - 1]; --slot) {
+          best[i][slot] = best[i][slot - 1];
+          candidates[begin + i][slot] = candidates[begin + i][slot - 1];
         }
-        best[slot] = d;
-        candidates[i][slot] = k;
+        best[i][slot] = d[i];
+        candidates[begin + i][slot] = k;
       }
     }
   });
@@ -113,6 +103,7 @@ void TightProblem::restore(std::size_t k) {
 
 float TightProblem::cost_at(std::size_t i, float d) const {
   const float target = target_[i];
+  if (one_sided_[i] && d >= target) return 0.0f;
   if (target < -loss_.ignore_depth && d < -0.5f * loss_.ignore_depth) return 0.0f;
   if (target > loss_.far && d > loss_.far) return 0.0f;
   const float r = std::fabs(d - target);
@@ -180,7 +171,7 @@ std::vector<std::size_t> TightProblem::skin_of_each() const {
 std::vector<std::uint32_t> TightProblem::skin_owner() const {
   std::vector<std::uint32_t> owner(owner_.size(), kNoOwner);
   for (std::size_t i = 0; i < owner_.size(); ++i)
-    if (std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far)
+    if (!one_sided_[i] && std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far)
       owner[i] = ellipsoid_of_pair_[owner_[i]];
   return owner;
 }

@@ -72,6 +72,7 @@ class TightProblem {
   TightLoss loss_;
   std::array<std::vector<float>, 3> point_;  ///< #S
   std::vector<float> target_;                ///< #S
+  std::vector<std::uint8_t> one_sided_;      ///< #S
   std::size_t ellipsoids_ = 0;
   std::vector<std::uint32_t> pair_begin_;   ///< #E + 1: pairs are grouped by ellipsoid
   std::vector<std::uint32_t> pair_sample_;  ///< #P

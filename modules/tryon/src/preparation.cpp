@@ -76,7 +76,7 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
   auto coarse = builder.add(
       "coarse proxy",
       [set, handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
-        if (set->fit.tier <= proxy::Tier::kSolid) return {};
+        if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
         auto fit = fit_parts(c, *on, {.tier = proxy::Tier::kSolid}, parts);
         if (!fit) return std::move(fit).error();
         handover->give(on, fit->proxy);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <bodice/body/part.hpp>
@@ -26,19 +27,33 @@ struct LabelledSkin {
       nullptr;  ///< of `mesh`, if the caller has it; else built when needed
 };
 
+/// A region of the body (the torso's six parts, or one limb part) whose ellipsoids are ready.
+struct FittedPart {
+  std::string_view name;    ///< "torso", or the part's name
+  std::uint32_t parts = 0;  ///< bit a part
+  std::span<const proxy::ProxyEllipsoid> ellipsoids;
+};
+
 struct FitOptions {
-  proxy::Tier tier = proxy::Tier::kRelief;
-  std::optional<double> target_error_m;  ///< mean gap wanted; gives the ellipsoid count and thresholds
+  std::optional<proxy::Tier> tier;  ///< absent: what the target error or the budget asks for, else relief
+  /// Mean gap wanted, met within a fifth of it; gives tier, count, size of tables and thresholds.
+  std::optional<double> target_error_m;
   std::optional<int> max_ellipsoids;
   std::optional<double> budget_us;               ///< collision time a frame for 10k particles
   std::optional<double> mu_torso_m, mu_limbs_m;  ///< the paper's thresholds; automatic if absent
   /// The anytime tiers stop after this long; absent: when they gain no more, which makes runs repeatable.
   std::optional<double> time_budget_s;
+  /// Tight: the ellipsoids grow in the end until no skin is outside, at the price of the mean gap.
+  bool covering = false;
   bool reclassify_points = false;  ///< the paper tier's eq. (8): .2 mm of E for two to three times the work
   std::uint64_t seed = 0;
   std::uint32_t parts = (1u << body::kPartCount) - 1;  ///< bit a part: only these are fitted
   /// Called with each better proxy of an anytime tier, from the calling thread's task.
   std::function<void(const proxy::BodyProxy&)> on_improved;
+  /// Paper and solid: called with each region as its task ends, one call at a time, in any order, from any
+  /// worker. What it shows is in the result, unless the inside of the whole body asks for a little more
+  /// (solid) or a target error for another count.
+  std::function<void(const FittedPart&)> on_part;
 };
 
 struct Spread {

@@ -24,7 +24,7 @@ struct Clusters {
 };
 
 /// Lloyd's iterations from the given centres. `weights` is empty or one a point. Deterministic for any worker
-/// count; distances are compared in float relative to the first centre. O(#points #centers) an iteration.
+/// count; distances are compared in float relative to the first point. O(#points #centers) an iteration.
 /// Based on: Stuart P. Lloyd. Least squares quantization in PCM. 1982.
 Clusters kmeans(const engine::Context& context, std::span<const Vec3> points, std::span<const double> weights,
                 std::vector<Vec3> centers, const KMeansOptions& options);

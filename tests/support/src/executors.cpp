@@ -1,4 +1,4 @@
-#include "executors.hpp"
+#include <bodice_test/executors.hpp>
 
 #include <condition_variable>
 #include <mutex>

@@ -1,0 +1,13 @@
+// What a query against a proxy costs: the measured side of the fit's cost model.
+#pragma once
+
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace fit_bench {
+
+/// Nanoseconds of processor time a particle, one thread, the least of several runs: particles within 30 mm of
+/// the skin, in the order of its triangles, kept in a Workspace as a frame loop does.
+double query_ns(const bodice::proxy::BodyProxy& proxy, const bodice::geometry::TriMesh& skin);
+
+}  // namespace fit_bench

@@ -1,0 +1,36 @@
+// From ellipsoids that follow the skin to ellipsoids that leave none of it outside.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::fitting {
+
+using geometry::Index;
+using geometry::Vec3;
+
+/// Grows `ellipsoid` about as little as holding `points` takes: the least ellipsoid around them and the
+/// corners of the icosahedron inscribed in it, whose own least ellipsoid it is.
+geometry::Ellipsoid grown(const geometry::Ellipsoid& ellipsoid, std::span<const Vec3> points);
+
+/// The ellipsoid stretched towards `point` until it holds it; what it held it still holds. In its own frame,
+/// where it is the unit ball and the point at distance rho: semi-axis a = (1 + rho) / 2 towards the point,
+/// the others sqrt(a), so that the ball osculates the far end of the long axis from inside.
+geometry::Ellipsoid stretched(const geometry::Ellipsoid& ellipsoid, const Vec3& point);
+
+/// Grows the ellipsoids until each of the triangles lies inside a single one, and so wholly inside the union:
+/// an ellipsoid is convex. Certain: what a few passes leave is covered by stretching, which lets go of
+/// nothing. O(#triangles #ellipsoids).
+void cover_triangles(const engine::Context& context, const geometry::TriMesh& mesh,
+                     std::span<const Index> triangles, std::vector<geometry::Ellipsoid>& ellipsoids);
+
+/// Stretches the ellipsoids until the union holds every column of the mesh's inside, `spacing_m` apart, along
+/// its whole length. Returns the length that had to be covered, metres.
+double cover_interior(const engine::Context& context, const geometry::TriMesh& mesh, double spacing_m,
+                      std::vector<geometry::Ellipsoid>& ellipsoids);
+
+}  // namespace bodice::fitting

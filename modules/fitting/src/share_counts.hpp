@@ -1,0 +1,18 @@
+// How many ellipsoids each region gets before any is fitted, so that the regions need not wait for each
+// other.
+#pragma once
+
+#include <vector>
+
+#include "refine.hpp"
+#include "thresholds.hpp"
+
+namespace bodice::fitting {
+
+/// Shares `count` ellipsoids out (at least one a region): a rehearsal of the bisecting refinement on at most
+/// 4096 points, with the principal axes of each cluster instead of its enclosing ellipsoid and without
+/// K-means, in which the worst ellipsoid of all regions is split again and again. Well under a millisecond.
+std::vector<int> share_counts(const engine::Context& context, const Items& items,
+                              const std::vector<Region>& regions, int count);
+
+}  // namespace bodice::fitting

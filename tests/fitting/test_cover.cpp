@@ -1,0 +1,94 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+#include <bodice/engine/random.hpp>
+#include <bodice/fitting/fit.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+
+#include "shapes.hpp"
+
+using namespace bodice;
+using fitting_test::Skin;
+using fitting_test::three_ellipsoids;
+using geometry::Vec3;
+
+namespace {
+
+/// One body whose limbs bend and meet: no single ellipsoid follows any of them.
+Skin bent_body() {
+  Skin skin = three_ellipsoids();
+  for (Vec3& p : skin.mesh.positions) {
+    p.x() += 0.08 * std::sin(7.0 * p.y());
+    p.z() *= 1.0 + 0.25 * std::cos(15.0 * p.y());
+  }
+  return skin;
+}
+
+/// The largest distance that a point of a triangle is outside all ellipsoids, at corners and inside.
+double deepest_uncovered(const Skin& skin, const proxy::BodyProxy& proxy) {
+  double deepest = 0.0;
+  for (std::size_t t = 0; t < skin.mesh.triangles.size(); ++t)
+    for (const Vec3& w : {Vec3(1, 0, 0), Vec3(0.5, 0.5, 0), Vec3(0, 0.5, 0.5), Vec3(Vec3(1, 1, 1) / 3.0)}) {
+      const Vec3 p =
+          w[0] * skin.mesh.corner(t, 0) + w[1] * skin.mesh.corner(t, 1) + w[2] * skin.mesh.corner(t, 2);
+      double least = 1e300;
+      for (const auto& e : proxy.ellipsoids())
+        least = std::min(least, geometry::nearest_point(e.shape, p).signed_distance);
+      deepest = std::max(deepest, least);
+    }
+  return deepest;
+}
+
+/// Of random points inside the skin: how many no ellipsoid holds.
+int leaks(const Skin& skin, const geometry::MeshDistance& distance, const proxy::BodyProxy& proxy) {
+  engine::Random random(12);
+  const geometry::Box box = geometry::bounding_box(skin.mesh.positions);
+  int outside = 0, inside = 0;
+  while (inside < 3000) {
+    const Vec3 u(random.uniform(), random.uniform(), random.uniform());
+    const Vec3 p = box.low + u.cwiseProduct(box.size());
+    if (!distance.inside(p)) continue;
+    ++inside;
+    bool held = false;
+    for (const auto& e : proxy.ellipsoids()) held = held || geometry::level(e.shape, p) <= 1.0;
+    outside += !held;
+  }
+  return outside;
+}
+
+}  // namespace
+
+TEST_CASE("solid: no skin and no inside is left out at any count, so more ellipsoids never leak more") {
+  const Skin skin = bent_body();
+  const geometry::MeshDistance distance({}, skin.mesh);
+  fitting::FitOptions options;
+  options.tier = proxy::Tier::kSolid;
+  for (const int count : {1, 2, 3, 8, 16, 32, 55, 89, 200, 400}) {
+    CAPTURE(count);
+    options.max_ellipsoids = count;
+    auto view = skin.view();
+    view.distance = &distance;
+    const auto result = fitting::fit({}, view, options);
+    REQUIRE(result.ok());
+    CHECK(result->proxy.ellipsoids().size() <= static_cast<std::size_t>(count));
+    CHECK(deepest_uncovered(skin, result->proxy) <= 1e-9);
+    CHECK(leaks(skin, distance, result->proxy) == 0);
+  }
+}
+
+TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering one does not") {
+  const Skin skin = bent_body();
+  fitting::FitOptions options;
+  options.tier = proxy::Tier::kTight;
+  options.max_ellipsoids = 12;
+  const auto balanced = fitting::fit({}, skin.view(), options);
+  options.covering = true;
+  const auto covering = fitting::fit({}, skin.view(), options);
+  REQUIRE((balanced.ok() && covering.ok()));
+  CHECK(deepest_uncovered(skin, balanced->proxy) > 5e-4);
+  CHECK(deepest_uncovered(skin, covering->proxy) <= 1e-9);
+  CHECK(covering->accuracy.gap_m.mean > balanced->accuracy.gap_m.mean);
+}

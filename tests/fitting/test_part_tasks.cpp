@@ -1,0 +1,92 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <bodice/engine/executor.hpp>
+#include <bodice/engine/trace.hpp>
+#include <bodice/fitting/fit.hpp>
+
+#include "shapes.hpp"
+
+using namespace bodice;
+using fitting::FitOptions;
+using fitting_test::three_ellipsoids;
+using proxy::Tier;
+
+namespace {
+
+FitOptions options_for(Tier tier) {
+  FitOptions options;
+  options.tier = tier;
+  options.max_ellipsoids = 12;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("part tasks: each wanted region has a task of its own, by name, and no other has") {
+  const auto skin = three_ellipsoids();
+  for (const auto& [tier, verb] : {std::pair(Tier::kPaper, "refine "), std::pair(Tier::kSolid, "cover ")}) {
+    FitOptions options = options_for(tier);
+    options.parts =
+        (1u << static_cast<int>(body::Part::kHead)) | (1u << static_cast<int>(body::Part::kTorsoUL));
+    engine::Trace trace;
+    engine::Context context;
+    context.trace = &trace;
+    REQUIRE(fitting::fit(context, skin.view(), options).ok());
+    const std::string json = trace.json();
+    CHECK(json.find(verb + std::string("torso")) != std::string::npos);
+    CHECK(json.find(verb + std::string("head")) != std::string::npos);
+    CHECK(json.find(verb + std::string("thigh_l")) == std::string::npos);
+  }
+}
+
+TEST_CASE("part tasks: parts are handed on once each, and the result is made of them") {
+  const auto skin = three_ellipsoids();
+  for (const int workers : {1, 2, 5}) {
+    const auto executor = engine::make_tbb_executor(workers);
+    engine::Context context;
+    context.executor = executor.get();
+    FitOptions options = options_for(Tier::kPaper);
+    std::map<std::string, std::vector<proxy::ProxyEllipsoid>> parts;
+    options.on_part = [&](const fitting::FittedPart& part) {
+      CHECK(parts.emplace(part.name, std::vector(part.ellipsoids.begin(), part.ellipsoids.end())).second);
+    };
+    const auto result = fitting::fit(context, skin.view(), options);
+    REQUIRE(result.ok());
+    CHECK(parts.size() == 3);
+    std::size_t handed = 0;
+    for (const auto& [name, ellipsoids] : parts)
+      for (const auto& e : ellipsoids) {
+        ++handed;
+        const auto same = [&](const auto& other) {
+          return (other.shape.center - e.shape.center).norm() < 1e-9;
+        };
+        const auto all = result->proxy.ellipsoids();
+        CHECK(std::any_of(all.begin(), all.end(), same));
+      }
+    CHECK(handed == result->proxy.ellipsoids().size());
+  }
+}
+
+TEST_CASE("part tasks: fewer ellipsoids than parts joins neighbours and keeps the limit") {
+  const auto skin = three_ellipsoids();
+  for (const int count : {1, 2, 3}) {
+    for (const Tier tier : {Tier::kPaper, Tier::kSolid}) {
+      FitOptions options = options_for(tier);
+      options.max_ellipsoids = count;
+      const auto result = fitting::fit({}, skin.view(), options);
+      REQUIRE(result.ok());
+      CHECK(result->proxy.ellipsoids().size() <= static_cast<std::size_t>(count));
+      for (const geometry::Vec3& p : skin.mesh.positions) {
+        bool held = false;
+        for (const auto& e : result->proxy.ellipsoids())
+          held = held || geometry::level(e.shape, p) <= 1.0 + 1e-9;
+        if (!held) FAIL_CHECK("a vertex is left out");
+      }
+    }
+  }
+}

@@ -1,0 +1,140 @@
+// A body's preparation as a graph of tasks: the same proxies in the same order wherever its tasks run,
+// nothing for parts that no garment reaches, and an end at any moment.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <thread>
+
+#include <bodice/engine/random.hpp>
+#include <bodice/engine/trace.hpp>
+#include <bodice/synth/garment.hpp>
+#include <bodice/tryon/preparation.hpp>
+#include <bodice_test/executors.hpp>
+
+using namespace bodice;
+
+namespace {
+
+tryon::PreparationOptions options_for(proxy::Tier tier) {
+  tryon::PreparationOptions options;
+  options.fit.tier = tier;
+  return options;
+}
+
+/// Hashes of the proxies handed on, in order.
+std::vector<std::uint64_t> proxies_of(const engine::Context& context, proxy::Tier tier) {
+  std::vector<std::uint64_t> hashes;
+  auto preparation = tryon::Preparation::make(
+      options_for(tier), [&](const auto&, const proxy::BodyProxy& proxy) { hashes.push_back(proxy.hash()); });
+  REQUIRE(preparation.ok());
+  const auto run = preparation->run(context, synth::BodyOptions{.vertices = 1500});
+  REQUIRE_MESSAGE(run.ok(), run.error().sentence());
+  REQUIRE(preparation->fit() != nullptr);
+  CHECK(hashes.back() == preparation->fit()->proxy.hash());
+  return hashes;
+}
+
+geometry::TriMesh skirt_on(const tryon::SegmentedSkin& skin) {
+  auto garment = synth::make_garment({},
+                                     {.mesh = skin.input.skin,
+                                      .part = skin.anatomy.part,
+                                      .landmarks = skin.anatomy.landmarks,
+                                      .stature_m = skin.anatomy.stature_m},
+                                     {.kind = synth::GarmentKind::kSkirt});
+  REQUIRE(garment.ok());
+  return std::move(garment->mesh);
+}
+
+bool traced(const std::vector<engine::TraceEvent>& events, std::string_view name) {
+  return std::ranges::any_of(events, [&](const auto& event) { return event.name == name; });
+}
+
+}  // namespace
+
+TEST_CASE("a coarse proxy comes first, and all come in the same order to the bit on every executor") {
+  const std::vector<std::uint64_t> expected = proxies_of({}, proxy::Tier::kTight);
+  CHECK(expected.size() >= 2);
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    CHECK(proxies_of({.executor = executor.get()}, proxy::Tier::kTight) == expected);
+  }
+}
+
+TEST_CASE("a preparation prepares one body after the other") {
+  auto preparation = tryon::Preparation::make(options_for(proxy::Tier::kPaper), {});
+  REQUIRE(preparation.ok());
+  std::vector<double> statures;
+  for (const double stature_m : {1.6, 1.8}) {
+    REQUIRE(preparation->run({}, synth::BodyOptions{.stature_m = stature_m, .vertices = 1500}).ok());
+    statures.push_back(preparation->fit()->proxy.stature_m());
+  }
+  CHECK(statures[1] - statures[0] == doctest::Approx(0.2).epsilon(0.1));
+  CHECK_FALSE(preparation->run({}, tryon::BodyFile{"nowhere.obj"}).ok());
+  CHECK(preparation->fit() == nullptr);  // nothing of the body before
+  const std::string dot = preparation->dump_dot();
+  for (const char* edge :
+       {"\"body\" -> \"anatomy\"", "\"body\" -> \"distance field\"", "\"region\" -> \"proxy\""})
+    CHECK_MESSAGE(dot.find(edge) != std::string::npos, edge);
+}
+
+TEST_CASE("what no garment reaches is not computed, and the trace shows it") {
+  const auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
+  REQUIRE(skin.ok());
+  auto trace_of = [&](std::vector<geometry::TriMesh> garments, std::uint32_t& parts) {
+    engine::Trace trace;
+    auto options = options_for(proxy::Tier::kPaper);
+    options.garments = std::move(garments);
+    auto preparation = tryon::Preparation::make(std::move(options), {});
+    REQUIRE(preparation.ok());
+    REQUIRE(preparation->run({.trace = &trace}, skin->input).ok());
+    parts = 0;
+    for (const auto& e : preparation->fit()->proxy.ellipsoids())
+      parts |= 1u << static_cast<unsigned>(e.part);
+    return trace.events();
+  };
+  std::uint32_t whole = 0, reached = 0;
+  const auto all = trace_of({}, whole), some = trace_of({skirt_on(*skin)}, reached);
+  CHECK(traced(all, "refine head"));
+  CHECK(traced(all, "refine thigh_l"));
+  CHECK_FALSE(traced(some, "refine head"));
+  CHECK(traced(some, "refine thigh_l"));
+  CHECK(whole == fitting::FitOptions{}.parts);
+  CHECK((reached & 1u << static_cast<unsigned>(body::Part::kHead)) == 0);
+  CHECK((reached & 1u << static_cast<unsigned>(body::Part::kThighL)) != 0);
+
+  auto far = options_for(proxy::Tier::kPaper);
+  far.garments = {skirt_on(*skin)};
+  for (geometry::Vec3& p : far.garments[0].positions) p.x() += 10.0;
+  auto preparation = tryon::Preparation::make(std::move(far), {});
+  const auto run = preparation->run({}, skin->input);
+  REQUIRE_FALSE(run.ok());
+  CHECK(run.error().message.find("within reach") != std::string::npos);
+}
+
+TEST_CASE("cancelled at any moment, a preparation ends with whole proxies and can run again") {
+  const auto executor = bodice_test::make_threads(2);
+  std::vector<std::uint64_t> known = proxies_of({}, proxy::Tier::kTight);
+  std::ranges::sort(known);
+  std::vector<std::uint64_t> seen;
+  auto preparation = tryon::Preparation::make(
+      options_for(proxy::Tier::kTight),
+      [&](const auto&, const proxy::BodyProxy& proxy) { seen.push_back(proxy.hash()); });
+  REQUIRE(preparation.ok());
+  engine::Random random(5);
+  for (int round = 0; round < 20; ++round) {
+    engine::CancelSource cancel;
+    std::thread canceller([&cancel, wait = std::chrono::microseconds(
+                                        static_cast<int>(random.uniform() * random.uniform() * 100'000))] {
+      std::this_thread::sleep_for(wait);
+      cancel.cancel();
+    });
+    const auto run = preparation->run({.executor = executor.get(), .cancel = cancel.token()},
+                                      synth::BodyOptions{.vertices = 1500});
+    canceller.join();
+    if (!run) CHECK(run.error().code == engine::ErrorCode::kCancelled);
+    CHECK((preparation->fit() != nullptr) == run.ok());
+  }
+  for (const std::uint64_t hash : seen) CHECK(std::ranges::binary_search(known, hash));
+  CHECK(preparation->run({.executor = executor.get()}, synth::BodyOptions{.vertices = 1500}).ok());
+}
