@@ -1,6 +1,7 @@
 // Does the response hold?
 // Usage: response garments DATA [tier [frames [name part]]]
 //        response certify [particles]
+//        response creases
 #include <cstdio>
 #include <span>
 #include <string_view>
@@ -12,6 +13,7 @@ int main(int argc, char** argv) {
   const std::string_view mode = argc > 1 ? argv[1] : "";
   if (mode == "garments" && argc > 2) return bench::drape_garments(arguments.subspan(2)) ? 0 : 1;
   if (mode == "certify") return bench::certify_random(arguments.subspan(2)) ? 0 : 1;
-  std::puts("usage: response garments DATA [tier [frames [name part]]] | certify [particles]");
+  if (mode == "creases") return bench::cross_creases(arguments.subspan(2)) ? 0 : 1;
+  std::puts("usage: response garments DATA [tier [frames [name part]]] | certify [particles] | creases");
   return 2;
 }

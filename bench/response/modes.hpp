@@ -13,4 +13,7 @@ bool drape_garments(std::span<char*> arguments);
 /// Random particles over all tiers, three poses and the modes of the response. Arguments: [particles].
 bool certify_random(std::span<char*> arguments);
 
+/// Normal jumps, chatter and cost at the creases of a body's proxy, with and without fillets.
+bool cross_creases(std::span<char*> arguments);
+
 }  // namespace bench
