@@ -61,6 +61,31 @@ TEST_CASE("a coarse proxy comes first, and all come in the same order to the bit
   }
 }
 
+TEST_CASE("parts take the places of the coarse ones as each is ready") {
+  std::vector<proxy::BodyProxy> proxies;
+  auto preparation =
+      tryon::Preparation::make(options_for(proxy::Tier::kSolid),
+                               [&](const auto&, const proxy::BodyProxy& p) { proxies.push_back(p); });
+  REQUIRE(preparation.ok());
+  REQUIRE(preparation->run({}, synth::BodyOptions{.vertices = 3000}).ok());
+  REQUIRE(proxies.size() >= 10);  // the coarse one, the torso and the limbs
+  CHECK(proxies.front().ellipsoids().size() == body::kPartCount);
+  auto of_part = [](const proxy::BodyProxy& p, int part) {
+    std::vector<geometry::Vec3> centers;
+    for (const auto& e : p.ellipsoids())
+      if (static_cast<int>(e.part) == part) centers.push_back(e.shape.center);
+    return centers;
+  };
+  for (int part = 0; part < body::kPartCount; ++part) {
+    int changes = 0;
+    for (std::size_t k = 1; k + 1 < proxies.size(); ++k) {
+      CHECK_FALSE(of_part(proxies[k], part).empty());  // never without
+      changes += of_part(proxies[k], part) != of_part(proxies[k - 1], part);
+    }
+    CHECK(changes == 1);  // once, from coarse to fine
+  }
+}
+
 TEST_CASE("a preparation prepares one body after the other") {
   auto preparation = tryon::Preparation::make(options_for(proxy::Tier::kPaper), {});
   REQUIRE(preparation.ok());
@@ -73,8 +98,8 @@ TEST_CASE("a preparation prepares one body after the other") {
   CHECK_FALSE(preparation->run({}, tryon::BodyFile{"nowhere.obj"}).ok());
   CHECK(preparation->fit() == nullptr);  // nothing of the body before
   const std::string dot = preparation->dump_dot();
-  for (const char* edge :
-       {"\"body\" -> \"anatomy\"", "\"body\" -> \"distance field\"", "\"region\" -> \"proxy\""})
+  for (const char* edge : {"\"body\" -> \"anatomy\"", "\"body\" -> \"distance field\"",
+                           "\"region\" -> \"proxy\"", "\"coarse proxy\" -> \"solid parts\""})
     CHECK_MESSAGE(dot.find(edge) != std::string::npos, edge);
 }
 
@@ -89,8 +114,7 @@ TEST_CASE("what no garment reaches is not computed, and the trace shows it") {
     REQUIRE(preparation.ok());
     REQUIRE(preparation->run({.trace = &trace}, skin->input).ok());
     parts = 0;
-    for (const auto& e : preparation->fit()->proxy.ellipsoids())
-      parts |= 1u << static_cast<unsigned>(e.part);
+    for (const auto& e : preparation->fit()->proxy.ellipsoids()) parts |= 1u << static_cast<unsigned>(e.part);
     return trace.events();
   };
   std::uint32_t whole = 0, reached = 0;

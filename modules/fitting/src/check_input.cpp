@@ -59,4 +59,9 @@ engine::Result<void> check_input(const LabelledSkin& skin, const FitOptions& opt
   return {};
 }
 
+engine::Error no_skin() {
+  return {engine::ErrorCode::kUnusableGeometry, "The selected parts have no skin.",
+          "Select parts that occur among the labels."};
+}
+
 }  // namespace bodice::fitting

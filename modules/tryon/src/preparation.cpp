@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include <bodice/fitting/enclose_parts.hpp>
+
 #include "load_body.hpp"
 #include "segment_tasks.hpp"
 
@@ -26,32 +28,60 @@ Result<std::uint32_t> choose_region(const Context& context, const PreparationOpt
                        "Check that they are in the same place and units, or raise the margin."};
 }
 
-Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin& skin,
-                                     fitting::FitOptions options, std::uint32_t parts) {
-  options.parts = parts;
-  auto fit = fitting::fit(context, labelled(skin), options);
-  if (fit) return fit;
-  engine::Error error = std::move(fit).error();
+engine::Error of_file(engine::Error error, const SegmentedSkin& skin) {
   error.message = skin.input.file.string() + ": " + error.message;
   return error;
 }
 
-/// Hands each proxy on once, though the last iterate of a tier is its result as well.
+/// What has been handed on of a body. Hands each proxy on once, though the last iterate of a tier is its
+/// result as well.
 class Handover {
  public:
   explicit Handover(OnProxy on_proxy) : on_proxy_(std::move(on_proxy)) {}
 
-  void begin() { last_.reset(); }
-  void give(const Skin& skin, const BodyProxy& proxy) {
-    if (last_ == proxy.hash()) return;
-    last_ = proxy.hash();
-    if (on_proxy_) on_proxy_(skin, proxy);
+  void begin(Skin skin) { skin_ = std::move(skin), last_.reset(); }
+
+  void give(const BodyProxy& proxy) {
+    if (last_ && last_->hash() == proxy.hash()) return;
+    last_ = proxy;
+    if (on_proxy_) on_proxy_(skin_, proxy);
+  }
+
+  /// The last proxy with these parts in place of its own.
+  Result<void> give_part(proxy::Tier tier, const fitting::FittedPart& part) {
+    BodyProxy::Data data{.tier = tier,
+                         .stature_m = last_->stature_m(),
+                         .source_hash = last_->source_hash(),
+                         .frame = last_->frame()};
+    for (const proxy::ProxyEllipsoid& e : last_->ellipsoids())
+      if (!(part.parts & 1u << static_cast<unsigned>(e.part))) data.ellipsoids.push_back(e);
+    data.ellipsoids.insert(data.ellipsoids.end(), part.ellipsoids.begin(), part.ellipsoids.end());
+    auto proxy = BodyProxy::make(std::move(data));
+    if (!proxy) return std::move(proxy).error();
+    give(*proxy);
+    return {};
   }
 
  private:
   OnProxy on_proxy_;
-  std::optional<std::uint64_t> last_;
+  Skin skin_;
+  std::optional<BodyProxy> last_;
 };
+
+Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin& skin,
+                                     fitting::FitOptions options, std::uint32_t parts, Handover& handover) {
+  options.parts = parts;
+  options.on_improved = [&](const BodyProxy& better) { handover.give(better); };
+  const proxy::Tier tier = options.tier.value_or(proxy::Tier::kSolid);  // parts come of plain tiers only
+  // A part that makes no proxy is not handed on; if it is no accident, the fit fails of it as well.
+  options.on_part = [&](const fitting::FittedPart& part) {
+    static_cast<void>(handover.give_part(tier, part));
+  };
+  auto fit = fitting::fit(context, labelled(skin), options);
+  if (!fit) return of_file(std::move(fit).error(), skin);
+  handover.give(fit->proxy);
+  return fit;
+}
 
 }  // namespace
 
@@ -63,8 +93,7 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
   auto source = builder.input<BodySource>("source");
   auto body = builder.add(
       "body",
-      [set, handover](const Context& context, const BodySource& from) {
-        handover->begin();
+      [set](const Context& context, const BodySource& from) {
         return load_body(context, from, set->segment.import);
       },
       source);
@@ -72,28 +101,34 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
   if (!skin) return std::move(skin).error();
   auto region = builder.add(
       "region", [set](const Context& c, const Skin& on) { return choose_region(c, *set, *on); }, *skin);
-  // Solid ellipsoids first: they are there in milliseconds, and do not leak.
   auto coarse = builder.add(
       "coarse proxy",
+      [handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
+        auto enclosed = fitting::enclose_parts(c, labelled(*on), parts);
+        if (!enclosed) return of_file(std::move(enclosed).error(), *on);
+        handover->begin(on);
+        handover->give(*enclosed);
+        return {};
+      },
+      *skin, region);
+  // Solid ellipsoids next, part by part: they are there in a tenth of a second, and do not leak.
+  auto solid = builder.add(
+      "solid parts",
       [set, handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
-        auto fit = fit_parts(c, *on, {.tier = proxy::Tier::kSolid}, parts);
+        auto fit = fit_parts(c, *on, {.tier = proxy::Tier::kSolid}, parts, *handover);
         if (!fit) return std::move(fit).error();
-        handover->give(on, fit->proxy);
         return {};
       },
       *skin, region);
   auto proxy = builder.add(
       "proxy",
       [set, handover](const Context& c, const Skin& on, const std::uint32_t& parts) {
-        fitting::FitOptions fit = set->fit;
-        fit.on_improved = [&](const BodyProxy& better) { handover->give(on, better); };
-        auto last = fit_parts(c, *on, fit, parts);
-        if (last) handover->give(on, last->proxy);
-        return last;
+        return fit_parts(c, *on, set->fit, parts, *handover);
       },
       *skin, region);
-  builder.order(coarse, proxy);
+  builder.order(coarse, solid);
+  builder.order(solid, proxy);
   auto graph = std::move(builder).build();
   if (!graph) return std::move(graph).error();
   return Preparation(std::move(graph).value(), source, proxy);

@@ -21,19 +21,20 @@ using BodySource = std::variant<BodyFile, synth::BodyOptions, io::ImportedMesh>;
 
 struct PreparationOptions {
   SegmentOptions segment;
-  fitting::FitOptions fit;  ///< its on_improved is the preparation's
+  fitting::FitOptions fit;  ///< its on_improved and on_part are the preparation's
   /// With garments, only the parts within region_margin_m of them are fitted; the others cost nothing.
   std::vector<geometry::TriMesh> garments;
   double region_margin_m = 0.05;
 };
 
-/// Given each proxy of a body, coarse to fine, one call at a time and in the same order in every run; the
-/// skin is the same one each time.
+/// Given each proxy of a body, coarse to fine, one call at a time and in the same order in every run: one
+/// enclosing ellipsoid a part, then solid parts as each is ready, then what FitOptions asks for. The skin is
+/// the same one each time.
 using OnProxy = std::function<void(const std::shared_ptr<const SegmentedSkin>&, const proxy::BodyProxy&)>;
 
 /// Built once, run for one body after another.
 ///
-///     body -> anatomy --------> skin -> region -> coarse proxy -> proxy
+///     body -> anatomy --------> skin -> region -> coarse proxy -> solid parts -> proxy
 ///         `-> distance field --^
 class Preparation {
  public:

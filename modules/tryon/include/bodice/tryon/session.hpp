@@ -1,8 +1,9 @@
 // A try-on in motion: frames of cloth in front, bodies prepared behind them on the same workers.
 //
 //     Session session(context, {});
-//     session.submit(BodyFile{"body.obj"});          // behind the frames; an earlier body still in work is
-//     dropped session.dress({{.name = "dress", .mesh = mesh}}); while (running) {
+//     session.submit(BodyFile{"body.obj"});  // behind the frames; work on an earlier body stops
+//     session.dress({{.name = "dress", .mesh = mesh}});
+//     while (running) {
 //       const FrameOutcome outcome = session.frame(1.0 / 60.0);
 //       session.positions(vertices);
 //     }
@@ -24,7 +25,7 @@ namespace bodice::tryon {
 struct SessionOptions {
   engine::PipelineOptions pipeline;
   SegmentOptions segment;
-  fitting::FitOptions fit;  ///< its on_improved is the session's
+  fitting::FitOptions fit;  ///< its on_improved and on_part are the session's
   /// Given: a submitted body is fitted only where a garment worn at that moment is within this distance.
   std::optional<double> region_margin_m;
   cloth::Fabric fabric;  ///< empty name: cotton
@@ -55,8 +56,8 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Prepares a body behind the frames: first a solid proxy in milliseconds, then what FitOptions asks for.
-  /// Each takes effect at a frame boundary. Work on an earlier body stops.
+  /// Prepares a body behind the frames: an ellipsoid a part at first, then solid parts as each is ready, then
+  /// what FitOptions asks for. Each takes effect at a frame boundary. Work on an earlier body stops.
   engine::Ticket submit(BodySource source);
 
   /// Puts garments on, in place of those worn; not in a frame. They wait where they are for the first body.

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::fitting {
+
+/// Identity of the mesh that a proxy was fitted to: BodyProxy::source_hash.
+std::uint64_t skin_hash(const geometry::TriMesh& mesh);
+
+}  // namespace bodice::fitting
