@@ -5,6 +5,7 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/fitting/fit.hpp>
 #include <bodice/synth/body.hpp>
+#include <bodice/tryon/preparation.hpp>
 #include "workload.hpp"
 
 namespace bodice_bench {
@@ -30,48 +31,58 @@ geometry::TriMesh make_tube() {
   return mesh;
 }
 
-proxy::BodyProxy fit_paper(const Context& context, const synth::Body& body) {
+collision::Collider solid_body() {
+  const synth::Body body = synth::make_body(Context{}, {.vertices = 8000}).value();
   fitting::FitOptions options;
-  options.tier = proxy::Tier::kPaper;
-  return fitting::fit(context, {body.mesh, body.part, body.stature_m}, options).value().proxy;
+  options.tier = proxy::Tier::kSolid;
+  return collision::Collider(
+      fitting::fit(Context{}, {body.mesh, body.part, body.stature_m}, options).value().proxy);
 }
 
-synth::Body body_of(int vertices) {
-  return synth::make_body(Context{}, {.vertices = vertices}).value();
+// In memory, as a host hands it over, so that no file is read in the timing.
+io::ImportedMesh body_of(int vertices) {
+  return tryon::segment_builtin(Context{}, {.vertices = vertices}, {}).value().input;
+}
+
+tryon::PreparationOptions preparation_of(proxy::Tier tier) {
+  tryon::PreparationOptions options;
+  options.fit.tier = tier;
+  return options;
 }
 
 class BodyWork final : public Workload {
  public:
-  explicit BodyWork(int vertices)
-      : body_(body_of(vertices)),
-        collider_(fit_paper(Context{}, body_of(8000))),
+  BodyWork(int vertices, proxy::Tier tier)
+      : tier_(tier),
+        body_(body_of(vertices)),
+        collider_(solid_body()),
         solver_(cloth::Solver::make(make_tube(), {}, cloth::find_fabric("cotton").value(), {.substeps = 8})
                     .value()) {}
 
   std::string describe() const override {
-    return "body: cloth of " + std::to_string(solver_.particles()) + " particles, 8 substeps; fit of " +
-           std::to_string(body_.mesh.positions.size()) + " vertices at the paper tier";
+    return "body: cloth of " + std::to_string(solver_.particles()) +
+           " particles, 8 substeps; anatomy and fit of " + std::to_string(body_.skin.positions.size()) +
+           " vertices, solid, then the " + std::string(proxy::name(tier_)) + " tier";
   }
   void frame(const Context& context) override { solver_.step(context, collider_, 1.0 / 60.0); }
   engine::Result<void> prepare(const Context& context, engine::FunctionRef<void()> publish) const override {
-    fitting::FitOptions options;
-    options.tier = proxy::Tier::kPaper;
-    const auto result = fitting::fit(context, {body_.mesh, body_.part, body_.stature_m}, options);
-    if (!result) return result.error();
-    publish();
-    return {};
+    auto preparation = tryon::Preparation::make(preparation_of(tier_),
+                                                [&](const auto&, const proxy::BodyProxy&) { publish(); });
+    if (!preparation) return std::move(preparation).error();
+    return preparation->run(context, body_);
   }
 
  private:
-  synth::Body body_;
+  proxy::Tier tier_;
+  io::ImportedMesh body_;
   collision::Collider collider_;
   cloth::Solver solver_;
 };
 
 }  // namespace
 
-std::unique_ptr<Workload> make_body_work(int vertices) {
-  return std::make_unique<BodyWork>(vertices);
+std::unique_ptr<Workload> make_body_work(int vertices, bodice::proxy::Tier tier) {
+  return std::make_unique<BodyWork>(vertices, tier);
 }
 
 }  // namespace bodice_bench

@@ -1,7 +1,6 @@
 // How long do frames take while a body is prepared, and how long does the body take behind the frames?
 //
-//     build/release/bench/overlap [--quick] [--workers N] [--body 200000] [--csv FILE] [--svg FILE]
-//     [--trace FILE]
+//     build/release/bench/overlap [--quick] [--workers N] [--body 200000] [--tier tight] [--csv FILE]
 #include <cstdio>
 #include <fstream>
 
@@ -14,20 +13,21 @@ using namespace bodice_bench;
 
 namespace {
 
-std::vector<Condition> conditions(int workers) {
+// Each group begins with its idle frames, which the others of the group are compared with.
+std::vector<Condition> conditions(int workers, bool yields) {
   using enum BackgroundYield;
-  std::vector<Condition> all = {
-      {"60 Hz, idle", false, 60.0},
-      {"60 Hz, fit, no yield", true, 60.0, 0, kNone},
-      {"60 Hz, fit, help", true, 60.0, 0, kHelp},
-      {"60 Hz, fit, stay", true, 60.0, 0, kStay},
-      {"no gaps, idle", false, 0.0},
-      {"no gaps, fit, no yield", true, 0.0, 0, kNone},
-      {"no gaps, fit, help", true, 0.0, 0, kHelp},
-      {"no gaps, fit, stay", true, 0.0, 0, kStay},
-      {"no gaps, a worker spared, idle", false, 0.0, std::max(1, workers - 1), kStay},
-      {"no gaps, a worker spared, fit", true, 0.0, std::max(1, workers - 1), kStay},
-  };
+  const int spared = std::max(1, workers - 1);
+  std::vector<Condition> all;
+  for (const auto& [pace, frames_per_s] : {std::pair("60 Hz", 60.0), std::pair("no gaps", 0.0)}) {
+    const std::string at(pace);
+    all.push_back({at + ", idle", false, frames_per_s});
+    all.push_back({at + ", fit in the foreground", true, frames_per_s, 0, kNone, true});
+    if (yields) all.push_back({at + ", fit, background goes on", true, frames_per_s, 0, kNone});
+    if (yields) all.push_back({at + ", fit, background helps a loop", true, frames_per_s, 0, kHelp});
+    all.push_back({at + ", fit", true, frames_per_s});
+    all.push_back({at + ", a worker spared, idle", false, frames_per_s, spared});
+    all.push_back({at + ", a worker spared, fit", true, frames_per_s, spared});
+  }
   return all;
 }
 
@@ -89,23 +89,31 @@ void draw(Workload& work, Executor& executor, const std::string& svg_path, const
 
 int main(int argc, char** argv) {
   CLI::App app("Frames beside preprocessing: frame times, and time until the first and the final result");
-  bool quick = false, picture_only = false;
+  bool quick = false, picture_only = false, yields = false;
   int workers = 0;
   double slice_us = 200.0;
   int vertices = 0;
-  std::string csv_path, svg_path, trace_path;
+  std::string tier_name = "tight", csv_path, svg_path, trace_path;
   app.add_flag("--quick", quick, "Shorter runs");
   app.add_flag("--picture-only", picture_only, "No table, only --svg and --trace");
+  app.add_flag("--yields", yields, "The other ways of yielding to a frame, too");
   app.add_option("--workers", workers, "Workers, the caller included; 0: one a hardware thread");
   app.add_option("--slice-us", slice_us, "Length of a background block of the synthetic work");
   app.add_option("--body", vertices, "Real work: cloth frames, and fitting a body of so many vertices");
+  app.add_option("--tier", tier_name,
+                 "Real work: the tier that the body is fitted to: paper, solid, tight, relief");
   app.add_option("--csv", csv_path, "Write the rows here, too");
   app.add_option("--svg", svg_path, "Draw a timeline of 60 ms");
   app.add_option("--trace", trace_path, "Write the trace of the drawn run (Chrome trace events)");
   CLI11_PARSE(app, argc, argv);
 
   const auto executor = make_tbb_executor(workers);
-  const auto work = vertices > 0 ? make_body_work(vertices) : make_synthetic(slice_us);
+  const auto tier = bodice::proxy::tier_from_name(tier_name);
+  if (!tier) {
+    std::fprintf(stderr, "%s is no tier. Give paper, solid, tight or relief.\n", tier_name.c_str());
+    return 2;
+  }
+  const auto work = vertices > 0 ? make_body_work(vertices, *tier) : make_synthetic(slice_us);
   if (picture_only) {
     draw(*work, *executor, svg_path, trace_path);
     return 0;
@@ -114,21 +122,31 @@ int main(int argc, char** argv) {
   std::printf("%s; %d workers\nfit alone, in the foreground: %.0f ms\n\n", work->describe().c_str(),
               executor->concurrency(), foreground_ms);
   std::printf(
-      "| condition | frames | p50 ms | p99 ms | max ms | first result ms | final ms | others' load |\n");
-  std::printf("|---|---|---|---|---|---|---|---|\n");
+      "| condition | frames | p50 ms | p99 ms | max ms | p99 / idle p99 | first result ms | last result ms | "
+      "fit ms "
+      "| fit / alone | others' load |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::string csv =
-      "condition,workers,frames,p50_ms,p99_ms,max_ms,first_result_ms,final_result_ms,foreground_fit_ms,other_"
+      "condition,workers,frames,p50_ms,p99_ms,max_ms,first_result_ms,last_result_ms,fit_ms,foreground_fit_ms,"
+      "other_"
       "load\n";
-  for (const Condition& condition : conditions(executor->concurrency())) {
+  double idle_p99_ms = 0.0;
+  for (const Condition& condition : conditions(executor->concurrency(), yields)) {
     const Row row = measure(condition, *work, *executor, quick ? 1.0 : 5.0, nullptr);
-    std::printf("| %s | %zu | %.2f | %.2f | %.2f | %.0f | %.0f | %.0f %% |\n", row.name.c_str(), row.frames,
-                row.p50_ms, row.p99_ms, row.max_ms, row.first_result_ms, row.last_result_ms,
-                100 * row.other_load);
+    if (!condition.fit) idle_p99_ms = row.p99_ms;
+    std::printf("| %s | %zu | %.2f | %.2f | %.2f | %.2f |", row.name.c_str(), row.frames, row.p50_ms,
+                row.p99_ms, row.max_ms, row.p99_ms / idle_p99_ms);
+    if (condition.fit) {
+      std::printf(" %.0f | %.0f | %.0f | %.2f |", row.first_result_ms, row.last_result_ms, row.fit_ms,
+                  row.fit_ms / foreground_ms);
+    } else {
+      std::printf(" | | | |");
+    }
+    std::printf(" %.0f %% |\n", 100 * row.other_load);
     std::fflush(stdout);
     char line[256];
-    std::snprintf(line, sizeof line, "\"%s\",%d,%zu,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f,%.3f\n", row.name.c_str(),
-                  executor->concurrency(), row.frames, row.p50_ms, row.p99_ms, row.max_ms,
-                  row.first_result_ms, row.last_result_ms, foreground_ms, row.other_load);
+    std::snprintf(line, sizeof line, "\"%s\",%d,%zu,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f,%.2f,%.3f\n",
+                  row.name.c_str(), executor->concurrency(), row.frames, row.p50_ms, row.p99_ms, row.max_ms,
+                  row.first_result_ms, row.last_result_ms, row.fit_ms, foreground_ms, row.other_load);
     csv += line;
   }
   if (!csv_path.empty()) std::ofstream(csv_path) << csv;

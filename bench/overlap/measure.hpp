@@ -13,21 +13,25 @@ namespace bodice_bench {
 /// One way to run frames beside preprocessing.
 struct Condition {
   std::string name;
-  bool fit = false;           ///< a body is prepared in the background
+  bool fit = false;           ///< a body is prepared, in the background unless `foreground`
   double frames_per_s = 0.0;  ///< 0: one frame after the other
   int frame_workers = 0;      ///< of PipelineOptions
   bodice::engine::BackgroundYield yield = bodice::engine::BackgroundYield::kStay;
+  bool foreground = false;  ///< the body is prepared inside a frame
 };
 
 struct Row {
   std::string name;
   std::size_t frames = 0;
   double p50_ms = 0.0, p99_ms = 0.0, max_ms = 0.0;
-  double first_result_ms = 0.0, last_result_ms = 0.0;  ///< from submission to taking effect; 0 without a fit
+  /// Of the first fit: from submission to taking effect, and to the end of the job; 0 without a fit.
+  double first_result_ms = 0.0, last_result_ms = 0.0, fit_ms = 0.0;
+  int fits = 0;
   double other_load = 0.0;  ///< share of the machine's time that other programs took meanwhile
 };
 
-/// Runs frames for at least `least_s` seconds and until the fit has ended and taken effect.
+/// Runs frames for at least `least_s` seconds. With a fit, one body is prepared after the other, so that
+/// every frame counted has work behind it, and the last body's preparation has ended.
 Row measure(const Condition& condition, Workload& work, bodice::engine::Executor& executor, double least_s,
             bodice::engine::Trace* trace);
 

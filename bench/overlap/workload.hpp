@@ -6,6 +6,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/function_ref.hpp>
 #include <bodice/engine/result.hpp>
+#include <bodice/proxy/body_proxy.hpp>
 
 namespace bodice_bench {
 
@@ -25,8 +26,8 @@ class Workload {
 /// preprocessing of loops whose blocks take about `slice_us`, with a serial stretch in between.
 std::unique_ptr<Workload> make_synthetic(double slice_us);
 
-/// A tube of cloth of 5k particles, 8 substeps a frame, on a body proxy; and fitting a generated body of
-/// `vertices` at the paper tier, whose result is one proxy.
-std::unique_ptr<Workload> make_body_work(int vertices);
+/// A tube of cloth of 5k particles, 8 substeps a frame, on a body proxy; and the preparation of a generated
+/// body of `vertices` from its mesh to a proxy of `tier`, as a try-on session does it.
+std::unique_ptr<Workload> make_body_work(int vertices, bodice::proxy::Tier tier);
 
 }  // namespace bodice_bench

@@ -78,11 +78,12 @@ TEST_CASE("parts take the places of the coarse ones as each is ready") {
   };
   for (int part = 0; part < body::kPartCount; ++part) {
     int changes = 0;
-    for (std::size_t k = 1; k + 1 < proxies.size(); ++k) {
+    for (std::size_t k = 1; k < proxies.size(); ++k) {
       CHECK_FALSE(of_part(proxies[k], part).empty());  // never without
       changes += of_part(proxies[k], part) != of_part(proxies[k - 1], part);
     }
-    CHECK(changes == 1);  // once, from coarse to fine
+    CHECK(changes >= 1);  // from coarse to fine, and once more where the inside of the whole asks for it
+    CHECK(changes <= 2);
   }
 }
 
