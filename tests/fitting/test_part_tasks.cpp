@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,75 @@ TEST_CASE("part tasks: parts are handed on once each, and the result is made of 
       }
     CHECK(handed == result->proxy.ellipsoids().size());
   }
+}
+
+TEST_CASE("part tasks: a fit of some parts gives their regions the same bits as a fit of the whole body") {
+  const auto skin = three_ellipsoids();
+  const auto executor = engine::make_tbb_executor(3);
+  engine::Context context;
+  context.executor = executor.get();
+  for (const Tier tier : {Tier::kPaper, Tier::kSolid})
+    for (const std::optional<int> count : {std::optional<int>(), std::optional(12), std::optional(3)}) {
+      FitOptions options = options_for(tier);
+      options.max_ellipsoids = count;
+      const auto whole = fitting::fit({}, skin.view(), options);
+      REQUIRE(whole.ok());
+      std::size_t together = 0;
+      for (const body::Part part : {body::Part::kHead, body::Part::kTorsoUL, body::Part::kThighL}) {
+        options.parts = 1u << static_cast<int>(part);
+        const auto some = fitting::fit(context, skin.view(), options);
+        REQUIRE(some.ok());
+        std::vector<proxy::ProxyEllipsoid> same;
+        for (const auto& e : whole->proxy.ellipsoids())
+          if (e.part == part) same.push_back(e);
+        REQUIRE(some->proxy.ellipsoids().size() == same.size());
+        for (std::size_t k = 0; k < same.size(); ++k) {
+          const auto& e = some->proxy.ellipsoids()[k];
+          CHECK(e.part == part);
+          CHECK(e.shape.center == same[k].shape.center);
+          CHECK(e.shape.axes == same[k].shape.axes);
+          CHECK(e.shape.radii == same[k].shape.radii);
+        }
+        together += same.size();
+        CHECK(some->parts.size() == 1);
+      }
+      CHECK(together == whole->proxy.ellipsoids().size());
+    }
+}
+
+TEST_CASE(
+    "part tasks: the finer tiers give some parts their share of the whole body's ellipsoids and bytes") {
+  const auto skin = three_ellipsoids();
+  for (const Tier tier : {Tier::kTight, Tier::kRelief}) {
+    FitOptions options = options_for(tier);
+    const auto whole = fitting::fit({}, skin.view(), options);
+    options.parts = 1u << static_cast<int>(body::Part::kHead);
+    const auto some = fitting::fit({}, skin.view(), options);
+    REQUIRE((whole.ok() && some.ok()));
+    CHECK(some->proxy.ellipsoids().size() < whole->proxy.ellipsoids().size());
+    CHECK(2 * some->proxy.bytes() < whole->proxy.bytes());
+    CHECK(some->accuracy.gap_m.mean < 1.5 * whole->accuracy.gap_m.mean + 1e-4);
+    options.max_ellipsoids = 1;  // of the whole body: a part gets one all the same
+    const auto one = fitting::fit({}, skin.view(), options);
+    REQUIRE(one.ok());
+    CHECK(one->proxy.ellipsoids().size() == 1);
+  }
+}
+
+TEST_CASE("part tasks: parts are handed on in one order, whoever ends first") {
+  const auto skin = three_ellipsoids();
+  for (const Tier tier : {Tier::kPaper, Tier::kSolid})
+    for (const int workers : {1, 2, 5})
+      for (int repeat = 0; repeat < 5; ++repeat) {
+        const auto executor = engine::make_tbb_executor(workers);
+        engine::Context context;
+        context.executor = executor.get();
+        FitOptions options = options_for(tier);
+        std::vector<std::string> names;
+        options.on_part = [&](const fitting::FittedPart& part) { names.emplace_back(part.name); };
+        REQUIRE(fitting::fit(context, skin.view(), options).ok());
+        CHECK(names == std::vector<std::string>{"head", "torso", "thigh_l"});
+      }
 }
 
 TEST_CASE("part tasks: fewer ellipsoids than parts joins neighbours and keeps the limit") {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <memory>
 
-#include <bodice/engine/hash.hpp>
 #include <bodice/engine/stage_timer.hpp>
 
 #include "check_input.hpp"
 #include "measure.hpp"
 #include "part_fit.hpp"
 #include "plan.hpp"
+#include "skin_hash.hpp"
 #include "tier_relief.hpp"
 #include "tiers.hpp"
 
@@ -19,15 +19,6 @@ namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;
 constexpr double kWarnAbove = 1.2;  // times the target: what the dial promises
-
-std::uint64_t hash_of(const geometry::TriMesh& mesh) {
-  engine::Hasher hasher;
-  for (const Vec3& p : mesh.positions)
-    for (int j = 0; j < 3; ++j) hasher.add(p[j]);
-  for (const geometry::Triangle& t : mesh.triangles)
-    for (const geometry::Index v : t) hasher.add(v);
-  return hasher.value();
-}
 
 engine::Result<Draft> run_tier(const engine::Context& context, const LabelledSkin& skin,
                                const FitOptions& options, int count, std::vector<engine::StageTime>& stages) {
@@ -92,7 +83,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   }
   Dial dial(options, skin.stature_m);
   PlanRunner runner(context, judged, options, stages);
-  const std::uint64_t source_hash = hash_of(skin.mesh);
+  const std::uint64_t source_hash = skin_hash(skin.mesh);
   Draft draft;
   Measured measured;
   const auto off_target = [&](const Measured& m) {
@@ -104,11 +95,9 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
     found->data.stature_m = skin.stature_m;
     found->data.frame = skin.frame;
     found->data.source_hash = source_hash;
-    if (found->data.ellipsoids.empty())
-      return engine::Error{engine::ErrorCode::kUnusableGeometry, "The selected parts have no skin.",
-                           "Select parts that occur among the labels."};
+    if (found->data.ellipsoids.empty()) return no_skin();
     engine::StageTimer timer(context, stages, "measure");
-    Measured now = measure(context, found->data, judged, *judged.distance, options.parts);
+    Measured now = measure(context, found->data, judged, *judged.distance, found->parts);
     more = options.target_error_m && dial.correct(now.accuracy.gap_m.mean);
     if (!first && off_target(now) > off_target(measured)) continue;
     draft = std::move(*found);
@@ -121,7 +110,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   result.mu_torso_m = draft.mu.torso_m;
   result.mu_limbs_m = draft.mu.limbs_m;
   result.accuracy = measured.accuracy;
-  result.parts = part_fits(skin, ellipsoids, measured, options.parts);
+  result.parts = part_fits(skin, ellipsoids, measured, draft.parts);
   result.stages = std::move(stages);
   add_warnings(options, draft, result);
   return result;

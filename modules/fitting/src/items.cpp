@@ -8,10 +8,6 @@
 namespace bodice::fitting {
 namespace {
 
-bool wanted(std::uint32_t parts, body::Part part) {
-  return (parts >> static_cast<int>(part)) & 1u;
-}
-
 /// The part of most of a triangle's corners; of the first corner if all differ.
 body::Part part_of(const LabelledSkin& skin, const geometry::Triangle& t) {
   return skin.part[t[1]] == skin.part[t[2]] ? skin.part[t[1]] : skin.part[t[0]];
@@ -66,10 +62,9 @@ std::vector<Vec3> part_means(const Items& items, const Region& region) {
 
 }  // namespace
 
-Items vertex_items(const LabelledSkin& skin, std::uint32_t parts) {
+Items vertex_items(const LabelledSkin& skin) {
   Items items;
   for (Index v = 0; v < skin.part.size(); ++v) {
-    if (!wanted(parts, skin.part[v])) continue;
     items.where.push_back(skin.mesh.positions[v]);
     items.weight.push_back(1.0);
     items.part.push_back(skin.part[v]);
@@ -77,18 +72,16 @@ Items vertex_items(const LabelledSkin& skin, std::uint32_t parts) {
   return items;
 }
 
-Items triangle_items(const LabelledSkin& skin, std::uint32_t parts) {
+Items triangle_items(const LabelledSkin& skin) {
   Items items;
   const geometry::TriMesh& m = skin.mesh;
   items.points = m.positions;
   for (std::size_t t = 0; t < m.triangles.size(); ++t) {
-    const body::Part part = part_of(skin, m.triangles[t]);
-    if (!wanted(parts, part)) continue;
     items.where.push_back((m.corner(t, 0) + m.corner(t, 1) + m.corner(t, 2)) / 3.0);
     items.weight.push_back(geometry::area_vector(m, t).norm());
     items.encloses.push_back(m.triangles[t]);
     items.triangle.push_back(static_cast<Index>(t));
-    items.part.push_back(part);
+    items.part.push_back(part_of(skin, m.triangles[t]));
   }
   return items;
 }

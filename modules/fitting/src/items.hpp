@@ -8,10 +8,10 @@
 namespace bodice::fitting {
 
 /// The paper's choice: vertices only.
-Items vertex_items(const LabelledSkin& skin, std::uint32_t parts);
+Items vertex_items(const LabelledSkin& skin);
 
 /// The solid tier's: every triangle whole, where it belongs by most of its corners.
-Items triangle_items(const LabelledSkin& skin, std::uint32_t parts);
+Items triangle_items(const LabelledSkin& skin);
 
 /// One region a limb part (k = 1) and one for the torso, seeded by the means of its six parts. If that would
 /// be more than `most`, limbs join their neighbours, outer ones first.

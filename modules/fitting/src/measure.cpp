@@ -100,7 +100,7 @@ void measure_interior(const engine::Context& context, const proxy::BodyProxy::Da
   const double volume = std::abs(geometry::signed_volume(skin.mesh));
   const std::vector<Vec3> grid = interior_grid(skin.mesh, std::cbrt(volume / kInteriorSamples));
   std::vector<std::int8_t> state(grid.size(), -1);
-  const bool all_parts = parts == (1u << body::kPartCount) - 1;
+  const bool all_parts = parts == kAllParts;
   engine::parallel_for(context, grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto hit = all_parts ? std::nullopt : distance.nearest_within(grid[i], 10.0 * skin.stature_m);

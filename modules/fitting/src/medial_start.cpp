@@ -92,11 +92,19 @@ std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, 
   const std::size_t samples = std::clamp<std::size_t>(40 * static_cast<std::size_t>(count), 1500, 12000);
   std::array<Balls, body::kPartCount> of_part;
   std::array<double, body::kPartCount> demand_of{};
-  for (const InscribedBall& b : inscribed_balls(context, source, samples, 3)) {
+  const SkinSource whole{skin, kAllParts, source.buried};
+  for (const InscribedBall& b : inscribed_balls(context, whole, samples, 3)) {
     of_part[static_cast<int>(b.part)].push_back(b);
     demand_of[static_cast<int>(b.part)] += demand(b, skin.stature_m);
   }
-  const auto given = share(demand_of, count);
+  const auto wanted = [&](int p) { return ((source.parts >> p) & 1u) != 0; };
+  auto given = share(demand_of, count);
+  int ours = 0;
+  for (int p = 0; p < body::kPartCount; ++p) {
+    if (!wanted(p)) demand_of[p] = given[p] = 0;
+    ours += given[p];
+  }
+  if (ours == 0) given = share(demand_of, 1);  // fewer than the body has parts
   std::vector<proxy::ProxyEllipsoid> ellipsoids;
   for (int p = 0; p < body::kPartCount; ++p) {
     if (given[p] == 0) continue;

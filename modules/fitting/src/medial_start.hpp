@@ -14,9 +14,9 @@ std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& conte
                                                     std::span<const InscribedBall> balls, int count,
                                                     double stature_m);
 
-/// About `count` ellipsoids (never more, at least one a part that has skin unless count is smaller): K-means
-/// of the balls' centres part by part, shares by the sum of radius^-0.7, each ellipsoid from the spread of
-/// the skin points its balls touch.
+/// The wanted parts' share of about `count` ellipsoids for the whole body (never more, at least one a part
+/// that has skin unless count is smaller): K-means of the balls' centres part by part, shares by the sum of
+/// radius^-0.7, each ellipsoid from the spread of the skin points its balls touch.
 std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const SkinSource& source,
                                                 int count);
 

@@ -25,11 +25,16 @@ struct RegionTasks {
   /// Ellipsoids for each region, decided in a task of its own.
   std::function<std::vector<int>(const engine::Context&)> share;
   std::function<FittedRegion(const engine::Context&, const Region&, int count)> fit;
-  std::function<void(const FittedPart&)> on_part;  ///< may be empty; called one at a time
+  std::uint32_t parts = kAllParts;                 ///< regions that have none of these have no task
+  std::function<void(const FittedPart&)> on_part;  ///< may be empty; called one at a time, in order
 };
 
-/// Runs the tasks, the largest regions first; #regions results in the order of the regions.
-/// Fails with kCancelled.
+inline bool wanted(const Region& region, std::uint32_t parts) {
+  return (region.parts & parts) != 0;
+}
+
+/// Runs the tasks, the largest regions first; #regions results in the order of the regions, empty where there
+/// is no task. Fails with kCancelled.
 engine::Result<std::vector<FittedRegion>> run_region_tasks(const engine::Context& context,
                                                            const std::vector<Region>& regions,
                                                            const RegionTasks& tasks);

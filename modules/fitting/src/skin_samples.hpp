@@ -32,6 +32,7 @@ struct SkinSource {
   std::uint32_t parts = 0;
   std::vector<std::uint8_t> buried;  ///< #F
 };
+/// With the whole torso if any part of it is wanted: its ellipsoids are shared.
 SkinSource make_skin_source(const engine::Context& context, const LabelledSkin& skin, std::uint32_t parts);
 
 /// Deterministic, parallel. About 2 microseconds a sample.

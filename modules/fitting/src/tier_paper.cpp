@@ -7,6 +7,13 @@
 
 namespace bodice::fitting {
 
+std::uint32_t fitted_parts(const std::vector<Region>& regions, std::uint32_t parts) {
+  std::uint32_t all = 0;
+  for (const Region& region : regions)
+    if (wanted(region, parts)) all |= region.parts;
+  return all;
+}
+
 void report_thresholds(const std::vector<Region>& regions, const std::vector<FittedRegion>& fitted,
                        const Thresholds& asked, Draft& draft) {
   Thresholds worst;
@@ -25,6 +32,7 @@ engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& 
                                                          const RefineOptions& refine, const Thresholds& mu,
                                                          int count, const FitOptions& options) {
   RegionTasks tasks{.verb = "refine"};
+  tasks.parts = options.parts;
   tasks.on_part = options.on_part;
   tasks.fit = [&](const engine::Context& inner, const Region& region, int share) {
     Refinement refinement(inner, items, region, refine);
@@ -46,7 +54,8 @@ engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& 
     for (const FittedRegion& f : *fitted) total += f.ellipsoids.size();
     if (total <= static_cast<std::size_t>(count)) {
       for (std::size_t r = 0; options.on_part && r < regions.size(); ++r)
-        options.on_part({regions[r].name, regions[r].parts, (*fitted)[r].ellipsoids});
+        if (wanted(regions[r], options.parts))
+          options.on_part({regions[r].name, regions[r].parts, (*fitted)[r].ellipsoids});
       return fitted;
     }
     tasks.on_part = options.on_part;
@@ -57,7 +66,7 @@ engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& 
 
 engine::Result<Draft> fit_paper(const engine::Context& context, const LabelledSkin& skin,
                                 const FitOptions& options, int count) {
-  const Items items = vertex_items(skin, options.parts);
+  const Items items = vertex_items(skin);
   const std::vector<Region> regions = make_regions(items, count);
   // Pruned stop: centres that move less than this no longer change which ellipsoid fits best.
   const RefineOptions refine{.sigma_m = 2e-3 * skin.stature_m,
@@ -68,6 +77,7 @@ engine::Result<Draft> fit_paper(const engine::Context& context, const LabelledSk
   if (!fitted) return fitted.error();
   Draft draft;
   draft.data.tier = proxy::Tier::kPaper;
+  draft.parts = fitted_parts(regions, options.parts);
   report_thresholds(regions, *fitted, mu, draft);
   for (const FittedRegion& f : *fitted)
     draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());

@@ -69,20 +69,25 @@ ReliefRun::ReliefRun(const engine::Context& context, const LabelledSkin& skin, c
   tight.stop();
   if (draft_.data.ellipsoids.empty()) return;
   engine::StageTimer relief(context, stages, "relief");
-  if (texels_within(draft_.data.ellipsoids.size(), plan.relief_bytes) == 0) return;
+  if (texels_within(draft_.data.ellipsoids.size(), share_of(plan.relief_bytes)) == 0) return;
   draft_.data.stature_m = skin.stature_m;
   draft_.data.frame = skin.frame;
   tables_ = std::make_unique<ReliefTables>(context, *source_, draft_.data);
-  tables_->fit_first(plan.relief_bytes);
+  tables_->fit_first(share_of(plan.relief_bytes));
   if (options.on_improved)
     if (auto proxy = proxy::BodyProxy::make(draft_.data)) options.on_improved(*proxy);
-  if (context.clock->now_ns() < deadline) tables_->fit(plan.relief_bytes);
+  if (context.clock->now_ns() < deadline) tables_->fit(share_of(plan.relief_bytes));
+}
+
+std::size_t ReliefRun::share_of(std::size_t bytes) const {
+  if (draft_.parts == kAllParts) return bytes;
+  return bytes * draft_.data.ellipsoids.size() / static_cast<std::size_t>(count_);
 }
 
 void ReliefRun::resize(std::size_t bytes) {
-  if (!tables_ || texels_within(draft_.data.ellipsoids.size(), bytes) == 0) return;
+  if (!tables_ || texels_within(draft_.data.ellipsoids.size(), share_of(bytes)) == 0) return;
   engine::StageTimer relief(context_, stages_, "relief");
-  tables_->fit(bytes);
+  tables_->fit(share_of(bytes));
 }
 
 }  // namespace bodice::fitting

@@ -48,6 +48,9 @@ class ReliefRun {
   void resize(std::size_t bytes);
 
  private:
+  /// What a fit of some regions only uses of the whole body's bytes.
+  std::size_t share_of(std::size_t bytes) const;
+
   const engine::Context& context_;
   std::vector<engine::StageTime>& stages_;
   int count_;

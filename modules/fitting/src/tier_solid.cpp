@@ -79,6 +79,7 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
                                                         const FitOptions& options) {
   std::vector<PartSkin> skins;
   RegionTasks tasks{.verb = "cover"};
+  tasks.parts = options.parts;
   tasks.on_part = options.on_part;
   tasks.share = [&](const engine::Context& inner) {
     const std::size_t samples = kSamplesEach * static_cast<std::size_t>(count);
@@ -94,10 +95,8 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
   return run_region_tasks(context, regions, tasks);
 }
 
-/// The inside of a body of some parts only is not its own to cover.
-void close_inside(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+void close_inside(const engine::Context& context, const LabelledSkin& skin,
                   std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
-  if (options.parts != (1u << body::kPartCount) - 1) return;
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(e.shape);
   cover_interior(context, skin.mesh, kColumnSpacing * skin.stature_m, shapes);
@@ -108,7 +107,7 @@ void close_inside(const engine::Context& context, const LabelledSkin& skin, cons
 
 engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSkin& skin,
                                 const FitOptions& options, int count) {
-  const Items items = triangle_items(skin, options.parts);
+  const Items items = triangle_items(skin);
   const std::vector<Region> regions = make_regions(items, count);
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
   Draft draft;
@@ -120,7 +119,9 @@ engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSk
   if (mu.given()) report_thresholds(regions, *fitted, mu, draft);
   for (const FittedRegion& f : *fitted)
     draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());
-  close_inside(context, skin, options, draft.data.ellipsoids);
+  // The inside of a body of some regions only is not its own to cover.
+  draft.parts = fitted_parts(regions, options.parts);
+  if (draft.parts == fitted_parts(regions, kAllParts)) close_inside(context, skin, draft.data.ellipsoids);
   return draft;
 }
 

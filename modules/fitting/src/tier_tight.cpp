@@ -37,6 +37,7 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
       context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(time_budget_s, 1e6));
   Draft draft;
   draft.data.tier = proxy::Tier::kTight;
+  draft.parts = source.parts;
   draft.data.ellipsoids = medial_start(context, source, count);
   const Scaling scaling(skin);
   const double mm = scaling.mm();

@@ -14,7 +14,11 @@ struct Draft {
   proxy::BodyProxy::Data data;
   Thresholds mu;
   bool thresholds_reached = true;
+  std::uint32_t parts = kAllParts;  ///< of the regions that were fitted
 };
+
+/// The wanted parts, and those that share a region with them.
+std::uint32_t fitted_parts(const std::vector<Region>& regions, std::uint32_t wanted);
 
 /// As written: vertices, k-means, enclosing ellipsoids.
 engine::Result<Draft> fit_paper(const engine::Context& context, const LabelledSkin& skin,

@@ -34,11 +34,13 @@ struct FittedPart {
   std::span<const proxy::ProxyEllipsoid> ellipsoids;
 };
 
+inline constexpr std::uint32_t kAllParts = (1u << body::kPartCount) - 1;
+
 struct FitOptions {
   std::optional<proxy::Tier> tier;  ///< absent: what the target error or the budget asks for, else relief
   /// Mean gap wanted, met within a fifth of it; gives tier, count, size of tables and thresholds.
   std::optional<double> target_error_m;
-  std::optional<int> max_ellipsoids;
+  std::optional<int> max_ellipsoids;             ///< of the whole body, whatever `parts` says
   std::optional<double> budget_us;               ///< collision time a frame for 10k particles
   std::optional<double> mu_torso_m, mu_limbs_m;  ///< the paper's thresholds; automatic if absent
   /// The anytime tiers stop after this long; absent: when they gain no more, which makes runs repeatable.
@@ -47,12 +49,14 @@ struct FitOptions {
   bool covering = false;
   bool reclassify_points = false;  ///< the paper tier's eq. (8): .2 mm of E for two to three times the work
   std::uint64_t seed = 0;
-  std::uint32_t parts = (1u << body::kPartCount) - 1;  ///< bit a part: only these are fitted
+  /// Bit a part: only regions that have one of these are fitted. Their share of the ellipsoids is the one
+  /// they have in a fit of the whole body, and paper and solid give them the same bits as there.
+  std::uint32_t parts = kAllParts;
   /// Called with each better proxy of an anytime tier, from the calling thread's task.
   std::function<void(const proxy::BodyProxy&)> on_improved;
-  /// Paper and solid: called with each region as its task ends, one call at a time, in any order, from any
-  /// worker. What it shows is in the result, unless the inside of the whole body asks for a little more
-  /// (solid) or a target error for another count.
+  /// Paper and solid: called with each region once it and those before it are fitted: one call at a time,
+  /// in the order of the parts (the torso as its first), from any worker. What it shows is in the result,
+  /// unless the inside of the whole body asks for a little more (solid) or a target error for another count.
   std::function<void(const FittedPart&)> on_part;
 };
 
