@@ -16,7 +16,7 @@ struct Sample {
   double min_ms = 0.0, median_ms = 0.0;  ///< wall time of a run
   double cpu_ms = 0.0;                   ///< of this process, in the median run's round
   double imbalance = 0.0;                ///< busiest worker over the mean of all, in the bodies of loops
-  double others = 0.0;                   ///< share of the machine that other programs took meanwhile
+  double processors = 0.0;               ///< that the machine gave beside the runs counted; capacity.hpp
   bool same_bits = true;                 ///< as the first run with one worker
   int repeats = 0;
 };
@@ -24,11 +24,8 @@ struct Sample {
 struct Effort {
   int max_workers = 2;
   double seconds_per_sample = 1.0;
-  int attempts = 3;  ///< rounds when others take more than kQuietShare of the machine
+  double patience = 5.0;  ///< so many times longer at most, while the machine gives less than it has
 };
-
-/// A run beside which others take more than this is repeated, and marked if it stays so.
-inline constexpr double kQuietShare = 0.08;
 
 /// Worker counts from 1 to the maximum: each one up to 4, then doubling.
 std::vector<int> worker_counts(int max_workers);
@@ -39,16 +36,15 @@ std::vector<Sample> weak_scaling(const Stage& stage, std::size_t size, const Eff
 /// Amdahl: s of the least squares fit of min_ms(n) / min_ms(1) = s + (1 - s) / n over one stage's samples.
 double serial_fraction(const std::vector<Sample>& samples);
 
-/// Wall and processor time, and what the rest of the machine did meanwhile.
+/// Wall time, and processor time of this process.
 class Stopwatch {
  public:
   Stopwatch();
   double wall_ms() const;
   double cpu_ms() const;
-  double others() const;
 
  private:
-  double wall_, cpu_, busy_;
+  double wall_, cpu_;
 };
 
 }  // namespace bodice_bench

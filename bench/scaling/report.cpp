@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "capacity.hpp"
+
 namespace bodice_bench {
 namespace {
 
@@ -17,7 +19,9 @@ double speed_up(const std::vector<Sample>& samples, const Sample& sample) {
 }
 
 std::string mark(const Sample& sample) {
-  std::string text = sample.others > kQuietShare ? format("busy %.0f %%", 100 * sample.others) : "";
+  std::string text = sample.processors < kFairShare * sample.workers
+                         ? format("gave %.2f of %d", sample.processors, sample.workers)
+                         : "";
   if (!sample.same_bits) text += " BITS DIFFER";
   return text;
 }
@@ -95,22 +99,24 @@ std::string to_markdown(const std::vector<Limit>& limits, const std::vector<std:
                         const std::vector<std::vector<Sample>>& weak, const std::vector<Cost>& costs,
                         const Origin& origin) {
   return "# Scaling\n\n" + title(origin) +
-         ".\nSpeed-ups are of least times; worker counts take turns. 'busy': others took that share of the "
-         "machine "
-         "meanwhile, in each of the attempts.\n\n" +
+         ".\nSpeed-ups are of least times; worker counts take turns. Runs count only where the machine, "
+         "probed\n"
+         "before and after with threads that share nothing, gave the processors it has; 'gave 1.4 of 2' "
+         "marks a\n"
+         "row for which it never did.\n\n" +
          cost_table(costs) + limit_table(limits) + strong_table(strong) + weak_table(weak);
 }
 
 std::string to_csv(const std::vector<std::vector<Sample>>& stages, const Origin& origin) {
   std::string text =
-      "stage,scaling,size,element,workers,least_ms,median_ms,cpu_ms,imbalance,others,same_bits,repeats,"
+      "stage,scaling,size,element,workers,least_ms,median_ms,cpu_ms,imbalance,processors,same_bits,repeats,"
       "commit,compiler,cpu\n";
   for (const auto& samples : stages) {
     for (const Sample& s : samples) {
       text += format("\"%s\",%s,%zu,%s,%d,%.5f,%.5f,%.5f,%.4f,%.4f,%d,%d,%s,\"%s\",\"%s\"\n", s.stage.c_str(),
                      s.weak ? "weak" : "strong", s.size, s.element.c_str(), s.workers, s.min_ms, s.median_ms,
-                     s.cpu_ms, s.imbalance, s.others, s.same_bits ? 1 : 0, s.repeats, origin.commit.c_str(),
-                     origin.compiler.c_str(), origin.cpu.c_str());
+                     s.cpu_ms, s.imbalance, s.processors, s.same_bits ? 1 : 0, s.repeats,
+                     origin.commit.c_str(), origin.compiler.c_str(), origin.cpu.c_str());
     }
   }
   return text;
