@@ -2,8 +2,8 @@
 #include <hwy/targets.h>
 
 #include <bodice/engine/hash.hpp>
+#include <bodice_test/allocations.hpp>
 
-#include "../engine/allocation_count.hpp"
 #include "scenes.hpp"
 
 using namespace bodice;

@@ -1,7 +1,6 @@
 // What runs every frame must not allocate once it is warm.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -11,28 +10,10 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/engine/task_graph.hpp>
 #include <bodice/engine/trace.hpp>
-#include "allocation_count.hpp"
+#include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
 
 using namespace bodice::engine;
-
-namespace {
-
-// The fewest allocations in any of several rounds of 200 calls, after one to warm up. On a busy machine a
-// worker may come for the first time in a later round, and TBB makes its memory then; what allocates in each
-// call allocates in each round.
-template <class Work>
-std::size_t allocations_when_warm(Work&& work) {
-  std::size_t fewest = SIZE_MAX;
-  for (int round = 0; round < 100 && fewest > 0; ++round) {
-    const std::size_t before = bodice_test::allocations();
-    for (int i = 0; i < 200; ++i) work();
-    if (round > 0) fewest = std::min(fewest, bodice_test::allocations() - before);
-  }
-  return fewest;
-}
-
-}  // namespace
 
 TEST_CASE("the counter counts, else the tests below would show nothing") {
   if (!bodice_test::counts_allocations()) return;
@@ -47,7 +28,7 @@ TEST_CASE("a warm bulk, parallel_for and ordered_reduce allocate nothing") {
     CAPTURE(name);
     const Context context{.executor = executor.get()};
     std::vector<double> values(4096, 1.0);
-    CHECK(allocations_when_warm([&] {
+    CHECK(bodice_test::allocations_when_warm(200, [&] {
             parallel_for(context, values.size(), 128, [&](std::size_t begin, std::size_t end) {
               parallel_for(context, end - begin, 16, [&](std::size_t b, std::size_t e) {
                 for (std::size_t i = begin + b; i < begin + e; ++i) values[i] *= 0.5;
@@ -75,7 +56,7 @@ TEST_CASE("a warm run of a task graph allocates nothing") {
     auto graph = std::move(builder).build();
     std::size_t ended = 0;
     auto count = [&](const Progress& progress) { ended = progress.ended; };
-    CHECK(allocations_when_warm([&] {
+    CHECK(bodice_test::allocations_when_warm(200, [&] {
             graph->set(in, 1);
             static_cast<void>(graph->run(Context{.executor = executor.get()}, count));
           }) == 0);
@@ -106,6 +87,6 @@ TEST_CASE("a warm frame allocates nothing, tracing included, while results arriv
     pipeline.frame([](const Context&) {});
     CHECK(bodice_test::allocations() == before_first);
     CHECK(*stream.current() == 5);
-    CHECK(allocations_when_warm(frame) == 0);
+    CHECK(bodice_test::allocations_when_warm(200, frame) == 0);
   }
 }

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <bodice/tryon/session.hpp>
+#include <bodice_test/allocations.hpp>
+#include <bodice_test/executors.hpp>
 
 using namespace bodice;
 
@@ -88,5 +90,21 @@ TEST_CASE("a body that cannot be read is an error of its ticket, and the frames 
 
 TEST_CASE("in deterministic mode a run repeats to the bit, whatever the workers") {
   const std::uint64_t serial = run_deterministic(engine::inline_executor());
-  for (const int workers : {2, 3}) CHECK(run_deterministic(*engine::make_tbb_executor(workers)) == serial);
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    CHECK(run_deterministic(*executor) == serial);
+  }
+}
+
+TEST_CASE("a frame of a dressed body allocates nothing once warm") {
+  if (!bodice_test::counts_allocations()) return;
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    tryon::Session session({.executor = executor.get()}, {.fit = {.tier = proxy::Tier::kSolid}});
+    REQUIRE(session.dress({sheet()}).ok());
+    REQUIRE(session.submit(synth::BodyOptions{.vertices = 1500}).wait().ok());
+    session.frame(1.0 / 60.0);
+    REQUIRE(session.body() != nullptr);
+    CHECK(bodice_test::allocations_when_warm(5, [&] { session.frame(1.0 / 60.0); }) == 0);
+  }
 }

@@ -1,6 +1,6 @@
 // Interposes glibc's allocator for the whole test program: operator new, the standard library and TBB come
 // through here too.
-#include "allocation_count.hpp"
+#include <bodice_test/allocations.hpp>
 
 #include <atomic>
 #include <cerrno>

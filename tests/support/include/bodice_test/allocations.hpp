@@ -1,0 +1,30 @@
+// Counts what a program allocates; for tests that link bodice_test_allocations.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace bodice_test {
+
+/// False under sanitizers, which bring their own allocator.
+bool counts_allocations() noexcept;
+
+/// Calls of malloc and its relatives in this program so far, on all threads, in all libraries.
+std::size_t allocations() noexcept;
+
+/// The fewest allocations in any of several rounds of `calls` calls, after one to warm up. On a busy machine
+/// a worker may come for the first time in a later round, and TBB makes its memory then; what allocates in
+/// each call allocates in each round.
+template <class Work>
+std::size_t allocations_when_warm(int calls, Work&& work) {
+  std::size_t fewest = SIZE_MAX;
+  for (int round = 0; round < 100 && fewest > 0; ++round) {
+    const std::size_t before = allocations();
+    for (int i = 0; i < calls; ++i) work();
+    if (round > 0) fewest = std::min(fewest, allocations() - before);
+  }
+  return fewest;
+}
+
+}  // namespace bodice_test
