@@ -1,11 +1,11 @@
-// Cells of one size, folded into a box of a power of two cells a side: far cells share a slot, near ones
-// never do. Rows of cells lie together, so that 27 cells are nine runs of memory. Based on: Matthias Teschner
-// et al. Optimized Spatial Hashing for Collision Detection of Deformable Objects. 2003. Differs: coordinates
-// are masked in place of hashed; slots are filled by a counting sort, so that their order is that of the
-// particles.
+// Cells of one size in a table of a power of two slots: far cells share a slot, near ones never do. Rows of
+// cells lie together, so that 27 cells are nine runs of memory. Based on: Matthias Teschner et al. Optimized
+// Spatial Hashing for Collision Detection of Deformable Objects. 2003. Differs: rows are placed by a skewed
+// lattice in place of a hash, so that what shares a slot is far away whatever way the cloth hangs; slots are
+// filled by a counting sort, so that their order is that of the particles.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -21,7 +21,8 @@ class CellGrid {
   };
 
   CellGrid() = default;
-  CellGrid(std::array<int, 3> bits, float cell_m, std::size_t points);
+  /// Empty, for this many points.
+  CellGrid(float cell_m, std::size_t points);
 
   void fill(std::span<const Point> points);
 
@@ -31,8 +32,8 @@ class CellGrid {
     const Cell c = cell_of(at);
     for (int row = 0; row < 9; ++row) {
       const std::size_t first = row_of(c.y + row % 3 - 1, c.z + row / 3 - 1);
-      const std::size_t left = static_cast<std::size_t>(c.x - 1) & mask_[0];
-      const std::size_t run = std::min<std::size_t>(3, mask_[0] + 1 - left);  // cells before the fold
+      const std::size_t left = static_cast<std::size_t>(c.x - 1) & x_mask_;
+      const std::size_t run = std::min<std::size_t>(3, x_mask_ + 1 - left);  // cells before the fold
       visit_run(first + left, run, visit);
       visit_run(first, 3 - run, visit);
     }
@@ -44,23 +45,19 @@ class CellGrid {
   };
   Cell cell_of(const Point& at) const;
   std::size_t row_of(int y, int z) const {
-    return ((static_cast<std::size_t>(y) & mask_[1]) | (static_cast<std::size_t>(z) & mask_[2]) << bits_[1])
-           << bits_[0];
+    return ((static_cast<std::size_t>(y) + skew_ * static_cast<std::size_t>(z)) & row_mask_) << x_bits_;
   }
   template <class Visit>
   void visit_run(std::size_t slot, std::size_t cells, Visit& visit) const {
     for (Index k = begin_[slot]; k < begin_[slot + cells]; ++k) visit(entry_[k]);
   }
 
-  std::array<int, 3> bits_ = {};
-  std::array<std::size_t, 3> mask_ = {};
+  int x_bits_ = 0;
+  std::size_t x_mask_ = 0, row_mask_ = 0, skew_ = 0;
   float per_cell_ = 0.0f;       // cells a metre
   std::vector<Index> begin_;    // #slots + 1
   std::vector<Index> slot_of_;  // #P
   std::vector<Entry> entry_;    // #P, by slot, ascending inside one
 };
-
-/// A grid for as many points as these, as wide as they lie; not filled.
-CellGrid make_cell_grid(std::span<const Point> points, float cell_m);
 
 }  // namespace bodice::cloth

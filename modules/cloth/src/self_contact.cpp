@@ -70,7 +70,7 @@ SelfContact make_self_contact(const Particles& particles, double radius_m) {
   s.radius_m = static_cast<float>(radius_m);
   for (std::size_t i = 0; i < count; ++i)
     s.rest.push_back({particles.x[i], particles.y[i], particles.z[i], 0});
-  s.grid = make_cell_grid(s.rest, kSearch * s.radius_m);
+  s.grid = CellGrid(kSearch * s.radius_m, count);
   s.close_count.assign(count, 0), s.active.assign(count, 0), s.move.assign(count, {});
   s.close.assign(count * kMaxClose, 0), s.close_m.assign(count * kMaxClose, 0.0f);
   return s;
