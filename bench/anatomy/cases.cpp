@@ -78,8 +78,14 @@ void read_truth(const fs::path& file, Case& c) {
   }
 }
 
+/// The poses that bodies are made in; everything in awkward/ is made from such a body but the fused one.
+bool stands_at_rest(const std::string& stem) {
+  return stem.find("rest") != std::string::npos || stem.find("tpose") != std::string::npos;
+}
+
 Case load(const fs::path& data, const fs::path& file, const std::vector<int>& coarse) {
-  Case c{file.parent_path().filename().string() + "/" + file.filename().string(), {}, {}, {}, 0.0};
+  Case c{file.parent_path().filename().string() + "/" + file.filename().string(), {}, {}, {}, 0.0, false};
+  c.rest = stands_at_rest(file.stem().string());
   const auto repaired = bodice::geometry::repair({}, read_mesh(file));
   if (!repaired) return c;
   c.mesh = repaired->mesh;

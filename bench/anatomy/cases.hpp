@@ -19,12 +19,16 @@ struct Case {
   std::vector<int> truth;                                   ///< #V coarse class, empty if unknown
   std::map<std::string, bodice::geometry::Vec3> landmarks;  ///< LandmarkId names; empty if unknown
   double stature = 0.0;                                     ///< in the mesh's unit, 0 if unknown
+  bool rest = false;                                        ///< stands as bodies are made: A or T pose
 };
 
 /// Every body of the data folder that has labels. Sorted by name.
 std::vector<Case> file_cases(const std::filesystem::path& data, const std::string& only);
 
-/// A made body of random build, pose, resolution, turn, place and unit.
+/// A made body of random build (thin to obese), pose, resolution, turn, place and unit.
 Case synth_case(std::uint64_t seed);
+
+/// The average made body, as fine as wanted: what time is measured on.
+bodice::geometry::TriMesh synth_mesh(int vertices);
 
 }  // namespace bench

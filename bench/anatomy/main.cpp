@@ -1,57 +1,66 @@
-// anatomy [--data DIR] [--only TEXT] [--seeds N] [--verbose] [--sheet FILE.png]: a table of how well
-// every body is understood.
+// anatomy [--data DIR] [--only TEXT] [--seeds N] [--all] [--verbose] [--sheet FILE.png] [--cost]
+// How well is every body understood, and in what time? Rows of the bodies that miss a bar (--all: of every
+// body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: made
+// bodies in place of files. --sheet: a picture of every body by part.
 #include <cstdio>
 #include <cstring>
 
-#include "score.hpp"
+#include "cost.hpp"
+#include "report.hpp"
 #include "sheet.hpp"
 
 namespace {
 
-void print_row(const bench::Case& c, const bodice::anatomy::Anatomy& a, const bench::Score& s, bool verbose) {
-  double ms = 0.0;
-  for (const auto& stage : a.stages) ms += stage.ms;
-  std::printf("%-42s %7zu %7.2f %6.2f %6.2f %-12s %6.3f %7.2f", c.name.c_str(), c.mesh.positions.size(),
-              100.0 * s.agreement, 100.0 * s.swapped, 100.0 * s.worst_landmark, s.worst_name.c_str(),
-              s.stature_ratio, ms);
-  for (const auto& w : a.warnings) std::printf(" %s(%s)", w.code.c_str(), w.part.c_str());
-  std::printf("\n");
-  if (!verbose) return;
-  for (const auto& [name, error] : s.error) std::printf("    %s %.2f", name.c_str(), 100.0 * error);
-  std::printf("\n");
+struct Arguments {
+  std::string data = "../shared/data", only, picture;
+  std::uint64_t seeds = 0;
+  bool all = false, verbose = false, cost = false;
+};
+
+Arguments parse(int argc, char** argv) {
+  Arguments a;
+  for (int i = 1; i < argc; ++i) {
+    const auto is = [&](const char* name) { return std::strcmp(argv[i], name) == 0; };
+    if (is("--all")) a.all = true;
+    if (is("--verbose")) a.verbose = true;
+    if (is("--cost")) a.cost = true;
+    if (i + 1 >= argc) break;
+    if (is("--data"))
+      a.data = argv[++i];
+    else if (is("--only"))
+      a.only = argv[++i];
+    else if (is("--seeds"))
+      a.seeds = std::stoull(argv[++i]);
+    else if (is("--sheet"))
+      a.picture = argv[++i];
+  }
+  return a;
 }
 
-void run(const bench::Case& c, bool verbose, bench::Sheet& sheet) {
+void run(const bench::Case& c, bench::Report& report, bench::Sheet& sheet) {
   const auto anatomy = bodice::anatomy::analyse({}, c.mesh, {bodice::body::find_profile("ansur2").value()});
-  if (!anatomy) {
-    std::printf("%-42s %s\n", c.name.c_str(), anatomy.error().sentence().c_str());
-    return;
-  }
-  print_row(c, *anatomy, bench::score(c, *anatomy), verbose);
+  if (!anatomy) return report.add_refused(c, anatomy.error().sentence());
+  report.add(c, *anatomy);
   sheet.add(c, *anatomy);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string data = "../shared/data", only, picture;
-  std::uint64_t seeds = 0;
-  bool verbose = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--data") == 0 && i + 1 < argc) data = argv[++i];
-    if (std::strcmp(argv[i], "--only") == 0 && i + 1 < argc) only = argv[++i];
-    if (std::strcmp(argv[i], "--seeds") == 0 && i + 1 < argc) seeds = std::stoull(argv[++i]);
-    if (std::strcmp(argv[i], "--sheet") == 0 && i + 1 < argc) picture = argv[++i];
-    if (std::strcmp(argv[i], "--verbose") == 0) verbose = true;
+  const Arguments arguments = parse(argc, argv);
+  if (arguments.cost) {
+    bench::print_cost();
+    return 0;
   }
-  std::printf("%-42s %7s %7s %6s %6s %-12s %6s %7s\n", "body", "V", "agree%", "swap%", "worst%", "landmark",
-              "height", "ms");
+  bench::Report report(arguments.all || arguments.verbose, arguments.verbose);
   bench::Sheet sheet;
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) run(bench::synth_case(seed), verbose, sheet);
-  if (seeds == 0)
-    for (const bench::Case& c : bench::file_cases(data, only)) run(c, verbose, sheet);
-  if (!picture.empty() && !sheet.write(picture)) {
-    std::fprintf(stderr, "could not write %s\n", picture.c_str());
+  report.header();
+  for (std::uint64_t seed = 0; seed < arguments.seeds; ++seed) run(bench::synth_case(seed), report, sheet);
+  if (arguments.seeds == 0)
+    for (const bench::Case& c : bench::file_cases(arguments.data, arguments.only)) run(c, report, sheet);
+  report.summary();
+  if (!arguments.picture.empty() && !sheet.write(arguments.picture)) {
+    std::fprintf(stderr, "could not write %s\n", arguments.picture.c_str());
     return 1;
   }
   return 0;

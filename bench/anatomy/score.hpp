@@ -6,6 +6,9 @@
 
 namespace bench {
 
+/// How far a landmark may lie from the truth, of the stature.
+inline constexpr double kRestBar = 0.025, kPosedBar = 0.04;
+
 struct Score {
   double agreement = -1.0;              ///< share of the skin's area, borders left out; -1 without truth
   double swapped = 0.0;                 ///< share of the limbs' area that has the other side's label

@@ -25,7 +25,7 @@ bodice::synth::BodyOptions options_of(std::uint64_t seed) {
   bodice::synth::BodyOptions o;
   o.sex = random.below(2) == 0 ? bodice::body::Sex::kFemale : bodice::body::Sex::kMale;
   o.stature_m = random.uniform(1.45, 1.95);
-  o.mass_kg = random.uniform(18.0, 36.0) * o.stature_m * o.stature_m;
+  o.mass_kg = random.uniform(17.0, 42.0) * o.stature_m * o.stature_m;
   o.pose = static_cast<Pose>(random.below(static_cast<std::uint64_t>(Pose::kRandom) + 1));
   o.vertices = static_cast<int>(random.uniform(1500.0, 14000.0));
   o.seed = seed + 1;
@@ -48,12 +48,13 @@ void move_anywhere(std::uint64_t seed, Case& c) {
 }  // namespace
 
 Case synth_case(std::uint64_t seed) {
-  Case c{"synth/" + std::to_string(seed), {}, {}, {}, 0.0};
+  Case c{"synth/" + std::to_string(seed), {}, {}, {}, 0.0, false};
   const auto options = options_of(seed);
   const auto body = bodice::synth::make_body({}, options);
   if (!body) return c;
   c.name += " pose " + std::to_string(static_cast<int>(options.pose)) + " bmi " +
             std::to_string(static_cast<int>(options.mass_kg / options.stature_m / options.stature_m));
+  c.rest = options.pose == bodice::synth::Pose::kA || options.pose == bodice::synth::Pose::kT;
   c.mesh = body->mesh;
   for (const Part part : body->part) c.truth.push_back(coarse_of(part));
   for (const auto& mark : body->landmarks)
@@ -61,6 +62,13 @@ Case synth_case(std::uint64_t seed) {
   c.stature = body->stature_m;
   move_anywhere(seed, c);
   return c;
+}
+
+bodice::geometry::TriMesh synth_mesh(int vertices) {
+  bodice::synth::BodyOptions options;
+  options.vertices = vertices;
+  auto body = bodice::synth::make_body({}, options);
+  return body ? std::move(body->mesh) : bodice::geometry::TriMesh{};
 }
 
 }  // namespace bench

@@ -2,6 +2,8 @@
 #include <bodice/engine/stage_timer.hpp>
 
 #include "diagnose.hpp"
+#include "drop_fins.hpp"
+#include "halve_edges.hpp"
 #include "landmarks.hpp"
 #include "segment.hpp"
 #include "split_pinches.hpp"
@@ -13,6 +15,7 @@ namespace {
 using engine::Error;
 using engine::ErrorCode;
 using engine::StageTimer;
+using engine::Warning;
 using geometry::Vec3;
 
 /// Above this the five ends do not lie as a body's do.
@@ -70,17 +73,46 @@ engine::Result<Anatomy> understand(const engine::Context& context, const Skin& s
   return anatomy;
 }
 
-/// Back from the skin whose pinched vertices were split to the one that was given.
-void forget_copies(const SplitSkin& split, std::size_t vertices, Anatomy& anatomy) {
+/// Back from a skin with more vertices, `origin` of each of them, to the one that was given.
+void forget_added(const std::vector<geometry::Index>& origin, std::size_t vertices, Anatomy& anatomy) {
   anatomy.part.resize(vertices);
   for (body::Landmark& mark : anatomy.landmarks)
     if (mark.vertex != geometry::kNoIndex && mark.vertex >= vertices)
-      mark.vertex = split.origin[mark.vertex - vertices];
-  anatomy.warnings.push_back(
-      {"skin-touches", "",
-       "The skin touches itself in " + std::to_string(split.origin.size()) +
-           " welded vertices; they were taken apart, so that no way along the skin leads across.",
-       "Weld less, or move the parts that touch apart."});
+      mark.vertex = origin[mark.vertex - vertices];
+}
+
+engine::Result<Anatomy> understand_fine(const engine::Context& context, const Skin& skin,
+                                        const Options& options, Anatomy anatomy) {
+  const std::size_t vertices = skin.mesh.positions.size();
+  if (vertices > kCoarse || vertices < kNoBody) return understand(context, skin, options, std::move(anatomy));
+  StageTimer skin_timer(context, anatomy.stages, "skin");
+  const FinerSkin finer = halve_edges(skin);
+  Skin fine = make_skin(context, finer.mesh);
+  fine.open_edges = skin.open_edges;
+  skin_timer.stop();
+  auto result = understand(context, fine, options, std::move(anatomy));
+  if (result.ok()) forget_added(finer.origin, vertices, *result);
+  return result;
+}
+
+Warning touches(std::size_t vertices) {
+  return {"skin-touches", "",
+          "The skin touches itself in " + std::to_string(vertices) +
+              " welded vertices; they were taken apart, so that no way along the skin leads across.",
+          "Weld less, or move the parts that touch apart."};
+}
+
+engine::Result<Anatomy> understand_apart(const engine::Context& context, const Skin& skin,
+                                         const Options& options, Anatomy anatomy) {
+  SplitSkin split;
+  if (!surely_unpinched(skin)) split = split_pinches(skin);
+  if (split.origin.empty()) return understand_fine(context, skin, options, std::move(anatomy));
+  const Skin apart = make_skin(context, split.mesh);
+  auto result = understand_fine(context, apart, options, std::move(anatomy));
+  if (!result.ok()) return result;
+  forget_added(split.origin, skin.mesh.positions.size(), *result);
+  result->warnings.push_back(touches(split.origin.size()));
+  return result;
 }
 
 }  // namespace
@@ -91,14 +123,10 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   Anatomy anatomy;
   StageTimer skin_timer(context, anatomy.stages, "skin");
   const Skin skin = make_skin(context, mesh);
-  SplitSkin split;
-  if (!surely_unpinched(skin)) split = split_pinches(skin);
   skin_timer.stop();
-  if (split.origin.empty()) return understand(context, skin, options, std::move(anatomy));
-  const Skin apart = make_skin(context, split.mesh);
-  auto result = understand(context, apart, options, std::move(anatomy));
-  if (result.ok()) forget_copies(split, mesh.positions.size(), *result);
-  return result;
+  if (skin.edges.non_manifold == 0) return understand_apart(context, skin, options, std::move(anatomy));
+  const geometry::TriMesh without_fins = drop_fins(skin);
+  return understand_apart(context, make_skin(context, without_fins), options, std::move(anatomy));
 }
 
 }  // namespace bodice::anatomy

@@ -27,13 +27,12 @@ int handles(const Skin& skin) {
 }
 
 void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
-  if (skin.edges.boundary > 0)
-    warnings.push_back({"holes", "",
-                        std::to_string(skin.edges.boundary) + " edges of the skin border a hole.",
+  if (skin.open_edges > 0)
+    warnings.push_back({"holes", "", std::to_string(skin.open_edges) + " edges of the skin border a hole.",
                         "Close the holes if distances around them matter."});
-  if (skin.components > 1)
+  if (skin.pieces > 1)
     warnings.push_back({"extra-pieces", "",
-                        std::to_string(skin.components - 1) +
+                        std::to_string(skin.pieces - 1) +
                             " pieces are not connected to the body and take the part of the nearest skin.",
                         "Remove eyes, clothes or scan debris to leave them out."});
   const int count = skin.edges.boundary == 0 && skin.edges.non_manifold == 0 ? handles(skin) : 0;

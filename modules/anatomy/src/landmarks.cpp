@@ -30,6 +30,8 @@ constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
 constexpr float kLeastHalfChest = 0.02F;  // of the size
 /// How much nearer to the feet the dome of the head reaches, of head to feet plus foot to foot.
 constexpr float kDome = 0.02F;
+/// The same of the toes, and how far to the sides; of head to feet.
+constexpr float kBlunt = 0.010F, kToes = 0.04F;
 /// A signature this many deviations off is no evidence any more.
 constexpr double kHopelessMisfit = 12.0;
 
@@ -113,6 +115,14 @@ geometry::Vec3 crown_place(const Skin& skin, const BodyEnds& ends) {
                     [&](Index v) { return std::max(0.0F, dome - std::abs(top - reach(v))); });
 }
 
+/// The front of a foot is blunt: what is nearly as far from the head as its farthest vertex has a share.
+geometry::Vec3 toe_place(const Skin& skin, const BodyEnds& ends, int side) {
+  const float blunt = kBlunt * ends.head_to_feet;
+  const float tip = (*ends.from_head)[ends.foot[side]];
+  return soft_place(skin, ends.foot[side], static_cast<double>(kToes * ends.head_to_feet),
+                    [&](Index v) { return std::max(0.0F, blunt - std::abs(tip - (*ends.from_head)[v])); });
+}
+
 body::Landmark at_girth(const Girth& girth) {
   return {body::LandmarkId::kCrown, girth.center, girth.vertex, girth.confidence};
 }
@@ -151,8 +161,8 @@ std::vector<body::Landmark> as_list(const Skin& skin, const BodyEnds& ends, cons
       at_place(marks.perineum_place, marks.perineum, marks.perineum_confidence),
       at_girth(marks.knee[0]),
       at_girth(marks.knee[1]),
-      at_vertex(skin, ends.foot[0], 1.0),
-      at_vertex(skin, ends.foot[1], 1.0)};
+      at_place(toe_place(skin, ends, 0), ends.foot[0], 1.0),
+      at_place(toe_place(skin, ends, 1), ends.foot[1], 1.0)};
   for (int i = 0; i < body::kLandmarkCount; ++i) list[i].id = static_cast<body::LandmarkId>(i);
   return list;
 }

@@ -17,15 +17,29 @@ using geometry::Vec3;
 
 /// Where around a leg is read, as parts of the way from toe to perineum: the calf and the knee.
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
-constexpr float kHeelFrom = 0.20F, kHeelTo = 0.31F;  ///< where the heel is, as parts of that way
+constexpr float kHeelFrom = 0.20F, kHeelTo = 0.31F, kCalf = 0.50F;  ///< as parts of that way
 
-/// The heel is the dead end of the foot: the way toe - heel - head is the longest.
-Index find_heel(const EndPoints& ends, End foot, float leg) {
+/// Distances from the loop around the calf at a level of the distance from the toe, which only the foot
+/// needs.
+Field distances_from_calf(const Skin& skin, const Field& from_toe, float level) {
+  std::vector<geodesic::Seed> seeds;
+  for (const auto& [a, b] : skin.edges.ends) {
+    if ((from_toe[a] < level) == (from_toe[b] < level)) continue;
+    const Index above = from_toe[a] < level ? b : a;
+    seeds.push_back({above, from_toe[above] - level});
+  }
+  return geodesic::distances(skin.graph, seeds);
+}
+
+/// The heel is the dead end of the foot: the ways toe - heel - head and toe - heel - calf are long. A bent
+/// knee shortens the first over the back of the leg, a pointed foot the second.
+Index find_heel(const Skin& skin, const EndPoints& ends, End foot, float leg) {
+  const Field from_calf = distances_from_calf(skin, ends.field[foot], kCalf * leg);
   Index heel = ends.vertex[foot];
   float most = -1.0F;
   for (std::size_t v = 0; v < ends.field[foot].size(); ++v) {
     if (!(ends.field[foot][v] > kHeelFrom * leg && ends.field[foot][v] < kHeelTo * leg)) continue;
-    const float detour = ends.field[foot][v] + ends.field[kHead][v];
+    const float detour = 2.0F * ends.field[foot][v] + ends.field[kHead][v] + from_calf[v];
     if (detour > most) {
       most = detour;
       heel = static_cast<Index>(v);
@@ -56,21 +70,26 @@ double signed_turn(std::complex<double> first, std::complex<double> second) {
   return size > 0.0 ? std::imag(second * std::conj(first)) / size : 0.0;
 }
 
-/// Mean over the loops of what `reads` says, for levels of the field that rises towards the trunk.
+/// Mean over the loops of what `reads` says, for levels of the field that rises towards the trunk. The lower
+/// a loop, the more it counts: a bent knee disturbs those near it.
 template <class Reads>
 double mean_over_loops(const Skin& skin, const Field& field, const std::array<float, kReadAt.size()>& levels,
                        Reads reads) {
-  double sum = 0.0;
-  for (const auto& lines : geodesic::isolines(skin.mesh, skin.edges, field, levels))
-    if (const Isoline* loop = widest_closed(lines)) sum += reads(*loop);
-  return sum / static_cast<double>(levels.size());
+  double sum = 0.0, all = 0.0;
+  const auto loops = geodesic::isolines(skin.mesh, skin.edges, field, levels);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const auto weight = static_cast<double>(loops.size() - i);
+    all += weight;
+    if (const Isoline* loop = widest_closed(loops[i])) sum += weight * reads(*loop);
+  }
+  return sum / all;
 }
 
 /// Positive if the leg is the body's left: seen from the trunk, inner follows back counter-clockwise. Reads
 /// the back from the heel, on loops at equal distance from the toe.
 double leftness(const Skin& skin, const EndPoints& ends, End foot, End other) {
   const float leg = 0.5F * ends.feet_apart();
-  const Field heel = geodesic::distances_from(skin.graph, find_heel(ends, foot, leg));
+  const Field heel = geodesic::distances_from(skin.graph, find_heel(skin, ends, foot, leg));
   std::array<float, kReadAt.size()> levels{};
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = kReadAt[i] * leg;
   return mean_over_loops(skin, ends.field[foot], levels, [&](const Isoline& loop) {

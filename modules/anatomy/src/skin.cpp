@@ -5,11 +5,13 @@
 namespace bodice::anatomy {
 
 Skin make_skin(const engine::Context& context, const geometry::TriMesh& mesh) {
-  Skin skin{mesh, geodesic::mesh_edges(mesh), {}, {}, 0};
+  Skin skin{mesh, geodesic::mesh_edges(mesh), {}, {}, 0, 0, 0};
   skin.graph = geodesic::edge_graph(context, mesh, skin.edges, geodesic::Metric::kUnfolded);
   geometry::Components pieces = geometry::connected_components(mesh);
   skin.component = std::move(pieces.of_vertex);
   skin.components = pieces.area.size();
+  for (const double area : pieces.area) skin.pieces += area > 0.0;
+  skin.open_edges = skin.edges.boundary;
   return skin;
 }
 

@@ -11,7 +11,9 @@ struct Skin {
   geodesic::MeshEdges edges;
   geodesic::EdgeGraph graph;
   std::vector<geometry::Index> component;  ///< #V; 0 is the body's own
-  std::size_t components = 0;
+  std::size_t components = 0;              ///< vertices without triangles are some of them
+  std::size_t pieces = 0;                  ///< components that have triangles
+  std::size_t open_edges = 0;              ///< of the input, at its holes
 };
 
 /// A point on an edge of the skin.

@@ -1,0 +1,36 @@
+// What is printed: a row a body, and at the end every bar beside what was measured.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "score.hpp"
+
+namespace bench {
+
+/// What the bodies of a run have in common: how far from the bars they are.
+class Report {
+ public:
+  explicit Report(bool every_row, bool every_landmark)
+      : every_row_(every_row), every_landmark_(every_landmark) {}
+
+  void header() const;
+  /// Prints the row if it misses a bar, or if all rows are wanted.
+  void add(const Case& c, const bodice::anatomy::Anatomy& anatomy);
+  void add_refused(const Case& c, const std::string& sentence);
+  /// Measured values beside their bars, per landmark and in all.
+  void summary() const;
+
+ private:
+  struct Errors {
+    std::vector<double> rest, posed;  ///< of the stature
+  };
+  bool every_row_, every_landmark_;
+  std::vector<double> agreement_;
+  double worst_swap_ = 0.0;
+  std::map<std::string, Errors> errors_;  ///< by landmark, left and right together
+  int bodies_ = 0, refused_ = 0, missed_ = 0, missed_silently_ = 0;
+};
+
+}  // namespace bench
