@@ -97,7 +97,8 @@ std::uint32_t run_substep(const engine::Context& context, const Plan& plan, int 
   }
   solve_coarse(context, s.coarse, p);
   if (s.options.self_collision && !(plan.limits & kNoSelfContact))
-    push_apart(context, s.contacts.touching, s.self, p);
+    push_apart(context, s.contacts.touching, static_cast<float>(s.fabric.friction), plan.substep_s, s.self,
+               p);
   return limits | take_from_points(context, p);
 }
 

@@ -16,7 +16,15 @@ constexpr float kSearch = 2.0f;  // radii: pairs this near may meet within the f
 // would let the outer layer sink into the inner one.
 constexpr float kTouchingMass = 8.0f;
 
+// Layers that begin too near part at this speed: a fold's width in a few frames.
+constexpr float kRecovery_m_s = 0.1f;
+
 constexpr double kFresh = 0.4;  // radii the fastest may travel between searches; half is the bound
+
+struct Rub {
+  float friction;
+  float recovery_m;  // a substep
+};
 
 float distance2(const Point& a, const Point& b) {
   const Float4 d = load(a) - load(b), dd = d * d;
@@ -44,19 +52,41 @@ float yielding(const Particles& p, const std::vector<std::uint8_t>& touching, In
   return touching[i] ? p.point[i].weight / kTouchingMass : p.point[i].weight;
 }
 
-Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching, const SelfContact& s,
-                  Index i) {
+float length_of(Float4 v) {
+  const Float4 vv = v * v;
+  return std::sqrt(vv[0] + vv[1] + vv[2] + kTinyLength2);
+}
+
+// How far a particle has come in this substep.
+Float4 travelled(const Particles& p, Index i) {
+  return xyz(load(p.point[i])) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f};
+}
+
+// What parts two particles that are too near: as far as they came towards each other, and out of what was too
+// near before at a bounded speed, for a push is a velocity and a fold that throws its sides about never
+// rests. Then friction, as on the body.
+Float4 part(const Particles& p, const Rub& rub, Index i, Index j, float near_m) {
+  const Float4 apart = xyz(load(p.point[i]) - load(p.point[j]));
+  const float length = length_of(apart);
+  const Float4 normal = apart / length, slid = travelled(p, i) - travelled(p, j);
+  const Float4 along = slid * normal;
+  const float approach = along[0] + along[1] + along[2];
+  const float push = std::min(near_m - length, std::max(-approach, 0.0f) + rub.recovery_m);
+  const Float4 tangent = slid - approach * normal;
+  const float held = std::min(1.0f, rub.friction * push / length_of(tangent));
+  return push * normal - held * tangent;
+}
+
+Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching, const Rub& rub,
+                  const SelfContact& s, Index i) {
   const float own = yielding(p, touching, i);
-  const Float4 at = load(p.point[i]);
   Float4 sum = splat(0.0f);
   float pushes = 0.0f;
   for (std::size_t k = i * kMaxClose; k < i * kMaxClose + s.close_count[i]; ++k) {
     const Index j = s.close[k];
-    const float length2 = distance2(p.point[i], p.point[j]);
-    if (length2 >= s.close_m[k] * s.close_m[k]) continue;
-    const float length = std::sqrt(length2 + kTinyLength2);
+    if (distance2(p.point[i], p.point[j]) >= s.close_m[k] * s.close_m[k]) continue;
     const float share = own / (own + yielding(p, touching, j) + kTinyWeight);
-    sum += share * (s.close_m[k] - length) / length * xyz(at - load(p.point[j]));
+    sum += share * part(p, rub, i, j, s.close_m[k]);
     pushes += 1.0f;
   }
   return pushes > 1.0f ? sum / pushes : sum;
@@ -89,11 +119,12 @@ void find_close_pairs(const engine::Context& context, const Ring& ring, const Pa
     if (self.close_count[i] > 0) self.active[self.active_count++] = i;
 }
 
-void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, SelfContact& self,
-                Particles& particles) {
+void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, float friction,
+                float substep_s, SelfContact& self, Particles& particles) {
+  const Rub rub = {friction, kRecovery_m_s * substep_s};
   engine::parallel_for(context, self.active_count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      store(self.move[k], correction(particles, touching, self, self.active[k]));
+      store(self.move[k], correction(particles, touching, rub, self, self.active[k]));
   });
   engine::parallel_for(context, self.active_count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {

@@ -36,8 +36,8 @@ void find_close_pairs(const engine::Context& context, const Ring& ring, const Pa
                       SelfContact& self);
 
 /// One Jacobi sweep: each particle sums its pairs' corrections from the same positions, so that neither order
-/// nor workers matter. `touching`: who lies on the body, #P.
-void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, SelfContact& self,
-                Particles& particles);
+/// nor workers matter; with Coulomb friction. `touching`: who lies on the body, #P.
+void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, float friction,
+                float substep_s, SelfContact& self, Particles& particles);
 
 }  // namespace bodice::cloth
