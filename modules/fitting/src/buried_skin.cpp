@@ -47,6 +47,24 @@ struct Search {
     }
   }
 
+  /// Guessed vertices that look at the back of other skin: small patches dip into another limb unseen by the
+  /// seeds. A point off the skin lies behind its nearest triangle only if it is inside something.
+  std::vector<Index> suspects() {
+    const double reach_m = 50.0 * step_m;  // 17 mm on an adult: larger patches are seen by the seeds
+    std::vector<std::uint8_t> found(state.size(), 0);
+    engine::parallel_for(context, state.size(), 256, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t v = begin; v < end; ++v) {
+        const geometry::Vec3 off = mesh.positions[v] + reach_m * normals[v];
+        const auto hit = distance.nearest_within(off, reach_m * (1.0 - 1e-3));
+        found[v] = !exact[v] && hit && hit->normal.dot(off - hit->point) < 0.0;
+      }
+    });
+    std::vector<Index> list;
+    for (Index v = 0; v < found.size(); ++v)
+      if (found[v]) list.push_back(v);
+    return list;
+  }
+
   /// Guessed vertices of triangles whose corners disagree.
   std::vector<Index> doubtful() {
     std::vector<Index> found;
@@ -75,6 +93,7 @@ std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const
   for (Index v = 0; v < n; v += kSeedEvery) seeds.push_back(v);
   search.ask(seeds);
   search.spread();
+  search.ask(search.suspects());
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const std::vector<Index> doubtful = search.doubtful();
     if (doubtful.empty()) break;

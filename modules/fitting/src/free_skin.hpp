@@ -18,6 +18,10 @@ class FreeSkin {
   const LabelledSkin& all() const { return source_.skin; }
   /// Whether a triangle of all the skin bounds the body.
   bool bounds(std::size_t triangle) const { return buried_.empty() || !buried_[triangle]; }
+  /// Whether no corner of the triangle is buried: one that bounds the body may dip into another limb.
+  bool is_open(std::size_t triangle) const { return !source_.buried[triangle]; }
+  /// Whether buried triangles were cut out, so that the skin has rims.
+  bool is_cut() const { return own_ != nullptr; }
   bool wanted(body::Part part) const { return ((source_.parts >> static_cast<int>(part)) & 1u) != 0; }
 
   /// Nearest free skin within a distance, unsigned.

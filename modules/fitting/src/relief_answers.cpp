@@ -159,4 +159,33 @@ ReliefAnswers find_answers(const engine::Context& context, std::span<const Relie
   return result;
 }
 
+ReliefAnswers joined(const ReliefAnswers& answers, const ReliefAnswers& more) {
+  const auto samples = static_cast<std::uint32_t>(answers.target_m.size());
+  ReliefAnswers all = answers;
+  all.answer.clear();
+  std::vector<std::uint32_t> place(answers.answer.size()), place_of_more(more.answer.size());
+  for (std::size_t k = 0; k + 1 < answers.begin.size(); ++k) {
+    all.begin[k] = all.answer.size();
+    for (std::size_t m = answers.begin[k]; m < answers.begin[k + 1]; ++m) {
+      place[m] = static_cast<std::uint32_t>(all.answer.size());
+      all.answer.push_back(answers.answer[m]);
+    }
+    for (std::size_t m = more.begin[k]; m < more.begin[k + 1]; ++m) {
+      place_of_more[m] = static_cast<std::uint32_t>(all.answer.size());
+      all.answer.push_back(more.answer[m]);
+      all.answer.back().sample += samples;
+    }
+  }
+  all.begin.back() = all.answer.size();
+  for (std::uint32_t& position : all.of) position = place[position];
+  for (const std::uint32_t position : more.of) all.of.push_back(place_of_more[position]);
+  for (std::size_t i = 1; i < more.of_begin.size(); ++i)
+    all.of_begin.push_back(answers.of.size() + more.of_begin[i]);
+  const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  add(all.target_m, more.target_m);
+  add(all.signed_distance_m, more.signed_distance_m);
+  add(all.weight, more.weight);
+  return all;
+}
+
 }  // namespace bodice::fitting

@@ -38,4 +38,7 @@ ReliefAnswers find_answers(const engine::Context& context, std::span<const Relie
                            std::span<const proxy::ProxyEllipsoid> ellipsoids,
                            const proxy::ReliefReach& reach);
 
+/// The answers to both sets of samples, those of `more` numbered on from the others.
+ReliefAnswers joined(const ReliefAnswers& answers, const ReliefAnswers& more);
+
 }  // namespace bodice::fitting

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -14,7 +16,7 @@ constexpr int kLeastSide = 4, kMostSide = 96;
 // A point this deep that is reported outside is a leak: particles there would be let out the wrong way.
 constexpr double kLeakDepth = 8e-3 / 1.7, kLeakMargin = 4e-3 / 1.7;  // of stature
 constexpr float kLeakFactor = 20.0f;
-constexpr int kLeakRounds = 4, kSettleSteps = 8;
+constexpr int kLeakRounds = 4, kSettleSteps = 8, kMostLooks = 1;
 constexpr double kSpokenFor = 0.05;  // weight from which a node's value counts for the range of a table
 
 struct Range {
@@ -53,19 +55,32 @@ void store_table(const ReliefSystem& system, const ReliefSystem::Vector& x, std:
     texels[node] = {h_range.byte(h[unknown_of[node]]), a_range.byte(a[unknown_of[node]])};
 }
 
-/// Deep samples that the tables would report (nearly) outside weigh much more from now on; false if none is.
-bool raise_leaks(const ReliefSystem& system, const ReliefSystem::Vector& x, double stature_m,
-                 ReliefAnswers& answers) {
+/// Deep samples that the tables would report (nearly) outside weigh much more from now on; returns them.
+std::vector<std::uint32_t> raise_leaks(const ReliefSystem& system, const ReliefSystem::Vector& x,
+                                       double stature_m, ReliefAnswers& answers) {
   const std::vector<double> error = system.errors(x);
-  bool any = false;
+  std::vector<std::uint32_t> leaks;
   for (std::size_t i = 0; i < error.size(); ++i) {
     const double s = answers.signed_distance_m[i];
     const bool answered = answers.of_begin[i] < answers.of_begin[i + 1];
     if (!answered || s > -kLeakDepth * stature_m || s + error[i] < -kLeakMargin * stature_m) continue;
     answers.weight[i] *= kLeakFactor;
-    any = true;
+    leaks.push_back(static_cast<std::uint32_t>(i));
   }
-  return any;
+  return leaks;
+}
+
+/// Solves and raises what leaks until nothing does, a few times at most; returns what leaked at first.
+std::vector<std::uint32_t> close_leaks(const ReliefSystem& system, const ReliefSystem::Vector& free,
+                                       double stature_m, ReliefAnswers& answers, ReliefSystem::Vector& x) {
+  std::vector<std::uint32_t> first;
+  for (int round = 0; round < kLeakRounds; ++round) {
+    auto leaks = raise_leaks(system, x, stature_m, answers);
+    if (leaks.empty()) break;
+    if (round == 0) first = std::move(leaks);
+    x = system.solve(std::move(x), kSettleSteps, free);
+  }
+  return first;
 }
 
 std::size_t square(int side) {
@@ -114,16 +129,21 @@ std::vector<int> shared_sides(std::span<const double> error, std::size_t texels)
 
 std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& answers,
                                std::span<const int> nodes_per_side, int solver_steps,
-                               proxy::BodyProxy::Data& data) {
-  const ReliefSystem system(context, answers, nodes_per_side);
-  const auto unknowns = system.unknowns();
+                               proxy::BodyProxy::Data& data, const LookCloser& look_closer) {
+  auto system = std::make_unique<ReliefSystem>(context, answers, nodes_per_side);
+  const auto unknowns = system->unknowns();
   using Vector = ReliefSystem::Vector;
-  Vector x = system.solve(Vector::Zero(unknowns), solver_steps, Vector::Ones(unknowns));
+  Vector x = system->solve(Vector::Zero(unknowns), solver_steps, Vector::Ones(unknowns));
   // Beyond that the corrected distance would fall while the point moves outward.
-  const Vector free = system.limit_slopes(x, proxy::relief_reach(data.stature_m).out_m);
-  x = system.solve(std::move(x), kSettleSteps, free);
-  for (int round = 0; round < kLeakRounds && raise_leaks(system, x, data.stature_m, answers); ++round)
-    x = system.solve(std::move(x), kSettleSteps, free);
+  const Vector free = system->limit_slopes(x, proxy::relief_reach(data.stature_m).out_m);
+  x = system->solve(std::move(x), kSettleSteps, free);
+  std::vector<std::uint32_t> leaks = close_leaks(*system, free, data.stature_m, answers, x);
+  for (int look = 0; look < kMostLooks && look_closer && !leaks.empty(); ++look) {
+    answers = joined(answers, look_closer(leaks));
+    system = std::make_unique<ReliefSystem>(context, answers, nodes_per_side);
+    x = system->solve(std::move(x), kSettleSteps, free);
+    leaks = close_leaks(*system, free, data.stature_m, answers, x);
+  }
   data.relief.assign(nodes_per_side.size(), {});
   std::size_t texels = 0;
   for (std::size_t k = 0; k < nodes_per_side.size(); ++k) {
@@ -134,10 +154,10 @@ std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& an
   data.texels.assign(texels, {});
   engine::parallel_for(context, data.relief.size(), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k)
-      store_table(system, x, k, data.relief[k],
+      store_table(*system, x, k, data.relief[k],
                   std::span(data.texels).subspan(data.relief[k].first_texel, square(nodes_per_side[k])));
   });
-  return system.error_of_each(x);
+  return system->error_of_each(x);
 }
 
 }  // namespace bodice::fitting

@@ -1,6 +1,7 @@
 // The tables of the relief tier: how large each is, and what it holds.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,11 +21,14 @@ std::vector<int> equal_sides(std::size_t ellipsoids, std::size_t texels);
 /// Sides that use up to `texels` where they lower the error most: #E errors in, #E nodes per side out.
 std::vector<int> shared_sides(std::span<const double> error, std::size_t texels);
 
+/// Answers to more samples near those that leaked (ascending), which are few.
+using LookCloser = std::function<ReliefAnswers(std::span<const std::uint32_t> leaks)>;
+
 /// Fills data.relief and data.texels from the answers; returns each ellipsoid's share of the error that is
-/// left (shared_sides takes it). Raises the weights of deep samples that would be reported outside.
-/// Deterministic, parallel.
+/// left (shared_sides takes it). Raises the weights of deep samples that would be reported outside and, if
+/// `look_closer` is given, joins what it finds there to the answers and fits again. Deterministic, parallel.
 std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& answers,
                                std::span<const int> nodes_per_side, int solver_steps,
-                               proxy::BodyProxy::Data& data);
+                               proxy::BodyProxy::Data& data, const LookCloser& look_closer = {});
 
 }  // namespace bodice::fitting

@@ -33,12 +33,13 @@ double free_reach(const FreeSkin& skin, const Vec3& p, const Vec3& direction, do
   return 0.0;
 }
 
-/// The face's normal tells the side where it can; at sharp edges the winding number is asked.
+/// The face's normal tells the side where it can; at sharp edges and far away the winding number is asked.
 double signed_distance(const FreeSkin& skin, const Vec3& point, double reach_m) {
   const auto hit = skin.nearest_within(point, reach_m * (1.0 + kTouch));
-  if (!hit) return reach_m;
+  if (!hit) return skin.inside(point) ? -reach_m : reach_m;
   const double d = std::abs(hit->signed_distance), side = hit->normal.dot(point - hit->point);
-  if (std::abs(side) > 0.7 * d) return side < 0.0 ? -d : d;
+  // Next to a cut the nearest point may lie on the rim, whose triangle's normal tells nothing.
+  if (std::abs(side) > (skin.is_cut() ? 0.9999 : 0.7) * d) return side < 0.0 ? -d : d;
   return skin.inside(point) ? -d : d;
 }
 
@@ -67,8 +68,10 @@ std::vector<ReliefSample> sample_along_normals(const engine::Context& context, c
       const std::size_t t = surface[i].triangle;
       if (!skin.bounds(t) || !skin.wanted(skin.all().part[mesh.triangles[t][0]])) continue;
       const Vec3 normal = geometry::area_vector(mesh, t).stableNormalized();
-      const double outward = free_reach(skin, surface[i].point, normal, reach);
-      const double inward = free_reach(skin, surface[i].point, -normal, reach);
+      // A point of a triangle that dips into another limb may itself be buried: nothing is certain of it.
+      const bool open = skin.is_open(t);
+      const double outward = open ? free_reach(skin, surface[i].point, normal, reach) : -reach;
+      const double inward = open ? free_reach(skin, surface[i].point, -normal, reach) : -reach;
       for (std::size_t j = 0; j < each; ++j) {
         const double stretch = static_cast<double>(j) + random.uniform_at(i * each + j);
         const double offset = reach * (2.0 * stretch / static_cast<double>(each) - 1.0);
@@ -95,6 +98,22 @@ std::vector<ReliefSample> sample_inside(const engine::Context& context, const Fr
     }
   });
   return with_weight(std::move(samples));
+}
+
+std::vector<ReliefSample> sample_around(const engine::Context& context, const FreeSkin& skin,
+                                        std::span<const Vec3> places, double radius_m, double reach_m) {
+  constexpr std::size_t kEach = 24;
+  const engine::Random random(23);
+  std::vector<ReliefSample> samples(places.size() * kEach);
+  engine::parallel_for(context, samples.size(), 256, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3 u(random.uniform_at(3 * i), random.uniform_at(3 * i + 1), random.uniform_at(3 * i + 2));
+      const Vec3 point = places[i / kEach] + radius_m * (2.0 * u - Vec3::Ones());
+      const double s = signed_distance(skin, point, reach_m);
+      samples[i] = {point, s, 0.25f * importance(s, reach_m)};
+    }
+  });
+  return samples;
 }
 
 }  // namespace bodice::fitting

@@ -12,13 +12,15 @@ namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;
 /// First tables that are usable soon, and say where more texels pay; then those that last.
-constexpr std::size_t kFirstNormals = 8000, kNormals = 48000;
+constexpr std::size_t kFirstNormals = 8000, kNormals = 40000;
 constexpr int kFirstPerNormal = 3, kPerNormal = 6;
 constexpr int kFirstSteps = 16, kSteps = 30;
 /// Of stature: turns most misses of a tenth of a millimetre into hits.
 constexpr double kMargin = 0.1e-3 / 1.7;
 /// Of stature: finds every hole between ellipsoids that a thumb fits into.
 constexpr double kInsideSpacing = 0.010 / 1.7;
+/// Leaks that are looked at more closely; posed bodies whose limbs interpenetrate have hundreds.
+constexpr std::size_t kMostPlaces = 2000;
 
 }  // namespace
 
@@ -31,30 +33,47 @@ ReliefTables::ReliefTables(const engine::Context& context, const SkinSource& sou
   data_.margin_m = kMargin * data_.stature_m;
 }
 
-ReliefAnswers ReliefTables::ask(const ReliefSampling& sampling, double spacing_m) const {
-  const proxy::ReliefReach reach = proxy::relief_reach(data_.stature_m);
+std::vector<ReliefSample> ReliefTables::samples(const ReliefSampling& sampling, double spacing_m) const {
   auto samples = sample_along_normals(context_, skin_, sampling);
   if (spacing_m > 0.0) {
-    const auto inside = sample_inside(context_, skin_, spacing_m, reach.in_m);
+    const double reach_m = proxy::relief_reach(data_.stature_m).in_m;
+    const auto inside = sample_inside(context_, skin_, spacing_m, reach_m);
     samples.insert(samples.end(), inside.begin(), inside.end());
   }
-  return find_answers(context_, samples, data_.ellipsoids, reach);
+  return samples;
+}
+
+ReliefAnswers ReliefTables::ask(std::span<const ReliefSample> samples) const {
+  return find_answers(context_, samples, data_.ellipsoids, proxy::relief_reach(data_.stature_m));
+}
+
+ReliefAnswers ReliefTables::ask_around(std::span<const std::uint32_t> leaks) {
+  std::vector<Vec3> places;
+  for (const std::uint32_t leak : leaks.first(std::min(leaks.size(), kMostPlaces)))
+    places.push_back(samples_[leak].point);
+  const auto more = sample_around(context_, skin_, places, kInsideSpacing * data_.stature_m,
+                                  proxy::relief_reach(data_.stature_m).in_m);
+  samples_.insert(samples_.end(), more.begin(), more.end());
+  return ask(more);
 }
 
 void ReliefTables::fit_first(std::size_t bytes) {
   const std::size_t ellipsoids = data_.ellipsoids.size();
   const double reach_m = proxy::relief_reach(data_.stature_m).out_m;
-  ReliefAnswers answers = ask({kFirstNormals, kFirstPerNormal, reach_m, 21}, 0.0);
+  ReliefAnswers answers = ask(samples({kFirstNormals, kFirstPerNormal, reach_m, 21}, 0.0));
   const auto sides = equal_sides(ellipsoids, texels_within(ellipsoids, bytes));
   error_ = fit_tables(context_, answers, sides, kFirstSteps, data_);
 }
 
 void ReliefTables::fit(std::size_t bytes) {
   const double reach_m = proxy::relief_reach(data_.stature_m).out_m;
-  if (answers_.weight.empty())
-    answers_ = ask({kNormals, kPerNormal, reach_m, 22}, kInsideSpacing * data_.stature_m);
+  if (samples_.empty()) {
+    samples_ = samples({kNormals, kPerNormal, reach_m, 22}, kInsideSpacing * data_.stature_m);
+    answers_ = ask(samples_);
+  }
   const auto sides = shared_sides(error_, texels_within(data_.ellipsoids.size(), bytes));
-  fit_tables(context_, answers_, sides, kSteps, data_);
+  const auto look_closer = [&](std::span<const std::uint32_t> leaks) { return ask_around(leaks); };
+  fit_tables(context_, answers_, sides, kSteps, data_, look_closer);
 }
 
 ReliefRun::ReliefRun(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,

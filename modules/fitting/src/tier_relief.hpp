@@ -23,13 +23,16 @@ class ReliefTables {
   void fit(std::size_t bytes);
 
  private:
-  ReliefAnswers ask(const ReliefSampling& sampling, double spacing_m) const;
+  std::vector<ReliefSample> samples(const ReliefSampling& sampling, double spacing_m) const;
+  ReliefAnswers ask(std::span<const ReliefSample> samples) const;
+  ReliefAnswers ask_around(std::span<const std::uint32_t> leaks);
 
   const engine::Context& context_;
   FreeSkin skin_;
   proxy::BodyProxy::Data& data_;
-  std::vector<double> error_;  ///< #E, of the first tables
-  ReliefAnswers answers_;      ///< to the samples of fit(); empty before
+  std::vector<double> error_;          ///< #E, of the first tables
+  std::vector<ReliefSample> samples_;  ///< of fit(); empty before
+  ReliefAnswers answers_;              ///< to them
 };
 
 /// The relief tier: tight ellipsoids, for half of a time budget, and their tables. Anytime: tells

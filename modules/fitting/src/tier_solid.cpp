@@ -39,8 +39,7 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
                                           const std::vector<PartSkin>& skins, std::size_t r, int count) {
   auto ellipsoids = start_from_balls(context, skins[r].balls, count, skin.stature_m);
   const Scaling scaling(skin);
-  TightLoss loss;
-  loss.uncovered_weight = kUncoveredWeight;
+  const TightLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
   const std::vector<DistanceSample> samples = part_samples(skins, r, skin.stature_m);
   TightProblem problem(samples, scaling.origin, scaling.scale, loss);
   std::vector<geometry::Ellipsoid> shapes;

@@ -12,6 +12,8 @@ namespace bodice::fitting {
 namespace {
 
 constexpr std::size_t kGrain = 512;
+/// Ellipsoids this much farther than the nearest do not become the nearest before the next refresh.
+constexpr float kCandidateReach = 0.015f;
 
 std::vector<FootEllipsoid> in_floats(std::span<const geometry::Ellipsoid> ellipsoids) {
   return {ellipsoids.begin(), ellipsoids.end()};
@@ -40,6 +42,7 @@ void TightProblem::refresh(const engine::Context& context, std::span<const geome
   const std::size_t samples = target_.size();
   const int near = std::min<int>(kNear, static_cast<int>(es.size()));
   std::vector<std::array<std::uint32_t, kNear>> candidates(samples);
+  std::vector<std::uint8_t> count_of(samples);
   engine::parallel_for(context, samples, kGrain, [&](std::size_t begin, std::size_t end) {
     std::array<std::array<float, kNear>, kGrain> best;
     std::array<float, kGrain> d;
@@ -57,10 +60,15 @@ void TightProblem::refresh(const engine::Context& context, std::span<const geome
         candidates[begin + i][slot] = k;
       }
     }
+    for (std::size_t i = 0; i < end - begin; ++i) {
+      int count = 1;
+      while (count < near && best[i][count] <= best[i][0] + kCandidateReach) ++count;
+      count_of[begin + i] = static_cast<std::uint8_t>(count);
+    }
   });
   pair_begin_.assign(ellipsoids_ + 1, 0);
-  for (const auto& c : candidates)
-    for (int s = 0; s < near; ++s) ++pair_begin_[c[s] + 1];
+  for (std::size_t i = 0; i < samples; ++i)
+    for (int s = 0; s < count_of[i]; ++s) ++pair_begin_[candidates[i][s] + 1];
   for (std::size_t k = 0; k < ellipsoids_; ++k) pair_begin_[k + 1] += pair_begin_[k];
   const std::size_t pairs = pair_begin_.back();
   pair_sample_.resize(pairs);
@@ -71,7 +79,7 @@ void TightProblem::refresh(const engine::Context& context, std::span<const geome
   std::vector<std::uint32_t> next(pair_begin_.begin(), pair_begin_.end() - 1);
   for (std::uint32_t i = 0; i < samples; ++i)
     for (int s = 0; s < kNear; ++s) {
-      if (s >= near) {
+      if (s >= count_of[i]) {
         pairs_of_[i][s] = pairs_of_[i][0];
         continue;
       }
@@ -131,7 +139,7 @@ void TightProblem::assign(const engine::Context& context) {
       owner_[i] = best;
       residual_[i] = distance_[best] - target_[i];
       cost_[i] = cost_at(i, distance_[best]);
-      second_cost_[i] = cost_at(i, std::min(second, distance_[best] + 1.0f));
+      second_cost_[i] = cost_at(i, std::min(second, distance_[best] + kCandidateReach));
     }
   });
 }
