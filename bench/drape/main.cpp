@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   std::vector<double> wind = {0.0, 0.0, 2.0};
   int workers = 2;
   bench::WearOptions options;
-  options.solver.substeps = 16;
+  options.solver = bodice::tryon::DrapeOptions{}.solver;
   options.solver.environment.gust = 0.3;
   CLI::App app("Every garment of the data folder on its body");
   app.add_option("--data", data, "folder with garments/ and bodies/");
@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   app.add_option("--frames", options.windy_frames, "frames with wind");
   app.add_option("--calm", options.calm_frames, "frames without, after them");
   app.add_option("--substeps", options.solver.substeps);
+  app.add_option("--iterations", options.solver.iterations, "sweeps a substep");
   app.add_option("--wind", wind, "metres a second")->expected(3)->delimiter(',');
   app.add_option("--gust", options.solver.environment.gust);
   app.add_option("--threads", workers);

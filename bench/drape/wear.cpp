@@ -35,7 +35,8 @@ Wear wear(const engine::Context& context, const Body& body, const tryon::WornGar
           const WearOptions& options) {
   const tryon::Wardrobe all = tryon::join({garment});
   cloth::SolverOptions settings = options.solver;
-  settings.thickness_m = tryon::covering_thickness_m(all.mesh, body.proxy.stature_m());
+  settings.thickness_m =
+      tryon::fitted_thickness_m(context, all.mesh, *body.skin.distance, body.proxy.stature_m());
   auto made = cloth::Solver::make(all.mesh, all.held, options.fabric, settings);
   Wear out;
   out.finite = made.ok();

@@ -44,3 +44,16 @@ TEST_CASE("coarser cloth is kept further off, within bounds") {
   CHECK(tryon::covering_thickness_m(square(0.5), 1.7) == doctest::Approx(0.008));
   CHECK(tryon::covering_thickness_m({}, 1.7) == doctest::Approx(0.0015));
 }
+
+TEST_CASE("a tight garment is kept no further off than it was cut") {
+  const engine::Context context;
+  const geometry::MeshDistance skin(context, bodice_test::icosphere(0.2, 4));
+  auto thickness = [&](double gap_m) {
+    const geometry::TriMesh coarse =
+        bodice_test::icosphere(0.2 + gap_m, 2);  // edges of 6 cm: 8 mm would cover
+    return tryon::fitted_thickness_m(context, coarse, skin, 1.7);
+  };
+  CHECK(thickness(0.05) == doctest::Approx(0.008));
+  CHECK(thickness(0.004) == doctest::Approx(0.004).epsilon(0.1));
+  CHECK(thickness(0.0) == doctest::Approx(0.0015).epsilon(0.1));
+}

@@ -90,10 +90,13 @@ class Recorder {
   std::vector<io::GarmentTrack> tracks_;
 };
 
-cloth::SolverOptions solver_options(const DrapeOptions& options, const proxy::BodyProxy& proxy,
-                                    const geometry::TriMesh& garments) {
+cloth::SolverOptions solver_options(const engine::Context& context, const DrapeOptions& options,
+                                    const PreparedBody& body, const geometry::TriMesh& garments) {
+  const proxy::BodyProxy& proxy = body.fit.proxy;
   cloth::SolverOptions solver = options.solver;
-  solver.thickness_m = options.thickness_m.value_or(covering_thickness_m(garments, proxy.stature_m()));
+  solver.thickness_m = options.thickness_m
+                           ? *options.thickness_m
+                           : fitted_thickness_m(context, garments, *body.skin.distance, proxy.stature_m());
   if (proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
   return solver;
 }
@@ -111,7 +114,7 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
     if (!cotton) return std::move(cotton).error();
     fabric = std::move(cotton).value();
   }
-  const cloth::SolverOptions solver_settings = solver_options(options, proxy, all.mesh);
+  const cloth::SolverOptions solver_settings = solver_options(context, options, body, all.mesh);
   auto solver = cloth::Solver::make(all.mesh, all.held, fabric, solver_settings);
   if (!solver) return std::move(solver).error();
   const collision::Collider collider(proxy);

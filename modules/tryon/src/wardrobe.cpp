@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include <bodice/engine/parallel.hpp>
+
 namespace bodice::tryon {
 namespace {
 
 constexpr double kClothThickness_m = 0.0015;
 constexpr double kMostThickness_m = 0.008;  // beyond it the gap is what one sees
+constexpr std::size_t kGrain = 256;         // about a millisecond of signed distances
 constexpr double kLimbRadius =
     0.03;  // of stature: thighs and upper arms, the tightest turns that cloth covers
 
@@ -38,6 +41,21 @@ double covering_thickness_m(const geometry::TriMesh& garment, double stature_m) 
   const auto long_edge = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 9 / 10);
   std::nth_element(squared.begin(), long_edge, squared.end());
   return std::min(kMostThickness_m, kClothThickness_m + *long_edge / (8.0 * kLimbRadius * stature_m));
+}
+
+double fitted_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
+                          const geometry::MeshDistance& skin, double stature_m) {
+  const double covering = covering_thickness_m(garment, stature_m);
+  const std::vector<geometry::Vec3>& at = garment.positions;
+  std::vector<double> gap(at.size(), 0.0);
+  engine::parallel_for(context, at.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (at[i].allFinite()) gap[i] = std::max(0.0, skin.signed_distance(at[i]));
+  });
+  if (gap.empty()) return covering;
+  const auto median = gap.begin() + static_cast<std::ptrdiff_t>(gap.size() / 2);
+  std::nth_element(gap.begin(), median, gap.end());
+  return std::min(covering, std::max(kClothThickness_m, *median));
 }
 
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,

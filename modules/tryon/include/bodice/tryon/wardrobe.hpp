@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <bodice/collision/collider.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::tryon {
@@ -27,6 +28,12 @@ Wardrobe join(const std::vector<WornGarment>& garments);
 /// A thickness that keeps triangles out of the skin, not only their corners: 1.5 mm plus the height of the
 /// arc over a long edge (90 % are shorter) on a limb, at most 8 mm. O(#edges).
 double covering_thickness_m(const geometry::TriMesh& garment, double stature_m);
+
+/// The same, but no more than half of the garment's vertices keep from the skin as it was cut (and 1.5 mm): a
+/// tight piece that is pushed further off is stretched all around. Vertices inside the skin count as touching
+/// it. Cost: one signed distance a vertex.
+double fitted_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
+                          const geometry::MeshDistance& skin, double stature_m);
 
 /// Where the held vertices are to be: their own places, pushed out of the collider where they lie inside it,
 /// as a waistband lies on the body that it is on. #held, world metres.
