@@ -209,3 +209,46 @@ TEST_CASE("relief agrees with the definition that fitting trains against") {
     CHECK(off_normals < 60);
   }
 }
+
+TEST_CASE("relief where some ellipsoids have no table: those are plain") {
+  const auto shapes = random_ellipsoids(9, 40, 0.4, 0.05, 0.2);
+  auto data = with_relief(data_of(shapes), 8, 0.003, 12);
+  for (std::size_t k = 0; k < data.relief.size(); k += 3) data.relief[k] = {};
+  const auto proxy = proxy_of(data);
+  const Collider collider(proxy);
+  engine::Random random(3);
+  Cloud cloud;
+  for (int i = 0; i < 20000; ++i) cloud.add(random_vector(random, 0.7));
+  std::vector<Contact> contacts(cloud.size());
+  collider.query({}, cloud.particles(), contacts);
+  const Cloud before = cloud;
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  double worst_m = 0.0, lowest_m = 1.0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const double truth = proxy::proxy_distance(proxy, before.position(i) + collider.origin()).distance;
+    worst_m = std::max(worst_m, std::abs(truth - double{contacts[i].signed_distance}));
+    lowest_m =
+        std::min(lowest_m, proxy::proxy_distance(proxy, cloud.position(i) + collider.origin()).distance);
+  }
+  CHECK(worst_m < 1e-5);
+  CHECK(report.contacts > 1000);
+  CHECK(report.unresolved == 0);
+  CHECK(lowest_m > -5e-5);
+}
+
+TEST_CASE("places so close that one ellipsoid, or a handful, can be the nearest, agree with brute force") {
+  // Blocks of a millimetre to half a metre: what is dropped for a whole block must be nowhere the nearest.
+  const auto shapes = random_ellipsoids(13, 120, 0.6, 0.03, 0.2);
+  engine::Random random(19);
+  for (const double block_m : {1e-4, 1e-3, 1e-2, 0.1, 0.5}) {
+    std::vector<Vec3> places;
+    for (int block = 0; block < 60; ++block) {
+      const Vec3 middle = random_vector(random, 0.7);
+      for (int i = 0; i < 64; ++i) places.push_back(middle + random_vector(random, block_m));
+    }
+    const Errors errors = compare(shapes, places, 1.0);
+    CAPTURE(block_m);
+    CHECK(errors.distance < 2e-6);
+    CHECK(errors.wrong_owner == 0);
+  }
+}

@@ -54,6 +54,9 @@ BoundEllipsoid bake_bound(const Ellipsoid& shape) {
 
 Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32_t>& names_of_shapes)
     : names(names_of_shapes.begin(), names_of_shapes.end()) {
+  internal.resize(names.size());
+  for (std::size_t k = 0; k < names.size(); ++k)
+    internal[static_cast<std::size_t>(names[k])] = static_cast<std::int32_t>(k);
   const std::size_t padded = (shapes.size() + kPad - 1) / kPad * kPad;
   // The padding is beyond every window.
   const float nowhere = std::numeric_limits<float>::max();

@@ -49,7 +49,8 @@ struct Baked {
 
   std::vector<BakedEllipsoid> ellipsoids;
   std::vector<BoundEllipsoid> bounds;
-  std::vector<std::int32_t> names;  ///< the proxy's index of each
+  std::vector<std::int32_t> names;     ///< the proxy's index of each
+  std::vector<std::int32_t> internal;  ///< the inverse: where an index of the proxy is kept
   CullArrays cull;
   float longest_m = 0.0f;   ///< the longest radius of all
   float rounding_m = 0.0f;  ///< what float arithmetic can be off by at the union's size

@@ -76,11 +76,10 @@ void mend_safe(Block& block) {
   }
 }
 
-/// Repeats the last lane up to a whole vector of any width, so that no lane holds anything unset.
+/// Repeats the last lane up to the whole block, so that no lane holds anything unset.
 void pad(Block& block) {
   const int last = block.count - 1;
-  const int end = std::min(kBlock, (block.count + 15) / 16 * 16);
-  for (int lane = block.count; lane < end; ++lane) {
+  for (int lane = block.count; lane < kBlock; ++lane) {
     for (float* values : {block.x, block.y, block.z}) values[lane] = values[last];
     for (float* values : {block.vx, block.vy, block.vz})
       if (block.has_velocity) values[lane] = values[last];

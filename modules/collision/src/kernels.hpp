@@ -17,6 +17,9 @@ inline constexpr int kBlock = 64;  ///< particles a block: culling costs about a
 /// Particles a query works on at a time: what their first answers leave open shares vectors.
 inline constexpr int kBatch = 256;
 
+/// Ellipsoids near a block; where more are, the exact side works.
+inline constexpr int kMaxCandidates = 256;
+
 /// What a query reads and writes.
 struct QueryBatch {
   const float *x, *y, *z;      ///< metres, local frame; aligned to 64 bytes, repeated up to a whole block

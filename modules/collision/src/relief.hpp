@@ -25,6 +25,7 @@ struct BakedTable {
   float a_scale = 0.0f, a_offset = 0.0f;
   std::int32_t sorted_axis[3] = {0, 1, 2};  ///< where BakedEllipsoid keeps the proxy's axes x, y, z
 };
+inline constexpr int kTableFloats = sizeof(BakedTable) / sizeof(float);
 
 struct ReliefTables {
   /// `proxy` must have tables, one an ellipsoid; tables[k] becomes that of ellipsoid order[k].

@@ -18,8 +18,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// L of one ellipsoid at a vector of points, metres, to the share kEstimate of |L| + the longest radius; NaN
-/// at the centre and where squares overflow, which a caller must take for "no bound".
+// So close to the centre, in radii, the bound is only made to stay finite and low enough.
+constexpr float kLeastSquare = 1e-20f, kLeastSlope2 = 1e-37f;
+
+/// L of one ellipsoid at a vector of points, metres, to the share kEstimate of |L| + the longest radius.
+/// Never NaN or infinite.
 HWY_INLINE V lower_bound(const BoundEllipsoid& e, V3 p) {
   const auto row = [&](const float* a, float offset) {
     return hn::MulAdd(all(a[0]), p.x, hn::MulAdd(all(a[1]), p.y, hn::MulAdd(all(a[2]), p.z, all(offset))));
@@ -28,9 +31,9 @@ HWY_INLINE V lower_bound(const BoundEllipsoid& e, V3 p) {
                 row(e.to_ball + 6, e.offset[2])};
   const V3 v = {hn::Mul(u.x, all(e.inverse_radius[0])), hn::Mul(u.y, all(e.inverse_radius[1])),
                 hn::Mul(u.z, all(e.inverse_radius[2]))};
-  const V square = dot(u, u);
+  const V square = hn::Max(dot(u, u), all(kLeastSquare));
   const V excess = hn::NegMulAdd(square, estimated_inverse_sqrt(square), square);
-  return hn::Mul(excess, estimated_inverse_sqrt(dot(v, v)));
+  return hn::Mul(excess, estimated_inverse_sqrt(hn::Max(dot(v, v), all(kLeastSlope2))));
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -19,35 +19,31 @@ using Batched = Answers<kBatch>;
 HWY_INLINE void combine_nearest(const Pairs& pairs, Batched& out) {
   const auto& a = pairs.answers;
   for (int i = 0; i < pairs.count; ++i) {
+    // Without a branch: which of two neighbours is the nearer cannot be foretold.
     const int lane = pairs.lane[i];
-    if (a.distance[i] > out.distance[lane]) continue;
-    if (a.distance[i] == out.distance[lane] && a.name[i] > out.name[lane]) continue;
-    out.distance[lane] = a.distance[i];
-    out.gx[lane] = a.gx[i];
-    out.gy[lane] = a.gy[i];
-    out.gz[lane] = a.gz[i];
-    out.name[lane] = a.name[i];
+    const float d = a.distance[i], least = out.distance[lane];
+    const bool nearer = (d < least) | ((d == least) & (a.name[i] < out.name[lane]));
+    out.distance[lane] = nearer ? d : least;
+    out.gx[lane] = nearer ? a.gx[i] : out.gx[lane];
+    out.gy[lane] = nearer ? a.gy[i] : out.gy[lane];
+    out.gz[lane] = nearer ? a.gz[i] : out.gz[lane];
+    out.name[lane] = nearer ? a.name[i] : out.name[lane];
   }
-}
-
-/// (max(0, 1 - (d - least) / blend))^2
-HWY_INLINE V weight_of(V distance, V least, V per_blend) {
-  const V root = hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Sub(distance, least), per_blend, all(1.0f)));
-  return hn::Mul(root, root);
 }
 
 HWY_INLINE void multiply(float* values, V by) {
   hn::StoreU(hn::Mul(hn::LoadU(f, values), by), f, values);
 }
 
-/// Relief: all within the blending of the nearest, weighted; distance and gradient of the blend, the name of
-/// the nearest. The answers of the pairs are overwritten.
-HWY_INLINE void combine_blended(const ReliefTables& relief, int count, Pairs& pairs, Batched& out) {
+/// Relief, for the lanes [begin, end): all within the blending of the nearest, weighted; distance and
+/// unit gradient of the blend, the name of the nearest; `value` becomes the gradient's length. The answers of
+/// the pairs are overwritten.
+HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, Pairs& pairs, Batched& out) {
   auto& a = pairs.answers;
   alignas(64) float least[kBatch], weight[kBatch];
   alignas(64) float pair_weight[Pairs::kSize];
   const V per_blend = all(1.0f / relief.blend_m);
-  std::memcpy(least, out.distance, sizeof(least));
+  std::memcpy(least + begin, out.distance + begin, kBlock * sizeof(float));
   for (int i = 0; i < pairs.count; ++i) {
     const int lane = pairs.lane[i];
     const bool nearer =
@@ -55,15 +51,14 @@ HWY_INLINE void combine_blended(const ReliefTables& relief, int count, Pairs& pa
     least[lane] = nearer ? a.distance[i] : least[lane];
     out.name[lane] = nearer ? a.name[i] : out.name[lane];
   }
-  for (int i = 0; i < count; i += kWidth) {
-    const V w = weight_of(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend);
+  for (int i = begin; i < end; i += kWidth) {
+    const V w = blend_weight(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend);
     hn::Store(w, f, weight + i);
     for (float* values : {out.value, out.gx, out.gy, out.gz}) multiply(values + i, w);
   }
-  hn::StoreU(hn::Zero(I()), I(), pairs.lane + pairs.count);  // a last vector's rest
   for (int i = 0; i < pairs.count; i += kWidth) {
     const V near = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
-    const V w = weight_of(hn::Load(f, a.distance + i), near, per_blend);
+    const V w = blend_weight(hn::Load(f, a.distance + i), near, per_blend);
     hn::Store(w, f, pair_weight + i);
     for (float* values : {a.value, a.gx, a.gy, a.gz}) multiply(values + i, w);
   }
@@ -75,9 +70,12 @@ HWY_INLINE void combine_blended(const ReliefTables& relief, int count, Pairs& pa
     out.gy[lane] += a.gy[i];
     out.gz[lane] += a.gz[i];
   }
-  for (int i = 0; i < count; i += kWidth) {
+  for (int i = begin; i < end; i += kWidth) {
     hn::Store(hn::Div(hn::Load(f, out.value + i), hn::Load(f, weight + i)), f, out.distance + i);
-    store3(unit(load3(out.gx + i, out.gy + i, out.gz + i)), out.gx + i, out.gy + i, out.gz + i);
+    const V inverse = hn::Div(all(1.0f), hn::Load(f, weight + i));
+    const V3 gradient = scaled(load3(out.gx + i, out.gy + i, out.gz + i), inverse);
+    store3(unit(gradient), out.gx + i, out.gy + i, out.gz + i);
+    hn::Store(hn::Sqrt(dot(gradient, gradient)), f, out.value + i);
   }
 }
 

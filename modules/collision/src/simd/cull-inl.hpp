@@ -16,8 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kMaxCandidates = 256;
-
 /// Ellipsoids near a block and their tangent planes at its middle.
 struct Candidates {
   int count = 0;

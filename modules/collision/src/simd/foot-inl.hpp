@@ -42,6 +42,14 @@ HWY_INLINE Shape broadcast(const BakedEllipsoid& e) {
           all(e.longest_m)};
 }
 
+HWY_INLINE Shape select(M m, const Shape& yes, const Shape& no) {
+  const auto one = [m](V a, V b) { return hn::IfThenElse(m, a, b); };
+  return {select(m, yes.center, no.center), select(m, yes.row0, no.row0), select(m, yes.row1, no.row1),
+          select(m, yes.row2, no.row2),     one(yes.radius1, no.radius1), one(yes.radius2, no.radius2),
+          one(yes.gap0, no.gap0),           one(yes.gap1, no.gap1),       one(yes.inverse1, no.inverse1),
+          one(yes.inverse2, no.inverse2),   one(yes.longest, no.longest)};
+}
+
 HWY_INLINE V field(const CullArrays& cull, std::size_t which, std::size_t k) {
   return hn::LoadU(f, cull.baked[which].data() + k);
 }
@@ -59,8 +67,10 @@ HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
 struct Foot {
   V distance;  ///< metres, negative inside
   V3 normal;   ///< outward, unit, local frame of the collider
-  V3 w;        ///< direction of the foot on the unit sphere, first octant, axes by falling radius
-  V3 y;        ///< the point in the ellipsoid's frame, in units of its longest radius, signed
+  V3 w;        ///< direction of the foot on the unit sphere, first octant, axes by
+               ///< falling radius
+  V3 y;        ///< the point in the ellipsoid's frame, in units of its longest radius,
+               ///< signed
   V u;         ///< the root
 };
 
@@ -105,7 +115,8 @@ HWY_INLINE V next_root(const Secular& g, V u, V low) {
     longer = reciprocal(hn::Max(hn::NegMulAdd(half, bend, one), all(kLeastHalley)));
   }
   const V next = hn::MulAdd(hn::Mul(excess, scale), longer, u);
-  return hn::IfThenElse(hn::Gt(next, low), next, low);  // low where the step is NaN: sums have overflowed
+  return hn::IfThenElse(hn::Gt(next, low), next,
+                        low);  // low where the step is NaN: sums have overflowed
 }
 
 /// Lanes that need another step; a lane judges by itself, so that its result does not depend on its
@@ -121,62 +132,106 @@ HWY_INLINE void step_where(M active, V3 a, const Shape& s, V low, V& u, Secular&
   g = evaluate(a, s.gap0, s.gap1, u);
 }
 
-/// The unit foot direction for a = r o |y|, all components >= 0, and the root.
-HWY_INLINE V3 foot_direction(V3 y, V3 a, const Shape& s, V& u) {
-  const V one = all(1.0f);
+/// One problem on its way: |y| and a = r o |y|, all components >= 0, the iterate and its lower end.
+struct Search {
+  V3 y, a;
+  V low, u;
+  Secular at;
+};
+
+HWY_INLINE Search start_from_surface(V3 y, const Shape& s) {
+  Search result;
+  result.y = absolute(y);
+  const V3 a = result.a = {result.y.x, hn::Mul(s.radius1, result.y.y), hn::Mul(s.radius2, result.y.z)};
   // |w| >= 1 at each of these, so none lies right of the root (except the floor, on the medial disk).
   const V a2 = hn::Max(dot(a, a), all(kLeastNorm2));
   const V start =
       hn::Max(hn::Max(a.z, hn::Sub(a.x, s.gap0)),
-              hn::Max(hn::MulSub(s.radius1, y.y, s.gap1), hn::MulSub(a2, inverse_sqrt(a2), s.gap0)));
-  const V low = hn::Max(start, all(kLeastRoot));
+              hn::Max(hn::MulSub(s.radius1, result.y.y, s.gap1), hn::MulSub(a2, inverse_sqrt(a2), s.gap0)));
+  result.low = hn::Max(start, all(kLeastRoot));
   // Particles are near the surface, where u = r2^2 and w = y / r.
-  const V3 inverse_r2 = {one, hn::Mul(s.inverse1, s.inverse1), hn::Mul(s.inverse2, s.inverse2)};
-  Secular g = secular({y.x, hn::Mul(y.y, s.inverse1), hn::Mul(y.z, s.inverse2)}, inverse_r2);
-  u = hn::Mul(s.radius2, s.radius2);
-  for (int step = 0; step < kUsualSteps; ++step) {
-    u = next_root<true>(g, u, low);
-    g = evaluate(a, s.gap0, s.gap1, u);
-  }
-  M active = unsettled(g, u, low);
+  const V3 inverse_r2 = {all(1.0f), hn::Mul(s.inverse1, s.inverse1), hn::Mul(s.inverse2, s.inverse2)};
+  result.at =
+      secular({result.y.x, hn::Mul(result.y.y, s.inverse1), hn::Mul(result.y.z, s.inverse2)}, inverse_r2);
+  result.u = hn::Mul(s.radius2, s.radius2);
+  return result;
+}
+
+/// The steps that few points need.
+HWY_INLINE void refine(M active, const Shape& s, Search& search) {
   for (int step = kUsualSteps; step < kMaxSteps && !hn::AllFalse(f, active); ++step) {
     if (step < kHalleySteps)
-      step_where<true>(active, a, s, low, u, g);
+      step_where<true>(active, search.a, s, search.low, search.u, search.at);
     else
-      step_where<false>(active, a, s, low, u, g);
-    active = hn::And(active, unsettled(g, u, low));
+      step_where<false>(active, search.a, s, search.low, search.u, search.at);
+    active = hn::And(active, unsettled(search.at, search.u, search.low));
   }
+}
+
+/// The unit foot direction, first octant; the root is brought up to date.
+HWY_INLINE V3 unit_direction(Search& search) {
+  const V one = all(1.0f);
+  const Secular& g = search.at;
   // On the medial disk |w| < 1 even at the pole: the shortest axis takes the rest.
-  const M medial = hn::And(hn::Le(u, all(kLeastRoot)), hn::Lt(g.norm2, one));
+  const M medial = hn::And(hn::Le(search.u, all(kLeastRoot)), hn::Lt(g.norm2, one));
   // The last step, to first order: |w|^2 falls by twice the first sum.
   const V excess = hn::Mul(all(0.5f), hn::Sub(g.norm2, one));
   const V last = hn::IfThenZeroElse(medial, hn::Mul(excess, reciprocal(hn::Max(g.first, all(kLeastNorm2)))));
   const V3 w = along(g.w, hn::Neg(last), g.slope);
-  u = hn::Add(u, last);
+  search.u = hn::Add(search.u, last);
   const V across = hn::MulAdd(w.x, w.x, hn::Mul(w.y, w.y));
   const V rest = hn::Sqrt(hn::Max(hn::Zero(f), hn::Sub(one, across)));
   const V z = hn::IfThenElse(medial, hn::Max(rest, w.z), w.z);
   return scaled({w.x, w.y, z}, inverse_sqrt(hn::MulAdd(z, z, across)));
 }
 
-HWY_INLINE Foot foot_of(const Shape& s, V3 p) {
-  const V3 q = p - s.center;
+/// From the direction to the distance and the normal; `y` is signed.
+HWY_INLINE Foot finished(const Shape& s, V3 y, Search& search) {
   Foot result;
-  result.y = {dot(s.row0, q), dot(s.row1, q), dot(s.row2, q)};
-  const V3 y = absolute(result.y);
-  const V3 a = {y.x, hn::Mul(s.radius1, y.y), hn::Mul(s.radius2, y.z)};
-  result.w = foot_direction(y, a, s, result.u);
-  const V3 w = result.w;
+  result.y = y;
+  const V3 w = result.w = unit_direction(search);
+  result.u = search.u;
   const V3 g = {w.x, hn::Mul(w.y, s.inverse1), hn::Mul(w.z, s.inverse2)};
   const V inverse = hn::Mul(s.longest, inverse_sqrt(dot(g, g)));
   const V3 n = scaled(g, inverse);  // unit normal times r0, first octant
-  const V3 off = {hn::Sub(y.x, w.x), hn::NegMulAdd(s.radius1, w.y, y.y), hn::NegMulAdd(s.radius2, w.z, y.z)};
+  const V3 off = {hn::Sub(search.y.x, w.x), hn::NegMulAdd(s.radius1, w.y, search.y.y),
+                  hn::NegMulAdd(s.radius2, w.z, search.y.z)};
   result.distance = dot(n, off);
-  const V3 m = {hn::CopySign(n.x, result.y.x), hn::CopySign(n.y, result.y.y), hn::CopySign(n.z, result.y.z)};
+  const V3 m = {hn::CopySign(n.x, y.x), hn::CopySign(n.y, y.y), hn::CopySign(n.z, y.z)};
   result.normal = {hn::MulAdd(s.row0.x, m.x, hn::MulAdd(s.row1.x, m.y, hn::Mul(s.row2.x, m.z))),
                    hn::MulAdd(s.row0.y, m.x, hn::MulAdd(s.row1.y, m.y, hn::Mul(s.row2.y, m.z))),
                    hn::MulAdd(s.row0.z, m.x, hn::MulAdd(s.row1.z, m.y, hn::Mul(s.row2.z, m.z)))};
   return result;
+}
+
+/// Several vectors of problems in step, since each waits for its own results most of the time.
+template <int kCount>
+HWY_INLINE void feet_of(const Shape (&s)[kCount], const V3 (&p)[kCount], Foot (&out)[kCount]) {
+  V3 y[kCount];
+  Search search[kCount];
+  for (int i = 0; i < kCount; ++i) {
+    const V3 q = p[i] - s[i].center;
+    y[i] = {dot(s[i].row0, q), dot(s[i].row1, q), dot(s[i].row2, q)};
+    search[i] = start_from_surface(y[i], s[i]);
+  }
+  for (int step = 0; step < kUsualSteps; ++step)
+    for (int i = 0; i < kCount; ++i) {
+      search[i].u = next_root<true>(search[i].at, search[i].u, search[i].low);
+      search[i].at = evaluate(search[i].a, s[i].gap0, s[i].gap1, search[i].u);
+    }
+  for (int i = 0; i < kCount; ++i) {
+    const M active = unsettled(search[i].at, search[i].u, search[i].low);
+    if (!hn::AllFalse(f, active)) refine(active, s[i], search[i]);
+  }
+  for (int i = 0; i < kCount; ++i) out[i] = finished(s[i], y[i], search[i]);
+}
+
+HWY_INLINE Foot foot_of(const Shape& s, V3 p) {
+  const Shape shapes[1] = {s};
+  const V3 points[1] = {p};
+  Foot foot[1];
+  feet_of(shapes, points, foot);
+  return foot[0];
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

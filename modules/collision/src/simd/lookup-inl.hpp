@@ -1,4 +1,4 @@
-// A different ellipsoid a lane: up to sixteen of them as the columns of a small table, read by permutation.
+// A different ellipsoid a lane: those of a block as the columns of a small table, read by permutation.
 // Sixteen gathers of memory take several times as long as the foot that they are for.
 #if defined(BODICE_COLLISION_LOOKUP_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_LOOKUP_INL_
@@ -9,57 +9,59 @@
 
 #include <array>
 #include <bit>
+#include <utility>
 
-#include "relief.hpp"
+#include "kernels.hpp"
 #include "simd/foot-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kColumns = 16;
+/// A block's candidates, a column each; rows are the members of BakedEllipsoid, of BakedTable (relief only)
+/// and the proxy's index, all as floats or the bits of integers.
+class Columns {
+ public:
+  static constexpr int kTable = kBakedFloats, kName = kTable + kTableFloats, kRows = kName + 1;
 
-/// Some of the proxy's ellipsoids, a column each; rows are the members of BakedEllipsoid, in order.
-struct Columns {
-  alignas(64) float row[kBakedFloats][kColumns];
-  alignas(64) float table[8][kColumns];  ///< relief only: the members of BakedTable; bits of integers
-  alignas(64) float name[kColumns];      ///< bits of the proxy's index
-  std::int32_t ellipsoid[kColumns];
-  int count = 0;
-
-  bool full() const { return count == kColumns; }
-
-  int add(const Baked& baked, const ReliefTables* relief, std::int32_t k) {
-    const auto values =
-        std::bit_cast<std::array<float, kBakedFloats>>(baked.ellipsoids[static_cast<std::size_t>(k)]);
-    for (std::size_t i = 0; i < values.size(); ++i) row[i][count] = values[i];
-    if (relief) add_table(relief->tables[static_cast<std::size_t>(k)]);
-    name[count] = std::bit_cast<float>(baked.names[static_cast<std::size_t>(k)]);
-    ellipsoid[count] = k;
-    return count++;
+  HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
+                       int count) {
+    count_ = count;
+    if (count <= kPad)
+      fill_by<kPad>(baked, relief, ellipsoids);
+    else
+      fill_by<kMaxCandidates>(baked, relief, ellipsoids);
   }
-
-  /// The column of ellipsoid k, which is added if it is not there; the table must not be full.
-  int find_or_add(const Baked& baked, const ReliefTables* relief, std::int32_t k) {
-    for (int c = 0; c < count; ++c)
-      if (ellipsoid[c] == k) return c;
-    return add(baked, relief, k);
-  }
+  int count() const { return count_; }
+  const float* row(int i) const { return values_ + i * stride_; }
 
  private:
-  void add_table(const BakedTable& t) {
-    const float values[8] = {std::bit_cast<float>(t.first_byte),
-                             std::bit_cast<float>(t.nodes),
-                             t.h_scale_m,
-                             t.h_offset_m,
-                             t.a_scale,
-                             t.a_offset,
-                             std::bit_cast<float>(t.sorted_axis[0]),
-                             std::bit_cast<float>(t.sorted_axis[1])};
-    for (int i = 0; i < 8; ++i) table[i][count] = values[i];
+  static constexpr int kPad = 16;
+
+  // The stride is a constant, so that the copies become plain moves.
+  template <int kStride>
+  HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids) {
+    stride_ = kStride;
+    for (int c = 0; c < count_; ++c) {
+      const auto k = static_cast<std::size_t>(ellipsoids[c]);
+      put<kStride>(baked.ellipsoids[k], values_ + c);
+      if (relief) put<kStride>(relief->tables[k], values_ + kTable * kStride + c);
+      put<kStride>(baked.names[k], values_ + kName * kStride + c);
+    }
   }
+  template <int kStride, class Member>
+  static HWY_INLINE void put(const Member& member, float* to) {
+    const auto values = std::bit_cast<std::array<float, sizeof(Member) / sizeof(float)>>(member);
+    [&]<std::size_t... i>(std::index_sequence<i...>) {
+      ((to[i * kStride] = values[i]), ...);
+    }
+    (std::make_index_sequence<sizeof(Member) / sizeof(float)>());
+  }
+
+  alignas(64) float values_[kRows * kMaxCandidates];
+  int stride_ = 0, count_ = 0;
 };
 
-/// Reads the columns' rows by lane. kTables: vectors a row takes as far as it is in use; 0 gathers.
+/// Reads the columns' rows by lane. kTables: vectors that a row takes, 1 or 2; 0: more, and gathers.
 template <int kTables>
 class Lookup {
  public:
@@ -93,22 +95,22 @@ class Lookup {
 template <int kTables>
 HWY_INLINE Shape shape_of(const Columns& columns, VI column) {
   const Lookup<kTables> at(column);
-  const auto row = [&](int i) { return at(columns.row[i]); };
+  const auto row = [&](int i) { return at(columns.row(i)); };
   const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
   return {row3(0), row3(3), row3(6), row3(9), row(12), row(13), row(14), row(15), row(16), row(17), row(18)};
 }
 
 template <int kTables>
 HWY_INLINE VI names_of(const Columns& columns, VI column) {
-  return hn::BitCast(I(), Lookup<kTables>(column)(columns.name));
+  return hn::BitCast(I(), Lookup<kTables>(column)(columns.row(Columns::kName)));
 }
 
 /// Calls work with the number of tables as a constant.
 template <class Work>
 HWY_INLINE void with_tables(const Columns& columns, Work&& work) {
-  if (kWidth >= kColumns || columns.count <= kWidth)
+  if (columns.count() <= kWidth)
     work(std::integral_constant<int, 1>());
-  else if (columns.count <= 2 * kWidth)
+  else if (columns.count() <= 2 * kWidth)
     work(std::integral_constant<int, 2>());
   else
     work(std::integral_constant<int, 0>());

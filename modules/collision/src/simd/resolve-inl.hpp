@@ -1,6 +1,6 @@
-// The nearest response for a block. Each ellipsoid that a particle is below the clearance of adds the
-// half-space beyond its tangent plane; by convexity a point in all of them is clear of all of those
-// ellipsoids. Two half-spaces settle nearly all contacts; what is left goes to the exact side.
+// The nearest response for a block: a query where the particles are, a push of those below the clearance, and
+// queries where they have come to until all are clear. What two half-spaces, or a few steps of Newton, do not
+// settle goes to the exact side.
 #if defined(BODICE_COLLISION_RESOLVE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_RESOLVE_INL_
 #undef BODICE_COLLISION_RESOLVE_INL_
@@ -8,121 +8,15 @@
 #define BODICE_COLLISION_RESOLVE_INL_
 #endif
 
-#include "simd/sample-inl.hpp"
-#include "simd/smooth-inl.hpp"
-#include "tolerances.hpp"
+#include "simd/settle-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kPlainRounds = 4;
-constexpr int kReliefRounds = 6;
-constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
 // Pushes longer than this many depths come from surfaces that nearly face each other: for the exact side.
 constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
 // A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
-
-/// The half-spaces { x : n . x >= offset } in force; the second only where `two`.
-struct Pair {
-  V3 n1, n2;
-  V offset1, offset2;
-  M two;
-};
-
-/// The nearest point to p of both half-spaces: the four cases of the optimality conditions.
-HWY_INLINE V3 project(const Pair& h, V3 p) {
-  const V zero = hn::Zero(f);
-  const V g1 = hn::Sub(h.offset1, dot(h.n1, p));
-  const V g2 = hn::IfThenElse(h.two, hn::Sub(h.offset2, dot(h.n2, p)), all(-1e30f));
-  const V cosine = hn::IfThenElse(h.two, dot(h.n1, h.n2), zero);
-  const V sine2 = hn::Max(hn::NegMulAdd(cosine, cosine, all(1.0f)), all(1e-6f));
-  const V rest1 = hn::NegMulAdd(cosine, g2, g1), rest2 = hn::NegMulAdd(cosine, g1, g2);
-  const M both = hn::And(hn::Gt(rest1, zero), hn::Gt(rest2, zero));
-  const M first = hn::And(hn::Gt(g1, zero), hn::Le(rest2, zero));
-  const V alone1 = hn::IfThenElseZero(first, g1);
-  const V alone2 = hn::IfThenElse(first, zero, hn::Max(g2, zero));
-  const V push1 = hn::IfThenElse(both, hn::Div(rest1, sine2), alone1);
-  const V push2 = hn::IfThenElse(both, hn::Div(rest2, sine2), alone2);
-  return along(along(p, push1, h.n1), push2, h.n2);
-}
-
-struct Settled {
-  V3 position;
-  Pair contact;
-  M open;  ///< not settled
-  std::uint32_t rounds;
-};
-
-/// Plain ellipsoids: p in, a place clear of all candidates out.
-HWY_INLINE Settled settle_plain(const Baked& baked, const Candidates& c, const Clearance& clearance, V3 p,
-                                const Sample& first, M contact) {
-  const V target = all(clearance.distance_m + clearance.slack_m);
-  const V3 nothing = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
-  Settled s;
-  s.contact = {first.gradient, nothing, hn::Add(dot(first.gradient, p), hn::Sub(target, first.distance)),
-               hn::Zero(f), hn::MaskFromVec(hn::Zero(f))};
-  s.open = contact;
-  s.position = p;
-  for (s.rounds = 1; s.rounds <= kPlainRounds; ++s.rounds) {
-    s.position = select(s.open, project(s.contact, p), s.position);
-    const V below = hn::IfThenElse(s.open, all(clearance.distance_m), all(-1e30f));
-    const Sample next = least_distance(baked, c, s.position, below);
-    s.open = hn::And(s.open, hn::RebindMask(f, hn::Gt(next.owner, hn::Set(I(), -1))));
-    if (hn::AllFalse(f, s.open)) break;
-    // The newest violation takes the second place: rounds refine the pair of a crease.
-    const V offset = hn::Add(dot(next.gradient, s.position), hn::Sub(target, next.distance));
-    s.contact.n2 = select(s.open, next.gradient, s.contact.n2);
-    s.contact.offset2 = hn::IfThenElse(s.open, offset, s.contact.offset2);
-    s.contact.two = hn::Or(s.contact.two, s.open);
-  }
-  return s;
-}
-
-/// What surfaces that are not plain ellipsoids add to the clearance: nothing farther than this from every
-/// ellipsoid is below it; and how far beyond the clearance is aimed at.
-struct Bent {
-  float reach_m, overshoot_m;
-};
-
-HWY_INLINE Bent bent_by(const ReliefTables* relief, const Clearance& clearance) {
-  if (relief) return {relief->highest_m, kOvershoot * relief->blend_m};
-  constexpr float kFillet = static_cast<float>(kFilletOvershoot);
-  return {clearance.blend_m, std::min(kOvershoot * clearance.blend_m, kFillet * clearance.slack_m)};
-}
-
-/// F at p, of whichever kind.
-HWY_INLINE Sample bent_distance(const Baked& baked, const ReliefTables* relief, const Candidates& c,
-                                const Clearance& clearance, V3 p, V below) {
-  if (relief) return relief_distance(baked, *relief, c, p, below);
-  return smooth_distance(baked, clearance.blend_m, c, p, below);
-}
-
-/// Relief or a smooth union: Newton along the gradient of F.
-HWY_INLINE Settled settle_bent(const Baked& baked, const ReliefTables* relief, const Candidates& c,
-                               const Clearance& clearance, V3 p, const Sample& first, M contact) {
-  const Bent bent = bent_by(relief, clearance);
-  // The surface bends between steps; a share of the blending more lets Newton arrive from below.
-  const V target = all(clearance.distance_m + clearance.slack_m + bent.overshoot_m);
-  Settled s;
-  s.open = contact;
-  s.position = p;
-  Sample at = first;
-  for (s.rounds = 1; s.rounds <= kReliefRounds; ++s.rounds) {
-    const V norm2 = hn::Max(dot(at.gradient, at.gradient), all(0.25f));
-    const V step = hn::Div(hn::Sub(target, at.distance), norm2);
-    s.position = select(s.open, along(s.position, step, at.gradient), s.position);
-    const V below = hn::IfThenElse(s.open, all(clearance.distance_m + bent.reach_m), all(-1e30f));
-    const Sample next = bent_distance(baked, relief, c, clearance, s.position, below);
-    const M owned = hn::RebindMask(f, hn::Gt(next.owner, hn::Set(I(), -1)));
-    at.gradient = select(hn::And(s.open, owned), next.gradient, at.gradient);
-    at.distance = next.distance;
-    s.open = hn::And(s.open, hn::And(owned, hn::Lt(next.distance, all(clearance.distance_m))));
-    if (hn::AllFalse(f, s.open)) break;
-  }
-  s.contact = {unit(at.gradient), at.gradient, hn::Zero(f), hn::Zero(f), hn::MaskFromVec(hn::Zero(f))};
-  return s;
-}
 
 /// Inward velocity removed, the rest slowed by Coulomb friction, restitution 0.
 HWY_INLINE V3 corrected_velocity(Pair contact, float friction, V3 v) {
@@ -179,75 +73,122 @@ HWY_INLINE V own_path(const Block& block, int i, V3 p) {
   return hn::Sqrt(dot(path, path));
 }
 
-HWY_INLINE float shortest_radius(const Baked& baked, const Candidates& c) {
-  float least = 1e30f;
-  for (int i = 0; i < c.count; ++i)
-    least = std::min(least, baked.cull.shortest[static_cast<std::size_t>(c.index[i])]);
-  return least;
+/// Least radius of the ellipsoids whose boxes are within `window` of the block's box, which includes the
+/// particles' paths; 1e30 if there are none.
+HWY_INLINE float shortest_radius(const Baked& baked, const Extent& e, float window) {
+  V least = all(1e30f);
+  for (std::size_t k = 0; k < baked.cull.shortest.size(); k += kWidth) {
+    const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
+    least = hn::Min(least, hn::IfThenElse(near, hn::LoadU(f, baked.cull.shortest.data() + k), all(1e30f)));
+  }
+  return hn::GetLane(hn::MinOfLanes(f, least));
 }
 
-/// One vector of the block.
-HWY_INLINE void resolve_vector(const Baked& baked, const ReliefTables* relief, const Candidates& c,
-                               const Clearance& clearance, float short_path_m, int i, Block& block,
-                               BlockResponse& out) {
+/// The first push of the lanes that are below the clearance and have not come far.
+HWY_INLINE void push_first(const Surface& surface, const Block& block, float short_path_m,
+                           const Batched& found, int i, Way& way, Pushed& pushed, BlockResponse& out) {
+  const Clearance& clearance = surface.clearance;
+  const V target = all(surface.target_m());
   const V3 p = load3(block.x + i, block.y + i, block.z + i);
+  const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
+  const V distance = hn::Load(f, found.distance + i);
   const M valid = hn::FirstN(f, static_cast<std::size_t>(block.count - i));
-  const V surface = all(clearance.distance_m);
-  const bool plain = !relief && !(clearance.blend_m > 0.0f);
-  const Sample first = plain ? least_distance(baked, c, p, surface)
-                             : bent_distance(baked, relief, c, clearance, p,
-                                             all(clearance.distance_m + bent_by(relief, clearance).reach_m));
-  const M owned = hn::RebindMask(f, hn::Gt(first.owner, hn::Set(I(), -1)));
-  M contact = hn::And(valid, hn::And(owned, hn::Lt(first.distance, surface)));
-  M far = hn::MaskFromVec(hn::Zero(f));
-  if (block.has_safe) far = hn::And(valid, moved_far(block, clearance, i, p, first.owner, short_path_m));
-  contact = hn::AndNot(far, contact);
-  out.hard |= bits(far) << i;
-  if (hn::AllFalse(f, contact)) return;
-  const Settled s = plain ? settle_plain(baked, c, clearance, p, first, contact)
-                          : settle_bent(baked, relief, c, clearance, p, first, contact);
-  V3 push = s.position - p;
+  M contact = hn::And(valid, hn::Lt(distance, all(clearance.distance_m)));
+  const VI nearest_one = hn::GatherIndex(I(), surface.baked.internal.data(), hn::Load(I(), found.name + i));
+  const VI owner = hn::IfThenElse(hn::RebindMask(I(), contact), nearest_one, hn::Set(I(), -1));
+  if (block.has_safe) {
+    const M far = hn::And(valid, moved_far(block, clearance, i, p, owner, short_path_m));
+    contact = hn::AndNot(far, contact);
+    out.hard |= bits(far) << i;
+  }
+  hn::Store(distance, f, way.distance + i);
+  hn::Store(owner, I(), way.owner + i);
+  store3(normal, way.n1x + i, way.n1y + i, way.n1z + i);
+  const V short_by = hn::Sub(target, distance);
+  const V3 x = surface.bent() ? newton_step(p, distance, normal, hn::Load(f, found.value + i), target)
+                              : along(p, short_by, normal);
+  store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
+  hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
+  out.contact |= bits(contact) << i;
+  pushed.add(contact, hn::Iota(I(), i));
+}
+
+HWY_INLINE M mask_of(std::uint64_t lanes, int i) {
+  const std::uint64_t shifted = lanes >> i;
+  std::uint8_t bytes[8];
+  std::memcpy(bytes, &shifted, sizeof(bytes));
+  return hn::LoadMaskBits(f, bytes);
+}
+
+/// Writes one vector back: place, velocity, and what is told about it.
+HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way, int i, Block& block,
+                       BlockResponse& out) {
+  const V3 p = load3(block.x + i, block.y + i, block.z + i);
+  const V3 position = load3(way.x + i, way.y + i, way.z + i);
+  const V3 push = position - p;
   const V length2 = dot(push, push);
-  const V depth = hn::Sub(surface, first.distance);
-  const V longest = hn::Min(all(c.reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
-  const M beyond = hn::Gt(length2, hn::Mul(longest, longest));
-  const M hard = hn::And(contact, hn::Or(s.open, beyond));
-  contact = hn::AndNot(hard, contact);
+  const V depth = hn::Sub(all(clearance.distance_m), hn::Load(f, way.distance + i));
+  const VI owner = hn::Load(I(), way.owner + i);
+  const V longest = hn::Min(all(reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
+  M contact = mask_of(out.contact, i);
+  const M beyond = hn::And(contact, hn::Gt(length2, hn::Mul(longest, longest)));
+  out.hard |= (bits(beyond) << i) | (way.open & (bits(contact) << i));
+  contact = mask_of(out.contact & ~out.hard, i);
   const V limit = hn::Add(all(clearance.max_push_m), own_path(block, i, p));
   const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
   const V share = hn::Div(limit, hn::Sqrt(hn::Max(length2, all(1e-30f))));
-  const V3 position = select(pending, along(p, share, push), s.position);
-  store3(select(contact, position, p), block.x + i, block.y + i, block.z + i);
+  store3(select(contact, select(pending, along(p, share, push), position), p), block.x + i, block.y + i,
+         block.z + i);
   if (block.has_velocity) {
     const V3 v = load3(block.vx + i, block.vy + i, block.vz + i);
     V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
-    if (clearance.motion) body = surface_velocity(clearance.motion, first.owner, p);
-    const V3 slowed = corrected_velocity(s.contact, clearance.friction, v - body) + body;
+    if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
+    const Pair planes = {load3(way.n1x + i, way.n1y + i, way.n1z + i),
+                         load3(way.n2x + i, way.n2y + i, way.n2z + i), hn::Zero(f), hn::Zero(f),
+                         hn::Gt(hn::Load(f, way.two + i), hn::Zero(f))};
+    const V3 slowed = corrected_velocity(planes, clearance.friction, v - body) + body;
     store3(select(contact, slowed, v), block.vx + i, block.vy + i, block.vz + i);
   }
   hn::Store(depth, f, out.depth + i);
-  hn::Store(first.owner, I(), reinterpret_cast<std::int32_t*>(out.owner) + i);
-  out.contact |= bits(contact) << i;
+  hn::Store(owner, I(), reinterpret_cast<std::int32_t*>(out.owner) + i);
   out.pending |= bits(pending) << i;
-  out.hard |= bits(hard) << i;
-  out.iterations = std::max(out.iterations, std::min<std::uint32_t>(s.rounds, kReliefRounds));
+}
+
+/// The block against one surface; pushes longer than `reach_m` are for the exact side.
+HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m, Block& block,
+                           BlockResponse& out) {
+  Batched found;
+  if (!measure(surface, block.x, block.y, block.z, block.count, found)) return false;
+  Way way;
+  Pushed pushed;
+  way.clear_second();
+  for (int i = 0; i < block.count; i += kWidth)
+    push_first(surface, block, short_path_m, found, i, way, pushed, out);
+  if (out.contact == 0) return true;
+  if (!settle(surface, block, pushed, way)) return false;
+  for (int i = 0; i < block.count; i += kWidth) finish(surface.clearance, reach_m, way, i, block, out);
+  out.contact &= ~out.hard;
+  out.iterations = std::max(1u, way.rounds);
+  return true;
 }
 
 HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
                               Block& block, BlockResponse& out) {
   out.contact = out.pending = out.hard = 0;
   out.iterations = 0;
-  Candidates candidates;
-  const float beyond_m = relief ? relief->highest_m + relief->blend_m : 2.0f * clearance.blend_m;
+  const Extent e = extent_of(block);
+  out.radius_m = e.radius;
+  const bool filleted = !relief && clearance.blend_m > 0.0f;
+  const float bulge_m = relief ? relief->highest_m + relief->blend_m : 2.0f * clearance.blend_m;
   const float travel_m = block.has_safe ? clearance.travel_m : 0.0f;
-  if (!cull_for_response(baked, block, clearance.distance_m + beyond_m + travel_m, candidates)) return false;
-  out.radius_m = candidates.radius_m;
-  if (candidates.count == 0) return true;
-  const float short_path_m = kShortPath * shortest_radius(baked, candidates);
-  const int width = static_cast<int>(hn::Lanes(f));
-  for (int i = 0; i < block.count; i += width)
-    resolve_vector(baked, relief, candidates, clearance, short_path_m, i, block, out);
-  return true;
+  const float window_m = clearance.distance_m + bulge_m + travel_m;
+  const float shortest_m = shortest_radius(baked, e, window_m + baked.rounding_m + 1e-6f * e.radius);
+  if (shortest_m >= 1e30f) return true;
+  Candidates candidates;
+  if (filleted && !cull_for_response(baked, block, window_m, candidates)) return false;
+  if (filleted && candidates.count == 0) return true;
+  const Surface surface{baked, relief, clearance, filleted ? &candidates : nullptr};
+  return resolve_on(surface, kShortPath * shortest_m, filleted ? candidates.reach_m : 1e30f, block, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -32,8 +32,8 @@ HWY_INLINE TableLanes broadcast(const BakedTable& t) {
 template <int kTables>
 HWY_INLINE TableLanes table_of(const Columns& columns, VI column) {
   const Lookup<kTables> at(column);
-  const auto number = [&](int i) { return at(columns.table[i]); };
-  const auto integer = [&](int i) { return hn::BitCast(I(), at(columns.table[i])); };
+  const auto number = [&](int i) { return at(columns.row(Columns::kTable + i)); };
+  const auto integer = [&](int i) { return hn::BitCast(I(), at(columns.row(Columns::kTable + i))); };
   return {integer(0), integer(1), integer(6), integer(7), number(2), number(3), number(4), number(5)};
 }
 
@@ -178,6 +178,12 @@ HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& tab
   const V along_normal = hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f));
   return {hn::Sub(foot.distance, hn::MulAdd(a.value, clamped, h.value)),
           scaled(foot.normal, along_normal) - side};
+}
+
+/// An ellipsoid's share where several blend: (max(0, 1 - (d - least) / blend))^2
+HWY_INLINE V blend_weight(V distance, V least, V per_blend) {
+  const V root = hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Sub(distance, least), per_blend, all(1.0f)));
+  return hn::Mul(root, root);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -1,0 +1,209 @@
+// Pushes until nothing is below the clearance. Plain ellipsoids are convex: each that a place is below the
+// clearance of adds the half-space beyond its tangent plane, and a point in all of them is clear of all of
+// those ellipsoids. On relief and fillets it is Newton's method along the gradient.
+#if defined(BODICE_COLLISION_SETTLE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_SETTLE_INL_
+#undef BODICE_COLLISION_SETTLE_INL_
+#else
+#define BODICE_COLLISION_SETTLE_INL_
+#endif
+
+#include "simd/nearest-inl.hpp"
+#include "simd/smooth-inl.hpp"
+#include "tolerances.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+constexpr int kPlainRounds = 4;
+constexpr int kReliefRounds = 6;
+constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
+
+/// The half-spaces { x : n . x >= offset } in force; the second only where `two`.
+struct Pair {
+  V3 n1, n2;
+  V offset1, offset2;
+  M two;
+};
+
+/// The nearest point to p of both half-spaces: the four cases of the optimality conditions.
+HWY_INLINE V3 project(const Pair& h, V3 p) {
+  const V zero = hn::Zero(f);
+  const V g1 = hn::Sub(h.offset1, dot(h.n1, p));
+  const V g2 = hn::IfThenElse(h.two, hn::Sub(h.offset2, dot(h.n2, p)), all(-1e30f));
+  const V cosine = hn::IfThenElse(h.two, dot(h.n1, h.n2), zero);
+  const V sine2 = hn::Max(hn::NegMulAdd(cosine, cosine, all(1.0f)), all(1e-6f));
+  const V rest1 = hn::NegMulAdd(cosine, g2, g1), rest2 = hn::NegMulAdd(cosine, g1, g2);
+  const M both = hn::And(hn::Gt(rest1, zero), hn::Gt(rest2, zero));
+  const M first = hn::And(hn::Gt(g1, zero), hn::Le(rest2, zero));
+  const V alone1 = hn::IfThenElseZero(first, g1);
+  const V alone2 = hn::IfThenElse(first, zero, hn::Max(g2, zero));
+  const V push1 = hn::IfThenElse(both, hn::Div(rest1, sine2), alone1);
+  const V push2 = hn::IfThenElse(both, hn::Div(rest2, sine2), alone2);
+  return along(along(p, push1, h.n1), push2, h.n2);
+}
+
+/// A block on its way out, an array a number, by lane.
+struct alignas(64) Way {
+  float distance[kBlock];                       ///< where it began, metres
+  std::int32_t owner[kBlock];                   ///< there; internal index, -1: nothing is near
+  float x[kBlock], y[kBlock], z[kBlock];        ///< where it is now
+  float n1x[kBlock], n1y[kBlock], n1z[kBlock];  ///< contact planes
+  float n2x[kBlock], n2y[kBlock], n2z[kBlock];
+  float offset1[kBlock], offset2[kBlock], two[kBlock];  ///< two: 1 if the second is in force
+  std::uint64_t open = 0;                               ///< lanes not settled
+  std::uint32_t rounds = 0;
+
+  HWY_INLINE void clear_second() {
+    for (float* values : {n2x, n2y, n2z, offset2, two}) std::memset(values, 0, sizeof(two));
+  }
+};
+
+/// The lanes that were pushed in a round, closed up.
+struct alignas(64) Pushed {
+  float x[kBlock], y[kBlock], z[kBlock];
+  std::int32_t lane[kBlock + 16];
+  int count = 0;
+
+  HWY_INLINE void add(M which, VI lanes) {
+    hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), which)), I(), lane + count);
+    count += static_cast<int>(hn::CountTrue(f, which));
+  }
+  /// Reads the places of the lanes; the last is repeated up to whole vectors.
+  HWY_INLINE void collect(const Way& way) {
+    constexpr int kGroup = kTogether * kWidth;
+    const int end = (count + kGroup - 1) / kGroup * kGroup;
+    for (int i = 0; i < end; ++i) {
+      const int from = lane[std::min(i, count - 1)];
+      x[i] = way.x[from];
+      y[i] = way.y[from];
+      z[i] = way.z[from];
+    }
+  }
+};
+
+HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
+  return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
+}
+
+/// Stores the lanes of `which` at their own indices.
+HWY_INLINE void scatter(M which, VI at, V value, float* to) {
+  alignas(64) float values[kWidth];
+  alignas(64) std::int32_t index[kWidth];
+  hn::StoreU(hn::Compress(value, which), f, values);
+  hn::StoreU(hn::Compress(at, hn::RebindMask(I(), which)), I(), index);
+  const int count = static_cast<int>(hn::CountTrue(f, which));
+  for (int i = 0; i < count; ++i) to[index[i]] = values[i];
+}
+HWY_INLINE void scatter3(M which, VI at, V3 value, float* x, float* y, float* z) {
+  scatter(which, at, value.x, x);
+  scatter(which, at, value.y, y);
+  scatter(which, at, value.z, z);
+}
+
+/// What is asked about every place: the proxy's distance, or that of the smooth union.
+struct Surface {
+  const Baked& baked;
+  const ReliefTables* relief;
+  const Clearance& clearance;
+  const Candidates* filleted;  ///< of the block; null: creases stay sharp, or relief blends
+
+  bool bent() const { return relief != nullptr || filleted != nullptr; }
+  /// Where pushes aim at. A bent surface turns between steps; a share of the blending more lets Newton arrive
+  /// from below.
+  float target_m() const {
+    const float least_m = clearance.distance_m + clearance.slack_m;
+    if (relief) return least_m + kOvershoot * relief->blend_m;
+    if (!filleted) return least_m;
+    constexpr float kFillet = static_cast<float>(kFilletOvershoot);
+    return least_m + std::min(kOvershoot * clearance.blend_m, kFillet * clearance.slack_m);
+  }
+};
+
+HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch, Batched& out) {
+  const Clearance& c = surface.clearance;
+  for (int i = 0; i < batch.count; i += kWidth) {
+    const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
+    const Sample s =
+        smooth_distance(surface.baked, c.blend_m, *surface.filleted, p, all(c.distance_m + c.blend_m));
+    hn::Store(s.distance, f, out.distance + i);
+    hn::Store(hn::Sqrt(dot(s.gradient, s.gradient)), f, out.value + i);
+    store3(unit(s.gradient), out.gx + i, out.gy + i, out.gz + i);
+    const VI owner = hn::Max(s.owner, hn::Zero(I()));
+    hn::Store(hn::GatherIndex(I(), surface.baked.names.data(), owner), I(), out.name + i);
+  }
+}
+
+/// Distance, unit gradient, its length and the name of the owner at each place; false if there is no room.
+HWY_INLINE bool measure(const Surface& surface, const float* x, const float* y, const float* z, int count,
+                        Batched& out) {
+  QueryBatch batch{.x = x,
+                   .y = y,
+                   .z = z,
+                   .index = nullptr,
+                   .count = count,
+                   .margin_m = 0.0f,
+                   .contacts = nullptr,
+                   .radius_m = {}};
+  if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, out);
+  measure_filleted(surface, batch, out);
+  return true;
+}
+
+/// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
+HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
+  return along(x, hn::Div(hn::Sub(target, distance), hn::Max(slope, all(0.5f))), normal);
+}
+
+/// What the last query found about some pushed lanes, and another push for those it left below.
+HWY_INLINE M push_again(const Surface& surface, const Block& block, const Batched& found,
+                        const Pushed& pushed, int i, Way& way) {
+  const V target = all(surface.target_m());
+  const M valid = hn::FirstN(f, static_cast<std::size_t>(pushed.count - i));
+  const V distance = hn::Load(f, found.distance + i);
+  const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
+  const VI lane = hn::Load(I(), pushed.lane + i);
+  const M below = hn::And(valid, hn::Lt(distance, all(surface.clearance.distance_m)));
+  const V3 x = load3(pushed.x + i, pushed.y + i, pushed.z + i);
+  if (surface.bent()) {
+    scatter3(valid, lane, normal, way.n1x, way.n1y, way.n1z);
+    if (hn::AllFalse(f, below)) return below;
+    const V3 next = newton_step(x, distance, normal, hn::Load(f, found.value + i), target);
+    scatter3(below, lane, next, way.x, way.y, way.z);
+    return below;
+  }
+  if (hn::AllFalse(f, below)) return below;
+  // The newest violation takes the second place: rounds refine the pair of a crease.
+  const VI at = hn::IfThenElseZero(hn::RebindMask(I(), valid), lane);
+  const V offset = hn::Add(dot(normal, x), hn::Sub(target, distance));
+  const Pair pair = {gather3(way.n1x, way.n1y, way.n1z, at), normal, hn::GatherIndex(f, way.offset1, at),
+                     offset, hn::FirstN(f, kWidth)};
+  scatter3(below, lane, project(pair, gather3(block.x, block.y, block.z, at)), way.x, way.y, way.z);
+  scatter3(below, lane, normal, way.n2x, way.n2y, way.n2z);
+  scatter(below, lane, offset, way.offset2);
+  scatter(below, lane, all(1.0f), way.two);
+  return below;
+}
+
+/// Pushes the lanes of `pushed`, whose first push is done, until all are clear; false if the kernel has no
+/// room.
+HWY_INLINE bool settle(const Surface& surface, const Block& block, Pushed& pushed, Way& way) {
+  const auto most = static_cast<std::uint32_t>(surface.bent() ? kReliefRounds : kPlainRounds);
+  Batched found;
+  for (way.rounds = 0; pushed.count > 0 && way.rounds < most; ++way.rounds) {
+    pushed.collect(way);
+    if (!measure(surface, pushed.x, pushed.y, pushed.z, pushed.count, found)) return false;
+    Pushed next;
+    for (int i = 0; i < pushed.count; i += kWidth)
+      next.add(push_again(surface, block, found, pushed, i, way), hn::Load(I(), pushed.lane + i));
+    pushed.count = next.count;
+    std::memcpy(pushed.lane, next.lane, sizeof(next.lane));
+  }
+  for (int i = 0; i < pushed.count; ++i) way.open |= std::uint64_t{1} << pushed.lane[i];
+  return true;
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
