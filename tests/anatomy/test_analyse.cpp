@@ -56,6 +56,43 @@ TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swa
   CHECK(sum / kSeeds > 0.965);
 }
 
+TEST_CASE("left and right hold on bent knees of any build, where ways run over the back of the leg") {
+  for (const synth::Pose pose : {synth::Pose::kRun, synth::Pose::kSquat, synth::Pose::kSit})
+    for (const double bmi : {18.0, 30.0, 40.0})
+      for (const int vertices : {1700, 3600}) {
+        CAPTURE(static_cast<int>(pose));
+        CAPTURE(bmi);
+        CAPTURE(vertices);
+        synth::BodyOptions options;
+        options.pose = pose;
+        options.mass_kg = bmi * options.stature_m * options.stature_m;
+        options.vertices = vertices;
+        options.seed = 3;
+        const auto truth = synth::make_body({}, options);
+        REQUIRE(truth.ok());
+        const auto found = analyse(truth->mesh);
+        REQUIRE(found.ok());
+        CHECK(made::swapped(*truth, found->part) < 0.001);
+      }
+}
+
+TEST_CASE("fins that bridge the body change nothing") {
+  synth::BodyOptions options;
+  options.vertices = 3600;
+  const auto body = synth::make_body({}, options);
+  REQUIRE(body.ok());
+  const auto reference = analyse(body->mesh);
+  REQUIRE(reference.ok());
+  geometry::TriMesh finned = body->mesh;
+  const auto crown = reference->landmarks[static_cast<std::size_t>(LandmarkId::kCrown)].vertex;
+  for (std::size_t f = 0; f < body->mesh.triangles.size(); f += 97)
+    finned.triangles.push_back({body->mesh.triangles[f][0], body->mesh.triangles[f][1], crown});
+  const auto found = analyse(finned);
+  REQUIRE(found.ok());
+  CHECK(found->part == reference->part);
+  CHECK(worst_move(*reference, *found, [](const geometry::Vec3& p) { return p; }) < 1e-9);
+}
+
 TEST_CASE("turn, place, scale and the order of vertices do not change the answer") {
   const synth::Body truth = made::random_body(3);
   const auto reference = analyse(truth.mesh);

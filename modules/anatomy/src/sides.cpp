@@ -17,7 +17,11 @@ using geometry::Vec3;
 
 /// Where around a leg is read, as parts of the way from toe to perineum: the calf and the knee.
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
-constexpr float kHeelFrom = 0.20F, kHeelTo = 0.31F, kCalf = 0.50F;  ///< as parts of that way
+constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as parts of that way
+
+/// What a metre through space counts against one along the skin: 8 takes the front of a pointed foot's ankle,
+/// 2 that of an obese runner's.
+constexpr float kThroughSpace = 4.0F;
 
 /// Distances from the loop around the calf at a level of the distance from the toe, which only the foot
 /// needs.
@@ -31,15 +35,19 @@ Field distances_from_calf(const Skin& skin, const Field& from_toe, float level) 
   return geodesic::distances(skin.graph, seeds);
 }
 
-/// The heel is the dead end of the foot: the ways toe - heel - head and toe - heel - calf are long. A bent
-/// knee shortens the first over the back of the leg, a pointed foot the second.
+/// The heel is the dead end of the foot: the ways toe - heel - head and, twice, toe - heel - calf are long. A
+/// bent knee shortens the first over the back of the leg, a pointed foot the second; on a foot that is not
+/// pointed, the heel also lies farther from the toe through space than the front of the ankle does.
 Index find_heel(const Skin& skin, const EndPoints& ends, End foot, float leg) {
   const Field from_calf = distances_from_calf(skin, ends.field[foot], kCalf * leg);
+  const Vec3& toe = skin.mesh.positions[ends.vertex[foot]];
   Index heel = ends.vertex[foot];
   float most = -1.0F;
   for (std::size_t v = 0; v < ends.field[foot].size(); ++v) {
     if (!(ends.field[foot][v] > kHeelFrom * leg && ends.field[foot][v] < kHeelTo * leg)) continue;
-    const float detour = 2.0F * ends.field[foot][v] + ends.field[kHead][v] + from_calf[v];
+    const auto through_space = static_cast<float>((skin.mesh.positions[v] - toe).norm());
+    const float detour = 3.0F * ends.field[foot][v] + ends.field[kHead][v] + 2.0F * from_calf[v] +
+                         kThroughSpace * through_space;
     if (detour > most) {
       most = detour;
       heel = static_cast<Index>(v);
