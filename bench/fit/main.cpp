@@ -2,6 +2,7 @@
 // N]
 //     [--seconds S]
 // fit ... --target MM... | --budget US...    what was asked for beside what was achieved
+// fit ... --bars                         every tier at 89 ellipsoids beside what it promises, the worst body
 // CSV: one line a (body, tier, count) with the fit's own report, the error of the signed distance at points
 // within 30 mm of the skin, and what a query costs.
 #include <cmath>
@@ -14,6 +15,7 @@
 
 #include <bodice/fitting/fit.hpp>
 
+#include "bars.hpp"
 #include "front_svg.hpp"
 #include "near_skin.hpp"
 #include "query_cost.hpp"
@@ -33,6 +35,7 @@ struct Arguments {
   std::filesystem::path svg;
   int threads = 2;
   double seconds = 2.0;
+  bool bars = false;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -54,6 +57,8 @@ Arguments parse(int argc, char** argv) {
       a.budgets_us.push_back(std::stod(argv[++i]));
     } else if (word == "--svg" && has_value) {
       a.svg = argv[++i];
+    } else if (word == "--bars") {
+      a.bars = true;
     } else if (word == "--threads" && has_value) {
       a.threads = std::stoi(argv[++i]);
     } else if (word == "--seconds" && has_value) {
@@ -69,12 +74,7 @@ Arguments parse(int argc, char** argv) {
   return a;
 }
 
-double stage_ms(const fitting::FitResult& result, std::string_view name) {
-  double ms = 0.0;
-  for (const auto& stage : result.stages)
-    if (stage.name == name) ms += stage.ms;
-  return ms;
-}
+using fit_bench::stage_ms;
 
 void print_line(const std::string& name, const fitting::FitResult& r, const fit_bench::NearSkin& near,
                 double query_ns) {
@@ -195,6 +195,24 @@ bool dial(const engine::Context& context, const Arguments& arguments) {
   return all;
 }
 
+bool bars(const engine::Context& context, const Arguments& arguments) {
+  fit_bench::Bars table;
+  const bool all = for_each_subject(context, arguments, [&](const Subject& subject) {
+    for (const char* const kind : {"paper", "solid", "tight", "covering", "relief"}) {
+      fitting::FitOptions options;
+      options.covering = kind == std::string("covering");
+      options.tier = options.covering ? proxy::Tier::kTight : *proxy::tier_from_name(kind);
+      options.max_ellipsoids = 89;
+      const auto result = fitted(context, subject, options);
+      if (!result) return false;
+      table.note(subject.name, kind, *result, fit_bench::judge(context, result->proxy, subject.probes));
+    }
+    return true;
+  });
+  table.print();
+  return all;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -202,6 +220,7 @@ int main(int argc, char** argv) {
   const auto executor = engine::make_tbb_executor(arguments.threads);
   engine::Context context;
   context.executor = executor.get();
+  if (arguments.bars) return bars(context, arguments) ? 0 : 1;
   const bool asks = !arguments.targets_mm.empty() || !arguments.budgets_us.empty();
   return (asks ? dial(context, arguments) : front(context, arguments)) ? 0 : 1;
 }

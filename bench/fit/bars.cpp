@@ -1,0 +1,63 @@
+#include "bars.hpp"
+
+#include <cstdio>
+
+namespace fit_bench {
+
+double stage_ms(const bodice::fitting::FitResult& result, std::string_view name) {
+  double ms = 0.0;
+  for (const auto& stage : result.stages)
+    if (stage.name == name) ms += stage.ms;
+  return ms;
+}
+
+void Bars::at_most(const std::string& kind, const std::string& measure, double bar, double value,
+                   const std::string& body) {
+  Line& line = lines_[{kind, measure}];
+  if (line.bodies == 0 || value > line.worst) line.worst = value, line.worst_body = body;
+  line.bar = bar;
+  line.sum += value;
+  line.missed += value > bar;
+  ++line.bodies;
+}
+
+void Bars::note(const std::string& body, const std::string& kind, const bodice::fitting::FitResult& result,
+                const NearSkin& near) {
+  const auto& a = result.accuracy;
+  const auto add = [&](const char* measure, double bar, double value) {
+    at_most(kind, measure, bar, value, body);
+  };
+  add("ellipsoids", 89, static_cast<double>(result.proxy.ellipsoids().size()));
+  if (kind == "relief") {
+    add("near mean mm", 0.40, near.mean_mm);
+    add("near p95 mm", 1.3, near.p95_mm);
+    add("missed %", 0.15, near.missed_percent);
+    add("false %", 0.2, near.false_percent);
+    add("deep leaks", 0, near.deep_leaks);
+    add("KB", 128, static_cast<double>(result.proxy.bytes()) / 1024.0);
+    add("ms on top of tight", 1000, stage_ms(result, "relief"));
+  } else if (kind == "tight") {
+    add("near mean mm", 1.3, near.mean_mm);
+    add("near p95 mm", 4.0, near.p95_mm);
+    add("ms", 1000, stage_ms(result, "tight"));
+  } else if (kind == "covering") {
+    add("uncovered %", 0.1, a.skin_outside_percent);
+    add("uncovered mm", 0.5, 1e3 * a.skin_outside_depth_m);
+    add("gap mean mm", 5.0, 1e3 * a.gap_m.mean);
+  } else {
+    add("ms", 15, stage_ms(result, "fit"));
+    if (kind == "paper") return;
+    add("uncovered %", 0.0, a.skin_outside_percent);
+    add("interior outside %", 0.0, 100.0 - a.interior_covered_percent);
+    add("gap mean mm", 14.0, 1e3 * a.gap_m.mean);
+  }
+}
+
+void Bars::print() const {
+  std::printf("kind,measure,bar,mean,worst,worst_body,misses,bodies\n");
+  for (const auto& [key, line] : lines_)
+    std::printf("%s,%s,%.3g,%.3f,%.3f,%s,%d,%d\n", key.first.c_str(), key.second.c_str(), line.bar,
+                line.sum / line.bodies, line.worst, line.worst_body.c_str(), line.missed, line.bodies);
+}
+
+}  // namespace fit_bench

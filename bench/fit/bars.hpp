@@ -1,0 +1,39 @@
+// What each tier promises beside the worst that was measured.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <bodice/fitting/fit.hpp>
+
+#include "near_skin.hpp"
+
+namespace fit_bench {
+
+/// Milliseconds of a stage of the fit, by its name.
+double stage_ms(const bodice::fitting::FitResult& result, std::string_view name);
+
+/// Collects fits at 89 ellipsoids; each measure keeps its worst body.
+class Bars {
+ public:
+  /// `kind` is a tier's name, or "covering".
+  void note(const std::string& body, const std::string& kind, const bodice::fitting::FitResult& result,
+            const NearSkin& near);
+  /// CSV: kind, measure, bar (at most), mean over the bodies, worst, worst body, bodies that miss it.
+  void print() const;
+
+ private:
+  struct Line {
+    double bar = 0.0, sum = 0.0, worst = 0.0;
+    int bodies = 0, missed = 0;
+    std::string worst_body;
+  };
+  void at_most(const std::string& kind, const std::string& measure, double bar, double value,
+               const std::string& body);
+
+  std::map<std::pair<std::string, std::string>, Line> lines_;
+};
+
+}  // namespace fit_bench
