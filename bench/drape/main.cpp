@@ -1,10 +1,14 @@
 // drape [--data DIR] [--only TEXT] [--cache DIR] [--sheet FILE.png]: every garment of the data folder on its
-// body for 300 frames of gusty wind and 300 calm ones; the bars stand over the columns.
+// body for 300 frames of gusty wind and 300 calm ones; the bars stand over the columns. --substeps
+// 2,4,8,16,32 makes a table of what they buy. Of a garment there in two resolutions the outlines are
+// compared.
 #include <cstdio>
+#include <map>
 
 #include <CLI/CLI.hpp>
 
 #include "sheet.hpp"
+#include "silhouette.hpp"
 #include "wear.hpp"
 
 namespace {
@@ -28,6 +32,25 @@ void print_row(const std::string& name, const bench::Wear& w) {
   std::fflush(stdout);
 }
 
+/// A garment at the end of its windy frames.
+struct Hung {
+  bodice::geometry::TriMesh mesh;
+  double stature_m = 0.0;
+};
+
+/// NAME_fine__BODY against NAME__BODY.
+void print_outlines(const std::map<std::string, Hung>& hung) {
+  for (const auto& [name, fine] : hung) {
+    const std::size_t at = name.find("_fine__");
+    if (at == std::string::npos) continue;
+    const auto coarse = hung.find(name.substr(0, at) + name.substr(at + 5));
+    if (coarse == hung.end()) continue;
+    const double apart_m = bench::outline_difference_m(coarse->second.mesh, fine.mesh);
+    std::printf("%s, outline against half the resolution: %.1f mm, %.2f %% of stature (at most 2)\n",
+                name.c_str(), 1e3 * apart_m, 1e2 * apart_m / fine.stature_m);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -35,6 +58,7 @@ int main(int argc, char** argv) {
   std::string data = "../shared/data", only, cache, picture, fabric = "cotton", tier = "relief";
   std::vector<double> wind = {0.0, 0.0, 2.0};
   int workers = 2;
+  std::vector<int> substeps = {bodice::tryon::DrapeOptions{}.solver.substeps};
   bench::WearOptions options;
   options.solver = bodice::tryon::DrapeOptions{}.solver;
   options.solver.environment.gust = 0.3;
@@ -47,7 +71,7 @@ int main(int argc, char** argv) {
   app.add_option("--tier", tier);
   app.add_option("--frames", options.windy_frames, "frames with wind");
   app.add_option("--calm", options.calm_frames, "frames without, after them");
-  app.add_option("--substeps", options.solver.substeps);
+  app.add_option("--substeps", substeps, "one row each")->delimiter(',');
   app.add_option("--iterations", options.solver.iterations, "sweeps a substep");
   app.add_option("--wind", wind, "metres a second")->expected(3)->delimiter(',');
   app.add_option("--gust", options.solver.environment.gust);
@@ -60,15 +84,22 @@ int main(int argc, char** argv) {
   const auto executor = engine::make_tbb_executor(workers);
   const engine::Context context{.executor = executor.get()};
   bench::Sheet sheet;
+  std::map<std::string, Hung> hung;
   print_head();
   for (const bench::Outfit& outfit : bench::find_outfits(data, only)) {
     const bench::Body body =
         bench::load_body(context, outfit.body, proxy::tier_from_name(tier).value(), cache);
     const tryon::WornGarment garment = bench::load_garment(context, outfit, body);
-    const bench::Wear worn = bench::wear(context, body, garment, options);
-    print_row(outfit.name, worn);
+    bench::Wear worn;
+    for (const int count : substeps) {
+      options.solver.substeps = count;
+      worn = bench::wear(context, body, garment, options);
+      print_row(substeps.size() > 1 ? std::to_string(count) + " " + outfit.name : outfit.name, worn);
+    }
     sheet.add(body, garment, worn.end);
+    hung[outfit.name] = {{worn.end, garment.mesh.triangles}, body.proxy.stature_m()};
   }
+  print_outlines(hung);
   if (!picture.empty() && !sheet.write(picture)) {
     std::fprintf(stderr, "could not write %s\n", picture.c_str());
     return 1;
