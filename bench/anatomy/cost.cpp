@@ -57,7 +57,7 @@ void print_growth(const engine::Context& context) {
     const TriMesh mesh = synth_mesh(vertices);
     if (mesh.empty()) continue;
     const auto n = static_cast<double>(mesh.positions.size());
-    const Cost cost = fastest(context, mesh, vertices < 100000 ? 12 : 3);
+    const Cost cost = fastest(context, mesh, vertices < 100000 ? 12 : 1);
     const double unit = 1e6 * cost.total_ms / (n * std::log2(n));
     first = first > 0.0 ? first : unit;
     std::printf("%9zu %10.2f %16.2f %14.2f\n", mesh.positions.size(), cost.total_ms, unit, unit / first);

@@ -10,7 +10,7 @@ using bodice::body::Part;
 using bodice::geometry::Vec3;
 
 /// Labels follow skin weights, so a band at each border is a convention, not a fact.
-constexpr double kBand_m = 0.03, kBandAtStature_m = 1.7;
+constexpr double kBand = 0.03 / 1.7;  // of the stature: 3 cm
 
 std::vector<Vec3> border_points(const Case& c) {
   std::vector<Vec3> points;
@@ -43,7 +43,7 @@ bool other_side(int a, int b) {
 void score_labels(const Case& c, const bodice::anatomy::Anatomy& anatomy, Score& s) {
   const std::vector<Vec3> border = border_points(c);
   const std::vector<double> area = vertex_areas(c.mesh);
-  const double band = kBand_m * (c.stature > 0.0 ? c.stature : kBandAtStature_m) / kBandAtStature_m;
+  const double band = kBand * (c.stature > 0.0 ? c.stature : anatomy.stature_m);
   double all = 0.0, right = 0.0, limbs = 0.0, swapped = 0.0;
   for (std::size_t v = 0; v < c.truth.size(); ++v) {
     if (c.truth[v] < 0 || near_any(border, c.mesh.positions[v], band)) continue;
