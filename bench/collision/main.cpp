@@ -1,6 +1,7 @@
 // What a query and a response cost a particle, at which error, beside what else can answer: one thread, one
 // run, CPU time, median and min of the repeats, interleaved so that a slow minute hits all rows alike.
 // Usage: collision [particles [repeats [fit seconds [rows.csv]]]]
+//        collision figures [largest body]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -9,10 +10,15 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include <Eigen/Geometry>
+
+#include "figures.hpp"
 #include "peers.hpp"
 #include "subject.hpp"
+#include "targets.hpp"
 
 namespace {
 
@@ -28,6 +34,7 @@ struct Row {
   std::string name;
   std::function<void()> work;
   double particles;
+  double bar = 0.0;             ///< what it must not exceed, ns; zero: none of its own
   std::vector<double> ns = {};  ///< a particle, one a repeat
 
   double median() const { return ns[ns.size() / 2]; }
@@ -64,19 +71,38 @@ std::string error_of(const std::vector<float>& found, const std::vector<double>&
 /// One proxy: its particles in both orders, and room for the answers.
 struct Contender {
   std::string name;
-  Collider collider;
+  Collider collider, moving;
+  std::vector<bodice::geometry::Ellipsoid> shapes;
   bench::Cloud coherent, random, moved;
   std::vector<Contact> contacts;
+  bool relief;
   Workspace kept_query, kept_response;
 
   Contender(std::string label, const bodice::proxy::BodyProxy& proxy, const bench::Cloud& ordered,
             const bench::Cloud& shuffled)
       : name(std::move(label)),
         collider(proxy),
+        moving(proxy),
         coherent(bench::local(ordered, collider)),
         random(bench::local(shuffled, collider)),
         moved(coherent),
-        contacts(ordered.size()) {}
+        contacts(ordered.size()),
+        relief(!proxy.relief().empty()) {
+    for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
+  }
+
+  /// A step of a turn about the vertical and of a walk, there or back.
+  void move_rigidly() {
+    const bodice::geometry::Mat3 turn =
+        Eigen::AngleAxisd(forth ? 0.01 : -0.01, bodice::geometry::Vec3::UnitY()).toRotationMatrix();
+    forth = !forth;
+    for (auto& e : shapes) {
+      e.center = turn * e.center;
+      e.axes = turn * e.axes;
+    }
+    moving.move_to(shapes, 1.0 / 60.0);
+  }
+  bool forth = true;
 
   std::vector<float> distances() {
     collider.query({}, coherent.particles(), contacts);
@@ -88,10 +114,13 @@ struct Contender {
 
 void add_rows(Contender& c, std::vector<Row>& rows) {
   const auto n = static_cast<double>(c.coherent.size());
-  rows.push_back(
-      {c.name + ": query, coherent", [&c] { c.collider.query({}, c.coherent.particles(), c.contacts); }, n});
+  const bool relief = c.relief;
+  rows.push_back({c.name + ": query, coherent",
+                  [&c] { c.collider.query({}, c.coherent.particles(), c.contacts); }, n,
+                  relief ? 30.0 : 7.5});
   rows.push_back({c.name + ": query, random, order kept",
-                  [&c] { c.collider.query({}, c.random.particles(), c.contacts, c.kept_query); }, n});
+                  [&c] { c.collider.query({}, c.random.particles(), c.contacts, c.kept_query); }, n,
+                  relief ? 60.0 : 15.0});
   rows.push_back({c.name + ": query, random, sorted anew",
                   [&c] {
                     Workspace fresh;
@@ -110,6 +139,27 @@ void add_rows(Contender& c, std::vector<Row>& rows) {
                     c.collider.resolve({}, c.moved.particles(), {}, c.kept_response);
                   },
                   n});
+  rows.push_back({c.name + ": update of a proxy that moved rigidly (not a particle)",
+                  [&c] { c.move_rigidly(); }, 1.0, 20e3});
+}
+
+double median_of(const std::vector<Row>& rows, const std::string& name) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
+  return row == rows.end() ? 0.0 : row->median();
+}
+
+/// What is promised as a ratio: the response to the query, Embree to the query.
+void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, const std::vector<Row>& rows) {
+  std::printf("\n| ratio of medians | measured | bar |\n|---|---|---|\n");
+  for (const auto& c : contenders) {
+    const double query = median_of(rows, c->name + ": query, coherent");
+    const double response = median_of(rows, c->name + ": response, coherent (with a copy)");
+    std::printf("| %s: response to query | %.2f | at most 2 |\n", c->name.c_str(), response / query);
+    for (const Row& row : rows)
+      if (row.name.starts_with("Embree") && row.name.ends_with(", coherent"))
+        std::printf("| %s: Embree to query | %.0f | at least %d |\n", c->name.c_str(), row.median() / query,
+                    c->relief ? 30 : 100);
+  }
 }
 
 std::string processor() {
@@ -131,6 +181,8 @@ void write_csv(const std::string& file, const std::vector<Row>& rows, int repeat
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "figures")
+    return bench::draw_figures(argc > 2 ? static_cast<std::size_t>(std::atol(argv[2])) : 856000) ? 0 : 1;
   const std::size_t count = argc > 1 ? static_cast<std::size_t>(std::atol(argv[1])) : 100000;
   const int repeats = argc > 2 ? std::max(1, std::atoi(argv[2])) : 11;
   const double fit_s = argc > 3 ? std::atof(argv[3]) : 4.0;
@@ -174,9 +226,20 @@ int main(int argc, char** argv) {
         {peer.name + ", random", [&] { peer.query(random, distances); }, static_cast<double>(count)});
   }
   measure(rows, repeats);
-  std::printf("\n| question | ns a particle, median | min |\n|---|---|---|\n");
-  for (const Row& row : rows)
-    std::printf("| %s | %.1f | %.1f |\n", row.name.c_str(), row.median(), row.ns.front());
+  std::printf("\n| question | ns a particle, median | min | bar |\n|---|---|---|---|\n");
+  for (const Row& row : rows) {
+    std::printf("| %s | %.1f | %.1f |", row.name.c_str(), row.median(), row.ns.front());
+    if (row.bar > 0.0) std::printf(" %.1f", row.bar);
+    std::puts(" |");
+  }
+  print_ratios(contenders, rows);
+  std::printf(
+      "\n| query, coherent | least ns a particle | to the best target (bar for AVX2: 1.6) "
+      "|\n|---|---|---|\n");
+  for (auto& c : contenders)
+    bench::compare_targets(
+        c->name, [&] { c->collider.query({}, c->coherent.particles(), c->contacts); },
+        static_cast<double>(count), repeats);
   if (argc > 4) write_csv(argv[4], rows, repeats);
   return 0;
 }

@@ -2,6 +2,7 @@
 // Usage: response garments DATA [tier [frames [name part]]]
 //        response certify [particles]
 //        response creases
+//        response nearest [cases]
 #include <cstdio>
 #include <span>
 #include <string_view>
@@ -14,6 +15,9 @@ int main(int argc, char** argv) {
   if (mode == "garments" && argc > 2) return bench::drape_garments(arguments.subspan(2)) ? 0 : 1;
   if (mode == "certify") return bench::certify_random(arguments.subspan(2)) ? 0 : 1;
   if (mode == "creases") return bench::cross_creases(arguments.subspan(2)) ? 0 : 1;
-  std::puts("usage: response garments DATA [tier [frames [name part]]] | certify [particles] | creases");
+  if (mode == "nearest") return bench::measure_nearest(arguments.subspan(2)) ? 0 : 1;
+  std::puts(
+      "usage: response garments DATA [tier [frames [name part]]] | certify [particles] | creases | nearest "
+      "[cases]");
   return 2;
 }

@@ -78,6 +78,8 @@ constexpr int kUsualSteps = 2;         // the one from the surface included: eno
 constexpr int kMaxSteps = 24;          // what 1:1000 can need
 constexpr int kHalleySteps = 4;        // then Newton, which cannot overshoot twice
 constexpr float kSettled = 1e-3f;      // of |w|^2 - 1, before the last correction, which squares it
+constexpr float kShortStep = 2e-2f;    // twice the share of u that the last correction may be
+constexpr float kRounding = 1e-6f;     // of |w|^2
 constexpr float kLeastHalley = 0.25f;  // the curvature may lengthen a step fourfold
 // u = t + r2^2 in units of r0^2, relative to the smallest of which (1:1000) this is still a millionth.
 constexpr float kLeastRoot = 1e-12f;
@@ -122,7 +124,10 @@ HWY_INLINE V next_root(const Secular& g, V u, V low) {
 /// Lanes that need another step; a lane judges by itself, so that its result does not depend on its
 /// neighbours.
 HWY_INLINE M unsettled(const Secular& g, V u, V low) {
-  const M off = hn::Gt(hn::Abs(hn::Sub(g.norm2, all(1.0f))), all(kSettled));
+  // Next to the focal ellipse of a thin shape all of w_z, and with it the normal, hangs on the last digits of
+  // u that |w| hardly feels: there the step that is left must be short beside u, as far as |w| can tell.
+  const V share = hn::Max(hn::Mul(all(kShortStep), hn::Mul(u, g.first)), all(kRounding));
+  const M off = hn::Gt(hn::Abs(hn::Sub(g.norm2, all(1.0f))), hn::Min(share, all(kSettled)));
   return hn::And(off, hn::Or(hn::Gt(u, low), hn::Gt(g.norm2, all(1.0f))));
 }
 

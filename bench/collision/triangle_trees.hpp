@@ -1,0 +1,39 @@
+// What the paper compares itself with: two trees of boxes over triangles, garment and body, refitted every
+// frame and descended together.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bench {
+
+class TriangleTree {
+ public:
+  /// Split at the median of the longest axis; the mesh must outlive the tree.
+  explicit TriangleTree(const bodice::geometry::TriMesh& mesh);
+  /// Boxes for where the vertices are now.
+  void refit();
+
+  /// Garment vertices within `thickness_m` of a triangle of `body`, a pair of triangles counted by itself.
+  std::size_t count_contacts(const TriangleTree& body, double thickness_m) const;
+
+ private:
+  struct Node {
+    float low[3], high[3];
+    std::uint32_t first = 0, count = 0;  ///< triangles of a leaf; count 0: children first and first + 1
+  };
+  void split(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
+  void enclose(Node& node) const;
+  std::size_t count_leaves(const Node& mine, const TriangleTree& body, const Node& other,
+                           double thickness_m) const;
+  static bool apart(const Node& a, const Node& b, float thickness_m);
+
+  const bodice::geometry::TriMesh& mesh_;
+  std::vector<bodice::geometry::Vec3> middle_;  // only while the tree is built
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace bench

@@ -1,0 +1,105 @@
+// How exact is the float kernel's nearest point? Random ellipsoids over twelve decades of size and aspects up
+// to 1:1000, random particles up to three radii away, some of them on symmetry planes and at the centre,
+// against the solver in double, which the geometry suite holds to 1e-12 of a long double reference.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/random.hpp>
+
+#include "modes.hpp"
+
+namespace bench {
+
+using namespace bodice;
+using geometry::Vec3;
+
+namespace {
+
+constexpr std::size_t kPerShape = 4096;
+constexpr double kBar = 1e-6;
+
+Vec3 direction(engine::Random& random) {
+  const double a = random.normal(), b = random.normal();
+  return Vec3(a, b, random.normal()).stableNormalized();
+}
+
+geometry::Ellipsoid random_shape(engine::Random& random) {
+  geometry::Ellipsoid e;
+  const double size_m = std::pow(10.0, random.uniform(-6.0, 6.0));
+  const double turn = random.uniform(0.0, 3.14);
+  e.axes = Eigen::AngleAxisd(turn, direction(random)).toRotationMatrix();
+  for (int axis = 0; axis < 3; ++axis) e.radii[axis] = size_m * std::pow(10.0, random.uniform(-3.0, 0.0));
+  return e;
+}
+
+/// In the ellipsoid's frame, in its radii; every eighth on a plane, an axis or the centre.
+Vec3 random_place(engine::Random& random, std::size_t i) {
+  Vec3 p = random.uniform(0.0, 3.0) * direction(random);
+  for (int axis = 0; i % 8 == 0 && axis < 3; ++axis)
+    if (random.below(2) == 0) p[axis] = 0.0;
+  return p;
+}
+
+struct Worst {
+  double relative = 0.0;
+  std::size_t above_bar = 0, not_finite = 0, cases = 0;
+  Vec3 radii = Vec3::Ones(), place = Vec3::Zero();  ///< of the worst; the place in its frame, in metres
+};
+
+void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& worst) {
+  auto proxy = proxy::BodyProxy::make(
+      {.tier = proxy::Tier::kSolid, .stature_m = shape.radii.maxCoeff(), .ellipsoids = {{.shape = shape}}});
+  if (!proxy.ok()) std::puts(proxy.error().sentence().c_str()), std::exit(1);
+  const geometry::Ellipsoid& e = proxy->ellipsoids()[0].shape;
+  const collision::Collider collider(*proxy);
+  std::vector<float> x(kPerShape), y(kPerShape), z(kPerShape);
+  for (std::size_t i = 0; i < kPerShape; ++i) {
+    const Vec3 p = e.center - collider.origin() + e.axes * e.radii.cwiseProduct(random_place(random, i));
+    x[i] = static_cast<float>(p.x()), y[i] = static_cast<float>(p.y()), z[i] = static_cast<float>(p.z());
+  }
+  std::vector<collision::Contact> contacts(kPerShape);
+  collider.query({}, {.count = kPerShape, .x = x.data(), .y = y.data(), .z = z.data()}, contacts);
+  for (std::size_t i = 0; i < kPerShape; ++i) {
+    const Vec3 p = collider.origin() + Vec3(double{x[i]}, double{y[i]}, double{z[i]});
+    const collision::Contact& c = contacts[i];
+    const Vec3 foot(double{c.point[0]}, double{c.point[1]}, double{c.point[2]});
+    const double truth = geometry::nearest_point(e, p).signed_distance;
+    // The distance, and how far the point is from the surface that it should be on.
+    const double off =
+        std::max(std::abs(double{c.signed_distance} - truth),
+                 std::abs(geometry::nearest_point(e, collider.origin() + foot).signed_distance));
+    const double relative = off / std::max(e.radii.maxCoeff(), (p - e.center).norm());
+    worst.not_finite += !std::isfinite(relative);
+    worst.above_bar += relative > kBar;
+    if (relative <= worst.relative) continue;
+    worst.relative = relative;
+    worst.radii = e.radii;
+    worst.place = e.axes.transpose() * (p - e.center);
+  }
+  worst.cases += kPerShape;
+}
+
+}  // namespace
+
+bool measure_nearest(std::span<char*> arguments) {
+  const auto cases = static_cast<std::size_t>(arguments.empty() ? 1e6 : std::atof(arguments[0]));
+  engine::Random random(4);
+  Worst worst;
+  while (worst.cases < cases) compare(random_shape(random), random, worst);
+  std::printf(
+      "| cases | largest relative error (bar 1e-6) | above the bar | not finite (bar 0) "
+      "|\n|---|---|---|---|\n"
+      "| %zu | %.2e | %zu | %zu |\n",
+      worst.cases, worst.relative, worst.above_bar, worst.not_finite);
+  std::printf("the worst: radii %g %g %g m, place %g %g %g m in its frame\n", worst.radii[0], worst.radii[1],
+              worst.radii[2], worst.place[0], worst.place[1], worst.place[2]);
+  return worst.above_bar == 0 && worst.not_finite == 0;
+}
+
+}  // namespace bench
