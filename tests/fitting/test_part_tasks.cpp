@@ -142,6 +142,24 @@ TEST_CASE("part tasks: parts are handed on in one order, whoever ends first") {
       }
 }
 
+TEST_CASE("part tasks: six seeds of a small torso do not exceed the limit") {
+  auto skin = three_ellipsoids();
+  for (std::size_t v = 0; v < skin.part.size(); ++v) {
+    if (!body::is_torso(skin.part[v])) continue;
+    geometry::Vec3& p = skin.mesh.positions[v];
+    p = geometry::Vec3(0, 0.5, 0) + 0.1 * (p - geometry::Vec3(0, 0.5, 0));
+    const int row = p.y() > 0.508 ? 0 : p.y() > 0.492 ? 1 : 2;
+    skin.part[v] = static_cast<body::Part>(static_cast<int>(body::Part::kTorsoUL) + 2 * row + (p.x() < 0.0));
+  }
+  for (const int count : {20, 24, 40}) {
+    FitOptions options = options_for(Tier::kPaper);
+    options.max_ellipsoids = count;
+    const auto result = fitting::fit({}, skin.view(), options);
+    REQUIRE(result.ok());
+    CHECK(result->proxy.ellipsoids().size() <= static_cast<std::size_t>(count));
+  }
+}
+
 TEST_CASE("part tasks: fewer ellipsoids than parts joins neighbours and keeps the limit") {
   const auto skin = three_ellipsoids();
   for (const int count : {1, 2, 3}) {

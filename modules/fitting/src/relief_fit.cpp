@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kLeastSide = 4, kMostSide = 96;
 // A point this deep that is reported outside is a leak: particles there would be let out the wrong way.
-constexpr double kLeakDepth = 8e-3 / 1.7, kLeakMargin = 5e-3 / 1.7;  // of stature
+constexpr double kLeakDepth = 7e-3 / 1.7, kLeakMargin = 6e-3 / 1.7;  // of stature
 constexpr float kLeakFactor = 20.0f;
 constexpr int kLeakRounds = 4, kSettleSteps = 8, kMostLooks = 2;
 constexpr double kSpokenFor = 0.05;  // weight from which a node's value counts for the range of a table

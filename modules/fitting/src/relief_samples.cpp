@@ -102,7 +102,7 @@ std::vector<ReliefSample> sample_inside(const engine::Context& context, const Fr
 
 std::vector<ReliefSample> sample_around(const engine::Context& context, const FreeSkin& skin,
                                         std::span<const Vec3> places, double radius_m, double reach_m) {
-  constexpr std::size_t kEach = 24;
+  constexpr std::size_t kEach = 48;
   const engine::Random random(23);
   std::vector<ReliefSample> samples(places.size() * kEach);
   engine::parallel_for(context, samples.size(), 256, [&](std::size_t begin, std::size_t end) {

@@ -76,8 +76,13 @@ std::vector<int> share_counts(const engine::Context& context, const Items& items
     errors[r] = rehearse(context, std::move(points), count);
     for (double& e : errors[r]) e /= regions[r].torso ? kTorsoToLimbs : 1.0;
   });
-  std::vector<int> share(regions.size(), 1);
-  for (int left = count - static_cast<int>(regions.size()); left > 0; --left) {
+  std::vector<int> share;
+  int left = count;
+  for (const Region& region : regions) {
+    share.push_back(std::max(1, static_cast<int>(region.seeds.size())));  // what its refinement starts with
+    left -= share.back();
+  }
+  for (; left > 0; --left) {
     std::size_t worst = regions.size();
     double most = 0.0;
     for (std::size_t r = 0; r < regions.size(); ++r) {

@@ -42,9 +42,9 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   const Scaling scaling(skin);
   const double mm = scaling.mm();
   const std::size_t samples = std::clamp<std::size_t>(200 * static_cast<std::size_t>(count), 6000, 60000);
-  // A third on the skin: with more, ellipsoids spread in air that nobody asks about.
+  // Less than half on the skin: with more, ellipsoids spread in air that nobody asks about.
   const std::vector<DistanceSample> near_skin =
-      sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.35, 0.15, 200 * mm, 11});
+      sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.45, 0.15, 200 * mm, 11});
   TightLoss loss;
   if (options.covering) loss.uncovered_weight = kCoveringWeight;
   TightProblem problem(near_skin, scaling.origin, scaling.scale, loss);
