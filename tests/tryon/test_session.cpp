@@ -43,7 +43,7 @@ std::uint64_t run_deterministic(engine::Executor& executor) {
 }  // namespace
 
 TEST_CASE("garments wait for their body, then fall on it") {
-  const auto executor = engine::make_tbb_executor(2);
+  const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
   REQUIRE(session.dress({sheet()}).ok());
@@ -63,7 +63,7 @@ TEST_CASE("garments wait for their body, then fall on it") {
 }
 
 TEST_CASE("a newer body takes the place of one still in work") {
-  const auto executor = engine::make_tbb_executor(2);
+  const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
   engine::Ticket first =

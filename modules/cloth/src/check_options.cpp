@@ -6,6 +6,9 @@
 namespace bodice::cloth {
 namespace {
 
+/// Floats square lengths.
+constexpr double kMostMetres = 1e9;
+
 constexpr int kMaxIterations = 64;
 
 engine::Error bad(const std::string& what, const std::string& remedy) {
@@ -29,8 +32,8 @@ engine::Result<void> check(const Environment& e) {
 engine::Result<void> check(const SolverOptions& o) {
   if (auto good = check_count("substeps", o.substeps, kMaxSubsteps); !good) return good;
   if (auto good = check_count("iterations", o.iterations, kMaxIterations); !good) return good;
-  if (!(o.thickness_m >= 0.0) || !std::isfinite(o.thickness_m))
-    return bad("thickness_m is " + std::to_string(o.thickness_m), "Give metres, zero or more.");
+  if (!(o.thickness_m >= 0.0 && o.thickness_m <= kMostMetres))
+    return bad("thickness_m is " + std::to_string(o.thickness_m), "Give metres, 0 to 1e9.");
   if (!(o.budget_us >= 0.0)) return bad("budget_us is " + std::to_string(o.budget_us), "Give zero or more.");
   return check(o.environment);
 }

@@ -6,6 +6,9 @@
 namespace bodice::cloth {
 namespace {
 
+/// A frame shorter than this moves nothing that floats could tell, and the inverse square of its substeps
+/// would overflow.
+constexpr double kLeastFrame_s = 1e-15;
 constexpr int kWorstLevel = 3;
 constexpr int kGoodFrames = 60;
 constexpr int kFewestSubsteps = 2;
@@ -20,7 +23,10 @@ std::uint32_t dropped(int level) {
 Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s, double max_travel_m,
                 int level) {
   Plan plan;
-  if (!(dt_s > 0.0)) return plan;
+  if (!(dt_s >= kLeastFrame_s)) {
+    plan.limits = dt_s > 0.0 ? kTimeCut : 0u;
+    return plan;
+  }
   plan.simulated_s = std::min(dt_s, kMaxSubsteps * kMaxSubstep_s);
   plan.limits = dropped(level) | (plan.simulated_s < dt_s ? kTimeCut : 0u);
   const int asked = level >= 3 ? std::max(kFewestSubsteps, options.substeps / 2) : options.substeps;

@@ -51,6 +51,17 @@ std::optional<geometry::Vec3> take_vertex(std::string_view& line) {
   return position;
 }
 
+/// assimp looks for the end of a PLY header without an end.
+bool has_ply_header(std::istream& stream) {
+  constexpr std::size_t kLongest = 1 << 20;
+  std::string head(kLongest, '\0');
+  stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(stream.gcount()));
+  for (const std::string_view end : {"\nend_header\n", "\nend_header\r\n", "\rend_header\r"})
+    if (head.find(end) != std::string::npos) return true;
+  return false;
+}
+
 template <class Visit>
 void for_each_line(std::string_view text, Visit&& visit) {
   while (!text.empty()) {
@@ -97,6 +108,9 @@ engine::Result<void> check_readable(const std::filesystem::path& file) {
                          "Check that you may read it."};
   if (stream.peek() == std::ifstream::traits_type::eof())
     return engine::Error{engine::ErrorCode::kUnreadable, name + " is empty.", "Export the mesh again."};
+  if (lower_extension(file) == ".ply" && !has_ply_header(stream))
+    return engine::Error{engine::ErrorCode::kUnreadable, name + " has no whole PLY header.",
+                         "It may be cut off: export the mesh again."};
   return {};
 }
 

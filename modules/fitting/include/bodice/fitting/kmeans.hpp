@@ -18,7 +18,8 @@ struct KMeansOptions {
 };
 
 struct Clusters {
-  std::vector<Index> of_point;  ///< #points, index of the nearest centre (the lowest one on a tie)
+  std::vector<Index> of_point;  ///< #points, index of the nearest centre (the lowest one on a tie);
+                                ///< kNoIndex for a point with NaN or Inf, which moves no centre
   std::vector<Vec3> centers;    ///< as many as were given; a centre without points stays where it was
   int iterations = 0;
 };

@@ -1,0 +1,87 @@
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <bodice/anatomy/anatomy.hpp>
+#include <bodice/fitting/fit.hpp>
+#include <bodice/synth/body.hpp>
+
+#include "rows.hpp"
+
+namespace extremes {
+namespace {
+
+using namespace bodice;
+using geometry::Vec3;
+
+/// The same body elsewhere: positions times scale, plus an offset.
+struct Place {
+  const char* name;
+  double scale;
+  Vec3 offset_m;
+};
+
+const Place kPlaces[] = {
+    {"scale 1e-6", 1e-6, Vec3::Zero()},        {"scale 1e-3", 1e-3, Vec3::Zero()},
+    {"scale 1e3", 1e3, Vec3::Zero()},          {"scale 1e6", 1e6, Vec3::Zero()},
+    {"10 km away", 1.0, Vec3(1e4, 0.0, -1e4)}, {"a millimetre tall, 10 km away", 6e-4, Vec3(-1e4, 1e4, 0.0)}};
+
+struct Reference {
+  synth::Body body = synth::make_body({}, {.vertices = 1500}).value();
+  anatomy::Anatomy anatomy =
+      anatomy::analyse({}, body.mesh, {.profile = body::find_profile("ansur2").value()}).value();
+
+  geometry::TriMesh at(const Place& place) const {
+    geometry::TriMesh mesh = body.mesh;
+    for (Vec3& p : mesh.positions) p = place.scale * p + place.offset_m;
+    return mesh;
+  }
+};
+
+std::string check_anatomy(const Reference& r, const Place& place) {
+  const auto mesh = r.at(place);
+  const auto found = anatomy::analyse({}, mesh, {.profile = body::find_profile("ansur2").value()});
+  if (!found.ok()) return found.error().message;
+  const double stature = r.anatomy.stature_m;
+  if (std::abs(found->stature_m / place.scale - stature) > 0.01 * stature) return "another stature";
+  for (std::size_t k = 0; k < r.anatomy.landmarks.size(); ++k) {
+    const Vec3 back = (found->landmarks[k].position - place.offset_m) / place.scale;
+    if ((back - r.anatomy.landmarks[k].position).norm() > 0.01 * stature)
+      return "landmark " + std::to_string(k) + " moved by over 1 % of stature";
+  }
+  std::size_t other = 0;
+  for (std::size_t v = 0; v < found->part.size(); ++v) other += found->part[v] != r.anatomy.part[v];
+  return expect(100 * other <= found->part.size(), std::to_string(other) + " vertices changed their part");
+}
+
+std::string check_fit(const Reference& r, const Place& place, proxy::Tier tier) {
+  auto gap = [&](const geometry::TriMesh& mesh, double scale) -> std::optional<double> {
+    const auto fit =
+        fitting::fit({}, {mesh, r.body.part, scale * r.body.stature_m}, {.tier = tier, .max_ellipsoids = 30});
+    if (!fit.ok()) return {};
+    return fit->accuracy.gap_m.mean / scale;
+  };
+  const auto here = gap(r.body.mesh, 1.0), there = gap(r.at(place), place.scale);
+  if (!here || !there) return "refused";
+  // A descent from rounded coordinates may end in a neighbouring minimum.
+  const double share = tier >= proxy::Tier::kTight ? 0.05 : 0.03;
+  return expect(std::abs(*there - *here) <= share * *here,
+                "gap " + std::to_string(*there) + " instead of " + std::to_string(*here));
+}
+
+}  // namespace
+
+std::vector<Row> body_rows() {
+  std::vector<Row> rows;
+  const auto reference = std::make_shared<const Reference>();
+  for (const Place& place : kPlaces) {
+    rows.push_back({"anatomy::analyse", place.name, [=] { return check_anatomy(*reference, place); }});
+    for (const auto& [name, tier] :
+         {std::pair("fit, paper", proxy::Tier::kPaper), std::pair("fit, solid", proxy::Tier::kSolid),
+          std::pair("fit, tight", proxy::Tier::kTight), std::pair("fit, relief", proxy::Tier::kRelief)})
+      rows.push_back({name, place.name, [=, tier = tier] { return check_fit(*reference, place, tier); }});
+  }
+  return rows;
+}
+
+}  // namespace extremes

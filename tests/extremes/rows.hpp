@@ -1,0 +1,38 @@
+// The table of extremes: every public algorithm met by every hostile input of its kind, a row each.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <bodice/geometry/types.hpp>
+
+namespace extremes {
+
+struct Row {
+  std::string algorithm, input;
+  std::function<std::string()> check;  ///< empty: the expected answer or error came; else what came
+};
+
+std::vector<Row> point_rows();      ///< enclosing ellipsoids, clusters
+std::vector<Row> ellipsoid_rows();  ///< nearest points in double and float, queries, responses, files
+std::vector<Row> mesh_rows();       ///< everything that takes a mesh
+std::vector<Row> body_rows();       ///< a body at any scale and place is the same body
+std::vector<Row> number_rows();     ///< options and steps that are no sensible numbers
+
+/// "" if all is well.
+inline std::string expect(bool holds, std::string_view otherwise) {
+  return holds ? std::string() : std::string(otherwise);
+}
+
+/// An error has to be told in a sentence with a remedy.
+template <class Result>
+std::string told(const Result& result) {
+  if (result.ok()) return "accepted";
+  const auto& error = result.error();
+  if (error.message.size() < 10 || error.message.back() != '.') return "no sentence: " + error.message;
+  return expect(!error.remedy.empty(), "no remedy: " + error.message);
+}
+
+}  // namespace extremes

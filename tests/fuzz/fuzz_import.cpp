@@ -1,0 +1,21 @@
+// Bytes as a body's file, in the formats whose readers are small enough to answer for: a mesh of finite
+// metres, or a sentence.
+#include <bodice/io/import.hpp>
+
+#include "harness.hpp"
+
+using namespace bodice;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr const char* kExtensions[] = {".obj", ".stl", ".ply", ".off"};
+  fuzz::Bytes in(data, size);
+  const char* extension = kExtensions[in.next() % 4];
+  const fuzz::TemporaryFile file(extension, in.rest());
+  const auto body = io::import_body({}, file.path(), {.unit = io::Unit::kMetre});
+  fuzz::check_told(body);
+  if (!body.ok()) return 0;
+  for (const auto& p : body->skin.positions) FUZZ_CHECK(p.allFinite());
+  for (const auto& t : body->skin.triangles)
+    for (const auto v : t) FUZZ_CHECK(v < body->skin.positions.size());
+  return 0;
+}

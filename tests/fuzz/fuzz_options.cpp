@@ -1,0 +1,34 @@
+// A command line, words apart by line breaks: parsed or refused, never more.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <options.hpp>
+
+#include "harness.hpp"
+
+using namespace bodice;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::vector<std::string> words(1);
+  for (const std::uint8_t byte : std::span(data, size)) {
+    if (byte == '\n')
+      words.emplace_back();
+    else if (byte != 0)
+      words.back().push_back(static_cast<char>(byte));
+  }
+  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  CLI::App app("bodice");
+  cli::CommonOptions options;
+  cli::add_common_options(app, options);
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& refused) {
+    FUZZ_CHECK(refused.get_exit_code() == 0 || std::string(refused.what()).size() > 3);
+    return 0;
+  }
+  if (!options.profile.ends_with(".json")) fuzz::check_told(cli::segment_options(options));
+  fuzz::check_told(cli::builtin_body(options));
+  static_cast<void>(cli::fit_options(options));
+  return 0;
+}

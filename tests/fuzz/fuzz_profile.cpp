@@ -1,0 +1,12 @@
+// A custom proportion profile.
+#include <bodice/body/proportions.hpp>
+
+#include "harness.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fuzz::TemporaryFile file(".json", {data, size});
+  const auto profile = bodice::body::load_profile(file.path());
+  fuzz::check_told(profile);
+  if (profile.ok()) FUZZ_CHECK(profile->either().knee_height > 0.0);
+  return 0;
+}

@@ -1,0 +1,34 @@
+// Proxy files, JSON and binary: what loads is whole, gives itself back, and can be asked.
+#include <cmath>
+#include <string_view>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/proxy/proxy_file.hpp>
+
+#include "harness.hpp"
+
+using namespace bodice;
+
+namespace {
+
+void use(const proxy::BodyProxy& proxy) {
+  const auto again = proxy::from_binary(proxy::to_binary(proxy));
+  FUZZ_CHECK(again.ok() && again->hash() == proxy.hash());
+  const auto text = proxy::from_json(proxy::to_json(proxy));
+  FUZZ_CHECK(text.ok() && text->hash() == proxy.hash());
+  const collision::Collider collider(proxy);
+  const auto contact = collider.query({0.1f, 0.2f, 0.3f});
+  FUZZ_CHECK(!std::isnan(contact.signed_distance));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto binary = proxy::from_binary(std::as_bytes(std::span(data, size)));
+  fuzz::check_told(binary);
+  if (binary.ok()) use(*binary);
+  const auto json = proxy::from_json(std::string_view(reinterpret_cast<const char*>(data), size));
+  fuzz::check_told(json);
+  if (json.ok()) use(*json);
+  return 0;
+}

@@ -1,0 +1,88 @@
+// Runs a harness on every kept case, and on mutations of them that are the same in every run.
+//
+//     replay_<name> CASES MUTATIONS
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <vector>
+
+#include <bodice/engine/random.hpp>
+
+#include "harness.hpp"
+
+namespace {
+
+using Case = std::vector<std::uint8_t>;
+
+std::vector<Case> cases_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
+  std::ranges::sort(files);  // directories come in any order
+  std::vector<Case> cases;
+  for (const auto& file : files) {
+    std::ifstream in(file, std::ios::binary);
+    cases.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  }
+  return cases;
+}
+
+/// A few bytes changed, inserted, taken out, or the end cut off.
+Case mutated(Case bytes, bodice::engine::Random& random) {
+  for (std::uint64_t edits = 1 + random.below(4); edits > 0; --edits) {
+    const std::size_t at = bytes.empty() ? 0 : random.below(bytes.size());
+    const auto value = static_cast<std::uint8_t>(random.below(256));
+    const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    switch (random.below(5)) {
+      case 0:
+        bytes.insert(place, value);
+        break;
+      case 1:
+        if (!bytes.empty()) bytes.erase(place);
+        break;
+      case 2:
+        if (random.below(8) == 0) bytes.resize(at);
+        break;
+      default:
+        if (!bytes.empty()) *place = value;
+    }
+  }
+  return bytes;
+}
+
+const Case* running = nullptr;
+
+// The case that broke the harness, in the form that `xxd -r -p` turns into a file to keep.
+extern "C" void show_case(int signal) {
+  std::fprintf(stderr, "signal %d in the case ", signal);
+  for (const std::uint8_t byte : *running) std::fprintf(stderr, "%02x", byte);
+  std::fputc('\n', stderr);
+  std::_Exit(1);
+}
+
+void run(const Case& bytes) {
+  running = &bytes;
+  alarm(20);  // seconds: no case may hang
+  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: %s CASES MUTATIONS\n", argv[0]);
+    return 2;
+  }
+  const std::vector<Case> cases = cases_in(argv[1]);
+  if (cases.empty()) {
+    std::fprintf(stderr, "%s holds no case.\n", argv[1]);
+    return 1;
+  }
+  for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGALRM}) std::signal(signal, show_case);
+  for (const Case& bytes : cases) run(bytes);
+  bodice::engine::Random random(1);
+  for (int i = std::atoi(argv[2]); i > 0; --i) {
+    run(mutated(cases[random.below(cases.size())], random));
+  }
+  std::printf("%zu cases and %s mutations of them: nothing found\n", cases.size(), argv[2]);
+  return 0;
+}
