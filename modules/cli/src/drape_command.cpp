@@ -16,7 +16,7 @@ struct DrapeCommand {
   std::vector<double> wind_m_s;
   std::optional<double> thickness_mm;
   bool no_picture = false;
-  tryon::DrapeOptions drape{.solver = {.substeps = 16}};
+  tryon::DrapeOptions drape;
 };
 
 engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const DrapeCommand& command,

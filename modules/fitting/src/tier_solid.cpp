@@ -14,8 +14,8 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr int kIterations = 9;
-constexpr std::size_t kSamplesEach = 32;  // skin samples an ellipsoid
+constexpr int kIterations = 14;
+constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
 constexpr double kMinRadius = 3e-4;       // of stature
 constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
 constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
