@@ -10,6 +10,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 #include <bodice_test/data.hpp>
+#include <bodice_test/executors.hpp>
 #include <bodice_test/extremes.hpp>
 #include <bodice_test/read_mesh.hpp>
 #include <bodice_test/shapes.hpp>
@@ -190,5 +191,23 @@ TEST_CASE("real bodies: distance by brute force, sign by brute-force winding") {
       CHECK((got < 0.0) == (winding > 0.5));
     }
     CHECK(compared > 100);
+  }
+}
+
+TEST_CASE("the tree has the same bits however many workers build it") {
+  const TriMesh mesh = icosphere(1.0, 5);  // its upper nodes are tasks
+  REQUIRE(mesh.triangles.size() > 4096);
+  const MeshDistance serial({}, mesh);
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    const MeshDistance built({.executor = executor.get()}, mesh);
+    Random random(23);
+    for (int i = 0; i < 500; ++i) {
+      const Vec3 q(random.normal(), random.normal(), random.normal());
+      const SurfacePoint a = serial.nearest(q), b = built.nearest(q);
+      CHECK(a.triangle == b.triangle);
+      CHECK(a.signed_distance == b.signed_distance);
+      CHECK(serial.winding_number(q) == built.winding_number(q));
+    }
   }
 }

@@ -6,10 +6,13 @@
 #include <limits>
 #include <numeric>
 
+#include <bodice/engine/parallel.hpp>
+
 namespace bodice::geometry {
 namespace {
 
 constexpr int kBins = 16;
+constexpr std::uint32_t kBesideEachOther = 2048;  // triangles of a node whose children are worth a task each
 constexpr int kSahLevels = 40;  // binary levels by surface area; below them halves, which bounds the depth
 
 struct FloatBox {
@@ -104,15 +107,16 @@ class Builder {
     std::iota(order_.begin(), order_.end(), 0u);
   }
 
-  void build(std::vector<BvhNode>& nodes) {
+  void build(const engine::Context& context, std::vector<BvhNode>& nodes) {
     nodes.emplace_back();
-    fill(nodes, 0, {0, static_cast<std::uint32_t>(order_.size())}, 0);
+    fill(context, nodes, 0, {0, static_cast<std::uint32_t>(order_.size())}, 0);
   }
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
   /// Fills nodes[index] with the children of a range.
-  void fill(std::vector<BvhNode>& nodes, std::uint32_t index, Range range, int level) {
+  void fill(const engine::Context& context, std::vector<BvhNode>& nodes, std::uint32_t index, Range range,
+            int level) {
     std::array<Range, BvhNode::kWidth> parts;
     int count = 1;
     parts[0] = range;
@@ -123,20 +127,43 @@ class Builder {
           parts[count++] = {middle, parts[i].end};
           parts[i].end = middle;
         }
-    for (int i = 0; i < BvhNode::kWidth; ++i) {
-      const Range part = i < count ? parts[i] : Range{};
-      const std::uint32_t child = place(nodes, part, level + 2);
-      set_child(nodes[index], i, part, child);
+    std::array<std::uint32_t, BvhNode::kWidth> child;
+    if (range.size() > kBesideEachOther) {
+      place_beside_each_other(context, nodes, parts, level + 2, child);
+    } else {
+      for (int i = 0; i < BvhNode::kWidth; ++i) child[i] = place(context, nodes, parts[i], level + 2);
     }
+    for (int i = 0; i < BvhNode::kWidth; ++i) set_child(nodes[index], i, parts[i], child[i]);
   }
 
-  std::uint32_t place(std::vector<BvhNode>& nodes, Range part, int level) {
+  std::uint32_t place(const engine::Context& context, std::vector<BvhNode>& nodes, Range part, int level) {
     if (part.size() == 0) return BvhChild::kNone;
     if (part.size() <= Bvh::kLeafSize) return BvhChild::leaf(part.begin, part.size());
     const auto child = static_cast<std::uint32_t>(nodes.size());
     nodes.emplace_back();
-    fill(nodes, child, part, level);
+    fill(context, nodes, child, part, level);
     return child;
+  }
+
+  /// Each part in nodes of its own, then joined in the order that place() one after the other gives.
+  void place_beside_each_other(const engine::Context& context, std::vector<BvhNode>& nodes,
+                               const std::array<Range, BvhNode::kWidth>& parts, int level,
+                               std::array<std::uint32_t, BvhNode::kWidth>& child) {
+    std::array<std::vector<BvhNode>, BvhNode::kWidth> own;
+    engine::parallel_for(context, BvhNode::kWidth, 1, [&](std::size_t i, std::size_t) {
+      child[i] = place(context, own[i], parts[i], level);
+    });
+    for (int i = 0; i < BvhNode::kWidth; ++i) {
+      const auto base = static_cast<std::uint32_t>(nodes.size());
+      const auto moved = [base](std::uint32_t c) {
+        return c == BvhChild::kNone || BvhChild::is_leaf(c) ? c : c + base;
+      };
+      for (BvhNode& node : own[i]) {
+        for (std::uint32_t& c : node.child) c = moved(c);
+        nodes.push_back(node);
+      }
+      child[i] = moved(child[i]);
+    }
   }
 
   void set_child(BvhNode& node, int slot, Range part, std::uint32_t child) const {
@@ -215,7 +242,7 @@ void set_frame(Bvh& bvh, const TriMesh& mesh) {
 
 }  // namespace
 
-Bvh build_bvh(const engine::Context&, const TriMesh& mesh) {
+Bvh build_bvh(const engine::Context& context, const TriMesh& mesh) {
   Bvh bvh;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (finite_corners(mesh, t)) bvh.triangle_of_leaf.push_back(static_cast<Index>(t));
@@ -229,7 +256,7 @@ Bvh build_bvh(const engine::Context&, const TriMesh& mesh) {
     unordered[i] = {a, bvh.to_local(mesh.corner(t, 1)) - a, bvh.to_local(mesh.corner(t, 2)) - a};
   }
   Builder builder(unordered);
-  builder.build(bvh.nodes);
+  builder.build(context, bvh.nodes);
   const std::vector<Index> source = bvh.triangle_of_leaf;
   bvh.triangles.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
