@@ -5,6 +5,10 @@
 #include <cmath>
 #include <numeric>
 
+#include <bodice/engine/parallel.hpp>
+
+#include "tiny.hpp"
+
 namespace bodice::cloth {
 namespace {
 
@@ -36,13 +40,15 @@ CellGrid::Cell CellGrid::cell_of(const Point& at) const {
   return {cell(at.x), cell(at.y), cell(at.z)};
 }
 
-void CellGrid::fill(std::span<const Point> points) {
+void CellGrid::fill(const engine::Context& context, std::span<const Point> points) {
+  engine::parallel_for(context, points.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Cell c = cell_of(points[i]);
+      slot_of_[i] = static_cast<Index>(row_of(c.y, c.z) + (static_cast<std::size_t>(c.x) & x_mask_));
+    }
+  });
   std::fill(begin_.begin(), begin_.end(), 0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Cell c = cell_of(points[i]);
-    slot_of_[i] = static_cast<Index>(row_of(c.y, c.z) + (static_cast<std::size_t>(c.x) & x_mask_));
-    ++begin_[slot_of_[i]];
-  }
+  for (const Index slot : slot_of_) ++begin_[slot];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());  // where each slot ends
   for (std::size_t i = points.size(); i-- > 0;)
     entry_[--begin_[slot_of_[i]]] = {points[i], static_cast<Index>(i)};

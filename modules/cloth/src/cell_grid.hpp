@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include <bodice/engine/context.hpp>
+
 #include "particles.hpp"
 
 namespace bodice::cloth {
@@ -24,7 +26,8 @@ class CellGrid {
   /// Empty, for this many points.
   CellGrid(float cell_m, std::size_t points);
 
-  void fill(std::span<const Point> points);
+  /// `points` are as many as were announced.
+  void fill(const engine::Context& context, std::span<const Point> points);
 
   /// Calls visit(entry) for all that lie in the 27 cells around `at`, and for some that do not.
   template <class Visit>

@@ -28,9 +28,7 @@ double quantile(std::vector<float>& values, std::size_t count, double q) {
 }
 
 // Idle slots and shortened edges hold no elongation; the 95th percentile is that of the longest 5 % of edges.
-void measure_strain(const engine::Context& context, State& s, FrameReport& report) {
-  report.elastic_energy_j =
-      measure_stretch(context, s.stretch, s.particles, s.scratch) + bend_energy(context, s.bend, s.particles);
+void summarise_strain(State& s, FrameReport& report) {
   std::size_t longer = 0;
   for (std::size_t slot = 0; slot < s.stretch.a.size(); ++slot)
     if (s.scratch[slot] > 0.0f) s.scratch[longer++] = s.scratch[slot];
@@ -42,6 +40,11 @@ void measure_strain(const engine::Context& context, State& s, FrameReport& repor
   const auto at = s.scratch.begin() + static_cast<std::ptrdiff_t>(longer - 1 - above);
   std::nth_element(s.scratch.begin(), at, s.scratch.begin() + static_cast<std::ptrdiff_t>(longer));
   report.stretch_p95 = static_cast<double>(*at);
+}
+
+void summarise_speed(State& s, FrameReport& report) {
+  std::copy(s.sleep.speed.begin(), s.sleep.speed.end(), s.speeds.begin());
+  report.median_speed_m_s = quantile(s.speeds, s.particles.count(), 0.5);
 }
 
 Motion measure_block(const State& s, std::size_t begin, std::size_t end) {
@@ -66,15 +69,18 @@ void measure_motion(const engine::Context& context, State& s, FrameReport& repor
   report.gravity_energy_j = motion.gravity;
   report.asleep = motion.asleep;
   report.finite = motion.finite;
-  std::copy(s.sleep.speed.begin(), s.sleep.speed.end(), s.scratch.begin());
-  report.median_speed_m_s = quantile(s.scratch, s.particles.count(), 0.5);
 }
 
 }  // namespace
 
-void measure(const engine::Context& context, State& state, FrameReport& report) {
-  measure_strain(context, state, report);
-  measure_motion(context, state, report);
+void measure(const engine::Context& context, State& s, FrameReport& report) {
+  report.elastic_energy_j =
+      measure_stretch(context, s.stretch, s.particles, s.scratch) + bend_energy(context, s.bend, s.particles);
+  measure_motion(context, s, report);
+  // Two searches that are serial each.
+  engine::parallel_for(context, 2, 1, [&](std::size_t which, std::size_t) {
+    which == 0 ? summarise_strain(s, report) : summarise_speed(s, report);
+  });
 }
 
 }  // namespace bodice::cloth

@@ -110,7 +110,7 @@ void find_close_pairs(const engine::Context& context, const Ring& ring, const Pa
                       SelfContact& self) {
   if (!(self.radius_m > 0.0f) || self.travel_m < kFresh * static_cast<double>(self.radius_m)) return;
   self.travel_m = 0.0;
-  self.grid.fill({particles.point.data(), particles.count()});
+  self.grid.fill(context, {particles.point.data(), particles.count()});
   engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) find_close(ring, particles, self, static_cast<Index>(i));
   });

@@ -34,7 +34,8 @@ struct State {
   Sleep sleep;
   Budget budget;
   const collision::Collider* last_collider = nullptr;  ///< compared, never read
-  std::vector<float> scratch;                          ///< max(#P, slots of edges), for medians
+  std::vector<float> scratch;                          ///< #slots of edges, for quantiles
+  std::vector<float> speeds;                           ///< #P, for the median
   float max_travel_m = 0.0f;                           ///< a substep
   double time_s = 0.0;
 
