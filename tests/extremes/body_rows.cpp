@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -54,14 +55,19 @@ std::string check_anatomy(const Reference& r, const Place& place) {
   return expect(100 * other <= found->part.size(), std::to_string(other) + " vertices changed their part");
 }
 
+/// Mean gap in units of the reference, or nothing if it is refused.
+std::optional<double> gap_of(const Reference& r, const Place& place, proxy::Tier tier) {
+  const auto mesh = r.at(place);
+  const auto fit = fitting::fit({}, {mesh, r.body.part, place.scale * r.body.stature_m},
+                                {.tier = tier, .max_ellipsoids = 16});
+  if (!fit.ok()) return {};
+  return fit->accuracy.gap_m.mean / place.scale;
+}
+
 std::string check_fit(const Reference& r, const Place& place, proxy::Tier tier) {
-  auto gap = [&](const geometry::TriMesh& mesh, double scale) -> std::optional<double> {
-    const auto fit =
-        fitting::fit({}, {mesh, r.body.part, scale * r.body.stature_m}, {.tier = tier, .max_ellipsoids = 30});
-    if (!fit.ok()) return {};
-    return fit->accuracy.gap_m.mean / scale;
-  };
-  const auto here = gap(r.body.mesh, 1.0), there = gap(r.at(place), place.scale);
+  static std::map<proxy::Tier, std::optional<double>> at_home;
+  if (!at_home.contains(tier)) at_home[tier] = gap_of(r, {"at home", 1.0, Vec3::Zero()}, tier);
+  const auto here = at_home[tier], there = gap_of(r, place, tier);
   if (!here || !there) return "refused";
   // A descent from rounded coordinates may end in a neighbouring minimum.
   const double share = tier >= proxy::Tier::kTight ? 0.05 : 0.03;

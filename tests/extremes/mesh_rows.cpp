@@ -88,7 +88,7 @@ fitting::LabelledSkin labelled(const TriMesh& mesh, std::vector<body::Part>& par
 std::string check_fit(const TriMesh& mesh, proxy::Tier tier) {
   std::vector<body::Part> part;
   const auto skin = labelled(mesh, part);
-  const auto fit = fitting::fit({}, skin, {.tier = tier, .max_ellipsoids = 6, .time_budget_s = 0.5});
+  const auto fit = fitting::fit({}, skin, {.tier = tier, .max_ellipsoids = 6, .time_budget_s = 0.1});
   if (!fit.ok()) return told(fit);
   const auto& a = fit->accuracy;
   if (!std::isfinite(a.gap_m.mean + a.gap_m.max + a.skin_outside_depth_m)) return "not finite";
