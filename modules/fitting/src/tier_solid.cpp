@@ -19,6 +19,8 @@ constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
 constexpr double kMinRadius = 3e-4;       // of stature
 constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
 constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
+/// Up to so many in a region, growth after a descent may cost more than enclosing clusters of triangles.
+constexpr int kFewEllipsoids = 2;
 
 std::vector<int> shares_by_demand(const std::vector<PartSkin>& skins, int count, double stature_m) {
   std::vector<double> need(skins.size(), 0.0);
@@ -72,6 +74,25 @@ FittedRegion cover_region(const engine::Context& context, const LabelledSkin& sk
   return {std::move(ellipsoids), {}};
 }
 
+/// Enclosing ellipsoids of bisected clusters of whole triangles.
+FittedRegion enclose_region(const engine::Context& context, const Items& items, const Region& region,
+                            int count, double stature_m) {
+  Region from = region;
+  if (static_cast<int>(from.seeds.size()) > count) from.seeds = {items.where[region.items.front()]};
+  const RefineOptions refine{.sigma_m = 2e-3 * stature_m, .min_radius_m = kMinRadius * stature_m};
+  Refinement refinement(context, items, from, refine);
+  refinement.run(0.0, static_cast<std::size_t>(count));
+  FittedRegion fitted;
+  for (const Cluster& c : refinement.clusters()) fitted.ellipsoids.push_back({c.ellipsoid, c.part});
+  return fitted;
+}
+
+double total_volume(const FittedRegion& fitted) {
+  double sum = 0.0;
+  for (const auto& e : fitted.ellipsoids) sum += geometry::volume(e.shape);
+  return sum;
+}
+
 engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& context,
                                                         const LabelledSkin& skin, const Items& items,
                                                         const std::vector<Region>& regions, int count,
@@ -89,7 +110,10 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
     const auto r = static_cast<std::size_t>(&region - regions.data());
     std::vector<proxy::ProxyEllipsoid> ellipsoids;
     if (!skins[r].balls.empty()) ellipsoids = follow(inner, skin, skins, r, share);
-    return cover_region(inner, skin, items, region, std::move(ellipsoids));
+    FittedRegion covered = cover_region(inner, skin, items, region, std::move(ellipsoids));
+    if (share > kFewEllipsoids) return covered;
+    FittedRegion enclosed = enclose_region(inner, items, region, share, skin.stature_m);
+    return total_volume(enclosed) < total_volume(covered) ? enclosed : covered;
   };
   return run_region_tasks(context, regions, tasks);
 }
