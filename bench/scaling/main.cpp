@@ -1,6 +1,6 @@
 // How does each stage scale with workers, what is the serial part, and what does scheduling cost?
 //
-//     build/release/bench/scaling [--quick] [--workers N] [--stage TEXT] [--out FOLDER]
+//     build/release/bench/scaling [--quick] [--workers N] [--size N] [--stage TEXT] [--out FOLDER]
 //
 // FOLDER gets scaling.md, scaling.csv and scaling.svg.
 #include <cstdio>
@@ -19,10 +19,13 @@ int main(int argc, char** argv) {
   CLI::App app("Strong and weak scaling of every stage, and the cost of scheduling");
   bool quick = false, limits_only = false;
   int workers = static_cast<int>(std::thread::hardware_concurrency());
+  std::size_t elements = 0;
   std::string only, folder;
   app.add_flag("--quick", quick, "Small sizes, short runs");
   app.add_flag("--limits", limits_only, "Only what the blocks allow, which a busy machine does not disturb");
   app.add_option("--workers", workers, "Most workers to try")->check(CLI::Range(1, 256));
+  app.add_option("--size", elements, "Elements of every stage, in place of each one's own number")
+      ->check(CLI::Range(1000, 10'000'000));
   app.add_option("--stage", only, "Only stages whose name holds this text");
   app.add_option("--out", folder, "Write scaling.md, scaling.csv and scaling.svg into this folder");
   CLI11_PARSE(app, argc, argv);
@@ -37,7 +40,7 @@ int main(int argc, char** argv) {
   for (const Stage& stage : all_stages()) {
     if (stage.name.find(only) == std::string::npos) continue;
     std::fprintf(stderr, "%s ...\n", stage.name.c_str());
-    const std::size_t size = quick ? stage.quick_size : stage.full_size;
+    const std::size_t size = elements ? elements : quick ? stage.quick_size : stage.full_size;
     if (!stage.draws_blocks) {
       limits.push_back({stage.name, stage.element, size, measure_work_span(stage.make(size), workers)});
     }

@@ -4,6 +4,7 @@
 #include <array>
 
 #include <bodice/engine/random.hpp>
+#include <bodice_test/executors.hpp>
 
 #include "made.hpp"
 #include "remesh.hpp"
@@ -186,7 +187,7 @@ TEST_CASE("any number of workers gives the same bits") {
   const auto serial = analyse(truth.mesh);
   REQUIRE(serial.ok());
   for (const int workers : {2, 4}) {
-    const auto executor = engine::make_tbb_executor(workers);
+    const auto executor = bodice_test::make_threads(workers);
     engine::Context context;
     context.executor = executor.get();
     const auto parallel = analyse(truth.mesh, context);

@@ -1,5 +1,6 @@
 // Determinism, memory, rest and layers.
 #include <doctest/doctest.h>
+#include <bodice_test/executors.hpp>
 
 #include <atomic>
 #include <cstdlib>
@@ -52,7 +53,7 @@ std::uint64_t hash_after(engine::Executor& executor, int frames) {
 TEST_CASE("a garment in gusts has the same bits for any number of workers") {
   const std::uint64_t serial = hash_after(engine::inline_executor(), 12);
   for (const int workers : {1, 2, 3, 7}) {
-    CHECK(hash_after(*engine::make_tbb_executor(workers), 12) == serial);
+    CHECK(hash_after(*bodice_test::make_threads(workers), 12) == serial);
   }
 }
 

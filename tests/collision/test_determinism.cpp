@@ -3,6 +3,7 @@
 
 #include <bodice/engine/hash.hpp>
 #include <bodice_test/allocations.hpp>
+#include <bodice_test/executors.hpp>
 
 #include "scenes.hpp"
 
@@ -67,7 +68,7 @@ TEST_CASE("the same bits for any number of workers, with and without a workspace
     for (const bool with_workspace : {false, true}) {
       const std::uint64_t serial = run(engine::inline_executor(), with_workspace);
       for (const int workers : {1, 2, 5})
-        CHECK(run(*engine::make_tbb_executor(workers), with_workspace) == serial);
+        CHECK(run(*bodice_test::make_threads(workers), with_workspace) == serial);
     }
   }
 }

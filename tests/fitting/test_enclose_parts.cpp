@@ -6,6 +6,7 @@
 
 #include <bodice/engine/executor.hpp>
 #include <bodice/fitting/enclose_parts.hpp>
+#include <bodice_test/executors.hpp>
 
 #include "shapes.hpp"
 
@@ -76,7 +77,7 @@ TEST_CASE("enclose parts: only the wanted parts, and the same bits for any worke
   CHECK(head->ellipsoids().size() == 1);
   const auto all = fitting::enclose_parts({}, skin.view(), kAll);
   for (const int workers : {1, 2, 3, 7}) {
-    const auto executor = engine::make_tbb_executor(workers);
+    const auto executor = bodice_test::make_threads(workers);
     CHECK(fitting::enclose_parts({.executor = executor.get()}, skin.view(), kAll)->hash() == all->hash());
   }
   const auto none = fitting::enclose_parts({}, skin.view(), bit(Part::kCalfR));

@@ -9,6 +9,7 @@
 #include <bodice/engine/executor.hpp>
 #include <bodice/fitting/fit.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
+#include <bodice_test/executors.hpp>
 
 #include "shapes.hpp"
 
@@ -127,7 +128,7 @@ TEST_CASE("fit: the same bits for 1, 2, 3 and 7 workers, every tier") {
     const auto serial = fitting::fit({}, skin.view(), options_for(tier, 12));
     REQUIRE(serial.ok());
     for (const int workers : {2, 3, 7}) {
-      const auto executor = engine::make_tbb_executor(workers);
+      const auto executor = bodice_test::make_threads(workers);
       engine::Context context;
       context.executor = executor.get();
       const auto result = fitting::fit(context, skin.view(), options_for(tier, 12));

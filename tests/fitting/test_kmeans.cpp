@@ -5,6 +5,7 @@
 #include <bodice/engine/executor.hpp>
 #include <bodice/engine/random.hpp>
 #include <bodice/fitting/kmeans.hpp>
+#include <bodice_test/executors.hpp>
 
 using namespace bodice;
 using fitting::Clusters;
@@ -59,7 +60,7 @@ TEST_CASE("kmeans: the same bits for any number of workers, at any scale and off
     const std::vector<Vec3> centers(points.begin(), points.begin() + 9);
     const Clusters serial = fitting::kmeans({}, points, {}, centers, {1e-3 * scale, 50});
     for (const int workers : {2, 3, 7}) {
-      const auto executor = engine::make_tbb_executor(workers);
+      const auto executor = bodice_test::make_threads(workers);
       engine::Context context;
       context.executor = executor.get();
       const Clusters found = fitting::kmeans(context, points, {}, centers, {1e-3 * scale, 50});

@@ -9,6 +9,7 @@
 #include <bodice/engine/executor.hpp>
 #include <bodice/engine/trace.hpp>
 #include <bodice/fitting/fit.hpp>
+#include <bodice_test/executors.hpp>
 
 #include "shapes.hpp"
 
@@ -48,7 +49,7 @@ TEST_CASE("part tasks: each wanted region has a task of its own, by name, and no
 TEST_CASE("part tasks: parts are handed on once each, and the result is made of them") {
   const auto skin = three_ellipsoids();
   for (const int workers : {1, 2, 5}) {
-    const auto executor = engine::make_tbb_executor(workers);
+    const auto executor = bodice_test::make_threads(workers);
     engine::Context context;
     context.executor = executor.get();
     FitOptions options = options_for(Tier::kPaper);
@@ -75,7 +76,7 @@ TEST_CASE("part tasks: parts are handed on once each, and the result is made of 
 
 TEST_CASE("part tasks: a fit of some parts gives their regions the same bits as a fit of the whole body") {
   const auto skin = three_ellipsoids();
-  const auto executor = engine::make_tbb_executor(3);
+  const auto executor = bodice_test::make_threads(3);
   engine::Context context;
   context.executor = executor.get();
   for (const Tier tier : {Tier::kPaper, Tier::kSolid})
@@ -131,7 +132,7 @@ TEST_CASE("part tasks: parts are handed on in one order, whoever ends first") {
   for (const Tier tier : {Tier::kPaper, Tier::kSolid})
     for (const int workers : {1, 2, 5})
       for (int repeat = 0; repeat < 5; ++repeat) {
-        const auto executor = engine::make_tbb_executor(workers);
+        const auto executor = bodice_test::make_threads(workers);
         engine::Context context;
         context.executor = executor.get();
         FitOptions options = options_for(tier);

@@ -2,6 +2,7 @@
 
 #include <bodice/engine/random.hpp>
 #include <bodice/geodesic/distance.hpp>
+#include <bodice_test/executors.hpp>
 
 #include "shapes.hpp"
 
@@ -117,7 +118,7 @@ TEST_CASE("any number of workers gives the same bits") {
   const std::array<geometry::Index, 5> sources{0, 17, 300, 512, 1000};
   const auto serial = geodesic::distances_each({}, graph, sources);
   for (const int workers : {2, 4}) {
-    const auto executor = engine::make_tbb_executor(workers);
+    const auto executor = bodice_test::make_threads(workers);
     engine::Context context;
     context.executor = executor.get();
     CHECK(geodesic::distances_each(context, graph, sources) == serial);

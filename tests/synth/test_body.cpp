@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <bodice/engine/hash.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
+#include <bodice_test/executors.hpp>
 
 #include "mesh_facts.hpp"
 
@@ -199,7 +200,7 @@ TEST_CASE("the average body is its own mirror image") {
 
 TEST_CASE("the same options give the same bits for any number of workers") {
   const BodyOptions options{.pose = Pose::kRandom, .vertices = 5000, .seed = 11};
-  const auto workers = engine::make_tbb_executor(3);
+  const auto workers = bodice_test::make_threads(3);
   engine::Context parallel;
   parallel.executor = workers.get();
   const std::uint64_t serial = hash(made(options));

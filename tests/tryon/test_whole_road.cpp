@@ -10,6 +10,7 @@
 #include <bodice/synth/garment.hpp>
 #include <bodice/tryon/report.hpp>
 #include <bodice/tryon/wearing.hpp>
+#include <bodice_test/executors.hpp>
 
 using namespace bodice;
 
@@ -37,7 +38,7 @@ tryon::WornGarment skirt_for(const engine::Context& context, const tryon::Segmen
 }  // namespace
 
 TEST_CASE("a generated body is measured, dressed and draped") {
-  const auto executor = engine::make_tbb_executor(2);
+  const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   const tryon::PreparedBody body = prepare(context, proxy::Tier::kSolid);
   CHECK(body.skin.anatomy.stature_m == doctest::Approx(1.68).epsilon(0.02));
@@ -63,7 +64,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
 TEST_CASE("the same bits for any number of workers, from body to last frame") {
   std::vector<std::uint64_t> proxies, frames;
   for (const int workers : {1, 2, 3}) {
-    const auto executor = engine::make_tbb_executor(workers);
+    const auto executor = bodice_test::make_threads(workers);
     const engine::Context context{.executor = executor.get()};
     const tryon::PreparedBody body = prepare(context, proxy::Tier::kSolid);
     const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 5});
@@ -158,7 +159,7 @@ TEST_CASE("labels are one line a vertex, in the input's units") {
 }
 
 TEST_CASE("an ellipsoid carries the part of the skin that it stands for, wherever the fit moved it") {
-  const auto executor = engine::make_tbb_executor(2);
+  const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   const tryon::PreparedBody body = prepare(context, proxy::Tier::kTight);
   const geometry::TriMesh& mesh = body.skin.input.skin;
@@ -169,5 +170,6 @@ TEST_CASE("an ellipsoid carries the part of the skin that it stands for, whereve
   }
   // Those on a border may go either way.
   CHECK(agree > 0.8 * static_cast<double>(body.fit.proxy.ellipsoids().size()));
-  for (const fitting::PartFit& part : body.fit.parts) CHECK_MESSAGE(part.ellipsoids > 0, body::name(part.part));
+  for (const fitting::PartFit& part : body.fit.parts)
+    CHECK_MESSAGE(part.ellipsoids > 0, body::name(part.part));
 }
