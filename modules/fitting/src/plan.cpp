@@ -84,7 +84,6 @@ double predicted_gap_m(Tier tier, int ellipsoids, double stature_m) {
 Dial::Dial(const FitOptions& options, double stature_m)
     : target_m_(options.target_error_m),
       most_(options.max_ellipsoids.value_or(kMostEllipsoids)),
-      stature_m_(stature_m),
       tier_is_free_(!options.tier) {
   plan_ = {options.tier.value_or(Tier::kRelief), std::min(most_, kDefaultEllipsoids), kReliefBytes};
   if (options.max_ellipsoids) plan_.count = *options.max_ellipsoids;

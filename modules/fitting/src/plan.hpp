@@ -53,7 +53,6 @@ class Dial {
 
   std::optional<double> target_m_;
   int most_ = kMostEllipsoids;
-  double stature_m_ = 0.0;
   bool tier_is_free_ = false;
   Plan plan_;
   std::vector<Try> tries_;  ///< with the plan's tier and, for relief, its count

@@ -3,7 +3,9 @@
 #pragma once
 
 // sqrt of a negative number cannot happen in these loops; without errno they become vector code.
+#if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-math-errno", "no-trapping-math")
+#endif
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
