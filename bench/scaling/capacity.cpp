@@ -20,7 +20,7 @@ double seconds(Clock::time_point begin, Clock::time_point end) {
 float churn(float seed) {
   std::array<float, 64> x;
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = seed + static_cast<float>(i);
-  for (int round = 0; round < 50'000; ++round)
+  for (int round = 0; round < 400'000; ++round)
     for (float& v : x) v = v * 0.999f + 0.25f;
   return x[0];
 }

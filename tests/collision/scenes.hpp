@@ -47,6 +47,16 @@ inline std::vector<Ellipsoid> random_ellipsoids(std::uint64_t seed, int count, d
   return result;
 }
 
+/// A limb: a chain of overlapping ellipsoids along x, 5 cm thick.
+inline std::vector<Ellipsoid> limb() {
+  std::vector<Ellipsoid> shapes(9);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    shapes[k].center.x() = 0.08 * (static_cast<double>(k) - 4.0);
+    shapes[k].radii = Vec3(0.08, 0.05, 0.045);
+  }
+  return shapes;
+}
+
 inline bodice::proxy::BodyProxy::Data data_of(const std::vector<Ellipsoid>& shapes) {
   bodice::proxy::BodyProxy::Data data;
   data.tier = bodice::proxy::Tier::kSolid;

@@ -50,16 +50,6 @@ std::vector<Ellipsoid> ball(double radius_m) {
   return shapes;
 }
 
-/// A limb: a chain of overlapping ellipsoids along x, 5 cm thick.
-std::vector<Ellipsoid> limb() {
-  std::vector<Ellipsoid> shapes(9);
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    shapes[k].center.x() = 0.08 * (static_cast<double>(k) - 4.0);
-    shapes[k].radii = Vec3(0.08, 0.05, 0.045);
-  }
-  return shapes;
-}
-
 }  // namespace
 
 TEST_CASE("after the nearest response no particle is inside, whatever the union looks like") {

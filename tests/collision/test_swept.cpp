@@ -41,16 +41,6 @@ bool pierces_any(const std::vector<Ellipsoid>& shapes, const Vec3& from, const V
   return false;
 }
 
-/// A limb: a chain of overlapping ellipsoids along x, 5 cm thick.
-std::vector<Ellipsoid> limb() {
-  std::vector<Ellipsoid> shapes(9);
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    shapes[k].center.x() = 0.08 * (static_cast<double>(k) - 4.0);
-    shapes[k].radii = Vec3(0.08, 0.05, 0.045);
-  }
-  return shapes;
-}
-
 struct Shots {
   Cloud cloud;
   std::vector<Vec3> from, to;  ///< world

@@ -4,6 +4,7 @@
 #include <bodice/fitting/mvee.hpp>
 
 #include "check_input.hpp"
+#include "refine.hpp"
 #include "skin_hash.hpp"
 
 namespace bodice::fitting {
@@ -26,7 +27,7 @@ engine::Result<proxy::BodyProxy> enclose_parts(const engine::Context& context, c
                                                std::uint32_t parts) {
   if (auto ok = check_input(skin, {.parts = parts}); !ok) return ok.error();
   // Loose on purpose: the gap is centimetres, so a volume within a percent of the least will do.
-  const MveeOptions loose{.volume_tolerance = 1e-2, .min_radius_m = 3e-4 * skin.stature_m};
+  const MveeOptions loose{.volume_tolerance = 1e-2, .min_radius_m = kLeastRadius * skin.stature_m};
   const std::vector<std::uint32_t> bits = holders(skin);
   std::vector<std::vector<Vec3>> points(body::kPartCount);
   std::vector<geometry::Ellipsoid> shapes(body::kPartCount);

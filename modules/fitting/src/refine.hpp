@@ -46,6 +46,14 @@ struct RefineOptions {
   bool reclassify = false;    ///< eq. (8)
 };
 
+/// No enclosing ellipsoid is thinner: a fraction of stature, half a millimetre.
+inline constexpr double kLeastRadius = 3e-4;
+
+/// Pruned stop: centres that move less than 2 parts in 1000 of stature no longer change which ellipsoid fits.
+inline RefineOptions refine_options(double stature_m) {
+  return {.sigma_m = 2e-3 * stature_m, .min_radius_m = kLeastRadius * stature_m};
+}
+
 struct Cluster {
   std::vector<Index> items;  ///< ascending
   geometry::Ellipsoid ellipsoid;

@@ -68,10 +68,8 @@ engine::Result<Draft> fit_paper(const engine::Context& context, const LabelledSk
                                 const FitOptions& options, int count) {
   const Items items = vertex_items(skin);
   const std::vector<Region> regions = make_regions(items, count);
-  // Pruned stop: centres that move less than this no longer change which ellipsoid fits best.
-  const RefineOptions refine{.sigma_m = 2e-3 * skin.stature_m,
-                             .min_radius_m = 3e-4 * skin.stature_m,
-                             .reclassify = options.reclassify_points};
+  RefineOptions refine = refine_options(skin.stature_m);
+  refine.reclassify = options.reclassify_points;
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
   const auto fitted = refine_regions(context, items, regions, refine, mu, count, options);
   if (!fitted) return fitted.error();

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kIterations = 14;
 constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
-constexpr double kMinRadius = 3e-4;       // of stature
 constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
 constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
 /// Up to so many in a region, growth after a descent may cost more than enclosing clusters of triangles.
@@ -58,7 +57,7 @@ proxy::ProxyEllipsoid speck(const Items& items, const Region& region, double sta
   proxy::ProxyEllipsoid e;
   e.part = items.part[region.items.front()];
   e.shape.center = items.where[region.items.front()];
-  e.shape.radii.setConstant(kMinRadius * stature_m);
+  e.shape.radii.setConstant(kLeastRadius * stature_m);
   return e;
 }
 
@@ -79,8 +78,7 @@ FittedRegion enclose_region(const engine::Context& context, const Items& items, 
                             int count, double stature_m) {
   Region from = region;
   if (static_cast<int>(from.seeds.size()) > count) from.seeds = {items.where[region.items.front()]};
-  const RefineOptions refine{.sigma_m = 2e-3 * stature_m, .min_radius_m = kMinRadius * stature_m};
-  Refinement refinement(context, items, from, refine);
+  Refinement refinement(context, items, from, refine_options(stature_m));
   refinement.run(0.0, static_cast<std::size_t>(count));
   FittedRegion fitted;
   for (const Cluster& c : refinement.clusters()) fitted.ellipsoids.push_back({c.ellipsoid, c.part});
@@ -135,9 +133,9 @@ engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSk
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
   Draft draft;
   draft.data.tier = proxy::Tier::kSolid;
-  const RefineOptions refine{.sigma_m = 2e-3 * skin.stature_m, .min_radius_m = kMinRadius * skin.stature_m};
-  const auto fitted = mu.given() ? refine_regions(context, items, regions, refine, mu, count, options)
-                                 : cover_regions(context, skin, items, regions, count, options);
+  const auto fitted =
+      mu.given() ? refine_regions(context, items, regions, refine_options(skin.stature_m), mu, count, options)
+                 : cover_regions(context, skin, items, regions, count, options);
   if (!fitted) return fitted.error();
   if (mu.given()) report_thresholds(regions, *fitted, mu, draft);
   for (const FittedRegion& f : *fitted)

@@ -38,7 +38,8 @@ inline constexpr std::uint32_t kAllParts = (1u << body::kPartCount) - 1;
 
 struct FitOptions {
   std::optional<proxy::Tier> tier;  ///< absent: what the target error or the budget asks for, else relief
-  /// Mean gap wanted, met within a fifth of it; gives tier, count, size of tables and thresholds.
+  /// Mean gap wanted: gives tier, count, size of tables and thresholds. The search aims within a tenth of it;
+  /// a gap above it by more than a fifth is the warning target-error-not-reached.
   std::optional<double> target_error_m;
   std::optional<int> max_ellipsoids;             ///< of the whole body, whatever `parts` says
   std::optional<double> budget_us;               ///< collision time a frame for 10k particles
