@@ -173,3 +173,13 @@ TEST_CASE("an ellipsoid carries the part of the skin that it stands for, whereve
   for (const fitting::PartFit& part : body.fit.parts)
     CHECK_MESSAGE(part.ellipsoids > 0, body::name(part.part));
 }
+
+TEST_CASE("solid with very few ellipsoids encloses the parts instead of growing far beyond them") {
+  auto skin = tryon::segment_builtin({}, {}, {});
+  REQUIRE(skin.ok());
+  const auto solid =
+      fitting::fit({}, tryon::labelled(*skin), {.tier = proxy::Tier::kSolid, .max_ellipsoids = 8});
+  REQUIRE(solid.ok());
+  CHECK(solid->accuracy.gap_m.mean < 0.06);
+  CHECK(solid->accuracy.skin_outside_depth_m <= 1e-9);
+}
