@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
 
   const Effort effort{
       .max_workers = workers, .seconds_per_sample = quick ? 0.05 : 0.4, .patience = quick ? 2.0 : 5.0};
-  const Origin origin = find_origin();
+  const Origin origin = bench::find_origin();
   const std::vector<Cost> costs =
       only.empty() ? scheduling_costs(workers, quick ? 20 : 200) : std::vector<Cost>{};
   std::vector<Limit> limits;

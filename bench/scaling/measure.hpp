@@ -3,9 +3,13 @@
 #include <string>
 #include <vector>
 
+#include <bench_support/stopwatch.hpp>
+
 #include "stage.hpp"
 
 namespace bodice_bench {
+
+using bench::Stopwatch;
 
 /// A stage at one size with one number of workers.
 struct Sample {
@@ -35,16 +39,5 @@ std::vector<Sample> weak_scaling(const Stage& stage, std::size_t size, const Eff
 
 /// Amdahl: s of the least squares fit of min_ms(n) / min_ms(1) = s + (1 - s) / n over one stage's samples.
 double serial_fraction(const std::vector<Sample>& samples);
-
-/// Wall time, and processor time of this process.
-class Stopwatch {
- public:
-  Stopwatch();
-  double wall_ms() const;
-  double cpu_ms() const;
-
- private:
-  double wall_, cpu_;
-};
 
 }  // namespace bodice_bench

@@ -26,11 +26,6 @@ std::string mark(const Sample& sample) {
   return text;
 }
 
-std::string title(const Origin& origin) {
-  return "commit " + origin.commit + ", " + origin.compiler + ", " + origin.cpu + ", " +
-         std::to_string(origin.hardware_threads) + " hardware threads";
-}
-
 std::string cost_table(const std::vector<Cost>& costs) {
   std::string text =
       "## Cost of scheduling, beside raw TBB in the same run\n\n"

@@ -3,18 +3,15 @@
 #include <string>
 #include <vector>
 
+#include <bench_support/origin.hpp>
+
 #include "measure.hpp"
 #include "scheduling_cost.hpp"
 #include "work_span.hpp"
 
 namespace bodice_bench {
 
-/// Where the numbers come from: commit, compiler, processor, date.
-struct Origin {
-  std::string commit, compiler, cpu;
-  unsigned hardware_threads = 0;
-};
-Origin find_origin();
+using bench::Origin;
 
 /// One row a sample; the origin stands in every row.
 std::string to_csv(const std::vector<std::vector<Sample>>& stages, const Origin& origin);

@@ -1,9 +1,9 @@
+#include "bench_support/stopwatch.hpp"
+
 #include <chrono>
 #include <ctime>
 
-#include "measure.hpp"
-
-namespace bodice_bench {
+namespace bench {
 namespace {
 
 double now_s() {
@@ -24,4 +24,4 @@ double Stopwatch::cpu_ms() const {
   return 1e3 * (own_cpu_s() - cpu_);
 }
 
-}  // namespace bodice_bench
+}  // namespace bench

@@ -1,12 +1,12 @@
+#include "bench_support/origin.hpp"
+
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <thread>
 
-#include "report.hpp"
-
-namespace bodice_bench {
+namespace bench {
 namespace {
 
 // The first line that a command prints; empty if it cannot be run.
@@ -38,9 +38,15 @@ Origin find_origin() {
 #else
   origin.compiler = "g++ " __VERSION__;
 #endif
+  origin.flags = BENCH_FLAGS;
   origin.cpu = cpu_name();
   origin.hardware_threads = std::thread::hardware_concurrency();
   return origin;
 }
 
-}  // namespace bodice_bench
+std::string title(const Origin& origin) {
+  return "commit " + origin.commit + ", " + origin.compiler + ", " + origin.cpu + ", " +
+         std::to_string(origin.hardware_threads) + " hardware threads";
+}
+
+}  // namespace bench

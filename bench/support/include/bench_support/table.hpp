@@ -1,0 +1,56 @@
+#pragma once
+
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <bench_support/origin.hpp>
+
+namespace bench {
+
+/// A cell of a table: text, a number, or nothing.
+class Cell {
+ public:
+  Cell() = default;
+  Cell(std::string text) : text_(std::move(text)) {}
+  Cell(std::string_view text) : text_(text) {}
+  Cell(const char* text) : text_(text) {}
+  Cell(std::integral auto whole) : text_(std::to_string(whole)) {}
+  Cell(double number) : is_real_(true), number_(number) {}
+
+  /// Numbers with this many significant digits.
+  std::string text(int digits) const;
+
+ private:
+  std::string text_;
+  bool is_real_ = false;
+  double number_ = 0.0;
+};
+
+/// Rows under named columns. A column whose name ends in _ns, _us, _ms or _s holds times and what follows
+/// from them: only these may differ from run to run.
+class Table {
+ public:
+  /// `name` is the CSV's, without its ending; `caption` one sentence that says what is in it.
+  Table(std::string name, std::string caption, std::vector<std::string> columns)
+      : name_(std::move(name)), caption_(std::move(caption)), columns_(std::move(columns)) {}
+
+  /// Cells beyond the given ones are empty.
+  void add(std::vector<Cell> row);
+
+  const std::string& name() const { return name_; }
+  const std::string& caption() const { return caption_; }
+  bool empty() const { return rows_.empty(); }
+
+  /// Comment lines that say where the numbers come from, a line of names, a line a row.
+  std::string csv(const Origin& origin, const std::string& command) const;
+  std::string markdown() const;
+
+ private:
+  std::string name_, caption_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<Cell>> rows_;
+};
+
+}  // namespace bench

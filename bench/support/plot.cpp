@@ -1,0 +1,120 @@
+#include "bench_support/plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace bench {
+namespace {
+
+constexpr double kWidth = 860, kHeight = 560, kLeft = 78, kRight = 200, kTop = 48, kBottom = 78;
+constexpr const char* kColours[] = {"#1f4e8c", "#d1495b", "#2e8b57", "#e08a00", "#6a4c93",
+                                    "#00798c", "#9c6644", "#444444", "#c0399f"};
+
+bool shows(const PlotPoint& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && p.x > 0.0 && p.y > 0.0;
+}
+
+/// A logarithmic axis from `low` to `high`, drawn from pixel `from` to pixel `to`.
+struct Axis {
+  double low = std::numeric_limits<double>::infinity(), high = 0.0, from = 0.0, to = 0.0;
+
+  void extend(double value) { low = std::min(low, value), high = std::max(high, value); }
+  void finish() {
+    if (!(low <= high)) low = high = 1.0;
+    low /= 1.3, high *= 1.3;
+  }
+  double at(double value) const { return from + (to - from) * std::log(value / low) / std::log(high / low); }
+
+  /// 1, 2 and 5 times powers of ten; powers alone over many decades.
+  std::vector<double> ticks() const {
+    const bool dense = high / low < 2e3;
+    std::vector<double> values;
+    for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high; ++power)
+      for (const double digit : {1.0, 2.0, 5.0}) {
+        const double value = digit * std::pow(10.0, power);
+        if (value >= low && value <= high && (dense || digit == 1.0)) values.push_back(value);
+      }
+    return values;
+  }
+};
+
+std::string escaped(const std::string& text) {
+  std::string safe;
+  for (const char c : text)
+    safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return safe;
+}
+
+template <class... Args>
+std::string format(const char* pattern, Args... args) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, args...);
+  return text;
+}
+
+std::string words(double x, double y, const std::string& text, const char* style) {
+  return format("<text x='%.1f' y='%.1f' %s>", x, y, style) + escaped(text) + "</text>\n";
+}
+
+std::string frame(const Plot& plot, const Axis& x, const Axis& y) {
+  std::string svg = format(
+      "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f' width='%.0f' height='%.0f' "
+      "font-family='sans-serif' font-size='13'>\n<rect width='100%%' height='100%%' fill='white'/>\n",
+      kWidth, kHeight, kWidth, kHeight);
+  for (const double value : x.ticks()) {
+    svg += format("<path stroke='#ddd' d='M%.1f %.1fV%.1f'/>\n", x.at(value), y.from, y.to);
+    svg += words(x.at(value), kHeight - kBottom + 18, format("%g", value), "text-anchor='middle'");
+  }
+  for (const double value : y.ticks()) {
+    svg += format("<path stroke='#ddd' d='M%.1f %.1fH%.1f'/>\n", x.from, y.at(value), x.to);
+    svg += words(kLeft - 8, y.at(value) + 4, format("%g", value), "text-anchor='end'");
+  }
+  svg += words(kLeft, 26, plot.title, "font-size='16'");
+  svg += words(0.5 * (x.from + x.to), kHeight - kBottom + 40, plot.x_label, "text-anchor='middle'");
+  svg += format("<g transform='translate(20 %.1f) rotate(-90)'>", 0.5 * (y.from + y.to)) +
+         words(0, 0, plot.y_label, "text-anchor='middle'") + "</g>\n";
+  return svg + words(kLeft, kHeight - 12, plot.footer, "font-size='10' fill='#777'");
+}
+
+std::string draw(const PlotSeries& series, const char* colour, const Axis& x, const Axis& y) {
+  std::string path, marks;
+  for (const PlotPoint& p : series.points) {
+    if (!shows(p)) continue;
+    path += format("%s%.1f %.1f", path.empty() ? "M" : "L", x.at(p.x), y.at(p.y));
+    marks += format("<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' fill='%s'/>\n", x.at(p.x),
+                    y.at(p.y), colour, series.hollow ? "white" : colour);
+    if (!p.label.empty())
+      marks +=
+          words(x.at(p.x) + 6, y.at(p.y) - 6, p.label, format("font-size='10' fill='%s'", colour).c_str());
+  }
+  if (series.line)
+    path = format("<path fill='none' stroke-width='1.5' stroke='%s' d='", colour) + path + "'/>\n";
+  return (series.line ? path : "") + marks;
+}
+
+}  // namespace
+
+std::string to_svg(const Plot& plot) {
+  Axis x, y;
+  x.from = kLeft, x.to = kWidth - kRight, y.from = kHeight - kBottom, y.to = kTop;
+  for (const PlotSeries& series : plot.series)
+    for (const PlotPoint& p : series.points)
+      if (shows(p)) x.extend(p.x), y.extend(p.y);
+  x.finish(), y.finish();
+  std::string svg = frame(plot, x, y);
+  double legend_y = kTop + 10;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const PlotSeries& series = plot.series[i];
+    const char* const colour = kColours[i % std::size(kColours)];
+    svg += draw(series, colour, x, y);
+    svg += format("<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' fill='%s'/>\n",
+                  kWidth - kRight + 18, legend_y - 4, colour, series.hollow ? "white" : colour);
+    svg += words(kWidth - kRight + 28, legend_y, series.name, "");
+    legend_y += 20;
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace bench
