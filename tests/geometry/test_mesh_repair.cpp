@@ -170,6 +170,43 @@ TEST_CASE("every hostile mesh keeps the promises or is refused with a sentence")
   }
 }
 
+TEST_CASE("fins are dropped from a skin, walls inside it stay, and a garment keeps its flaps") {
+  const TriMesh ball = icosphere(1.0, 3);
+  TriMesh finned = ball;
+  const auto tip = static_cast<Index>(ball.positions.size() / 2);
+  for (std::size_t f = 0; f < ball.triangles.size(); f += 37) {
+    const Triangle& at = ball.triangles[f];
+    if (at[0] != tip && at[1] != tip) finned.triangles.push_back({at[0], at[1], tip});
+  }
+  const RepairedMesh clean = repaired(finned);
+  check_promises(finned, clean);
+  CHECK(clean.mesh.triangles == repaired(ball).mesh.triangles);
+  CHECK(clean.report.warnings.size() == 1);
+  CHECK(clean.report.warnings.front().code == "fins");
+
+  auto kept = repair(Context{}, finned, {.drop_fins = false});
+  REQUIRE(kept.ok());
+  CHECK(kept->mesh.triangles.size() == finned.triangles.size());
+
+  // A can with a wall across its middle and a window above it.
+  TriMesh walled = cylinder(1.0, 2.0, 24, 4);
+  std::vector<Index> ring;
+  for (Index v = 0; v < walled.positions.size(); ++v)
+    if (std::abs(walled.positions[v].y()) < 1e-9) ring.push_back(v);
+  REQUIRE(ring.size() == 24);
+  const auto angle = [&](Index v) { return std::atan2(walled.positions[v].z(), walled.positions[v].x()); };
+  std::sort(ring.begin(), ring.end(), [&](Index i, Index j) { return angle(i) < angle(j); });
+  const auto window = std::find_if(walled.triangles.begin(), walled.triangles.end(), [&](const Triangle& t) {
+    return walled.positions[t[0]].y() + walled.positions[t[1]].y() + walled.positions[t[2]].y() > 0.9;
+  });
+  REQUIRE(window != walled.triangles.end());
+  walled.triangles.erase(window);
+  for (std::size_t k = 2; k < ring.size(); ++k) walled.triangles.push_back({ring[0], ring[k - 1], ring[k]});
+  const RepairedMesh two_rooms = repaired(walled);
+  CHECK(two_rooms.mesh.triangles.size() == walled.triangles.size());
+  CHECK(two_rooms.report.non_manifold_edges == ring.size());
+}
+
 TEST_CASE("repair does not depend on where the input's vertices are numbered") {
   const TriMesh mesh = soup(icosphere(1.0, 3));
   const RepairedMesh a = repaired(mesh);
@@ -201,10 +238,13 @@ TEST_CASE("the awkward files come out as data/README.md describes them") {
     int euler;
   };
   // Damage that README counts away: 2 for each closed component of genus 0.
-  const Row rows[] = {
-      {"awkward/f_avg_far_origin.obj", 3000, 1, 2},    {"awkward/f_avg_inverted.obj", 3000, 1, 2},
-      {"awkward/f_avg_mixed_winding.obj", 3000, 1, 2}, {"awkward/f_avg_soup.stl", 3000, 1, 2},
-      {"awkward/f_avg_zup_cm.obj", 3000, 1, 2},        {"bodies/f_avg_rest.obj", 13380, 1, 2}};
+  const Row rows[] = {{"awkward/f_avg_far_origin.obj", 3000, 1, 2},
+                      {"awkward/f_avg_inverted.obj", 3000, 1, 2},
+                      {"awkward/f_avg_mixed_winding.obj", 3000, 1, 2},
+                      {"awkward/f_avg_soup.stl", 3000, 1, 2},
+                      {"awkward/f_avg_zup_cm.obj", 3000, 1, 2},
+                      {"bodies/f_avg_rest.obj", 13380, 1, 2},
+                      {"awkward/f_avg_nonmanifold_degenerate.obj", 3000, 1, 2}};
   for (const Row& row : rows) {
     const auto file = data_file(row.file);
     if (!file) continue;
@@ -218,8 +258,8 @@ TEST_CASE("the awkward files come out as data/README.md describes them") {
     CHECK(got.report.boundary_edges == 0);
     CHECK(signed_volume(got.mesh) > 0.0);
   }
-  for (const char* name : {"awkward/f_avg_holes.obj", "awkward/f_avg_nonmanifold_degenerate.obj",
-                           "awkward/m_avg_as_exported_dm.obj", "awkward/makehuman_base_raw_dm_helpers.obj"}) {
+  for (const char* name : {"awkward/f_avg_holes.obj", "awkward/m_avg_as_exported_dm.obj",
+                           "awkward/makehuman_base_raw_dm_helpers.obj"}) {
     const auto file = data_file(name);
     if (!file) continue;
     CAPTURE(name);

@@ -1,31 +1,10 @@
 #include <algorithm>
-#include <numeric>
 
 #include <bodice/geometry/mesh_repair.hpp>
 
+#include "disjoint_sets.hpp"
+
 namespace bodice::geometry {
-namespace {
-
-/// Union-find whose root is the smallest member, so that the result does not depend on the order of unions.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(Index i, Index j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
-}  // namespace
 
 Components connected_components(const TriMesh& mesh) {
   const std::size_t count = mesh.positions.size();

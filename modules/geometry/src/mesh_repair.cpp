@@ -6,6 +6,7 @@
 
 #include <bodice/geometry/adjacency.hpp>
 
+#include "fins.hpp"
 #include "orient.hpp"
 #include "weld.hpp"
 
@@ -26,15 +27,12 @@ bool usable(const Vec3& p) {
 }
 
 struct Counts {
-  std::size_t bad_vertices = 0, bad_triangles = 0, flat = 0, duplicate = 0;
+  std::size_t bad_vertices = 0, bad_triangles = 0, flat = 0, duplicate = 0, fins = 0;
 };
 
 class Repair {
  public:
-  Repair(const TriMesh& input, const RepairOptions& options) : input_(input), options_(options) {
-    out_.vertex_of_input.assign(input.positions.size(), kNoIndex);
-    out_.triangle_of_input.assign(input.triangles.size(), kNoIndex);
-  }
+  Repair(const TriMesh& input, const RepairOptions& options) : input_(input), options_(options) {}
 
   engine::Result<RepairedMesh> run(const engine::Context& context) {
     keep_usable();
@@ -49,7 +47,9 @@ class Repair {
                    "Check that the file holds a surface of triangles or polygons."};
     context.cancel.check();
     compact();
-    orient_and_count();
+    Adjacency adjacency = build_adjacency(out_.mesh);
+    if (options_.drop_fins && drop_fins(adjacency)) adjacency = build_adjacency(out_.mesh);
+    orient_and_count(adjacency);
     warn();
     return std::move(out_);
   }
@@ -69,7 +69,7 @@ class Repair {
     }
   }
 
-  /// Fills vertex_of_input with representatives, numbered by first use, and welded_ with the triangles.
+  /// Fills representative_, numbered by first use, and welded_ with the triangles.
   void weld() {
     std::vector<Vec3> used;
     std::vector<bool> seen(input_.positions.size(), false);
@@ -79,15 +79,16 @@ class Repair {
     });
     diagonal_ = robust_diagonal(used);
     Welder welder(options_.weld_relative * diagonal_, used.size());
+    representative_.assign(input_.positions.size(), kNoIndex);
     for_each_corner([&](Index v) {
-      Index& to = out_.vertex_of_input[v];
+      Index& to = representative_[v];
       if (to == kNoIndex) to = welder.add(input_.positions[v]);
     });
     positions_ = welder.representatives();
     out_.report.welded = used.size() - positions_.size();
     welded_.resize(input_.triangles.size());
     for (Index t : kept_)
-      for (int k = 0; k < 3; ++k) welded_[t][k] = out_.vertex_of_input[input_.triangles[t][k]];
+      for (int k = 0; k < 3; ++k) welded_[t][k] = representative_[input_.triangles[t][k]];
   }
 
   template <class Visit>
@@ -132,6 +133,8 @@ class Repair {
 
   /// Drops the vertices that no kept triangle uses; the rest keep the order of their first use.
   void compact() {
+    out_.mesh = {};
+    out_.triangle_of_input.assign(input_.triangles.size(), kNoIndex);
     std::vector<Index> renumbered(positions_.size(), kNoIndex);
     for (Index t : kept_) {
       Triangle triangle = welded_[t];
@@ -146,16 +149,24 @@ class Repair {
       out_.triangle_of_input[t] = static_cast<Index>(out_.mesh.triangles.size());
       out_.mesh.triangles.push_back(triangle);
     }
-    for (Index& v : out_.vertex_of_input) {
+    out_.vertex_of_input = representative_;
+    for (Index& v : out_.vertex_of_input)
       if (v != kNoIndex) v = renumbered[v];
-      out_.report.dropped_vertices += v == kNoIndex;
-    }
-    out_.report.dropped_triangles = counts_.bad_triangles + counts_.flat + counts_.duplicate;
   }
 
-  void orient_and_count() {
+  /// True if there were any. Beyond them nothing can hang on anything: once is enough.
+  bool drop_fins(const Adjacency& adjacency) {
+    const std::vector<bool> fin = find_fins(out_.mesh, adjacency);
+    counts_.fins = std::erase_if(kept_, [&](Index t) { return fin[out_.triangle_of_input[t]]; });
+    if (counts_.fins > 0) compact();
+    return counts_.fins > 0;
+  }
+
+  void orient_and_count(const Adjacency& adjacency) {
     RepairReport& report = out_.report;
-    const Adjacency adjacency = build_adjacency(out_.mesh);
+    report.dropped_vertices = static_cast<std::size_t>(
+        std::count(out_.vertex_of_input.begin(), out_.vertex_of_input.end(), kNoIndex));
+    report.dropped_triangles = input_.triangles.size() - out_.mesh.triangles.size();
     for (const Edge& edge : adjacency.edges) {
       report.boundary_edges += edge.boundary();
       report.non_manifold_edges += !edge.manifold();
@@ -181,12 +192,13 @@ class Repair {
         "Export the mesh again; the skin may have holes there.");
     say(counts_.flat, "flat-triangles", "triangles without area were dropped.", "");
     say(counts_.duplicate, "duplicate-triangles", "triangles repeated another and were dropped.", "");
+    say(counts_.fins, "fins", "triangles stuck out of the skin as fins and were dropped.", "");
     say(out_.report.flipped_triangles, "flipped-triangles", "triangles faced inward and were turned.", "");
     say(out_.report.boundary_edges, "open-edges",
         "edges have a triangle on one side only: the surface has holes.",
         "Close the holes for exact distances next to them.");
     say(out_.report.non_manifold_edges, "non-manifold-edges", "edges have three or more triangles.",
-        "Remove inner faces and fins.");
+        "Remove inner faces.");
     say(conflicts_, "not-orientable", "edges join triangles that cannot face the same way.",
         "Separate the two sides of the surface there.");
   }
@@ -194,9 +206,10 @@ class Repair {
   const TriMesh& input_;
   const RepairOptions& options_;
   RepairedMesh out_;
-  std::vector<Index> kept_;       // input triangles still in
-  std::vector<Triangle> welded_;  // #input triangles, in representatives
-  std::vector<Vec3> positions_;   // of the representatives
+  std::vector<Index> kept_;            // input triangles still in
+  std::vector<Index> representative_;  // #input vertices: the vertex it is welded to
+  std::vector<Triangle> welded_;       // #input triangles, in representatives
+  std::vector<Vec3> positions_;        // of the representatives
   double diagonal_ = 0.0;
   Counts counts_;
   std::size_t conflicts_ = 0;

@@ -65,7 +65,7 @@ std::vector<int> counts_for_vertices(const Patches& patches, const std::vector<d
 /// Values given at the vertices of `mesh`, at any patch point: bilinear in its grid.
 template <class T>
 T sample(const PatchMesh& mesh, const std::vector<T>& values, const PatchPoint& at) {
-  const auto [nu, nv] = mesh.counts[at.quad];
+  const int nu = mesh.counts[at.quad][0], nv = mesh.counts[at.quad][1];
   const double x = at.u * nu, y = at.v * nv;
   const int c = std::min(static_cast<int>(x), nu - 1), r = std::min(static_cast<int>(y), nv - 1);
   const double s = x - c, t = y - r;

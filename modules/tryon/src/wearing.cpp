@@ -73,7 +73,7 @@ void mark_band(const geometry::TriMesh& mesh, const std::vector<Index>& rim, dou
 }  // namespace
 
 std::vector<Index> held_vertices(const geometry::TriMesh& garment, const SegmentedSkin& body) {
-  const auto welded = geometry::repair({}, garment, {.orient = false});
+  const auto welded = geometry::repair({}, garment, {.orient = false, .drop_fins = false});
   if (!welded) return {};
   const geometry::TriMesh& mesh = welded->mesh;
   const geometry::Components components = geometry::connected_components(mesh);

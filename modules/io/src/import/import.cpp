@@ -98,7 +98,7 @@ engine::Result<ImportedMesh> import_garment(const engine::Context& context, cons
                                        : std::to_string(scene->meshes.size()) + " meshes";
   out.input_vertices = all.positions.size();
   out.input_triangles = all.triangles.size();
-  auto repaired = geometry::repair(context, all, {.weld_relative = 0.0, .orient = false});
+  auto repaired = geometry::repair(context, all, {.weld_relative = 0.0, .orient = false, .drop_fins = false});
   if (!repaired) return in_file(repaired.error(), file);
   out.frame = body_frame;
   out.unit = unit_name(body_frame.metres_per_unit);

@@ -16,12 +16,13 @@ inline constexpr double kWeldRelative = 1e-6;
 struct RepairOptions {
   double weld_relative = kWeldRelative;  ///< of the bounding box's diagonal
   bool orient = true;                    ///< make the winding of each component consistent and outward
+  bool drop_fins = true;                 ///< of a body; on a garment they may be pockets or trims
 };
 
 struct RepairReport {
   std::size_t welded = 0;             ///< input vertices merged into another
   std::size_t dropped_vertices = 0;   ///< NaN, Inf or unreferenced
-  std::size_t dropped_triangles = 0;  ///< zero area, duplicate, or on a dropped vertex
+  std::size_t dropped_triangles = 0;  ///< zero area, duplicate, fin, or on a dropped vertex
   std::size_t flipped_triangles = 0;
   std::size_t components = 0;
   std::size_t boundary_edges = 0;      ///< edges with one triangle

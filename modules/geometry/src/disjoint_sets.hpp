@@ -1,0 +1,31 @@
+// Which members are connected.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include <bodice/geometry/types.hpp>
+
+namespace bodice::geometry {
+
+/// Union-find whose root is the smallest member, so that the result does not depend on the order of unions.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  Index find(Index i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(Index i, Index j) {
+    i = find(i);
+    j = find(j);
+    parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+}  // namespace bodice::geometry

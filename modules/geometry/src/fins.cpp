@@ -1,0 +1,53 @@
+#include "fins.hpp"
+
+#include <algorithm>
+
+#include "disjoint_sets.hpp"
+
+namespace bodice::geometry {
+namespace {
+
+// A hand, the smallest part that a wall could part from a body, has 2 % of the skin and dozens of triangles.
+constexpr double kLargestFin = 0.01;
+constexpr int kFewTriangles = 8;
+
+struct Piece {
+  double area = 0.0;
+  int triangles = 0;
+  bool open = false, hangs = false;
+};
+
+}  // namespace
+
+std::vector<bool> find_fins(const TriMesh& mesh, const Adjacency& adjacency) {
+  const auto count = static_cast<Index>(mesh.triangles.size());
+  DisjointSets sets(count);
+  for (const Edge& edge : adjacency.edges)
+    if (edge.triangle_count == 2) sets.unite(edge.triangle[0], edge.triangle[1]);
+
+  std::vector<Piece> pieces(count);
+  double area = 0.0;
+  for (Index t = 0; t < count; ++t) {
+    Piece& piece = pieces[sets.find(t)];
+    const double of_triangle = 0.5 * area_vector(mesh, t).norm();
+    piece.area += of_triangle;
+    area += of_triangle;
+    ++piece.triangles;
+    for (const Index e : adjacency.edge_of_triangle[t]) {
+      if (e == kNoIndex) continue;
+      piece.open |= adjacency.edges[e].boundary();
+      piece.hangs |= !adjacency.edges[e].manifold();
+    }
+  }
+  const auto largest = std::max_element(pieces.begin(), pieces.end(),
+                                        [](const Piece& a, const Piece& b) { return a.area < b.area; });
+  std::vector<bool> fin(count);
+  for (Index t = 0; t < count; ++t) {
+    const Piece& piece = pieces[sets.find(t)];
+    fin[t] = &piece != &*largest && piece.open && piece.hangs &&
+             (piece.triangles <= kFewTriangles || piece.area < kLargestFin * area);
+  }
+  return fin;
+}
+
+}  // namespace bodice::geometry
