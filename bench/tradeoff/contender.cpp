@@ -1,0 +1,106 @@
+#include "contender.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include <Eigen/Geometry>
+
+#include "../collision/peers.hpp"
+
+namespace tradeoff {
+namespace {
+
+using namespace bodice;
+using collision::Collider;
+
+/// A proxy, its particles, and room for the answers.
+struct Queries {
+  Collider collider, moving;
+  std::vector<geometry::Ellipsoid> shapes;
+  bench::Cloud start, moved;
+  std::vector<collision::Contact> contacts;
+  collision::Workspace kept_query, kept_response;
+
+  Queries(const proxy::BodyProxy& proxy, const bench::Cloud& particles)
+      : collider(proxy),
+        moving(proxy),
+        start(bench::local(particles, collider)),
+        moved(start),
+        contacts(start.size()) {
+    for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
+  }
+
+  void query() { collider.query({}, start.particles(), contacts, kept_query); }
+  void respond() {
+    moved = start;
+    collider.resolve({}, moved.particles(), {}, kept_response);
+  }
+  void turn() {
+    const geometry::Mat3 rotation = Eigen::AngleAxisd(0.001, geometry::Vec3::UnitY()).toRotationMatrix();
+    for (auto& e : shapes) e.center = rotation * e.center, e.axes = rotation * e.axes;
+    moving.move_to(shapes, 1.0 / 60.0);
+  }
+};
+
+}  // namespace
+
+double least_us(const std::function<void()>& work) {
+  constexpr int kBatch = 50, kRepeats = 5;
+  double least = std::numeric_limits<double>::infinity();
+  for (int r = 0; r < kRepeats; ++r) {
+    const double start = bench::cpu_s();
+    for (int i = 0; i < kBatch; ++i) work();
+    least = std::min(least, 1e6 * (bench::cpu_s() - start) / kBatch);
+  }
+  return least;
+}
+
+double fit_ms(const fitting::FitResult& fit) {
+  double ms = 0.0;
+  for (const engine::StageTime& stage : fit.stages)
+    if (stage.name != "measure" && stage.name != "distance") ms += stage.ms;
+  return ms;
+}
+
+Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::string dial) {
+  const auto queries = std::make_shared<Queries>(fit.proxy, subject.particles);
+  Contender c;
+  c.kind = proxy::name(fit.proxy.tier());
+  c.dial = std::move(dial);
+  c.ours = true;
+  c.size = static_cast<double>(fit.proxy.ellipsoids().size());
+  c.bytes = static_cast<double>(fit.proxy.bytes());
+  c.prepare_ms = fit_ms(fit);
+  c.update_us = least_us([&] { queries->turn(); });
+  c.query = [queries] { queries->query(); };
+  c.respond = [queries] { queries->respond(); };
+  c.distances_m = [queries] {
+    queries->query();
+    std::vector<float> found;
+    for (const collision::Contact& contact : queries->contacts) found.push_back(contact.signed_distance);
+    return found;
+  };
+  return c;
+}
+
+std::vector<Cost> time_all(std::vector<Contender>& contenders, std::size_t particles, int rounds) {
+  const double inf = std::numeric_limits<double>::infinity();
+  std::vector<Cost> costs(contenders.size(), Cost{inf, inf});
+  const auto measure = [&](const std::function<void()>& work, double& least) {
+    work();  // what came before has filled the caches with its own data
+    const double start = bench::cpu_s();
+    work();
+    least = std::min(least, 1e9 * (bench::cpu_s() - start) / static_cast<double>(particles));
+  };
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      measure(contenders[i].query, costs[i].query_ns);
+      if (contenders[i].respond) measure(contenders[i].respond, costs[i].response_ns);
+    }
+  for (std::size_t i = 0; i < contenders.size(); ++i)
+    if (!contenders[i].respond) costs[i].response_ns = 0.0;
+  return costs;
+}
+
+}  // namespace tradeoff
