@@ -50,7 +50,7 @@ void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
     if (load_points(s.sleep, begin, end, p)) changed.store(true, std::memory_order_relaxed);
     begin_sleep_frame(p, begin, end, s.sleep);
   });
-  if (changed.load()) update_weights(p, s.coarse);
+  if (changed.load()) update_weights(context, p, s.coarse);
   aim_pins(s.pins, plan.simulated_s, p);
   if (s.options.self_collision && !(plan.limits & kNoSelfContact))
     find_close_pairs(context, s.ring, p, s.self);
@@ -106,12 +106,11 @@ void end_frame(const engine::Context& context, const Plan& plan, State& s) {
   const Environment& e = s.options.environment;
   Particles& p = s.particles;
   settle_pins(s.pins, p);
-  end_sleep_frame(context, s.ring, plan.simulated_s, p, s.sleep);
+  const float fastest_m_s = end_sleep_frame(context, s.ring, plan.simulated_s, p, s.sleep);
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) p.point[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};
   });
-  s.self.travel_m +=
-      plan.simulated_s * static_cast<double>(*std::max_element(s.sleep.speed.begin(), s.sleep.speed.end()));
+  s.self.travel_m += plan.simulated_s * static_cast<double>(fastest_m_s);
   if (e.gust > 0.0 && e.wind_m_s != Vec3::Zero()) wake_all(s.sleep);  // the air never rests
   s.time_s += plan.simulated_s;
 }

@@ -17,6 +17,14 @@ constexpr int kSlotsAParticle = 8;     // more would cost more to clear than mee
 constexpr double kGolden = 0.381966;   // skew of the lattice, in rows: its shortest vector is the longest
 constexpr float kFarthestCell = 1e8f;  // beyond it, integers would overflow
 
+constexpr int kChapterBits = 7;  // chapters of the table: some for each worker, few enough to count fast
+constexpr std::size_t kChapters = std::size_t{1} << kChapterBits;
+constexpr std::size_t kBlocks = 32;  // of points; each counts chapters on its own
+
+std::size_t block_grain(std::size_t points) {
+  return std::max(kParticleGrain, points / kBlocks + 1);
+}
+
 }  // namespace
 
 CellGrid::CellGrid(float cell_m, std::size_t points) {
@@ -28,9 +36,10 @@ CellGrid::CellGrid(float cell_m, std::size_t points) {
   row_mask_ = rows - 1;
   skew_ = static_cast<std::size_t>(kGolden * static_cast<double>(rows));
   per_cell_ = 1.0f / cell_m;
+  chapter_shift_ = bits - kChapterBits;
   begin_.assign((std::size_t{1} << bits) + 1, 0);
-  slot_of_.assign(points, 0);
-  entry_.resize(points);
+  staged_.resize(points), entry_.resize(points);
+  chapter_next_.assign(kBlocks * kChapters, 0), chapter_begin_.assign(kChapters + 1, 0);
 }
 
 CellGrid::Cell CellGrid::cell_of(const Point& at) const {
@@ -40,18 +49,54 @@ CellGrid::Cell CellGrid::cell_of(const Point& at) const {
   return {cell(at.x), cell(at.y), cell(at.z)};
 }
 
+Index CellGrid::slot_of(const Point& at) const {
+  const Cell c = cell_of(at);
+  return static_cast<Index>(row_of(c.y, c.z) + (static_cast<std::size_t>(c.x) & x_mask_));
+}
+
 void CellGrid::fill(const engine::Context& context, std::span<const Point> points) {
-  engine::parallel_for(context, points.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+  const std::size_t grain = block_grain(points.size());
+  engine::parallel_for(context, points.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Index* const count = &chapter_next_[begin / grain * kChapters];
+    std::fill_n(count, kChapters, 0);
     for (std::size_t i = begin; i < end; ++i) {
-      const Cell c = cell_of(points[i]);
-      slot_of_[i] = static_cast<Index>(row_of(c.y, c.z) + (static_cast<std::size_t>(c.x) & x_mask_));
+      entry_[i].slot = slot_of(points[i]);
+      ++count[entry_[i].slot >> chapter_shift_];
     }
   });
-  std::fill(begin_.begin(), begin_.end(), 0);
-  for (const Index slot : slot_of_) ++begin_[slot];
-  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());  // where each slot ends
-  for (std::size_t i = points.size(); i-- > 0;)
-    entry_[--begin_[slot_of_[i]]] = {points[i], static_cast<Index>(i)};
+  begin_chapters(engine::block_count(points.size(), grain));
+  engine::parallel_for(context, points.size(), grain, [&](std::size_t begin, std::size_t end) {
+    Index* const next = &chapter_next_[begin / grain * kChapters];
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index slot = entry_[i].slot;
+      staged_[next[slot >> chapter_shift_]++] = {points[i], static_cast<Index>(i), slot};
+    }
+  });
+  engine::parallel_for(context, kChapters, 1,
+                       [&](std::size_t chapter, std::size_t) { sort_chapter(chapter); });
+  begin_.back() = static_cast<Index>(points.size());
+}
+
+// From counts to places: chapter by chapter, in each the blocks in their order, so that entries stay
+// ascending.
+void CellGrid::begin_chapters(std::size_t blocks) {
+  Index place = 0;
+  for (std::size_t c = 0; c < kChapters; ++c) {
+    chapter_begin_[c] = place;
+    for (std::size_t b = 0; b < blocks; ++b) place += std::exchange(chapter_next_[b * kChapters + c], place);
+  }
+  chapter_begin_[kChapters] = place;
+}
+
+// A counting sort of the chapter's entries by slot.
+void CellGrid::sort_chapter(std::size_t chapter) {
+  const Index first = chapter_begin_[chapter], last = chapter_begin_[chapter + 1];
+  const std::size_t slots = std::size_t{1} << chapter_shift_;
+  Index* const ends = &begin_[chapter * slots];
+  std::fill_n(ends, slots, 0);
+  for (Index k = first; k < last; ++k) ++begin_[staged_[k].slot];
+  for (Index place = first; Index & end : std::span(ends, slots)) end = place += end;
+  for (Index k = last; k-- > first;) entry_[--begin_[staged_[k].slot]] = staged_[k];
 }
 
 }  // namespace bodice::cloth

@@ -2,7 +2,8 @@
 // cells lie together, so that 27 cells are nine runs of memory. Based on: Matthias Teschner et al. Optimized
 // Spatial Hashing for Collision Detection of Deformable Objects. 2003. Differs: rows are placed by a skewed
 // lattice in place of a hash, so that what shares a slot is far away whatever way the cloth hangs; slots are
-// filled by a counting sort, so that their order is that of the particles.
+// filled by a counting sort in two steps, first by chapters of the table, which all workers share, then
+// inside each: the order in a slot is that of the particles.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +20,7 @@ class CellGrid {
  public:
   struct Entry {
     Point at;
-    Index particle;
+    Index particle, slot;
   };
 
   CellGrid() = default;
@@ -47,6 +48,7 @@ class CellGrid {
     int x, y, z;
   };
   Cell cell_of(const Point& at) const;
+  Index slot_of(const Point& at) const;
   std::size_t row_of(int y, int z) const {
     return ((static_cast<std::size_t>(y) + skew_ * static_cast<std::size_t>(z)) & row_mask_) << x_bits_;
   }
@@ -55,12 +57,17 @@ class CellGrid {
     for (Index k = begin_[slot]; k < begin_[slot + cells]; ++k) visit(entry_[k]);
   }
 
-  int x_bits_ = 0;
+  void begin_chapters(std::size_t blocks);
+  void sort_chapter(std::size_t chapter);
+
+  int x_bits_ = 0, chapter_shift_ = 0;
   std::size_t x_mask_ = 0, row_mask_ = 0, skew_ = 0;
-  float per_cell_ = 0.0f;       // cells a metre
-  std::vector<Index> begin_;    // #slots + 1
-  std::vector<Index> slot_of_;  // #P
-  std::vector<Entry> entry_;    // #P, by slot, ascending inside one
+  float per_cell_ = 0.0f;             // cells a metre
+  std::vector<Index> begin_;          // #slots + 1
+  std::vector<Entry> staged_;         // #P, by chapter, ascending inside one
+  std::vector<Entry> entry_;          // #P, by slot, ascending inside one; before, each point's slot
+  std::vector<Index> chapter_next_;   // #blocks x #chapters: counts, then where the next entry goes
+  std::vector<Index> chapter_begin_;  // #chapters + 1, into staged_ and entry_
 };
 
 }  // namespace bodice::cloth

@@ -4,93 +4,56 @@
 // interpolated.
 #include "coarse.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <atomic>
 
 #include <bodice/engine/parallel.hpp>
 
-#include "cloth_distance.hpp"
 #include "tiny.hpp"
 
 namespace bodice::cloth {
 namespace {
 
-// Node spacings in median edges, coarsest first, and sweeps over each level's limits.
-struct Spacing {
-  double edges;
-  int sweeps;
-};
-constexpr Spacing kSpacings[] = {{16.0, 8}, {4.0, 3}};
-constexpr double kNeighbours = 1.7;  // nodes this many spacings apart are tied
-constexpr double kReach = 1.7;       // a particle's parents lie within this many spacings
-constexpr std::size_t kFewNodes = 3;
-
-void pick_nodes(const geometry::TriMesh& mesh, ClothDistance& distance, double spacing, CoarseLevel& level) {
-  std::vector<bool> covered(mesh.positions.size(), false);
-  for (Index i = 0; i < covered.size(); ++i) {
-    if (covered[i]) continue;
-    level.node.push_back(i);
-    for (const auto& [d, p] : distance.within(i, spacing)) covered[p] = true;
+// Four ties; true if one was too long.
+bool pull_pack(CoarseLevel& level, std::size_t pack) {
+  const std::size_t first = pack * kPack;
+  const Index *a = &level.ties.a[first], *b = &level.ties.b[first];
+  Float4 at_a[kPack], at_b[kPack], d[kPack];
+  for (std::size_t k = 0; k < kPack; ++k) {
+    at_a[k] = load(level.at[a[k]]), at_b[k] = load(level.at[b[k]]);
+    d[k] = xyz(at_a[k] - at_b[k]);
   }
-}
-
-void offer_parent(CoarseLevel& level, Index particle, Index node, float share) {
-  Parents& parents = level.parents[particle];
-  for (std::size_t k = 0; k < kParents; ++k) {
-    if (share <= parents.share[k]) continue;
-    std::swap(share, parents.share[k]);
-    std::swap(node, parents.node[k]);
+  Float4 x = d[0], y = d[1], z = d[2], none = d[3];
+  transpose(x, y, z, none);
+  const Float4 length2 = x * x + y * y + z * z, limit = load(&level.ties.limit_m[first]);
+  const auto longer = length2 > limit * limit;
+  if (!any(longer)) return false;
+  const Float4 wa = weights(at_a[0], at_a[1], at_a[2], at_a[3]);
+  const Float4 wb = weights(at_b[0], at_b[1], at_b[2], at_b[3]);
+  const Float4 length = root(length2 + kTinyLength2);
+  const Float4 scale = longer ? (length - limit) / (length * (wa + wb + kTinyWeight)) : splat(0.0f);
+  const Float4 to_a = scale * wa, to_b = scale * wb;
+  for (std::size_t k = 0; k < kPack; ++k) {
+    store(level.at[a[k]], at_a[k] - to_a[k] * d[k]);
+    store(level.at[b[k]], at_b[k] + to_b[k] * d[k]);
   }
-}
-
-void tie_nodes(ClothDistance& distance, double spacing, double slack, CoarseLevel& level,
-               const std::vector<Index>& node_of) {
-  for (Index n = 0; n < level.node.size(); ++n) {
-    for (const auto& [d, p] : distance.within(level.node[n], std::max(kNeighbours, kReach) * spacing)) {
-      const double t = 1.0 - d / (kReach * spacing);
-      if (t > 0.0) offer_parent(level, p, n, static_cast<float>(t * t));
-      const Index other = node_of[p];
-      if (other == geometry::kNoIndex || other <= n || d > kNeighbours * spacing) continue;
-      level.a.push_back(n), level.b.push_back(other);
-      level.limit_m.push_back(static_cast<float>(d * (1.0 + slack)));
-    }
-  }
-}
-
-CoarseLevel make_level(const geometry::TriMesh& mesh, ClothDistance& distance, double spacing, double slack) {
-  CoarseLevel level;
-  const std::size_t count = mesh.positions.size();
-  pick_nodes(mesh, distance, spacing, level);
-  level.parents.assign(count, {});
-  std::vector<Index> node_of(count, geometry::kNoIndex);
-  for (Index n = 0; n < level.node.size(); ++n) node_of[level.node[n]] = n;
-  tie_nodes(distance, spacing, slack, level, node_of);
-  for (Parents& parents : level.parents) {
-    const float sum = std::accumulate(parents.share.begin(), parents.share.end(), 0.0f);
-    for (float& share : parents.share) share /= sum;
-  }
-  level.at.resize(level.node.size()), level.move.resize(level.node.size());
-  return level;
-}
-
-// One tie; true if it was too long.
-bool pull(CoarseLevel& level, std::size_t c) {
-  Point &a = level.at[level.a[c]], &b = level.at[level.b[c]];
-  const Float4 at_a = load(a), at_b = load(b), d = xyz(at_a - at_b), dd = d * d;
-  const float length2 = dd[0] + dd[1] + dd[2], limit = level.limit_m[c];
-  if (length2 <= limit * limit) return false;
-  const float length = std::sqrt(length2);
-  const float scale = (length - limit) / (length * (a.weight + b.weight + kTinyWeight));
-  store(b, at_b + scale * b.weight * d);
-  store(a, at_a - scale * a.weight * d);
   return true;
 }
 
-bool pull(CoarseLevel& level) {
-  bool any = false;
-  for (std::size_t c = 0; c < level.a.size(); ++c) any = pull(level, c) || any;
-  return any;
+// One sweep over all ties; true if one was too long.
+bool pull(const engine::Context& context, CoarseLevel& level) {
+  const Schedule& schedule = level.ties.schedule;
+  std::atomic<bool> pulled{false};
+  auto note = [&](bool longer) {
+    if (longer && !pulled.load(std::memory_order_relaxed)) pulled.store(true, std::memory_order_relaxed);
+  };
+  engine::parallel_for(context, schedule.block_begin.size() - 1, 1, [&](std::size_t block, std::size_t) {
+    bool longer = false;
+    for (std::size_t pack = schedule.block_begin[block]; pack < schedule.block_begin[block + 1]; ++pack)
+      longer = pull_pack(level, pack) || longer;
+    note(longer);
+  });
+  for_each_across(context, schedule, [&](std::size_t pack) { note(pull_pack(level, pack)); });
+  return pulled.load();
 }
 
 // The nodes' displacements, shared out to the particles they carry.
@@ -106,57 +69,56 @@ void carry(const engine::Context& context, const CoarseLevel& level, Particles& 
   });
 }
 
-void load_nodes(const Particles& p, CoarseLevel& level) {
-  for (std::size_t n = 0; n < level.node.size(); ++n) {
-    const Point& from = p.point[level.node[n]];
-    level.at[n].x = from.x, level.at[n].y = from.y, level.at[n].z = from.z;
-  }
+void load_nodes(const engine::Context& context, const Particles& p, CoarseLevel& level) {
+  engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const Point& from = p.point[level.node[n]];
+      level.at[n].x = from.x, level.at[n].y = from.y, level.at[n].z = from.z;
+    }
+  });
 }
 
-void to_displacements(const Particles& p, CoarseLevel& level) {
-  for (std::size_t n = 0; n < level.node.size(); ++n)
-    store(level.move[n], xyz(load(level.at[n]) - load(p.point[level.node[n]])));
+void to_displacements(const engine::Context& context, const Particles& p, CoarseLevel& level) {
+  engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      store(level.move[n], xyz(load(level.at[n]) - load(p.point[level.node[n]])));
+  });
+}
+
+// The inverse of what node n carries; one that nothing moves has none.
+float inverse_mass(const Particles& p, const CoarseLevel& level, std::size_t n) {
+  if (!(p.point[level.node[n]].weight > 0.0f)) return 0.0f;
+  float mass = 0.0f;
+  for (Index k = level.child_begin[n]; k < level.child_begin[n + 1]; ++k) {
+    const auto [i, share] = level.child[k];
+    const float weight = p.point[i].weight;
+    mass += share * (weight > 0.0f ? 1.0f / weight : kPinnedMass * p.mass[i]);
+  }
+  return 1.0f / mass;
 }
 
 }  // namespace
 
-std::vector<CoarseLevel> make_coarse(const geometry::TriMesh& mesh, const Topology& topology,
-                                     double median_edge_m, double slack) {
-  std::vector<CoarseLevel> levels;
-  ClothDistance distance(mesh, topology);
-  for (const Spacing& spacing : kSpacings) {
-    CoarseLevel level = make_level(mesh, distance, spacing.edges * median_edge_m, slack);
-    level.sweeps = spacing.sweeps;
-    if (level.node.size() > kFewNodes && !level.a.empty()) levels.push_back(std::move(level));
-  }
-  return levels;
-}
-
-void update_weights(const Particles& p, std::vector<CoarseLevel>& levels) {
+void update_weights(const engine::Context& context, const Particles& p, std::vector<CoarseLevel>& levels) {
   for (CoarseLevel& level : levels) {
-    for (Point& node : level.at) node.weight = 0.0f;  // masses first
-    for (std::size_t i = 0; i < p.count(); ++i) {
-      const float weight = p.point[i].weight, mass = weight > 0.0f ? 1.0f / weight : kPinnedMass * p.mass[i];
-      const Parents& parents = level.parents[i];
-      for (std::size_t k = 0; k < kParents; ++k) level.at[parents.node[k]].weight += parents.share[k] * mass;
-    }
-    for (std::size_t n = 0; n < level.node.size(); ++n) {
-      float& weight = level.at[n].weight;
-      weight = p.point[level.node[n]].weight > 0.0f ? 1.0f / weight : 0.0f;
-    }
+    const std::size_t nodes = level.node.size();
+    const std::size_t grain = 1 + nodes * kParticleGrain / level.child.size();
+    engine::parallel_for(context, nodes, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) level.at[n].weight = inverse_mass(p, level, n);
+    });
   }
 }
 
 void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& particles) {
   for (CoarseLevel& level : levels) {
-    load_nodes(particles, level);
+    load_nodes(context, particles, level);
     bool moved = false;
     for (int sweep = 0; sweep < level.sweeps; ++sweep) {
-      if (!pull(level)) break;  // all within their limits: a further sweep would find the same
+      if (!pull(context, level)) break;  // all within their limits: a further sweep would find the same
       moved = true;
     }
     if (!moved) continue;
-    to_displacements(particles, level);
+    to_displacements(context, particles, level);
     carry(context, level, particles);
   }
 }

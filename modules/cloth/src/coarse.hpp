@@ -8,6 +8,7 @@
 #include <bodice/engine/context.hpp>
 
 #include "particles.hpp"
+#include "schedule.hpp"
 #include "topology.hpp"
 
 namespace bodice::cloth {
@@ -20,14 +21,28 @@ struct Parents {
   std::array<float, kParents> share = {};  ///< they sum to one
 };
 
+/// What a node carries of a particle.
+struct Child {
+  Index particle = 0;
+  float share = 0.0f;
+};
+
+/// Nodes that must not part further than their limit: a slot of the schedule each.
+struct Ties {
+  Schedule schedule;
+  std::vector<Index> a, b;
+  std::vector<float> limit_m;
+};
+
 struct CoarseLevel {
   int sweeps = 1;
-  std::vector<Index> node;       ///< #N, the particle at each node
-  std::vector<Point> at;         ///< #N; its weight is the inverse mass of all that the node stands for
-  std::vector<Point> move;       ///< #N, metres, of the last solve
-  std::vector<Index> a, b;       ///< #C, nodes that must not part further than ...
-  std::vector<float> limit_m;    ///< ... this
-  std::vector<Parents> parents;  ///< #P
+  std::vector<Index> node;  ///< #N, the particle at each node
+  std::vector<Point> at;    ///< #N, those that idle slots name; weight: inverse mass it stands for
+  std::vector<Point> move;  ///< #N, metres, of the last solve
+  Ties ties;
+  std::vector<Parents> parents;    ///< #P
+  std::vector<Index> child_begin;  ///< #N + 1, offsets into child
+  std::vector<Child> child;        ///< ascending particles
 };
 
 /// Levels from the coarsest to the finest; none for a garment of a few edges. The limit is the distance along
@@ -36,7 +51,8 @@ std::vector<CoarseLevel> make_coarse(const geometry::TriMesh& mesh, const Topolo
                                      double median_edge_m, double slack);
 
 /// Sums the masses of the nodes from the points' weights. Whenever those change.
-void update_weights(const Particles& particles, std::vector<CoarseLevel>& levels);
+void update_weights(const engine::Context& context, const Particles& particles,
+                    std::vector<CoarseLevel>& levels);
 
 /// Pulls nodes together that are further apart than their limit, and the particles with them.
 void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& particles);

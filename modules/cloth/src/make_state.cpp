@@ -89,7 +89,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count());
   s.scratch.resize(s.stretch.a.size());
-  s.speeds.resize(s.particles.count());
+  s.counts = make_digit_counts();
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
   s.input = resting_places(garment, mesh);
   s.particle_of_vertex = std::move(welded->particle_of_vertex);

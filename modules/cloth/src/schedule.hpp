@@ -16,7 +16,7 @@ namespace bodice::cloth {
 inline constexpr std::size_t kPack = 4;  ///< constraints solved together; they share no particle
 inline constexpr std::uint32_t kIdle = ~std::uint32_t{0};
 /// Packs a task, of those across blocks.
-inline constexpr std::size_t kPackGrain = 256;
+inline constexpr std::size_t kPackGrain = 64;
 
 struct Schedule {
   std::vector<std::uint32_t> slot;         ///< kPack a pack: a constraint, or kIdle

@@ -19,6 +19,8 @@ constexpr float kTouchingMass = 8.0f;
 // Layers that begin too near part at this speed: a fold's width in a few frames.
 constexpr float kRecovery_m_s = 0.1f;
 
+constexpr std::size_t kBlock = 256;  // particles a task: few of a garment's touch, and those lie together
+
 constexpr double kFresh = 0.4;  // radii the fastest may travel between searches; half is the bound
 
 struct Rub {
@@ -92,6 +94,14 @@ Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching,
   return pushes > 1.0f ? sum / pushes : sum;
 }
 
+// Calls visit(k) for each place k of `active` that is taken.
+template <class Visit>
+void for_each_active(const engine::Context& context, const SelfContact& s, Visit&& visit) {
+  engine::parallel_for(context, s.active.size(), kBlock, [&](std::size_t begin, std::size_t) {
+    for (std::size_t k = begin; k < begin + s.active_count[begin / kBlock]; ++k) visit(k);
+  });
+}
+
 }  // namespace
 
 SelfContact make_self_contact(const Particles& particles, double radius_m) {
@@ -102,6 +112,7 @@ SelfContact make_self_contact(const Particles& particles, double radius_m) {
     s.rest.push_back({particles.x[i], particles.y[i], particles.z[i], 0});
   s.grid = CellGrid(kSearch * s.radius_m, count);
   s.close_count.assign(count, 0), s.active.assign(count, 0), s.move.assign(count, {});
+  s.active_count.assign(engine::block_count(count, kBlock), 0);
   s.close.assign(count * kMaxClose, 0), s.close_m.assign(count * kMaxClose, 0.0f);
   return s;
 }
@@ -111,26 +122,24 @@ void find_close_pairs(const engine::Context& context, const Ring& ring, const Pa
   if (!(self.radius_m > 0.0f) || self.travel_m < kFresh * static_cast<double>(self.radius_m)) return;
   self.travel_m = 0.0;
   self.grid.fill(context, {particles.point.data(), particles.count()});
-  engine::parallel_for(context, particles.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) find_close(ring, particles, self, static_cast<Index>(i));
+  engine::parallel_for(context, particles.count(), kBlock, [&](std::size_t begin, std::size_t end) {
+    Index& count = self.active_count[begin / kBlock] = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_close(ring, particles, self, static_cast<Index>(i));
+      if (self.close_count[i] > 0) self.active[begin + count++] = static_cast<Index>(i);
+    }
   });
-  self.active_count = 0;
-  for (Index i = 0; i < particles.count(); ++i)
-    if (self.close_count[i] > 0) self.active[self.active_count++] = i;
 }
 
 void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, float friction,
                 float substep_s, SelfContact& self, Particles& particles) {
   const Rub rub = {friction, kRecovery_m_s * substep_s};
-  engine::parallel_for(context, self.active_count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      store(self.move[k], correction(particles, touching, rub, self, self.active[k]));
+  for_each_active(context, self, [&](std::size_t k) {
+    store(self.move[k], correction(particles, touching, rub, self, self.active[k]));
   });
-  engine::parallel_for(context, self.active_count, kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      Point& point = particles.point[self.active[k]];
-      store(point, load(point) + load(self.move[k]));
-    }
+  for_each_active(context, self, [&](std::size_t k) {
+    Point& point = particles.point[self.active[k]];
+    store(point, load(point) + load(self.move[k]));
   });
 }
 

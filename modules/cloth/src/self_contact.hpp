@@ -23,9 +23,9 @@ struct SelfContact {
   std::vector<Index> close;               ///< #P * kMaxClose
   std::vector<float> close_m;             ///< #P * kMaxClose, distance each pair must keep
   std::vector<std::uint8_t> close_count;  ///< #P
-  std::vector<Index> active;              ///< particles with pairs, ascending; the first active_count
-  std::size_t active_count = 0;
-  std::vector<Point> move;  ///< an active particle each, metres, corrections of this sweep
+  std::vector<Index> active;              ///< #P, from each block's first on: its particles with pairs
+  std::vector<Index> active_count;        ///< #blocks
+  std::vector<Point> move;                ///< as active: metres, corrections of this sweep
 };
 
 SelfContact make_self_contact(const Particles& particles, double radius_m);

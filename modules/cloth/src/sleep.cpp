@@ -14,6 +14,18 @@ constexpr float kSlow_m_s = 0.010f;    // slower than this is resting: a sixth o
 constexpr float kWaking_m_s = 0.050f;  // a neighbour faster than this wakes
 constexpr float kQuiet_s = 0.5f;       // longer than the turning point of any swing that one can see
 
+// Speeds of particles [begin, end) over the frame; returns the largest.
+float find_speeds(const Particles& p, std::size_t begin, std::size_t end, float per_s, Sleep& sleep) {
+  float fastest = 0.0f;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
+                dz = p.z[i] - sleep.start_z[i];
+    sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
+    fastest = std::max(fastest, sleep.speed[i]);
+  }
+  return fastest;
+}
+
 }  // namespace
 
 Sleep make_sleep(std::size_t particles) {
@@ -33,16 +45,13 @@ void begin_sleep_frame(const Particles& p, std::size_t begin, std::size_t end, S
   std::copy(p.z.begin() + first, p.z.begin() + last, sleep.start_z.begin() + first);
 }
 
-void end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& p,
-                     Sleep& sleep) {
+float end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& p,
+                      Sleep& sleep) {
   const auto per_s = static_cast<float>(1.0 / frame_s);
-  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
-                  dz = p.z[i] - sleep.start_z[i];
-      sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
-    }
-  });
+  const float fastest = engine::ordered_reduce(
+      context, p.count(), reduce_grain(p.count()), 0.0f,
+      [&](std::size_t begin, std::size_t end) { return find_speeds(p, begin, end, per_s, sleep); },
+      [](float a, float b) { return std::max(a, b); });
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       float around = 0.0f;
@@ -52,6 +61,7 @@ void end_sleep_frame(const engine::Context& context, const Ring& ring, double fr
       if (sleeps(sleep, i)) p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
     }
   });
+  return fastest;
 }
 
 void wake_all(Sleep& sleep) {

@@ -24,9 +24,10 @@ bool sleeps(const Sleep& sleep, std::size_t particle);
 
 void begin_sleep_frame(const Particles& particles, std::size_t begin, std::size_t end, Sleep& sleep);
 
-/// Speeds of the frame; who falls asleep, and who wakes because a neighbour or the body moves it.
-void end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& particles,
-                     Sleep& sleep);
+/// Speeds of the frame; who falls asleep, and who wakes because a neighbour or the body moves it. Returns the
+/// largest speed.
+float end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& particles,
+                      Sleep& sleep);
 
 void wake_all(Sleep& sleep);
 

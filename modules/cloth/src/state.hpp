@@ -12,6 +12,7 @@
 #include "particles.hpp"
 #include "pins.hpp"
 #include "plan.hpp"
+#include "select.hpp"
 #include "self_contact.hpp"
 #include "sleep.hpp"
 #include "stretch.hpp"
@@ -34,9 +35,9 @@ struct State {
   Sleep sleep;
   Budget budget;
   const collision::Collider* last_collider = nullptr;  ///< compared, never read
-  std::vector<float> scratch;                          ///< #slots of edges, for quantiles
-  std::vector<float> speeds;                           ///< #P, for the median
-  float max_travel_m = 0.0f;                           ///< a substep
+  std::vector<float> scratch;                          ///< #slots of edges, strains
+  DigitCounts counts;
+  float max_travel_m = 0.0f;  ///< a substep
   double time_s = 0.0;
 
   std::vector<Vec3> input;                ///< #V, where dropped vertices stay

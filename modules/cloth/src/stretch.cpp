@@ -102,21 +102,26 @@ void solve_stretch_across(const engine::Context& context, const StretchConstrain
                   [&](std::size_t pack) { solve_pack(c, pack, splat(inverse_h2), p.point.data()); });
 }
 
-double measure_stretch(const engine::Context& context, const StretchConstraints& c, const Particles& p,
+Strain measure_stretch(const engine::Context& context, const StretchConstraints& c, const Particles& p,
                        std::span<float> strain) {
   return engine::ordered_reduce(
-      context, c.schedule.packs(), reduce_grain(c.schedule.packs()), 0.0,
+      context, c.schedule.packs(), reduce_grain(c.schedule.packs()), Strain{},
       [&](std::size_t begin, std::size_t end) {
-        double energy = 0.0;
+        Strain sum;
+        Float4 longest = splat(0.0f);
         for (std::size_t pack = begin; pack < end; ++pack) {
           Float4 own;
           const Float4 twice = measure_pack(c, pack, p.point.data(), own);
           store(&strain[pack * kPack], own);
-          energy += 0.5 * static_cast<double>(twice[0] + twice[1] + twice[2] + twice[3]);
+          longest = max(longest, own);
+          sum.energy_j += 0.5 * static_cast<double>(twice[0] + twice[1] + twice[2] + twice[3]);
         }
-        return energy;
+        sum.longest = std::max({longest[0], longest[1], longest[2], longest[3]});
+        return sum;
       },
-      [](double l, double r) { return l + r; });
+      [](const Strain& l, const Strain& r) {
+        return Strain{l.energy_j + r.energy_j, std::max(l.longest, r.longest)};
+      });
 }
 
 }  // namespace bodice::cloth

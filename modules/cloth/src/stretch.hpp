@@ -33,8 +33,13 @@ void solve_stretch_block(const StretchConstraints& constraints, std::size_t bloc
 void solve_stretch_across(const engine::Context& context, const StretchConstraints& constraints,
                           float inverse_h2, Particles& particles);
 
-/// Potential energy of all edges, joules, and the strain of each slot (0 of idle ones).
-double measure_stretch(const engine::Context& context, const StretchConstraints& constraints,
+struct Strain {
+  double energy_j = 0.0;  ///< potential, of all edges
+  float longest = 0.0f;   ///< largest elongation
+};
+
+/// Also writes the strain of each slot (0 of idle ones).
+Strain measure_stretch(const engine::Context& context, const StretchConstraints& constraints,
                        const Particles& particles, std::span<float> strain);
 
 }  // namespace bodice::cloth

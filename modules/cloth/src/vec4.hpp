@@ -49,6 +49,14 @@ inline Float4 max(Float4 a, Float4 b) {
   return a > b ? a : b;
 }
 
+inline bool any(Int4 lanes) {
+#if defined(__SSE2__)
+  return _mm_movemask_ps(reinterpret_cast<__m128>(lanes)) != 0;
+#else
+  return (lanes[0] | lanes[1] | lanes[2] | lanes[3]) != 0;
+#endif
+}
+
 /// std::sqrt would keep errno, and with it one lane at a time.
 inline Float4 root(Float4 v) {
 #if defined(__SSE2__)
