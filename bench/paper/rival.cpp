@@ -33,21 +33,24 @@ class Rival {
   }
 
   /// One ellipsoid more; false if none can be split.
-  bool split() {
+  bool split(int most_tries) {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < state_.centers.size(); ++k)
       if (state_.points[k] >= kLeastPoints) order.push_back(k);
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return state_.error_m[k]; });
     State best;
-    for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), kMostTries); ++i) {
+    int tried = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), static_cast<std::size_t>(most_tries));
+         ++i) {
       State next = cluster(split_centers(order[i]));
       const bool better = next.worst_m < state_.worst_m;
       if (i == 0 || next.worst_m < best.worst_m) best = std::move(next);
+      ++tried;
       if (better) break;
-      ++fit_.backtracks;
     }
     if (best.centers.size() <= state_.centers.size()) return false;
     state_ = std::move(best);
+    fit_.backtracks += tried - 1;
     return true;
   }
 
@@ -72,7 +75,6 @@ class Rival {
 
   State cluster(std::vector<Vec3> centers) {
     const auto found = bodice::fitting::kmeans(context_, skin_, {}, std::move(centers), {});
-    fit_.kmeans_iterations += found.iterations;
     std::vector<std::vector<Vec3>> members(found.centers.size());
     for (std::size_t i = 0; i < skin_.size(); ++i) members[found.of_point[i]].push_back(skin_[i]);
     State state;
@@ -104,10 +106,10 @@ double radial_error(const Ellipsoid& ellipsoid, std::span<const Vec3> points) {
 }
 
 RivalFit fit_rival(const bodice::engine::Context& context, std::span<const Vec3> skin, std::size_t count,
-                   double min_radius_m) {
+                   int most_tries, double min_radius_m) {
   if (skin.empty()) return {};
   Rival rival(context, skin, min_radius_m);
-  while (rival.count() < count && rival.split()) {
+  while (rival.count() < count && rival.split(most_tries)) {
   }
   return rival.finish();
 }

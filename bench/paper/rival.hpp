@@ -17,14 +17,13 @@ struct RivalFit {
   std::vector<bodice::geometry::Ellipsoid> ellipsoids;
   std::vector<double> error_m;  ///< E_j of each
   int backtracks = 0;           ///< splits tried and taken back
-  int kmeans_iterations = 0;    ///< over all points, together
 };
 
 /// K-means over the whole skin, from one cluster: splits the worst ellipsoid along its longest axis, lets
 /// K-means converge, encloses every cluster anew, and takes the split back for the next worst ellipsoid's if
-/// the worst error rose; after `kMostTries` of them it keeps the best. Ends at `count` ellipsoids.
+/// the worst error did not fall; after `most_tries` of them it keeps the best. Ends at `count` ellipsoids.
 RivalFit fit_rival(const bodice::engine::Context& context, std::span<const bodice::geometry::Vec3> skin,
-                   std::size_t count, double min_radius_m);
+                   std::size_t count, int most_tries, double min_radius_m);
 
 /// Eq. (6): mean distance along the ray from the centre between points and surface.
 double radial_error(const bodice::geometry::Ellipsoid& ellipsoid,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <bench_support/table.hpp>
 #include <bodice/engine/result.hpp>
 
 #include "bodies.hpp"
@@ -12,9 +13,12 @@
 
 namespace paper_bench {
 
+/// One way of fitting one body.
 struct MethodResult {
+  std::string method;
   std::size_t ellipsoids = 0;
   double segment_ms = 0.0, fit_ms = 0.0;  ///< processor time, least of the repeats
+  int backtracks = 0;                     ///< of the stand-in
   Approximation approximation;
 };
 
@@ -22,9 +26,7 @@ struct Table2Row {
   PaperRow paper;
   std::string source;
   std::size_t vertices = 0;
-  MethodResult ours, rival;
-  int rival_backtracks = 0, rival_iterations = 0;
-  double mu_torso_mm = 0.0, mu_limbs_mm = 0.0;  ///< of ours, found from the count
+  std::vector<MethodResult> methods;  ///< ours first, then the stand-in, then the stand-in's first guesses
 };
 
 struct Effort {
@@ -32,10 +34,10 @@ struct Effort {
   std::size_t samples = 20000;  ///< of the judge
 };
 
-/// Both methods with as many ellipsoids as the paper has, on one thread.
+/// Every method with as many ellipsoids as the paper has, on one thread.
 bodice::engine::Result<Table2Row> measure_table2(const Subject& subject, const Effort& effort);
 
-std::string table2_csv(std::span<const Table2Row> rows);
-std::string table2_markdown(std::span<const Table2Row> rows);
+/// Times beside the paper's, and the approximation.
+std::vector<bench::Table> table2(std::span<const Table2Row> rows);
 
 }  // namespace paper_bench
