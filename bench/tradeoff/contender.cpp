@@ -45,13 +45,13 @@ struct Queries {
 
 }  // namespace
 
-double least_us(const std::function<void()>& work) {
-  constexpr int kBatch = 50, kRepeats = 5;
+double least_us(const std::function<void()>& work, int batch) {
+  constexpr int kRepeats = 5;
   double least = std::numeric_limits<double>::infinity();
   for (int r = 0; r < kRepeats; ++r) {
     const double start = bench::cpu_s();
-    for (int i = 0; i < kBatch; ++i) work();
-    least = std::min(least, 1e6 * (bench::cpu_s() - start) / kBatch);
+    for (int i = 0; i < batch; ++i) work();
+    least = std::min(least, 1e6 * (bench::cpu_s() - start) / batch);
   }
   return least;
 }

@@ -31,8 +31,8 @@ Contender of_proxy(const Subject& subject, const bodice::fitting::FitResult& fit
 /// Embree where it is installed, distance grids, a capsule a part.
 std::vector<Contender> rivals(const Subject& subject, const std::vector<double>& grid_cells_m);
 
-/// Least processor time of one call, in batches because the clock counts in microseconds.
-double least_us(const std::function<void()>& work);
+/// Least processor time of one call, of five batches, because the clock counts in microseconds.
+double least_us(const std::function<void()>& work, int batch = 50);
 
 /// The time of the fit proper: not of the measurement of its accuracy.
 double fit_ms(const bodice::fitting::FitResult& fit);

@@ -15,6 +15,9 @@ namespace {
 using namespace bodice;
 using proxy::Tier;
 
+constexpr double kExact_mm = 0.05;  ///< plots draw less than this at this
+constexpr double kFrameParticles = 1e4;
+
 /// A setting of the dials: a count, or (relief) the error that decides how large the tables are.
 struct Dial {
   Tier tier;
@@ -23,7 +26,7 @@ struct Dial {
 
   std::string label() const {
     std::string text = std::to_string(count);
-    if (target_mm > 0.0) text += ", " + std::to_string(static_cast<int>(1e3 * target_mm)) + " um";
+    if (target_mm > 0.0) text += " at " + std::to_string(static_cast<int>(1e3 * target_mm)) + " um";
     return text;
   }
   fitting::FitOptions options() const {
@@ -119,8 +122,9 @@ bench::Plot plot_of(const std::vector<Row>& rows, const char* label, double Row:
     auto at = std::find_if(plot.series.begin(), plot.series.end(),
                            [&](const bench::PlotSeries& s) { return s.name == row.kind; });
     if (at == plot.series.end()) at = plot.series.insert(at, {row.kind, {}, row.ours, !row.ours});
-    const bool counts = row.ours && row.dial.find(',') == std::string::npos;
-    at->points.push_back({row.*cost, mean_of(row.errors).mean_mm, counts || !row.ours ? row.dial : ""});
+    const bool counts = row.ours && row.dial.find(" at ") == std::string::npos;
+    at->points.push_back(
+        {row.*cost, std::max(kExact_mm, mean_of(row.errors).mean_mm), counts || !row.ours ? row.dial : ""});
   }
   return plot;
 }
@@ -140,13 +144,14 @@ Findings sweep_front(const Setting& setting) {
   for (const SubjectSource& source : sources)
     judge_body(setting, source.make(setting.context), rows, found.details[0]);
 
-  std::vector<Offer> by_time, by_bytes;
+  std::vector<Offer> by_time, by_frame, by_bytes;
   std::vector<bool> ours;
   std::vector<std::string> names;
   for (Row& row : rows) {
     row.divide(static_cast<double>(sources.size()));
     const double error = mean_of(row.errors).mean_mm;
     by_time.push_back({row.query_ns, error});
+    by_frame.push_back({row.update_us + 1e-3 * kFrameParticles * row.query_ns, error});
     by_bytes.push_back({row.bytes, error});
     ours.push_back(row.ours);
     names.push_back(row.kind + " " + row.dial);
@@ -159,6 +164,7 @@ Findings sweep_front(const Setting& setting) {
       "on a front is beaten by no other in both error and that cost.\n";
   found.shown.push_back(table_of(rows, on_front(by_time), on_front(by_bytes)));
   found.shown.push_back(levels_by_time(names, by_time, ours));
+  found.shown.push_back(levels_by_moving_frame(names, by_frame, ours));
   found.shown.push_back(levels_by_bytes(names, by_bytes, ours));
   found.plots.emplace_back("front_time", plot_of(rows, "query, ns a particle", &Row::query_ns));
   found.plots.emplace_back("front_bytes", plot_of(rows, "bytes", &Row::bytes));

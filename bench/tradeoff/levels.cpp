@@ -31,6 +31,14 @@ bench::Table levels_by_time(const std::vector<std::string>& names, std::span<con
                 names, offers, ours);
 }
 
+bench::Table levels_by_moving_frame(const std::vector<std::string>& names, std::span<const Offer> offers,
+                                    const std::vector<bool>& ours) {
+  return levels(
+      "levels_moving",
+      "The same for a frame of 10,000 particles on a body that has moved: its update and the queries.", "us",
+      1.0, names, offers, ours);
+}
+
 bench::Table levels_by_bytes(const std::vector<std::string>& names, std::span<const Offer> offers,
                              const std::vector<bool>& ours) {
   return levels("levels_memory", "The least memory at a mean error, and the nearest rival of known size.",

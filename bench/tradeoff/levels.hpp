@@ -11,6 +11,9 @@ namespace tradeoff {
 
 bench::Table levels_by_time(const std::vector<std::string>& names, std::span<const Offer> offers,
                             const std::vector<bool>& ours);
+/// Costs in microseconds.
+bench::Table levels_by_moving_frame(const std::vector<std::string>& names, std::span<const Offer> offers,
+                                    const std::vector<bool>& ours);
 bench::Table levels_by_bytes(const std::vector<std::string>& names, std::span<const Offer> offers,
                              const std::vector<bool>& ours);
 

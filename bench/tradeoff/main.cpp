@@ -22,6 +22,12 @@ namespace fs = std::filesystem;
 
 constexpr Sweep kSweeps[] = {
     {"front", "Error against time, memory and preparation", sweep_front},
+    {"dials", "The dial: asked and achieved", sweep_dials},
+    {"regions", "Only what a garment can reach", sweep_regions},
+    {"drapes", "A frame of cloth", sweep_drapes},
+    {"geodesics", "Distances along the skin", sweep_geodesics},
+    {"stops", "Where the fit's iterations stop", sweep_stops},
+    {"precision", "Float or double", sweep_precision},
 };
 
 std::string chapter(const Sweep& sweep, const Findings& found) {

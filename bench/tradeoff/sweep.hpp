@@ -45,5 +45,11 @@ struct Sweep {
 void progress(const char* what, const std::string& detail);
 
 Findings sweep_front(const Setting& setting);
+Findings sweep_dials(const Setting& setting);
+Findings sweep_regions(const Setting& setting);
+Findings sweep_drapes(const Setting& setting);
+Findings sweep_geodesics(const Setting& setting);
+Findings sweep_stops(const Setting& setting);
+Findings sweep_precision(const Setting& setting);
 
 }  // namespace tradeoff

@@ -1,0 +1,129 @@
+// Only what a garment can reach: what is saved, and whether its answers are those of the whole body.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <bench_support/stopwatch.hpp>
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/random.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
+
+#include "contender.hpp"
+#include "must.hpp"
+#include "sweep.hpp"
+#include "worn.hpp"
+
+namespace tradeoff {
+namespace {
+
+using namespace bodice;
+using proxy::Tier;
+
+constexpr double kMargin_m = 0.05;  // as `bodice fit --region-of` has it
+
+/// Places within the margin of the garment: each vertex, moved in a random direction.
+bench::Cloud around(const geometry::TriMesh& garment, double within_m) {
+  engine::Random random(31);
+  bench::Cloud cloud;
+  for (const geometry::Vec3& p : garment.positions) {
+    const double a = random.normal(), b = random.normal(), c = random.normal();
+    cloud.add(p + within_m * random.uniform() * geometry::Vec3(a, b, c).stableNormalized());
+  }
+  return bench::coherent(cloud);
+}
+
+/// Nanoseconds a particle of the frame path's query.
+double query_ns(const proxy::BodyProxy& proxy, const bench::Cloud& cloud) {
+  const collision::Collider collider(proxy);
+  bench::Cloud local = bench::local(cloud, collider);
+  std::vector<collision::Contact> contacts(cloud.size());
+  collision::Workspace kept;
+  const double us = least_us([&] { collider.query({}, local.particles(), contacts, kept); }, 3);
+  return 1e3 * us / static_cast<double>(cloud.size());
+}
+
+/// Of answers that a garment acts on: at places nearer to the body than the margin.
+struct Agreement {
+  std::size_t asked = 0, same_bits = 0;
+  double largest_mm = 0.0, mean_mm = 0.0;
+
+  double same_percent() const {
+    return asked == 0 ? 0.0 : 100.0 * static_cast<double>(same_bits) / static_cast<double>(asked);
+  }
+};
+
+Agreement compare(const proxy::BodyProxy& whole, const proxy::BodyProxy& region, const bench::Cloud& cloud) {
+  Agreement agreement;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const double a = proxy::proxy_distance(whole, cloud.at(i)).distance;
+    if (a > kMargin_m) continue;
+    const double b = proxy::proxy_distance(region, cloud.at(i)).distance;
+    ++agreement.asked;
+    agreement.same_bits += a == b;
+    agreement.largest_mm = std::max(agreement.largest_mm, 1e3 * std::abs(a - b));
+    agreement.mean_mm += 1e3 * std::abs(a - b);
+  }
+  agreement.mean_mm /= static_cast<double>(std::max<std::size_t>(1, agreement.asked));
+  return agreement;
+}
+
+struct Fitted {
+  fitting::FitResult fit;
+  double ms = 0.0;  ///< the fit, and finding out what can be reached
+};
+
+Fitted fit_parts(const Setting& setting, const Subject& subject, Tier tier, std::uint32_t parts) {
+  auto fit =
+      must(fitting::fit(setting.context, tryon::labelled(subject.skin),
+                        {.tier = tier, .max_ellipsoids = setting.by_effort(30, 55, 89), .parts = parts}));
+  const double ms = fit_ms(fit);
+  return {std::move(fit), ms};
+}
+
+void add_tier(const Setting& setting, const Subject& subject, const tryon::WornGarment& garment, Tier tier,
+              bench::Table& table) {
+  progress("regions", subject.name + ", " + garment.name + ", " + std::string(proxy::name(tier)));
+  const bench::Stopwatch watch;
+  const std::uint32_t parts =
+      tryon::reachable_parts(setting.context, subject.skin, {&garment.mesh, 1}, kMargin_m);
+  const double reach_ms = watch.wall_ms();
+  const bench::Cloud cloud = around(garment.mesh, kMargin_m);
+  const Fitted whole = fit_parts(setting, subject, tier, fitting::kAllParts);
+  const Fitted region = fit_parts(setting, subject, tier, parts);
+  const Agreement agree = compare(whole.fit.proxy, region.fit.proxy, cloud);
+  const auto size = [](const Fitted& f) { return f.fit.proxy.ellipsoids().size(); };
+  table.add({subject.name, garment.name, proxy::name(tier), std::popcount(parts), size(whole), size(region),
+             1e-3 * static_cast<double>(whole.fit.proxy.bytes()),
+             1e-3 * static_cast<double>(region.fit.proxy.bytes()), agree.asked, agree.same_percent(),
+             agree.mean_mm, agree.largest_mm, whole.ms, region.ms + reach_ms,
+             query_ns(whole.fit.proxy, cloud), query_ns(region.fit.proxy, cloud)});
+}
+
+}  // namespace
+
+Findings sweep_regions(const Setting& setting) {
+  bench::Table table("regions",
+                     "The whole body and only the parts within 50 mm of the garment; places within 50 mm of "
+                     "the garment and of the body.",
+                     {"body", "garment", "tier", "parts", "ellipsoids", "in_region", "KB", "region_KB",
+                      "places", "same_bits_%", "mean_apart_mm", "most_apart_mm", "fit_ms", "region_fit_ms",
+                      "query_ns", "region_query_ns"});
+  const std::vector<Tier> tiers = setting.effort == Effort::kSmallest
+                                      ? std::vector{Tier::kSolid}
+                                      : std::vector{Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief};
+  for (const SubjectSource& source : made_bodies(0, setting.by_effort(1, 1, 2), setting.vertices())) {
+    const Subject subject = source.make(setting.context);
+    for (int g = 0; g < setting.by_effort(1, 1, 2); ++g)
+      for (const Tier tier : tiers)
+        add_tier(setting, subject, cut_for(setting.context, subject, kGarments[g], 0.015), tier, table);
+  }
+  Findings found;
+  found.text =
+      "`bodice fit --region-of GARMENT` fits only what the garment can reach: the parts of it, and the torso "
+      "as one. Paper and solid fit a part alone as they fit it in the whole body; tight and relief fit "
+      "neighbours together. Answers are compared by the reference in double.\n";
+  found.shown.push_back(std::move(table));
+  return found;
+}
+
+}  // namespace tradeoff
