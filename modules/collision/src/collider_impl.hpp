@@ -24,6 +24,8 @@ struct Collider::Impl {
   /// Particles [begin, end), at most kBlock, of `order` (of the arrays if there is none).
   void query_some(const Particles& particles, std::size_t begin, std::size_t end, std::span<Contact> contacts,
                   ParticleOrder* order) const;
+  bool query_kernel(const float* x, const float* y, const float* z, const std::uint32_t* index, int count,
+                    Contact* contacts, std::size_t block, ParticleOrder* order) const;
   void resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
                     const ResolveOptions& options, ParticleOrder* order, ContactReport& report) const;
   /// One particle on the exact side, from the arrays and back.

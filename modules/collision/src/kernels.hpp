@@ -22,8 +22,8 @@ inline constexpr int kMaxCandidates = 256;
 
 /// What a query reads and writes.
 struct QueryBatch {
-  const float *x, *y, *z;      ///< metres, local frame; aligned to 64 bytes, repeated up to a whole block
-  const std::uint32_t* index;  ///< into contacts, a particle
+  const float *x, *y, *z;      ///< metres, local frame; repeated up to a whole block
+  const std::uint32_t* index;  ///< into contacts, a particle; null: in order
   int count;                   ///< at most kBatch
   float margin_m;
   Contact* contacts;                ///< of the whole call
@@ -62,7 +62,8 @@ struct alignas(64) BlockResponse {
   float radius_m = 0.0f;         ///< of the block: half its box's diagonal
 };
 
-/// Fills in the contacts of the batch; false, and some left as they were, if too many ellipsoids are near.
+/// Fills in the contacts of the batch; false, and some left as they were, if too many ellipsoids are near or
+/// a place is not within kFarthest.
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 
 /// The nearest response in place; false if too many ellipsoids are near for the kernel.

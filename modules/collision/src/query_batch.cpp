@@ -44,13 +44,6 @@ bool near(const Places& places, int i) {
          (std::abs(places.z[i]) < kFarthest);
 }
 
-/// Without a branch, so that it compiles to vector code.
-bool all_near(const Places& places) {
-  int count = 0;
-  for (int i = 0; i < places.count; ++i) count += near(places, i);
-  return count == places.count;
-}
-
 /// Takes out what floats cannot handle, calling `other` for it; the rest closes up.
 template <class Other>
 void keep_near(Places& places, Other&& other) {
@@ -75,12 +68,61 @@ void pad(Places& places) {
     std::fill(values + places.count, values + end, values[places.count - 1]);
 }
 
+constexpr int kLine = 64 / sizeof(float);
+
+/// What the batch after this one reads and writes, so that it is in the cache by then. The processor foresees
+/// rows of numbers, but not where they are stored in the caller's order.
+void prefetch(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
+              std::span<Contact> contacts) {
+  const std::size_t end = std::min(begin + kBatch, particles.count);
+  if (order.empty()) {
+    for (std::size_t i = begin; i < end; i += 2) __builtin_prefetch(&contacts[i], 1);
+    for (std::size_t i = begin; i < end; i += kLine) {
+      __builtin_prefetch(particles.x + i);
+      __builtin_prefetch(particles.y + i);
+      __builtin_prefetch(particles.z + i);
+    }
+    return;
+  }
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t at = order[i];
+    __builtin_prefetch(&contacts[at], 1);
+    __builtin_prefetch(particles.x + at);
+    __builtin_prefetch(particles.y + at);
+    __builtin_prefetch(particles.z + at);
+  }
+}
+
 }  // namespace
+
+bool Collider::Impl::query_kernel(const float* x, const float* y, const float* z, const std::uint32_t* index,
+                                  int count, Contact* contacts, std::size_t block,
+                                  ParticleOrder* order) const {
+  QueryBatch batch{.x = x,
+                   .y = y,
+                   .z = z,
+                   .index = index,
+                   .count = count,
+                   .margin_m = static_cast<float>(margin_m),
+                   .contacts = contacts,
+                   .radius_m = {}};
+  if (!query_batch(baked, tables(), batch)) return false;
+  for (std::size_t i = 0; order && i < static_cast<std::size_t>((count + kBlock - 1) / kBlock); ++i)
+    order->note_radius(block + i, batch.radius_m[i]);
+  return true;
+}
 
 void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
                                 std::span<Contact> contacts, ParticleOrder* order) const {
+  const auto indices = order ? order->order() : std::span<const std::uint32_t>();
+  prefetch(particles, indices, end, contacts);
+  const int all = static_cast<int>(end - begin);
+  if (!order && all == kBatch && field.size() > 0 &&
+      query_kernel(particles.x + begin, particles.y + begin, particles.z + begin, nullptr, all,
+                   contacts.data() + begin, 0, nullptr))
+    return;
   Places places;
-  collect(particles, order ? order->order() : std::span<const std::uint32_t>(), begin, end, places);
+  collect(particles, indices, begin, end, places);
   const auto exactly = [&](int i) {
     contacts[places.index[i]] =
         exact_contact({double{places.x[i]}, double{places.y[i]}, double{places.z[i]}});
@@ -89,26 +131,16 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
     for (int i = 0; i < places.count; ++i) exactly(i);
     return;
   }
-  if (!all_near(places)) keep_near(places, exactly);
+  const auto kernel = [&](int from, int count) {
+    return query_kernel(places.x + from, places.y + from, places.z + from, places.index + from, count,
+                        contacts.data(), begin / kBlock + static_cast<std::size_t>(from / kBlock), order);
+  };
+  pad(places);
+  if (order && kernel(0, places.count)) return;
+  // Too many ellipsoids near for a batch may do for its blocks; or some places are too far for floats.
+  keep_near(places, exactly);
   if (places.count == 0) return;
   pad(places);
-  const auto kernel = [&](int from, int count) {
-    QueryBatch batch{.x = places.x + from,
-                     .y = places.y + from,
-                     .z = places.z + from,
-                     .index = places.index + from,
-                     .count = count,
-                     .margin_m = static_cast<float>(margin_m),
-                     .contacts = contacts.data(),
-                     .radius_m = {}};
-    if (!query_batch(baked, tables(), batch)) return false;
-    for (int block = 0; order && block * kBlock < count; ++block)
-      order->note_radius(begin / kBlock + static_cast<std::size_t>(from / kBlock + block),
-                         batch.radius_m[block]);
-    return true;
-  };
-  if (kernel(0, places.count)) return;
-  // Too many ellipsoids near for a batch may do for its blocks.
   for (int from = 0; from < places.count; from += kBlock) {
     const int to = std::min(from + kBlock, places.count);
     if (kernel(from, to - from)) continue;

@@ -43,7 +43,7 @@ HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, 
   alignas(64) float least[kBatch], weight[kBatch];
   alignas(64) float pair_weight[Pairs::kSize];
   const V per_blend = all(1.0f / relief.blend_m);
-  std::memcpy(least + begin, out.distance + begin, kBlock * sizeof(float));
+  std::memcpy(least + begin, out.distance + begin, static_cast<std::size_t>(end - begin) * sizeof(float));
   for (int i = 0; i < pairs.count; ++i) {
     const int lane = pairs.lane[i];
     const bool nearer =

@@ -12,6 +12,7 @@
 
 #include "kernels.hpp"
 #include "simd/foot-inl.hpp"
+#include "tolerances.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -53,9 +54,34 @@ HWY_INLINE Extent extent_between(V3 low, V3 high) {
   return e;
 }
 
-HWY_INLINE Extent extent_of_lanes(const float* x, const float* y, const float* z, int count) {
-  V3 low = load3(x, y, z), high = low;
-  for (int i = kWidth; i < count; i += kWidth) extend(low, high, load3(x + i, y + i, z + i));
+/// The smallest box around both.
+HWY_INLINE Extent united(const Extent& a, const Extent& b) {
+  Extent e;
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = std::min(a.middle[axis] - a.half[axis], b.middle[axis] - b.half[axis]);
+    const float high = std::max(a.middle[axis] + a.half[axis], b.middle[axis] + b.half[axis]);
+    e.middle[axis] = 0.5f * low + 0.5f * high;
+    e.half[axis] = 0.5f * high - 0.5f * low;
+    sum += e.half[axis] * e.half[axis];
+  }
+  e.radius = std::sqrt(sum);
+  return e;
+}
+
+/// The box of places; `near` tells whether all are within kFarthest, which NaN is not.
+HWY_INLINE Extent extent_of_lanes(const float* x, const float* y, const float* z, int count, bool& near) {
+  const auto load = [&](int i) { return V3{hn::LoadU(f, x + i), hn::LoadU(f, y + i), hn::LoadU(f, z + i)}; };
+  V3 low = load(0), high = low;
+  M within = hn::FirstN(f, kWidth);
+  for (int i = 0; i < count; i += kWidth) {
+    const V3 p = load(i), size = absolute(p);
+    extend(low, high, p);
+    const V most = all(kFarthest);
+    within =
+        hn::And(within, hn::And(hn::Lt(size.x, most), hn::And(hn::Lt(size.y, most), hn::Lt(size.z, most))));
+  }
+  near = hn::AllTrue(f, within);
   return extent_between(low, high);
 }
 

@@ -95,26 +95,31 @@ HWY_INLINE Secular secular(V3 w, V3 inverse) {
   return {w, slope, dot(w, w), dot(w, slope), dot(slope, slope)};
 }
 
+/// By estimates, too, where another step follows.
+template <bool kLast = true>
 HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
-  const V3 inverse = {reciprocal(hn::Add(u, gap0)), reciprocal(hn::Add(u, gap1)), reciprocal(u)};
+  const auto inverted = [](V e) { return kLast ? reciprocal(e) : estimated_reciprocal(e); };
+  const V3 inverse = {inverted(hn::Add(u, gap0)), inverted(hn::Add(u, gap1)), inverted(u)};
   return secular({hn::Mul(a.x, inverse.x), hn::Mul(a.y, inverse.y), hn::Mul(a.z, inverse.z)}, inverse);
 }
 
 constexpr float kLeastNorm2 = 1e-35f;  // w = 0 at the centre: a step is then of no use, but must be finite
 
-/// Newton's step on 1 / |w|: (|w| - 1) |w|^2 / sum w^2 / e; Halley divides it by 1 + half its curvature.
+/// Newton's step on 1 / |w|: (|w| - 1) |w|^2 / sum w^2 / e; Halley divides it by 1 + half its curvature. By
+/// estimates: what a step is off by is left to the next.
 template <bool kHalley>
 HWY_INLINE V next_root(const Secular& g, V u, V low) {
   const V one = all(1.0f), least = all(kLeastNorm2);
   const V norm2 = hn::Max(g.norm2, least);
-  const V inverse = reciprocal(hn::Max(g.first, least));
-  const V excess = hn::MulSub(norm2, inverse_sqrt(norm2), one), scale = hn::Mul(norm2, inverse);
+  const V inverse = estimated_reciprocal(hn::Max(g.first, least));
+  const V inverse_norm = estimated_inverse_sqrt(norm2);
+  const V excess = hn::MulSub(norm2, inverse_norm, one), scale = hn::Mul(norm2, inverse);
   V longer = one;
   if constexpr (kHalley) {
     // 1 - 3/2 step (S_0 S_2 - S_1^2) / (S_0 S_1)
-    const V bend = hn::NegMulAdd(g.first, reciprocal(norm2), hn::Mul(g.second, inverse));
+    const V bend = hn::NegMulAdd(g.first, hn::Mul(inverse_norm, inverse_norm), hn::Mul(g.second, inverse));
     const V half = hn::Mul(hn::Mul(all(1.5f), excess), scale);
-    longer = reciprocal(hn::Max(hn::NegMulAdd(half, bend, one), all(kLeastHalley)));
+    longer = estimated_reciprocal(hn::Max(hn::NegMulAdd(half, bend, one), all(kLeastHalley)));
   }
   const V next = hn::MulAdd(hn::Mul(excess, scale), longer, u);
   return hn::IfThenElse(hn::Gt(next, low), next,
@@ -150,9 +155,8 @@ HWY_INLINE Search start_from_surface(V3 y, const Shape& s) {
   const V3 a = result.a = {result.y.x, hn::Mul(s.radius1, result.y.y), hn::Mul(s.radius2, result.y.z)};
   // |w| >= 1 at each of these, so none lies right of the root (except the floor, on the medial disk).
   const V a2 = hn::Max(dot(a, a), all(kLeastNorm2));
-  const V start =
-      hn::Max(hn::Max(a.z, hn::Sub(a.x, s.gap0)),
-              hn::Max(hn::MulSub(s.radius1, result.y.y, s.gap1), hn::MulSub(a2, inverse_sqrt(a2), s.gap0)));
+  const V norm = hn::Mul(hn::Mul(a2, all(1.0f - kEstimate)), estimated_inverse_sqrt(a2));
+  const V start = hn::Max(hn::Max(a.z, hn::Sub(a.y, s.gap1)), hn::Sub(hn::Max(norm, a.x), s.gap0));
   result.low = hn::Max(start, all(kLeastRoot));
   // Particles are near the surface, where u = r2^2 and w = y / r.
   const V3 inverse_r2 = {all(1.0f), hn::Mul(s.inverse1, s.inverse1), hn::Mul(s.inverse2, s.inverse2)};
@@ -173,8 +177,8 @@ HWY_INLINE void refine(M active, const Shape& s, Search& search) {
   }
 }
 
-/// The unit foot direction, first octant; the root is brought up to date.
-HWY_INLINE V3 unit_direction(Search& search) {
+/// The foot direction, first octant, its length 1 to first order; the root is brought up to date.
+HWY_INLINE V3 last_direction(Search& search) {
   const V one = all(1.0f);
   const Secular& g = search.at;
   // On the medial disk |w| < 1 even at the pole: the shortest axis takes the rest.
@@ -182,23 +186,25 @@ HWY_INLINE V3 unit_direction(Search& search) {
   // The last step, to first order: |w|^2 falls by twice the first sum.
   const V excess = hn::Mul(all(0.5f), hn::Sub(g.norm2, one));
   const V last = hn::IfThenZeroElse(medial, hn::Mul(excess, reciprocal(hn::Max(g.first, all(kLeastNorm2)))));
-  const V3 w = along(g.w, hn::Neg(last), g.slope);
+  V3 w = along(g.w, hn::Neg(last), g.slope);
   search.u = hn::Add(search.u, last);
+  if (hn::AllFalse(f, medial)) return w;
   const V across = hn::MulAdd(w.x, w.x, hn::Mul(w.y, w.y));
   const V rest = hn::Sqrt(hn::Max(hn::Zero(f), hn::Sub(one, across)));
-  const V z = hn::IfThenElse(medial, hn::Max(rest, w.z), w.z);
-  return scaled({w.x, w.y, z}, inverse_sqrt(hn::MulAdd(z, z, across)));
+  w.z = hn::IfThenElse(medial, hn::Max(rest, w.z), w.z);
+  return w;
 }
 
 /// From the direction to the distance and the normal; `y` is signed.
 HWY_INLINE Foot finished(const Shape& s, V3 y, Search& search) {
   Foot result;
   result.y = y;
-  const V3 w = result.w = unit_direction(search);
+  const V3 raw = last_direction(search);
   result.u = search.u;
-  const V3 g = {w.x, hn::Mul(w.y, s.inverse1), hn::Mul(w.z, s.inverse2)};
-  const V inverse = hn::Mul(s.longest, inverse_sqrt(dot(g, g)));
-  const V3 n = scaled(g, inverse);  // unit normal times r0, first octant
+  const V3 g = {raw.x, hn::Mul(raw.y, s.inverse1), hn::Mul(raw.z, s.inverse2)};
+  // Of w and of w / r side by side: the normal does not care how long w is.
+  const V3 w = result.w = scaled(raw, inverse_sqrt(dot(raw, raw)));
+  const V3 n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));  // unit normal times r0, first octant
   const V3 off = {hn::Sub(search.y.x, w.x), hn::NegMulAdd(s.radius1, w.y, search.y.y),
                   hn::NegMulAdd(s.radius2, w.z, search.y.z)};
   result.distance = dot(n, off);
@@ -208,6 +214,15 @@ HWY_INLINE Foot finished(const Shape& s, V3 y, Search& search) {
                    hn::MulAdd(s.row0.z, m.x, hn::MulAdd(s.row1.z, m.y, hn::Mul(s.row2.z, m.z)))};
   return result;
 }
+
+template <bool kLast>
+HWY_INLINE void usual_step(const Shape& s, Search& search) {
+  search.u = next_root<true>(search.at, search.u, search.low);
+  search.at = evaluate<kLast>(search.a, s.gap0, s.gap1, search.u);
+}
+
+/// Vectors of problems that are worked on in step.
+constexpr int kTogether = 2;
 
 /// Several vectors of problems in step, since each waits for its own results most of the time.
 template <int kCount>
@@ -219,11 +234,9 @@ HWY_INLINE void feet_of(const Shape (&s)[kCount], const V3 (&p)[kCount], Foot (&
     y[i] = {dot(s[i].row0, q), dot(s[i].row1, q), dot(s[i].row2, q)};
     search[i] = start_from_surface(y[i], s[i]);
   }
-  for (int step = 0; step < kUsualSteps; ++step)
-    for (int i = 0; i < kCount; ++i) {
-      search[i].u = next_root<true>(search[i].at, search[i].u, search[i].low);
-      search[i].at = evaluate(search[i].a, s[i].gap0, s[i].gap1, search[i].u);
-    }
+  static_assert(kUsualSteps == 2);
+  for (int i = 0; i < kCount; ++i) usual_step<false>(s[i], search[i]);
+  for (int i = 0; i < kCount; ++i) usual_step<true>(s[i], search[i]);
   for (int i = 0; i < kCount; ++i) {
     const M active = unsettled(search[i].at, search[i].u, search[i].low);
     if (!hn::AllFalse(f, active)) refine(active, s[i], search[i]);

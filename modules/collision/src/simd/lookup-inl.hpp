@@ -17,21 +17,28 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// A block's candidates, a column each; rows are the members of BakedEllipsoid, of BakedTable (relief only)
-/// and the proxy's index, all as floats or the bits of integers.
+/// The candidates of some blocks, a column each; rows are the members of BakedEllipsoid, of BakedTable
+/// (relief only), the proxy's index, and the members of BoundEllipsoid, all as floats or the bits of
+/// integers.
 class Columns {
  public:
-  static constexpr int kTable = kBakedFloats, kName = kTable + kTableFloats, kRows = kName + 1;
+  static constexpr int kTable = kBakedFloats, kName = kTable + kTableFloats, kBound = kName + 1,
+                       kRows = kBound + kBoundFloats;
 
   HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
                        int count) {
     count_ = count;
+    ellipsoids_ = ellipsoids;
     if (count <= kPad)
       fill_by<kPad>(baked, relief, ellipsoids);
+    else if (count <= 2 * kPad)
+      fill_by<2 * kPad>(baked, relief, ellipsoids);
     else
       fill_by<kMaxCandidates>(baked, relief, ellipsoids);
   }
   int count() const { return count_; }
+  /// Of the proxy's, which column i holds.
+  std::size_t ellipsoid(int i) const { return static_cast<std::size_t>(ellipsoids_[i]); }
   const float* row(int i) const { return values_ + i * stride_; }
 
  private:
@@ -46,18 +53,21 @@ class Columns {
       put<kStride>(baked.ellipsoids[k], values_ + c);
       if (relief) put<kStride>(relief->tables[k], values_ + kTable * kStride + c);
       put<kStride>(baked.names[k], values_ + kName * kStride + c);
+      put<kStride, kBoundFloats>(baked.bounds[k], values_ + kBound * kStride + c);
     }
   }
-  template <int kStride, class Member>
+  template <int kStride, int kFloats = 0, class Member>
   static HWY_INLINE void put(const Member& member, float* to) {
-    const auto values = std::bit_cast<std::array<float, sizeof(Member) / sizeof(float)>>(member);
+    constexpr std::size_t kSize = sizeof(Member) / sizeof(float), kUsed = kFloats == 0 ? kSize : kFloats;
+    const auto values = std::bit_cast<std::array<float, kSize>>(member);
     [&]<std::size_t... i>(std::index_sequence<i...>) {
       ((to[i * kStride] = values[i]), ...);
     }
-    (std::make_index_sequence<sizeof(Member) / sizeof(float)>());
+    (std::make_index_sequence<kUsed>());
   }
 
   alignas(64) float values_[kRows * kMaxCandidates];
+  const std::int32_t* ellipsoids_ = nullptr;
   int stride_ = 0, count_ = 0;
 };
 

@@ -17,6 +17,11 @@ static_assert((kMaxCandidates & kRankMask) == 0, "a rank must fit into the low b
 // What the rank in its low bits can change a bound by is far below kEstimate.
 static_assert(kMaxCandidates <= 256);
 
+/// A bound with its candidate's rank in the low bits.
+HWY_INLINE V ranked(V bound, VI rank) {
+  return hn::BitCast(f, hn::Or(hn::AndNot(hn::Set(I(), kRankMask), hn::BitCast(I(), bound)), rank));
+}
+
 /// The lowest bounds of a vector of particles, rising, each with its candidate's rank in the low bits; of the
 /// last only the value matters: it tells whether those that are kept are all that count.
 template <int kKept>
@@ -27,8 +32,7 @@ struct Lowest {
     for (V& b : bound) b = hn::BitCast(f, hn::Set(I(), 0x71490000));  // 1e30, of rank 0
   }
   HWY_INLINE void add(V value, VI rank) {
-    const VI bits = hn::BitCast(I(), value);
-    V next = hn::BitCast(f, hn::Or(hn::AndNot(hn::Set(I(), kRankMask), bits), rank));
+    V next = ranked(value, rank);
     for (int i = 0; i < kKept; ++i) {
       const V higher = hn::Max(bound[i], next);
       bound[i] = hn::Min(bound[i], next);

@@ -17,24 +17,56 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kBlocks = kBatch / kBlock;
+constexpr int kCorners = 8, kRivals = 2;
+static_assert(kRivals * kCorners % kWidth == 0);
 
 struct Near {
   int count = 0;
   alignas(64) std::int32_t index[kMaxCandidates + 16];
 };
 
-/// The numbers of ellipsoid k + lane.
+/// The numbers of some ellipsoids, one a lane.
 struct BoundLanes {
   V3 a0, a1, a2, offset, inverse_radius;
 };
 
-HWY_INLINE BoundLanes bound_lanes(const CullArrays& c, std::size_t k) {
-  const auto row = [&](int i) {
-    return V3{hn::LoadU(f, c.bound[i].data() + k), hn::LoadU(f, c.bound[i + 1].data() + k),
-              hn::LoadU(f, c.bound[i + 2].data() + k)};
-  };
-  return {row(0), row(3), row(6), row(kBoundOffset), row(kBoundInverse)};
+/// `row` reads the members of BoundEllipsoid by their number.
+template <class Row>
+HWY_INLINE BoundLanes bound_lanes(Row&& row) {
+  const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
+  return {row3(0), row3(3), row3(6), row3(kBoundOffset), row3(kBoundInverse)};
 }
+
+/// Where candidates are looked for: in the whole proxy,
+struct Everything {
+  const Baked& baked;
+
+  int count() const { return static_cast<int>(baked.size()); }
+  HWY_INLINE BoundLanes bounds(int k) const {
+    return bound_lanes([&](int i) { return hn::LoadU(f, baked.cull.bound[i].data() + k); });
+  }
+  /// The first in the lower half of a vector wider than a box has corners, the second in the upper.
+  HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
+    const auto one = [&](std::int32_t k) { return broadcast(baked.ellipsoids[static_cast<std::size_t>(k)]); };
+    if constexpr (kWidth <= kCorners) return one(first);
+    return select(hn::FirstN(f, kCorners), one(first), one(second));
+  }
+};
+
+/// or in the columns of several blocks.
+template <int kTables>
+struct AmongColumns {
+  const Columns& columns;
+
+  int count() const { return columns.count(); }
+  HWY_INLINE BoundLanes bounds(int k) const {
+    return bound_lanes([&](int i) { return hn::LoadU(f, columns.row(Columns::kBound + i) + k); });
+  }
+  HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
+    const VI lower = hn::Set(I(), first), upper = hn::Set(I(), second);
+    return shape_of<kTables>(columns, hn::IfThenElse(hn::FirstN(I(), kCorners), lower, upper));
+  }
+};
 
 /// The plane that bounds the distances to ellipsoid k + lane from below: base + slope . (p - middle), base
 /// being the first-order distance at the middle; NaN at a centre: no bound.
@@ -54,9 +86,6 @@ HWY_INLINE Planes planes_at(const BoundLanes& e, V3 middle) {
 HWY_INLINE V3 slope_of(const BoundLanes& e, const Planes& at) {
   return scaled(along(along(scaled(e.a0, at.u.x), at.u.y, e.a1), at.u.z, e.a2), at.scale);
 }
-
-constexpr int kCorners = 8, kRivals = 2;
-static_assert(kRivals * kCorners % kWidth == 0);
 
 /// Two ellipsoids that are probably the nearest of a box, and their exact distances at its corners.
 struct Rivals {
@@ -83,13 +112,14 @@ HWY_INLINE void pick_rivals(LaneLeast least, Rivals& out) {
   }
 }
 
-HWY_INLINE void find_rivals(const Baked& baked, const Extent* boxes, int blocks, Rivals* out) {
+template <class Source>
+HWY_INLINE void find_rivals(const Source& source, const Extent* boxes, int blocks, Rivals* out) {
   LaneLeast least[kBlocks];
   for (LaneLeast& l : least) l = {all(1e30f), hn::Zero(I())};
-  const VI end = hn::Set(I(), static_cast<std::int32_t>(baked.size()));
-  for (std::size_t k = 0; k < baked.cull.shortest.size(); k += kWidth) {
-    const BoundLanes lanes = bound_lanes(baked.cull, k);
-    const VI index = hn::Iota(I(), static_cast<std::int32_t>(k));
+  const VI end = hn::Set(I(), source.count());
+  for (int k = 0; k < source.count(); k += kWidth) {
+    const BoundLanes lanes = source.bounds(k);
+    const VI index = hn::Iota(I(), k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int block = 0; block < blocks; ++block) {
       const V distance = planes_at(lanes, broadcast3(boxes[block].middle)).base;
@@ -101,22 +131,37 @@ HWY_INLINE void find_rivals(const Baked& baked, const Extent* boxes, int blocks,
   for (int block = 0; block < blocks; ++block) pick_rivals(least[block], out[block]);
 }
 
-HWY_INLINE void measure_corners(const Baked& baked, const Extent& e, Rivals& out) {
+/// Corners [i, i + kWidth) of the box, once for each rival.
+HWY_INLINE V3 corners(const Extent& e, int i) {
   alignas(64) static constexpr float kSide[3][kRivals * kCorners] = {
       {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1},
       {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1},
       {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1}};
   const V3 middle = broadcast3(e.middle), half = broadcast3(e.half);
-  for (int i = 0; i < kRivals * kCorners; i += kWidth) {
-    const V3 corner = {hn::MulAdd(half.x, hn::Load(f, kSide[0] + i), middle.x),
-                       hn::MulAdd(half.y, hn::Load(f, kSide[1] + i), middle.y),
-                       hn::MulAdd(half.z, hn::Load(f, kSide[2] + i), middle.z)};
-    const auto shape = [&](int r) {
-      return broadcast(baked.ellipsoids[static_cast<std::size_t>(out.index[r])]);
-    };
-    Shape s = shape(i / kCorners);
-    if constexpr (kWidth > kCorners) s = select(hn::FirstN(f, kCorners), s, shape(1));
-    hn::Store(foot_of(s, corner).distance, f, out.distance + i);
+  return {hn::MulAdd(half.x, hn::Load(f, kSide[0] + i), middle.x),
+          hn::MulAdd(half.y, hn::Load(f, kSide[1] + i), middle.y),
+          hn::MulAdd(half.z, hn::Load(f, kSide[2] + i), middle.z)};
+}
+
+template <class Source>
+HWY_INLINE void measure_corners(const Source& source, const Extent* boxes, int blocks, Rivals* rivals) {
+  constexpr int kEach = kRivals * kCorners / kWidth;
+  const int vectors = blocks * kEach;
+  for (int from = 0; from < vectors; from += kTogether) {
+    Shape shapes[kTogether];
+    V3 places[kTogether];
+    Foot feet[kTogether];
+    float* to[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const int which = std::min(from + v, vectors - 1), block = which / kEach;
+      const int i = which % kEach * kWidth;
+      const std::int32_t* const index = rivals[block].index;
+      shapes[v] = source.shapes(index[i / kCorners], index[kRivals - 1]);
+      places[v] = corners(boxes[block], i);
+      to[v] = rivals[block].distance + i;
+    }
+    feet_of(shapes, places, feet);
+    for (int v = 0; v < kTogether; ++v) hn::Store(feet[v].distance, f, to[v]);
   }
 }
 
@@ -134,20 +179,19 @@ HWY_INLINE M unbeaten(const Planes& at, V3 slope, V3 half, const Rivals& rivals,
   return hn::Not(hn::And(hn::Gt(hn::Max(lead[0], lead[1]), beyond), hn::Eq(at.base, at.base)));
 }
 
-/// For each block of the batch all ellipsoids that can be the nearest of a place in its box, or within
-/// `beyond_m` of the nearest, by rising index; false if they are more than kMaxCandidates.
-inline bool find_near(const Baked& baked, const Extent* boxes, int blocks, float beyond_m, Near* out) {
+/// For each box all ellipsoids of the source that can be the nearest of a place in it, or within `beyond_m`
+/// of the nearest, by rising index; false if they are more than kMaxCandidates.
+template <class Source>
+HWY_INLINE bool find_near(const Source& source, const Extent* boxes, int blocks, float beyond_m, Near* out) {
   Rivals rivals[kBlocks];
-  find_rivals(baked, boxes, blocks, rivals);
-  for (int block = 0; block < blocks; ++block) {
-    measure_corners(baked, boxes[block], rivals[block]);
-    out[block].count = 0;
-  }
-  const VI end = hn::Set(I(), static_cast<std::int32_t>(baked.size()));
-  const V beyond = all(beyond_m + 4.0f * baked.rounding_m);
-  for (std::size_t k = 0; k < baked.cull.shortest.size(); k += kWidth) {
-    const BoundLanes lanes = bound_lanes(baked.cull, k);
-    const VI index = hn::Iota(I(), static_cast<std::int32_t>(k));
+  find_rivals(source, boxes, blocks, rivals);
+  measure_corners(source, boxes, blocks, rivals);
+  for (int block = 0; block < blocks; ++block) out[block].count = 0;
+  const VI end = hn::Set(I(), source.count());
+  const V beyond = all(beyond_m);
+  for (int k = 0; k < source.count(); k += kWidth) {
+    const BoundLanes lanes = source.bounds(k);
+    const VI index = hn::Iota(I(), k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int block = 0; block < blocks; ++block) {
       Near& to = out[block];

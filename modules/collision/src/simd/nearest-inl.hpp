@@ -16,48 +16,60 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kVectors = kBlock / kWidth;
-constexpr int kTogether = kVectors < 2 ? kVectors : 2;  // vectors that are worked on in step
+/// Blocks that share columns, where all their candidates fit into two vectors.
+constexpr int kShared = kWidth < 16 ? 1 : kBlocks;
+static_assert(kBlock % (kTogether * kWidth) == 0);
 
-/// The bounds of a block's candidates at the vectors from lane `from` of the batch on.
+/// The bounds of a block's candidates at some vectors of particles.
 template <int kKept>
-HWY_INLINE void bound_vectors(const Baked& baked, const Near& near, const V3 (&p)[kTogether],
-                              Lowest<kKept> (&out)[kTogether]) {
+HWY_INLINE void bound_vectors(const Baked& baked, const Columns& columns, const Near& near,
+                              const V3 (&p)[kTogether], Lowest<kKept> (&out)[kTogether]) {
   for (Lowest<kKept>& lowest : out) lowest.clear();
-  for (int r = 0; r < near.count; ++r) {
-    const BoundEllipsoid& e = baked.bounds[static_cast<std::size_t>(near.index[r])];
-    const VI rank = hn::Set(I(), r);
+  for (int i = 0; i < near.count; ++i) {
+    const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(near.index[i])];
+    const VI rank = hn::Set(I(), near.index[i]);
     for (int v = 0; v < kTogether; ++v) out[v].add(lower_bound(e, p[v]), rank);
   }
 }
 
-/// All candidates but the first kept ones whose bound is not above the limit, for lanes with so many.
-template <int kKept>
-HWY_INLINE bool collect_rest(const Baked& baked, const Near& near, V3 p, V limit, VI lanes, M many,
-                             const Lowest<kKept>& lowest, Pairs& pairs) {
-  for (int r = 0; r < near.count; ++r) {
-    const VI rank = hn::Set(I(), r);
-    M may = hn::AndNot(hn::Gt(lower_bound(baked.bounds[static_cast<std::size_t>(near.index[r])], p), limit),
-                       many);
-    for (int i = 0; i < kKept; ++i) may = hn::AndNot(hn::RebindMask(f, hn::Eq(lowest.rank(i), rank)), may);
-    if (hn::AllFalse(f, may)) continue;
-    if (!pairs.fits()) return false;
-    pairs.add(may, lanes, rank);
+/// What the first answers leave open.
+struct Open {
+  Pairs pairs;
+  /// Particles with more candidates below the limit than were kept: their lanes, the highest bound that was
+  /// kept and the limit, by number.
+  alignas(64) std::int32_t lane[kBatch + 16];
+  alignas(64) float kept[kBatch + 16], limit[kBatch + 16];
+  int count = 0;
+
+  template <int kKept>
+  HWY_INLINE void add(const Lowest<kKept>& lowest, V limits, VI lanes) {
+    for (int i = 1; i < kKept; ++i)
+      pairs.add(hn::Not(hn::Gt(lowest.bound[i], limits)), lanes, lowest.rank(i));
+    const M many = hn::Not(hn::Gt(lowest.bound[kKept], limits));
+    hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), many)), I(), lane + count);
+    hn::StoreU(hn::Compress(lowest.bound[kKept - 1], many), f, kept + count);
+    hn::StoreU(hn::Compress(limits, many), f, limit + count);
+    count += static_cast<int>(hn::CountTrue(f, many));
+  }
+};
+
+/// The pairs of the particles with many; false if they do not fit.
+HWY_INLINE bool collect_rest(const Baked& baked, const Columns& columns, const QueryBatch& batch,
+                             Open& open) {
+  for (int from = 0; from < open.count; from += kWidth) {
+    const M valid = hn::FirstN(f, static_cast<std::size_t>(open.count - from));
+    const VI lanes = hn::IfThenElseZero(hn::RebindMask(I(), valid), hn::Load(I(), open.lane + from));
+    const V3 p = {hn::GatherIndex(f, batch.x, lanes), hn::GatherIndex(f, batch.y, lanes),
+                  hn::GatherIndex(f, batch.z, lanes)};
+    const V kept = hn::Load(f, open.kept + from), limit = hn::Load(f, open.limit + from);
+    for (int i = 0; i < columns.count(); ++i) {
+      if (!open.pairs.fit(1)) return false;
+      const VI rank = hn::Set(I(), i);
+      const V bound = ranked(lower_bound(baked.bounds[columns.ellipsoid(i)], p), rank);
+      open.pairs.add(hn::And(valid, hn::AndNot(hn::Gt(bound, limit), hn::Gt(bound, kept))), lanes, rank);
+    }
   }
   return true;
-}
-
-/// The pairs of one vector that its first answers leave open; false if they do not fit.
-template <int kKept>
-HWY_INLINE bool collect(const Baked& baked, const Near& near, V3 p, V limit, int i,
-                        const Lowest<kKept>& lowest, Pairs& pairs) {
-  const VI lanes = hn::Iota(I(), i);
-  for (int kept = 1; kept < kKept; ++kept) {
-    if (!pairs.fits()) return false;
-    pairs.add(hn::Not(hn::Gt(lowest.bound[kept], limit)), lanes, lowest.rank(kept));
-  }
-  const M many = hn::Not(hn::Gt(lowest.bound[kKept], limit));
-  return hn::AllFalse(f, many) || collect_rest(baked, near, p, limit, lanes, many, lowest, pairs);
 }
 
 /// Of its lanes, in whole groups of vectors.
@@ -66,10 +78,10 @@ HWY_INLINE int end_of_block(const QueryBatch& batch, int begin) {
   return begin + (std::min(kBlock, batch.count - begin) + kGroup - 1) / kGroup * kGroup;
 }
 
-/// One block of the batch; false if there are more pairs than there is room for.
+/// The first answers of one block; false if there is no room for what they leave open.
 template <int kKept, int kTables>
-HWY_INLINE bool nearest_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch, int begin,
-                           const Near& near, const Columns& columns, Pairs& pairs, Batched& out) {
+HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                             int begin, const Near& near, const Columns& columns, Open& open, Batched& out) {
   const float beyond_m = relief ? relief->blend_m : 0.0f;
   for (int from = begin; from < end_of_block(batch, begin); from += kTogether * kWidth) {
     V3 p[kTogether];
@@ -78,55 +90,97 @@ HWY_INLINE bool nearest_of(const Baked& baked, const ReliefTables* relief, const
     Answer answers[kTogether];
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
-      p[v] = load3(batch.x + i, batch.y + i, batch.z + i);
+      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
     }
-    bound_vectors(baked, near, p, lowest);
+    bound_vectors(baked, columns, near, p, lowest);
     for (int v = 0; v < kTogether; ++v) first[v] = lowest[v].rank(0);
     answer_each<kTables>(relief, columns, first, p, answers);
+    if (!open.pairs.fit((kKept - 1) * kTogether)) return false;
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
       put(answers[v], relief != nullptr, out, i);
-      const V limit = bound_limit(baked, answers[v].distance, beyond_m);
-      if (!collect(baked, near, p[v], limit, i, lowest[v], pairs)) return false;
+      open.add(lowest[v], bound_limit(baked, answers[v].distance, beyond_m), hn::Iota(I(), i));
     }
   }
   return true;
 }
 
-HWY_INLINE bool nearest_block(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                              int begin, const Near& near, Columns& columns, Pairs& pairs, Batched& out) {
-  columns.fill(baked, relief, near.index, near.count);
-  pairs.count = 0;
-  bool fits = false;
-  with_tables(columns, [&](auto tables) {
-    fits = relief ? nearest_of<3, tables()>(baked, relief, batch, begin, near, columns, pairs, out)
-                  : nearest_of<2, tables()>(baked, nullptr, batch, begin, near, columns, pairs, out);
-  });
-  if (!fits) return false;
-  answer_pairs(relief, columns, batch, pairs);
-  if (relief)
-    combine_blended(*relief, begin, end_of_block(batch, begin), pairs, out);
-  else
-    combine_nearest(pairs, out);
+/// Some blocks of the batch whose candidates are the columns.
+template <int kKept, int kTables>
+HWY_INLINE bool nearest_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch, int first,
+                           int blocks, const Near* near, const Columns& columns, Open& open, Batched& out) {
+  open.pairs.count = open.count = 0;
+  for (int block = 0; block < blocks; ++block)
+    if (!answer_first<kKept, kTables>(baked, relief, batch, (first + block) * kBlock, near[block], columns,
+                                      open, out))
+      return false;
+  if (!collect_rest(baked, columns, batch, open)) return false;
+  answer_pairs<kTables>(relief, columns, batch, open.pairs);
+  if (relief) {
+    const int last = (first + blocks - 1) * kBlock;
+    combine_blended(*relief, first * kBlock, end_of_block(batch, last), open.pairs, out);
+  } else {
+    combine_nearest(open.pairs, out);
+  }
   return true;
 }
 
-/// Distance, unit gradient and owner of every particle; false if the kernel has no room.
-inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Batched& out) {
-  Near near[kBlocks];
-  Extent box[kBlocks];
+/// Every column, for a block that does not share them.
+HWY_INLINE void choose_all(const Columns& columns, Near& out) {
+  out.count = columns.count();
+  for (int i = 0; i < out.count; i += kWidth) hn::Store(hn::Iota(I(), i), I(), out.index + i);
+}
+
+struct Scratch {
   Columns columns;
-  Pairs pairs;
+  Open open;
+  Near near, of_block[kBlocks];
+};
+
+/// Blocks [first, first + blocks) of the batch together; false if the kernel has no room.
+HWY_INLINE bool nearest_together(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                                 const Extent* boxes, int first, int blocks, Scratch& s, Batched& out) {
+  Extent around = boxes[first];
+  for (int block = 1; block < blocks; ++block) around = united(around, boxes[first + block]);
+  const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
+  if (!find_near(Everything{baked}, &around, 1, beyond_m, &s.near)) return false;
+  if (blocks > 1 && s.near.count > 2 * kWidth) return false;
+  s.columns.fill(baked, relief, s.near.index, s.near.count);
+  bool fits = false;
+  with_tables(s.columns, [&](auto tables) {
+    if (blocks == 1)
+      choose_all(s.columns, s.of_block[0]);
+    else
+      (void)find_near(AmongColumns<tables()>{s.columns}, boxes + first, blocks, beyond_m, s.of_block);
+    fits = relief ? nearest_of<3, tables()>(baked, relief, batch, first, blocks, s.of_block, s.columns,
+                                            s.open, out)
+                  : nearest_of<2, tables()>(baked, nullptr, batch, first, blocks, s.of_block, s.columns,
+                                            s.open, out);
+  });
+  return fits;
+}
+
+/// Distance, unit gradient and owner of every particle; false if the kernel has no room, or a place is too
+/// far for floats.
+inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Batched& out) {
+  Extent box[kBlocks];
+  Scratch scratch;
   const int blocks = (batch.count + kBlock - 1) / kBlock;
   for (int block = 0; block < blocks; ++block) {
     const int begin = block * kBlock;
+    bool near = false;
     box[block] = extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin,
-                                 std::min(kBlock, batch.count - begin));
+                                 std::min(kBlock, batch.count - begin), near);
+    if (!near) return false;
     batch.radius_m[block] = box[block].radius;
   }
-  if (!find_near(baked, box, blocks, relief ? relief->blend_m : 0.0f, near)) return false;
-  for (int block = 0; block < blocks; ++block)
-    if (!nearest_block(baked, relief, batch, block * kBlock, near[block], columns, pairs, out)) return false;
+  for (int first = 0; first < blocks; first += kShared) {
+    const int count = std::min(kShared, blocks - first);
+    if (nearest_together(baked, relief, batch, box, first, count, scratch, out)) continue;
+    if (count == 1) return false;
+    for (int block = first; block < first + count; ++block)
+      if (!nearest_together(baked, relief, batch, box, block, 1, scratch, out)) return false;
+  }
   return true;
 }
 

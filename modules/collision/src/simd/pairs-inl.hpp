@@ -49,15 +49,6 @@ HWY_INLINE void answer_each(const ReliefTables* relief, const Columns& columns, 
   }
 }
 
-template <int kTables>
-HWY_INLINE Answer answer(const ReliefTables* relief, const Columns& columns, VI column, V3 p) {
-  const VI one_column[1] = {column};
-  const V3 one_point[1] = {p};
-  Answer one[1];
-  answer_each<kTables>(relief, columns, one_column, one_point, one);
-  return one[0];
-}
-
 template <int kSize>
 HWY_INLINE void put(const Answer& a, bool relief, Answers<kSize>& to, int i) {
   hn::Store(a.distance, f, to.distance + i);
@@ -66,16 +57,16 @@ HWY_INLINE void put(const Answer& a, bool relief, Answers<kSize>& to, int i) {
   hn::Store(a.name, I(), to.name + i);
 }
 
-/// Of one block.
+/// Of some blocks that share columns.
 struct Pairs {
   static constexpr int kCapacity = 1024;
-  static constexpr int kSize = kCapacity + 16;
+  static constexpr int kSize = kCapacity + 32;
   alignas(64) std::int32_t lane[kSize];
   alignas(64) std::int32_t column[kSize];
   Answers<kSize> answers;
   int count = 0;
 
-  bool fits() const { return count + kWidth <= kCapacity; }
+  bool fit(int vectors) const { return count + vectors * kWidth <= kCapacity; }
   /// The lanes of `mask`, each with its column.
   HWY_INLINE void add(M mask, VI lanes, VI columns) {
     const auto chosen = hn::RebindMask(I(), mask);
@@ -85,20 +76,28 @@ struct Pairs {
   }
 };
 
+template <int kTables>
 HWY_INLINE void answer_pairs(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch,
                              Pairs& pairs) {
   if (pairs.count == 0) return;
-  // What a last vector holds beyond the count must be a valid pair, too.
-  hn::StoreU(hn::Set(I(), pairs.lane[0]), I(), pairs.lane + pairs.count);
-  hn::StoreU(hn::Zero(I()), I(), pairs.column + pairs.count);
-  with_tables(columns, [&](auto tables) {
-    for (int i = 0; i < pairs.count; i += kWidth) {
-      const VI lane = hn::Load(I(), pairs.lane + i);
-      const V3 p = {hn::GatherIndex(f, batch.x, lane), hn::GatherIndex(f, batch.y, lane),
-                    hn::GatherIndex(f, batch.z, lane)};
-      put(answer<tables()>(relief, columns, hn::Load(I(), pairs.column + i), p), relief, pairs.answers, i);
+  // What the last vectors hold beyond the count must be valid pairs, too.
+  for (int v = 0; v < kTogether; ++v) {
+    hn::StoreU(hn::Set(I(), pairs.lane[0]), I(), pairs.lane + pairs.count + v * kWidth);
+    hn::StoreU(hn::Zero(I()), I(), pairs.column + pairs.count + v * kWidth);
+  }
+  for (int from = 0; from < pairs.count; from += kTogether * kWidth) {
+    VI column[kTogether];
+    V3 p[kTogether];
+    Answer answers[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const VI lane = hn::Load(I(), pairs.lane + from + v * kWidth);
+      column[v] = hn::Load(I(), pairs.column + from + v * kWidth);
+      p[v] = {hn::GatherIndex(f, batch.x, lane), hn::GatherIndex(f, batch.y, lane),
+              hn::GatherIndex(f, batch.z, lane)};
     }
-  });
+    answer_each<kTables>(relief, columns, column, p, answers);
+    for (int v = 0; v < kTogether; ++v) put(answers[v], relief != nullptr, pairs.answers, from + v * kWidth);
+  }
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -37,6 +37,9 @@ HWY_INLINE V estimated_inverse_sqrt(V v) {
 HWY_INLINE V reciprocal(V v) {
   return hn::Div(all(1.0f), v);
 }
+HWY_INLINE V estimated_reciprocal(V v) {
+  return reciprocal(v);
+}
 HWY_INLINE V inverse_sqrt(V v) {
   return estimated_inverse_sqrt(v);
 }
@@ -49,16 +52,20 @@ HWY_INLINE V estimated_inverse_sqrt(V v) {
   const V r = hn::ApproximateReciprocalSqrt(v);
   return HWY_TARGET == HWY_NEON ? newton_inverse_sqrt(v, r) : r;  // starts from 8 bits instead of 12
 }
+HWY_INLINE V estimated_reciprocal(V v) {
+  const V r = hn::ApproximateReciprocal(v);
+  return HWY_TARGET == HWY_NEON ? hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f))) : r;
+}
 HWY_INLINE V reciprocal(V v) {
-  V r = hn::ApproximateReciprocal(v);
-  if (HWY_TARGET == HWY_NEON) r = hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f)));
+  const V r = estimated_reciprocal(v);
   return hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f)));
 }
 HWY_INLINE V inverse_sqrt(V v) {
   return newton_inverse_sqrt(v, estimated_inverse_sqrt(v));
 }
 #endif
-constexpr float kEstimate = 5e-4f;  // 1.5 * 2^-12 at worst
+// The worst of an estimate: 1.5 * 2^-12, and 2^-14 where there are masks.
+constexpr float kEstimate = HWY_TARGET == HWY_AVX3 ? 1e-4f : 5e-4f;
 
 HWY_INLINE V3 operator+(V3 a, V3 b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
