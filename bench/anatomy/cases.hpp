@@ -25,7 +25,7 @@ struct Case {
 /// Every body of the data folder that has labels. Sorted by name.
 std::vector<Case> file_cases(const std::filesystem::path& data, const std::string& only);
 
-/// A made body of random build (thin to obese), pose, resolution, turn, place and unit.
+/// A made body of random build (thin to obese; a child, pregnant), pose, resolution, turn, place and unit.
 Case synth_case(std::uint64_t seed);
 
 /// The average made body, as fine as wanted: what time is measured on.

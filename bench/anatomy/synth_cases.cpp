@@ -19,6 +19,13 @@ int coarse_of(Part part) {
   return table[static_cast<int>(part)];
 }
 
+/// From two years to some twelve.
+void make_child(bodice::engine::Random& random, bodice::synth::BodyOptions& o) {
+  o.childhood = random.uniform(0.2, 1.0);
+  o.stature_m = 1.55 - 0.69 * o.childhood;
+  o.mass_kg = random.uniform(14.5, 22.0) * o.stature_m * o.stature_m;
+}
+
 bodice::synth::BodyOptions options_of(std::uint64_t seed) {
   using bodice::synth::Pose;
   bodice::engine::Random random(seed);
@@ -29,6 +36,8 @@ bodice::synth::BodyOptions options_of(std::uint64_t seed) {
   o.pose = static_cast<Pose>(random.below(static_cast<std::uint64_t>(Pose::kRandom) + 1));
   o.vertices = static_cast<int>(random.uniform(1500.0, 14000.0));
   o.seed = seed + 1;
+  if (random.below(6) == 0) make_child(random, o);
+  o.pregnant = o.childhood == 0.0 && o.sex == bodice::body::Sex::kFemale && random.below(6) == 0;
   return o;
 }
 
@@ -53,7 +62,10 @@ Case synth_case(std::uint64_t seed) {
   const auto body = bodice::synth::make_body({}, options);
   if (!body) return c;
   c.name += " pose " + std::to_string(static_cast<int>(options.pose)) + " bmi " +
-            std::to_string(static_cast<int>(options.mass_kg / options.stature_m / options.stature_m));
+            std::to_string(static_cast<int>(options.mass_kg / options.stature_m / options.stature_m)) +
+            (options.childhood > 0.0 ? " child"
+             : options.pregnant      ? " pregnant"
+                                     : "");
   c.rest = options.pose == bodice::synth::Pose::kA || options.pose == bodice::synth::Pose::kT;
   c.mesh = body->mesh;
   for (const Part part : body->part) c.truth.push_back(coarse_of(part));

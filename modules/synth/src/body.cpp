@@ -37,6 +37,8 @@ std::optional<engine::Error> check(const BodyOptions& o) {
   if (!(bmi >= 10.0 && bmi <= 70.0))
     return wrong(text(o.mass_kg, " kg at ", o.stature_m, " m is a body mass index of ", bmi, "."),
                  "Ask for a mass whose index lies between 10 and 70.");
+  if (!(o.childhood >= 0.0 && o.childhood <= 1.0))
+    return wrong(text("A childhood of ", o.childhood, " is no share."), "Ask for 0 (grown up) to 1.");
   if (o.vertices < kLeastVertices || o.vertices > kMostVertices)
     return wrong(text("A body of ", o.vertices, " vertices cannot be made."),
                  text("Ask for ", kLeastVertices, " to ", kMostVertices, "."));
@@ -93,7 +95,7 @@ void place(Body& body, double stature_m) {
 }
 
 Body make(const engine::Context& context, const BodyOptions& options, const body::Proportions& proportions) {
-  Figure figure = make_figure(options.sex, proportions, options.seed);
+  Figure figure = make_figure(options, proportions);
   const double h = options.stature_m;
   const double wanted = options.mass_kg / kDensity / (h * h * h);
   Skin skin = solve_girth(context, figure, wanted);
@@ -119,7 +121,7 @@ Body make(const engine::Context& context, const BodyOptions& options, const body
   body.stature_m = h;
   body.mesh.positions = deform(context, rest, weights, bones);
   body.mesh.triangles = triangulate(mesh, rest);
-  const Posed posed{figure, mesh, body.mesh.triangles, rest, weights, body.mesh.positions};
+  const Posed posed{figure, mesh, body.mesh.triangles, rest, weights, body.mesh.positions, bones};
   body.part = true_parts(posed);
   body.landmarks = true_landmarks(posed);
   body.joints = true_joints(figure, bones);

@@ -50,6 +50,25 @@ void vary(Figure& figure, std::uint64_t seed) {
   b.seat = factor(random, 0.12);
 }
 
+/// From a grown-up's proportions towards a two-year-old's. The numbers are the author's, after growth charts:
+/// the head's share of the stature grows from 1/7.5 to 1/5, the legs' falls from .47 to .37.
+void make_young(Figure& f, double childhood) {
+  body::Proportions& p = f.p;
+  for (double* height : {&p.neck_height, &p.acromion_height}) *height -= 0.058 * childhood;
+  for (double* height : {&p.axilla_height, &p.chest_height, &p.waist_height}) *height -= 0.065 * childhood;
+  p.crotch_height -= 0.10 * childhood;
+  p.knee_height -= 0.055 * childhood;
+  p.head_length += 0.066 * childhood;
+  p.upper_arm -= 0.022 * childhood;
+  p.forearm -= 0.020 * childhood;
+  p.hand -= 0.004 * childhood;
+  Build& b = f.build;
+  for (double* girth : {&b.hip, &b.waist, &b.chest, &b.arm, &b.leg}) *girth *= 1.0 + 0.12 * childhood;
+  b.head *= 1.0 + 0.55 * childhood;
+  b.neck *= 1.0 + 0.25 * childhood;
+  b.bust *= 1.0 - 0.6 * childhood;
+}
+
 void place_trunk(Figure& f) {
   const body::Proportions& p = f.p;
   const auto at = [&](Bone bone) -> Vec3& { return f.joint[index(bone)]; };
@@ -99,11 +118,13 @@ std::string_view joint_name(Bone bone) {
   return kJointNames[index(bone)];
 }
 
-Figure make_figure(body::Sex sex, const body::Proportions& proportions, std::uint64_t seed) {
+Figure make_figure(const BodyOptions& options, const body::Proportions& proportions) {
   Figure figure;
-  figure.sex = sex;
+  figure.sex = options.sex;
   figure.p = proportions;
-  if (seed != 0) vary(figure, seed);
+  figure.pregnant = options.pregnant;
+  if (options.seed != 0) vary(figure, options.seed);
+  make_young(figure, options.childhood);
   figure.hip_height = figure.p.crotch_height + 0.045;
   figure.ankle_height = 0.042;
   place_trunk(figure);

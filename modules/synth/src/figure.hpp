@@ -9,8 +9,7 @@
 #include <array>
 #include <string_view>
 
-#include <bodice/body/proportions.hpp>
-#include <bodice/geometry/types.hpp>
+#include <bodice/synth/body.hpp>
 
 namespace bodice::synth {
 
@@ -68,6 +67,7 @@ std::string_view joint_name(Bone bone);
 struct Build {
   double hip = 1.0, waist = 1.0, chest = 1.0, shoulder = 1.0;
   double arm = 1.0, leg = 1.0, head = 1.0, bust = 1.0, seat = 1.0;
+  double neck = 1.0;
 };
 
 /// Axes of an arm or leg in the rest pose; `along` runs from the trunk to the end of the limb.
@@ -82,6 +82,7 @@ struct Figure {
   body::Sex sex = body::Sex::kFemale;
   body::Proportions p;
   Build build;
+  bool pregnant = false;
   double fat = 0.0;  ///< 0: the table's slim body; grows girths, most of all the belly's
   double hip_height = 0.0, ankle_height = 0.0;
   std::array<Vec3, kBoneCount> joint;  ///< near end of each bone, rest pose
@@ -98,8 +99,8 @@ struct Figure {
   static constexpr double kArmDrop_rad = 0.78539816339744828;
 };
 
-/// The figure of the given sex and proportions. Seed 0 is the average; others vary lengths and girths
+/// The figure of the given sex, age and proportions. Seed 0 is the average; others vary lengths and girths
 /// within the spread of the surveys.
-Figure make_figure(body::Sex sex, const body::Proportions& proportions, std::uint64_t seed);
+Figure make_figure(const BodyOptions& options, const body::Proportions& proportions);
 
 }  // namespace bodice::synth

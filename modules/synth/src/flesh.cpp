@@ -92,6 +92,13 @@ double Flesh::value(Region region, const Vec3& p) const {
   return total;
 }
 
+double Flesh::own_value(Region region, const Vec3& p) const {
+  double total = 1.0;
+  for (const int i : own_[static_cast<int>(region)])
+    total = smooth_min(total, primitives_[i].loft.value(p), primitives_[i].blend);
+  return total;
+}
+
 Vec3 Flesh::gradient(Region region, const Vec3& p, double value) const {
   // One-sided, and along x away from the middle plane, so that left and right round alike; in the plane
   // itself the slope along x is zero by symmetry.

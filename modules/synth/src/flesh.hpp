@@ -56,6 +56,9 @@ class Flesh {
   /// Nearly the signed distance to the skin as the region sees it, negative inside.
   double value(Region region, const Vec3& p) const;
 
+  /// The same of the region's own lofts alone.
+  double own_value(Region region, const Vec3& p) const;
+
   /// Moves p to the skin by a few damped Newton steps. `normal` receives the outward unit normal there.
   Vec3 project(Region region, Vec3 p, int steps, Vec3* normal = nullptr) const;
 

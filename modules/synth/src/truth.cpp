@@ -1,6 +1,7 @@
 #include "truth.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace bodice::synth {
@@ -50,30 +51,44 @@ void walk_border(const Posed& b, const std::vector<double>& field,
   }
 }
 
-/// Centroid of the border line, by length.
-Vec3 girth_centre(const Posed& b, const std::vector<double>& field) {
-  Vec3 sum = Vec3::Zero();
-  double length = 0.0;
-  walk_border(b, field, [&](const Crossing& one, const Crossing& other) {
-    const double piece = (one.posed - other.posed).norm();
-    sum += 0.5 * piece * (one.posed + other.posed);
-    length += piece;
-  });
-  return length > 0.0 ? Vec3(sum / length) : sum;
-}
-
-/// The border point that lies lowest in the rest pose.
-Vec3 lowest_on_border(const Posed& b, const std::vector<double>& field) {
-  double lowest = 1e9;
+/// The border point that reaches furthest in a direction of the rest pose.
+Vec3 furthest_on_border(const Posed& b, const std::vector<double>& field, const Vec3& direction) {
+  double most = -1e9;
   Vec3 place = Vec3::Zero();
   walk_border(b, field, [&](const Crossing& one, const Crossing& other) {
     for (const Crossing* end : {&one, &other})
-      if (end->rest.y() < lowest) {
-        lowest = end->rest.y();
+      if (end->rest.dot(direction) > most) {
+        most = end->rest.dot(direction);
         place = end->posed;
       }
   });
   return place;
+}
+
+/// The perineum of rigged scans lies where the floor of the trunk begins to rise to the front; the lowest
+/// point itself wanders on a floor that is nearly level, and lies far behind on heavy seats.
+constexpr double kLevelFloor = 0.004;  // of stature
+
+/// Where the midline of the crotch, followed forwards, leaves the floor.
+Vec3 front_of_floor(const Posed& b) {
+  constexpr double kMiddle = 1e-6;
+  std::vector<Index> line;
+  for (Index v = 0; v < b.rest.size(); ++v)
+    if (b.mesh.region[v] == Region::kCrotch && std::abs(b.rest[v].x()) < kMiddle) line.push_back(v);
+  std::sort(line.begin(), line.end(), [&](Index i, Index k) { return b.rest[i].z() < b.rest[k].z(); });
+  const double middle = b.figure.joint[index(Bone::kPelvis)].z();
+  double low = 1e9;
+  for (const Index v : line)
+    if (b.rest[v].z() > middle) low = std::min(low, b.rest[v].y());
+  const double level = low + kLevelFloor;
+  for (std::size_t i = line.size(); i-- > 0;) {
+    if (b.rest[line[i]].y() > level) continue;
+    if (i + 1 == line.size()) return b.posed[line[i]];
+    const Index inner = line[i], outer = line[i + 1];
+    const double t = (level - b.rest[inner].y()) / (b.rest[outer].y() - b.rest[inner].y());
+    return b.posed[inner] + t * (b.posed[outer] - b.posed[inner]);
+  }
+  return Vec3::Zero();
 }
 
 /// The vertex of the regions that reaches furthest in the rest pose.
@@ -95,10 +110,13 @@ Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p) {
   return best;
 }
 
+/// The border of upper and lower trunk in rigged scans, above the survey's waist.
+constexpr double kWaistAboveNavel = 0.016;  // of stature
+
 Part trunk_part(const Figure& f, const Vec3& rest) {
   const bool left = rest.x() >= -1e-9;
   if (rest.y() > f.p.chest_height) return left ? Part::kTorsoUL : Part::kTorsoUR;
-  if (rest.y() > f.p.waist_height) return left ? Part::kTorsoML : Part::kTorsoMR;
+  if (rest.y() > f.p.waist_height + kWaistAboveNavel) return left ? Part::kTorsoML : Part::kTorsoMR;
   return left ? Part::kTorsoLL : Part::kTorsoLR;
 }
 
@@ -123,23 +141,26 @@ std::vector<body::Landmark> true_landmarks(const Posed& b) {
   const auto put_vertex = [&](LandmarkId id, Index v) {
     landmarks[static_cast<int>(id)] = {id, b.posed[v], v, 1.0};
   };
+  const auto joint = [&](Bone bone) { return Vec3(b.bones[index(bone)] * b.figure.joint[index(bone)]); };
   const auto sided = [](auto left, int side) {
     return static_cast<decltype(left)>(static_cast<int>(left) + side);
   };
   put_vertex(LandmarkId::kCrown, furthest(b, Region::kHead, Vec3::UnitY()));
-  put(LandmarkId::kNeck, girth_centre(b, lead_of(b, {Part::kHead})));
-  put_vertex(LandmarkId::kPerineum, furthest(b, Region::kCrotch, -Vec3::UnitY()));
+  put(LandmarkId::kNeck, joint(Bone::kNeck));
+  put(LandmarkId::kPerineum, front_of_floor(b));
+  // The armpit is the hind fold's: half way between down and back.
+  const Vec3 to_fold = Vec3(0.0, -1.0, -1.0).normalized();
   for (int side = 0; side < 2; ++side) {
     constexpr int kMiddleFinger = 1;
     put_vertex(sided(LandmarkId::kFingertipL, side),
                furthest(b, digit_region(side, kMiddleFinger), b.figure.arm[side].along));
     put_vertex(sided(LandmarkId::kToeL, side),
                furthest(b, region_of_side(Region::kLegL, side), Vec3::UnitZ()));
-    const Part forearm = sided(Part::kForearmL, side), calf = sided(Part::kCalfL, side);
-    put(sided(LandmarkId::kElbowL, side), girth_centre(b, lead_of(b, {forearm})));
-    put(sided(LandmarkId::kKneeL, side), girth_centre(b, lead_of(b, {calf})));
+    put(sided(LandmarkId::kElbowL, side), joint(of_side(Bone::kForearmL, side)));
+    put(sided(LandmarkId::kKneeL, side), joint(of_side(Bone::kCalfL, side)));
     put(sided(LandmarkId::kArmpitL, side),
-        lowest_on_border(b, lead_of(b, {forearm, sided(Part::kUpperArmL, side)})));
+        furthest_on_border(b, lead_of(b, {sided(Part::kForearmL, side), sided(Part::kUpperArmL, side)}),
+                           to_fold));
   }
   return landmarks;
 }

@@ -15,12 +15,13 @@ struct Posed {
   const std::vector<Vec3>& rest;            ///< #V
   const std::vector<BoneWeights>& weights;  ///< #V
   const std::vector<Vec3>& posed;           ///< #V
+  const BoneTransforms& bones;
 };
 
 /// The part whose bones carry most of each vertex; the trunk is cut at chest, waist and middle.
 std::vector<body::Part> true_parts(const Posed& body);
 
-/// All of LandmarkId, in that order.
+/// All of LandmarkId, in that order. Neck, elbows and knees are their joints.
 std::vector<body::Landmark> true_landmarks(const Posed& body);
 
 std::vector<Joint> true_joints(const Figure& figure, const BoneTransforms& bones);

@@ -35,6 +35,9 @@ struct BodyOptions {
   std::string profile = "ansur2";  ///< proportion profile
   int vertices = 8850;             ///< wanted; the mesh has this many within 10 %
   std::uint64_t seed = 0;  ///< 0: the average body; others vary lengths and girths within the survey's spread
+  double childhood =
+      0.0;  ///< 0: grown up; 1: two years old, with a large head and short limbs; between: between
+  bool pregnant = false;  ///< near term
 };
 
 struct Joint {
@@ -51,7 +54,8 @@ struct Body {
   double stature_m = 0.0;                 ///< of the standing body, whatever the pose
 };
 
-/// Deterministic in the options. Fails with kInvalidArgument outside stature .4..2.6 m, BMI 10..70.
+/// Deterministic in the options. Fails with kInvalidArgument outside stature .4..2.6 m, BMI 10..70,
+/// childhood 0..1.
 engine::Result<Body> make_body(const engine::Context& context, const BodyOptions& options);
 
 }  // namespace bodice::synth
