@@ -38,6 +38,7 @@ std::unique_ptr<btSoftBody> make_soft_body(btSoftBodyWorldInfo& info, const bodi
   sheet->generateBendingConstraints(2, bending);
   sheet->m_cfg.piterations = 4;  // with one, 10k particles fly apart
   sheet->m_cfg.kDF = btScalar(0.45);
+  sheet->m_cfg.kKHR = 1;  // contact with what stands still; its default takes a tenth of the depth a sweep
   sheet->m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
   sheet->getCollisionShape()->setMargin(static_cast<btScalar>(kThickness_m));
   sheet->setTotalMass(btScalar(0.14 * 1.44));
@@ -51,7 +52,10 @@ BulletSheet::BulletSheet(const bodice::geometry::TriMesh& mesh) : world_(std::ma
   const btVector3 gravity(0, btScalar(-9.81), 0);
   w.world.setGravity(gravity);
   w.world.getWorldInfo().m_gravity = gravity;
-  w.world.getWorldInfo().m_sparsesdf.Initialize();
+  auto& field = w.world.getWorldInfo().m_sparsesdf;
+  field.Initialize();
+  field.setDefaultVoxelsz(btScalar(kRadius_m / 16));  // 0.25 m by default: between two nodes lies the ball
+  field.Reset();                                      // or the size does not count
   btTransform place = btTransform::getIdentity();
   place.setOrigin({btScalar(kCenter.x()), btScalar(kCenter.y()), btScalar(kCenter.z())});
   btRigidBody::btRigidBodyConstructionInfo still(0, nullptr, &w.ball);

@@ -7,9 +7,8 @@
 
 namespace bench {
 
-/// The scene as a soft body of Bullet's: links of full stiffness, bending links of a twentieth, contact by
-/// its signed distance fields, four sweeps a substep. Depths are as its contact leaves them: centimetres,
-/// whatever the sweeps and the size of its voxels.
+/// The scene as a soft body of Bullet's: links of full stiffness, bending links of a twentieth, contact of
+/// full hardness by its signed distance fields in voxels of a sixteenth of the ball, four sweeps a substep.
 class BulletSheet {
  public:
   explicit BulletSheet(const bodice::geometry::TriMesh& mesh);

@@ -2,9 +2,12 @@
 #include <doctest/doctest.h>
 #include <bodice_test/executors.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <functional>
 #include <new>
+#include <set>
 
 #include "fixtures.hpp"
 
@@ -65,6 +68,30 @@ TEST_CASE("a step allocates nothing once warm") {
   const std::size_t before = allocations;
   for (int frame = 0; frame < 5; ++frame) solver.step(context, body, kFrame_s);
   CHECK(allocations == before);
+}
+
+TEST_CASE("quantiles of a frame are those that sorting finds") {
+  const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
+  const TriMesh mesh = sheet(70, 50, 0.8, 0.8, Vec3(-0.4, 1.21, -0.4));  // several blocks of every loop
+  cloth::Solver solver = make_solver(mesh, {}, cotton(), windy());
+  const engine::Context context;
+  for (int frame = 0; frame < 20; ++frame) solver.step(context, body, kFrame_s);
+  const auto before = positions(solver, mesh.positions.size());
+  const cloth::FrameReport report = solver.step(context, body, kFrame_s);
+  const auto after = positions(solver, mesh.positions.size());
+
+  std::set<std::pair<Index, Index>> edges;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) edges.insert(std::minmax(t[k], t[(k + 1) % 3]));
+  std::vector<double> strains, speeds;
+  for (const auto& [a, b] : edges)
+    strains.push_back((after[a] - after[b]).norm() / (mesh.positions[a] - mesh.positions[b]).norm() - 1.0);
+  for (std::size_t v = 0; v < after.size(); ++v) speeds.push_back((after[v] - before[v]).norm() / kFrame_s);
+  std::ranges::sort(strains, std::greater<>());
+  std::ranges::sort(speeds);
+  CHECK(report.stretch_max == doctest::Approx(strains.front()).epsilon(1e-3));
+  CHECK(report.stretch_p95 == doctest::Approx(strains[strains.size() / 20]).epsilon(1e-3));
+  CHECK(report.median_speed_m_s == doctest::Approx(speeds[(speeds.size() - 1) / 2]).epsilon(1e-3));
 }
 
 TEST_CASE("a sheet on a body comes to rest and never gains energy on the way") {

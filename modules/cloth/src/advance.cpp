@@ -5,7 +5,6 @@
 // of a stored multiplier: soft constraints sum to the same force, stiff ones do not feel it.
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
@@ -81,7 +80,8 @@ void sweep(const engine::Context& context, bool bend, float inverse_h2, State& s
   });
 }
 
-std::uint32_t run_substep(const engine::Context& context, const Plan& plan, int substep, State& s) {
+std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
+                          const Plan& plan, int substep, State& s) {
   Particles& p = s.particles;
   std::swap(p.x, p.old_x), std::swap(p.y, p.old_y), std::swap(p.z, p.old_z);
   const bool bend = !(plan.limits & kBendingHalved) || substep % 2 == 0;
@@ -99,7 +99,8 @@ std::uint32_t run_substep(const engine::Context& context, const Plan& plan, int 
   if (s.options.self_collision && !(plan.limits & kNoSelfContact))
     push_apart(context, s.contacts.touching, static_cast<float>(s.fabric.friction), plan.substep_s, s.self,
                p);
-  return limits | take_from_points(context, p);
+  return limits | meet_body(context, collider, s.options, static_cast<float>(s.fabric.friction),
+                            plan.substep_s, s.contacts, p);
 }
 
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {
@@ -127,7 +128,8 @@ void meet_collider(const collision::Collider* collider, State& s) {
 
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
                     State& s) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::int64_t start_ns = context.clock->now_ns();
+  begin_contact_frame(s.contacts);
   meet_collider(collider, s);
   const Plan plan = plan_frame(s.options, dt_s, fastest(context, s.particles),
                                static_cast<double>(s.max_travel_m), s.budget.level);
@@ -136,16 +138,13 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
   if (plan.substeps > 0) begin_frame(context, plan, s);
-  for (int substep = 0; substep < plan.substeps; ++substep) {
-    report.limits |= run_substep(context, plan, substep, s);
-    report.contacts.add(meet_body(context, collider, s.options, static_cast<float>(s.fabric.friction),
-                                  plan.substep_s, s.contacts, s.particles));
-  }
+  for (int substep = 0; substep < plan.substeps; ++substep)
+    report.limits |= run_substep(context, collider, plan, substep, s);
+  report_contacts(s.contacts, report);
   if (plan.substeps > 0) end_frame(context, plan, s);
   measure(context, s, report);
-  learn(s.options,
-        std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count(),
-        s.budget);
+  report.frame_us = 1e-3 * static_cast<double>(context.clock->now_ns() - start_ns);
+  learn(s.options, report.frame_us, s.budget);
   return report;
 }
 

@@ -13,7 +13,7 @@ namespace bodice::cloth {
 namespace {
 
 constexpr int kFewestBits = 12;        // 16 cells a row, 256 rows: near ones stay apart
-constexpr int kSlotsAParticle = 8;     // more would cost more to clear than meetings of far cells do
+constexpr int kSlotsAParticle = 2;     // more would leave the caches, which costs more than far cells met
 constexpr double kGolden = 0.381966;   // skew of the lattice, in rows: its shortest vector is the longest
 constexpr float kFarthestCell = 1e8f;  // beyond it, integers would overflow
 
@@ -38,7 +38,8 @@ CellGrid::CellGrid(float cell_m, std::size_t points) {
   per_cell_ = 1.0f / cell_m;
   chapter_shift_ = bits - kChapterBits;
   begin_.assign((std::size_t{1} << bits) + 1, 0);
-  staged_.resize(points), entry_.resize(points);
+  staged_.resize(points), particle_.resize(points);
+  for (auto* a : {&x_, &y_, &z_}) a->assign(points + 3, 0.0f);
   chapter_next_.assign(kBlocks * kChapters, 0), chapter_begin_.assign(kChapters + 1, 0);
 }
 
@@ -60,16 +61,17 @@ void CellGrid::fill(const engine::Context& context, std::span<const Point> point
     Index* const count = &chapter_next_[begin / grain * kChapters];
     std::fill_n(count, kChapters, 0);
     for (std::size_t i = begin; i < end; ++i) {
-      entry_[i].slot = slot_of(points[i]);
-      ++count[entry_[i].slot >> chapter_shift_];
+      particle_[i] = slot_of(points[i]);
+      ++count[particle_[i] >> chapter_shift_];
     }
   });
   begin_chapters(engine::block_count(points.size(), grain));
   engine::parallel_for(context, points.size(), grain, [&](std::size_t begin, std::size_t end) {
     Index* const next = &chapter_next_[begin / grain * kChapters];
     for (std::size_t i = begin; i < end; ++i) {
-      const Index slot = entry_[i].slot;
-      staged_[next[slot >> chapter_shift_]++] = {points[i], static_cast<Index>(i), slot};
+      const Index slot = particle_[i];
+      const Point& at = points[i];
+      staged_[next[slot >> chapter_shift_]++] = {at.x, at.y, at.z, static_cast<Index>(i), slot};
     }
   });
   engine::parallel_for(context, kChapters, 1,
@@ -88,7 +90,7 @@ void CellGrid::begin_chapters(std::size_t blocks) {
   chapter_begin_[kChapters] = place;
 }
 
-// A counting sort of the chapter's entries by slot.
+// A counting sort of the chapter's points by slot.
 void CellGrid::sort_chapter(std::size_t chapter) {
   const Index first = chapter_begin_[chapter], last = chapter_begin_[chapter + 1];
   const std::size_t slots = std::size_t{1} << chapter_shift_;
@@ -96,7 +98,11 @@ void CellGrid::sort_chapter(std::size_t chapter) {
   std::fill_n(ends, slots, 0);
   for (Index k = first; k < last; ++k) ++begin_[staged_[k].slot];
   for (Index place = first; Index & end : std::span(ends, slots)) end = place += end;
-  for (Index k = last; k-- > first;) entry_[--begin_[staged_[k].slot]] = staged_[k];
+  for (Index k = last; k-- > first;) {
+    const Staged& from = staged_[k];
+    const Index to = --begin_[from.slot];
+    x_[to] = from.x, y_[to] = from.y, z_[to] = from.z, particle_[to] = from.particle;
+  }
 }
 
 }  // namespace bodice::cloth

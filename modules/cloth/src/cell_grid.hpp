@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <span>
 #include <vector>
 
@@ -18,11 +19,6 @@ namespace bodice::cloth {
 
 class CellGrid {
  public:
-  struct Entry {
-    Point at;
-    Index particle, slot;
-  };
-
   CellGrid() = default;
   /// Empty, for this many points.
   CellGrid(float cell_m, std::size_t points);
@@ -30,16 +26,16 @@ class CellGrid {
   /// `points` are as many as were announced.
   void fill(const engine::Context& context, std::span<const Point> points);
 
-  /// Calls visit(entry) for all that lie in the 27 cells around `at`, and for some that do not.
+  /// Calls visit(particle) for all points within sqrt(reach2_m2) of `at`, which is at most a cell's size.
   template <class Visit>
-  void visit_near(const Point& at, Visit&& visit) const {
+  void visit_within(const Point& at, float reach2_m2, Visit&& visit) const {
     const Cell c = cell_of(at);
+    const std::size_t left = static_cast<std::size_t>(c.x - 1) & x_mask_;
+    const std::size_t run = std::min<std::size_t>(3, x_mask_ + 1 - left);  // cells before the fold
     for (int row = 0; row < 9; ++row) {
       const std::size_t first = row_of(c.y + row % 3 - 1, c.z + row / 3 - 1);
-      const std::size_t left = static_cast<std::size_t>(c.x - 1) & x_mask_;
-      const std::size_t run = std::min<std::size_t>(3, x_mask_ + 1 - left);  // cells before the fold
-      visit_run(first + left, run, visit);
-      visit_run(first, 3 - run, visit);
+      visit_run(first + left, run, at, reach2_m2, visit);
+      if (run < 3) visit_run(first, 3 - run, at, reach2_m2, visit);
     }
   }
 
@@ -47,14 +43,25 @@ class CellGrid {
   struct Cell {
     int x, y, z;
   };
+  struct Staged {
+    float x, y, z;
+    Index particle, slot;
+  };
   Cell cell_of(const Point& at) const;
   Index slot_of(const Point& at) const;
   std::size_t row_of(int y, int z) const {
     return ((static_cast<std::size_t>(y) + skew_ * static_cast<std::size_t>(z)) & row_mask_) << x_bits_;
   }
   template <class Visit>
-  void visit_run(std::size_t slot, std::size_t cells, Visit& visit) const {
-    for (Index k = begin_[slot]; k < begin_[slot + cells]; ++k) visit(entry_[k]);
+  void visit_run(std::size_t slot, std::size_t cells, const Point& at, float reach2_m2, Visit& visit) const {
+    const Index last = begin_[slot + cells];
+    for (Index k = begin_[slot]; k < last; k += 4) {
+      const Float4 dx = load(&x_[k]) - at.x, dy = load(&y_[k]) - at.y, dz = load(&z_[k]) - at.z;
+      unsigned within = lanes(dx * dx + dy * dy + dz * dz <= splat(reach2_m2));
+      if (last - k < 4) within &= (1u << (last - k)) - 1;
+      for (; within != 0; within &= within - 1)
+        visit(particle_[k + static_cast<Index>(std::countr_zero(within))]);
+    }
   }
 
   void begin_chapters(std::size_t blocks);
@@ -64,10 +71,11 @@ class CellGrid {
   std::size_t x_mask_ = 0, row_mask_ = 0, skew_ = 0;
   float per_cell_ = 0.0f;             // cells a metre
   std::vector<Index> begin_;          // #slots + 1
-  std::vector<Entry> staged_;         // #P, by chapter, ascending inside one
-  std::vector<Entry> entry_;          // #P, by slot, ascending inside one; before, each point's slot
-  std::vector<Index> chapter_next_;   // #blocks x #chapters: counts, then where the next entry goes
-  std::vector<Index> chapter_begin_;  // #chapters + 1, into staged_ and entry_
+  std::vector<float> x_, y_, z_;      // #P and three more, by slot, ascending particles inside one
+  std::vector<Index> particle_;       // #P, in the same order; before, each point's slot
+  std::vector<Staged> staged_;        // #P, by chapter, ascending inside one
+  std::vector<Index> chapter_next_;   // #blocks x #chapters: counts, then where the next one goes
+  std::vector<Index> chapter_begin_;  // #chapters + 1
 };
 
 }  // namespace bodice::cloth

@@ -18,12 +18,12 @@ namespace {
 // centimetres inside is out after a frame, and neighbours feel no jerk.
 constexpr float kRecovery_m_s = 1.0f;
 
-collision::Particles view(Particles& p, bool with_velocities) {
+collision::Particles view(Particles& p, std::size_t begin, std::size_t end, bool with_velocities) {
   collision::Particles v;
-  v.count = p.count();
-  v.x = p.x.data(), v.y = p.y.data(), v.z = p.z.data();
-  if (with_velocities) v.vx = p.vx.data(), v.vy = p.vy.data(), v.vz = p.vz.data();
-  v.safe_x = p.old_x.data(), v.safe_y = p.old_y.data(), v.safe_z = p.old_z.data();
+  v.count = end - begin;
+  v.x = &p.x[begin], v.y = &p.y[begin], v.z = &p.z[begin];
+  if (with_velocities) v.vx = &p.vx[begin], v.vy = &p.vy[begin], v.vz = &p.vz[begin];
+  v.safe_x = &p.old_x[begin], v.safe_y = &p.old_y[begin], v.safe_z = &p.old_z[begin];
   return v;
 }
 
@@ -56,51 +56,65 @@ void respond(Particles& p, ContactState& s, std::size_t i, bool paper, float mu,
   if (s.touching[i] && !paper) friction_and_velocity(p, i, mu, inverse_h);
 }
 
+// From the points to the positions. A particle that is not finite goes back to where the substep began.
+std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end) {
+  std::uint32_t limits = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    Point& at = p.point[i];
+    if (!std::isfinite(at.x + at.y + at.z)) {
+      at.x = p.old_x[i], at.y = p.old_y[i], at.z = p.old_z[i];
+      limits = kParticlesReset;
+    }
+    p.x[i] = at.x, p.y[i] = at.y, p.z[i] = at.z;
+  }
+  return limits;
+}
+
 }  // namespace
 
 ContactState make_contacts(std::size_t particles) {
   ContactState s;
   s.touching.assign(particles, 0);
+  s.patch = std::vector<ContactPatch>(engine::block_count(particles, kPatch));
   return s;
 }
 
-std::uint32_t take_from_points(const engine::Context& context, Particles& p) {
+std::uint32_t meet_body(const engine::Context& context, const collision::Collider* collider,
+                        const SolverOptions& options, float friction, float substep_s, ContactState& s,
+                        Particles& p) {
+  const float inverse_h = 1.0f / substep_s;
+  const bool paper = options.response == collision::Response::kPaper;
+  const collision::ResolveOptions how = {.response = options.response,
+                                         .thickness_m = static_cast<float>(options.thickness_m),
+                                         .friction = paper ? friction : 0.0f,
+                                         .max_push_m = kRecovery_m_s * substep_s};
+  engine::Context alone = context;  // a patch is one worker's
+  alone.executor = &engine::inline_executor();
   std::atomic<std::uint32_t> limits{0};
-  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Point& at = p.point[i];
-      if (!std::isfinite(at.x + at.y + at.z)) {
-        at.x = p.old_x[i], at.y = p.old_y[i], at.z = p.old_z[i];
-        limits.fetch_or(kParticlesReset, std::memory_order_relaxed);
-      }
-      p.x[i] = at.x, p.y[i] = at.y, p.z[i] = at.z;
-    }
+  engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
+    if (const std::uint32_t reset = take_from_points(p, begin, end))
+      limits.fetch_or(reset, std::memory_order_relaxed);
+    if (paper || collider == nullptr) velocities_from_positions(p, begin, end, inverse_h);
+    if (collider == nullptr) return;
+    ContactPatch& patch = s.patch[begin / kPatch];
+    const std::int64_t begin_ns = context.clock->now_ns();
+    patch.report.add(collider->resolve(alone, view(p, begin, end, paper), how, patch.workspace));
+    patch.spent_ns += context.clock->now_ns() - begin_ns;
+    if (!paper) velocities_from_positions(p, begin, end, inverse_h);
+    for (std::size_t i = begin; i < end; ++i) respond(p, s, i, paper, friction, inverse_h);
   });
   return limits.load();
 }
 
-collision::ContactReport meet_body(const engine::Context& context, const collision::Collider* collider,
-                                   const SolverOptions& options, float friction, float substep_s,
-                                   ContactState& s, Particles& p) {
-  const float inverse_h = 1.0f / substep_s;
-  const bool paper = options.response == collision::Response::kPaper;
-  auto velocities = [&](std::size_t begin, std::size_t end) {
-    velocities_from_positions(p, begin, end, inverse_h);
-  };
-  if (paper || collider == nullptr) engine::parallel_for(context, p.count(), kParticleGrain, velocities);
-  if (collider == nullptr) return {};
-  const collision::ContactReport report =
-      collider->resolve(context, view(p, paper),
-                        {.response = options.response,
-                         .thickness_m = static_cast<float>(options.thickness_m),
-                         .friction = paper ? friction : 0.0f,
-                         .max_push_m = kRecovery_m_s * substep_s},
-                        s.workspace);
-  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    if (!paper) velocities(begin, end);
-    for (std::size_t i = begin; i < end; ++i) respond(p, s, i, paper, friction, inverse_h);
-  });
-  return report;
+void begin_contact_frame(ContactState& s) {
+  for (ContactPatch& patch : s.patch) patch.report = {}, patch.spent_ns = 0;
+}
+
+void report_contacts(const ContactState& s, FrameReport& report) {
+  for (const ContactPatch& patch : s.patch) {
+    report.contacts.add(patch.report);
+    report.collision_us += 1e-3 * static_cast<double>(patch.spent_ns);
+  }
 }
 
 }  // namespace bodice::cloth

@@ -2,6 +2,7 @@
 // on positions and takes the velocity that pushing out would give.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <bodice/cloth/solver.hpp>
@@ -10,21 +11,31 @@
 
 namespace bodice::cloth {
 
+/// Particles a task: neighbours on the cloth, of which the collider keeps a spatial order.
+inline constexpr std::size_t kPatch = 512;
+
+struct ContactPatch {
+  collision::Workspace workspace;
+  collision::ContactReport report;  ///< since the frame began
+  std::int64_t spent_ns = 0;        ///< inside the collider, since the frame began
+};
+
 struct ContactState {
   std::vector<std::uint8_t> touching;  ///< #P, moved by the collider in the last substep
-  collision::Workspace workspace;
+  std::vector<ContactPatch> patch;     ///< #P / kPatch
 };
 
 ContactState make_contacts(std::size_t particles);
 
-/// Takes the positions from the points, which keep them. A particle that is not finite goes back to where the
-/// substep began. Returns FrameLimit bits.
-std::uint32_t take_from_points(const engine::Context& context, Particles& particles);
+/// Takes the positions from the points, where the constraints left them, and moves them out of the body;
+/// old_* are those at the start of the substep. Sets the velocities of all particles. `collider` may be null:
+/// no body. Returns FrameLimit bits: a particle that is not finite goes back to where the substep began.
+std::uint32_t meet_body(const engine::Context& context, const collision::Collider* collider,
+                        const SolverOptions& options, float friction, float substep_s, ContactState& state,
+                        Particles& particles);
 
-/// Positions are those after the constraints, as the points are; old_* those at the start of the substep.
-/// Sets the velocities of all particles. `collider` may be null: no body.
-collision::ContactReport meet_body(const engine::Context& context, const collision::Collider* collider,
-                                   const SolverOptions& options, float friction, float substep_s,
-                                   ContactState& state, Particles& particles);
+void begin_contact_frame(ContactState& state);
+/// What happened since begin_contact_frame().
+void report_contacts(const ContactState& state, FrameReport& report);
 
 }  // namespace bodice::cloth

@@ -16,23 +16,19 @@ constexpr int kDigitBits = 8;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 constexpr std::size_t kBlocks = 32;
 
-std::uint32_t key_of(float value) {
-  return value > 0.0f ? std::bit_cast<std::uint32_t>(value) : 0u;
-}
-
-// Those with the digits found so far, by their next digit; a row each block.
+// Those above zero with the digits found so far, by their next digit; a row each block.
 void count_digits(std::span<const float> values, std::size_t begin, std::size_t end, std::uint32_t found,
                   int shift, std::uint32_t* row) {
   std::fill_n(row, kDigits, 0u);
   const int known = shift + kDigitBits;
   for (std::size_t i = begin; i < end; ++i) {
-    const std::uint32_t key = key_of(values[i]);
-    if (known < 32 && key >> known != found) continue;
-    ++row[(key >> shift) % kDigits];
+    if (!(values[i] > 0.0f)) continue;
+    const auto key = std::bit_cast<std::uint32_t>(values[i]);
+    if (known == 32 || key >> known == found) ++row[(key >> shift) % kDigits];
   }
 }
 
-// The digit whose values hold the rank; `rank` becomes that among them.
+// The digit whose values hold the rank; `rank` becomes that among them. Values of zero were not counted: 0.
 std::uint32_t digit_of_rank(const DigitCounts& counts, std::size_t blocks, std::size_t& rank) {
   for (std::size_t digit = kDigits; digit-- > 0;) {
     std::size_t here = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -10,7 +11,9 @@
 namespace bodice::cloth {
 namespace {
 
-constexpr float kSearch = 2.0f;  // radii: pairs this near may meet within the frame
+// Radii: pairs this near may meet before the next search. A flat quad's free diagonal is 1.89 long: nearly
+// all pairs of smooth cloth would be such.
+constexpr float kSearch = 1.8f;
 
 // A particle that lies on the body gives way this much less to another layer: what the body will take back
 // would let the outer layer sink into the inner one.
@@ -21,7 +24,7 @@ constexpr float kRecovery_m_s = 0.1f;
 
 constexpr std::size_t kBlock = 256;  // particles a task: few of a garment's touch, and those lie together
 
-constexpr double kFresh = 0.4;  // radii the fastest may travel between searches; half is the bound
+constexpr double kFresh = 0.3;  // radii the fastest may travel between searches; 0.4 is the bound
 
 struct Rub {
   float friction;
@@ -33,20 +36,40 @@ float distance2(const Point& a, const Point& b) {
   return dd[0] + dd[1] + dd[2];
 }
 
-void offer(const Ring& ring, SelfContact& s, Index i, Index j) {
-  const auto joined = ring.of(i);
-  if (s.close_count[i] == kMaxClose || std::find(joined.begin(), joined.end(), j) != joined.end()) return;
+// Particles that edges join to one, itself included: asked for each particle near it.
+class Joined {
+ public:
+  Joined(Index own, std::span<const Index> ring) {
+    for (std::size_t k = 0; k < kFirst; ++k)
+      first_[k / 4][k % 4] = static_cast<int>(k < ring.size() ? ring[k] : own);
+    if (ring.size() >= kFirst) more_ = ring.subspan(kFirst - 1);
+    first_[kFirst / 4 - 1][3] = static_cast<int>(own);
+  }
+  bool has(Index j) const {
+    const auto id = static_cast<int>(j);
+    const Int4 ids = {id, id, id, id};
+    return any((first_[0] == ids) | (first_[1] == ids)) || std::ranges::find(more_, j) != more_.end();
+  }
+
+ private:
+  static constexpr std::size_t kFirst = 8;
+  Int4 first_[kFirst / 4];
+  std::span<const Index> more_;  // of those with more neighbours than a mesh's vertices have
+};
+
+void offer(SelfContact& s, Index i, Index j) {
+  if (s.close_count[i] == kMaxClose) return;
   const std::size_t at = i * kMaxClose + s.close_count[i]++;
   s.close[at] = j;
   s.close_m[at] = std::min(s.radius_m, std::sqrt(distance2(s.rest[i], s.rest[j])));
 }
 
 void find_close(const Ring& ring, const Particles& p, SelfContact& s, Index i) {
-  const Point& own = p.point[i];
-  const float reach2 = kSearch * kSearch * s.radius_m * s.radius_m;
+  const float reach_m = kSearch * s.radius_m;
+  const Joined joined(i, ring.of(i));
   s.close_count[i] = 0;
-  s.grid.visit_near(own, [&](const CellGrid::Entry& other) {
-    if (other.particle != i && distance2(own, other.at) <= reach2) offer(ring, s, i, other.particle);
+  s.grid.visit_within(p.point[i], reach_m * reach_m, [&](Index j) {
+    if (!joined.has(j)) offer(s, i, j);
   });
 }
 

@@ -30,8 +30,8 @@ struct SelfContact {
 
 SelfContact make_self_contact(const Particles& particles, double radius_m);
 
-/// Finds the pairs nearer than twice the radius, unless none of the last search can have been missed: two
-/// particles that each moved half a radius since are still a radius apart. O(#P).
+/// Finds the pairs nearer than 1.8 times the radius, unless none of the last search can have been missed: two
+/// particles that each moved 0.4 radii since are still a radius apart. O(#P).
 void find_close_pairs(const engine::Context& context, const Ring& ring, const Particles& particles,
                       SelfContact& self);
 

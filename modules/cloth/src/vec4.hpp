@@ -49,12 +49,16 @@ inline Float4 max(Float4 a, Float4 b) {
   return a > b ? a : b;
 }
 
-inline bool any(Int4 lanes) {
+/// A bit a lane that is true.
+inline unsigned lanes(Int4 truth) {
 #if defined(__SSE2__)
-  return _mm_movemask_ps(reinterpret_cast<__m128>(lanes)) != 0;
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(truth)));
 #else
-  return (lanes[0] | lanes[1] | lanes[2] | lanes[3]) != 0;
+  return (truth[0] & 1u) | (truth[1] & 2u) | (truth[2] & 4u) | (truth[3] & 8u);
 #endif
+}
+inline bool any(Int4 truth) {
+  return lanes(truth) != 0;
 }
 
 /// std::sqrt would keep errno, and with it one lane at a time.

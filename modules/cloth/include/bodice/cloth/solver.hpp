@@ -62,6 +62,8 @@ struct FrameReport {
   double gravity_energy_j = 0.0;  ///< potential, relative to the world's origin
   double elastic_energy_j = 0.0;  ///< of edges and hinges as they stand, what a sweep left over included
   double simulated_s = 0.0;       ///< dt_s, unless kTimeCut
+  double frame_us = 0.0;          ///< the step, by the context's clock
+  double collision_us = 0.0;      ///< inside the collider, summed over workers
   std::size_t asleep = 0;         ///< particles that hold still
   int substeps = 0;
   std::uint32_t limits = 0;  ///< FrameLimit bits
