@@ -1,0 +1,22 @@
+// What of a proxy a garment can come near: the rest need be neither stored nor tested.
+#pragma once
+
+#include <span>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace bodice::tryon {
+
+/// The ellipsoids, with their tables, that are within `margin_m` of any of the garments; their order stays.
+/// Where a place is within a of a garment and the whole proxy's nearest ellipsoid within margin_m - a of the
+/// place, proxy_distance() gives the same bits as with the whole proxy. A garment that moves farther than the
+/// margin may meet nothing. Fails with kUnusableGeometry when nothing is within reach, with kInvalidArgument
+/// when the margin is negative or not finite. Deterministic. Cost: O(#triangles #ellipsoids), a sphere test
+/// for most.
+engine::Result<proxy::BodyProxy> within_reach(const engine::Context& context, const proxy::BodyProxy& proxy,
+                                              std::span<const geometry::TriMesh> garments, double margin_m);
+
+}  // namespace bodice::tryon

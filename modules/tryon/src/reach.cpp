@@ -1,0 +1,88 @@
+#include <bodice/tryon/reach.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <bodice/engine/parallel.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+using geometry::Vec3;
+using proxy::BodyProxy;
+
+/// A triangle as the ball about its centroid: whoever is within its radius and some length of the centre may
+/// be within that length of the triangle.
+struct Ball {
+  Vec3 center;
+  double radius_m;
+};
+
+std::vector<Ball> balls_of(std::span<const geometry::TriMesh> garments) {
+  std::vector<Ball> balls;
+  for (const geometry::TriMesh& mesh : garments)
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+      const Vec3 middle = (a + b + c) / 3.0;
+      if (!middle.allFinite()) continue;
+      balls.push_back({middle, std::sqrt(std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(),
+                                                   (c - middle).squaredNorm()}))});
+    }
+  return balls;
+}
+
+/// Conservative: true for some that are a triangle's size too far.
+bool reaches(const geometry::Ellipsoid& shape, const std::vector<Ball>& balls, double within_m) {
+  const double largest_m = shape.radii.maxCoeff();
+  return std::ranges::any_of(balls, [&](const Ball& ball) {
+    const double reach_m = within_m + ball.radius_m;
+    if ((ball.center - shape.center).norm() > largest_m + reach_m) return false;
+    return geometry::nearest_point(shape, ball.center).signed_distance <= reach_m;
+  });
+}
+
+BodyProxy::Data keep(const BodyProxy& whole, const std::vector<std::uint8_t>& kept) {
+  BodyProxy::Data data{.tier = whole.tier(),
+                       .stature_m = whole.stature_m(),
+                       .margin_m = whole.margin_m(),
+                       .source_hash = whole.source_hash(),
+                       .frame = whole.frame()};
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    if (!kept[k]) continue;
+    data.ellipsoids.push_back(whole.ellipsoids()[k]);
+    if (whole.relief().empty()) continue;
+    proxy::ReliefTable table = whole.relief()[k];
+    const auto texels = whole.texels().subspan(
+        table.first_texel, static_cast<std::size_t>(table.nodes_per_side) * table.nodes_per_side);
+    table.first_texel = static_cast<std::uint32_t>(data.texels.size());
+    data.texels.insert(data.texels.end(), texels.begin(), texels.end());
+    data.relief.push_back(table);
+  }
+  return data;
+}
+
+}  // namespace
+
+engine::Result<BodyProxy> within_reach(const engine::Context& context, const BodyProxy& proxy,
+                                       std::span<const geometry::TriMesh> garments, double margin_m) {
+  if (!(margin_m >= 0.0) || !std::isfinite(margin_m))
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "The margin of a garment's reach is no length.",
+                         "Give metres, zero or more."};
+  // Beyond its own distance an ellipsoid has a say as long as it is blended with the nearest.
+  const double blend_m = proxy.relief().empty() ? 0.0 : proxy::relief_reach(proxy.stature_m()).blend_m;
+  const std::vector<Ball> balls = balls_of(garments);
+  std::vector<std::uint8_t> kept(proxy.ellipsoids().size());
+  engine::parallel_for(context, kept.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      kept[k] = reaches(proxy.ellipsoids()[k].shape, balls, margin_m + blend_m);
+  });
+  if (std::ranges::none_of(kept, [](std::uint8_t flag) { return flag != 0; }))
+    return engine::Error{engine::ErrorCode::kUnusableGeometry,
+                         "Nothing of the proxy is within reach of the garments.",
+                         "Check that they are in the same place and units, or raise the margin."};
+  return BodyProxy::make(keep(proxy, kept));
+}
+
+}  // namespace bodice::tryon

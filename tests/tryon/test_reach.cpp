@@ -1,0 +1,159 @@
+// What a garment cannot reach is left out, and what it can reach answers as before: to the bit where parts
+// are fitted one by one or only left out, and as well against the true skin where neighbours are fitted
+// together.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+#include <bodice/engine/random.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
+#include <bodice/synth/garment.hpp>
+#include <bodice/tryon/prepare.hpp>
+#include <bodice/tryon/reach.hpp>
+#include <bodice_test/executors.hpp>
+
+using namespace bodice;
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kMargin_m = 0.05;
+
+struct Dressed {
+  tryon::SegmentedSkin skin;
+  geometry::TriMesh skirt;
+  std::vector<Vec3> places;      ///< within half the margin of the skirt
+  std::vector<double> depths_m;  ///< the true signed distance of each
+};
+
+Dressed dress() {
+  auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
+  REQUIRE(skin.ok());
+  auto cut = synth::make_garment({},
+                                 {.mesh = skin->input.skin,
+                                  .part = skin->anatomy.part,
+                                  .landmarks = skin->anatomy.landmarks,
+                                  .stature_m = skin->anatomy.stature_m},
+                                 {.kind = synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
+  REQUIRE(cut.ok());
+  Dressed dressed{std::move(*skin), std::move(cut->mesh), {}, {}};
+  engine::Random random(7);
+  for (const Vec3& p : dressed.skirt.positions)
+    for (int k = 0; k < 4; ++k) {
+      const double a = random.normal(), b = random.normal(), c = random.normal();
+      const Vec3 place = p + 0.5 * kMargin_m * random.uniform() * Vec3(a, b, c).stableNormalized();
+      dressed.places.push_back(place);
+      dressed.depths_m.push_back(dressed.skin.distance->signed_distance(place));
+    }
+  return dressed;
+}
+
+const Dressed& dressed() {
+  static const Dressed made = dress();  // once for all cases
+  return made;
+}
+
+proxy::BodyProxy fit(proxy::Tier tier, std::uint32_t parts) {
+  auto fitted =
+      fitting::fit({}, tryon::labelled(dressed().skin), {.tier = tier, .max_ellipsoids = 45, .parts = parts});
+  REQUIRE_MESSAGE(fitted.ok(), fitted.error().sentence());
+  return fitted->proxy;
+}
+
+std::uint32_t reached() {
+  return tryon::reachable_parts({}, dressed().skin, {&dressed().skirt, 1}, kMargin_m);
+}
+
+double at(const proxy::BodyProxy& proxy, const Vec3& place) {
+  return proxy::proxy_distance(proxy, place).distance;
+}
+
+struct Differences {
+  std::size_t asked = 0, other_bits = 0;
+  double apart_m = 0.0, whole_error_m = 0.0, region_error_m = 0.0;  ///< means
+};
+
+/// At places that a garment acts on: those within half the margin of the body.
+Differences compare(const proxy::BodyProxy& whole, const proxy::BodyProxy& region) {
+  Differences d;
+  for (std::size_t i = 0; i < dressed().places.size(); ++i) {
+    const double a = at(whole, dressed().places[i]);
+    if (a > 0.5 * kMargin_m) continue;
+    const double b = at(region, dressed().places[i]);
+    ++d.asked;
+    d.other_bits += a != b;
+    d.apart_m += std::abs(a - b);
+    d.whole_error_m += std::abs(a - dressed().depths_m[i]);
+    d.region_error_m += std::abs(b - dressed().depths_m[i]);
+  }
+  for (double* sum : {&d.apart_m, &d.whole_error_m, &d.region_error_m}) *sum /= static_cast<double>(d.asked);
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("paper and solid answer to the bit in the region as in the whole body") {
+  for (const proxy::Tier tier : {proxy::Tier::kPaper, proxy::Tier::kSolid}) {
+    CAPTURE(proxy::name(tier));
+    const proxy::BodyProxy whole = fit(tier, fitting::kAllParts), region = fit(tier, reached());
+    CHECK(region.ellipsoids().size() < whole.ellipsoids().size());
+    CHECK(region.bytes() < whole.bytes());
+    const Differences d = compare(whole, region);
+    CHECK(d.asked > 300);
+    CHECK(d.other_bits == 0);
+  }
+}
+
+TEST_CASE("tight and relief are as near to the skin in the region as in the whole body") {
+  for (const proxy::Tier tier : {proxy::Tier::kTight, proxy::Tier::kRelief}) {
+    CAPTURE(proxy::name(tier));
+    const proxy::BodyProxy whole = fit(tier, fitting::kAllParts), region = fit(tier, reached());
+    CHECK(region.ellipsoids().size() < whole.ellipsoids().size());
+    const Differences d = compare(whole, region);
+    CHECK(d.asked > 300);
+    CAPTURE(d.whole_error_m);
+    CHECK(d.region_error_m < 1.25 * d.whole_error_m);
+    CHECK(d.apart_m < 2.0 * d.whole_error_m);  // neither is exact: apart by no more than both are off
+  }
+}
+
+TEST_CASE("leaving out what is beyond reach changes no answer within it, in any tier") {
+  for (const proxy::Tier tier :
+       {proxy::Tier::kPaper, proxy::Tier::kSolid, proxy::Tier::kTight, proxy::Tier::kRelief}) {
+    CAPTURE(proxy::name(tier));
+    const proxy::BodyProxy whole = fit(tier, fitting::kAllParts);
+    const auto near = tryon::within_reach({}, whole, {&dressed().skirt, 1}, kMargin_m);
+    REQUIRE(near.ok());
+    CHECK(near->ellipsoids().size() < whole.ellipsoids().size());
+    CHECK(near->bytes() < whole.bytes());
+    for (const proxy::ProxyEllipsoid& e : near->ellipsoids()) CHECK(e.part != body::Part::kHead);
+    CHECK(compare(whole, *near).other_bits == 0);
+    const auto threads = bodice_test::make_threads(3);
+    const auto again =
+        tryon::within_reach({.executor = threads.get()}, whole, {&dressed().skirt, 1}, kMargin_m);
+    REQUIRE(again.ok());
+    CHECK(again->hash() == near->hash());
+  }
+}
+
+TEST_CASE("what is out of reach altogether, or no margin, is an error with a remedy") {
+  const proxy::BodyProxy whole = fit(proxy::Tier::kPaper, fitting::kAllParts);
+  geometry::TriMesh far = dressed().skirt;
+  for (Vec3& p : far.positions) p.x() += 10.0;
+  const auto none = tryon::within_reach({}, whole, {&far, 1}, kMargin_m);
+  REQUIRE_FALSE(none.ok());
+  CHECK(none.error().code == engine::ErrorCode::kUnusableGeometry);
+  CHECK_FALSE(tryon::within_reach({}, whole, {}, kMargin_m).ok());
+  far.positions[0].x() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(tryon::within_reach({}, whole, {&far, 1}, kMargin_m).ok());
+  for (const double margin_m :
+       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const auto result = tryon::within_reach({}, whole, {&dressed().skirt, 1}, margin_m);
+    REQUIRE_FALSE(result.ok());
+    CHECK(result.error().code == engine::ErrorCode::kInvalidArgument);
+  }
+  // Everything is near enough.
+  CHECK(tryon::within_reach({}, whole, {&dressed().skirt, 1}, 10.0)->hash() == whole.hash());
+}
