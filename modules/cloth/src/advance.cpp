@@ -129,7 +129,6 @@ void meet_collider(const collision::Collider* collider, State& s) {
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
                     State& s) {
   const std::int64_t start_ns = context.clock->now_ns();
-  begin_contact_frame(s.contacts);
   meet_collider(collider, s);
   const Plan plan = plan_frame(s.options, dt_s, fastest(context, s.particles),
                                static_cast<double>(s.max_travel_m), s.budget.level);
@@ -138,6 +137,7 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
   if (plan.substeps > 0) begin_frame(context, plan, s);
+  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, s.options, s.particles, s.contacts);
   for (int substep = 0; substep < plan.substeps; ++substep)
     report.limits |= run_substep(context, collider, plan, substep, s);
   report_contacts(s.contacts, report);

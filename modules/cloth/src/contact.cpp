@@ -49,11 +49,42 @@ void friction_and_velocity(Particles& p, std::size_t i, float mu, float inverse_
   p.vx[i] = kept * tx * inverse_h, p.vy[i] = kept * ty * inverse_h, p.vz[i] = kept * tz * inverse_h;
 }
 
-void respond(Particles& p, ContactState& s, std::size_t i, bool paper, float mu, float inverse_h) {
+struct Meeting {
+  const collision::Collider* collider;
+  collision::ResolveOptions how;
+  float friction;
+  float inverse_h;
+
+  bool paper() const { return how.response == collision::Response::kPaper; }
+};
+
+void respond(Particles& p, ContactState& s, std::size_t i, const Meeting& meeting) {
   const Point& before = p.point[i];
   if (p.inverse_mass[i] == 0.0f) p.x[i] = before.x, p.y[i] = before.y, p.z[i] = before.z;
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
-  if (s.touching[i] && !paper) friction_and_velocity(p, i, mu, inverse_h);
+  if (s.touching[i] && !meeting.paper()) friction_and_velocity(p, i, meeting.friction, meeting.inverse_h);
+}
+
+// The collider sees the clusters that may touch, in runs as long as they come.
+void meet_patch(const engine::Context& alone, const Meeting& meeting, std::size_t begin, std::size_t end,
+                ContactState& s, Particles& p) {
+  ContactPatch& patch = s.patch[begin / kPatch];
+  std::size_t first = begin;  // of the run so far
+  auto meet_run = [&](std::size_t last) {
+    if (first == last) return;
+    const std::int64_t begin_ns = alone.clock->now_ns();
+    patch.report.add(meeting.collider->resolve(alone, view(p, first, last, meeting.paper()), meeting.how));
+    patch.spent_ns += alone.clock->now_ns() - begin_ns;
+  };
+  for (std::size_t from = begin; from < end; from += kCluster) {
+    const std::size_t to = std::min(from + kCluster, end);
+    if (may_touch(p, from, to, s.clearance)) continue;
+    meet_run(from);
+    first = to;
+  }
+  meet_run(end);
+  if (!meeting.paper()) velocities_from_positions(p, begin, end, meeting.inverse_h);
+  for (std::size_t i = begin; i < end; ++i) respond(p, s, i, meeting);
 }
 
 // From the points to the positions. A particle that is not finite goes back to where the substep began.
@@ -75,39 +106,42 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 ContactState make_contacts(std::size_t particles) {
   ContactState s;
   s.touching.assign(particles, 0);
-  s.patch = std::vector<ContactPatch>(engine::block_count(particles, kPatch));
+  s.clearance = make_clearance(particles);
+  s.patch.resize(engine::block_count(particles, kPatch));
   return s;
+}
+
+void begin_contact_frame(const engine::Context& context, const collision::Collider* collider,
+                         const SolverOptions& options, Particles& particles, ContactState& s) {
+  const std::int64_t begin_ns = context.clock->now_ns();
+  // The paper's response goes by its own distances.
+  const bool ask = options.response != collision::Response::kPaper;
+  begin_clearance(context, ask ? collider : nullptr, options.thickness_m, particles, s.clearance);
+  s.patch.assign(s.patch.size(), {});
+  s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
 }
 
 std::uint32_t meet_body(const engine::Context& context, const collision::Collider* collider,
                         const SolverOptions& options, float friction, float substep_s, ContactState& s,
                         Particles& p) {
-  const float inverse_h = 1.0f / substep_s;
   const bool paper = options.response == collision::Response::kPaper;
-  const collision::ResolveOptions how = {.response = options.response,
-                                         .thickness_m = static_cast<float>(options.thickness_m),
-                                         .friction = paper ? friction : 0.0f,
-                                         .max_push_m = kRecovery_m_s * substep_s};
+  const Meeting meeting = {collider,
+                           {.response = options.response,
+                            .thickness_m = static_cast<float>(options.thickness_m),
+                            .friction = paper ? friction : 0.0f,
+                            .max_push_m = kRecovery_m_s * substep_s},
+                           friction,
+                           1.0f / substep_s};
   engine::Context alone = context;  // a patch is one worker's
   alone.executor = &engine::inline_executor();
   std::atomic<std::uint32_t> limits{0};
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     if (const std::uint32_t reset = take_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
-    if (paper || collider == nullptr) velocities_from_positions(p, begin, end, inverse_h);
-    if (collider == nullptr) return;
-    ContactPatch& patch = s.patch[begin / kPatch];
-    const std::int64_t begin_ns = context.clock->now_ns();
-    patch.report.add(collider->resolve(alone, view(p, begin, end, paper), how, patch.workspace));
-    patch.spent_ns += context.clock->now_ns() - begin_ns;
-    if (!paper) velocities_from_positions(p, begin, end, inverse_h);
-    for (std::size_t i = begin; i < end; ++i) respond(p, s, i, paper, friction, inverse_h);
+    if (paper || collider == nullptr) velocities_from_positions(p, begin, end, meeting.inverse_h);
+    if (collider != nullptr) meet_patch(alone, meeting, begin, end, s, p);
   });
   return limits.load();
-}
-
-void begin_contact_frame(ContactState& s) {
-  for (ContactPatch& patch : s.patch) patch.report = {}, patch.spent_ns = 0;
 }
 
 void report_contacts(const ContactState& s, FrameReport& report) {

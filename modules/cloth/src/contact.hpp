@@ -7,15 +7,15 @@
 
 #include <bodice/cloth/solver.hpp>
 
+#include "clearance.hpp"
 #include "particles.hpp"
 
 namespace bodice::cloth {
 
-/// Particles a task: neighbours on the cloth, of which the collider keeps a spatial order.
-inline constexpr std::size_t kPatch = 512;
+/// Particles a task.
+inline constexpr std::size_t kPatch = 8 * kCluster;
 
 struct ContactPatch {
-  collision::Workspace workspace;
   collision::ContactReport report;  ///< since the frame began
   std::int64_t spent_ns = 0;        ///< inside the collider, since the frame began
 };
@@ -23,9 +23,13 @@ struct ContactPatch {
 struct ContactState {
   std::vector<std::uint8_t> touching;  ///< #P, moved by the collider in the last substep
   std::vector<ContactPatch> patch;     ///< #P / kPatch
+  Clearance clearance;
 };
 
 ContactState make_contacts(std::size_t particles);
+
+void begin_contact_frame(const engine::Context& context, const collision::Collider* collider,
+                         const SolverOptions& options, Particles& particles, ContactState& state);
 
 /// Takes the positions from the points, where the constraints left them, and moves them out of the body;
 /// old_* are those at the start of the substep. Sets the velocities of all particles. `collider` may be null:
@@ -34,7 +38,6 @@ std::uint32_t meet_body(const engine::Context& context, const collision::Collide
                         const SolverOptions& options, float friction, float substep_s, ContactState& state,
                         Particles& particles);
 
-void begin_contact_frame(ContactState& state);
 /// What happened since begin_contact_frame().
 void report_contacts(const ContactState& state, FrameReport& report);
 

@@ -1,0 +1,78 @@
+#include "clearance.hpp"
+
+#include <algorithm>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "tiny.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+// Metres of distance that a metre of travel takes off at most. One for ellipsoids; tables of relief are steep
+// in places.
+constexpr float kSteepest = 2.0f;
+constexpr float kFar_m = 1e6f;
+// Where fewer clusters are far, asking costs more than it spares; how many frames to wait then.
+constexpr std::size_t kWorthAsking = 8;
+constexpr int kWait = 15;
+
+// A body's velocity is affine over each ellipsoid: still at four places that span space, still everywhere.
+bool moves(const collision::Collider& body) {
+  const Vec3 places[] = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  for (std::uint32_t k = 0; k < body.size(); ++k)
+    for (const Vec3& place : places)
+      if (body.surface_velocity(k, place) != Vec3::Zero()) return true;
+  return false;
+}
+
+void ask(const engine::Context& context, const collision::Collider& body, float thickness_m, Particles& p,
+         Clearance& c) {
+  collision::Particles all;
+  all.count = p.count();
+  all.x = p.x.data(), all.y = p.y.data(), all.z = p.z.data();
+  body.query(context, all, c.nearest);
+  engine::parallel_for(context, p.count(), kCluster * 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      float& free_m = c.free_m[i / kCluster];
+      free_m = std::min(i % kCluster == 0 ? kFar_m : free_m, c.nearest[i].signed_distance - thickness_m);
+    }
+  });
+}
+
+}  // namespace
+
+Clearance make_clearance(std::size_t particles) {
+  Clearance c;
+  c.free_m.assign(engine::block_count(particles, kCluster), 0.0f);
+  c.nearest.resize(particles);
+  return c;
+}
+
+void begin_clearance(const engine::Context& context, const collision::Collider* collider, double thickness_m,
+                     Particles& particles, Clearance& c) {
+  const bool wait = c.frames_without > 0 && --c.frames_without > 0;
+  if (wait || collider == nullptr || moves(*collider)) {
+    std::ranges::fill(c.free_m, 0.0f);
+    return;
+  }
+  ask(context, *collider, static_cast<float>(thickness_m), particles, c);
+  const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });
+  if (static_cast<std::size_t>(far) * kWorthAsking < c.free_m.size()) c.frames_without = kWait;
+}
+
+bool may_touch(const Particles& p, std::size_t begin, std::size_t end, Clearance& c) {
+  float& free_m = c.free_m[begin / kCluster];
+  if (!(free_m > 0.0f)) return true;
+  Float4 longest2 = splat(0.0f);
+  for (std::size_t i = begin; i < end; i += 4) {
+    const Float4 dx = load(&p.x[i]) - load(&p.old_x[i]), dy = load(&p.y[i]) - load(&p.old_y[i]),
+                 dz = load(&p.z[i]) - load(&p.old_z[i]);
+    longest2 = max(longest2, dx * dx + dy * dy + dz * dz);
+  }
+  const Float4 longest = root(longest2);
+  free_m -= kSteepest * std::max({longest[0], longest[1], longest[2], longest[3]});
+  return !(free_m > 0.0f);
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,33 @@
+// Who cannot meet the body in this frame: distances are asked once, and what a cluster of particles travels
+// since is taken off them. The collider sees the others only.
+#pragma once
+
+#include <vector>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/context.hpp>
+
+#include "particles.hpp"
+
+namespace bodice::cloth {
+
+/// Neighbours on the cloth; as many as the collider's kernels take at a time.
+inline constexpr std::size_t kCluster = 64;
+
+struct Clearance {
+  std::vector<float> free_m;                ///< a cluster: may be travelled before one of it can touch
+  std::vector<collision::Contact> nearest;  ///< #P
+  int frames_without = 0;                   ///< until distances are worth asking again
+};
+
+Clearance make_clearance(std::size_t particles);
+
+/// Begins a frame. Everything counts as near without a collider, while the body moves (what it sweeps over
+/// says nothing to distances at its end), and for some frames after most was found near.
+void begin_clearance(const engine::Context& context, const collision::Collider* collider, double thickness_m,
+                     Particles& particles, Clearance& clearance);
+
+/// Whether the particles [begin, end) of a cluster, moved from old_* to their positions, may touch now.
+bool may_touch(const Particles& particles, std::size_t begin, std::size_t end, Clearance& clearance);
+
+}  // namespace bodice::cloth
