@@ -1,5 +1,6 @@
 # Runs the smallest sweeps twice; every CSV must be the same but for its columns of times.
 # cmake -DPROGRAM=... -DFOLDER=... -P check_repeats.cmake
+cmake_minimum_required(VERSION 3.25)
 
 # Reads a CSV without its comments and without the columns whose names end in _ns, _us, _ms or _s.
 function(read_without_times file result)
