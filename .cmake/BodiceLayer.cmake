@@ -23,6 +23,8 @@ function(bodice_define_build_flags)
       -Werror)
     # g++ 12 sees overlapping copies in `"text" + std::string` that are not there (GCC bug 105651).
     target_compile_options(bodice_build_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+    # clang takes `double{f}` for a promotion that nobody asked for.
+    target_compile_options(bodice_build_flags INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-double-promotion>)
     if(BODICE_SANITIZE)
       target_compile_options(bodice_build_flags INTERFACE
         -fsanitize=${BODICE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
