@@ -20,6 +20,9 @@ TEST_CASE("extremes: point sets") {
 TEST_CASE("extremes: ellipsoids") {
   run(extremes::ellipsoid_rows(), 200);
 }
+TEST_CASE("extremes: scenes") {
+  run(extremes::scene_rows(), 120);
+}
 TEST_CASE("extremes: meshes") {
   run(extremes::mesh_rows(), 300);
 }
