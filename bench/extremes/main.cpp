@@ -1,0 +1,100 @@
+// How large each algorithm's error is, against the input's scale, its distance from the origin and its
+// aspect: three tables, a curve a row, on the terminal and as CSV. Repeats to the bit. Usage: extremes [--out
+// FOLDER] [--quick]    quick: without the fits of whole bodies
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include <bench_support/table.hpp>
+
+#include "curve.hpp"
+
+namespace {
+
+using extremes_bench::Curve;
+using extremes_bench::Place;
+
+struct Range {
+  const char *name, *caption;
+  std::vector<double> values;
+  double Place::*swept;
+  extremes_bench::Sweep sweep;
+};
+
+const Range kRanges[] = {
+    {"extremes_scale",
+     "Error against the input's size in metres.",
+     {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6},
+     &Place::scale_m,
+     extremes_bench::kScale},
+    {"extremes_offset",
+     "Error against the distance from the origin, in sizes of the input (a body 10 km away: 6e3).",
+     {0.0, 1.0, 1e2, 1e3, 1e4, 1e5, 1e6},
+     &Place::offset,
+     extremes_bench::kOffset},
+    {"extremes_aspect",
+     "Error against the aspect, longest to shortest extent.",
+     {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
+     &Place::aspect,
+     extremes_bench::kAspect}};
+
+std::string short_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, value == 0.0 || value >= 0.01 ? "%.2g" : "%.0e", value);
+  return std::isinf(value) ? "refused" : text;
+}
+
+bench::Table measure(const Range& range, const std::vector<Curve>& curves) {
+  std::vector<std::string> columns = {"algorithm", "error"};
+  for (const double value : range.values) columns.push_back(short_text(value));
+  bench::Table table(range.name, range.caption, columns);
+  for (const Curve& curve : curves) {
+    if (!(curve.sweeps & range.sweep)) continue;
+    std::fprintf(stderr, "extremes: %s: %s\n", range.name, curve.algorithm.c_str());
+    std::vector<bench::Cell> row = {curve.algorithm, curve.error};
+    for (const double value : range.values) {
+      Place place;
+      place.*range.swept = value;
+      row.emplace_back(short_text(curve.at(place)));
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::filesystem::path folder;
+  bool quick = false;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--quick")
+      quick = true;
+    else if (word == "--out" && i + 1 < argc)
+      folder = argv[++i];
+    else
+      return std::fputs("usage: extremes [--out FOLDER] [--quick]\n", stderr), 2;
+  }
+  std::vector<Curve> curves;
+  for (auto make : {extremes_bench::point_curves, extremes_bench::ellipsoid_curves,
+                    extremes_bench::mesh_curves, extremes_bench::body_curves})
+    for (Curve& curve : make())
+      if (!quick || !curve.algorithm.starts_with("fit")) curves.push_back(std::move(curve));
+  const bench::Origin origin = bench::find_origin();
+  if (!folder.empty()) std::filesystem::create_directories(folder);
+  bool written = true;
+  for (const Range& range : kRanges) {
+    const bench::Table table = measure(range, curves);
+    std::printf("%s\n\n%s\n", table.caption().c_str(), table.markdown().c_str());
+    if (folder.empty()) continue;
+    std::ofstream csv(folder / (table.name() + ".csv"));
+    csv << table.csv(origin, quick ? "extremes --quick" : "extremes");
+    written = written && csv.good();
+  }
+  return written ? 0 : 1;
+}
