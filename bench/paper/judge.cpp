@@ -65,11 +65,33 @@ void set_gaps(std::vector<Gap> gaps, Approximation& a) {
   a.gap_mean_mm = area > 0.0 ? 1e3 * sum / area : 0.0;
 }
 
+void set_radial(std::span<const Ellipsoid> ellipsoids, std::span<const Vec3> vertices, Approximation& a) {
+  std::vector<double> sum(ellipsoids.size(), 0.0), count(ellipsoids.size(), 0.0);
+  for (const Vec3& p : vertices) {
+    double least = 1e30;
+    std::size_t owner = 0;
+    for (std::size_t k = 0; k < ellipsoids.size(); ++k) {
+      const double d = (p - bodice::geometry::radial_projection(ellipsoids[k], p)).norm();
+      if (d < least) least = d, owner = k;
+    }
+    sum[owner] += least;
+    count[owner] += 1.0;
+  }
+  double owners = 0.0;
+  for (std::size_t k = 0; k < ellipsoids.size(); ++k) {
+    if (count[k] == 0.0) continue;
+    owners += 1.0;
+    a.radial_mean_mm += 1e3 * sum[k] / count[k];
+    a.radial_worst_mm = std::max(a.radial_worst_mm, 1e3 * sum[k] / count[k]);
+  }
+  if (owners > 0.0) a.radial_mean_mm /= owners;
+}
+
 }  // namespace
 
 Judge::Judge(const bodice::engine::Context& context, const bodice::geometry::TriMesh& mesh,
              std::size_t samples)
-    : distance_(context, mesh), samples_(samples) {
+    : distance_(context, mesh), vertices_(mesh.positions), samples_(samples) {
   for (const auto& s : bodice::geometry::sample_surface(mesh, samples, 1)) skin_.push_back(s.point);
   const auto box = bodice::geometry::bounding_box(mesh.positions);
   bodice::engine::Random random(1, 2);
@@ -89,6 +111,7 @@ Approximation Judge::judge(std::span<const Ellipsoid> ellipsoids) const {
   const int each = static_cast<int>(samples_ / std::max<std::size_t>(1, ellipsoids.size())) + 24;
   for (std::size_t k = 0; k < ellipsoids.size(); ++k) add_gaps(ellipsoids, k, distance_, each, gaps);
   set_gaps(std::move(gaps), a);
+  if (!ellipsoids.empty()) set_radial(ellipsoids, vertices_, a);
   std::size_t outside = 0;
   for (const Vec3& p : skin_) {
     const double d = distance_to(ellipsoids, p);

@@ -22,25 +22,6 @@ std::vector<geometry::Ellipsoid> shapes_of(const proxy::BodyProxy& proxy) {
   return shapes;
 }
 
-void set_radial(const fitting::FitResult& fit, Approximation& a) {
-  double sum = 0.0, count = 0.0;
-  for (const auto& part : fit.parts) {
-    sum += part.radial_error_mean_m * static_cast<double>(part.ellipsoids);
-    count += static_cast<double>(part.ellipsoids);
-    a.radial_worst_mm = std::max(a.radial_worst_mm, 1e3 * part.radial_error_max_m);
-  }
-  a.radial_mean_mm = count > 0.0 ? 1e3 * sum / count : 0.0;
-}
-
-void set_radial(const RivalFit& fit, Approximation& a) {
-  double sum = 0.0;
-  for (const double e : fit.error_m) {
-    sum += 1e3 * e;
-    a.radial_worst_mm = std::max(a.radial_worst_mm, 1e3 * e);
-  }
-  a.radial_mean_mm = fit.error_m.empty() ? 0.0 : sum / static_cast<double>(fit.error_m.size());
-}
-
 double fit_stage_ms(const fitting::FitResult& fit) {
   double ms = 0.0;
   for (const auto& stage : fit.stages)
@@ -68,7 +49,6 @@ engine::Result<MethodResult> measure_ours(const Subject& subject, const Judge& j
     if (r > 0) continue;
     result.ellipsoids = fit->proxy.ellipsoids().size();
     result.approximation = judge.judge(shapes_of(fit->proxy));
-    set_radial(*fit, result.approximation);
   }
   return result;
 }
@@ -87,7 +67,6 @@ MethodResult measure_rival(const Subject& subject, const Judge& judge, int repea
     result.ellipsoids = fit.ellipsoids.size();
     result.backtracks = fit.backtracks;
     result.approximation = judge.judge(fit.ellipsoids);
-    set_radial(fit, result.approximation);
   }
   return result;
 }
