@@ -3,6 +3,8 @@
 //     [--seconds S]
 // fit ... --target MM... | --budget US...    what was asked for beside what was achieved
 // fit ... --bars                         every tier at 89 ellipsoids beside what it promises, the worst body
+// fit ... --laws                         the constants of the dial, from the fits of --tier and --count
+// fit --growth                           time against the number of vertices, a row a tier
 // CSV: one line a (body, tier, count) with the fit's own report, the error of the signed distance at points
 // within 30 mm of the skin, and what a query costs.
 #include <cmath>
@@ -17,6 +19,8 @@
 
 #include "bars.hpp"
 #include "front_svg.hpp"
+#include "growth.hpp"
+#include "laws.hpp"
 #include "near_skin.hpp"
 #include "query_cost.hpp"
 #include "real_body.hpp"
@@ -35,7 +39,7 @@ struct Arguments {
   std::filesystem::path svg;
   int threads = 2;
   double seconds = 2.0;
-  bool bars = false;
+  bool bars = false, laws = false, growth = false;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -59,6 +63,10 @@ Arguments parse(int argc, char** argv) {
       a.svg = argv[++i];
     } else if (word == "--bars") {
       a.bars = true;
+    } else if (word == "--laws") {
+      a.laws = true;
+    } else if (word == "--growth") {
+      a.growth = true;
     } else if (word == "--threads" && has_value) {
       a.threads = std::stoi(argv[++i]);
     } else if (word == "--seconds" && has_value) {
@@ -133,6 +141,27 @@ std::optional<fitting::FitResult> fitted(const engine::Context& context, const S
   if (result) return std::move(*result);
   std::fprintf(stderr, "fit: %s\n", result.error().sentence().c_str());
   return std::nullopt;
+}
+
+bool laws(const engine::Context& context, const Arguments& arguments) {
+  std::vector<fit_bench::LawPoint> points;
+  const bool all = for_each_subject(context, arguments, [&](const Subject& subject) {
+    for (const proxy::Tier tier : arguments.tiers)
+      for (const int count : arguments.counts) {
+        fitting::FitOptions options;
+        options.tier = tier;
+        options.max_ellipsoids = count;
+        const auto result = fitted(context, subject, options);
+        if (!result) return false;
+        points.push_back({std::string(proxy::name(tier)),
+                          static_cast<double>(result->proxy.ellipsoids().size()),
+                          result->accuracy.gap_m.mean / subject.body.stature_m,
+                          fit_bench::query_ns(result->proxy, subject.body.mesh)});
+      }
+    return true;
+  });
+  fit_bench::print_laws(points);
+  return all;
 }
 
 bool front(const engine::Context& context, const Arguments& arguments) {
@@ -221,6 +250,8 @@ int main(int argc, char** argv) {
   engine::Context context;
   context.executor = executor.get();
   if (arguments.bars) return bars(context, arguments) ? 0 : 1;
+  if (arguments.laws) return laws(context, arguments) ? 0 : 1;
+  if (arguments.growth) return fit_bench::print_growth(context) ? 0 : 1;
   const bool asks = !arguments.targets_mm.empty() || !arguments.budgets_us.empty();
   return (asks ? dial(context, arguments) : front(context, arguments)) ? 0 : 1;
 }

@@ -1,9 +1,12 @@
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <vector>
 
 #include <bodice/engine/random.hpp>
 #include <bodice/fitting/mvee.hpp>
+
+#include "cgal_mvee.hpp"
 
 namespace {
 
@@ -34,6 +37,17 @@ void first_order(benchmark::State& state) {
   for (auto _ : state) gap = bodice::fitting::mvee_first_order(points, 1e-3).volume_gap;
   state.counters["volume_gap"] = gap;
 }
+
+#ifdef BENCH_CGAL
+void cgal(benchmark::State& state) {
+  const auto points = cloud(state.range(0), state.range(1) != 0);
+  const double least = bodice::geometry::volume(bodice::fitting::mvee(points).ellipsoid);
+  double volume = 0.0;
+  for (auto _ : state) volume = mvee_bench::cgal_volume(points, 0.01);
+  state.counters["volume_gap"] = std::log(volume / least);
+}
+BENCHMARK(cgal)->ArgsProduct({{10, 100, 1000, 10000}, {0, 1}})->Unit(benchmark::kMicrosecond);
+#endif
 
 }  // namespace
 

@@ -96,8 +96,11 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
     found->data.frame = skin.frame;
     found->data.source_hash = source_hash;
     if (found->data.ellipsoids.empty()) return no_skin();
-    engine::StageTimer timer(context, stages, "measure");
-    Measured now = measure(context, found->data, judged, *judged.distance, found->parts);
+    Measured now;
+    if (options.measure_accuracy || options.target_error_m) {
+      engine::StageTimer timer(context, stages, "measure");
+      now = measure(context, found->data, judged, *judged.distance, found->parts);
+    }
     more = options.target_error_m && dial.correct(now.accuracy.gap_m.mean);
     if (!first && off_target(now) > off_target(measured)) continue;
     draft = std::move(*found);

@@ -75,25 +75,4 @@ BODICE_CLONES void foot_details(const FootEllipsoid& ellipsoid, std::size_t n, c
   }
 }
 
-BODICE_CLONES void rough_distances(const FootEllipsoid& e, std::size_t n, const float* __restrict x,
-                                   const float* __restrict y, const float* __restrict z,
-                                   float* __restrict d) {
-  float a[3][3], inverse[3];  // rows of diag(1 / r) R^T
-  for (int j = 0; j < 3; ++j) {
-    inverse[j] = 1.0f / e.r[j];
-    for (int i = 0; i < 3; ++i) a[j][i] = e.rt[j][i] * inverse[j];
-  }
-  const float cx = e.c[0], cy = e.c[1], cz = e.c[2];
-  for (std::size_t i = 0; i < n; ++i) {
-    const float dx = x[i] - cx, dy = y[i] - cy, dz = z[i] - cz;
-    const float y0 = a[0][0] * dx + a[0][1] * dy + a[0][2] * dz;
-    const float y1 = a[1][0] * dx + a[1][1] * dy + a[1][2] * dz;
-    const float y2 = a[2][0] * dx + a[2][1] * dy + a[2][2] * dz;
-    const float q0 = y0 * inverse[0], q1 = y1 * inverse[1], q2 = y2 * inverse[2];
-    const float k0 = y0 * y0 + y1 * y1 + y2 * y2 + 1e-12f;
-    const float k1 = q0 * q0 + q1 * q1 + q2 * q2 + 1e-12f;
-    d[i] = (k0 - root(k0)) / root(k1);
-  }
-}
-
 }  // namespace bodice::fitting

@@ -27,11 +27,6 @@ struct FootEllipsoid {
 void foot_distances(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
                     float* d);
 
-/// d[i] = k0 (k0 - 1) / k1 with k0 = |y / r|, k1 = |y / r^2|: near the distance, and cheap. For choosing
-/// candidates.
-void rough_distances(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
-                     float* d);
-
 /// As foot_distances, and the foot's unit direction w on the sphere in the ellipsoid's frame.
 void foot_details(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
                   float* d, float* wx, float* wy, float* wz);

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/sampling.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
+#include "ellipsoid_surface.hpp"
 #include "interior_grid.hpp"
 
 namespace bodice::fitting {
@@ -18,56 +18,41 @@ constexpr std::size_t kSkinSamples = 4000;
 constexpr std::size_t kInteriorSamples = 3000;
 constexpr std::size_t kGrain = 64;
 
-struct SurfaceProbe {
-  Vec3 point;
-  double area = 0.0;
+struct GapProbe {
+  SurfaceProbe at;
   std::uint32_t ellipsoid = 0;
   double gap_m = -1.0;  ///< negative: not on the union's surface
 };
 
-/// Knud Thomsen's approximation, within 1.1 %: only shares samples out.
-double surface_area(const Vec3& r) {
-  constexpr double p = 1.6075;
-  const double a = std::pow(r.x(), p), b = std::pow(r.y(), p), c = std::pow(r.z(), p);
-  return 4.0 * std::numbers::pi * std::pow((a * b + a * c + b * c) / 3.0, 1.0 / p);
-}
-
-/// Points over each ellipsoid: Fibonacci directions on the unit sphere, weighted by the area they map to.
-std::vector<SurfaceProbe> surface_probes(const proxy::BodyProxy::Data& proxy) {
+std::vector<GapProbe> gap_probes(const proxy::BodyProxy::Data& proxy) {
   double total = 0.0;
   for (const auto& e : proxy.ellipsoids) total += surface_area(e.shape.radii);
-  std::vector<SurfaceProbe> probes;
+  std::vector<GapProbe> probes;
   for (std::uint32_t k = 0; k < proxy.ellipsoids.size(); ++k) {
     const geometry::Ellipsoid& e = proxy.ellipsoids[k].shape;
     const int n = std::max(24, static_cast<int>(kSurfaceSamples * surface_area(e.radii) / total));
-    for (int i = 0; i < n; ++i) {
-      const double z = 1.0 - (2.0 * i + 1.0) / n, turn = 2.399963229728653 * i;
-      const double ring = std::sqrt(1.0 - z * z);
-      const Vec3 u(ring * std::cos(turn), ring * std::sin(turn), z);
-      const double area = e.radii.prod() * u.cwiseQuotient(e.radii).norm() * 4.0 * std::numbers::pi / n;
-      probes.push_back({e.center + e.axes * e.radii.cwiseProduct(u), area, k, -1.0});
-    }
+    for (const SurfaceProbe& at : probe_surface(e, n)) probes.push_back({at, k});
   }
   return probes;
 }
 
 /// Moves a probe onto F = 0 along the gradient; false if it does not settle or another ellipsoid owns it.
-bool settle(const proxy::BodyProxy::Data& proxy, SurfaceProbe& probe, double tolerance_m) {
+bool settle(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double tolerance_m) {
   constexpr int kSteps = 8;
   for (int step = 0; step < kSteps; ++step) {
-    const proxy::ProxyDistance f = proxy::proxy_distance(proxy, probe.point);
+    const proxy::ProxyDistance f = proxy::proxy_distance(proxy, probe.at.point);
     if (std::abs(f.distance) <= tolerance_m) return f.owner == probe.ellipsoid;
     if (step == 0 && proxy.relief.empty() && f.distance < -proxy.margin_m - tolerance_m) return false;
-    probe.point -= f.distance * f.normal;
+    probe.at.point -= f.distance * f.normal;
   }
   return false;
 }
 
-Spread gaps(const std::vector<SurfaceProbe>& probes, const proxy::BodyProxy::Data& proxy, int part) {
+Spread gaps(const std::vector<GapProbe>& probes, const proxy::BodyProxy::Data& proxy, int part) {
   std::vector<std::pair<double, double>> values;
-  for (const SurfaceProbe& p : probes)
+  for (const GapProbe& p : probes)
     if (p.gap_m >= 0.0 && (part < 0 || static_cast<int>(proxy.ellipsoids[p.ellipsoid].part) == part))
-      values.emplace_back(p.gap_m, p.area);
+      values.emplace_back(p.gap_m, p.at.area);
   return spread_of(std::move(values));
 }
 
@@ -141,11 +126,11 @@ Spread spread_of(std::vector<std::pair<double, double>> values) {
 Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
                  const LabelledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts) {
   const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometre: below it is on the surface
-  std::vector<SurfaceProbe> probes = surface_probes(proxy);
+  std::vector<GapProbe> probes = gap_probes(proxy);
   engine::parallel_for(context, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (settle(proxy, probes[i], tolerance_m))
-        if (const auto hit = distance.nearest_within(probes[i].point, 10.0 * skin.stature_m))
+        if (const auto hit = distance.nearest_within(probes[i].at.point, 10.0 * skin.stature_m))
           probes[i].gap_m = std::abs(hit->signed_distance);
   });
   Measured result;

@@ -97,6 +97,12 @@ std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, 
     of_part[static_cast<int>(b.part)].push_back(b);
     demand_of[static_cast<int>(b.part)] += demand(b, skin.stature_m);
   }
+  const auto parts = std::count_if(demand_of.begin(), demand_of.end(), [](double d) { return d > 0.0; });
+  if (source.parts == kAllParts && count < parts) {  // too few to give each part its own
+    Balls all;
+    for (const Balls& balls : of_part) all.insert(all.end(), balls.begin(), balls.end());
+    return start_from_balls(context, all, count, skin.stature_m);
+  }
   const auto wanted = [&](int p) { return ((source.parts >> p) & 1u) != 0; };
   auto given = share(demand_of, count);
   int ours = 0;

@@ -16,7 +16,8 @@ std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& conte
 
 /// The wanted parts' share of about `count` ellipsoids for the whole body (never more, at least one a part
 /// that has skin unless count is smaller): K-means of the balls' centres part by part, shares by the sum of
-/// radius^-0.7, each ellipsoid from the spread of the skin points its balls touch.
+/// radius^-0.7, each ellipsoid from the spread of the skin points its balls touch. With fewer than the body
+/// has parts, all balls are clustered together.
 std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const SkinSource& source,
                                                 int count);
 

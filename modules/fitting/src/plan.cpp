@@ -11,7 +11,7 @@ namespace {
 
 using proxy::Tier;
 
-constexpr int kMostAttempts = 7;
+constexpr int kMostAttempts = 9;
 constexpr double kNearEnough = 1.10;
 /// Fractions of stature. Below the first, plain ellipsoids take more work and time a particle than relief.
 constexpr double kFinestPlain = 1.6e-3 / 1.7;
@@ -29,7 +29,7 @@ Law law_of(Tier tier) {
     case Tier::kSolid:
       return {0.0060, 0.5};
     case Tier::kTight:
-      return {0.00085, 1.3};
+      return {0.00065, 0.9};
     case Tier::kRelief:
       return {0.00013, 0.7};
   }
@@ -113,19 +113,28 @@ double Dial::size() const {
   return plan_.tier == Tier::kRelief ? static_cast<double>(plan_.relief_bytes) : plan_.count;
 }
 
-/// Along the power law through the tries on either side of the target, or through the last try alone.
+/// Along the power law through the nearest tries on either side of the target, or, while there are none on
+/// the other side, through the last try with a power between its own and the tier's.
 double Dial::wanted_size(double gap_m) const {
   double power = plan_.tier == Tier::kRelief ? kReliefPower : law_of(plan_.tier).power;
   const Try* other = nullptr;
+  const auto off = [&](const Try& t) { return std::abs(std::log(t.gap_m / *target_m_)); };
   for (const Try& t : tries_) {
+    if (t.size == size()) continue;
     const bool opposite = (t.gap_m > *target_m_) != (gap_m > *target_m_);
-    if (t.size != size() && (!other || opposite)) other = &t;
+    const bool other_is_opposite = other && (other->gap_m > *target_m_) != (gap_m > *target_m_);
+    if (!other || (opposite && !other_is_opposite) || (opposite == other_is_opposite && off(t) < off(*other)))
+      other = &t;
   }
   if (other) {
     const double slope = -std::log(gap_m / other->gap_m) / std::log(size() / other->size);
     if (std::isfinite(slope)) power = std::clamp(slope, 0.3 * power, 3.0 * power);
   }
   return size() * std::pow(gap_m / *target_m_, 1.0 / power);
+}
+
+bool Dial::known(double wanted) const {
+  return std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) { return t.size == wanted; });
 }
 
 /// False if nothing changes, or if it has been tried.
@@ -138,10 +147,14 @@ bool Dial::resize(double wanted) {
   } else {
     plan_.count = static_cast<int>(std::lround(std::clamp(wanted, 1.0, static_cast<double>(most_))));
   }
-  const double now = size();
-  const bool known = std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) { return t.size == now; });
-  if (known) plan_ = before;
-  return !known;
+  if (!known(size())) return true;
+  plan_ = before;
+  return false;
+}
+
+/// A count next to the last one, where the power law asks for one that has been tried.
+bool Dial::step(double gap_m) {
+  return plan_.tier != Tier::kRelief && resize(plan_.count + (gap_m > *target_m_ ? 1 : -1));
 }
 
 /// Relief whose tables are as large or as small as they get: other ellipsoids.
@@ -159,7 +172,7 @@ bool Dial::recount(double gap_m) {
 bool Dial::correct(double gap_m) {
   if (reached(gap_m) || ++attempts_ >= kMostAttempts || !(gap_m > 0.0)) return false;
   tries_.push_back({size(), gap_m});
-  return resize(wanted_size(gap_m)) || recount(gap_m);
+  return resize(wanted_size(gap_m)) || step(gap_m) || recount(gap_m);
 }
 
 }  // namespace bodice::fitting

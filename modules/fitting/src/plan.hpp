@@ -48,7 +48,9 @@ class Dial {
 
   double size() const;
   double wanted_size(double gap_m) const;
+  bool known(double size) const;
   bool resize(double size);
+  bool step(double gap_m);
   bool recount(double gap_m);
 
   std::optional<double> target_m_;

@@ -15,6 +15,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr int kIterations = 14;
+constexpr double kMostMotion = 0.03;      // of the scaled body: few samples, so that candidates cost little
 constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
 constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
 constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
@@ -42,13 +43,13 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
   const Scaling scaling(skin);
   const TightLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
   const std::vector<DistanceSample> samples = part_samples(skins, r, skin.stature_m);
-  TightProblem problem(samples, scaling.origin, scaling.scale, loss);
+  TightProblem problem(samples, scaling, loss, kMostMotion);
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;
   descend(context, problem, shapes, {.max_iterations = kIterations});
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = scaling.out(shapes[k]);
-  take_parts(problem, samples, ellipsoids);
+  take_parts(problem, ellipsoids);
   return ellipsoids;
 }
 

@@ -2,6 +2,7 @@
 
 #include <bodice/engine/clock.hpp>
 
+#include "air_samples.hpp"
 #include "cover.hpp"
 #include "medial_start.hpp"
 #include "scaling.hpp"
@@ -11,6 +12,12 @@
 namespace bodice::fitting {
 namespace {
 
+/// The first steps are taken on one sample in so many, and may be long: what they cost is choosing
+/// candidates.
+constexpr std::size_t kCoarse = 5;
+constexpr int kCoarseIterations = 36, kIterations = 500;
+constexpr double kCoarseMotion = 0.03, kMotion = 0.008;  // of the scaled body
+constexpr std::size_t kAirProbes = 8;                    // samples a probe of the union's surface
 constexpr float kCoveringWeight = 4.0f;  // of uncovered skin, before what is left is covered by growth
 
 /// Every triangle of the wanted, unburied skin into an ellipsoid.
@@ -28,49 +35,88 @@ void cover_skin(const engine::Context& context, const SkinSource& source,
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
 }
 
+/// The descent of one draft, on few samples first.
+class TightRun {
+ public:
+  TightRun(const engine::Context& context, const SkinSource& source, const FitOptions& options, Draft& draft,
+           std::int64_t deadline_ns)
+      : context_(context), source_(source), options_(options), draft_(draft), scaling_(source.skin) {
+    descent_.out_of_time = [this, deadline_ns] { return context_.clock->now_ns() >= deadline_ns; };
+    descent_.more_samples = [this](std::span<const geometry::Ellipsoid> found) { return in_air(found); };
+    if (options.covering) loss_.uncovered_weight = kCoveringWeight;
+  }
+
+  void run(std::span<const DistanceSample> samples) {
+    air_probes_ = samples.size() / kAirProbes;
+    std::vector<geometry::Ellipsoid> state;
+    for (const auto& e : draft_.data.ellipsoids) state.push_back(scaling_.in(e.shape));
+    std::vector<DistanceSample> few;
+    for (std::size_t i = 0; i < samples.size(); i += kCoarse) few.push_back(samples[i]);
+    descend_on(few, kCoarseMotion, kCoarseIterations, state);
+    const DescentReport report = descend_on(samples, kMotion, kIterations, state);
+    for (auto idle = report.idle.rbegin(); idle != report.idle.rend(); ++idle)
+      if (draft_.data.ellipsoids.size() > 1)
+        draft_.data.ellipsoids.erase(draft_.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(*idle));
+  }
+
+ private:
+  DescentReport descend_on(std::span<const DistanceSample> samples, double motion, int iterations,
+                           std::vector<geometry::Ellipsoid>& state) {
+    TightProblem problem(samples, scaling_, loss_, motion);
+    descent_.max_iterations = iterations;
+    if (options_.on_improved)
+      descent_.on_improved = [&](std::span<const geometry::Ellipsoid> found) { publish(problem, found); };
+    DescentReport report = descend(context_, problem, state, descent_);
+    take(state);
+    take_parts(problem, draft_.data.ellipsoids);
+    return report;
+  }
+
+  void take(std::span<const geometry::Ellipsoid> found) {
+    for (std::size_t k = 0; k < found.size(); ++k) draft_.data.ellipsoids[k].shape = scaling_.out(found[k]);
+  }
+
+  void publish(const TightProblem& problem, std::span<const geometry::Ellipsoid> found) {
+    take(found);
+    proxy::BodyProxy::Data data = draft_.data;
+    take_parts(problem, data.ellipsoids);
+    data.stature_m = source_.skin.stature_m;
+    data.frame = source_.skin.frame;
+    if (auto proxy = proxy::BodyProxy::make(std::move(data))) options_.on_improved(*proxy);
+  }
+
+  std::vector<DistanceSample> in_air(std::span<const geometry::Ellipsoid> found) const {
+    std::vector<geometry::Ellipsoid> shapes;
+    for (const auto& e : found) shapes.push_back(scaling_.out(e));
+    const double mm = scaling_.mm();
+    return samples_in_air(context_, source_, shapes, air_probes_, 8.0 * mm, 200.0 * mm);
+  }
+
+  const engine::Context& context_;
+  const SkinSource& source_;
+  const FitOptions& options_;
+  Draft& draft_;
+  Scaling scaling_;
+  TightLoss loss_;
+  DescentOptions descent_;
+  std::size_t air_probes_ = 0;
+};
+
 }  // namespace
 
 Draft fit_tight(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count, double time_budget_s) {
-  const LabelledSkin& skin = source.skin;
-  const std::int64_t deadline =
+  const std::int64_t deadline_ns =
       context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(time_budget_s, 1e6));
   Draft draft;
   draft.data.tier = proxy::Tier::kTight;
   draft.parts = source.parts;
   draft.data.ellipsoids = medial_start(context, source, count);
-  const Scaling scaling(skin);
-  const double mm = scaling.mm();
+  const double mm = Scaling(source.skin).mm();
   const std::size_t samples = std::clamp<std::size_t>(200 * static_cast<std::size_t>(count), 6000, 60000);
   // Less than half on the skin: with more, ellipsoids spread in air that nobody asks about.
-  const std::vector<DistanceSample> near_skin =
-      sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.45, 0.15, 200 * mm, 11});
-  TightLoss loss;
-  if (options.covering) loss.uncovered_weight = kCoveringWeight;
-  TightProblem problem(near_skin, scaling.origin, scaling.scale, loss);
-  std::vector<geometry::Ellipsoid> state;
-  for (const auto& e : draft.data.ellipsoids) state.push_back(scaling.in(e.shape));
-
-  const auto take = [&](std::span<const geometry::Ellipsoid> found) {
-    for (std::size_t k = 0; k < found.size(); ++k) draft.data.ellipsoids[k].shape = scaling.out(found[k]);
-  };
-  DescentOptions descent;
-  descent.out_of_time = [&] { return context.clock->now_ns() >= deadline; };
-  descent.on_improved = [&](std::span<const geometry::Ellipsoid> found) {
-    if (!options.on_improved) return;
-    take(found);
-    proxy::BodyProxy::Data data = draft.data;
-    take_parts(problem, near_skin, data.ellipsoids);
-    data.stature_m = skin.stature_m;
-    data.frame = skin.frame;
-    if (auto proxy = proxy::BodyProxy::make(std::move(data))) options.on_improved(*proxy);
-  };
-  const DescentReport report = descend(context, problem, state, descent);
-  take(state);
-  take_parts(problem, near_skin, draft.data.ellipsoids);
-  for (auto idle = report.idle.rbegin(); idle != report.idle.rend(); ++idle)
-    if (draft.data.ellipsoids.size() > 1)
-      draft.data.ellipsoids.erase(draft.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(*idle));
+  TightRun(context, source, options, draft, deadline_ns)
+      .run(sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.45, 0.15, 200 * mm, 11}));
   if (options.covering) cover_skin(context, source, draft.data.ellipsoids);
   return draft;
 }

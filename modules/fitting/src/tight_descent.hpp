@@ -9,9 +9,13 @@ namespace bodice::fitting {
 
 struct DescentOptions {
   int max_iterations = 500;
+  /// Ends when this much of the cost is not gained over 48 iterations.
+  double least_gain = 0.01;
   std::function<bool()> out_of_time;  ///< asked once an iteration
   /// Told of the ellipsoids when the cost has fallen by 5 % since the last time.
   std::function<void(std::span<const geometry::Ellipsoid>)> on_improved;
+  /// Asked now and then for samples that the ellipsoids found so far need and the problem lacks.
+  std::function<std::vector<DistanceSample>(std::span<const geometry::Ellipsoid>)> more_samples;
 };
 
 struct DescentReport {
@@ -26,9 +30,7 @@ DescentReport descend(const engine::Context& context, TightProblem& problem,
                       std::vector<geometry::Ellipsoid>& ellipsoids, const DescentOptions& options);
 
 /// The descent moves ellipsoids to where they are needed, out of the part they started in: each takes the
-/// part that most of its skin samples have (ties: the first part); one without skin keeps its own. `samples`
-/// are the problem's.
-void take_parts(const TightProblem& problem, std::span<const DistanceSample> samples,
-                std::vector<proxy::ProxyEllipsoid>& ellipsoids);
+/// part that most of its skin samples have (ties: the first part); one without skin keeps its own.
+void take_parts(const TightProblem& problem, std::vector<proxy::ProxyEllipsoid>& ellipsoids);
 
 }  // namespace bodice::fitting

@@ -6,69 +6,134 @@
 
 #include <bodice/engine/parallel.hpp>
 
-#include "foot_batch.hpp"
+#include "spatial_order.hpp"
 
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kGrain = 512;
-/// Ellipsoids this much farther than the nearest do not become the nearest before the next refresh.
-constexpr float kCandidateReach = 0.015f;
-
-std::vector<FootEllipsoid> in_floats(std::span<const geometry::Ellipsoid> ellipsoids) {
-  return {ellipsoids.begin(), ellipsoids.end()};
-}
+constexpr std::size_t kGrain = 2048;
+constexpr std::size_t kEllipsoidGrain = 8;
+constexpr std::size_t kBlock = 32;  // samples that are compared with the ellipsoids together
 
 }  // namespace
 
-TightProblem::TightProblem(std::span<const DistanceSample> samples, const Vec3& origin, double scale,
-                           const TightLoss& loss)
-    : loss_(loss) {
-  for (const DistanceSample& s : samples) {
-    for (int j = 0; j < 3; ++j) point_[j].push_back(static_cast<float>((s.point[j] - origin[j]) * scale));
-    target_.push_back(static_cast<float>(s.signed_distance_m * scale));
-    one_sided_.push_back(s.one_sided);
+/// Of a stretch of samples: the nearest kNear, ascending, and how many of them can become the nearest.
+struct TightProblem::Candidates {
+  std::array<std::array<std::uint32_t, kNear>, kBlock> ellipsoid;
+  std::array<std::array<float, kNear>, kBlock> distance;
+
+  void insert(std::size_t i, std::uint32_t k, float d) {
+    auto& near = distance[i];
+    if (!(d < near[kNear - 1])) return;
+    int slot = kNear - 1;
+    for (; slot > 0 && d < near[slot - 1]; --slot) {
+      near[slot] = near[slot - 1];
+      ellipsoid[i][slot] = ellipsoid[i][slot - 1];
+    }
+    near[slot] = d;
+    ellipsoid[i][slot] = k;
   }
-  pairs_of_.resize(samples.size());
-  owner_.resize(samples.size());
-  cost_.resize(samples.size());
-  second_cost_.resize(samples.size());
-  residual_.resize(samples.size());
+};
+
+TightProblem::TightProblem(std::span<const DistanceSample> samples, const Scaling& scaling,
+                           const TightLoss& loss, double most_motion)
+    : scaling_(scaling),
+      loss_(loss),
+      most_motion_(most_motion),
+      reach_(2.0f * static_cast<float>(most_motion)) {
+  add(samples);
+}
+
+void TightProblem::add(std::span<const DistanceSample> samples) {
+  std::vector<Vec3> points;
+  points.reserve(samples.size());
+  for (const DistanceSample& s : samples) points.push_back((s.point - scaling_.origin) * scaling_.scale);
+  for (const std::uint32_t i : spatial_order(points)) {
+    for (int j = 0; j < 3; ++j) point_[j].push_back(static_cast<float>(points[i][j]));
+    target_.push_back(static_cast<float>(samples[i].signed_distance_m * scaling_.scale));
+    one_sided_.push_back(samples[i].one_sided);
+    part_.push_back(samples[i].part);
+  }
+  pairs_of_.resize(target_.size());
+  count_of_.resize(target_.size());
+  owner_.resize(target_.size());
+  cost_.resize(target_.size());
+  bound_blocks();
+}
+
+void TightProblem::bound_blocks() {
+  for (auto& axis : ball_centre_) axis.clear();
+  ball_radius_.clear();
+  for (std::size_t begin = 0; begin < target_.size(); begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, target_.size());
+    float squared = 0.0f;
+    for (int j = 0; j < 3; ++j) {
+      const auto [low, high] = std::minmax_element(&point_[j][begin], &point_[j][begin] + (end - begin));
+      ball_centre_[j].push_back(0.5f * (*low + *high));
+      squared += 0.25f * (*high - *low) * (*high - *low);
+    }
+    ball_radius_.push_back(std::sqrt(squared));
+  }
+}
+
+/// #blocks x #E distances of the blocks' centres.
+std::vector<float> TightProblem::distances_of_blocks(const engine::Context& context,
+                                                     std::span<const FootEllipsoid> ellipsoids) const {
+  const std::size_t blocks = ball_radius_.size();
+  std::vector<float> distance(blocks * ellipsoids.size());
+  engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> d(blocks);
+    for (std::size_t k = begin; k < end; ++k) {
+      foot_distances(ellipsoids[k], blocks, ball_centre_[0].data(), ball_centre_[1].data(),
+                     ball_centre_[2].data(), d.data());
+      for (std::size_t b = 0; b < blocks; ++b) distance[b * ellipsoids.size() + k] = d[b];
+    }
+  });
+  return distance;
+}
+
+/// Signed distances are 1-Lipschitz: an ellipsoid that is farther from the centre of a block's ball than the
+/// nearest one by the ball's diameter and the reach is nobody's nearest in the block.
+void TightProblem::find_candidates(std::span<const FootEllipsoid> ellipsoids, std::size_t block,
+                                   std::span<const float> of_ball, Candidates& found) const {
+  const std::size_t begin = block * kBlock, count = std::min(kBlock, target_.size() - begin);
+  const float enough =
+      *std::min_element(of_ball.begin(), of_ball.end()) + 2.0f * ball_radius_[block] + reach_;
+  for (auto& d : found.distance) d.fill(std::numeric_limits<float>::infinity());
+  std::array<float, kBlock> d;
+  for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
+    if (of_ball[k] > enough) continue;
+    foot_distances(ellipsoids[k], count, &point_[0][begin], &point_[1][begin], &point_[2][begin], d.data());
+    for (std::size_t i = 0; i < count; ++i) found.insert(i, k, d[i]);
+  }
+}
+
+void TightProblem::choose_candidates(const engine::Context& context,
+                                     std::span<const FootEllipsoid> ellipsoids) {
+  const std::vector<float> of_balls = distances_of_blocks(context, ellipsoids);
+  engine::parallel_for(context, ball_radius_.size(), 16, [&](std::size_t begin, std::size_t end) {
+    Candidates found;
+    for (std::size_t b = begin; b < end; ++b) {
+      find_candidates(ellipsoids, b, std::span(of_balls).subspan(b * ellipsoids.size(), ellipsoids.size()),
+                      found);
+      const std::size_t first = b * kBlock, samples = std::min(kBlock, target_.size() - first);
+      for (std::size_t i = 0; i < samples; ++i) {
+        int count = 1;
+        while (count < kNear && found.distance[i][count] <= found.distance[i][0] + reach_) ++count;
+        count_of_[first + i] = static_cast<std::uint8_t>(count);
+        pairs_of_[first + i] = found.ellipsoid[i];
+      }
+    }
+  });
 }
 
 void TightProblem::refresh(const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids) {
   ellipsoids_ = ellipsoids.size();
-  const auto es = in_floats(ellipsoids);
   const std::size_t samples = target_.size();
-  const int near = std::min<int>(kNear, static_cast<int>(es.size()));
-  std::vector<std::array<std::uint32_t, kNear>> candidates(samples);
-  std::vector<std::uint8_t> count_of(samples);
-  engine::parallel_for(context, samples, kGrain, [&](std::size_t begin, std::size_t end) {
-    std::array<std::array<float, kNear>, kGrain> best;
-    std::array<float, kGrain> d;
-    for (auto& b : best) b.fill(std::numeric_limits<float>::infinity());
-    for (std::uint32_t k = 0; k < es.size(); ++k) {
-      rough_distances(es[k], end - begin, &point_[0][begin], &point_[1][begin], &point_[2][begin], d.data());
-      for (std::size_t i = 0; i < end - begin; ++i) {
-        if (!(d[i] < best[i][near - 1])) continue;
-        int slot = near - 1;
-        for (; slot > 0 && d[i] < best[i][slot - 1]; --slot) {
-          best[i][slot] = best[i][slot - 1];
-          candidates[begin + i][slot] = candidates[begin + i][slot - 1];
-        }
-        best[i][slot] = d[i];
-        candidates[begin + i][slot] = k;
-      }
-    }
-    for (std::size_t i = 0; i < end - begin; ++i) {
-      int count = 1;
-      while (count < near && best[i][count] <= best[i][0] + kCandidateReach) ++count;
-      count_of[begin + i] = static_cast<std::uint8_t>(count);
-    }
-  });
+  choose_candidates(context, std::vector<FootEllipsoid>(ellipsoids.begin(), ellipsoids.end()));
   pair_begin_.assign(ellipsoids_ + 1, 0);
   for (std::size_t i = 0; i < samples; ++i)
-    for (int s = 0; s < count_of[i]; ++s) ++pair_begin_[candidates[i][s] + 1];
+    for (int s = 0; s < count_of_[i]; ++s) ++pair_begin_[pairs_of_[i][s] + 1];
   for (std::size_t k = 0; k < ellipsoids_; ++k) pair_begin_[k + 1] += pair_begin_[k];
   const std::size_t pairs = pair_begin_.back();
   pair_sample_.resize(pairs);
@@ -78,12 +143,8 @@ void TightProblem::refresh(const engine::Context& context, std::span<const geome
   for (auto& axis : pair_point_) axis.resize(pairs);
   std::vector<std::uint32_t> next(pair_begin_.begin(), pair_begin_.end() - 1);
   for (std::uint32_t i = 0; i < samples; ++i)
-    for (int s = 0; s < kNear; ++s) {
-      if (s >= count_of[i]) {
-        pairs_of_[i][s] = pairs_of_[i][0];
-        continue;
-      }
-      const std::uint32_t k = candidates[i][s], p = next[k]++;
+    for (int s = 0; s < count_of_[i]; ++s) {
+      const std::uint32_t k = pairs_of_[i][s], p = next[k]++;
       pair_sample_[p] = i;
       ellipsoid_of_pair_[p] = k;
       for (int j = 0; j < 3; ++j) pair_point_[j][p] = point_[j][i];
@@ -95,7 +156,7 @@ void TightProblem::refresh(const engine::Context& context, std::span<const geome
 
 void TightProblem::evaluate(const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids) {
   std::swap(distance_, previous_);
-  engine::parallel_for(context, ellipsoids.size(), 4, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t first = pair_begin_[k];
       foot_distances(FootEllipsoid(ellipsoids[k]), pair_begin_[k + 1] - first, pair_point_[0].data() + first,
@@ -125,21 +186,15 @@ void TightProblem::assign(const engine::Context& context) {
   engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t best = pairs_of_[i][0];
-      float second = std::numeric_limits<float>::infinity();
-      for (int s = 1; s < kNear; ++s) {
+      float least = distance_[best];
+      for (int s = 1; s < count_of_[i]; ++s) {
         const std::uint32_t p = pairs_of_[i][s];
-        if (p == pairs_of_[i][0]) break;
-        if (distance_[p] < distance_[best]) {
-          second = distance_[best];
-          best = p;
-        } else {
-          second = std::min(second, distance_[p]);
-        }
+        const float d = distance_[p];
+        best = d < least ? p : best;
+        least = d < least ? d : least;
       }
       owner_[i] = best;
-      residual_[i] = distance_[best] - target_[i];
-      cost_[i] = cost_at(i, distance_[best]);
-      second_cost_[i] = cost_at(i, std::min(second, distance_[best] + kCandidateReach));
+      cost_[i] = cost_at(i, least);
     }
   });
 }
@@ -164,24 +219,21 @@ std::vector<double> TightProblem::cost_of_each() const {
 
 std::vector<double> TightProblem::use_of_each() const {
   std::vector<double> use(ellipsoids_, 0.0);
-  for (std::size_t i = 0; i < owner_.size(); ++i)
-    use[ellipsoid_of_pair_[owner_[i]]] += static_cast<double>(second_cost_[i] - cost_[i]);
+  for (std::size_t i = 0; i < owner_.size(); ++i) {
+    float second = distance_[owner_[i]] + reach_;
+    for (int s = 0; s < count_of_[i]; ++s)
+      if (pairs_of_[i][s] != owner_[i]) second = std::min(second, distance_[pairs_of_[i][s]]);
+    use[ellipsoid_of_pair_[owner_[i]]] += static_cast<double>(cost_at(i, second) - cost_[i]);
+  }
   return use;
 }
 
-std::vector<std::size_t> TightProblem::skin_of_each() const {
-  std::vector<std::size_t> held(ellipsoids_, 0);
-  for (const std::uint32_t e : skin_owner())
-    if (e != kNoOwner) ++held[e];
-  return held;
-}
-
-std::vector<std::uint32_t> TightProblem::skin_owner() const {
-  std::vector<std::uint32_t> owner(owner_.size(), kNoOwner);
+std::vector<std::array<std::uint32_t, body::kPartCount>> TightProblem::skin_of_each() const {
+  std::vector<std::array<std::uint32_t, body::kPartCount>> held(ellipsoids_);
   for (std::size_t i = 0; i < owner_.size(); ++i)
     if (!one_sided_[i] && std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far)
-      owner[i] = ellipsoid_of_pair_[owner_[i]];
-  return owner;
+      ++held[ellipsoid_of_pair_[owner_[i]]][static_cast<std::size_t>(part_[i])];
+  return held;
 }
 
 std::vector<double> TightProblem::gains() const {
@@ -196,46 +248,28 @@ std::vector<double> TightProblem::gains() const {
   return gain;
 }
 
+/// The samples that ellipsoid k is answerable for, with the weights of the robust loss.
+void TightProblem::gather(std::size_t k, BlockSamples& mine) const {
+  mine.clear();
+  for (std::uint32_t pair = pair_begin_[k]; pair < pair_begin_[k + 1]; ++pair) {
+    const std::uint32_t i = pair_sample_[pair];
+    if (owner_[i] != pair || cost_[i] == 0.0f) continue;
+    const float r = distance_[pair] - target_[i];
+    const bool uncovered = target_[i] <= 0.0f && distance_[pair] > 0.0f;
+    const float h = uncovered ? loss_.uncovered_huber : loss_.huber;
+    const float weight = (uncovered ? loss_.uncovered_weight : 1.0f) * std::min(1.0f, h / std::fabs(r));
+    mine.add(pair_point_[0][pair], pair_point_[1][pair], pair_point_[2][pair], r, weight);
+  }
+}
+
 std::vector<NormalBlock> TightProblem::normal_equations(
     const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids) const {
   std::vector<NormalBlock> blocks(ellipsoids_);
-  engine::parallel_for(context, ellipsoids_, 4, [&](std::size_t begin, std::size_t end) {
-    std::array<std::vector<float>, 3> p;
-    std::array<std::vector<float>, 4> out;
-    std::vector<std::uint32_t> mine;
+  engine::parallel_for(context, ellipsoids_, kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
+    BlockSamples mine;
     for (std::size_t k = begin; k < end; ++k) {
-      mine.clear();
-      for (auto& axis : p) axis.clear();
-      for (std::uint32_t pair = pair_begin_[k]; pair < pair_begin_[k + 1]; ++pair) {
-        const std::uint32_t i = pair_sample_[pair];
-        if (owner_[i] != pair || cost_[i] == 0.0f) continue;
-        mine.push_back(i);
-        for (int j = 0; j < 3; ++j) p[j].push_back(pair_point_[j][pair]);
-      }
-      for (auto& o : out) o.resize(mine.size());
-      foot_details(FootEllipsoid(ellipsoids[k]), mine.size(), p[0].data(), p[1].data(), p[2].data(),
-                   out[0].data(), out[1].data(), out[2].data(), out[3].data());
-      const geometry::Ellipsoid& e = ellipsoids[k];
-      const Eigen::Vector3f radii = e.radii.cast<float>();
-      const Eigen::Matrix3f axes = e.axes.cast<float>();
-      Eigen::Matrix<float, 9, 9> jtj = Eigen::Matrix<float, 9, 9>::Zero();
-      Eigen::Matrix<float, 9, 1> jtr = Eigen::Matrix<float, 9, 1>::Zero();
-      for (std::size_t m = 0; m < mine.size(); ++m) {
-        const Eigen::Vector3f w(out[1][m], out[2][m], out[3][m]);
-        const Eigen::Vector3f foot = radii.cwiseProduct(w), n = w.cwiseQuotient(radii).normalized();
-        // The foot minimises the distance, so its own motion drops out of the derivative (envelope theorem).
-        Eigen::Matrix<float, 9, 1> j;
-        j << -(axes * n), -n.cwiseProduct(foot), -foot.cross(n);
-        const float r = residual_[mine[m]];
-        const bool uncovered = target_[mine[m]] <= 0.0f && r + target_[mine[m]] > 0.0f;
-        const float h = uncovered ? loss_.uncovered_huber : loss_.huber;
-        const float weight = (uncovered ? loss_.uncovered_weight : 1.0f) * std::min(1.0f, h / std::fabs(r));
-        const Eigen::Matrix<float, 9, 1> wj = weight * j;
-        jtj.noalias() += wj * j.transpose();
-        jtr += r * wj;
-      }
-      blocks[k].jtj = jtj.cast<double>();
-      blocks[k].jtr = jtr.cast<double>();
+      gather(k, mine);
+      blocks[k] = normal_block(ellipsoids[k], mine);
     }
   });
   return blocks;

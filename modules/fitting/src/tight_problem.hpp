@@ -9,6 +9,8 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 
+#include "normal_block.hpp"
+#include "scaling.hpp"
 #include "skin_samples.hpp"
 
 namespace bodice::fitting {
@@ -22,24 +24,20 @@ struct TightLoss {
   float far = 0.030f;             ///< samples farther outside ask only not to be nearer than they are
 };
 
-/// One ellipsoid's normal equations: centre, log radii, rotation vector.
-struct NormalBlock {
-  using Matrix = Eigen::Matrix<double, 9, 9>;
-  using Vector = Eigen::Matrix<double, 9, 1>;
-  Matrix jtj = Matrix::Zero();
-  Vector jtr = Vector::Zero();
-};
-
-/// Samples sorted for vector code: each keeps its kNear nearest ellipsoids as candidates.
+/// Samples in spatial order; each keeps the ellipsoids that can be its nearest until they have moved by
+/// most_motion(), up to kNear of them.
 class TightProblem {
  public:
-  static constexpr int kNear = 6;
-  static constexpr std::uint32_t kNoOwner = ~0u;
+  static constexpr int kNear = 8;
 
-  TightProblem(std::span<const DistanceSample> samples, const Vec3& origin, double scale,
-               const TightLoss& loss);
+  TightProblem(std::span<const DistanceSample> samples, const Scaling& scaling, const TightLoss& loss,
+               double most_motion);
 
+  /// After refresh() no ellipsoid may move any point of its surface farther without another refresh().
+  double most_motion() const { return most_motion_; }
   std::size_t sample_count() const { return target_.size(); }
+  /// More samples; asks for a refresh().
+  void add(std::span<const DistanceSample> samples);
 
   /// Chooses each sample's candidates afresh and evaluates everything.
   void refresh(const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids);
@@ -53,35 +51,47 @@ class TightProblem {
   void remember();
 
   double total() const;
-  std::span<const std::uint32_t> owner() const { return owner_; }
-  /// Cost by owner, and what each ellipsoid's removal would add.
+  /// Cost by owner, and what each ellipsoid's removal would add at most.
   std::vector<double> cost_of_each() const;
   std::vector<double> use_of_each() const;
-  /// Owned samples on or just off the skin, within 5 mm.
-  std::vector<std::size_t> skin_of_each() const;
-  /// #S: the ellipsoid that a sample counts for in skin_of_each(), or kNoOwner.
-  std::vector<std::uint32_t> skin_owner() const;
+  /// Samples on or just off the skin, within 5 mm, by the ellipsoid that owns them and by part.
+  std::vector<std::array<std::uint32_t, body::kPartCount>> skin_of_each() const;
   /// Fall of the cost since remember(), by ellipsoid (owner before or after).
   std::vector<double> gains() const;
   std::vector<NormalBlock> normal_equations(const engine::Context& context,
                                             std::span<const geometry::Ellipsoid> ellipsoids) const;
 
  private:
+  struct Candidates;
   float cost_at(std::size_t sample, float distance) const;
+  void bound_blocks();
+  std::vector<float> distances_of_blocks(const engine::Context& context,
+                                         std::span<const FootEllipsoid> ellipsoids) const;
+  void find_candidates(std::span<const FootEllipsoid> ellipsoids, std::size_t block,
+                       std::span<const float> of_ball, Candidates& found) const;
+  void choose_candidates(const engine::Context& context, std::span<const FootEllipsoid> ellipsoids);
+  void gather(std::size_t ellipsoid, BlockSamples& mine) const;
 
+  Scaling scaling_;
   TightLoss loss_;
-  std::array<std::vector<float>, 3> point_;  ///< #S
-  std::vector<float> target_;                ///< #S
-  std::vector<std::uint8_t> one_sided_;      ///< #S
+  double most_motion_;
+  float reach_;  ///< two ellipsoids that move so far in all change places only within this
+  std::array<std::vector<float>, 3> point_;        ///< #S
+  std::vector<float> target_;                      ///< #S
+  std::vector<std::uint8_t> one_sided_;            ///< #S
+  std::vector<body::Part> part_;                   ///< #S
+  std::array<std::vector<float>, 3> ball_centre_;  ///< #blocks of neighbouring samples
+  std::vector<float> ball_radius_;
   std::size_t ellipsoids_ = 0;
   std::vector<std::uint32_t> pair_begin_;   ///< #E + 1: pairs are grouped by ellipsoid
   std::vector<std::uint32_t> pair_sample_;  ///< #P
   std::array<std::vector<float>, 3> pair_point_;
   std::vector<float> distance_, previous_;                  ///< #P
-  std::vector<std::array<std::uint32_t, kNear>> pairs_of_;  ///< #S, unused slots repeat the first
+  std::vector<std::array<std::uint32_t, kNear>> pairs_of_;  ///< #S
+  std::vector<std::uint8_t> count_of_;                      ///< #S: used slots of pairs_of_
   std::vector<std::uint32_t> ellipsoid_of_pair_;
-  std::vector<std::uint32_t> owner_, remembered_owner_;
-  std::vector<float> cost_, second_cost_, remembered_cost_, residual_;
+  std::vector<std::uint32_t> owner_, remembered_owner_;  ///< #S: pairs
+  std::vector<float> cost_, remembered_cost_;
 };
 
 }  // namespace bodice::fitting

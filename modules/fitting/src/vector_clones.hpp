@@ -2,11 +2,8 @@
 // are to become vector code must not call functions compiled under other flags (they would not be inlined).
 #pragma once
 
-// sqrt of a negative number cannot happen in these loops; without errno they become vector code.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC optimize("no-math-errno", "no-trapping-math")
-#endif
-
+// What GCC 12 makes of them depends on -fno-math-errno and -fno-trapping-math, which modules/CMakeLists.txt
+// gives this layer: as a pragma or an attribute they are lost in the clones.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define BODICE_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))

@@ -1,0 +1,52 @@
+#include "growth.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include <bodice/fitting/fit.hpp>
+#include <bodice/synth/body.hpp>
+
+namespace fit_bench {
+namespace {
+
+using namespace bodice;
+
+struct Row {
+  double vertices = 0.0, ms = 0.0;
+};
+
+}  // namespace
+
+bool print_growth(const engine::Context& context) {
+  std::map<std::string, Row> first, last;
+  std::printf("vertices,tier,total_ms,power_since_row_before,power_since_first\n");
+  for (const int vertices : {8850, 27000, 80000, 240000, 800000}) {
+    synth::BodyOptions wanted;
+    wanted.vertices = vertices;
+    const auto body = synth::make_body(context, wanted);
+    if (!body) return false;
+    for (const char* const name : {"paper", "solid", "tight", "relief"}) {
+      fitting::FitOptions options;
+      options.tier = proxy::tier_from_name(name);
+      options.max_ellipsoids = 89;
+      options.measure_accuracy = false;
+      const auto fitted = fitting::fit(context, {body->mesh, body->part, body->stature_m}, options);
+      if (!fitted) return false;
+      Row row{static_cast<double>(body->mesh.positions.size()), 0.0};
+      for (const auto& stage : fitted->stages) row.ms += stage.ms;
+      const auto power = [&](const Row& from) {
+        return from.ms > 0.0 ? std::log(row.ms / from.ms) / std::log(row.vertices / from.vertices) : 0.0;
+      };
+      first.emplace(name, row);
+      std::printf("%.0f,%s,%.1f,%.2f,%.2f\n", row.vertices, name, row.ms, power(last[name]),
+                  row.ms == first[name].ms ? 0.0 : power(first[name]));
+      std::fflush(stdout);
+      last[name] = row;
+    }
+  }
+  return true;
+}
+
+}  // namespace fit_bench

@@ -1,0 +1,41 @@
+#include "spatial_order.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace bodice::fitting {
+namespace {
+
+/// The low ten bits, two zeros after each.
+std::uint32_t spread_bits(std::uint32_t v) {
+  v &= 0x3ff;
+  v = (v | v << 16) & 0x030000ff;
+  v = (v | v << 8) & 0x0300f00f;
+  v = (v | v << 4) & 0x030c30c3;
+  return (v | v << 2) & 0x09249249;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> spatial_order(std::span<const geometry::Vec3> points) {
+  geometry::Box box;
+  for (const auto& p : points) box.extend(p);
+  const geometry::Vec3 scale = 1023.0 * box.size().cwiseMax(1e-300).cwiseInverse();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> code_of;
+  code_of.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    std::uint32_t code = 0;
+    for (int j = 0; j < 3; ++j) {
+      const double cell = std::clamp((points[i][j] - box.low[j]) * scale[j], 0.0, 1023.0);
+      code |= spread_bits(static_cast<std::uint32_t>(cell)) << j;
+    }
+    code_of.emplace_back(code, i);
+  }
+  std::sort(code_of.begin(), code_of.end());
+  std::vector<std::uint32_t> order;
+  order.reserve(points.size());
+  for (const auto& [code, i] : code_of) order.push_back(i);
+  return order;
+}
+
+}  // namespace bodice::fitting
