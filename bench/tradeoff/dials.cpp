@@ -85,7 +85,7 @@ std::vector<Question> questions(const std::vector<double>& asked) {
 
 std::vector<SubjectSource> unseen_bodies(const Setting& setting) {
   constexpr std::uint64_t kFirstSeed = 1000;  // apart from every seed of the tests
-  auto sources = made_bodies(kFirstSeed, setting.by_effort(1, 4, 20), setting.by_effort(1500, 3000, 4500));
+  auto sources = made_bodies(kFirstSeed, setting.bodies(1, 2, 20), setting.by_effort(1500, 3000, 4500));
   if (setting.data.empty()) return sources;
   for (SubjectSource& file : bodies_of(setting.data)) sources.push_back(std::move(file));
   return sources;

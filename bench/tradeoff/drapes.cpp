@@ -98,7 +98,7 @@ Findings sweep_drapes(const Setting& setting) {
       {"body", "garment", "tier", "response", "substeps", "particles", "deepest_mm", "end_mm", "over_1mm",
        "pierced_%", "stretch_p95_%", "speed_end_mm/s", "inside_proxy", "frame_ms", "p99_ms"});
   std::map<std::string, bench::PlotSeries> series;
-  for (const SubjectSource& source : made_bodies(0, setting.by_effort(1, 1, 2), setting.vertices())) {
+  for (const SubjectSource& source : made_bodies(0, setting.bodies(1, 1, 2), setting.vertices())) {
     const Subject subject = source.make(setting.context);
     Fits fits(setting, subject);
     const int garments = setting.by_effort(1, 1, 2);
@@ -112,7 +112,10 @@ Findings sweep_drapes(const Setting& setting) {
                    "deepest particle of any frame, mm (0.01: none)",
                    "",
                    {}};
-  for (auto& [label, line] : series) line.name = label, plot.series.push_back(line);
+  for (auto& [label, line] : series) {
+    line.name = label, line.hollow = label.ends_with(", paper");
+    plot.series.push_back(line);
+  }
   found.plots.emplace_back("drapes", std::move(plot));
   return found;
 }

@@ -132,7 +132,7 @@ bench::Plot plot_of(const std::vector<Row>& rows, const char* label, double Row:
 }  // namespace
 
 Findings sweep_front(const Setting& setting) {
-  auto sources = made_bodies(0, setting.by_effort(1, 1, 3), setting.vertices());
+  auto sources = made_bodies(0, setting.bodies(1, 1, 3), setting.vertices());
   if (!setting.data.empty()) {
     const auto files = bodies_of(setting.data);
     for (std::size_t i = 0; i < files.size(); i += std::max<std::size_t>(1, files.size() / 3))

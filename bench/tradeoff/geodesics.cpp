@@ -84,7 +84,7 @@ Findings sweep_geodesics(const Setting& setting) {
       "landmarks", "All thirteen landmarks of made bodies against where they were made, six poses.",
       {"body", "vertices", "mean_mm", "max_mm", "worst", "least_confidence", "analysis_ms"});
   Findings found;
-  const auto bodies = made_bodies(0, setting.by_effort(1, 2, 6), setting.vertices());
+  const auto bodies = made_bodies(0, setting.bodies(1, 2, 6), setting.vertices());
   for (const SubjectSource& source : bodies) {
     progress("geodesics", source.name + ", landmarks");
     const Subject subject = source.make(setting.context);

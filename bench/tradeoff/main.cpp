@@ -1,4 +1,4 @@
-// tradeoff [--data DIR] [--out FOLDER] [--quick | --smallest] [--only SWEEP]... [--threads N]
+// tradeoff [--data DIR] [--out FOLDER] [--quick | --smallest] [--only SWEEP]... [--bodies N] [--threads N]
 // FOLDER gets tradeoff.md, a CSV a table and an SVG a plot. Reruns differ only in columns of times.
 #include <cstdio>
 #include <fstream>
@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
   std::string data, folder = "tradeoff";
   std::vector<std::string> only, names;
   bool quick = false, smallest = false;
-  int workers = 2;
+  int workers = 2, bodies = 1000;
   for (const Sweep& sweep : kSweeps) names.emplace_back(sweep.name);
   app.add_option("--data", data, "folder of bodies to judge beside the made ones")
       ->check(CLI::ExistingDirectory);
@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", quick, "small bodies, few settings: under two minutes");
   app.add_flag("--smallest", smallest, "less still: for tests");
   app.add_option("--only", only, "these sweeps only")->check(CLI::IsMember(names));
+  app.add_option("--bodies", bodies, "made bodies a sweep, at most")->check(CLI::PositiveNumber);
   app.add_option("--threads", workers, "workers of the fits")->check(CLI::Range(1, 256));
   CLI11_PARSE(app, argc, argv);
 
@@ -94,5 +95,6 @@ int main(int argc, char** argv) {
   setting.context.executor = executor.get();
   setting.effort = smallest ? Effort::kSmallest : quick ? Effort::kQuick : Effort::kFull;
   setting.data = data;
+  setting.most_bodies = bodies;
   return run(setting, only, folder, command);
 }

@@ -125,7 +125,7 @@ Findings sweep_regions(const Setting& setting) {
   const std::vector<Tier> tiers = setting.effort == Effort::kSmallest
                                       ? std::vector{Tier::kSolid}
                                       : std::vector{Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief};
-  for (const SubjectSource& source : made_bodies(0, setting.by_effort(1, 1, 2), setting.vertices())) {
+  for (const SubjectSource& source : made_bodies(0, setting.bodies(1, 1, 2), setting.vertices())) {
     const Subject subject = source.make(setting.context);
     for (int g = 0; g < setting.by_effort(1, 1, 2); ++g)
       for (const Tier tier : tiers)

@@ -1,6 +1,7 @@
 // A sweep: one dial, or a few that belong together, turned through its range.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,10 +20,14 @@ struct Setting {
   bodice::engine::Context context;
   Effort effort = Effort::kFull;
   std::filesystem::path data;  ///< folder of bodies; may be empty
+  int most_bodies = 1000;      ///< made ones, a sweep
 
   template <class T>
   T by_effort(T smallest, T quick, T full) const {
     return effort == Effort::kSmallest ? smallest : effort == Effort::kQuick ? quick : full;
+  }
+  int bodies(int smallest, int quick, int full) const {
+    return std::min(most_bodies, by_effort(smallest, quick, full));
   }
   int vertices() const { return by_effort(1500, 3000, 8850); }
 };
