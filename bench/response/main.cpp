@@ -1,8 +1,8 @@
 // Does the response hold?
 // Usage: response garments DATA [tier [frames [name part]]]
-//        response certify [particles]
+//        response certify [particles [seed]]
 //        response creases
-//        response nearest [cases]
+//        response nearest [cases [seed]]
 #include <cstdio>
 #include <span>
 #include <string_view>
@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   if (mode == "creases") return bench::cross_creases(arguments.subspan(2)) ? 0 : 1;
   if (mode == "nearest") return bench::measure_nearest(arguments.subspan(2)) ? 0 : 1;
   std::puts(
-      "usage: response garments DATA [tier [frames [name part]]] | certify [particles] | creases | nearest "
-      "[cases]");
+      "usage: response garments DATA [tier [frames [name part]]] | certify [particles [seed]] | creases | "
+      "nearest [cases [seed]]");
   return 2;
 }

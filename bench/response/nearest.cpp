@@ -89,14 +89,15 @@ void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& wo
 
 bool measure_nearest(std::span<char*> arguments) {
   const auto cases = static_cast<std::size_t>(arguments.empty() ? 1e6 : std::atof(arguments[0]));
-  engine::Random random(4);
+  const auto seed = static_cast<std::uint64_t>(arguments.size() < 2 ? 4 : std::atoll(arguments[1]));
+  engine::Random random(seed);
   Worst worst;
   while (worst.cases < cases) compare(random_shape(random), random, worst);
   std::printf(
-      "| cases | largest relative error (bar 1e-6) | above the bar | not finite (bar 0) "
-      "|\n|---|---|---|---|\n"
-      "| %zu | %.2e | %zu | %zu |\n",
-      worst.cases, worst.relative, worst.above_bar, worst.not_finite);
+      "| cases | seed | largest relative error (bar 1e-6) | above the bar | not finite (bar 0) "
+      "|\n|---|---|---|---|---|\n"
+      "| %zu | %llu | %.2e | %zu | %zu |\n",
+      worst.cases, static_cast<unsigned long long>(seed), worst.relative, worst.above_bar, worst.not_finite);
   std::printf("the worst: radii %g %g %g m, place %g %g %g m in its frame\n", worst.radii[0], worst.radii[1],
               worst.radii[2], worst.place[0], worst.place[1], worst.place[2]);
   return worst.above_bar == 0 && worst.not_finite == 0;

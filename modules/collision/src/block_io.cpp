@@ -28,7 +28,7 @@ bool all_near(const float* values, int count) {
   return outside == 0;
 }
 
-bool usable_lane(const Block& block, int lane) {
+bool usable_lane(const Gathering& block, int lane) {
   bool usable = true;
   for (const float* values : {block.x, block.y, block.z}) usable &= std::abs(values[lane]) < kFarthest;
   for (const float* values : {block.vx, block.vy, block.vz})
@@ -36,7 +36,7 @@ bool usable_lane(const Block& block, int lane) {
   return usable;
 }
 
-bool finite_lane(const Block& block, int lane) {
+bool finite_lane(const Gathering& block, int lane) {
   bool finite = true;
   for (const float* values : {block.x, block.y, block.z}) finite &= std::isfinite(values[lane]);
   for (const float* values : {block.vx, block.vy, block.vz})
@@ -45,7 +45,7 @@ bool finite_lane(const Block& block, int lane) {
 }
 
 void move_lane(int from, int to, Gathered& g) {
-  Block& b = g.block;
+  Gathering& b = g.batch;
   for (float* values : {b.x, b.y, b.z, b.vx, b.vy, b.vz, b.sx, b.sy, b.sz}) values[to] = values[from];
   g.index[to] = g.index[from];
 }
@@ -53,19 +53,19 @@ void move_lane(int from, int to, Gathered& g) {
 /// Takes the lanes out that floats cannot handle; the others close up.
 void drop_unusable(Gathered& g) {
   int kept = 0;
-  for (int lane = 0; lane < g.block.count; ++lane) {
-    if (usable_lane(g.block, lane))
+  for (int lane = 0; lane < g.batch.count; ++lane) {
+    if (usable_lane(g.batch, lane))
       move_lane(lane, kept++, g);
-    else if (finite_lane(g.block, lane))
+    else if (finite_lane(g.batch, lane))
       g.far[g.far_count++] = g.index[lane];
     else
       ++g.not_finite;
   }
-  g.block.count = kept;
+  g.batch.count = kept;
 }
 
 /// A safe position that is not usable counts as none: the particle's own place says nothing.
-void mend_safe(Block& block) {
+void mend_safe(Gathering& block) {
   for (int lane = 0; lane < block.count; ++lane) {
     bool usable = true;
     for (const float* values : {block.sx, block.sy, block.sz}) usable &= std::abs(values[lane]) < kFarthest;
@@ -76,10 +76,11 @@ void mend_safe(Block& block) {
   }
 }
 
-/// Repeats the last lane up to the whole block, so that no lane holds anything unset.
-void pad(Block& block) {
+/// Repeats the last lane up to a whole block, so that no lane that is read holds anything unset.
+void pad(Gathering& block) {
   const int last = block.count - 1;
-  for (int lane = block.count; lane < kBlock; ++lane) {
+  const int end = (block.count + kBlock - 1) / kBlock * kBlock;
+  for (int lane = block.count; lane < end; ++lane) {
     for (float* values : {block.x, block.y, block.z}) values[lane] = values[last];
     for (float* values : {block.vx, block.vy, block.vz})
       if (block.has_velocity) values[lane] = values[last];
@@ -92,7 +93,7 @@ void pad(Block& block) {
 
 void gather(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
             std::size_t end, Gathered& out) {
-  Block& block = out.block;
+  Gathering& block = out.batch;
   const int count = block.count = static_cast<int>(end - begin);
   block.has_velocity = particles.vx != nullptr;
   block.has_safe = particles.safe_x != nullptr;
@@ -123,7 +124,7 @@ void gather(const Particles& particles, std::span<const std::uint32_t> order, st
 }
 
 void scatter(const Gathered& gathered, int lane, const Particles& particles) {
-  const Block& block = gathered.block;
+  const Gathering& block = gathered.batch;
   const std::uint32_t i = gathered.index[lane];
   particles.x[i] = block.x[lane];
   particles.y[i] = block.y[lane];

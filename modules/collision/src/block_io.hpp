@@ -10,16 +10,16 @@
 
 namespace bodice::collision {
 
-/// A block and whose particles it holds.
+/// A batch and whose particles it holds.
 struct Gathered {
-  Block block;
-  std::uint32_t index[kBlock];  ///< into the caller's arrays, a lane
-  std::uint32_t far[kBlock];    ///< finite but too far for floats
+  Gathering batch;
+  std::uint32_t index[kBatch];  ///< into the caller's arrays, a lane
+  std::uint32_t far[kBatch];    ///< finite but too far for floats
   int far_count = 0;
   std::uint64_t not_finite = 0;
 };
 
-/// Gathers particles [begin, end), at most kBlock, of `order` (of the arrays if it is empty). Particles with
+/// Gathers particles [begin, end), at most kBatch, of `order` (of the arrays if it is empty). Particles with
 /// a coordinate that is not finite are left out and counted.
 void gather(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
             std::size_t end, Gathered& out);

@@ -39,6 +39,11 @@ void by_blocks(std::size_t begin, std::size_t end, int size, Work&& work) {
     work(at, std::min(at + static_cast<std::size_t>(size), end));
 }
 
+/// Fillets gain nothing from many blocks at a time: each has its own candidates.
+int batch_of(const ResolveOptions& options, bool relief) {
+  return !relief && options.blend_m > 0.0f ? kBlock : kBatch;
+}
+
 }  // namespace
 
 void ContactReport::add(const ContactReport& other) {
@@ -145,9 +150,10 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options) const {
   SharedReport total;
+  const int together = batch_of(options, impl_->relief.has_value());
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
     ContactReport report;
-    by_blocks(begin, end, kBlock, [&](std::size_t from, std::size_t to) {
+    by_blocks(begin, end, together, [&](std::size_t from, std::size_t to) {
       impl_->resolve_some(particles, from, to, options, nullptr, report);
     });
     total.add(report);
@@ -159,9 +165,10 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
                                 const ResolveOptions& options, Workspace& workspace) const {
   workspace.order_->refresh(particles);
   SharedReport total;
+  const int together = batch_of(options, impl_->relief.has_value());
   engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
     ContactReport report;
-    by_blocks(begin, end, kBlock, [&](std::size_t from, std::size_t to) {
+    by_blocks(begin, end, together, [&](std::size_t from, std::size_t to) {
       impl_->resolve_some(particles, from, to, options, workspace.order_.get(), report);
     });
     total.add(report);

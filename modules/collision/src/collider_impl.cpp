@@ -89,6 +89,19 @@ void count(const ParticleReport& particle, body::Part part, ContactReport& repor
   report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
 }
 
+template <class Work>
+void for_lanes(const LaneBits& lanes, int count, Work&& work) {
+  for (int begin = 0; begin < count; begin += kBlock)
+    for (std::uint64_t left = lanes.from(begin); left != 0; left &= left - 1)
+      work(begin + std::countr_zero(left));
+}
+
+std::uint64_t count(const LaneBits& lanes) {
+  int result = 0;
+  for (const std::uint64_t word : lanes.word) result += std::popcount(word);
+  return static_cast<std::uint64_t>(result);
+}
+
 Contact nothing() {
   Contact contact;
   contact.signed_distance = std::numeric_limits<float>::infinity();
@@ -170,10 +183,7 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   if (field.size() == 0) return;
   Gathered gathered;
   gather(particles, indices(order), begin, end, gathered);
-  report.not_finite += gathered.not_finite;
-  for (int i = 0; i < gathered.far_count; ++i) resolve_exactly(particles, gathered.far[i], options, report);
-  Block& block = gathered.block;
-  if (block.count == 0) return;
+  Gathering& batch = gathered.batch;
   const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
                             static_cast<float>(kCertificate * field.size_m()),
                             options.friction,
@@ -182,26 +192,34 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
                             static_cast<float>(moved_dt_s),
                             moving ? travel_m : 0.0f,
                             options.blend_m};
-  BlockResponse response;
-  const std::uint64_t everyone = ~std::uint64_t{0} >> (kBlock - block.count);
-  if (options.response == Response::kPaper || !resolve_block(baked, tables(), clearance, block, response)) {
-    response.hard = everyone;
-    response.contact = response.pending = 0;
-    response.iterations = 0;
-  } else if (order) {
-    order->note_radius(begin / kBlock, response.radius_m);
+  BatchResponse response;
+  const bool settled = batch.count == 0 || (options.response == Response::kNearest &&
+                                            resolve_batch(baked, tables(), clearance, batch, response));
+  if (!settled && options.response == Response::kNearest && end - begin > kBlock) {
+    // Too many ellipsoids near for a batch may do for its blocks.
+    for (std::size_t from = begin; from < end; from += kBlock)
+      resolve_some(particles, from, std::min(from + kBlock, end), options, order, report);
+    return;
   }
-  for (std::uint64_t left = response.contact; left != 0; left &= left - 1) {
-    const int lane = std::countr_zero(left);
+  report.not_finite += gathered.not_finite;
+  for (int i = 0; i < gathered.far_count; ++i) resolve_exactly(particles, gathered.far[i], options, report);
+  if (!settled) {
+    for (int lane = 0; lane < batch.count; ++lane)
+      resolve_exactly(particles, gathered.index[lane], options, report);
+    return;
+  }
+  for (std::size_t block = 0; order && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
+    order->note_radius(begin / kBlock + block, response.radius_m[block]);
+  for_lanes(response.contact, batch.count, [&](int lane) {
     scatter(gathered, lane, particles);
     ++report.contacts_by_part[static_cast<int>(part[response.owner[lane]])];
     report.deepest_m = std::max(report.deepest_m, response.depth[lane]);
-  }
-  report.contacts += static_cast<std::uint64_t>(std::popcount(response.contact));
-  report.pending += static_cast<std::uint64_t>(std::popcount(response.pending));
+  });
+  report.contacts += count(response.contact);
+  report.pending += count(response.pending);
   report.max_iterations = std::max(report.max_iterations, response.iterations);
-  for (std::uint64_t left = response.hard; left != 0; left &= left - 1)
-    resolve_exactly(particles, gathered.index[std::countr_zero(left)], options, report);
+  for_lanes(response.hard, batch.count,
+            [&](int lane) { resolve_exactly(particles, gathered.index[lane], options, report); });
 }
 
 }  // namespace bodice::collision

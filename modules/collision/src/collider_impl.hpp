@@ -21,7 +21,7 @@ struct Collider::Impl {
 
   const ReliefTables* tables() const { return relief ? &*relief : nullptr; }
 
-  /// Particles [begin, end), at most kBlock, of `order` (of the arrays if there is none).
+  /// Particles [begin, end), at most kBatch, of `order` (of the arrays if there is none).
   void query_some(const Particles& particles, std::size_t begin, std::size_t end, std::span<Contact> contacts,
                   ParticleOrder* order) const;
   bool query_kernel(const float* x, const float* y, const float* z, const std::uint32_t* index, int count,

@@ -23,9 +23,9 @@ bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
   return query_batch_lanes(baked, relief, batch);
 }
 
-bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,
-             BlockResponse& out) {
-  return resolve_lanes(baked, relief, clearance, block, out);
+bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Gathering& batch,
+             BatchResponse& out) {
+  return resolve_lanes(baked, relief, clearance, batch, out);
 }
 
 const char* target() {
@@ -46,9 +46,9 @@ bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& bat
   return HWY_DYNAMIC_DISPATCH(query)(baked, relief, batch);
 }
 
-bool resolve_block(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,
-                   BlockResponse& out) {
-  return HWY_DYNAMIC_DISPATCH(resolve)(baked, relief, clearance, block, out);
+bool resolve_batch(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
+                   Gathering& batch, BatchResponse& out) {
+  return HWY_DYNAMIC_DISPATCH(resolve)(baked, relief, clearance, batch, out);
 }
 
 const char* kernel_target() {

@@ -14,7 +14,8 @@ namespace bodice::collision {
 
 inline constexpr int kBlock = 64;  ///< particles a block: culling costs about as much as two of them
 
-/// Particles a query works on at a time: what their first answers leave open shares vectors.
+/// Particles the kernels work on at a time: their blocks share candidates, and what first answers leave open
+/// shares vectors.
 inline constexpr int kBatch = 256;
 
 /// Ellipsoids near a block; where more are, the exact side works.
@@ -30,11 +31,11 @@ struct QueryBatch {
   float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal
 };
 
-/// Particles of one block, gathered; lanes beyond `count` repeat the last one.
-struct alignas(64) Block {
-  float x[kBlock], y[kBlock], z[kBlock];     ///< metres, local frame
-  float vx[kBlock], vy[kBlock], vz[kBlock];  ///< metres a second, if has_velocity
-  float sx[kBlock], sy[kBlock], sz[kBlock];  ///< metres, last safe positions, if has_safe
+/// Particles of some blocks, gathered; up to a whole block lanes beyond `count` repeat the last one.
+struct alignas(64) Gathering {
+  float x[kBatch], y[kBatch], z[kBatch];     ///< metres, local frame
+  float vx[kBatch], vy[kBatch], vz[kBatch];  ///< metres a second, if has_velocity
+  float sx[kBatch], sy[kBatch], sz[kBatch];  ///< metres, last safe positions, if has_safe
   int count = 0;
   bool has_velocity = false;
   bool has_safe = false;
@@ -52,14 +53,25 @@ struct Clearance {
   float blend_m = 0.0f;         ///< of the smooth union; zero: creases stay sharp
 };
 
-struct alignas(64) BlockResponse {
-  float depth[kBlock];           ///< metres below the clearance before the response
-  std::uint32_t owner[kBlock];   ///< the deepest ellipsoid
-  std::uint64_t contact = 0;     ///< bit a lane: was below the clearance
-  std::uint64_t pending = 0;     ///< of those: held back by max_push_m
-  std::uint64_t hard = 0;        ///< not settled and left untouched: for the exact side
-  std::uint32_t iterations = 0;  ///< most pushes
-  float radius_m = 0.0f;         ///< of the block: half its box's diagonal
+/// A bit a lane.
+struct LaneBits {
+  static_assert(kBlock == 64);
+  std::uint64_t word[kBatch / kBlock] = {};
+
+  bool none() const { return (word[0] | word[1] | word[2] | word[3]) == 0; }
+  /// Lanes [lane, lane + 64 - lane % 64).
+  std::uint64_t from(int lane) const { return word[lane / kBlock] >> lane % kBlock; }
+  void add(std::uint64_t bits, int lane) { word[lane / kBlock] |= bits << lane % kBlock; }
+};
+
+struct alignas(64) BatchResponse {
+  float depth[kBatch];                   ///< metres below the clearance before the response
+  std::uint32_t owner[kBatch];           ///< the deepest ellipsoid
+  LaneBits contact;                      ///< was below the clearance
+  LaneBits pending;                      ///< of those: held back by max_push_m
+  LaneBits hard;                         ///< not settled and left untouched: for the exact side
+  std::uint32_t iterations = 0;          ///< most pushes
+  float radius_m[kBatch / kBlock] = {};  ///< a block: half its box's diagonal
 };
 
 /// Fills in the contacts of the batch; false, and some left as they were, if too many ellipsoids are near or
@@ -67,8 +79,8 @@ struct alignas(64) BlockResponse {
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 
 /// The nearest response in place; false if too many ellipsoids are near for the kernel.
-bool resolve_block(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Block& block,
-                   BlockResponse& out);
+bool resolve_batch(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
+                   Gathering& batch, BatchResponse& out);
 
 /// The name of the instruction set in use.
 const char* kernel_target();

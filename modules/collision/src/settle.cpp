@@ -78,7 +78,8 @@ Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double
   const double target_m = clearance_m + overshoot_m;
   Planes planes(near.bent(), target_m);
   Settled best{p, start, {}, 0, start.distance_m >= clearance_m};
-  near.expect(p, longest_m);
+  // Most pushes are about as long as the depth; a longer one costs another search.
+  near.expect(p, std::min(longest_m, kUsualPush * (target_m - start.distance_m)));
   ReliefSample here = near.at(p);
   Vec3 x = p;
   while (best.rounds < kSettleRounds && !best.clear) {

@@ -15,6 +15,10 @@ inline constexpr double kReliefCertificate_m = 5e-6;
 /// arithmetic would keep: a dozen roundings of 6e-8.
 inline constexpr double kFloatRounding = 1e-6;
 
+/// What the float solver's nearest point and distance may be off by, share of the longest radius (or of the
+/// distance from the centre): twice the worst of a hundred million random cases.
+inline constexpr double kFootError = 1e-6;
+
 /// Cosine below which a ray runs along a surface rather than out of it.
 inline constexpr double kFlatSlope = 1e-3;
 
@@ -28,6 +32,9 @@ inline constexpr double kEndSlack = 1e-2;
 /// A push longer than this many times the depth comes from surfaces that nearly face each other; the way out
 /// along the normal is shorter.
 inline constexpr double kLongestPush = 4.0;
+
+/// Depths that a push out of a crease is usually not longer than.
+inline constexpr double kUsualPush = 1.5;
 
 /// Rounds of cutting planes a particle: a body's creases join two or three ellipsoids, a bent surface takes
 /// Newton two or three steps.

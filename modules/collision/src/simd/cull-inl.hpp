@@ -86,7 +86,7 @@ HWY_INLINE Extent extent_of_lanes(const float* x, const float* y, const float* z
 }
 
 /// The box of the particles and, where they have any, of the paths from their safe positions.
-HWY_INLINE Extent extent_of(const Block& block) {
+HWY_INLINE Extent extent_of(const Gathering& block) {
   const int width = static_cast<int>(hn::Lanes(f));
   V3 low = load3(block.x, block.y, block.z), high = low;
   for (int i = width; i < block.count; i += width)
@@ -161,7 +161,7 @@ HWY_INLINE void keep_within(const Extent& e, float window, Candidates& c) {
 }
 
 /// All ellipsoids that a particle of the block is below the clearance of, or can be pushed into.
-HWY_INLINE bool cull_for_response(const Baked& baked, const Block& block, float clearance_m,
+HWY_INLINE bool cull_for_response(const Baked& baked, const Gathering& block, float clearance_m,
                                   Candidates& out) {
   const Extent e = extent_of(block);
   out.radius_m = e.radius;

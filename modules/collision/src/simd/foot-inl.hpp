@@ -113,7 +113,10 @@ HWY_INLINE V next_root(const Secular& g, V u, V low) {
   const V norm2 = hn::Max(g.norm2, least);
   const V inverse = estimated_reciprocal(hn::Max(g.first, least));
   const V inverse_norm = estimated_inverse_sqrt(norm2);
-  const V excess = hn::MulSub(norm2, inverse_norm, one), scale = hn::Mul(norm2, inverse);
+  // |w| - 1 without what the estimate is off by: next to the focal ellipse of thin shapes all hangs on it.
+  const V norm_and_one = hn::MulAdd(norm2, inverse_norm, one);
+  const V excess = hn::Mul(hn::Sub(norm2, one), estimated_reciprocal(norm_and_one));
+  const V scale = hn::Mul(norm2, inverse);
   V longer = one;
   if constexpr (kHalley) {
     // 1 - 3/2 step (S_0 S_2 - S_1^2) / (S_0 S_1)

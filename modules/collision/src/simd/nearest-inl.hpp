@@ -16,8 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// Blocks that share columns, where all their candidates fit into two vectors.
-constexpr int kShared = kWidth < 16 ? 1 : kBlocks;
 static_assert(kBlock % (kTogether * kWidth) == 0);
 
 /// The bounds of a block's candidates at some vectors of particles.
@@ -41,9 +39,10 @@ struct Open {
   alignas(64) float kept[kBatch + 16], limit[kBatch + 16];
   int count = 0;
 
-  template <int kKept>
+  /// Candidates kFirst and following of those kept.
+  template <int kKept, int kFirst>
   HWY_INLINE void add(const Lowest<kKept>& lowest, V limits, VI lanes) {
-    for (int i = 1; i < kKept; ++i)
+    for (int i = kFirst; i < kKept; ++i)
       pairs.add(hn::Not(hn::Gt(lowest.bound[i], limits)), lanes, lowest.rank(i));
     const M many = hn::Not(hn::Gt(lowest.bound[kKept], limits));
     hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), many)), I(), lane + count);
@@ -99,7 +98,7 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
       put(answers[v], relief != nullptr, out, i);
-      open.add(lowest[v], bound_limit(baked, answers[v].distance, beyond_m), hn::Iota(I(), i));
+      open.add<kKept, 1>(lowest[v], bound_limit(baked, answers[v].distance, beyond_m), hn::Iota(I(), i));
     }
   }
   return true;
@@ -132,56 +131,88 @@ HWY_INLINE void choose_all(const Columns& columns, Near& out) {
 }
 
 struct Scratch {
-  Columns columns;
+  Columns columns, alone;
   Open open;
-  Near near, of_block[kBlocks];
+  Near near, of_block[kBlocks], of_alone;
 };
 
-/// Blocks [first, first + blocks) of the batch together; false if the kernel has no room.
-HWY_INLINE bool nearest_together(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                                 const Extent* boxes, int first, int blocks, Scratch& s, Batched& out) {
+/// Finds the candidates of blocks [first, first + blocks) at once, and among them those of each: `find` (a
+/// source, boxes, their number, lists out). Then calls `work` (number of tables, columns, first, blocks,
+/// their lists) on all, if their candidates fit into two vectors, or on each. False if either has no room.
+template <class Find, class Work>
+HWY_INLINE bool share(const Baked& baked, const ReliefTables* relief, const Extent* boxes, int first,
+                      int blocks, Scratch& s, Find&& find, Work&& work) {
   Extent around = boxes[first];
   for (int block = 1; block < blocks; ++block) around = united(around, boxes[first + block]);
-  const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
-  if (!find_near(Everything{baked}, &around, 1, beyond_m, &s.near)) return false;
-  if (blocks > 1 && s.near.count > 2 * kWidth) return false;
+  if (!find(Everything{baked}, &around, 1, &s.near)) return false;
+  if (s.near.count == 0) return true;
   s.columns.fill(baked, relief, s.near.index, s.near.count);
   bool fits = false;
-  with_tables(s.columns, [&](auto tables) {
-    if (blocks == 1)
-      choose_all(s.columns, s.of_block[0]);
-    else
-      (void)find_near(AmongColumns<tables()>{s.columns}, boxes + first, blocks, beyond_m, s.of_block);
-    fits = relief ? nearest_of<3, tables()>(baked, relief, batch, first, blocks, s.of_block, s.columns,
-                                            s.open, out)
-                  : nearest_of<2, tables()>(baked, nullptr, batch, first, blocks, s.of_block, s.columns,
-                                            s.open, out);
-  });
-  return fits;
+  if (blocks == 1 || s.near.count <= 2 * kWidth) {
+    with_tables(s.columns, [&](auto tables) {
+      if (blocks == 1)
+        choose_all(s.columns, s.of_block[0]);
+      else
+        (void)find(AmongColumns<tables()>{s.columns}, boxes + first, blocks, s.of_block);
+      fits = work(tables, s.columns, first, blocks, s.of_block);
+    });
+    return fits;
+  }
+  if (!find(AmongColumns<0>{s.columns}, boxes + first, blocks, s.of_block)) return false;
+  for (int block = 0; block < blocks; ++block) {
+    Near& list = s.of_block[block];
+    if (list.count == 0) continue;
+    for (int i = 0; i < list.count; ++i) list.index[i] = s.near.index[list.index[i]];
+    s.alone.fill(baked, relief, list.index, list.count);
+    choose_all(s.alone, s.of_alone);
+    with_tables(s.alone, [&](auto tables) { fits = work(tables, s.alone, first + block, 1, &s.of_alone); });
+    if (!fits) return false;
+  }
+  return true;
+}
+
+/// The box of each block of places; false if some place is too far for floats.
+HWY_INLINE bool boxes_of(const QueryBatch& batch, Extent* boxes) {
+  bool all_near = true;
+  for (int begin = 0; begin < batch.count; begin += kBlock) {
+    bool near = false;
+    boxes[begin / kBlock] = extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin,
+                                            std::min(kBlock, batch.count - begin), near);
+    all_near = all_near && near;
+  }
+  return all_near;
+}
+
+/// What fits together is done together: `work` (first block, blocks).
+template <class Work>
+HWY_INLINE bool together_or_alone(int count, Work&& work) {
+  const int blocks = (count + kBlock - 1) / kBlock;
+  if (work(0, blocks)) return true;
+  for (int block = 0; block < blocks; ++block)
+    if (blocks == 1 || !work(block, 1)) return false;
+  return true;
 }
 
 /// Distance, unit gradient and owner of every particle; false if the kernel has no room, or a place is too
 /// far for floats.
-inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Batched& out) {
-  Extent box[kBlocks];
-  Scratch scratch;
-  const int blocks = (batch.count + kBlock - 1) / kBlock;
-  for (int block = 0; block < blocks; ++block) {
-    const int begin = block * kBlock;
-    bool near = false;
-    box[block] = extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin,
-                                 std::min(kBlock, batch.count - begin), near);
-    if (!near) return false;
-    batch.radius_m[block] = box[block].radius;
-  }
-  for (int first = 0; first < blocks; first += kShared) {
-    const int count = std::min(kShared, blocks - first);
-    if (nearest_together(baked, relief, batch, box, first, count, scratch, out)) continue;
-    if (count == 1) return false;
-    for (int block = first; block < first + count; ++block)
-      if (!nearest_together(baked, relief, batch, box, block, 1, scratch, out)) return false;
-  }
-  return true;
+inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Scratch& scratch,
+                    Batched& out) {
+  Extent boxes[kBlocks];
+  if (!boxes_of(batch, boxes)) return false;
+  for (int block = 0; block * kBlock < batch.count; ++block) batch.radius_m[block] = boxes[block].radius;
+  const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
+  const auto find = [&](const auto& source, const Extent* around, int count, Near* lists) {
+    return find_near(source, around, count, beyond_m, lists);
+  };
+  const auto work = [&](auto tables, const Columns& columns, int first, int blocks, const Near* lists) {
+    Open& open = scratch.open;
+    if (relief)
+      return nearest_of<3, tables()>(baked, relief, batch, first, blocks, lists, columns, open, out);
+    return nearest_of<2, tables()>(baked, nullptr, batch, first, blocks, lists, columns, open, out);
+  };
+  return together_or_alone(batch.count, [&](int first, int blocks) {
+    return share(baked, relief, boxes, first, blocks, scratch, find, work);
+  });
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -83,7 +83,8 @@ HWY_INLINE void write(const Batched& found, const QueryBatch& batch) {
 
 HWY_INLINE bool query_batch_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
   Batched found;
-  if (!nearest(baked, relief, batch, found)) return false;
+  Scratch scratch;
+  if (!nearest(baked, relief, batch, scratch, found)) return false;
   write(found, batch);
   return true;
 }

@@ -1,4 +1,4 @@
-// The nearest response for a block: a query where the particles are, a push of those below the clearance, and
+// The nearest response for a batch: a query where the particles are, a push of those below the clearance, and
 // queries where they have come to until all are clear. What two half-spaces, or a few steps of Newton, do not
 // settle goes to the exact side.
 #if defined(BODICE_COLLISION_RESOLVE_INL_) == defined(HWY_TARGET_TOGGLE)
@@ -54,8 +54,9 @@ HWY_INLINE std::uint64_t bits(M m) {
 
 /// Paths, relative to the ellipsoid that owns the place, longer than the limit. Without an owner any
 /// ellipsoid may have come past.
-HWY_INLINE M moved_far(const Block& block, const Clearance& clearance, int i, V3 p, VI owner, float limit_m) {
-  V3 path = p - load3(block.sx + i, block.sy + i, block.sz + i);
+HWY_INLINE M moved_far(const Gathering& batch, const Clearance& clearance, int i, V3 p, VI owner,
+                       float limit_m) {
+  V3 path = p - load3(batch.sx + i, batch.sy + i, batch.sz + i);
   V limit = all(limit_m);
   if (clearance.motion) {
     const V3 carried = scaled(surface_velocity(clearance.motion, owner, p), all(clearance.dt_s));
@@ -67,9 +68,9 @@ HWY_INLINE M moved_far(const Block& block, const Clearance& clearance, int i, V3
 }
 
 /// Undoing a particle's own path is not a push.
-HWY_INLINE V own_path(const Block& block, int i, V3 p) {
-  if (!block.has_safe) return hn::Zero(f);
-  const V3 path = p - load3(block.sx + i, block.sy + i, block.sz + i);
+HWY_INLINE V own_path(const Gathering& batch, int i, V3 p) {
+  if (!batch.has_safe) return hn::Zero(f);
+  const V3 path = p - load3(batch.sx + i, batch.sy + i, batch.sz + i);
   return hn::Sqrt(dot(path, path));
 }
 
@@ -85,45 +86,46 @@ HWY_INLINE float shortest_radius(const Baked& baked, const Extent& e, float wind
 }
 
 /// The first push of the lanes that are below the clearance and have not come far.
-HWY_INLINE void push_first(const Surface& surface, const Block& block, float short_path_m,
-                           const Batched& found, int i, Way& way, Pushed& pushed, BlockResponse& out) {
+HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float short_path_m,
+                           const Batched& found, int i, Way& way, Pushed& pushed, BatchResponse& out) {
   const Clearance& clearance = surface.clearance;
-  const V target = all(surface.target_m());
-  const V3 p = load3(block.x + i, block.y + i, block.z + i);
+  const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
   const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
   const V distance = hn::Load(f, found.distance + i);
-  const M valid = hn::FirstN(f, static_cast<std::size_t>(block.count - i));
+  const M valid = hn::FirstN(f, static_cast<std::size_t>(batch.count - i));
   M contact = hn::And(valid, hn::Lt(distance, all(clearance.distance_m)));
   const VI nearest_one = hn::GatherIndex(I(), surface.baked.internal.data(), hn::Load(I(), found.name + i));
   const VI owner = hn::IfThenElse(hn::RebindMask(I(), contact), nearest_one, hn::Set(I(), -1));
-  if (block.has_safe) {
-    const M far = hn::And(valid, moved_far(block, clearance, i, p, owner, short_path_m));
+  if (batch.has_safe) {
+    const M far = hn::And(valid, moved_far(batch, clearance, i, p, owner, short_path_m));
     contact = hn::AndNot(far, contact);
-    out.hard |= bits(far) << i;
+    out.hard.add(bits(far), i);
   }
   hn::Store(distance, f, way.distance + i);
   hn::Store(owner, I(), way.owner + i);
+  hn::Store(owner, I(), way.clear1 + i);
   store3(normal, way.n1x + i, way.n1y + i, way.n1z + i);
+  const V target = surface.bent() ? all(surface.target_m()) : plain_target(surface, owner);
   const V short_by = hn::Sub(target, distance);
   const V3 x = surface.bent() ? newton_step(p, distance, normal, hn::Load(f, found.value + i), target)
                               : along(p, short_by, normal);
   store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
   hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
-  out.contact |= bits(contact) << i;
+  out.contact.add(bits(contact), i);
   pushed.add(contact, hn::Iota(I(), i));
 }
 
-HWY_INLINE M mask_of(std::uint64_t lanes, int i) {
-  const std::uint64_t shifted = lanes >> i;
+HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
+  const std::uint64_t shifted = lanes.from(i);
   std::uint8_t bytes[8];
   std::memcpy(bytes, &shifted, sizeof(bytes));
   return hn::LoadMaskBits(f, bytes);
 }
 
 /// Writes one vector back: place, velocity, and what is told about it.
-HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way, int i, Block& block,
-                       BlockResponse& out) {
-  const V3 p = load3(block.x + i, block.y + i, block.z + i);
+HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way, int i, Gathering& batch,
+                       BatchResponse& out) {
+  const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
   const V3 position = load3(way.x + i, way.y + i, way.z + i);
   const V3 push = position - p;
   const V length2 = dot(push, push);
@@ -132,63 +134,73 @@ HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way
   const V longest = hn::Min(all(reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
   M contact = mask_of(out.contact, i);
   const M beyond = hn::And(contact, hn::Gt(length2, hn::Mul(longest, longest)));
-  out.hard |= (bits(beyond) << i) | (way.open & (bits(contact) << i));
-  contact = mask_of(out.contact & ~out.hard, i);
-  const V limit = hn::Add(all(clearance.max_push_m), own_path(block, i, p));
+  out.hard.add(bits(hn::Or(beyond, hn::And(contact, mask_of(way.open, i)))), i);
+  contact = hn::AndNot(mask_of(out.hard, i), contact);
+  const V limit = hn::Add(all(clearance.max_push_m), own_path(batch, i, p));
   const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
   const V share = hn::Div(limit, hn::Sqrt(hn::Max(length2, all(1e-30f))));
-  store3(select(contact, select(pending, along(p, share, push), position), p), block.x + i, block.y + i,
-         block.z + i);
-  if (block.has_velocity) {
-    const V3 v = load3(block.vx + i, block.vy + i, block.vz + i);
+  store3(select(contact, select(pending, along(p, share, push), position), p), batch.x + i, batch.y + i,
+         batch.z + i);
+  if (batch.has_velocity) {
+    const V3 v = load3(batch.vx + i, batch.vy + i, batch.vz + i);
     V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
     if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
     const Pair planes = {load3(way.n1x + i, way.n1y + i, way.n1z + i),
                          load3(way.n2x + i, way.n2y + i, way.n2z + i), hn::Zero(f), hn::Zero(f),
                          hn::Gt(hn::Load(f, way.two + i), hn::Zero(f))};
     const V3 slowed = corrected_velocity(planes, clearance.friction, v - body) + body;
-    store3(select(contact, slowed, v), block.vx + i, block.vy + i, block.vz + i);
+    store3(select(contact, slowed, v), batch.vx + i, batch.vy + i, batch.vz + i);
   }
   hn::Store(depth, f, out.depth + i);
   hn::Store(owner, I(), reinterpret_cast<std::int32_t*>(out.owner) + i);
-  out.pending |= bits(pending) << i;
+  out.pending.add(bits(pending), i);
 }
 
-/// The block against one surface; pushes longer than `reach_m` are for the exact side.
-HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m, Block& block,
-                           BlockResponse& out) {
+/// The batch against one surface; pushes longer than `reach_m` are for the exact side.
+HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m, Gathering& batch,
+                           BatchResponse& out) {
   Batched found;
-  if (!measure(surface, block.x, block.y, block.z, block.count, found)) return false;
+  QueryBatch query = places(batch.x, batch.y, batch.z, batch.count);
+  if (!measure(surface, query, found)) return false;
   Way way;
   Pushed pushed;
   way.clear_second();
-  for (int i = 0; i < block.count; i += kWidth)
-    push_first(surface, block, short_path_m, found, i, way, pushed, out);
-  if (out.contact == 0) return true;
-  if (!settle(surface, block, pushed, way)) return false;
-  for (int i = 0; i < block.count; i += kWidth) finish(surface.clearance, reach_m, way, i, block, out);
-  out.contact &= ~out.hard;
+  for (int i = 0; i < batch.count; i += kWidth)
+    push_first(surface, batch, short_path_m, found, i, way, pushed, out);
+  if (out.contact.none()) return true;
+  if (!settle(surface, batch, pushed, way)) return false;
+  for (int i = 0; i < batch.count; i += kWidth) finish(surface.clearance, reach_m, way, i, batch, out);
+  for (int block = 0; block < kBlocks; ++block) out.contact.word[block] &= ~out.hard.word[block];
   out.iterations = std::max(1u, way.rounds);
   return true;
 }
 
+/// Half the diagonal of each block's box.
+HWY_INLINE void note_radii(const Gathering& batch, BatchResponse& out) {
+  for (int begin = 0; begin < batch.count; begin += kBlock) {
+    bool near;
+    const int count = std::min(kBlock, batch.count - begin);
+    out.radius_m[begin / kBlock] =
+        extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, count, near).radius;
+  }
+}
+
 HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                              Block& block, BlockResponse& out) {
-  out.contact = out.pending = out.hard = 0;
-  out.iterations = 0;
-  const Extent e = extent_of(block);
-  out.radius_m = e.radius;
+                              Gathering& batch, BatchResponse& out) {
+  note_radii(batch, out);
+  const Extent e = extent_of(batch);
   const bool filleted = !relief && clearance.blend_m > 0.0f;
   const float bulge_m = relief ? relief->highest_m + relief->blend_m : 2.0f * clearance.blend_m;
-  const float travel_m = block.has_safe ? clearance.travel_m : 0.0f;
+  const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
   const float window_m = clearance.distance_m + bulge_m + travel_m;
   const float shortest_m = shortest_radius(baked, e, window_m + baked.rounding_m + 1e-6f * e.radius);
   if (shortest_m >= 1e30f) return true;
   Candidates candidates;
-  if (filleted && !cull_for_response(baked, block, window_m, candidates)) return false;
+  if (filleted && !cull_for_response(baked, batch, window_m, candidates)) return false;
   if (filleted && candidates.count == 0) return true;
-  const Surface surface{baked, relief, clearance, filleted ? &candidates : nullptr};
-  return resolve_on(surface, kShortPath * shortest_m, filleted ? candidates.reach_m : 1e30f, block, out);
+  Scratch scratch;
+  const Surface surface{baked, relief, clearance, filleted ? &candidates : nullptr, scratch};
+  return resolve_on(surface, kShortPath * shortest_m, filleted ? candidates.reach_m : 1e30f, batch, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

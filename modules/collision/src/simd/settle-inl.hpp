@@ -8,7 +8,7 @@
 #define BODICE_COLLISION_SETTLE_INL_
 #endif
 
-#include "simd/nearest-inl.hpp"
+#include "simd/clear-inl.hpp"
 #include "simd/smooth-inl.hpp"
 #include "tolerances.hpp"
 
@@ -18,6 +18,7 @@ namespace bodice::collision::HWY_NAMESPACE {
 constexpr int kPlainRounds = 4;
 constexpr int kReliefRounds = 6;
 constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
+constexpr float kFoot = static_cast<float>(kFootError);
 
 /// The half-spaces { x : n . x >= offset } in force; the second only where `two`.
 struct Pair {
@@ -43,41 +44,46 @@ HWY_INLINE V3 project(const Pair& h, V3 p) {
   return along(along(p, push1, h.n1), push2, h.n2);
 }
 
-/// A block on its way out, an array a number, by lane.
+/// A batch on its way out, an array a number, by lane.
 struct alignas(64) Way {
-  float distance[kBlock];                       ///< where it began, metres
-  std::int32_t owner[kBlock];                   ///< there; internal index, -1: nothing is near
-  float x[kBlock], y[kBlock], z[kBlock];        ///< where it is now
-  float n1x[kBlock], n1y[kBlock], n1z[kBlock];  ///< contact planes
-  float n2x[kBlock], n2y[kBlock], n2z[kBlock];
-  float offset1[kBlock], offset2[kBlock], two[kBlock];  ///< two: 1 if the second is in force
-  std::uint64_t open = 0;                               ///< lanes not settled
+  float distance[kBatch];      ///< where it began, metres
+  std::int32_t owner[kBatch];  ///< there; internal index, -1: nothing is near
+  /// Plain ellipsoids that it has been put clear of; -1: none, or not for certain.
+  std::int32_t clear1[kBatch], clear2[kBatch];
+  float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
+  float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< contact planes
+  float n2x[kBatch], n2y[kBatch], n2z[kBatch];
+  float offset1[kBatch], offset2[kBatch], two[kBatch];  ///< two: 1 if the second is in force
+  LaneBits open;                                        ///< not settled
   std::uint32_t rounds = 0;
 
   HWY_INLINE void clear_second() {
     for (float* values : {n2x, n2y, n2z, offset2, two}) std::memset(values, 0, sizeof(two));
+    std::memset(clear2, 0xFF, sizeof(clear2));
   }
 };
 
 /// The lanes that were pushed in a round, closed up.
 struct alignas(64) Pushed {
-  float x[kBlock], y[kBlock], z[kBlock];
-  std::int32_t lane[kBlock + 16];
+  float x[kBatch], y[kBatch], z[kBatch];
+  std::int32_t clear1[kBatch], clear2[kBatch];
+  std::int32_t lane[kBatch + 16];
   int count = 0;
 
   HWY_INLINE void add(M which, VI lanes) {
     hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), which)), I(), lane + count);
     count += static_cast<int>(hn::CountTrue(f, which));
   }
-  /// Reads the places of the lanes; the last is repeated up to whole vectors.
+  /// Reads the places of the lanes; the last is repeated up to a whole block.
   HWY_INLINE void collect(const Way& way) {
-    constexpr int kGroup = kTogether * kWidth;
-    const int end = (count + kGroup - 1) / kGroup * kGroup;
+    const int end = (count + kBlock - 1) / kBlock * kBlock;
     for (int i = 0; i < end; ++i) {
       const int from = lane[std::min(i, count - 1)];
       x[i] = way.x[from];
       y[i] = way.y[from];
       z[i] = way.z[from];
+      clear1[i] = way.clear1[from];
+      clear2[i] = way.clear2[from];
     }
   }
 };
@@ -87,13 +93,20 @@ HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
 }
 
 /// Stores the lanes of `which` at their own indices.
-HWY_INLINE void scatter(M which, VI at, V value, float* to) {
-  alignas(64) float values[kWidth];
+template <class D, class T = hn::TFromD<D>>
+HWY_INLINE void scatter_as(D d, M which, VI at, hn::Vec<D> value, T* to) {
+  alignas(64) T values[kWidth];
   alignas(64) std::int32_t index[kWidth];
-  hn::StoreU(hn::Compress(value, which), f, values);
+  hn::StoreU(hn::Compress(value, hn::RebindMask(d, which)), d, values);
   hn::StoreU(hn::Compress(at, hn::RebindMask(I(), which)), I(), index);
   const int count = static_cast<int>(hn::CountTrue(f, which));
   for (int i = 0; i < count; ++i) to[index[i]] = values[i];
+}
+HWY_INLINE void scatter(M which, VI at, V value, float* to) {
+  scatter_as(f, which, at, value, to);
+}
+HWY_INLINE void scatter(M which, VI at, VI value, std::int32_t* to) {
+  scatter_as(I(), which, at, value, to);
 }
 HWY_INLINE void scatter3(M which, VI at, V3 value, float* x, float* y, float* z) {
   scatter(which, at, value.x, x);
@@ -107,6 +120,7 @@ struct Surface {
   const ReliefTables* relief;
   const Clearance& clearance;
   const Candidates* filleted;  ///< of the block; null: creases stay sharp, or relief blends
+  Scratch& scratch;
 
   bool bent() const { return relief != nullptr || filleted != nullptr; }
   /// Where pushes aim at. A bent surface turns between steps; a share of the blending more lets Newton arrive
@@ -119,6 +133,16 @@ struct Surface {
     return least_m + std::min(kOvershoot * clearance.blend_m, kFillet * clearance.slack_m);
   }
 };
+
+/// Beyond the clearance by what a foot may be off by, so that its ellipsoid need not be measured again;
+/// `owner` may be -1.
+HWY_INLINE V plain_target(const Surface& surface, VI owner) {
+  constexpr int kStride = kBakedFloats;
+  const VI at = hn::Mul(hn::Max(owner, hn::Zero(I())), hn::Set(I(), kStride));
+  const V longest = hn::GatherIndex(f, &surface.baked.ellipsoids.data()->longest_m, at);
+  const float clearance_m = surface.clearance.distance_m;
+  return hn::MulAdd(all(kFoot), hn::Add(longest, all(std::max(0.0f, clearance_m))), all(surface.target_m()));
+}
 
 HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch, Batched& out) {
   const Clearance& c = surface.clearance;
@@ -134,20 +158,30 @@ HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch
   }
 }
 
+HWY_INLINE QueryBatch places(const float* x, const float* y, const float* z, int count) {
+  return {.x = x,
+          .y = y,
+          .z = z,
+          .index = nullptr,
+          .count = count,
+          .margin_m = 0.0f,
+          .contacts = nullptr,
+          .radius_m = {}};
+}
+
 /// Distance, unit gradient, its length and the name of the owner at each place; false if there is no room.
-HWY_INLINE bool measure(const Surface& surface, const float* x, const float* y, const float* z, int count,
-                        Batched& out) {
-  QueryBatch batch{.x = x,
-                   .y = y,
-                   .z = z,
-                   .index = nullptr,
-                   .count = count,
-                   .margin_m = 0.0f,
-                   .contacts = nullptr,
-                   .radius_m = {}};
-  if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, out);
+HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out) {
+  if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out);
   measure_filleted(surface, batch, out);
   return true;
+}
+
+/// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.
+HWY_INLINE bool measure_again(const Surface& surface, const Pushed& pushed, Batched& out) {
+  QueryBatch batch = places(pushed.x, pushed.y, pushed.z, pushed.count);
+  if (surface.bent()) return measure(surface, batch, out);
+  const Placed placed{batch, pushed.clear1, pushed.clear2};
+  return nearest_others(surface.baked, placed, surface.clearance.distance_m, surface.scratch, out);
 }
 
 /// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
@@ -156,9 +190,8 @@ HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
 }
 
 /// What the last query found about some pushed lanes, and another push for those it left below.
-HWY_INLINE M push_again(const Surface& surface, const Block& block, const Batched& found,
+HWY_INLINE M push_again(const Surface& surface, const Gathering& batch, const Batched& found,
                         const Pushed& pushed, int i, Way& way) {
-  const V target = all(surface.target_m());
   const M valid = hn::FirstN(f, static_cast<std::size_t>(pushed.count - i));
   const V distance = hn::Load(f, found.distance + i);
   const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
@@ -168,6 +201,7 @@ HWY_INLINE M push_again(const Surface& surface, const Block& block, const Batche
   if (surface.bent()) {
     scatter3(valid, lane, normal, way.n1x, way.n1y, way.n1z);
     if (hn::AllFalse(f, below)) return below;
+    const V target = all(surface.target_m());
     const V3 next = newton_step(x, distance, normal, hn::Load(f, found.value + i), target);
     scatter3(below, lane, next, way.x, way.y, way.z);
     return below;
@@ -175,31 +209,40 @@ HWY_INLINE M push_again(const Surface& surface, const Block& block, const Batche
   if (hn::AllFalse(f, below)) return below;
   // The newest violation takes the second place: rounds refine the pair of a crease.
   const VI at = hn::IfThenElseZero(hn::RebindMask(I(), valid), lane);
-  const V offset = hn::Add(dot(normal, x), hn::Sub(target, distance));
+  const VI name = hn::IfThenElseZero(hn::RebindMask(I(), below), hn::Load(I(), found.name + i));
+  const VI newest = hn::GatherIndex(I(), surface.baked.internal.data(), name);
+  const V offset = hn::Add(dot(normal, x), hn::Sub(plain_target(surface, newest), distance));
   const Pair pair = {gather3(way.n1x, way.n1y, way.n1z, at), normal, hn::GatherIndex(f, way.offset1, at),
                      offset, hn::FirstN(f, kWidth)};
-  scatter3(below, lane, project(pair, gather3(block.x, block.y, block.z, at)), way.x, way.y, way.z);
+  const V3 next = project(pair, gather3(batch.x, batch.y, batch.z, at));
+  scatter3(below, lane, next, way.x, way.y, way.z);
   scatter3(below, lane, normal, way.n2x, way.n2y, way.n2z);
   scatter(below, lane, offset, way.offset2);
   scatter(below, lane, all(1.0f), way.two);
+  // Planes that are nearly parallel meet far away, if at all: there both are measured again.
+  const V behind = hn::Max(hn::Sub(pair.offset1, dot(pair.n1, next)), hn::Sub(offset, dot(normal, next)));
+  const auto certain = hn::RebindMask(I(), hn::Le(behind, all(surface.clearance.slack_m)));
+  const VI none = hn::Set(I(), -1);
+  scatter(below, lane, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
+  scatter(below, lane, hn::IfThenElse(certain, newest, none), way.clear2);
   return below;
 }
 
 /// Pushes the lanes of `pushed`, whose first push is done, until all are clear; false if the kernel has no
 /// room.
-HWY_INLINE bool settle(const Surface& surface, const Block& block, Pushed& pushed, Way& way) {
+HWY_INLINE bool settle(const Surface& surface, const Gathering& batch, Pushed& pushed, Way& way) {
   const auto most = static_cast<std::uint32_t>(surface.bent() ? kReliefRounds : kPlainRounds);
   Batched found;
   for (way.rounds = 0; pushed.count > 0 && way.rounds < most; ++way.rounds) {
     pushed.collect(way);
-    if (!measure(surface, pushed.x, pushed.y, pushed.z, pushed.count, found)) return false;
+    if (!measure_again(surface, pushed, found)) return false;
     Pushed next;
     for (int i = 0; i < pushed.count; i += kWidth)
-      next.add(push_again(surface, block, found, pushed, i, way), hn::Load(I(), pushed.lane + i));
+      next.add(push_again(surface, batch, found, pushed, i, way), hn::Load(I(), pushed.lane + i));
     pushed.count = next.count;
     std::memcpy(pushed.lane, next.lane, sizeof(next.lane));
   }
-  for (int i = 0; i < pushed.count; ++i) way.open |= std::uint64_t{1} << pushed.lane[i];
+  for (int i = 0; i < pushed.count; ++i) way.open.add(1, pushed.lane[i]);
   return true;
 }
 

@@ -1,0 +1,116 @@
+// Whether places that were put clear of one or two ellipsoids are clear of all others. Since the nearest
+// point on a convex shape stays the same along its normal, and a half-space beyond a tangent plane has no
+// point of it, those one or two need not be measured again; a bound tells most of the others, so that few
+// feet are left.
+#if defined(BODICE_COLLISION_CLEAR_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_CLEAR_INL_
+#undef BODICE_COLLISION_CLEAR_INL_
+#else
+#define BODICE_COLLISION_CLEAR_INL_
+#endif
+
+#include "simd/nearest-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+/// For each box all ellipsoids of the source whose distance may be below the limit at some place in it; false
+/// if they are more than kMaxCandidates.
+template <class Source>
+HWY_INLINE bool find_below(const Source& source, const Extent* boxes, int blocks, float limit_m, Near* out) {
+  for (int block = 0; block < blocks; ++block) out[block].count = 0;
+  const VI end = hn::Set(I(), source.count());
+  for (int k = 0; k < source.count(); k += kWidth) {
+    const BoundLanes lanes = source.bounds(k);
+    const VI index = hn::Iota(I(), k);
+    const M real = hn::RebindMask(f, hn::Lt(index, end));
+    for (int block = 0; block < blocks; ++block) {
+      Near& to = out[block];
+      if (to.count + kWidth > kMaxCandidates) return false;
+      const Planes at = planes_at(lanes, broadcast3(boxes[block].middle));
+      const V reach = dot(absolute(slope_of(lanes, at)), broadcast3(boxes[block].half));
+      // Not above, rather than below: a plane that is NaN bounds nothing.
+      const M keep = hn::And(real, hn::Not(hn::Gt(hn::Sub(at.base, reach), all(limit_m))));
+      hn::StoreU(hn::Compress(index, hn::RebindMask(I(), keep)), I(), to.index + to.count);
+      to.count += static_cast<int>(hn::CountTrue(f, keep));
+    }
+  }
+  return true;
+}
+
+/// Places and what they were put clear of: indices of ellipsoids, or below zero.
+struct Placed {
+  const QueryBatch& batch;
+  const std::int32_t *first, *second;
+};
+
+HWY_INLINE void bound_others(const Baked& baked, const Columns& columns, const Near& near,
+                             const Placed& placed, int from, Lowest<1> (&out)[kTogether]) {
+  V3 p[kTogether];
+  VI first[kTogether], second[kTogether];
+  for (int v = 0; v < kTogether; ++v) {
+    const int i = from + v * kWidth;
+    p[v] = load3(placed.batch.x + i, placed.batch.y + i, placed.batch.z + i);
+    first[v] = hn::Load(I(), placed.first + i);
+    second[v] = hn::Load(I(), placed.second + i);
+    out[v].clear();
+  }
+  for (int r = 0; r < near.count; ++r) {
+    const std::size_t k = columns.ellipsoid(near.index[r]);
+    const VI rank = hn::Set(I(), near.index[r]), which = hn::Set(I(), static_cast<std::int32_t>(k));
+    for (int v = 0; v < kTogether; ++v) {
+      const auto own = hn::Or(hn::Eq(first[v], which), hn::Eq(second[v], which));
+      const V bound = lower_bound(baked.bounds[k], p[v]);
+      out[v].add(hn::IfThenElse(hn::RebindMask(f, own), all(1e29f), bound), rank);
+    }
+  }
+}
+
+/// Some blocks of the batch whose candidates are the columns.
+template <int kTables>
+HWY_INLINE bool others_of(const Baked& baked, const Placed& placed, float limit_m, int first, int blocks,
+                          const Near* near, const Columns& columns, Open& open, Batched& out) {
+  open.pairs.count = open.count = 0;
+  const V limit = bound_limit(baked, all(limit_m), 0.0f);
+  for (int block = 0; block < blocks; ++block) {
+    const int begin = (first + block) * kBlock;
+    for (int from = begin; from < end_of_block(placed.batch, begin); from += kTogether * kWidth) {
+      Lowest<1> lowest[kTogether];
+      bound_others(baked, columns, near[block], placed, from, lowest);
+      if (!open.pairs.fit(kTogether)) return false;
+      for (int v = 0; v < kTogether; ++v) open.add<1, 0>(lowest[v], limit, hn::Iota(I(), from + v * kWidth));
+    }
+  }
+  if (!collect_rest(baked, columns, placed.batch, open)) return false;
+  answer_pairs<kTables>(nullptr, columns, placed.batch, open.pairs);
+  combine_nearest(open.pairs, out);
+  return true;
+}
+
+/// The nearest of the other ellipsoids at each place where it is nearer than the limit, exactly; elsewhere
+/// some distance beyond the limit. False if the kernel has no room.
+inline bool nearest_others(const Baked& baked, const Placed& placed, float limit_m, Scratch& scratch,
+                           Batched& out) {
+  Extent boxes[kBlocks];
+  const int count = placed.batch.count;
+  if (!boxes_of(placed.batch, boxes)) return false;
+  for (int i = 0; i < count; i += kWidth) {
+    hn::Store(all(1e30f), f, out.distance + i);
+    hn::Store(hn::Zero(I()), I(), out.name + i);
+  }
+  const float below_m = limit_m + 4.0f * baked.rounding_m;
+  const auto find = [&](const auto& source, const Extent* around, int blocks, Near* lists) {
+    return find_below(source, around, blocks, below_m, lists);
+  };
+  const auto work = [&](auto tables, const Columns& columns, int first, int blocks, const Near* lists) {
+    return others_of<tables()>(baked, placed, limit_m, first, blocks, lists, columns, scratch.open, out);
+  };
+  return together_or_alone(count, [&](int first, int blocks) {
+    return share(baked, nullptr, boxes, first, blocks, scratch, find, work);
+  });
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
