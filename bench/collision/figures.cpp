@@ -1,8 +1,9 @@
 // The paper's figures 11 and 12: the time a frame against the number of the body's vertices, and against the
-// number of particles, with two trees of triangles beside it.
+// number of particles, with two trees of triangles beside it. Proxies take turns, the least frame counts.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include "figures.hpp"
 #include "frame_cost.hpp"
@@ -15,7 +16,7 @@ using bodice::geometry::Vec3;
 
 namespace {
 
-constexpr int kGarmentVertices = 20000, kEllipsoids = 89;
+constexpr int kGarmentVertices = 20000, kEllipsoids = 89, kFrames = 24;
 
 bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
   bodice::fitting::FitOptions options;
@@ -27,25 +28,37 @@ bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
   return result->proxy;
 }
 
+/// In turns.
+void run(std::vector<ProxyFrames>& all) {
+  for (int frame = 0; frame < kFrames; ++frame)
+    for (ProxyFrames& one : all) one.run();
+}
+
 bool over_body_vertices(std::size_t largest) {
   const TriMesh garment = garment_over(make_subject(kGarmentVertices).mesh);
   Cloud cloud;
   for (const Vec3& p : garment.positions) cloud.add(p);
+  std::vector<ProxyFrames> ours;
+  std::vector<std::size_t> vertices;
+  std::vector<FrameCost> trees;
+  for (const std::size_t count : {4500u, 13000u, 54000u, 214000u, 856000u}) {
+    if (count > largest) break;
+    const auto body = make_subject(static_cast<int>(count));
+    ours.emplace_back(fit(body), cloud);
+    vertices.push_back(body.mesh.positions.size());
+    trees.push_back(tree_frame(body.mesh, garment));
+  }
+  run(ours);
   std::printf(
-      "| body vertices | ellipsoids | proxy, ms a frame | pair of trees, ms | contacts of the trees |\n"
+      "| body vertices | ellipsoids | proxy, least ms a frame | pair of trees, ms | contacts of the trees |\n"
       "|---|---|---|---|---|\n");
   double least = 1e30, most = 0.0;
-  for (const std::size_t vertices : {4500u, 13000u, 54000u, 214000u, 856000u}) {
-    if (vertices > largest) break;
-    const auto body = make_subject(static_cast<int>(vertices));
-    const auto proxy = fit(body);
-    const double ours = proxy_frame(proxy, cloud).ms;
-    const FrameCost trees = tree_frame(body.mesh, garment);
-    std::printf("| %zu | %zu | %.3f | %.1f | %zu |\n", body.mesh.positions.size(), proxy.ellipsoids().size(),
-                ours, trees.ms, trees.contacts);
-    std::fflush(stdout);
-    least = std::min(least, ours);
-    most = std::max(most, ours);
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const double ms = ours[i].sorted_ms().front();
+    std::printf("| %zu | %zu | %.3f | %.1f | %zu |\n", vertices[i], ours[i].ellipsoids(), ms, trees[i].ms,
+                trees[i].contacts);
+    least = std::min(least, ms);
+    most = std::max(most, ms);
   }
   std::printf("proxy: largest over smallest %.3f (bar 1.10)\n\n", most / least);
   return most <= 1.1 * least;
@@ -54,19 +67,20 @@ bool over_body_vertices(std::size_t largest) {
 bool over_particles() {
   const auto body = make_subject(8850);
   const auto proxy = fit(body);
-  std::printf("| particles | ms a frame | ns a particle |\n|---|---|---|\n");
-  double least = 1e30, most = 0.0;
-  for (const std::size_t count : {30000u, 100000u, 300000u, 1000000u}) {
-    const double ms = proxy_frame(proxy, near_skin(body.mesh, count, 0.03, 1)).ms;
-    const double ns = 1e6 * ms / static_cast<double>(count);
-    std::printf("| %zu | %.3f | %.1f |\n", count, ms, ns);
-    std::fflush(stdout);
-    least = std::min(least, ns);
-    most = std::max(most, ns);
+  std::vector<ProxyFrames> ours;
+  for (const std::size_t count : {30000u, 100000u, 300000u, 1000000u})
+    ours.emplace_back(proxy, near_skin(body.mesh, count, 0.03, 1));
+  run(ours);
+  std::printf("| particles | least ms a frame | ns a particle |\n|---|---|---|\n");
+  std::vector<double> ns;
+  for (const ProxyFrames& one : ours) {
+    const double ms = one.sorted_ms().front();
+    ns.push_back(1e6 * ms / static_cast<double>(one.particles()));
+    std::printf("| %zu | %.3f | %.1f |\n", one.particles(), ms, ns.back());
   }
   // More particles lie closer together, so that each costs less: linear or better.
-  std::printf("ns a particle: largest over smallest %.2f\n", most / least);
-  return true;
+  std::printf("ns a particle: of the most over the fewest %.2f (bar 1.10)\n", ns.back() / ns.front());
+  return ns.back() <= 1.1 * ns.front();
 }
 
 }  // namespace

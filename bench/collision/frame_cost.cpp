@@ -43,29 +43,36 @@ TriMesh garment_over(const TriMesh& skin) {
   return garment;
 }
 
+ProxyFrames::ProxyFrames(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
+                         bodice::collision::Response response)
+    : collider_(proxy), response_(response), start_(local(cloud, collider_)), now_(start_) {
+  for (const auto& e : proxy.ellipsoids()) shapes_.push_back(e.shape);
+}
+
+void ProxyFrames::run() {
+  const Mat3 rotation = turn(frame_);
+  for (auto& e : shapes_) e.center = rotation * e.center, e.axes = rotation * e.axes;
+  now_ = start_;
+  const Stopwatch watch;
+  collider_.move_to(shapes_, 1.0 / 60.0);
+  const auto report = collider_.resolve(
+      {}, now_.particles(), {.response = response_, .thickness_m = static_cast<float>(kThickness_m)}, order_);
+  const double ms = watch.cpu_ms();
+  if (frame_++ > 1) ms_.push_back(ms);
+  contacts_ = report.contacts;
+}
+
+std::vector<double> ProxyFrames::sorted_ms() const {
+  std::vector<double> ms = ms_;
+  std::sort(ms.begin(), ms.end());
+  return ms;
+}
+
 FrameCost proxy_frame(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
                       bodice::collision::Response response) {
-  bodice::collision::Collider collider(proxy);
-  bodice::collision::Workspace order;
-  std::vector<bodice::geometry::Ellipsoid> shapes;
-  for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
-  const Cloud start = local(cloud, collider);
-  Cloud now = start;
-  FrameCost cost;
-  std::vector<double> ms;
-  for (int frame = 0; frame < kProxyFrames; ++frame) {
-    const Mat3 rotation = turn(frame);
-    for (auto& e : shapes) e.center = rotation * e.center, e.axes = rotation * e.axes;
-    now = start;
-    const Stopwatch watch;
-    collider.move_to(shapes, 1.0 / 60.0);
-    const auto report = collider.resolve(
-        {}, now.particles(), {.response = response, .thickness_m = static_cast<float>(kThickness_m)}, order);
-    if (frame > 1) ms.push_back(watch.cpu_ms());
-    cost.contacts = report.contacts;
-  }
-  cost.ms = median(std::move(ms));
-  return cost;
+  ProxyFrames frames(proxy, cloud, response);
+  for (int frame = 0; frame < kProxyFrames; ++frame) frames.run();
+  return {median(frames.sorted_ms()), frames.contacts()};
 }
 
 FrameCost tree_frame(TriMesh body, TriMesh garment) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include <bodice/collision/collider.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
@@ -21,7 +22,32 @@ struct FrameCost {
 /// The skin, 4 mm along its normals.
 bodice::geometry::TriMesh garment_over(const bodice::geometry::TriMesh& skin);
 
-/// Moves the proxy and resolves every particle, 5 mm thick.
+/// Moves the proxy and resolves every particle, 5 mm thick, a frame at a time, so that several can take turns
+/// and a slow second of the machine hits all alike.
+class ProxyFrames {
+ public:
+  ProxyFrames(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
+              bodice::collision::Response response = bodice::collision::Response::kNearest);
+
+  void run();
+  /// Processor time of each frame but the first two, which sort the particles; rising.
+  std::vector<double> sorted_ms() const;
+  std::size_t contacts() const { return contacts_; }
+  std::size_t ellipsoids() const { return shapes_.size(); }
+  std::size_t particles() const { return start_.size(); }
+
+ private:
+  bodice::collision::Collider collider_;
+  bodice::collision::Workspace order_;
+  bodice::collision::Response response_;
+  std::vector<bodice::geometry::Ellipsoid> shapes_;
+  Cloud start_, now_;
+  std::vector<double> ms_;
+  std::size_t contacts_ = 0;
+  int frame_ = 0;
+};
+
+/// Median of a few frames.
 FrameCost proxy_frame(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
                       bodice::collision::Response response = bodice::collision::Response::kNearest);
 

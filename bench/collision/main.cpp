@@ -9,6 +9,7 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -143,6 +144,42 @@ void add_rows(Contender& c, std::vector<Row>& rows) {
                   [&c] { c.move_rigidly(); }, 1.0, 20e3});
 }
 
+/// What no query can be faster than: its bytes, and one nearest point a particle with nothing to choose.
+struct Limits {
+  Collider one;
+  bench::Cloud cloud, copy;
+  std::vector<Contact> contacts;
+
+  Limits(const bodice::proxy::BodyProxy& proxy, const bench::Cloud& coherent)
+      : one(proxy), cloud(bench::local(coherent, one)), copy(cloud), contacts(cloud.size()) {}
+
+  void move_bytes() {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      Contact& c = contacts[i];
+      c.signed_distance = c.normal[0] = cloud.x[i];
+      c.point[0] = c.normal[1] = cloud.y[i];
+      c.point[1] = c.normal[2] = cloud.z[i];
+      c.point[2] = 0.0f;
+      c.ellipsoid = static_cast<std::uint32_t>(i);
+    }
+  }
+};
+
+bodice::proxy::BodyProxy single(const bodice::proxy::BodyProxy& proxy) {
+  auto one = bodice::proxy::BodyProxy::make(
+      {.tier = Tier::kSolid, .stature_m = proxy.stature_m(), .ellipsoids = {proxy.ellipsoids().front()}});
+  if (!one.ok()) throw std::runtime_error(one.error().sentence());
+  return *one;
+}
+
+void add_limits(Limits& limits, std::vector<Row>& rows) {
+  const auto n = static_cast<double>(limits.cloud.size());
+  rows.push_back({"limit: places read, contacts written", [&limits] { limits.move_bytes(); }, n});
+  rows.push_back({"limit: one ellipsoid, a nearest point a particle",
+                  [&limits] { limits.one.query({}, limits.cloud.particles(), limits.contacts); }, n});
+  rows.push_back({"the copy in every response row", [&limits] { limits.copy = limits.cloud; }, n});
+}
+
 double median_of(const std::vector<Row>& rows, const std::string& name) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
   return row == rows.end() ? 0.0 : row->median();
@@ -196,16 +233,19 @@ int main(int argc, char** argv) {
 
   std::printf(
       "%s; %s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
-      "repeats\n\n",
+      "repeats. A query answers signed distance, nearest point, normal and ellipsoid; peers the distance "
+      "alone.\n\n",
       processor().c_str(), BENCH_COMPILER, BENCH_FLAGS, count, 1e3 * kBand_m, body.mesh.positions.size(),
       repeats);
 
   std::vector<std::unique_ptr<Contender>> contenders;
+  std::unique_ptr<Limits> limits;
   for (const Tier tier : {Tier::kTight, Tier::kRelief}) {
     const auto proxy = bench::fit_subject(body, skin, tier, kEllipsoids, fit_s);
     const std::string label = std::string(bodice::proxy::name(tier)) + ", " +
                               std::to_string(proxy.ellipsoids().size()) + " ellipsoids";
     contenders.push_back(std::make_unique<Contender>(label, proxy, coherent, random));
+    if (!limits) limits = std::make_unique<Limits>(single(proxy), coherent);
     std::printf("%s: error %s mm, %.0f kB\n", label.c_str(),
                 error_of(contenders.back()->distances(), truth, true).c_str(),
                 1e-3 * static_cast<double>(proxy.bytes()));
@@ -215,6 +255,7 @@ int main(int argc, char** argv) {
   for (const double cell_m : {0.010, 0.005}) peers.push_back(bench::grid_peer(body.mesh, skin, cell_m));
   std::vector<float> distances(count);
   std::vector<Row> rows;
+  add_limits(*limits, rows);
   for (auto& contender : contenders) add_rows(*contender, rows);
   for (bench::Peer& peer : peers) {
     peer.query(coherent, distances);
