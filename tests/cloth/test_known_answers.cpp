@@ -86,6 +86,36 @@ TEST_CASE("a sheet hung by two opposite edges takes the shape of a catenary") {
   CHECK(-lowest == doctest::Approx(sag).epsilon(0.02));
 }
 
+TEST_CASE("a fold let go keeps the angle that friction holds, and none without friction") {
+  // Two equilateral triangles: under moments a metre of fold, B t / h = m with h the area over the edge.
+  constexpr double kSide = 0.01, kFriction_n = 2.0e-4, kBend_n_m = 8.0e-6;
+  const double height = kSide * std::sqrt(0.75);
+  TriMesh mesh;
+  mesh.positions = {Vec3(0, 0, 0), Vec3(0, 0, kSide), Vec3(-height, 0, kSide / 2),
+                    Vec3(height, 0, kSide / 2)};
+  mesh.triangles = {{0, 1, 2}, {1, 0, 3}};
+  auto kept_rad = [&](double friction_n) {
+    cloth::Fabric fabric = cotton();
+    fabric.bend_n_m = kBend_n_m;
+    fabric.bend_friction_n = friction_n;
+    fabric.damping_per_s = 1000.0;  // creeps to where it stays
+    cloth::SolverOptions options = vacuum();
+    options.substeps = 16;
+    options.environment.gravity_m_s2 *= 50.0;  // bends it well beyond
+    cloth::Solver solver = make_solver(mesh, {0, 1, 2}, fabric, options);
+    const engine::Context context;
+    for (int frame = 0; frame < 60; ++frame) solver.step(context, kFrame_s);
+    cloth::Environment weightless = options.environment;
+    weightless.gravity_m_s2 = Vec3::Zero();
+    REQUIRE(solver.set_environment(weightless).ok());
+    for (int frame = 0; frame < 60; ++frame) solver.step(context, kFrame_s);
+    const Vec3 tip = positions(solver, mesh.positions.size())[3];
+    return std::atan2(-tip[1], tip[0]);
+  };
+  CHECK(std::abs(kept_rad(0.0)) < 0.01);
+  CHECK(kept_rad(kFriction_n) == doctest::Approx(kFriction_n * height / kBend_n_m).epsilon(0.05));
+}
+
 TEST_CASE("a sheet dropped on one ellipsoid rests on its offset surface") {
   const engine::Context context;
   for (const Vec3& radii : {Vec3(0.2, 0.2, 0.2), Vec3(0.3, 0.15, 0.2)}) {

@@ -3,7 +3,9 @@
 // stencil's vector K x is as long as edge * angle and lies along the hinge's normal n under isometry, so the
 // constraint is the signed number n . K x, which keeps a curved rest shape and costs one normal; its gradient
 // holds n fixed. The energy is B (K x)^2 / (2 A) with A the area of both triangles: a strip of width e bent
-// by the angle t at folds h apart stores B t^2 e / (2 h), and e h = A.
+// by the angle t at folds h apart stores B t^2 e / (2 h), and e h = A. Beside it, friction between yarns: a
+// spring to where the hinge was held last, which gives way above a moment, so that a small swing of a fold
+// ends. Based on: Paul Dahl. A Solid Friction Model. 1968. (here with an abrupt slip)
 #include "bend.hpp"
 
 #include <algorithm>
@@ -18,6 +20,9 @@ namespace {
 
 // A sliver's cotangent beyond this (0.06 degrees) would only put weights of 1e3 into floats.
 constexpr double kMaxCotangent = 1e3;
+
+// Stiffness of the held hinge in bending stiffnesses: it slips after a bend too slight to be seen.
+constexpr float kStick = 20.0f;
 
 double cotangent(const Vec3& corner, const Vec3& u, const Vec3& v) {
   const Vec3 a = u - corner, b = v - corner;
@@ -72,18 +77,27 @@ void load_corners(const BendConstraints& c, std::size_t first, const Point* p, F
     for (std::size_t k = 0; k < kPack; ++k) at[q][k] = load(p[c.corner[q][first + k]]);
 }
 
-void solve_pack(const BendConstraints& c, std::size_t pack, Float4 inverse_h2, Point* p) {
+// Where friction holds the hinge, `value` after; at most `slip` from there. NaN leaves it.
+Float4 hold(Float4 held, Float4 value, Float4 slip) {
+  return min(value + slip, max(value - slip, held));
+}
+
+void solve_pack(BendConstraints& c, std::size_t pack, Float4 inverse_h2, Point* p) {
   const std::size_t first = pack * kPack;
   Float4 at[4][kPack], w[4];
   load_corners(c, first, p, at);
   const Bent bent = measure(c, first, at);
-  Float4 weight = load(&c.compliance[first]) * inverse_h2 + kTinyWeight;
+  const Float4 compliance = load(&c.compliance[first]);
+  const Float4 held = hold(load(&c.held[first]), bent.value, c.slip_n * compliance);
+  store(&c.held[first], held);
+  // Two springs, to the rest shape and to where it is held, are one.
+  Float4 weight = c.soften * compliance * inverse_h2 + kTinyWeight;
   for (std::size_t q = 0; q < 4; ++q) {
     const Float4 k = load(&c.k[q][first]);
     w[q] = weights(at[q][0], at[q][1], at[q][2], at[q][3]) * k;
     weight += w[q] * k;
   }
-  const Float4 move = -bent.value / weight;
+  const Float4 move = ((1.0f - c.soften) * held - bent.value) / weight;
   Float4 m[kPack] = {move * bent.nx, move * bent.ny, move * bent.nz, splat(0.0f)};
   transpose(m[0], m[1], m[2], m[3]);
   for (std::size_t q = 0; q < 4; ++q)
@@ -92,10 +106,13 @@ void solve_pack(const BendConstraints& c, std::size_t pack, Float4 inverse_h2, P
 
 }  // namespace
 
-BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, double bend_n_m,
+BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
                           const Particles& particles) {
   BendConstraints out;
-  if (bend_n_m <= 0.0) return out;
+  if (fabric.bend_n_m <= 0.0) return out;
+  const bool held = fabric.bend_friction_n > 0.0;
+  out.soften = held ? 1.0f / (1.0f + kStick) : 1.0f;
+  out.slip_n = static_cast<float>(fabric.bend_friction_n) / kStick;
   std::vector<Index> corners;
   for (const Hinge& h : topology.hinges) corners.insert(corners.end(), {h.a, h.b, h.c, h.d});
   out.schedule = make_schedule(corners, 4, particles.count());
@@ -107,19 +124,19 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
       out.k[q].push_back(static_cast<float>(s.k[q]));
     }
     out.rest_m.push_back(static_cast<float>(s.rest));
-    out.compliance.push_back(static_cast<float>(s.area / bend_n_m));
+    out.compliance.push_back(static_cast<float>(s.area / fabric.bend_n_m));
   }
+  out.held.assign(out.rest_m.size(), 0.0f);
   return out;
 }
 
-void solve_bend_block(const BendConstraints& c, std::size_t block, float inverse_h2, Particles& p) {
+void solve_bend_block(BendConstraints& c, std::size_t block, float inverse_h2, Particles& p) {
   if (c.schedule.packs() == 0) return;
   for (std::size_t pack = c.schedule.block_begin[block]; pack < c.schedule.block_begin[block + 1]; ++pack)
     solve_pack(c, pack, splat(inverse_h2), p.point.data());
 }
 
-void solve_bend_across(const engine::Context& context, const BendConstraints& c, float inverse_h2,
-                       Particles& p) {
+void solve_bend_across(const engine::Context& context, BendConstraints& c, float inverse_h2, Particles& p) {
   for_each_across(context, c.schedule,
                   [&](std::size_t pack) { solve_pack(c, pack, splat(inverse_h2), p.point.data()); });
 }
@@ -133,7 +150,9 @@ double bend_energy(const engine::Context& context, const BendConstraints& c, con
           Float4 at[4][kPack];
           load_corners(c, pack * kPack, p.point.data(), at);
           const Float4 value = measure(c, pack * kPack, at).value;
-          const Float4 twice = value * value / load(&c.compliance[pack * kPack]);
+          const Float4 slack = value - load(&c.held[pack * kPack]);
+          const float stick = 1.0f / c.soften - 1.0f;
+          const Float4 twice = (value * value + stick * slack * slack) / load(&c.compliance[pack * kPack]);
           energy += 0.5 * static_cast<double>(twice[0] + twice[1] + twice[2] + twice[3]);
         }
         return energy;

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include <bodice/cloth/fabric.hpp>
 #include <bodice/engine/context.hpp>
 
 #include "particles.hpp"
@@ -20,19 +21,22 @@ struct BendConstraints {
   std::array<std::vector<float>, 4> k;       ///< cotangent weights, they sum to zero
   std::vector<float> rest_m;
   std::vector<float> compliance;  ///< metres a newton
+  std::vector<float> held;        ///< value at which friction holds it
+  float soften = 1.0f;            ///< compliance of both springs together, in that of bending
+  float slip_n = 0.0f;            ///< friction gives way this far from held, in compliances
 };
 
-BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, double bend_n_m,
+BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
                           const Particles& particles);
 
 /// A Gauss-Seidel sweep is all blocks, in any order, then what lies across them. `inverse_h2` is sweeps a
 /// substep over its length squared.
-void solve_bend_block(const BendConstraints& constraints, std::size_t block, float inverse_h2,
+void solve_bend_block(BendConstraints& constraints, std::size_t block, float inverse_h2,
                       Particles& particles);
-void solve_bend_across(const engine::Context& context, const BendConstraints& constraints, float inverse_h2,
+void solve_bend_across(const engine::Context& context, BendConstraints& constraints, float inverse_h2,
                        Particles& particles);
 
-/// Potential energy of all hinges, joules.
+/// Potential energy of all hinges, joules, that of what friction holds included.
 double bend_energy(const engine::Context& context, const BendConstraints& constraints,
                    const Particles& particles);
 

@@ -1,7 +1,8 @@
 // Fabric presets. Each constant lies inside the range published for its class of fabric; which point of the
 // range is an order-of-magnitude choice.
 // Based on: Sueo Kawabata. The Standardization and Analysis of Hand Evaluation. 1980. (KES-F: tensile, shear
-// G and bending B; 1 gf/(cm deg) = 56 N/m a radian, 1 gf cm^2/cm = 9.8e-5 N m)
+// G, bending B, its hysteresis 2HB, half of which is the friction; 1 gf/(cm deg) = 56 N/m a radian, 1 gf
+// cm^2/cm = 9.8e-5 N m, 1 gf cm/cm = 9.8e-3 N)
 #include <array>
 #include <cmath>
 
@@ -10,13 +11,13 @@
 namespace bodice::cloth {
 namespace {
 
-//                        kg/m2  stretch  shear  bend    friction damping limit
+//                        kg/m2  stretch  shear  bend    friction damping limit bend friction
 const Fabric kPresets[] = {
-    {"cotton", 0.140, 3000.0, 60.0, 8.0e-6, 0.45, 0.5, 0.04},
-    {"silk", 0.065, 2500.0, 20.0, 2.0e-6, 0.30, 0.4, 0.04},
-    {"denim", 0.400, 8000.0, 160.0, 8.0e-5, 0.50, 0.8, 0.03},
-    {"jersey", 0.180, 400.0, 40.0, 2.0e-6, 0.45, 0.8, 0.25},
-    {"leather", 0.700, 12000.0, 600.0, 3.0e-4, 0.55, 1.2, 0.03},
+    {"cotton", 0.140, 3000.0, 60.0, 8.0e-6, 0.45, 0.5, 0.04, 2.0e-4},
+    {"silk", 0.065, 2500.0, 20.0, 2.0e-6, 0.30, 0.4, 0.04, 5.0e-5},
+    {"denim", 0.400, 8000.0, 160.0, 8.0e-5, 0.50, 0.8, 0.03, 2.0e-3},
+    {"jersey", 0.180, 400.0, 40.0, 2.0e-6, 0.45, 0.8, 0.25, 1.0e-4},
+    {"leather", 0.700, 12000.0, 600.0, 3.0e-4, 0.55, 1.2, 0.03, 6.0e-3},
 };
 
 }  // namespace
@@ -43,11 +44,14 @@ engine::Result<void> check(const Fabric& fabric) {
     double value;
     bool positive;
   };
-  const std::array fields = {
-      Field{"density_kg_m2", fabric.density_kg_m2, true}, Field{"stretch_n_m", fabric.stretch_n_m, true},
-      Field{"shear_n_m", fabric.shear_n_m, false},        Field{"bend_n_m", fabric.bend_n_m, false},
-      Field{"friction", fabric.friction, false},          Field{"damping_per_s", fabric.damping_per_s, false},
-      Field{"max_stretch", fabric.max_stretch, false}};
+  const std::array fields = {Field{"density_kg_m2", fabric.density_kg_m2, true},
+                             Field{"stretch_n_m", fabric.stretch_n_m, true},
+                             Field{"shear_n_m", fabric.shear_n_m, false},
+                             Field{"bend_n_m", fabric.bend_n_m, false},
+                             Field{"friction", fabric.friction, false},
+                             Field{"damping_per_s", fabric.damping_per_s, false},
+                             Field{"max_stretch", fabric.max_stretch, false},
+                             Field{"bend_friction_n", fabric.bend_friction_n, false}};
   for (const Field& field : fields) {
     if (std::isfinite(field.value) && (field.positive ? field.value > 0.0 : field.value >= 0.0)) continue;
     return engine::Error{

@@ -81,7 +81,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.particles = make_particles(mesh, fabric.density_kg_m2, pinned_particles(s.pins, mesh.positions.size()));
   const Topology topology = find_topology(mesh);
   s.stretch = make_stretch(mesh, topology, fabric, s.particles);
-  s.bend = make_bend(mesh, topology, fabric.bend_n_m, s.particles);
+  s.bend = make_bend(mesh, topology, fabric, s.particles);
   s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
   s.air = make_air(mesh);
   s.self = make_self_contact(s.particles, kSelfRadius * welded->median_edge_m);

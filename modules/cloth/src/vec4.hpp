@@ -49,6 +49,10 @@ inline Float4 max(Float4 a, Float4 b) {
   return a > b ? a : b;
 }
 
+inline Float4 min(Float4 a, Float4 b) {
+  return a < b ? a : b;
+}
+
 /// A bit a lane that is true.
 inline unsigned lanes(Int4 truth) {
 #if defined(__SSE2__)

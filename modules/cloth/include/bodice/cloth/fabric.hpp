@@ -18,6 +18,8 @@ struct Fabric {
   double friction = 0.4;
   double damping_per_s = 0.5;
   double max_stretch = 0.05;  ///< strain limit
+  /// Moment a metre of fold, in newtons, that the yarns' friction holds against bending and unbending.
+  double bend_friction_n = 0.0;
 };
 
 /// The preset of this name; kNotFound lists the names there are.
