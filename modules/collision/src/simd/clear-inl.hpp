@@ -1,6 +1,6 @@
-// Whether places that were put clear of one or two ellipsoids are clear of all others. Since the nearest
+// Whether places that were put clear of one to three ellipsoids are clear of all others. Since the nearest
 // point on a convex shape stays the same along its normal, and a half-space beyond a tangent plane has no
-// point of it, those one or two need not be measured again; a bound tells most of the others, so that few
+// point of it, those need not be measured again; a bound tells most of the others, so that few
 // feet are left.
 #if defined(BODICE_COLLISION_CLEAR_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_CLEAR_INL_
@@ -41,25 +41,27 @@ HWY_INLINE bool find_below(const Source& source, const Extent* boxes, int blocks
 /// Places and what they were put clear of: indices of ellipsoids, or below zero.
 struct Placed {
   const QueryBatch& batch;
-  const std::int32_t *first, *second;
+  const std::int32_t *first, *second, *third;
 };
 
 HWY_INLINE void bound_others(const Baked& baked, const Columns& columns, const Near& near,
                              const Placed& placed, int from, Lowest<1> (&out)[kTogether]) {
   V3 p[kTogether];
-  VI first[kTogether], second[kTogether];
+  VI first[kTogether], second[kTogether], third[kTogether];
   for (int v = 0; v < kTogether; ++v) {
     const int i = from + v * kWidth;
     p[v] = load3(placed.batch.x + i, placed.batch.y + i, placed.batch.z + i);
     first[v] = hn::Load(I(), placed.first + i);
     second[v] = hn::Load(I(), placed.second + i);
+    third[v] = hn::Load(I(), placed.third + i);
     out[v].clear();
   }
   for (int r = 0; r < near.count; ++r) {
     const std::size_t k = columns.ellipsoid(near.index[r]);
     const VI rank = hn::Set(I(), near.index[r]), which = hn::Set(I(), static_cast<std::int32_t>(k));
     for (int v = 0; v < kTogether; ++v) {
-      const auto own = hn::Or(hn::Eq(first[v], which), hn::Eq(second[v], which));
+      const auto own =
+          hn::Or(hn::Eq(first[v], which), hn::Or(hn::Eq(second[v], which), hn::Eq(third[v], which)));
       const V bound = lower_bound(baked.bounds[k], p[v]);
       out[v].add(hn::IfThenElse(hn::RebindMask(f, own), all(1e29f), bound), rank);
     }

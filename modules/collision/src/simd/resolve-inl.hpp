@@ -1,6 +1,6 @@
 // The nearest response for a batch: a query where the particles are, a push of those below the clearance, and
-// queries where they have come to until all are clear. What two half-spaces, or a few steps of Newton, do not
-// settle goes to the exact side.
+// queries where they have come to until all are clear. What three half-spaces, or a few steps of Newton, do
+// not settle goes to the exact side.
 #if defined(BODICE_COLLISION_RESOLVE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_RESOLVE_INL_
 #undef BODICE_COLLISION_RESOLVE_INL_
@@ -18,10 +18,33 @@ constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
 // A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
 
+/// A plane of the contact at x, which is there only if x lies on it.
+HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, const float* offset, int i,
+                          const std::int32_t* of, V3 x, float within_m, M& there) {
+  const Plane plane = {load3(nx + i, ny + i, nz + i), hn::Load(f, offset + i)};
+  const M in_force = hn::RebindMask(f, hn::Gt(hn::Load(I(), of + i), hn::Set(I(), -1)));
+  there = hn::And(in_force, hn::Ge(plane.missing(x), all(-within_m)));
+  return {plane.n, hn::Zero(f)};
+}
+
+/// The nearest velocity into none of the contact's planes at x; those of a bent surface have but one.
+HWY_INLINE V3 along_contact(const Way& way, int i, V3 x, float slack_m, V3 v) {
+  M two, three;
+  const float within_m = 4.0f * slack_m;
+  const Plane first = {load3(way.n1x + i, way.n1y + i, way.n1z + i), hn::Zero(f)};
+  const Plane second = touching(way.n2x, way.n2y, way.n2z, way.offset2, i, way.of2, x, within_m, two);
+  const Plane third = touching(way.n3x, way.n3y, way.n3z, way.offset3, i, way.of3, x, within_m, three);
+  const V3 of_two = project({first.n, second.n, first.offset, second.offset, two}, v);
+  if (hn::AllFalse(f, three)) return of_two;
+  const V zero = hn::Zero(f);
+  const V3 of_other = project({first.n, third.n, first.offset, third.offset, three}, v);
+  const V3 of_three =
+      select(hn::Le(third.missing(of_two), zero), of_two, project(first, second, third, v, zero));
+  return select(three, select(two, of_three, of_other), of_two);
+}
+
 /// Inward velocity removed, the rest slowed by Coulomb friction, restitution 0.
-HWY_INLINE V3 corrected_velocity(Pair contact, float friction, V3 v) {
-  contact.offset1 = contact.offset2 = hn::Zero(f);
-  const V3 along_surface = project(contact, v);
+HWY_INLINE V3 corrected_velocity(V3 along_surface, float friction, V3 v) {
   const V3 change = along_surface - v;
   const V impulse2 = dot(change, change), speed2 = dot(along_surface, along_surface);
   const V ratio = hn::Sqrt(hn::Div(impulse2, hn::Max(speed2, all(1e-30f))));
@@ -145,10 +168,9 @@ HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way
     const V3 v = load3(batch.vx + i, batch.vy + i, batch.vz + i);
     V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
     if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
-    const Pair planes = {load3(way.n1x + i, way.n1y + i, way.n1z + i),
-                         load3(way.n2x + i, way.n2y + i, way.n2z + i), hn::Zero(f), hn::Zero(f),
-                         hn::Gt(hn::Load(f, way.two + i), hn::Zero(f))};
-    const V3 slowed = corrected_velocity(planes, clearance.friction, v - body) + body;
+    const V3 relative = v - body;
+    const V3 along_surface = along_contact(way, i, position, clearance.slack_m, relative);
+    const V3 slowed = corrected_velocity(along_surface, clearance.friction, relative) + body;
     store3(select(contact, slowed, v), batch.vx + i, batch.vy + i, batch.vz + i);
   }
   hn::Store(depth, f, out.depth + i);
@@ -164,7 +186,7 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
   if (!measure(surface, query, found)) return false;
   Way way;
   Pushed pushed;
-  way.clear_second();
+  way.clear_others();
   for (int i = 0; i < batch.count; i += kWidth)
     push_first(surface, batch, short_path_m, found, i, way, pushed, out);
   if (out.contact.none()) return true;

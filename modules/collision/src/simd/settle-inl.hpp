@@ -15,7 +15,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kPlainRounds = 4;
+constexpr int kPlainRounds = 6;
+constexpr float kLeastVolume = 1e-3f;  // of three unit normals: less, and their planes meet far away
 constexpr int kReliefRounds = 6;
 constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
 constexpr float kFoot = static_cast<float>(kFootError);
@@ -44,29 +45,60 @@ HWY_INLINE V3 project(const Pair& h, V3 p) {
   return along(along(p, push1, h.n1), push2, h.n2);
 }
 
+/// The half-space { x : n . x >= offset }.
+struct Plane {
+  V3 n;
+  V offset;
+
+  HWY_INLINE V missing(V3 x) const { return hn::Sub(offset, dot(n, x)); }
+};
+
+HWY_INLINE V3 cross(V3 a, V3 b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+
+/// The nearest point to p of three half-spaces, of which the first two do not do: that of the third and one
+/// of them if it is in the other, or else where all planes meet.
+HWY_INLINE V3 project(const Plane& a, const Plane& b, const Plane& c, V3 p, V slack) {
+  const M all_lanes = hn::FirstN(f, kWidth);
+  const V3 ac = project({a.n, c.n, a.offset, c.offset, all_lanes}, p);
+  const V3 bc = project({b.n, c.n, b.offset, c.offset, all_lanes}, p);
+  const V3 bxc = cross(b.n, c.n), cxa = cross(c.n, a.n), axb = cross(a.n, b.n);
+  const V volume = dot(a.n, bxc);
+  const M flat = hn::Lt(hn::Abs(volume), all(kLeastVolume));
+  const V inverse = hn::Div(all(1.0f), hn::IfThenElse(flat, all(kLeastVolume), volume));
+  const V3 sum = along(along(scaled(bxc, a.missing(p)), b.missing(p), cxa), c.missing(p), axb);
+  const V3 corner = along(p, inverse, sum);
+  return select(hn::Le(b.missing(ac), slack), ac, select(hn::Le(a.missing(bc), slack), bc, corner));
+}
+
 /// A batch on its way out, an array a number, by lane.
 struct alignas(64) Way {
   float distance[kBatch];      ///< where it began, metres
   std::int32_t owner[kBatch];  ///< there; internal index, -1: nothing is near
   /// Plain ellipsoids that it has been put clear of; -1: none, or not for certain.
-  std::int32_t clear1[kBatch], clear2[kBatch];
+  std::int32_t clear1[kBatch], clear2[kBatch], clear3[kBatch];
   float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
   float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< contact planes
   float n2x[kBatch], n2y[kBatch], n2z[kBatch];
-  float offset1[kBatch], offset2[kBatch], two[kBatch];  ///< two: 1 if the second is in force
-  LaneBits open;                                        ///< not settled
+  float n3x[kBatch], n3y[kBatch], n3z[kBatch];
+  float offset1[kBatch], offset2[kBatch], offset3[kBatch];
+  std::int32_t of2[kBatch], of3[kBatch];  ///< whose planes the second and third are; -1: not in force
+  LaneBits open;                          ///< not settled
   std::uint32_t rounds = 0;
 
-  HWY_INLINE void clear_second() {
-    for (float* values : {n2x, n2y, n2z, offset2, two}) std::memset(values, 0, sizeof(two));
-    std::memset(clear2, 0xFF, sizeof(clear2));
+  HWY_INLINE void clear_others() {
+    for (float* values : {n2x, n2y, n2z, offset2, n3x, n3y, n3z, offset3})
+      std::memset(values, 0, sizeof(offset2));
+    for (std::int32_t* values : {clear2, clear3, of2, of3}) std::memset(values, 0xFF, sizeof(of2));
   }
 };
 
 /// The lanes that were pushed in a round, closed up.
 struct alignas(64) Pushed {
   float x[kBatch], y[kBatch], z[kBatch];
-  std::int32_t clear1[kBatch], clear2[kBatch];
+  std::int32_t clear1[kBatch], clear2[kBatch], clear3[kBatch];
   std::int32_t lane[kBatch + 16];
   int count = 0;
 
@@ -84,6 +116,7 @@ struct alignas(64) Pushed {
       z[i] = way.z[from];
       clear1[i] = way.clear1[from];
       clear2[i] = way.clear2[from];
+      clear3[i] = way.clear3[from];
     }
   }
 };
@@ -180,13 +213,47 @@ HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out)
 HWY_INLINE bool measure_again(const Surface& surface, const Pushed& pushed, Batched& out) {
   QueryBatch batch = places(pushed.x, pushed.y, pushed.z, pushed.count);
   if (surface.bent()) return measure(surface, batch, out);
-  const Placed placed{batch, pushed.clear1, pushed.clear2};
+  const Placed placed{batch, pushed.clear1, pushed.clear2, pushed.clear3};
   return nearest_others(surface.baked, placed, surface.clearance.distance_m, surface.scratch, out);
 }
 
 /// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
 HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
   return along(x, hn::Div(hn::Sub(target, distance), hn::Max(slope, all(0.5f))), normal);
+}
+
+/// A plane of the lanes `which`, whose indices are `lane` (`at`: the same, zero where there is none), and the
+/// nearest place beyond it and those before; of these the first and the latest stay in force.
+HWY_INLINE void add_plane(const Surface& surface, M which, VI lane, VI at, const Plane& newest, VI whose,
+                          const Gathering& batch, Way& way) {
+  const V slack = all(surface.clearance.slack_m);
+  const VI none = hn::Set(I(), -1);
+  const VI of2 = hn::GatherIndex(I(), way.of2, at), of3 = hn::GatherIndex(I(), way.of3, at);
+  const M two = hn::RebindMask(f, hn::Gt(of2, none)), three = hn::RebindMask(f, hn::Gt(of3, none));
+  const Plane first = {gather3(way.n1x, way.n1y, way.n1z, at), hn::GatherIndex(f, way.offset1, at)};
+  const Plane latest = {
+      select(three, gather3(way.n3x, way.n3y, way.n3z, at), gather3(way.n2x, way.n2y, way.n2z, at)),
+      hn::IfThenElse(three, hn::GatherIndex(f, way.offset3, at), hn::GatherIndex(f, way.offset2, at))};
+  const VI of_latest = hn::IfThenElse(hn::RebindMask(I(), three), of3, of2);
+  const V3 p = gather3(batch.x, batch.y, batch.z, at);
+  const V3 of_two = project({first.n, newest.n, first.offset, newest.offset, hn::FirstN(f, kWidth)}, p);
+  const V3 next = select(two, project(first, latest, newest, p, slack), of_two);
+  scatter3(which, lane, next, way.x, way.y, way.z);
+  const M third = hn::And(two, which);
+  scatter3(which, lane, select(two, latest.n, newest.n), way.n2x, way.n2y, way.n2z);
+  scatter(which, lane, hn::IfThenElse(two, latest.offset, newest.offset), way.offset2);
+  scatter(which, lane, hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose), way.of2);
+  scatter3(third, lane, newest.n, way.n3x, way.n3y, way.n3z);
+  scatter(third, lane, newest.offset, way.offset3);
+  scatter(third, lane, whose, way.of3);
+  // Planes that are nearly parallel meet far away, if at all: there all are measured again.
+  const V behind = hn::Max(hn::Max(first.missing(next), newest.missing(next)),
+                           hn::IfThenElse(two, latest.missing(next), all(-1e30f)));
+  const auto certain = hn::RebindMask(I(), hn::Le(behind, slack));
+  scatter(which, lane, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
+  scatter(which, lane, hn::IfThenElse(certain, whose, none), way.clear2);
+  scatter(which, lane, hn::IfThenElse(hn::And(certain, hn::RebindMask(I(), two)), of_latest, none),
+          way.clear3);
 }
 
 /// What the last query found about some pushed lanes, and another push for those it left below.
@@ -207,24 +274,11 @@ HWY_INLINE M push_again(const Surface& surface, const Gathering& batch, const Ba
     return below;
   }
   if (hn::AllFalse(f, below)) return below;
-  // The newest violation takes the second place: rounds refine the pair of a crease.
   const VI at = hn::IfThenElseZero(hn::RebindMask(I(), valid), lane);
   const VI name = hn::IfThenElseZero(hn::RebindMask(I(), below), hn::Load(I(), found.name + i));
   const VI newest = hn::GatherIndex(I(), surface.baked.internal.data(), name);
   const V offset = hn::Add(dot(normal, x), hn::Sub(plain_target(surface, newest), distance));
-  const Pair pair = {gather3(way.n1x, way.n1y, way.n1z, at), normal, hn::GatherIndex(f, way.offset1, at),
-                     offset, hn::FirstN(f, kWidth)};
-  const V3 next = project(pair, gather3(batch.x, batch.y, batch.z, at));
-  scatter3(below, lane, next, way.x, way.y, way.z);
-  scatter3(below, lane, normal, way.n2x, way.n2y, way.n2z);
-  scatter(below, lane, offset, way.offset2);
-  scatter(below, lane, all(1.0f), way.two);
-  // Planes that are nearly parallel meet far away, if at all: there both are measured again.
-  const V behind = hn::Max(hn::Sub(pair.offset1, dot(pair.n1, next)), hn::Sub(offset, dot(normal, next)));
-  const auto certain = hn::RebindMask(I(), hn::Le(behind, all(surface.clearance.slack_m)));
-  const VI none = hn::Set(I(), -1);
-  scatter(below, lane, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
-  scatter(below, lane, hn::IfThenElse(certain, newest, none), way.clear2);
+  add_plane(surface, below, lane, at, {normal, offset}, newest, batch, way);
   return below;
 }
 
