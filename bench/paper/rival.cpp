@@ -57,7 +57,6 @@ class Rival {
   std::size_t count() const { return state_.ellipsoids.size(); }
   RivalFit finish() {
     fit_.ellipsoids = state_.ellipsoids;
-    fit_.error_m = state_.error_m;
     return fit_;
   }
 

@@ -15,8 +15,7 @@ namespace paper_bench {
 
 struct RivalFit {
   std::vector<bodice::geometry::Ellipsoid> ellipsoids;
-  std::vector<double> error_m;  ///< E_j of each
-  int backtracks = 0;           ///< splits tried and taken back
+  int backtracks = 0;  ///< splits tried and taken back
 };
 
 /// K-means over the whole skin, from one cluster: splits the worst ellipsoid along its longest axis, lets

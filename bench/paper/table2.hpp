@@ -17,7 +17,7 @@ namespace paper_bench {
 struct MethodResult {
   std::string method;
   std::size_t ellipsoids = 0;
-  double segment_ms = 0.0, fit_ms = 0.0;  ///< processor time, least of the repeats
+  double segment_ms = 0.0, fit_ms = 0.0;  ///< processor time; of ours the least of the repeats
   int backtracks = 0;                     ///< of the stand-in
   Approximation approximation;
 };
