@@ -40,15 +40,16 @@ class Rival {
     std::ranges::stable_sort(order, std::greater{}, [&](std::size_t k) { return state_.error_m[k]; });
     State best;
     int tried = 0;
-    for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), static_cast<std::size_t>(most_tries));
-         ++i) {
-      State next = cluster(split_centers(order[i]));
+    for (const std::size_t k : order) {
+      if (tried == most_tries) break;
+      State next = cluster(split_centers(k));
+      if (next.centers.size() <= state_.centers.size()) continue;  // a cluster lost all its points
       const bool better = next.worst_m < state_.worst_m;
-      if (i == 0 || next.worst_m < best.worst_m) best = std::move(next);
+      if (tried == 0 || next.worst_m < best.worst_m) best = std::move(next);
       ++tried;
       if (better) break;
     }
-    if (best.centers.size() <= state_.centers.size()) return false;
+    if (tried == 0) return false;
     state_ = std::move(best);
     fit_.backtracks += tried - 1;
     return true;
