@@ -24,6 +24,16 @@ void correct_velocity(const Halfspaces& contact, double friction, Vec3& velocity
       speed > friction * impulse ? Vec3(along * (1.0 - friction * impulse / speed)) : Vec3(Vec3::Zero());
 }
 
+/// The place as it is stored. Through memory, since g++ 12 vectorises a pair of casts to float and back into
+/// none.
+Vec3 stored(const Vec3& x) {
+  const auto rounded = [](double v) {
+    const volatile float kept = static_cast<float>(v);
+    return double{kept};
+  };
+  return {rounded(x.x()), rounded(x.y()), rounded(x.z())};
+}
+
 Halfspaces single(const Vec3& normal) {
   Halfspaces result;
   result.add({normal, 0.0});
@@ -92,7 +102,7 @@ class Resolver {
     return true;
   }
 
-  double stored_distance(const Vec3& x) { return near_.at(x.cast<float>().cast<double>()).distance_m; }
+  double stored_distance(const Vec3& x) { return near_.at(stored(x)).distance_m; }
   bool outside(const Vec3& x) { return stored_distance(x) >= surface_m_ - certificate_m_; }
   bool long_path() const { return (p_ - particle_.safe).norm() > kLongPath * near_.shortest_radius_m(); }
 
