@@ -45,7 +45,7 @@ fs::path labels_of(const fs::path& data, const fs::path& mesh) {
   return {};
 }
 
-/// The truth of the body that a file was made from: only where the file keeps its place and unit.
+/// The truth of the body that a file was made from, if it is known.
 fs::path truth_of(const fs::path& data, const fs::path& mesh) {
   const std::string stem = mesh.stem().string();
   if (mesh.parent_path().filename() == "bodies") return data / "bodies" / (stem + ".json");
@@ -53,10 +53,24 @@ fs::path truth_of(const fs::path& data, const fs::path& mesh) {
   for (const auto& entry : fs::directory_iterator(data / "bodies"))
     if (entry.path().extension() == ".json" && stem.find(entry.path().stem().string()) != std::string::npos)
       best = entry.path();
-  if (best.empty() && stem.starts_with("f_avg_") && mesh.parent_path().filename() == "awkward" &&
-      stem.find("far") == std::string::npos && stem.find("zup") == std::string::npos)
-    best = data / "bodies" / "f_avg_rest.json";
-  return best;
+  if (!best.empty() || mesh.parent_path().filename() != "awkward") return best;
+  if (stem.starts_with("f_avg_")) return data / "bodies" / "f_avg_rest.json";
+  return stem.starts_with("m_avg_") ? data / "bodies" / "m_avg_rest.json" : fs::path();
+}
+
+/// What some files did to the place and unit of their body: the data's README tells.
+struct Damage {
+  double scale = 1.0;
+  bool z_up = false;
+  Vec3 shift = Vec3::Zero();
+  Vec3 operator()(const Vec3& p) const { return scale * (z_up ? Vec3(p.x(), -p.z(), p.y()) : p) + shift; }
+};
+
+Damage damage_of(const std::string& stem) {
+  if (stem == "f_avg_zup_cm") return {100.0, true, Vec3::Zero()};
+  if (stem == "f_avg_far_origin") return {1.0, false, Vec3(1000.0, 50.0, -2000.0)};
+  if (stem == "m_avg_as_exported_dm") return {10.0, false, Vec3::Zero()};
+  return {};
 }
 
 Vec3 point(const json& j) {
@@ -86,6 +100,7 @@ bool stands_at_rest(const std::string& stem) {
 Case load(const fs::path& data, const fs::path& file, const std::vector<int>& coarse) {
   Case c{file.parent_path().filename().string() + "/" + file.filename().string(), {}, {}, {}, 0.0, false};
   c.rest = stands_at_rest(file.stem().string());
+  c.kind = file.parent_path().filename().string();
   const auto repaired = bodice::geometry::repair({}, read_mesh(file));
   if (!repaired) return c;
   c.mesh = repaired->mesh;
@@ -97,7 +112,12 @@ Case load(const fs::path& data, const fs::path& file, const std::vector<int>& co
       if (repaired->vertex_of_input[i] != kNoIndex) c.truth[repaired->vertex_of_input[i]] = coarse[fine[i]];
   }
   const fs::path truth = truth_of(data, file);
-  if (!truth.empty()) read_truth(truth, c);
+  if (!truth.empty()) {
+    read_truth(truth, c);
+    const Damage damage = damage_of(file.stem().string());
+    for (auto& [name, p] : c.landmarks) p = damage(p);
+    c.stature *= damage.scale;
+  }
   return c;
 }
 

@@ -20,6 +20,7 @@ struct Case {
   std::map<std::string, bodice::geometry::Vec3> landmarks;  ///< LandmarkId names; empty if unknown
   double stature = 0.0;                                     ///< in the mesh's unit, 0 if unknown
   bool rest = false;                                        ///< stands as bodies are made: A or T pose
+  std::string kind = {};                                    ///< the row of the report's table
 };
 
 /// Every body of the data folder that has labels. Sorted by name.

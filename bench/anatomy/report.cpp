@@ -1,6 +1,7 @@
 #include "report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <numeric>
 
@@ -33,11 +34,71 @@ void print_errors(const char* pose, double bar, std::vector<double> errors) {
               100.0 * bar, over, errors.size());
 }
 
+/// Of a share; a dash where the truth is not known.
+std::string percent(double share) {
+  if (share < 0.0) return "-";
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%.2f", 100.0 * share);
+  return text.data();
+}
+
+struct Bin {
+  double from, to;
+};
+constexpr Bin kBins[] = {{0.0, 0.25}, {0.25, 0.5}, {0.5, 0.7}, {0.7, 0.8}, {0.8, 0.9}, {0.9, 1.001}};
+
 }  // namespace
+
+void Report::claim(const Case& c, const Score& s, const bodice::anatomy::Anatomy& a) {
+  const double bar = c.rest ? kRestBar : kPosedBar;
+  ++kinds_[c.kind];
+  std::map<std::string, bool> over;
+  for (const auto& mark : a.landmarks) {
+    const auto error = s.error.find(std::string(bodice::body::name(mark.id)));
+    if (error == s.error.end()) continue;
+    claims_.push_back({mark.confidence, error->second / bar});
+    if (error->second > bar) over[without_side(error->first)] = true;
+  }
+  for (const auto& [name, yes] : over) misses_[c.kind][name] += yes;
+}
+
+void Report::print_claims() const {
+  std::printf("what a confidence is worth (all landmarks):\n%12s %8s %10s %10s\n", "confidence", "count",
+              "mean/bar", "over bar %");
+  for (const Bin& bin : kBins) {
+    double sum = 0.0;
+    std::size_t count = 0, over = 0;
+    for (const Claim& claim : claims_) {
+      if (!(claim.confidence >= bin.from && claim.confidence < bin.to)) continue;
+      ++count;
+      sum += claim.error_of_bar;
+      over += claim.error_of_bar > 1.0;
+    }
+    if (count == 0) continue;
+    const auto n = static_cast<double>(count);
+    std::printf("  %.2f - %.2f %7zu %10.2f %10.1f\n", bin.from, std::min(bin.to, 1.0), count, sum / n,
+                100.0 * static_cast<double>(over) / n);
+  }
+}
+
+void Report::print_kinds() const {
+  std::printf("bodies over a bar, by kind and landmark:\n%-14s %6s", "", "bodies");
+  for (const auto& [landmark, e] : errors_) std::printf(" %9s", landmark.c_str());
+  std::printf("\n");
+  for (const auto& [kind, count] : kinds_) {
+    std::printf("%-14s %6d", kind.c_str(), count);
+    const auto row = misses_.find(kind);
+    for (const auto& [landmark, e] : errors_) {
+      const bool any = row != misses_.end() && row->second.contains(landmark);
+      std::printf(" %9d", any ? row->second.at(landmark) : 0);
+    }
+    std::printf("\n");
+  }
+}
 
 void Report::header() const {
   std::printf("%-42s %7s %7s %6s %6s %-12s %6s %7s\n", "body", "V", "agree%", "swap%", "worst%", "landmark",
-              "height", "ms");
+              "height%", "ms");
 }
 
 void Report::add(const Case& c, const bodice::anatomy::Anatomy& a) {
@@ -52,12 +113,13 @@ void Report::add(const Case& c, const bodice::anatomy::Anatomy& a) {
     Errors& e = errors_[without_side(name)];
     (c.rest ? e.rest : e.posed).push_back(error);
   }
+  claim(c, s, a);
   if (!every_row_ && !missed) return;
   double ms = 0.0;
   for (const auto& stage : a.stages) ms += stage.ms;
-  std::printf("%-42s %7zu %7.2f %6.2f %6.2f %-12s %6.3f %7.2f", c.name.c_str(), c.mesh.positions.size(),
-              100.0 * s.agreement, 100.0 * s.swapped, 100.0 * s.worst_landmark, s.worst_name.c_str(),
-              s.stature_ratio, ms);
+  std::printf("%-42s %7zu %7s %6.2f %6s %-12s %6s %7.2f", c.name.c_str(), c.mesh.positions.size(),
+              percent(s.agreement).c_str(), 100.0 * s.swapped, percent(s.worst_landmark).c_str(),
+              s.worst_name.c_str(), percent(s.stature_ratio).c_str(), ms);
   for (const auto& w : a.warnings) std::printf(" %s(%s)", w.code.c_str(), w.part.c_str());
   std::printf("\n");
   if (!every_landmark_) return;
@@ -88,6 +150,8 @@ void Report::summary() const {
     print_errors("posed", kPosedBar, e.posed);
     std::printf("\n");
   }
+  print_kinds();
+  print_claims();
 }
 
 }  // namespace bench

@@ -26,10 +26,20 @@ class Report {
   struct Errors {
     std::vector<double> rest, posed;  ///< of the stature
   };
+  /// What a confidence was worth: the error of the landmark that had it, in units of its bar.
+  struct Claim {
+    double confidence, error_of_bar;
+  };
+  void claim(const Case& c, const Score& s, const bodice::anatomy::Anatomy& a);
+  void print_claims() const;
+  void print_kinds() const;
   bool every_row_, every_landmark_;
   std::vector<double> agreement_;
   double worst_swap_ = 0.0;
   std::map<std::string, Errors> errors_;  ///< by landmark, left and right together
+  std::vector<Claim> claims_;
+  std::map<std::string, std::map<std::string, int>> misses_;  ///< by kind of body, by landmark
+  std::map<std::string, int> kinds_;
   int bodies_ = 0, refused_ = 0, missed_ = 0, missed_silently_ = 0;
 };
 

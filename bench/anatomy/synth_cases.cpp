@@ -41,6 +41,15 @@ bodice::synth::BodyOptions options_of(std::uint64_t seed) {
   return o;
 }
 
+std::string kind_of(const bodice::synth::BodyOptions& o) {
+  constexpr const char* poses[] = {"A",     "T",   "arms down", "arms up", "stride",    "sit",
+                                   "squat", "run", "kick",      "lying",   "handstand", "random"};
+  if (o.childhood > 0.0) return "child";
+  if (o.pregnant) return "pregnant";
+  if (o.mass_kg > 35.0 * o.stature_m * o.stature_m) return "very heavy";
+  return poses[static_cast<int>(o.pose)];
+}
+
 /// Any turn, place and unit: none of them may matter.
 void move_anywhere(std::uint64_t seed, Case& c) {
   bodice::engine::Random random(seed, 1);
@@ -66,6 +75,7 @@ Case synth_case(std::uint64_t seed) {
             (options.childhood > 0.0 ? " child"
              : options.pregnant      ? " pregnant"
                                      : "");
+  c.kind = kind_of(options);
   c.rest = options.pose == bodice::synth::Pose::kA || options.pose == bodice::synth::Pose::kT;
   c.mesh = body->mesh;
   for (const Part part : body->part) c.truth.push_back(coarse_of(part));

@@ -1,8 +1,7 @@
-// What a better distance costs: time of one field by method and queue on a made body of 13,000 vertices, its
-// error against exact polyhedral distances, and time and growth of the whole analysis.
+// What a better distance costs: time of one field by method and queue on a made body of 13,000 vertices, and
+// its error against exact polyhedral distances. What the whole analysis takes: bench/anatomy --cost.
 // Bars: edges 4 % mean error, unfolded 1.7 % for 0.7 to 1.3 of the time, fast marching .56 % for 4.8; the
-// bucket queue .37 of a heap's time; the analysis 15 ms for 8,850 vertices on two cores, per_n_log2_n no
-// larger at 800,000. Run it on a quiet machine; ratios within one run are what counts.
+// bucket queue .37 of a heap's time. Run it on a quiet machine; ratios within one run are what counts.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -10,7 +9,6 @@
 
 #include <benchmark/benchmark.h>
 
-#include <bodice/anatomy/anatomy.hpp>
 #include <bodice/geodesic/distance_solver.hpp>
 #include <bodice/synth/body.hpp>
 
@@ -97,19 +95,6 @@ void exact(benchmark::State& state) {
   for (auto _ : state) state.SetIterationTime(1e-3 * yardstick().exact_ms);
 }
 
-/// Geodesics, landmarks and segmentation together.
-void analysis(benchmark::State& state) {
-  const auto mesh = body_mesh(static_cast<int>(state.range(0)));
-  const auto executor = engine::make_tbb_executor(static_cast<int>(state.range(1)));
-  engine::Context context;
-  context.executor = executor.get();
-  for (auto _ : state) benchmark::DoNotOptimize(anatomy::analyse(context, mesh, {}).ok());
-  const auto n = static_cast<double>(mesh.positions.size());
-  state.counters["vertices"] = n;
-  state.counters["per_n_log2_n"] = benchmark::Counter(
-      n * std::log2(n), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
-
 }  // namespace
 
 BENCHMARK_CAPTURE(method, edges, geodesic::Method::kEdges)->Unit(benchmark::kMillisecond);
@@ -120,10 +105,5 @@ BENCHMARK_CAPTURE(binary_heap, edges, Metric::kEdges)->Unit(benchmark::kMillisec
 BENCHMARK_CAPTURE(binary_heap, unfolded, Metric::kUnfolded)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(building, edges, Metric::kEdges)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(building, unfolded, Metric::kUnfolded)->Unit(benchmark::kMillisecond);
-BENCHMARK(analysis)
-    ->ArgsProduct({{8850}, {1, 2}})
-    ->ArgsProduct({{50000, 200000, 800000}, {2}})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
 
 BENCHMARK_MAIN();

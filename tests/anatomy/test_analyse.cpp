@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include <bodice/engine/random.hpp>
 #include <bodice_test/executors.hpp>
 
 #include "made.hpp"
-#include "remesh.hpp"
 
 using namespace bodice;
 using body::LandmarkId;
@@ -17,13 +15,6 @@ namespace {
 engine::Result<anatomy::Anatomy> analyse(const geometry::TriMesh& mesh, const engine::Context& context = {}) {
   return anatomy::analyse(context, mesh, {*body::find_profile("ansur2")});
 }
-
-/// Landmarks whose definition truth and method share; armpit and perineum of made bodies follow another
-/// convention and get a wider bound.
-constexpr std::array kSharp = {LandmarkId::kCrown,  LandmarkId::kFingertipL, LandmarkId::kFingertipR,
-                               LandmarkId::kToeL,   LandmarkId::kToeR,       LandmarkId::kElbowL,
-                               LandmarkId::kElbowR, LandmarkId::kKneeL,      LandmarkId::kKneeR,
-                               LandmarkId::kNeck};
 
 /// Worst distance between the landmarks of two answers, after `back` undoes what was done to the second mesh.
 template <class Back>
@@ -38,6 +29,7 @@ double worst_move(const anatomy::Anatomy& a, const anatomy::Anatomy& b, Back bac
 
 TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swapped, landmarks are near") {
   double sum = 0.0;
+  int far = 0;
   constexpr int kSeeds = 50;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     CAPTURE(seed);
@@ -48,13 +40,61 @@ TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swa
     sum += agreement;
     CHECK(agreement > 0.90);
     CHECK(made::swapped(truth, found->part) < 0.01);
-    for (const LandmarkId id : kSharp) {
-      CAPTURE(std::string(body::name(id)));
-      CHECK(made::error(truth, *found, id) < 0.06);
+    for (int i = 0; i < body::kLandmarkCount; ++i) {
+      CAPTURE(std::string(body::kLandmarkNames[i]));
+      const double error = made::error(truth, *found, static_cast<LandmarkId>(i));
+      const bool armpit =
+          i == static_cast<int>(LandmarkId::kArmpitL) || i == static_cast<int>(LandmarkId::kArmpitR);
+      CHECK((armpit || error < 0.06));  // armpits of twisted arms are counted below
+      far += error > 0.04;
     }
     CHECK(found->stature_m == doctest::Approx(truth.stature_m).epsilon(0.09));
   }
   CHECK(sum / kSeeds > 0.965);
+  CHECK(far < kSeeds * body::kLandmarkCount / 50);
+}
+
+TEST_CASE("children of all ages, pregnant and very heavy bodies are understood") {
+  const auto check = [](const synth::BodyOptions& options) {
+    const auto truth = synth::make_body({}, options);
+    REQUIRE(truth.ok());
+    const auto found = analyse(truth->mesh);
+    REQUIRE(found.ok());
+    CHECK(made::agreement(*truth, found->part) > 0.93);
+    CHECK(made::swapped(*truth, found->part) < 0.001);
+    for (int i = 0; i < body::kLandmarkCount; ++i) {
+      CAPTURE(std::string(body::kLandmarkNames[i]));
+      CHECK(made::error(*truth, *found, static_cast<LandmarkId>(i)) < 0.05);
+    }
+  };
+  for (const synth::Pose pose : {synth::Pose::kA, synth::Pose::kRun}) {
+    CAPTURE(static_cast<int>(pose));
+    for (const double childhood : {0.3, 0.6, 1.0}) {
+      CAPTURE(childhood);
+      const double stature = 1.55 - 0.69 * childhood;
+      check({.stature_m = stature,
+             .mass_kg = 17.0 * stature * stature,
+             .pose = pose,
+             .vertices = 5000,
+             .seed = 9,
+             .childhood = childhood});
+    }
+    check({.pose = pose, .vertices = 5000, .seed = 4, .pregnant = true});
+    check({.mass_kg = 41.0 * 1.68 * 1.68, .pose = pose, .vertices = 5000, .seed = 2});
+  }
+}
+
+TEST_CASE("every landmark has a confidence that was measured") {
+  const synth::Body truth = made::random_body(6);
+  const auto found = analyse(truth.mesh);
+  REQUIRE(found.ok());
+  for (const body::Landmark& mark : found->landmarks) {
+    CAPTURE(std::string(body::name(mark.id)));
+    CHECK(mark.confidence > 0.0);
+    CHECK(mark.confidence <= 1.0);
+  }
+  CHECK(std::any_of(found->landmarks.begin(), found->landmarks.end(),
+                    [](const body::Landmark& m) { return m.confidence < 0.999; }));
 }
 
 TEST_CASE("left and right hold on bent knees of any build, where ways run over the back of the leg") {
@@ -92,60 +132,6 @@ TEST_CASE("fins that bridge the body change nothing") {
   REQUIRE(found.ok());
   CHECK(found->part == reference->part);
   CHECK(worst_move(*reference, *found, [](const geometry::Vec3& p) { return p; }) < 1e-9);
-}
-
-TEST_CASE("turn, place, scale and the order of vertices do not change the answer") {
-  const synth::Body truth = made::random_body(3);
-  const auto reference = analyse(truth.mesh);
-  REQUIRE(reference.ok());
-  engine::Random random(11);
-  for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
-    CAPTURE(scale);
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized();
-    const geometry::Vec3 shift = 100.0 * scale * geometry::Vec3(1, -2, 3);
-    std::vector<geometry::Index> order(truth.mesh.positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<geometry::Index>(i);
-    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
-    geometry::TriMesh moved = truth.mesh;
-    for (std::size_t v = 0; v < order.size(); ++v)
-      moved.positions[order[v]] = scale * (turn * truth.mesh.positions[v]) + shift;
-    for (auto& t : moved.triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
-    const auto found = analyse(moved);
-    REQUIRE(found.ok());
-    CHECK(found->stature_m / scale == doctest::Approx(reference->stature_m).epsilon(1e-3));
-    CHECK(worst_move(*reference, *found, [&](const geometry::Vec3& p) {
-            return geometry::Vec3(turn.conjugate() * (p - shift) / scale);
-          }) < 0.01);
-    std::size_t differ = 0;
-    for (std::size_t v = 0; v < order.size(); ++v) differ += found->part[order[v]] != reference->part[v];
-    CHECK(differ < order.size() / 200);
-  }
-}
-
-TEST_CASE("finer and coarser meshes of one body give the same landmarks") {
-  synth::BodyOptions options;
-  options.vertices = 12500;
-  const auto body = synth::make_body({}, options);
-  REQUIRE(body.ok());
-  const auto reference = analyse(body->mesh);
-  REQUIRE(reference.ok());
-  const auto same_as_reference = [&](const geometry::TriMesh& mesh) {
-    const auto found = analyse(mesh);
-    REQUIRE(found.ok());
-    for (int i = 0; i < body::kLandmarkCount; ++i) {
-      CAPTURE(std::string(body::kLandmarkNames[i]));
-      CHECK((reference->landmarks[i].position - found->landmarks[i].position).norm() <
-            0.01 * reference->stature_m);
-    }
-    CHECK(found->stature_m == doctest::Approx(reference->stature_m).epsilon(0.01));
-  };
-  const auto fine = remesh::refined(remesh::refined(body->mesh));
-  CHECK(fine.positions.size() > 190000);
-  same_as_reference(fine);
-  const auto coarse = remesh::decimated(body->mesh, 1500);
-  CHECK(coarse.positions.size() <= 1500);
-  same_as_reference(coarse);
 }
 
 TEST_CASE("a forearm welded to the trunk in one vertex is taken apart, and said") {

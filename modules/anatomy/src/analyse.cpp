@@ -27,7 +27,7 @@ Error no_body(const std::string& why) {
 }
 
 Vec3 upwards(const Skin& skin, const Landmarks& marks) {
-  const Vec3 up = marks.neck.center - skin.mesh.positions[marks.perineum];
+  const Vec3 up = marks.neck_place - skin.mesh.positions[marks.perineum];
   const double length = up.norm();
   return length > 0.0 ? Vec3(up / length) : Vec3(Vec3::UnitY());
 }
@@ -36,12 +36,19 @@ Vec3 upwards(const Skin& skin, const Landmarks& marks) {
 /// left.
 void weigh(const SecondWays& second, Landmarks& marks) {
   constexpr double kNothingLeft = 1.5;
-  marks.neck.confidence = agreed(marks.neck.confidence, second.neck, kNothingLeft * kNeckApart);
-  marks.perineum_confidence =
-      agreed(marks.perineum_confidence, second.perineum, kNothingLeft * kPerineumApart);
-  for (int side = 0; side < 2; ++side)
-    marks.armpit_confidence[side] =
-        agreed(marks.armpit_confidence[side], second.armpit[side], kNothingLeft * kArmpitApart);
+  const auto after = [](double& confidence, double apart, double contradiction) {
+    confidence = agreed(confidence, apart, kNothingLeft * contradiction);
+  };
+  after(marks.crown_confidence, second.crown, kCrownApart);
+  after(marks.neck.confidence, second.neck, kNeckApart);
+  after(marks.perineum_confidence, second.perineum, kPerineumApart);
+  for (int side = 0; side < 2; ++side) {
+    after(marks.fingertip_confidence[side], second.fingertip[side], kFingertipApart);
+    after(marks.elbow[side].confidence, second.elbow[side], kElbowApart);
+    after(marks.armpit_confidence[side], second.armpit[side], kArmpitApart);
+    after(marks.knee[side].confidence, second.knee[side], kKneeApart);
+    after(marks.toe_confidence[side], second.toe[side], kToeApart);
+  }
 }
 
 engine::Result<Anatomy> understand(const engine::Context& context, const Skin& skin, const Options& options,

@@ -18,6 +18,8 @@ using geometry::Index;
 constexpr float kSizeToStature = 2.19F;
 /// The perineum is about half way between the feet.
 constexpr float kPerineumFrom = 0.45F, kPerineumTo = 0.58F;
+/// Beyond this distance from the head's end the sign of the neck's border means nothing; of the size.
+constexpr float kHeadReach = 0.48F;
 /// Where the loop around an arm usually widens, from fingertip to fingertip: for arms on which it does not.
 constexpr float kUsualShoulder = 0.425F;
 
@@ -97,6 +99,10 @@ void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& 
                                [&](Index v) { return std::exp(-0.5F * distance2(v)); });
   perineum_ = found.vertex;
   perineum_misfit_ = found.misfit;
+}
+
+bool BodyCoordinates::on_head(std::size_t v) const {
+  return (*ends_.from_head)[v] < kHeadReach * size_ && kNeck(at(v, 0)) > 0.0F;
 }
 
 CoordinateArray BodyCoordinates::at(std::size_t v, int side) const {

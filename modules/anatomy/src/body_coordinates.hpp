@@ -18,6 +18,10 @@ class BodyCoordinates {
   geometry::Index perineum() const { return perineum_; }
   const geometry::Vec3& perineum_place() const { return perineum_place_; }
   float perineum_misfit() const { return perineum_misfit_; }
+  /// Above the border of the neck.
+  bool on_head(std::size_t vertex) const;
+  const geodesic::Field& from_front() const { return from_front_; }
+  const geodesic::Field& from_back() const { return from_back_; }
   const geodesic::Field& from_perineum() const { return from_perineum_; }
   /// False where no closed line runs around the middle, for instance on welded limbs.
   bool midline_found() const { return midline_found_; }

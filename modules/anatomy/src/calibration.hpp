@@ -48,10 +48,10 @@ inline constexpr Border kElbow{
     {0.0F, -1.0F, 0.6874F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, -0.2495F}};
 inline constexpr Border kKnee{
     {0.0F, 0.0F, 0.0F, -1.0F, 0.1758F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.1793F}};
-inline constexpr Border kHip{{0.0F, 0.0F, 0.0F, -1.0F, 0.2604F, 0.1242F, -0.01634F, -0.08913F, -0.3157F, 0.0F,
-                              0.2261F, 0.0F, 0.4227F}};
-inline constexpr Border kWaist{{0.0F, -0.4515F, -0.4515F, 0.6917F, 0.6917F, -0.5644F, 0.2917F, 1.0F, 0.0F,
-                                0.0F, -0.6587F, 0.0F, 0.08828F}};
+inline constexpr Border kHip{
+    {0.0F, 0.0F, 0.0F, -1.0F, 0.2F, 0.1173F, 0.009827F, -0.05993F, -0.3402F, 0.0F, 0.2379F, 0.0F, 0.4598F}};
+inline constexpr Border kWaist{{0.0F, -0.1565F, -0.1565F, 0.7137F, 0.7137F, -0.7648F, 0.06402F, 1.0F, 0.0F,
+                                0.0F, -0.7954F, 0.0F, -0.06286F}};
 
 /// A place is the vertex whose features lie nearest to the mean, by the spread among bodies.
 template <int N>
@@ -73,24 +73,24 @@ struct Signature {
 /// Both feet (of twice the way to where the legs merge), feet difference, hands difference (zero at the
 /// crown), front, back, how far behind the merge of the legs.
 inline constexpr Signature<6> kPerineum{
-    {1.009F, 0.0F, 0.0F, 0.3424F, 0.3823F, -0.008556F},
-    {132.2F, 0.0F, 0.0F,   -4.952F, 1.839F, 47.75F,   0.0F, 63.53F, -1.72F, 0.0F,   0.0F,    0.0F,
-     0.0F,   0.0F, 25.32F, 0.0F,    0.0F,   0.0F,     0.0F, 0.0F,   0.0F,   29.54F, -10.94F, 1.821F,
-     0.0F,   0.0F, 0.0F,   0.0F,    18.58F, 0.07727F, 0.0F, 0.0F,   0.0F,   0.0F,   0.0F,    61.91F}};
+    {1.01F, 0.0F, 0.0F, 0.3428F, 0.3916F, -0.01272F},
+    {121.6F, 0.0F, 0.0F,   -1.755F, 1.474F, 38.92F,  0.0F, 60.27F, -0.6865F, 0.0F,   0.0F,    0.0F,
+     0.0F,   0.0F, 14.45F, 0.0F,    0.0F,   0.0F,    0.0F, 0.0F,   0.0F,     32.39F, -14.42F, 20.35F,
+     0.0F,   0.0F, 0.0F,   0.0F,    18.09F, -5.265F, 0.0F, 0.0F,   0.0F,     0.0F,   0.0F,    66.73F}};
 
 /// Own hand, other hand, own foot, front, back, perineum, past the shoulder level; front minus back and front
 /// plus back of half the chest's girth; detour between hand and foot.
 inline constexpr Signature<10> kArmpit{
-    {0.4205F, 0.641F, 0.7325F, 0.1784F, 0.1324F, 0.5866F, 0.0F, 0.1846F, 1.634F, 1.023F},
-    {87.74F, -16.38F, 3.961F, 36.91F,  0.9461F, -5.423F, -84.11F, -2.365F,  -0.9948F, 9.132F,
-     0.0F,   58.11F,  5.644F, -1.288F, -48.94F, -5.203F, -14.5F,  -0.9339F, 0.6058F,  -16.94F,
-     0.0F,   0.0F,    29.92F, -12.85F, 11.09F,  -3.987F, -3.938F, 0.01677F, -0.1996F, 21.31F,
-     0.0F,   0.0F,    0.0F,   80.72F,  -55.63F, 0.5363F, 4.07F,   -10.5F,   0.3526F,  -43.54F,
-     0.0F,   0.0F,    0.0F,   0.0F,    49.97F,  -7.998F, -6.345F, 5.702F,   -0.8465F, -4.591F,
-     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,    25.08F,  23.37F,  -2.579F,  -0.8742F, -26.68F,
-     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,    0.0F,    67.64F,  -1.8F,    -1.116F,  -30.23F,
-     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,    0.0F,    0.0F,    5.947F,   0.8049F,  4.464F,
-     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,    0.0F,    0.0F,    0.0F,     1.217F,   -14.69F,
-     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,    0.0F,    0.0F,    0.0F,     0.0F,     66.94F}};
+    {0.4211F, 0.6442F, 0.736F, 0.1831F, 0.1346F, 0.5902F, 0.001125F, 0.1949F, 1.676F, 1.025F},
+    {84.91F, -10.45F, 4.298F, 45.71F,  -14.3F,   -6.62F,  -72.94F,  -3.422F, -0.7143F, 9.167F,
+     0.0F,   51.97F,  6.507F, -14.89F, -27.64F,  -2.423F, -24.5F,   0.6407F, 0.07646F, -13.08F,
+     0.0F,   0.0F,    27.67F, -2.442F, -0.8356F, -1.973F, -0.2646F, -1.723F, -0.0816F, 18.48F,
+     0.0F,   0.0F,    0.0F,   75.73F,  -54.27F,  2.299F,  1.356F,   -10.21F, 0.2551F,  -28.57F,
+     0.0F,   0.0F,    0.0F,   0.0F,    44.49F,   -9.111F, -5.124F,  5.849F,  -0.46F,   -2.294F,
+     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,     22.15F,  24.04F,   -3.114F, -0.7896F, -25.92F,
+     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,     0.0F,    61.94F,   -1.879F, -1.348F,  -21.66F,
+     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,     0.0F,    0.0F,     6.4F,    0.5725F,  18.92F,
+     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,     0.0F,    0.0F,     0.0F,    1.006F,   -13.4F,
+     0.0F,   0.0F,    0.0F,   0.0F,    0.0F,     0.0F,    0.0F,     0.0F,    0.0F,     70.24F}};
 
 }  // namespace bodice::anatomy

@@ -93,10 +93,22 @@ void check_second_ways(const SecondWays& second, std::vector<Warning>& warnings)
          "The neck's border and its narrowest place lie far from each other.");
   differ(second.perineum, kPerineumApart, "perineum-disagrees", "thigh_l",
          "The perineum and the place where the legs join along the skin lie far from each other.");
-  constexpr std::array<const char*, 2> upper_arm{"upper_arm_l", "upper_arm_r"};
-  for (int side = 0; side < 2; ++side)
+  differ(second.crown, kCrownApart, "crown-disagrees", "head",
+         "The top of the head and the place of the head that is farthest from the perineum lie apart.");
+  constexpr std::array<const char*, 2> upper_arm{"upper_arm_l", "upper_arm_r"},
+      forearm{"forearm_l", "forearm_r"}, thigh{"thigh_l", "thigh_r"}, calf{"calf_l", "calf_r"};
+  for (int side = 0; side < 2; ++side) {
     differ(second.armpit[side], kArmpitApart, "armpit-disagrees", upper_arm[side],
            "The armpit and the place where the arm widens into the trunk lie far from each other.");
+    differ(second.elbow[side], kElbowApart, "elbow-disagrees", upper_arm[side],
+           "The elbow's border and the bend or the middle of the arm lie far from each other.");
+    differ(second.fingertip[side], kFingertipApart, "fingertip-disagrees", forearm[side],
+           "The fingertip and the place of the hand that is farthest from the trunk lie apart.");
+    differ(second.knee[side], kKneeApart, "knee-disagrees", thigh[side],
+           "The knee's border and the bend or the middle of the leg lie far from each other.");
+    differ(second.toe[side], kToeApart, "toe-disagrees", calf[side],
+           "The tip of the foot and the place of the foot that is farthest from the trunk lie apart.");
+  }
 }
 
 /// What the way along the skin adds to a survey's straight measure (the foot, mostly), and how far builds,

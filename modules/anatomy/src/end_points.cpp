@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ball.hpp"
 #include "end_template.hpp"
 
 namespace bodice::anatomy {
@@ -70,16 +71,9 @@ Candidates farthest_points(const Skin& skin) {
   return c;
 }
 
-/// A head is a ball; a mouth that the skin lines is nearer to its middle than this part of its radius.
-constexpr double kOuterHead = 0.7;
 constexpr float kHeadBall = 0.30F;  // of the size
 /// What counts as head for its ball, from the crown down, of the size.
 constexpr float kHeadHeight = 0.15F;
-
-struct Ball {
-  geometry::Vec3 center = geometry::Vec3::Zero();
-  double radius = 0.0;
-};
 
 /// The vertex within `radius` of `end` that is farthest from the ends in `from`, among those that `may` be
 /// it.
@@ -107,26 +101,7 @@ Ball head_ball(const Skin& skin, const EndPoints& ends, float size) {
   for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v)
     if (near(v)) top = std::max(top, reach(v));
   const auto in_head = [&](std::size_t v) { return near(v) && reach(v) > top - kHeadHeight * size; };
-  Ball ball;
-  double weight = 0.0;
-  for (std::size_t f = 0; f < skin.mesh.triangles.size(); ++f) {
-    const auto& t = skin.mesh.triangles[f];
-    if (!in_head(t[0]) || !in_head(t[1]) || !in_head(t[2])) continue;
-    const double area = geometry::area_vector(skin.mesh, f).norm();
-    ball.center +=
-        area / 3.0 * (skin.mesh.positions[t[0]] + skin.mesh.positions[t[1]] + skin.mesh.positions[t[2]]);
-    weight += area;
-  }
-  if (weight > 0.0) ball.center /= weight;
-  double square = 0.0;
-  for (std::size_t f = 0; f < skin.mesh.triangles.size(); ++f) {
-    const auto& t = skin.mesh.triangles[f];
-    if (!in_head(t[0]) || !in_head(t[1]) || !in_head(t[2])) continue;
-    square +=
-        geometry::area_vector(skin.mesh, f).norm() * (skin.mesh.positions[t[0]] - ball.center).squaredNorm();
-  }
-  if (weight > 0.0) ball.radius = std::sqrt(square / weight);
-  return ball;
+  return ball_of(skin, in_head);
 }
 
 void refine_all(const engine::Context& context, const Skin& skin, float size, EndPoints& ends) {

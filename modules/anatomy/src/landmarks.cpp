@@ -1,9 +1,12 @@
 #include "landmarks.hpp"
 
 #include <cmath>
+#include <limits>
 
+#include "crown.hpp"
 #include "curve.hpp"
 #include "nearest_signature.hpp"
+#include "neck_joint.hpp"
 #include "soft_place.hpp"
 
 namespace bodice::anatomy {
@@ -28,16 +31,34 @@ constexpr float kNearShoulder = 0.06F, kArmpitDetour = 1.10F;
 /// under the arm: ways over the neck are shorter on heavy bodies.
 constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
 constexpr float kLeastHalfChest = 0.02F;  // of the size
-/// How much nearer to the feet the dome of the head reaches, of head to feet plus foot to foot.
-constexpr float kDome = 0.02F;
-/// The same of the toes, and how far to the sides; of head to feet.
+/// How much nearer to the head than its tip the front of a foot reaches, and
+/// how far to the sides; of head to feet.
 constexpr float kBlunt = 0.010F, kToes = 0.04F;
-/// A signature this many deviations off is no evidence any more.
-constexpr double kHopelessMisfit = 12.0;
+/// A signature this many deviations off is no evidence any more. Armpits that are wrong are 4 to 8 off, right
+/// ones 2 to 4; the perineum's misfit tells less.
+constexpr double kHopelessArmpit = 6.0, kHopelessPerineum = 12.0;
 
-double confidence_of(float misfit) {
-  const double m = static_cast<double>(misfit) / kHopelessMisfit;
+double confidence_of(float misfit, double hopeless) {
+  const double m = static_cast<double>(misfit) / hopeless;
   return std::max(0.0, 1.0 - m * m);
+}
+
+float least_on(const Skin& skin, const Isoline& loop, const Field& field) {
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < loop.points.size(); ++i)
+    least = std::min(least, value_at(skin, loop, i, field));
+  return least;
+}
+
+float mean_on(const Skin& skin, const Isoline& loop, const Field& field) {
+  float sum = 0.0F;
+  for (std::size_t i = 0; i < loop.points.size(); ++i) sum += value_at(skin, loop, i, field);
+  return sum / static_cast<float>(loop.points.size());
+}
+
+const Field& from_end(const BodyEnds& ends, Coordinate end, int side) {
+  if (end == kFromHead) return *ends.from_head;
+  return end == kOwnHand ? *ends.from_hand[side] : *ends.from_foot[side];
 }
 
 /// The border's loop: the longest closed zero line near the limb's end.
@@ -55,7 +76,11 @@ Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Bo
   for (const Isoline& line : lines)
     if (best == nullptr || line.girth_m > best->girth_m) best = &line;
   if (best == nullptr) return {};
-  return {best->centroid, skin.edges.ends[best->edges[0]][0], best->girth_m, best->closed ? 1.0 : 0.5};
+  Girth girth{best->centroid, skin.edges.ends[best->edges[0]][0], best->girth_m, best->closed ? 1.0 : 0.5};
+  girth.level_m = mean_on(skin, *best, from_end(coordinates.ends(), end, side));
+  girth.from_front = least_on(skin, *best, coordinates.from_front());
+  girth.from_back = least_on(skin, *best, coordinates.from_back());
+  return girth;
 }
 
 /// Half the girth of the chest on one side: the shortest way from the midline's front to its back under the
@@ -93,7 +118,7 @@ void find_armpit(const engine::Context& context, const Skin& skin, const BodyCoo
       soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(coordinates.size_m()),
                  [&](Index v) { return std::exp(-0.5F * distance2(v)); });
   marks.armpit[side] = found.vertex;
-  marks.armpit_confidence[side] = confidence_of(found.misfit);
+  marks.armpit_confidence[side] = confidence_of(found.misfit, kHopelessArmpit);
 }
 
 body::Landmark at_vertex(const Skin& skin, Index v, double confidence) {
@@ -104,15 +129,6 @@ body::Landmark at_vertex(const Skin& skin, Index v, double confidence) {
 body::Landmark at_place(const geometry::Vec3& place, Index v, double confidence) {
   if (v == kNoIndex) return {};
   return {body::LandmarkId::kCrown, place, v, confidence};
-}
-
-/// The crown is the top of a dome: what lies nearly as far from the feet as its farthest vertex has a share.
-geometry::Vec3 crown_place(const Skin& skin, const BodyEnds& ends) {
-  const auto reach = [&](Index v) { return (*ends.from_foot[0])[v] + (*ends.from_foot[1])[v]; };
-  const float dome = kDome * (ends.head_to_feet + ends.feet_apart);
-  const float top = reach(ends.head);
-  return soft_place(skin, ends.head, static_cast<double>(2.0F * dome),
-                    [&](Index v) { return std::max(0.0F, dome - std::abs(top - reach(v))); });
 }
 
 /// The front of a foot is blunt: what is nearly as far from the head as its farthest vertex has a share.
@@ -134,7 +150,7 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
   Landmarks marks;
   marks.perineum = coordinates.perineum();
   marks.perineum_place = coordinates.perineum_place();
-  marks.perineum_confidence = confidence_of(coordinates.perineum_misfit());
+  marks.perineum_confidence = confidence_of(coordinates.perineum_misfit(), kHopelessPerineum);
   constexpr std::size_t kTasks = 7;  // the neck, and elbow, knee and armpit of both sides
   engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
     const int side = static_cast<int>(task % 2);
@@ -145,15 +161,19 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
       marks.knee[side] = border_loop(skin, coordinates, kKnee, kKneeBeyond, side, kOwnFoot, kKneeReach);
     if (task == 4 || task == 5) find_armpit(context, skin, coordinates, side, marks);
   });
+  const Crown crown = find_crown(skin, coordinates, marks.neck);
+  marks.crown = crown.vertex;
+  marks.crown_place = crown.place;
+  marks.neck_place = neck_joint(skin, coordinates, marks.neck);
   return marks;
 }
 
 std::vector<body::Landmark> as_list(const Skin& skin, const BodyEnds& ends, const Landmarks& marks) {
   std::vector<body::Landmark> list{
-      at_place(crown_place(skin, ends), ends.head, 1.0),
-      at_girth(marks.neck),
-      at_vertex(skin, ends.hand[0], 1.0),
-      at_vertex(skin, ends.hand[1], 1.0),
+      at_place(marks.crown_place, marks.crown, marks.crown_confidence),
+      at_place(marks.neck_place, marks.neck.vertex, marks.neck.confidence),
+      at_vertex(skin, ends.hand[0], marks.fingertip_confidence[0]),
+      at_vertex(skin, ends.hand[1], marks.fingertip_confidence[1]),
       at_girth(marks.elbow[0]),
       at_girth(marks.elbow[1]),
       at_place(marks.armpit_place[0], marks.armpit[0], marks.armpit_confidence[0]),
@@ -161,8 +181,8 @@ std::vector<body::Landmark> as_list(const Skin& skin, const BodyEnds& ends, cons
       at_place(marks.perineum_place, marks.perineum, marks.perineum_confidence),
       at_girth(marks.knee[0]),
       at_girth(marks.knee[1]),
-      at_place(toe_place(skin, ends, 0), ends.foot[0], 1.0),
-      at_place(toe_place(skin, ends, 1), ends.foot[1], 1.0)};
+      at_place(toe_place(skin, ends, 0), ends.foot[0], marks.toe_confidence[0]),
+      at_place(toe_place(skin, ends, 1), ends.foot[1], marks.toe_confidence[1])};
   for (int i = 0; i < body::kLandmarkCount; ++i) list[i].id = static_cast<body::LandmarkId>(i);
   return list;
 }

@@ -8,6 +8,7 @@
 
 #include "curve.hpp"
 #include "girth_profile.hpp"
+#include "second_places.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -36,7 +37,7 @@ double neck_apart(const Skin& skin, const BodyCoordinates& coordinates, const La
   const auto lines = geodesic::isolines(skin.mesh, skin.edges, from_head, {&level, 1})[0];
   const geodesic::Isoline* loop = widest_closed(lines);
   if (loop == nullptr) return -1.0;
-  return (loop->centroid - marks.neck.center).norm() / static_cast<double>(size);
+  return (loop->centroid - marks.neck_place).norm() / static_cast<double>(size);
 }
 
 double perineum_apart(const Skin& skin, const BodyCoordinates& coordinates) {
@@ -61,6 +62,7 @@ SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
     if (task == 0) second.neck = neck_apart(skin, coordinates, marks);
     if (task == 1) second.perineum = perineum_apart(skin, coordinates);
   });
+  ask_second_places(context, skin, coordinates, marks, second);
   for (int side = 0; side < 2; ++side) second.armpit[side] = armpit_apart(coordinates, marks, side);
   return second;
 }

@@ -10,6 +10,9 @@ struct SecondWays {
   double neck = -1.0;      ///< centre of the least girth between head and shoulders, as in the paper
   double perineum = -1.0;  ///< where the legs' loops merge
   std::array<double, 2> armpit{-1.0, -1.0};  ///< level where the loop around the arm widens into the trunk
+  double crown = -1.0;                       ///< farthest from the perineum
+  std::array<double, 2> fingertip{-1.0, -1.0}, toe{-1.0, -1.0};  ///< the same
+  std::array<double, 2> elbow{-1.0, -1.0}, knee{-1.0, -1.0};     ///< bend of the limb's axis, or proportion
 };
 
 SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
@@ -19,8 +22,10 @@ SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
 /// second answer halves it.
 double agreed(double confidence, double apart, double most);
 
-/// Apart by this much, of the size, the two ways contradict each other. The neck's two ways mean its base and
-/// its narrowest place, which lie some 4 % apart.
-inline constexpr double kNeckApart = 0.10, kPerineumApart = 0.07, kArmpitApart = 0.055;
+/// Apart by this much, of the size, the two ways contradict each other. The neck's two ways mean its joint
+/// and its narrowest place, which lie some 4 % apart. Each bound is passed by one or two of a hundred places
+/// that are right.
+inline constexpr double kNeckApart = 0.10, kPerineumApart = 0.07, kArmpitApart = 0.055, kCrownApart = 0.045,
+                        kFingertipApart = 0.02, kToeApart = 0.03, kElbowApart = 0.05, kKneeApart = 0.035;
 
 }  // namespace bodice::anatomy

@@ -17,7 +17,7 @@ using body::Part;
 
 constexpr std::size_t kGrain = 2048;
 /// Beyond these distances from the limb's end a border's sign means nothing.
-constexpr float kHeadReach = 0.48F, kArmReach = 0.60F, kLegReach = 0.66F;
+constexpr float kArmReach = 0.60F, kLegReach = 0.66F;
 /// Where between the borders of waist and neck, by their scores, the chest line lies: about .73 of the
 /// stature.
 constexpr float kChestShare = 0.65F;
@@ -29,8 +29,8 @@ Part on_side(Part left, int side) {
 
 Part part_of(const BodyCoordinates& coordinates, std::size_t v) {
   const CoordinateArray x[2] = {coordinates.at(v, 0), coordinates.at(v, 1)};
+  if (coordinates.on_head(v)) return Part::kHead;
   const float neck = kNeck(x[0]);
-  if (x[0][kFromHead] < kHeadReach && neck > 0.0F) return Part::kHead;
   const int arm = x[1][kOwnHand] < x[0][kOwnHand], leg = x[1][kOwnFoot] < x[0][kOwnFoot];
   if (x[arm][kOwnHand] < kArmReach && kShoulder(x[arm]) > 0.0F)
     return on_side(kElbow(x[arm]) > 0.0F ? Part::kForearmL : Part::kUpperArmL, arm);

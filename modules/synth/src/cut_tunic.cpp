@@ -21,6 +21,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kPanelShare = 0.8;      // of the armpits' distance: the panels' width
 constexpr double kFrontNeckline = 0.55;  // of the way from the armpits' height over the front to the shoulder
 constexpr double kBackNeckline = 0.7;
+constexpr double kNeckFoot =
+    0.035;                       // of stature: what counts as the foot of the neck, from the lowest skin up
 constexpr double kStrap = 0.02;  // of stature: width over a shoulder, where the neck leaves it
 
 struct Plan {
@@ -93,12 +95,14 @@ std::vector<double> arch_angles(const Outline& outline, int pieces) {
   return even_angles(closed, 2 * pieces, 0.0);
 }
 
-/// Half of the room that a neck hole needs to lie clear of the neck's foot.
+/// Half of the room that a neck hole needs to lie clear of the neck's foot: the head's lowest skin, which
+/// need not lie at the height of the neck's joint.
 double neck_width(const Fitting& f) {
-  const double h = f.body.stature_m, y = levels_of(f).neck;
-  double neck = 0.0;
-  for (const Vec3& p :
-       f.skin.slab(1, y - 0.06 * h, y + 0.01 * h, [](Part part) { return part == Part::kHead; }))
+  const double h = f.body.stature_m, joint = levels_of(f).neck;
+  const PartFilter head = [](Part part) { return part == Part::kHead; };
+  double foot = joint + 0.1 * h, neck = 0.0;
+  for (const Vec3& p : f.skin.slab(1, joint - 0.1 * h, joint + 0.1 * h, head)) foot = std::min(foot, p.y());
+  for (const Vec3& p : f.skin.slab(1, foot, foot + kNeckFoot * h, head))
     neck = std::max(neck, std::abs(p.x()));
   return neck + 1.5 * f.options.ease_m;
 }

@@ -1,0 +1,143 @@
+#include <doctest/doctest.h>
+
+#include <bodice/engine/random.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+#include <bodice_test/data.hpp>
+#include <bodice_test/read_mesh.hpp>
+
+#include "made.hpp"
+#include "remesh.hpp"
+
+using namespace bodice;
+using geometry::TriMesh;
+using geometry::Vec3;
+
+namespace {
+
+/// What no change of the mesh that leaves the body alone may move a landmark by, of the stature.
+constexpr double kSame = 0.01;
+
+anatomy::Anatomy understood(const TriMesh& mesh) {
+  auto found = anatomy::analyse({}, mesh, {*body::find_profile("ansur2")});
+  REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
+  return std::move(found.value());
+}
+
+template <class Back>
+void check_same(const anatomy::Anatomy& reference, const anatomy::Anatomy& found, double scale, Back back) {
+  CHECK(found.stature_m / scale == doctest::Approx(reference.stature_m).epsilon(kSame));
+  for (int i = 0; i < body::kLandmarkCount; ++i) {
+    CAPTURE(std::string(body::kLandmarkNames[i]));
+    CHECK((reference.landmarks[i].position - back(found.landmarks[i].position)).norm() <
+          kSame * reference.stature_m);
+  }
+}
+
+struct Motion {
+  Eigen::Quaterniond turn;
+  double scale;
+  Vec3 shift;
+  Vec3 operator()(const Vec3& p) const { return scale * (turn * p) + shift; }
+  Vec3 back(const Vec3& p) const { return turn.conjugate() * (p - shift) / scale; }
+};
+
+std::vector<geometry::Index> shuffled(std::size_t count, engine::Random& random) {
+  std::vector<geometry::Index> order(count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<geometry::Index>(i);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  return order;
+}
+
+/// Turned, moved, scaled and with its vertices in another order, the mesh must give the same landmarks and,
+/// but for vertices on borders, the same parts.
+void check_moved(const TriMesh& mesh, std::initializer_list<double> scales) {
+  const anatomy::Anatomy reference = understood(mesh);
+  engine::Random random(11);
+  for (const double scale : scales) {
+    CAPTURE(scale);
+    const Motion move{
+        Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal()).normalized(),
+        scale, 100.0 * scale * Vec3(1, -2, 3)};
+    const auto order = shuffled(mesh.positions.size(), random);
+    TriMesh moved = mesh;
+    for (std::size_t v = 0; v < order.size(); ++v) moved.positions[order[v]] = move(mesh.positions[v]);
+    for (auto& t : moved.triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
+    const anatomy::Anatomy found = understood(moved);
+    check_same(reference, found, scale, [&](const Vec3& p) { return move.back(p); });
+    std::size_t differ = 0;
+    for (std::size_t v = 0; v < order.size(); ++v) differ += found.part[order[v]] != reference.part[v];
+    CHECK(differ < order.size() / 200);
+  }
+}
+
+void check_remeshed(const TriMesh& mesh) {
+  const anatomy::Anatomy reference = understood(mesh);
+  const auto same = [](const Vec3& p) { return p; };
+  const TriMesh fine = remesh::refined(remesh::refined(mesh));
+  CHECK(fine.positions.size() > 190000);
+  check_same(reference, understood(fine), 1.0, same);
+  const TriMesh coarse = remesh::decimated(mesh, 1500);
+  CHECK(coarse.positions.size() <= 1500);
+  check_same(reference, understood(coarse), 1.0, same);
+}
+
+TriMesh repaired(const std::filesystem::path& file) {
+  auto result = geometry::repair({}, bodice_test::read_mesh(file));
+  REQUIRE(result.ok());
+  return std::move(result->mesh);
+}
+
+}  // namespace
+
+TEST_CASE("turn, place, scale and the order of vertices do not change the answer") {
+  check_moved(made::random_body(3).mesh, {1e-6, 1e-3, 1.0, 1e3, 1e6});
+  for (const std::uint64_t seed : {1, 4, 6}) {
+    CAPTURE(seed);
+    check_moved(made::random_body(seed).mesh, {1e-3, 1e3});
+  }
+}
+
+TEST_CASE("finer and coarser meshes of one body give the same landmarks") {
+  synth::BodyOptions options;
+  options.vertices = 12500;
+  const auto body = synth::make_body({}, options);
+  REQUIRE(body.ok());
+  check_remeshed(body->mesh);
+}
+
+TEST_CASE("real bodies, turned, scaled and permuted, give the same answer") {
+  for (const char* name :
+       {"bodies/f_avg_rest.obj", "bodies/m_old_heavy_sit01.obj", "bodies/f_tall_muscle_standing01.obj"}) {
+    const auto file = bodice_test::data_file(name);
+    if (!file) continue;
+    CAPTURE(name);
+    check_moved(repaired(*file), {1e-3, 1e3});
+  }
+}
+
+TEST_CASE("a real body with 1,500 and with 200,000 vertices has the same landmarks") {
+  if (const auto file = bodice_test::data_file("bodies/m_avg_rest.obj")) check_remeshed(repaired(*file));
+}
+
+TEST_CASE("damage that leaves the body whole changes nothing; what welds limbs is said") {
+  const auto whole = bodice_test::data_file("awkward/f_avg_inverted.obj");
+  if (!whole) return;
+  const anatomy::Anatomy reference = understood(repaired(*whole));
+  for (const char* name : {"awkward/f_avg_mixed_winding.obj", "awkward/f_avg_nonmanifold_degenerate.obj",
+                           "awkward/f_avg_soup.stl", "awkward/f_avg_holes.obj"}) {
+    CAPTURE(name);
+    const auto file = bodice_test::data_file(name);
+    REQUIRE(file);
+    const anatomy::Anatomy found = understood(repaired(*file));
+    const bool holes = std::any_of(found.warnings.begin(), found.warnings.end(),
+                                   [](const engine::Warning& w) { return w.code == "holes"; });
+    for (int i = 0; i < body::kLandmarkCount; ++i)
+      CHECK((reference.landmarks[i].position - found.landmarks[i].position).norm() <
+            (holes ? 2.5 : 1.0) * kSame * reference.stature_m);
+  }
+  const auto fused = bodice_test::data_file("awkward/m_avg_armsdown_fused.obj");
+  REQUIRE(fused);
+  const anatomy::Anatomy found = understood(repaired(*fused));
+  CHECK(std::any_of(found.warnings.begin(), found.warnings.end(),
+                    [](const engine::Warning& w) { return w.code == "hand-fused-to-leg"; }));
+}
