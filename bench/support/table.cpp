@@ -48,7 +48,7 @@ std::string Table::csv(const Origin& origin, const std::string& command) const {
   std::string text = "# command: " + command + "\n# commit: " + origin.commit +
                      "\n# compiler: " + origin.compiler + ", " + origin.flags + "\n# cpu: " + origin.cpu +
                      ", " + std::to_string(origin.hardware_threads) + " hardware threads\n";
-  for (std::size_t c = 0; c < columns_.size(); ++c) text += (c ? "," : "") + columns_[c];
+  for (std::size_t c = 0; c < columns_.size(); ++c) text += (c ? "," : "") + quoted(columns_[c]);
   text += '\n';
   for (const auto& row : rows_) {
     for (std::size_t c = 0; c < row.size(); ++c) text += (c ? "," : "") + quoted(row[c].text(kDigitsInCsv));
