@@ -2,6 +2,7 @@
 // Surfaces. 1996.
 // Differs: half the distance a step, since relief steepens it; a least step instead of convergence, since all
 // that is asked is a clear place on this side.
+#include <algorithm>
 #include <cmath>
 
 #include "exits.hpp"
@@ -54,7 +55,7 @@ std::optional<Entry> first_bent_entry(NearField& near, const UnionField& field, 
       (at.distance_m >= clearance_m ? t : next) = middle;
       if (at.distance_m < clearance_m) entry.normal = at.gradient.stableNormalized();
     }
-    entry.point = safe + t * direction;
+    entry.point = safe + std::max(0.0, t - kBesideJump * field.size_m()) * direction;
     return entry;
   }
   if (t >= length) return std::nullopt;

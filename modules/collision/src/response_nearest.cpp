@@ -177,7 +177,7 @@ class Resolver {
       const Vec3 middle = 0.5 * (in + out);
       (near_.at(middle).distance_m >= clearance_m_ + overshoot_m_ ? out : in) = middle;
     }
-    return out;
+    return Vec3(out + kBesideJump * field_.size_m() * direction);
   }
 
   /// What counts is the place that is stored.

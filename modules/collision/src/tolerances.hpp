@@ -59,6 +59,11 @@ inline constexpr double kLongPath = 0.3;
 /// Least step along a path through relief, share of the union's size: a quarter of a millimetre of a body.
 inline constexpr double kPathStep = 3e-4;
 
+/// Share of the union's size by which a place found by halving lies on the clear side of it: relief jumps
+/// where an ellipsoid's nearest point changes sides, and floats must not tell another side there. A
+/// micrometre.
+inline constexpr double kBesideJump = 1e-6;
+
 /// Depth, share of the union's size, up to which a place without room around is taken for a fold of the skin,
 /// where limbs overlap: a centimetre of a body.
 inline constexpr double kFoldDepth = 1e-2;
