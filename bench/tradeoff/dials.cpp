@@ -20,11 +20,12 @@ constexpr std::size_t kBudgetBodies = 5;  // what a count costs hardly depends o
 /// All answers to one question.
 struct Question {
   double asked = 0.0;  ///< mm, or microseconds
-  std::vector<double> ratio, fit_ms;
+  std::vector<double> ratio, fit_ms, size, kilobytes;
   int met = 0;
 
-  void add(double achieved, bool good, double ms) {
-    ratio.push_back(achieved / asked), fit_ms.push_back(ms);
+  void add(double achieved, bool good, const Contender& chosen) {
+    ratio.push_back(achieved / asked), fit_ms.push_back(chosen.prepare_ms);
+    size.push_back(chosen.size), kilobytes.push_back(1e-3 * chosen.bytes);
     met += good;
   }
 };
@@ -49,7 +50,7 @@ void ask_for_error(const Setting& setting, const Subject& subject, Question& que
   const Contender c = of_proxy(subject, fit, "");
   const Error near = judge(c.distances_m(), subject.truth_m, true);
   const bool met = ratio <= kWithin && ratio >= 1.0 / kWithin;
-  question.add(gap_mm, met, fit_ms(fit));
+  question.add(gap_mm, met, c);
   table.add({subject.name, question.asked, gap_mm, ratio, met ? "" : "missed",
              missed_by_warning(fit) ? "warned" : "", near.mean_mm, c.kind, c.size, c.bytes, fit_ms(fit)});
 }
@@ -59,7 +60,7 @@ void ask_for_time(const Setting& setting, const Subject& subject, Question& ques
   std::vector<Contender> one{of_proxy(subject, fit, "")};
   const Cost cost = time_all(one, subject.particles.size(), 7)[0];
   const double us = 1e-3 * kFrameParticles * cost.query_ns;
-  question.add(us, us <= kWithin * question.asked, fit_ms(fit));
+  question.add(us, us <= kWithin * question.asked, one[0]);
   table.add({subject.name, question.asked, one[0].kind, one[0].size, 1e3 * fit.accuracy.gap_m.mean, us,
              us / question.asked, 1e-3 * kFrameParticles * cost.response_ns});
 }
@@ -68,18 +69,18 @@ bench::Table summary(const char* name, const char* caption, const char* asked, c
                      const std::vector<Question>& questions) {
   bench::Table table(name, caption,
                      {asked, "bodies", "met" + unit, "least_ratio" + unit, "median_ratio" + unit,
-                      "largest_ratio" + unit, "median_fit_ms"});
+                      "largest_ratio" + unit, "median_ellipsoids", "median_KB", "median_fit_ms"});
   for (const Question& q : questions) {
     if (q.ratio.empty()) continue;
     table.add({q.asked, q.ratio.size(), q.met, std::ranges::min(q.ratio), middle(q.ratio),
-               std::ranges::max(q.ratio), middle(q.fit_ms)});
+               std::ranges::max(q.ratio), middle(q.size), middle(q.kilobytes), middle(q.fit_ms)});
   }
   return table;
 }
 
 std::vector<Question> questions(const std::vector<double>& asked) {
   std::vector<Question> all;
-  for (const double value : asked) all.push_back({value, {}, {}, 0});
+  for (const double value : asked) all.push_back({.asked = value});
   return all;
 }
 
