@@ -4,6 +4,7 @@
 // fit ... --target MM... | --budget US...    what was asked for beside what was achieved
 // fit ... --bars                         every tier at 89 ellipsoids beside what it promises, the worst body
 // fit ... --laws                         the constants of the dial, from the fits of --tier and --count
+// fit ... --anytime                      error against time of what the anytime tiers publish
 // fit --growth                           time against the number of vertices, a row a tier
 // CSV: one line a (body, tier, count) with the fit's own report, the error of the signed distance at points
 // within 30 mm of the skin, and what a query costs.
@@ -17,6 +18,7 @@
 
 #include <bodice/fitting/fit.hpp>
 
+#include "anytime.hpp"
 #include "bars.hpp"
 #include "front_svg.hpp"
 #include "growth.hpp"
@@ -39,7 +41,7 @@ struct Arguments {
   std::filesystem::path svg;
   int threads = 2;
   double seconds = 2.0;
-  bool bars = false, laws = false, growth = false;
+  bool bars = false, laws = false, growth = false, anytime = false;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -65,6 +67,8 @@ Arguments parse(int argc, char** argv) {
       a.bars = true;
     } else if (word == "--laws") {
       a.laws = true;
+    } else if (word == "--anytime") {
+      a.anytime = true;
     } else if (word == "--growth") {
       a.growth = true;
     } else if (word == "--threads" && has_value) {
@@ -164,6 +168,16 @@ bool laws(const engine::Context& context, const Arguments& arguments) {
   return all;
 }
 
+bool anytime(const engine::Context& context, const Arguments& arguments) {
+  std::printf("body,ms,near_mean_mm\n");
+  return for_each_subject(context, arguments, [&](const Subject& subject) {
+    for (const proxy::Tier tier : arguments.tiers)
+      if (!fit_bench::print_anytime(context, subject.name, subject.skin(), subject.probes, tier))
+        return false;
+    return true;
+  });
+}
+
 bool front(const engine::Context& context, const Arguments& arguments) {
   std::printf(
       "body,tier,ellipsoids,bytes,fit_ms,tight_ms,relief_ms,measure_ms,gap_mean_mm,gap_p95_mm,gap_max_mm,"
@@ -251,6 +265,7 @@ int main(int argc, char** argv) {
   context.executor = executor.get();
   if (arguments.bars) return bars(context, arguments) ? 0 : 1;
   if (arguments.laws) return laws(context, arguments) ? 0 : 1;
+  if (arguments.anytime) return anytime(context, arguments) ? 0 : 1;
   if (arguments.growth) return fit_bench::print_growth(context) ? 0 : 1;
   const bool asks = !arguments.targets_mm.empty() || !arguments.budgets_us.empty();
   return (asks ? dial(context, arguments) : front(context, arguments)) ? 0 : 1;

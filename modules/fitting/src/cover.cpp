@@ -150,4 +150,49 @@ void cover_triangles(const engine::Context& context, const geometry::TriMesh& me
   }
 }
 
+namespace {
+
+/// As little around the anchor and the triangles as growing finds, surely holding the triangles.
+Ellipsoid around(const Ellipsoid& anchor, const geometry::TriMesh& mesh, std::span<const Index> triangles) {
+  std::vector<Vec3> corners;
+  for (const Index t : triangles)
+    for (int k = 0; k < 3; ++k) corners.push_back(mesh.corner(t, k));
+  Ellipsoid e = grown(anchor, corners);
+  double most = 0.0;
+  for (const Vec3& p : corners) most = std::max(most, geometry::level(e, p));
+  if (most > kInside) e.radii *= std::sqrt(most) * (1.0 + 1e-9);
+  return e;
+}
+
+}  // namespace
+
+void relax_cover(const engine::Context& context, const geometry::TriMesh& mesh,
+                 std::span<const Index> triangles, std::span<const Ellipsoid> anchors,
+                 std::vector<Ellipsoid>& ellipsoids) {
+  constexpr int kRounds = 3;
+  Levels levels(mesh, triangles);
+  std::vector<std::size_t> all(ellipsoids.size());
+  for (std::size_t e = 0; e < all.size(); ++e) all[e] = e;
+  levels.measure(context, mesh, ellipsoids, all);
+  std::vector<int> holders(triangles.size(), 0);
+  const auto count = [&](std::size_t e, int by) {
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (levels.worst(e, t) <= kInside) holders[t] += by;
+  };
+  for (const std::size_t e : all) count(e, 1);
+  for (int round = 0; round < kRounds; ++round)
+    for (const std::size_t e : all) {
+      context.checkpoint();
+      std::vector<Index> alone;
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (holders[t] == 1 && levels.worst(e, t) <= kInside) alone.push_back(triangles[t]);
+      const Ellipsoid smaller = around(anchors[e], mesh, alone);
+      if (!(geometry::volume(smaller) < geometry::volume(ellipsoids[e]))) continue;
+      count(e, -1);
+      ellipsoids[e] = smaller;
+      levels.measure(context, mesh, ellipsoids, std::span(&e, 1));
+      count(e, 1);
+    }
+}
+
 }  // namespace bodice::fitting

@@ -28,6 +28,12 @@ geometry::Ellipsoid stretched(const geometry::Ellipsoid& ellipsoid, const Vec3& 
 void cover_triangles(const engine::Context& context, const geometry::TriMesh& mesh,
                      std::span<const Index> triangles, std::vector<geometry::Ellipsoid>& ellipsoids);
 
+/// Takes back what a cover of the triangles does not need: ellipsoid by ellipsoid, the least one around its
+/// anchor and the triangles that no other holds. What was held stays held. O(#triangles #ellipsoids).
+void relax_cover(const engine::Context& context, const geometry::TriMesh& mesh,
+                 std::span<const Index> triangles, std::span<const geometry::Ellipsoid> anchors,
+                 std::vector<geometry::Ellipsoid>& ellipsoids);
+
 /// Stretches the ellipsoids until the union holds every column of the mesh's inside, `spacing_m` apart, along
 /// its whole length. Returns the length that had to be covered, metres.
 double cover_interior(const engine::Context& context, const geometry::TriMesh& mesh, double spacing_m,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <bodice/engine/stage_timer.hpp>
 
@@ -11,6 +12,7 @@
 #include "part_fit.hpp"
 #include "plan.hpp"
 #include "skin_hash.hpp"
+#include "slack.hpp"
 #include "tier_relief.hpp"
 #include "tiers.hpp"
 
@@ -18,6 +20,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;
+constexpr double kKeptTo = 1.1;     // times the target: what the search aims at
 constexpr double kWarnAbove = 1.2;  // times the target: what the dial promises
 
 engine::Result<Draft> run_tier(const engine::Context& context, const LabelledSkin& skin,
@@ -71,6 +74,42 @@ void add_warnings(const FitOptions& options, const Draft& draft, FitResult& resu
                                "Choose a finer tier, allow more ellipsoids or more time."});
 }
 
+struct Found {
+  Draft draft;
+  Measured measured;
+};
+
+/// One that keeps to the target is better than one that does not; then the nearer one.
+bool better(const Measured& a, const Measured& b, double target_m) {
+  const double of_a = a.accuracy.gap_m.mean / target_m, of_b = b.accuracy.gap_m.mean / target_m;
+  if ((of_a > kKeptTo) != (of_b > kKeptTo)) return of_a <= kKeptTo;
+  return std::abs(std::log(of_a)) < std::abs(std::log(of_b));
+}
+
+/// The plan without a target, else the best of those that the dial tries. Fails if no ellipsoid comes out.
+engine::Result<Found> search(const engine::Context& context, const LabelledSkin& skin,
+                             const FitOptions& options, std::vector<engine::StageTime>& stages) {
+  Dial dial(options, skin.stature_m);
+  PlanRunner runner(context, skin, options, stages);
+  std::optional<Found> best;
+  for (bool more = true; more;) {
+    auto draft = runner.run(dial.plan());
+    if (!draft) return draft.error();
+    if (draft->data.ellipsoids.empty()) return no_skin();
+    draft->data.stature_m = skin.stature_m;
+    draft->data.frame = skin.frame;
+    Measured now;
+    if (options.measure_accuracy || options.target_error_m) {
+      engine::StageTimer timer(context, stages, "measure");
+      now = measure(context, draft->data, skin, *skin.distance, draft->parts);
+    }
+    more = options.target_error_m && dial.correct(now.accuracy.gap_m.mean);
+    if (!best || better(now, best->measured, options.target_error_m.value_or(0.0)))
+      best = {std::move(*draft), std::move(now)};
+  }
+  return std::move(*best);
+}
+
 engine::Result<FitResult> fit_checked(const engine::Context& context, const LabelledSkin& skin,
                                       const FitOptions& options) {
   std::vector<engine::StageTime> stages;
@@ -81,31 +120,12 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
     own = std::make_unique<geometry::MeshDistance>(context, skin.mesh);
     judged.distance = own.get();
   }
-  Dial dial(options, skin.stature_m);
-  PlanRunner runner(context, judged, options, stages);
-  const std::uint64_t source_hash = skin_hash(skin.mesh);
-  Draft draft;
-  Measured measured;
-  const auto off_target = [&](const Measured& m) {
-    return std::abs(std::log(m.accuracy.gap_m.mean / options.target_error_m.value_or(m.accuracy.gap_m.mean)));
-  };
-  for (bool first = true, more = true; more; first = false) {
-    auto found = runner.run(dial.plan());
-    if (!found) return found.error();
-    found->data.stature_m = skin.stature_m;
-    found->data.frame = skin.frame;
-    found->data.source_hash = source_hash;
-    if (found->data.ellipsoids.empty()) return no_skin();
-    Measured now;
-    if (options.measure_accuracy || options.target_error_m) {
-      engine::StageTimer timer(context, stages, "measure");
-      now = measure(context, found->data, judged, *judged.distance, found->parts);
-    }
-    more = options.target_error_m && dial.correct(now.accuracy.gap_m.mean);
-    if (!first && off_target(now) > off_target(measured)) continue;
-    draft = std::move(*found);
-    measured = std::move(now);
-  }
+  auto found = search(context, judged, options, stages);
+  if (!found) return found.error();
+  auto& [draft, measured] = *found;
+  if (options.target_error_m && draft.data.tier == proxy::Tier::kTight)
+    spend_slack(context, judged, draft.parts, *options.target_error_m, draft.data, measured);
+  draft.data.source_hash = skin_hash(skin.mesh);
   const std::vector<proxy::ProxyEllipsoid> ellipsoids = draft.data.ellipsoids;
   auto made = proxy::BodyProxy::make(std::move(draft.data));
   if (!made) return made.error();

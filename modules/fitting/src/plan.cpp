@@ -13,11 +13,13 @@ using proxy::Tier;
 
 constexpr int kMostAttempts = 9;
 constexpr double kNearEnough = 1.10;
+constexpr double kFewestToStart = 8.0;  // with fewer than the body has limbs the law does not hold
 /// Fractions of stature. Below the first, plain ellipsoids take more work and time a particle than relief.
 constexpr double kFinestPlain = 1.6e-3 / 1.7;
 constexpr double kFinestOf32 = 0.75e-3 / 1.7, kFinestOf55 = 0.40e-3 / 1.7;
 
-/// gap = at_89 * stature * (89 / count)^power: lines through the development bodies at 16 to 160 ellipsoids.
+/// gap = at_89 * stature * (89 / count)^power: where the search starts. `bench/fit --laws` prints the
+/// constants anew.
 struct Law {
   double at_89, power;
 };
@@ -29,7 +31,7 @@ Law law_of(Tier tier) {
     case Tier::kSolid:
       return {0.0060, 0.5};
     case Tier::kTight:
-      return {0.00065, 0.9};
+      return {0.00060, 1.0};
     case Tier::kRelief:
       return {0.00013, 0.7};
   }
@@ -67,7 +69,7 @@ Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double st
 
 double predicted_frame_us(Tier tier, int ellipsoids) {
   // 10,000 particles: nanoseconds a particle times ten.
-  return tier == Tier::kRelief ? 10.0 * (14.0 + 0.30 * ellipsoids) : 10.0 * (2.0 + 0.065 * ellipsoids);
+  return tier == Tier::kRelief ? 10.0 * (10.0 + 0.30 * ellipsoids) : 10.0 * (7.0 + 0.16 * ellipsoids);
 }
 
 int count_within_budget(Tier tier, double budget_us) {
@@ -101,7 +103,8 @@ Dial::Dial(const FitOptions& options, double stature_m)
     resize(static_cast<double>(kReliefBytes) * std::pow(ratio, 1.0 / kReliefPower));
   } else {
     const Law law = law_of(plan_.tier);
-    resize(89.0 * std::pow(law.at_89 * stature_m / *target_m_, 1.0 / law.power));
+    const double count = 89.0 * std::pow(law.at_89 * stature_m / *target_m_, 1.0 / law.power);
+    resize(plan_.tier == Tier::kTight ? std::max(kFewestToStart, count) : count);
   }
 }
 
@@ -169,10 +172,23 @@ bool Dial::recount(double gap_m) {
   return resize(gap_m > *target_m_ ? full : 4.0 * static_cast<double>(least_bytes(count)));
 }
 
+/// Between the tries that enclose the target, and at most twice or half the last size: a fit of very few
+/// ellipsoids follows no law.
+double Dial::bounded(double wanted) const {
+  if (plan_.tier == Tier::kRelief) return wanted;
+  double low = 1.0, high = most_;
+  for (const Try& t : tries_) {
+    if (t.gap_m > *target_m_) low = std::max(low, t.size + 1.0);
+    if (t.gap_m <= *target_m_) high = std::min(high, t.size - 1.0);
+  }
+  wanted = std::clamp(wanted, 0.5 * size(), 2.0 * size());
+  return low <= high ? std::clamp(wanted, low, high) : wanted;
+}
+
 bool Dial::correct(double gap_m) {
   if (reached(gap_m) || ++attempts_ >= kMostAttempts || !(gap_m > 0.0)) return false;
   tries_.push_back({size(), gap_m});
-  return resize(wanted_size(gap_m)) || step(gap_m) || recount(gap_m);
+  return resize(bounded(wanted_size(gap_m))) || step(gap_m) || recount(gap_m);
 }
 
 }  // namespace bodice::fitting

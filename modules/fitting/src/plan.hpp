@@ -18,9 +18,9 @@ struct Plan {
   std::size_t relief_bytes = 0;  ///< of the whole proxy with its tables; relief only
 };
 
-/// Collision time a frame of 10,000 coherent particles, microseconds: a line through bench/fit's query times
-/// at 8 to 89 ellipsoids (one thread, AVX-512). A dial to compare plans with, and no promise on other
-/// machines.
+/// Collision time a frame of 10,000 coherent particles, microseconds: a line through the query times that
+/// `bench/fit --laws` prints, at 16 to 89 ellipsoids (one thread, AVX-512). A dial to compare plans with, and
+/// no promise on other machines.
 double predicted_frame_us(proxy::Tier tier, int ellipsoids);
 
 /// The largest count whose predicted time is within the budget, at least 1.
@@ -48,6 +48,7 @@ class Dial {
 
   double size() const;
   double wanted_size(double gap_m) const;
+  double bounded(double wanted) const;
   bool known(double size) const;
   bool resize(double size);
   bool step(double gap_m);

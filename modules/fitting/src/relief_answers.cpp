@@ -9,7 +9,7 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kBlock = 12;   // neighbouring samples that share candidates
+constexpr std::size_t kBlock = 10;   // neighbouring samples that share candidates
 constexpr std::size_t kGrain = 512;  // samples a task
 
 /// The answers of one task's samples, in sample order.

@@ -31,7 +31,9 @@ void cover_skin(const engine::Context& context, const SkinSource& source,
   }
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(e.shape);
+  const std::vector<geometry::Ellipsoid> anchors = shapes;
   cover_triangles(context, skin.mesh, triangles, shapes);
+  relax_cover(context, skin.mesh, triangles, anchors, shapes);
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
 }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -24,6 +25,7 @@ constexpr int kRelocateEvery = 12;  // iterations that a move is given to prove 
 constexpr double kMinRadius = 0.002;
 constexpr double kFirstDamping = 1e-2;
 constexpr int kStopWindow = 48;
+constexpr double kExact = 2e-5;          // root of the mean square residual: nothing is left to gain
 constexpr double kMostHeldBack = 0.1;    // steps an ellipsoid, before the candidates are chosen afresh
 constexpr std::uint32_t kLeastSkin = 4;  // samples; with fewer an ellipsoid stands for nothing
 
@@ -57,18 +59,43 @@ Step stepped(const Ellipsoid& e, const NormalBlock& block, double damping, doubl
   return {next, std::min(motion, most_motion)};
 }
 
+/// One descent under way.
 class Descent {
  public:
-  Descent(const engine::Context& context, TightProblem& problem, const std::vector<Ellipsoid>& ellipsoids)
+  Descent(const engine::Context& context, TightProblem& problem, const std::vector<Ellipsoid>& ellipsoids,
+          const DescentOptions& options)
       : context_(context),
         problem_(problem),
+        options_(options),
         state_{ellipsoids, std::vector<double>(ellipsoids.size(), kFirstDamping)},
-        moved_(ellipsoids.size(), 0.0) {
+        moved_(ellipsoids.size(), 0.0),
+        relocation_(ellipsoids.size()) {
     refresh();
+    best_ = state_;
+    report_.first_cost = report_.last_cost = told_ = window_cost_ = problem_.total();
   }
 
-  const State& state() const { return state_; }
+  DescentReport run() {
+    while (report_.iterations < options_.max_iterations &&
+           !(options_.out_of_time && options_.out_of_time())) {
+      context_.checkpoint();
+      const int i = ++report_.iterations;
+      iterate();
+      if (i % kRelocateEvery == 0) judge_moves();
+      note_best();
+      if (i % kRelocateEvery == 0) {
+        look_around();
+        start_moves();
+      }
+      if (is_done(i)) break;
+    }
+    problem_.refresh(context_, best_.ellipsoids);
+    return report_;
+  }
 
+  const std::vector<Ellipsoid>& best() const { return best_.ellipsoids; }
+
+ private:
   void refresh() {
     problem_.refresh(context_, state_.ellipsoids);
     std::fill(moved_.begin(), moved_.end(), 0.0);
@@ -95,11 +122,10 @@ class Descent {
     for (const Step& step : steps) trial.push_back(step.ellipsoid);
     problem_.evaluate(context_, trial);
     problem_.assign(context_);
-    judge(steps);
+    judge_steps(steps);
   }
 
- private:
-  void judge(const std::vector<Step>& steps) {
+  void judge_steps(const std::vector<Step>& steps) {
     const std::vector<double> gain = problem_.gains();
     bool restored = false;
     for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -117,76 +143,74 @@ class Descent {
     if (restored) problem_.assign(context_);
   }
 
+  void note_best() {
+    const double cost = problem_.total();
+    if (!(cost < report_.last_cost)) return;
+    report_.last_cost = cost;
+    best_ = state_;
+    if (!options_.on_improved || cost >= 0.95 * told_) return;
+    told_ = cost;
+    options_.on_improved(best_.ellipsoids);
+  }
+
+  /// More samples change what the cost is: the best so far is then the state that they were asked for.
+  void look_around() {
+    if (!options_.more_samples) return;
+    const auto more = options_.more_samples(state_.ellipsoids);
+    if (more.empty()) return;
+    problem_.add(more);
+    refresh();
+    best_ = state_;
+    report_.last_cost = problem_.total();
+    window_cost_ = std::max(window_cost_, report_.last_cost);
+  }
+
+  void start_moves() {
+    before_moves_ = state_;
+    cost_before_moves_ = problem_.total();
+    State moved = state_;
+    for (const std::size_t k : relocation_.move(problem_, moved.ellipsoids)) moved.damping[k] = kFirstDamping;
+    reset(std::move(moved));
+  }
+
+  void judge_moves() {
+    refresh();
+    if (before_moves_.ellipsoids.empty()) return;
+    const bool paid = problem_.total() < cost_before_moves_;
+    relocation_.judge(paid);
+    if (!paid) reset(before_moves_);
+  }
+
+  bool is_done(int iteration) {
+    const double exact = 0.5 * kExact * kExact * static_cast<double>(problem_.sample_count());
+    if (report_.last_cost < exact) return report_.converged = true;
+    if (iteration % kStopWindow != 0) return false;
+    report_.converged = report_.last_cost > (1.0 - options_.least_gain) * window_cost_;
+    window_cost_ = report_.last_cost;
+    return report_.converged;
+  }
+
   const engine::Context& context_;
   TightProblem& problem_;
-  State state_;
+  const DescentOptions& options_;
+  State state_, best_, before_moves_;
   std::vector<double> moved_;  ///< #E: motion since the last refresh, at most
   std::size_t held_back_ = 0;  ///< steps that used up what an ellipsoid may move before a refresh
+  Relocation relocation_;
+  DescentReport report_;
+  double told_ = 0.0, window_cost_ = 0.0, cost_before_moves_ = 0.0;
 };
 
 }  // namespace
 
 DescentReport descend(const engine::Context& context, TightProblem& problem,
                       std::vector<Ellipsoid>& ellipsoids, const DescentOptions& options) {
-  Descent descent(context, problem, ellipsoids);
-  DescentReport report{0, problem.total(), problem.total(), {}, false};
-  State best = descent.state(), before_move = best;
-  double told = report.first_cost, cost_before_move = -1.0, window_cost = report.first_cost;
-  Relocation relocation(ellipsoids.size());
-  while (report.iterations < options.max_iterations && !(options.out_of_time && options.out_of_time())) {
-    context.checkpoint();
-    const int i = ++report.iterations;
-    descent.iterate();
-    if (i % kRelocateEvery == 0) {
-      descent.refresh();
-      if (cost_before_move >= 0.0) {
-        const bool paid = problem.total() < cost_before_move;
-        relocation.judge(paid);
-        if (!paid) descent.reset(before_move);
-      }
-    }
-    const double cost = problem.total();
-    if (cost < report.last_cost) {
-      report.last_cost = cost;
-      best = descent.state();
-      if (options.on_improved && cost < 0.95 * told) {
-        told = cost;
-        options.on_improved(best.ellipsoids);
-      }
-    }
-    if (i % kRelocateEvery == 0) {
-      if (options.more_samples) {
-        const auto more = options.more_samples(descent.state().ellipsoids);
-        if (!more.empty()) {
-          problem.add(more);
-          descent.refresh();
-          best = descent.state();
-          report.last_cost = problem.total();
-          window_cost = std::max(window_cost, report.last_cost);
-        }
-      }
-      before_move = descent.state();
-      cost_before_move = problem.total();
-      State moved = before_move;
-      for (const std::size_t k : relocation.move(problem, moved.ellipsoids)) moved.damping[k] = kFirstDamping;
-      descent.reset(std::move(moved));
-    }
-    if (i % kStopWindow == 0) {
-      if (report.last_cost > (1.0 - options.least_gain) * window_cost) {
-        report.converged = true;
-        break;
-      }
-      window_cost = report.last_cost;
-    }
-  }
-  problem.refresh(context, best.ellipsoids);
-  ellipsoids = best.ellipsoids;
+  Descent descent(context, problem, ellipsoids, options);
+  DescentReport report = descent.run();
+  ellipsoids = descent.best();
   const auto held = problem.skin_of_each();
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    std::uint32_t skin = 0;
-    for (const std::uint32_t n : held[k]) skin += n;
-    if (skin < kLeastSkin) report.idle.push_back(k);
-  }
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (std::accumulate(held[k].begin(), held[k].end(), 0u) < kLeastSkin) report.idle.push_back(k);
   return report;
 }
 

@@ -10,7 +10,7 @@ namespace bodice::fitting {
 struct DescentOptions {
   int max_iterations = 500;
   /// Ends when this much of the cost is not gained over 48 iterations.
-  double least_gain = 0.01;
+  double least_gain = 0.005;
   std::function<bool()> out_of_time;  ///< asked once an iteration
   /// Told of the ellipsoids when the cost has fallen by 5 % since the last time.
   std::function<void(std::span<const geometry::Ellipsoid>)> on_improved;

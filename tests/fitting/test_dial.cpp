@@ -1,0 +1,101 @@
+// One number in, what it promises out: skins that no constant of the dial was measured on.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <optional>
+
+#include <bodice/fitting/fit.hpp>
+
+#include "shapes.hpp"
+
+using namespace bodice;
+using fitting::FitOptions;
+using fitting_test::Skin;
+using geometry::Vec3;
+using proxy::Tier;
+
+namespace {
+
+/// Three bent limbs with folds: no small number of ellipsoids follows them.
+Skin bent_limbs() {
+  Skin skin;
+  skin.stature_m = 1.7;
+  const auto add = [&](const Vec3& centre, const Vec3& radii, double bend, body::Part part) {
+    const std::size_t first = skin.mesh.positions.size();
+    fitting_test::add_ellipsoid(skin, {centre, geometry::Mat3::Identity(), radii}, part);
+    for (std::size_t v = first; v < skin.mesh.positions.size(); ++v) {
+      Vec3& p = skin.mesh.positions[v];
+      const double along = (p.y() - centre.y()) / radii.y();
+      p.x() += bend * along * along;
+      p.z() = centre.z() + (p.z() - centre.z()) * (1.0 + 0.12 * std::sin(7.0 * along));
+    }
+  };
+  add({0.0, 1.2, 0.0}, {0.16, 0.35, 0.11}, 0.05, body::Part::kTorsoUL);
+  add({-0.12, 0.45, 0.0}, {0.08, 0.42, 0.08}, -0.10, body::Part::kThighR);
+  add({0.12, 0.45, 0.0}, {0.08, 0.42, 0.08}, 0.12, body::Part::kThighL);
+  return skin;
+}
+
+}  // namespace
+
+TEST_CASE("dial: a target error is reached within a fifth, from relief to a handful of ellipsoids") {
+  const Skin skin = bent_limbs();
+  for (const double target_mm : {1.0, 2.0, 4.0, 8.0}) {
+    FitOptions options;
+    options.target_error_m = 1e-3 * target_mm;
+    const auto result = fitting::fit({}, skin.view(), options);
+    REQUIRE(result.ok());
+    CAPTURE(target_mm);
+    CAPTURE(result->proxy.ellipsoids().size());
+    const double achieved_mm = 1e3 * result->accuracy.gap_m.mean;
+    CAPTURE(achieved_mm);
+    CHECK(achieved_mm < 1.2 * target_mm);
+    CHECK(achieved_mm > target_mm / 1.2);
+    CHECK(result->warnings.empty());
+  }
+}
+
+TEST_CASE("dial: a coarser target never costs more ellipsoids") {
+  const Skin skin = bent_limbs();
+  std::optional<std::size_t> finer;
+  for (const double target_mm : {2.0, 3.0, 5.0, 8.0}) {
+    FitOptions options;
+    options.tier = Tier::kTight;
+    options.target_error_m = 1e-3 * target_mm;
+    const auto result = fitting::fit({}, skin.view(), options);
+    REQUIRE(result.ok());
+    if (finer) CHECK(result->proxy.ellipsoids().size() <= *finer);
+    finer = result->proxy.ellipsoids().size();
+  }
+}
+
+TEST_CASE("tight: no ellipsoid stands in the air between limbs, however few there are") {
+  const Skin skin = bent_limbs();
+  for (const int count : {2, 3, 5, 9}) {
+    FitOptions options;
+    options.tier = Tier::kTight;
+    options.max_ellipsoids = count;
+    const auto result = fitting::fit({}, skin.view(), options);
+    REQUIRE(result.ok());
+    CAPTURE(count);
+    // Two cannot follow three limbs; else nothing is farther off than a limb is thick.
+    CHECK(result->accuracy.gap_m.max < (count == 2 ? 0.24 : 0.16));
+  }
+}
+
+TEST_CASE("fit: accuracy that nobody reads is not measured and changes nothing") {
+  const Skin skin = fitting_test::three_ellipsoids();
+  FitOptions options;
+  options.tier = Tier::kSolid;
+  options.max_ellipsoids = 12;
+  const auto measured = fitting::fit({}, skin.view(), options);
+  options.measure_accuracy = false;
+  const auto silent = fitting::fit({}, skin.view(), options);
+  REQUIRE((measured.ok() && silent.ok()));
+  CHECK(silent->proxy.hash() == measured->proxy.hash());
+  CHECK(measured->accuracy.gap_m.mean > 0.0);
+  CHECK(silent->accuracy.gap_m.mean == 0.0);
+  for (const auto& stage : silent->stages) CHECK(stage.name != "measure");
+  options.target_error_m = 0.05;  // has to be measured all the same
+  CHECK(fitting::fit({}, skin.view(), options)->accuracy.gap_m.mean > 0.0);
+}
