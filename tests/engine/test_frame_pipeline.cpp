@@ -353,7 +353,10 @@ TEST_CASE("a thousand cancellations at random moments: results are whole, and ol
     while (Clock_::now() < until) {
     }
     const bool by_hand = random.below(2) == 0;
-    if (by_hand) ticket.cancel();
+    if (by_hand)
+      ticket.cancel();
+    else if (i % 50 == 0)
+      CHECK(ticket.wait().ok());  // on a busy machine no other may get so far
     pipeline.frame([&](const Context&) {
       if (!stream.current()) return;
       const Pair now = *stream.current();
@@ -366,7 +369,7 @@ TEST_CASE("a thousand cancellations at random moments: results are whole, and ol
   CHECK(whole);
   CHECK(never_back);
   CHECK(none_of_cancelled);
-  CHECK(last_seen > 0);  // else the moments were not random enough to test anything
+  CHECK(last_seen > 0);
 }
 
 TEST_CASE("frames and jobs appear in the trace under their names") {

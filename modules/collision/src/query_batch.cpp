@@ -38,10 +38,11 @@ void collect(const Particles& particles, std::span<const std::uint32_t> order, s
   copy(particles.z, out, begin, order.empty(), out.z);
 }
 
-/// Also false for NaN.
+/// Also false for NaN. Without branches, for loops of vectors.
 bool near(const Places& places, int i) {
-  return (std::abs(places.x[i]) < kFarthest) & (std::abs(places.y[i]) < kFarthest) &
-         (std::abs(places.z[i]) < kFarthest);
+  const int x = std::abs(places.x[i]) < kFarthest, y = std::abs(places.y[i]) < kFarthest,
+            z = std::abs(places.z[i]) < kFarthest;
+  return (x & y & z) != 0;
 }
 
 /// Takes out what floats cannot handle, calling `other` for it; the rest closes up.
