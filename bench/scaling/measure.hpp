@@ -17,11 +17,12 @@ struct Sample {
   bool weak = false;  ///< the size grew with the workers
   std::size_t size = 0;
   int workers = 1;
-  double min_ms = 0.0, median_ms = 0.0;  ///< wall time of a run
-  double cpu_ms = 0.0;                   ///< of this process, in the median run's round
-  double imbalance = 0.0;                ///< busiest worker over the mean of all, in the bodies of loops
-  double processors = 0.0;               ///< that the machine gave beside the runs counted; capacity.hpp
-  bool same_bits = true;                 ///< as the first run with one worker
+  double min_ms = 0.0;     ///< wall time of a run; one worker: mean over the processors, which it has in turn
+  double median_ms = 0.0;  ///< wall time of a run
+  double cpu_ms = 0.0;     ///< of this process, in the median run's round
+  double imbalance = 0.0;  ///< busiest worker over the mean of all, in the bodies of loops
+  double processors = 0.0;  ///< that the machine gave beside the runs counted; capacity.hpp
+  bool same_bits = true;    ///< as the first run with one worker
   int repeats = 0;
 };
 

@@ -94,7 +94,9 @@ std::string to_markdown(const std::vector<Limit>& limits, const std::vector<std:
                         const std::vector<std::vector<Sample>>& weak, const std::vector<Cost>& costs,
                         const Origin& origin) {
   return "# Scaling\n\n" + title(origin) +
-         ".\nSpeed-ups are of least times; worker counts take turns. Runs count only where the machine, "
+         ".\nSpeed-ups are of least times; worker counts take turns. One worker has the processors in turn, "
+         "and the\n"
+         "mean of their paces counts: a host may lend unequal ones. Runs count only where the machine, "
          "probed\n"
          "before and after with threads that share nothing, gave the processors it has; 'gave 1.4 of 2' "
          "marks a\n"
