@@ -116,7 +116,8 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
       "solid parts",
       [set, handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
-        auto fit = fit_parts(c, *on, {.tier = proxy::Tier::kSolid}, parts, *handover);
+        auto fit =
+            fit_parts(c, *on, {.tier = proxy::Tier::kSolid, .measure_accuracy = false}, parts, *handover);
         if (!fit) return std::move(fit).error();
         return {};
       },
