@@ -1,34 +1,16 @@
 // Determinism, memory, rest and layers.
 #include <doctest/doctest.h>
+#include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
 #include <functional>
-#include <new>
 #include <set>
 
 #include "fixtures.hpp"
 
 using namespace bodice;
 using namespace bodice_test;
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size == 0 ? 1 : size)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 namespace {
 
@@ -61,13 +43,14 @@ TEST_CASE("a garment in gusts has the same bits for any number of workers") {
 }
 
 TEST_CASE("a step allocates nothing once warm") {
+  if (!bodice_test::counts_allocations()) return;
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
   cloth::Solver solver = make_solver(sheet(30, 30, 0.8, 0.8, Vec3(-0.4, 1.21, -0.4)), {}, cotton(), windy());
   const engine::Context context;
   for (int frame = 0; frame < 3; ++frame) solver.step(context, body, kFrame_s);
-  const std::size_t before = allocations;
+  const std::size_t before = bodice_test::allocations();
   for (int frame = 0; frame < 5; ++frame) solver.step(context, body, kFrame_s);
-  CHECK(allocations == before);
+  CHECK(bodice_test::allocations() == before);
 }
 
 TEST_CASE("quantiles of a frame are those that sorting finds") {
