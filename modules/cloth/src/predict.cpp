@@ -21,10 +21,11 @@ struct Velocity {
   Float4 x, y, z;
 };
 
-// Those that nothing but the host or the end of sleep moves get their velocity back.
-void keep_held(const Velocity& before, std::size_t i, Float4 damping, Particles& p) {
-  const Float4 weight = {p.point[i].weight, p.point[i + 1].weight, p.point[i + 2].weight,
-                         p.point[i + 3].weight};
+// Those that nothing but the host or the end of sleep moves get their velocity back. Points from `end` on are
+// other tasks' or idle ones.
+void keep_held(const Velocity& before, std::size_t i, std::size_t end, Float4 damping, Particles& p) {
+  Float4 weight = splat(0.0f);
+  for (std::size_t k = i; k < end; ++k) weight[k - i] = p.point[k].weight;
   const auto free = weight > splat(0.0f);
   store(&p.vx[i], free ? damping * load(&p.vx[i]) : before.x);
   store(&p.vy[i], free ? damping * load(&p.vy[i]) : before.y);
@@ -47,8 +48,8 @@ std::uint32_t predict(const Environment& environment, const Air& air, const Pred
   for (std::size_t i = begin; i < end; i += 4) {
     const Velocity before = {load(&p.vx[i]), load(&p.vy[i]), load(&p.vz[i])};
     accelerate(environment, air, how.substep_s, i, i + 4, p);
-    keep_held(before, i, damping, p);
     const std::size_t last = std::min(i + 4, end);
+    keep_held(before, i, last, damping, p);
     if (any_faster(p, i, how.top_speed_m_s))
       for (std::size_t k = i; k < last; ++k) limits |= bound_velocity(p, k, how.top_speed_m_s);
     Float4 x = load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]);
