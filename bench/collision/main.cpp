@@ -16,6 +16,8 @@
 
 #include <Eigen/Geometry>
 
+#include <bench_support/origin.hpp>
+
 #include "figures.hpp"
 #include "peers.hpp"
 #include "subject.hpp"
@@ -199,17 +201,10 @@ void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, con
   }
 }
 
-std::string processor() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
-  return "unknown processor";
-}
-
-void write_csv(const std::string& file, const std::vector<Row>& rows, int repeats) {
+void write_csv(const std::string& file, const std::vector<Row>& rows, const bench::Origin& origin,
+               int repeats) {
   std::ofstream out(file);
-  out << "# " << processor() << "; " << BENCH_COMPILER << "; " << BENCH_FLAGS << "; repeats " << repeats
-      << "\n";
+  out << "# " << bench::title(origin) << "; " << origin.flags << "; repeats " << repeats << "\n";
   out << "row,ns_median,ns_min\n";
   for (const Row& row : rows)
     out << '"' << row.name << "\"," << row.median() << ',' << row.ns.front() << '\n';
@@ -224,6 +219,7 @@ int main(int argc, char** argv) {
   const int repeats = argc > 2 ? std::max(1, std::atoi(argv[2])) : 11;
   const double fit_s = argc > 3 ? std::atof(argv[3]) : 4.0;
 
+  const bench::Origin origin = bench::find_origin();
   const auto body = bench::make_subject(8850);
   const bodice::geometry::MeshDistance skin({}, body.mesh);
   const bench::Cloud random = bench::near_skin(body.mesh, count, kBand_m, 1);
@@ -232,10 +228,10 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < count; ++i) truth.push_back(skin.signed_distance(coherent.at(i)));
 
   std::printf(
-      "%s; %s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
+      "%s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
       "repeats. A query answers signed distance, nearest point, normal and ellipsoid; peers the distance "
       "alone.\n\n",
-      processor().c_str(), BENCH_COMPILER, BENCH_FLAGS, count, 1e3 * kBand_m, body.mesh.positions.size(),
+      bench::title(origin).c_str(), origin.flags.c_str(), count, 1e3 * kBand_m, body.mesh.positions.size(),
       repeats);
 
   std::vector<std::unique_ptr<Contender>> contenders;
@@ -281,6 +277,6 @@ int main(int argc, char** argv) {
     bench::compare_targets(
         c->name, [&] { c->collider.query({}, c->coherent.particles(), c->contacts); },
         static_cast<double>(count), repeats);
-  if (argc > 4) write_csv(argv[4], rows, repeats);
+  if (argc > 4) write_csv(argv[4], rows, origin, repeats);
   return 0;
 }

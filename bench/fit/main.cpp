@@ -147,23 +147,33 @@ std::optional<fitting::FitResult> fitted(const engine::Context& context, const S
   return std::nullopt;
 }
 
-bool laws(const engine::Context& context, const Arguments& arguments) {
-  std::vector<fit_bench::LawPoint> points;
-  const bool all = for_each_subject(context, arguments, [&](const Subject& subject) {
+/// Fits every subject with every tier and count asked for; false if one fails.
+bool for_each_fit(const engine::Context& context, const Arguments& arguments,
+                  const std::function<void(const Subject&, int, const fitting::FitResult&)>& take) {
+  return for_each_subject(context, arguments, [&](const Subject& subject) {
     for (const proxy::Tier tier : arguments.tiers)
       for (const int count : arguments.counts) {
         fitting::FitOptions options;
         options.tier = tier;
         options.max_ellipsoids = count;
+        options.time_budget_s = arguments.seconds;
         const auto result = fitted(context, subject, options);
         if (!result) return false;
-        points.push_back({std::string(proxy::name(tier)),
-                          static_cast<double>(result->proxy.ellipsoids().size()),
-                          result->accuracy.gap_m.mean / subject.body.stature_m,
-                          fit_bench::query_ns(result->proxy, subject.body.mesh)});
+        take(subject, count, *result);
       }
     return true;
   });
+}
+
+bool laws(const engine::Context& context, const Arguments& arguments) {
+  std::vector<fit_bench::LawPoint> points;
+  const auto note = [&](const Subject& subject, int, const fitting::FitResult& result) {
+    points.push_back({std::string(proxy::name(result.proxy.tier())),
+                      static_cast<double>(result.proxy.ellipsoids().size()),
+                      result.accuracy.gap_m.mean / subject.body.stature_m,
+                      fit_bench::query_ns(result.proxy, subject.body.mesh)});
+  };
+  const bool all = for_each_fit(context, arguments, note);
   fit_bench::print_laws(points);
   return all;
 }
@@ -184,21 +194,13 @@ bool front(const engine::Context& context, const Arguments& arguments) {
       "interior_percent,uncovered_percent,uncovered_mm,near_mean_mm,near_p95_mm,missed_percent,false_percent,"
       "near_max_mm,deep_leaks,mu_torso_mm,mu_limbs_mm,query_ns\n");
   std::vector<fit_bench::FrontPoint> points;
-  const bool all = for_each_subject(context, arguments, [&](const Subject& subject) {
-    for (const proxy::Tier tier : arguments.tiers)
-      for (const int count : arguments.counts) {
-        fitting::FitOptions options;
-        options.tier = tier;
-        options.max_ellipsoids = count;
-        options.time_budget_s = arguments.seconds;
-        const auto result = fitted(context, subject, options);
-        if (!result) return false;
-        const auto near = fit_bench::judge(context, result->proxy, subject.probes);
-        print_line(subject.name, *result, near, fit_bench::query_ns(result->proxy, subject.body.mesh));
-        points.push_back({std::string(proxy::name(tier)), static_cast<double>(count), near.mean_mm});
-      }
-    return true;
-  });
+  const auto judge = [&](const Subject& subject, int count, const fitting::FitResult& result) {
+    const auto near = fit_bench::judge(context, result.proxy, subject.probes);
+    print_line(subject.name, result, near, fit_bench::query_ns(result.proxy, subject.body.mesh));
+    points.push_back(
+        {std::string(proxy::name(result.proxy.tier())), static_cast<double>(count), near.mean_mm});
+  };
+  const bool all = for_each_fit(context, arguments, judge);
   return all && (arguments.svg.empty() || fit_bench::write_front_svg(arguments.svg, points));
 }
 

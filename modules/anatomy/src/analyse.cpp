@@ -1,8 +1,8 @@
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/engine/stage_timer.hpp>
+#include <bodice/geometry/fins.hpp>
 
 #include "diagnose.hpp"
-#include "drop_fins.hpp"
 #include "halve_edges.hpp"
 #include "landmarks.hpp"
 #include "segment.hpp"
@@ -122,6 +122,15 @@ engine::Result<Anatomy> understand_apart(const engine::Context& context, const S
   return result;
 }
 
+/// The tips of fins are no ends of a body, and ways along them lead across it. All vertices stay.
+geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
+  const std::vector<bool> fin = geometry::find_fins(mesh, geometry::build_adjacency(mesh));
+  geometry::TriMesh kept{mesh.positions, {}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (!fin[t]) kept.triangles.push_back(mesh.triangles[t]);
+  return kept;
+}
+
 }  // namespace
 
 engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
@@ -132,8 +141,8 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   const Skin skin = make_skin(context, mesh);
   skin_timer.stop();
   if (skin.edges.non_manifold == 0) return understand_apart(context, skin, options, std::move(anatomy));
-  const geometry::TriMesh without_fins = drop_fins(skin);
-  return understand_apart(context, make_skin(context, without_fins), options, std::move(anatomy));
+  const geometry::TriMesh clean = without_fins(mesh);
+  return understand_apart(context, make_skin(context, clean), options, std::move(anatomy));
 }
 
 }  // namespace bodice::anatomy

@@ -11,7 +11,7 @@
 
 namespace bodice::cloth {
 
-/// Neighbours on the cloth; as many as the collider's kernels take at a time.
+/// Neighbours on the cloth; as many as a block of the collider's kernels.
 inline constexpr std::size_t kCluster = 64;
 
 struct Clearance {

@@ -1,4 +1,4 @@
-#include "fins.hpp"
+#include <bodice/geometry/fins.hpp>
 
 #include <algorithm>
 

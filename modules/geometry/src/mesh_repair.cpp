@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include <bodice/geometry/adjacency.hpp>
+#include <bodice/geometry/fins.hpp>
 
-#include "fins.hpp"
 #include "orient.hpp"
 #include "weld.hpp"
 

@@ -18,24 +18,11 @@ namespace bodice::collision::HWY_NAMESPACE {
 /// if they are more than kMaxCandidates.
 template <class Source>
 HWY_INLINE bool find_below(const Source& source, const Extent* boxes, int blocks, float limit_m, Near* out) {
-  for (int block = 0; block < blocks; ++block) out[block].count = 0;
-  const VI end = hn::Set(I(), source.count());
-  for (int k = 0; k < source.count(); k += kWidth) {
-    const BoundLanes lanes = source.bounds(k);
-    const VI index = hn::Iota(I(), k);
-    const M real = hn::RebindMask(f, hn::Lt(index, end));
-    for (int block = 0; block < blocks; ++block) {
-      Near& to = out[block];
-      if (to.count + kWidth > kMaxCandidates) return false;
-      const Planes at = planes_at(lanes, broadcast3(boxes[block].middle));
-      const V reach = dot(absolute(slope_of(lanes, at)), broadcast3(boxes[block].half));
-      // Not above, rather than below: a plane that is NaN bounds nothing.
-      const M keep = hn::And(real, hn::Not(hn::Gt(hn::Sub(at.base, reach), all(limit_m))));
-      hn::StoreU(hn::Compress(index, hn::RebindMask(I(), keep)), I(), to.index + to.count);
-      to.count += static_cast<int>(hn::CountTrue(f, keep));
-    }
-  }
-  return true;
+  return collect_near(source, boxes, blocks, out, [&](const BoundLanes& lanes, const auto& at, int block) {
+    const V reach = dot(absolute(slope_of(lanes, at)), broadcast3(boxes[block].half));
+    // Not above, rather than below: a plane that is NaN bounds nothing.
+    return hn::Not(hn::Gt(hn::Sub(at.base, reach), all(limit_m)));
+  });
 }
 
 /// Places and what they were put clear of: indices of ellipsoids, or below zero.

@@ -179,16 +179,12 @@ HWY_INLINE M unbeaten(const Planes& at, V3 slope, V3 half, const Rivals& rivals,
   return hn::Not(hn::And(hn::Gt(hn::Max(lead[0], lead[1]), beyond), hn::Eq(at.base, at.base)));
 }
 
-/// For each box all ellipsoids of the source that can be the nearest of a place in it, or within `beyond_m`
-/// of the nearest, by rising index; false if they are more than kMaxCandidates.
-template <class Source>
-HWY_INLINE bool find_near(const Source& source, const Extent* boxes, int blocks, float beyond_m, Near* out) {
-  Rivals rivals[kBlocks];
-  find_rivals(source, boxes, blocks, rivals);
-  measure_corners(source, boxes, blocks, rivals);
+/// For each box all ellipsoids of the source that keep(bounds, planes at its middle, block) keeps, by rising
+/// index; false if they are more than kMaxCandidates.
+template <class Source, class Keep>
+HWY_INLINE bool collect_near(const Source& source, const Extent* boxes, int blocks, Near* out, Keep&& keep) {
   for (int block = 0; block < blocks; ++block) out[block].count = 0;
   const VI end = hn::Set(I(), source.count());
-  const V beyond = all(beyond_m);
   for (int k = 0; k < source.count(); k += kWidth) {
     const BoundLanes lanes = source.bounds(k);
     const VI index = hn::Iota(I(), k);
@@ -196,14 +192,25 @@ HWY_INLINE bool find_near(const Source& source, const Extent* boxes, int blocks,
     for (int block = 0; block < blocks; ++block) {
       Near& to = out[block];
       if (to.count + kWidth > kMaxCandidates) return false;
-      const Planes at = planes_at(lanes, broadcast3(boxes[block].middle));
-      const M keep = hn::And(
-          real, unbeaten(at, slope_of(lanes, at), broadcast3(boxes[block].half), rivals[block], beyond));
-      hn::StoreU(hn::Compress(index, hn::RebindMask(I(), keep)), I(), to.index + to.count);
-      to.count += static_cast<int>(hn::CountTrue(f, keep));
+      const M kept = hn::And(real, keep(lanes, planes_at(lanes, broadcast3(boxes[block].middle)), block));
+      hn::StoreU(hn::Compress(index, hn::RebindMask(I(), kept)), I(), to.index + to.count);
+      to.count += static_cast<int>(hn::CountTrue(f, kept));
     }
   }
   return true;
+}
+
+/// For each box all ellipsoids of the source that can be the nearest of a place in it, or within `beyond_m`
+/// of the nearest, by rising index; false if they are more than kMaxCandidates.
+template <class Source>
+HWY_INLINE bool find_near(const Source& source, const Extent* boxes, int blocks, float beyond_m, Near* out) {
+  Rivals rivals[kBlocks];
+  find_rivals(source, boxes, blocks, rivals);
+  measure_corners(source, boxes, blocks, rivals);
+  const V beyond = all(beyond_m);
+  return collect_near(source, boxes, blocks, out, [&](const BoundLanes& lanes, const auto& at, int block) {
+    return unbeaten(at, slope_of(lanes, at), broadcast3(boxes[block].half), rivals[block], beyond);
+  });
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE
