@@ -3,10 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include <bodice/io/obj.hpp>
+#include <bodice/synth/body.hpp>
 #include <bodice/synth/garment.hpp>
 #include <bodice/tryon/report.hpp>
 #include <bodice/tryon/wearing.hpp>
@@ -59,6 +63,23 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   height /= static_cast<double>(draped->garments[0].frames.back().size());
   CHECK(height > 0.28 * 1.68);
   CHECK(height < 0.66 * 1.68);
+}
+
+TEST_CASE("a hole in the skin is told once") {
+  auto made = synth::make_body({}, {.vertices = 3000});
+  REQUIRE(made.ok());
+  std::erase_if(made->mesh.triangles, [&](const geometry::Triangle& t) {
+    return (made->mesh.positions[t[0]] - made->mesh.positions[100]).norm() < 0.03;
+  });
+  const auto file = std::filesystem::temp_directory_path() / "bodice_test_holed_body.obj";
+  REQUIRE(io::write_obj(made->mesh, file).ok());
+  const auto skin = tryon::segment_file({}, file, {});
+  std::filesystem::remove(file);
+  REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
+  const auto told = std::ranges::count_if(skin->warnings, [](const engine::Warning& warning) {
+    return warning.code == "holes" || warning.code == "open-edges";
+  });
+  CHECK(told == 1);
 }
 
 TEST_CASE("the same bits for any number of workers, from body to last frame") {

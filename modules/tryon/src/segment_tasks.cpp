@@ -1,5 +1,7 @@
 #include "segment_tasks.hpp"
 
+#include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <bodice/engine/stage_timer.hpp>
@@ -19,6 +21,14 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+/// Repair and anatomy both count a body's open edges; a reader wants to hear of holes once.
+void tell_holes_once(std::vector<engine::Warning>& warnings) {
+  const auto has_code = [](std::string_view code) {
+    return [code](const engine::Warning& warning) { return warning.code == code; };
+  };
+  if (std::ranges::any_of(warnings, has_code("holes"))) std::erase_if(warnings, has_code("open-edges"));
+}
+
 DistanceField measure_distances(const engine::Context& context, const io::ImportedMesh& mesh) {
   DistanceField field;
   const engine::StageTimer timer(context, field.stages, "distance");
@@ -36,6 +46,7 @@ std::shared_ptr<SegmentedSkin> join(const engine::Context&, const io::ImportedMe
   append(skin->stages, anatomy.stages);
   append(skin->stages, field.stages);
   append(skin->warnings, anatomy.warnings);
+  tell_holes_once(skin->warnings);
   return skin;
 }
 
