@@ -42,3 +42,15 @@ TEST_CASE("pieces that only nearly touch stay apart; copies of a vertex do not")
   CHECK(apart->repair.components == 2);
   CHECK(apart->skin.positions.size() == 2 * sheet.positions.size());
 }
+
+TEST_CASE("a pocket's flap, a third triangle at two edges, is kept") {
+  const TempFolder folder;
+  TriMesh can = bodice_test::cylinder(1.0, 2.0, 24, 6, true);
+  const geometry::Triangle under = can.triangles[can.triangles.size() / 2];
+  const auto tip = static_cast<geometry::Index>(can.positions.size());
+  can.positions.push_back(1.3 * can.positions[under[0]]);
+  can.triangles.push_back({under[0], under[1], tip});
+  const auto result = io::import_garment(kContext, folder.write("pocket.obj", to_obj({{"can", can}})), {});
+  REQUIRE(result.ok());
+  CHECK(result->skin.triangles.size() == can.triangles.size());
+}
