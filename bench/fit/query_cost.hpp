@@ -6,7 +6,7 @@
 
 namespace fit_bench {
 
-/// Nanoseconds of processor time a particle, one thread, the least of several runs: particles within 30 mm of
+/// Nanoseconds of processor time a particle, one thread, the least of many runs: particles within 30 mm of
 /// the skin, in the order of its triangles, kept in a Workspace as a frame loop does.
 double query_ns(const bodice::proxy::BodyProxy& proxy, const bodice::geometry::TriMesh& skin);
 

@@ -66,6 +66,13 @@ void add_warnings(const FitOptions& options, const Draft& draft, FitResult& resu
     result.warnings.push_back({"thresholds-not-reached", "",
                                "Some ellipsoids are worse than their threshold mu.",
                                "Allow more ellipsoids, or raise the thresholds."});
+  const auto count = static_cast<int>(result.proxy.ellipsoids().size());
+  const double frame_us = predicted_frame_us(result.proxy.tier(), count);
+  if (options.budget_us && frame_us > kBudgetKeptTo * *options.budget_us)
+    result.warnings.push_back({"budget-not-reached", "",
+                               "A query of 10,000 particles takes about " + std::to_string(frame_us) +
+                                   " us where " + std::to_string(*options.budget_us) + " us were asked for.",
+                               "Allow more time, or choose tier tight with few ellipsoids."});
   if (options.target_error_m && result.accuracy.gap_m.mean > kWarnAbove * *options.target_error_m)
     result.warnings.push_back({"target-error-not-reached", "",
                                "The mean gap is " + std::to_string(1e3 * result.accuracy.gap_m.mean) +

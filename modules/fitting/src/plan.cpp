@@ -57,9 +57,11 @@ Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double st
   for (const Tier candidate : {Tier::kTight, Tier::kRelief}) {
     const Tier t = tier.value_or(candidate);
     const int largest = t == Tier::kRelief ? kDefaultEllipsoids : kMostEllipsoids;
-    const int count = std::min({most, largest, count_within_budget(t, budget_us)});
+    // With fewer than a handful the fixed cost hardly falls any more, and nothing looks like a body.
+    const int wanted = std::max(static_cast<int>(kFewestToStart), count_within_budget(t, budget_us));
+    const int count = std::min({most, largest, wanted});
     const double gap = predicted_gap_m(t, count, stature_m);
-    if (predicted_frame_us(t, count) > budget_us && std::isfinite(least)) continue;
+    if (predicted_frame_us(t, count) > kBudgetKeptTo * budget_us && std::isfinite(least)) continue;
     if (gap < least) best = {t, count, kReliefBytes}, least = gap;
   }
   return best;
@@ -69,7 +71,7 @@ Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double st
 
 double predicted_frame_us(Tier tier, int ellipsoids) {
   // 10,000 particles: nanoseconds a particle times ten.
-  return tier == Tier::kRelief ? 10.0 * (10.0 + 0.30 * ellipsoids) : 10.0 * (7.0 + 0.16 * ellipsoids);
+  return tier == Tier::kRelief ? 10.0 * (10.0 + 0.30 * ellipsoids) : 10.0 * (7.0 + 0.19 * ellipsoids);
 }
 
 int count_within_budget(Tier tier, double budget_us) {

@@ -41,8 +41,12 @@ struct FitOptions {
   /// Mean gap wanted: gives tier, count, size of tables and thresholds. The search aims within a tenth of it;
   /// a gap above it by more than a fifth is the warning target-error-not-reached.
   std::optional<double> target_error_m;
-  std::optional<int> max_ellipsoids;             ///< of the whole body, whatever `parts` says
-  std::optional<double> budget_us;               ///< collision time a frame for 10k particles
+  std::optional<int> max_ellipsoids;  ///< of the whole body, whatever `parts` says
+  /// Time of one query of 10,000 particles near the skin, microseconds: gives tier and count, kept within a
+  /// fifth (more is the warning budget-not-reached). Judged by a law and no clock, so that results repeat:
+  /// one thread of a 2.5 GHz server with AVX-512, particles kept in a Workspace. Where `bench/fit --laws`
+  /// finds twice its 10 + .30 n nanoseconds a particle for n ellipsoids of relief, ask for half.
+  std::optional<double> budget_us;
   std::optional<double> mu_torso_m, mu_limbs_m;  ///< the paper's thresholds; automatic if absent
   /// The anytime tiers stop after this long; absent: when they gain no more, which makes runs repeatable.
   std::optional<double> time_budget_s;
