@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 
+#include "cover.hpp"
 #include "shapes.hpp"
 
 using namespace bodice;
@@ -91,4 +93,26 @@ TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering o
   CHECK(deepest_uncovered(skin, balanced->proxy) > 5e-4);
   CHECK(deepest_uncovered(skin, covering->proxy) <= 1e-9);
   CHECK(covering->accuracy.gap_m.mean > balanced->accuracy.gap_m.mean);
+}
+
+TEST_CASE("cover: what no triangle needs is taken back, and every triangle stays held") {
+  const geometry::Ellipsoid anchor{Vec3(0, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.1, 0.2, 0.1)};
+  Skin skin;
+  fitting_test::add_ellipsoid(skin, anchor, body::Part::kTorsoUL);
+  std::vector<geometry::Index> all(skin.mesh.triangles.size());
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<geometry::Index>(t);
+  // Each of two ellipsoids alone holds everything; one of them is far larger than it has to be.
+  std::vector<geometry::Ellipsoid> shapes(2, anchor);
+  shapes[0].radii *= 1.05;
+  shapes[1].radii *= 1.6;
+  const double before = geometry::volume(shapes[1]);
+  fitting::relax_cover({}, skin.mesh, all, std::vector(2, anchor), shapes);
+  CHECK(geometry::volume(shapes[0]) + geometry::volume(shapes[1]) < 0.6 * before);
+  for (const auto& triangle : skin.mesh.triangles) {
+    const auto held_by = [&](const geometry::Ellipsoid& e) {
+      return std::ranges::all_of(
+          triangle, [&](geometry::Index v) { return geometry::level(e, skin.mesh.positions[v]) <= 1.0; });
+    };
+    CHECK(std::ranges::any_of(shapes, held_by));
+  }
 }

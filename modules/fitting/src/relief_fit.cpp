@@ -19,6 +19,10 @@ constexpr float kLeakFactor = 20.0f;
 constexpr int kLeakRounds = 4, kSettleSteps = 8, kMostLooks = 2;
 constexpr double kSpokenFor = 0.05;  // weight from which a node's value counts for the range of a table
 
+std::size_t square(int side) {
+  return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+}
+
 struct Range {
   float offset = 0.0f, scale = 0.0f;
 
@@ -55,6 +59,23 @@ void store_table(const ReliefSystem& system, const ReliefSystem::Vector& x, std:
     texels[node] = {h_range.byte(h[unknown_of[node]]), a_range.byte(a[unknown_of[node]])};
 }
 
+void store_tables(const engine::Context& context, const ReliefSystem& system, const ReliefSystem::Vector& x,
+                  std::span<const int> nodes_per_side, proxy::BodyProxy::Data& data) {
+  data.relief.assign(nodes_per_side.size(), {});
+  std::size_t texels = 0;
+  for (std::size_t k = 0; k < nodes_per_side.size(); ++k) {
+    data.relief[k].nodes_per_side = static_cast<std::uint16_t>(nodes_per_side[k]);
+    data.relief[k].first_texel = static_cast<std::uint32_t>(texels);
+    texels += square(nodes_per_side[k]);
+  }
+  data.texels.assign(texels, {});
+  engine::parallel_for(context, data.relief.size(), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      store_table(system, x, k, data.relief[k],
+                  std::span(data.texels).subspan(data.relief[k].first_texel, square(nodes_per_side[k])));
+  });
+}
+
 /// Deep samples that the tables would report (nearly) outside weigh much more from now on; returns them.
 std::vector<std::uint32_t> raise_leaks(const ReliefSystem& system, const ReliefSystem::Vector& x,
                                        double stature_m, ReliefAnswers& answers) {
@@ -81,10 +102,6 @@ std::vector<std::uint32_t> close_leaks(const ReliefSystem& system, const ReliefS
     x = system.solve(std::move(x), kSettleSteps, free);
   }
   return first;
-}
-
-std::size_t square(int side) {
-  return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
 }
 
 }  // namespace
@@ -138,25 +155,16 @@ std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& an
   const Vector free = system->limit_slopes(x, proxy::relief_reach(data.stature_m).out_m);
   x = system->solve(std::move(x), kSettleSteps, free);
   std::vector<std::uint32_t> leaks = close_leaks(*system, free, data.stature_m, answers, x);
-  for (int look = 0; look < kMostLooks && look_closer && !leaks.empty(); ++look) {
-    answers = joined(answers, look_closer(leaks));
+  store_tables(context, *system, x, nodes_per_side, data);
+  for (int look = 0; look < kMostLooks && look_closer; ++look) {
+    const ReliefAnswers more = look_closer(leaks);
+    if (more.target_m.empty()) break;
+    answers = joined(answers, more);
     system = std::make_unique<ReliefSystem>(context, answers, nodes_per_side);
     x = system->solve(std::move(x), kSettleSteps, free);
     leaks = close_leaks(*system, free, data.stature_m, answers, x);
+    store_tables(context, *system, x, nodes_per_side, data);
   }
-  data.relief.assign(nodes_per_side.size(), {});
-  std::size_t texels = 0;
-  for (std::size_t k = 0; k < nodes_per_side.size(); ++k) {
-    data.relief[k].nodes_per_side = static_cast<std::uint16_t>(nodes_per_side[k]);
-    data.relief[k].first_texel = static_cast<std::uint32_t>(texels);
-    texels += square(nodes_per_side[k]);
-  }
-  data.texels.assign(texels, {});
-  engine::parallel_for(context, data.relief.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      store_table(*system, x, k, data.relief[k],
-                  std::span(data.texels).subspan(data.relief[k].first_texel, square(nodes_per_side[k])));
-  });
   return system->error_of_each(x);
 }
 

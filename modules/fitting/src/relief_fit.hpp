@@ -21,12 +21,13 @@ std::vector<int> equal_sides(std::size_t ellipsoids, std::size_t texels);
 /// Sides that use up to `texels` where they lower the error most: #E errors in, #E nodes per side out.
 std::vector<int> shared_sides(std::span<const double> error, std::size_t texels);
 
-/// Answers to more samples near those that leaked (ascending), which are few.
+/// Answers to more samples where the tables stored last leak, none if they do not; `leaks` are samples that
+/// leaked before (ascending).
 using LookCloser = std::function<ReliefAnswers(std::span<const std::uint32_t> leaks)>;
 
 /// Fills data.relief and data.texels from the answers; returns each ellipsoid's share of the error that is
 /// left (shared_sides takes it). Raises the weights of deep samples that would be reported outside and, if
-/// `look_closer` is given, joins what it finds there to the answers and fits again. Deterministic, parallel.
+/// `look_closer` is given, joins what it finds to the answers and fits again. Deterministic, parallel.
 std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& answers,
                                std::span<const int> nodes_per_side, int solver_steps,
                                proxy::BodyProxy::Data& data, const LookCloser& look_closer = {});

@@ -108,7 +108,8 @@ std::vector<ReliefSample> sample_around(const engine::Context& context, const Fr
   engine::parallel_for(context, samples.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 u(random.uniform_at(3 * i), random.uniform_at(3 * i + 1), random.uniform_at(3 * i + 2));
-      const Vec3 point = places[i / kEach] + radius_m * (2.0 * u - Vec3::Ones());
+      const double reach = i % kEach == 0 ? 0.0 : radius_m;  // the place itself first
+      const Vec3 point = places[i / kEach] + reach * (2.0 * u - Vec3::Ones());
       const double s = signed_distance(skin, point, reach_m);
       samples[i] = {point, s, 0.25f * importance(s, reach_m)};
     }

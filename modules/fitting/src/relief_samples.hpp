@@ -30,7 +30,8 @@ std::vector<ReliefSample> sample_along_normals(const engine::Context& context, c
 std::vector<ReliefSample> sample_inside(const engine::Context& context, const FreeSkin& skin,
                                         double spacing_m, double reach_m);
 
-/// More samples within `radius_m` of each of `places`, at a quarter of the weight: where tables leaked.
+/// Each of `places` and more samples within `radius_m` of it, at a quarter of the weight: where tables
+/// leaked.
 std::vector<ReliefSample> sample_around(const engine::Context& context, const FreeSkin& skin,
                                         std::span<const Vec3> places, double radius_m, double reach_m);
 

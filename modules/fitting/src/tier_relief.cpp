@@ -6,6 +6,7 @@
 #include <bodice/engine/stage_timer.hpp>
 
 #include "relief_fit.hpp"
+#include "relief_holes.hpp"
 
 namespace bodice::fitting {
 namespace {
@@ -21,6 +22,8 @@ constexpr double kMargin = 0.1e-3 / 1.7;
 constexpr double kInsideSpacing = 0.010 / 1.7;
 /// Leaks that are looked at more closely; posed bodies whose limbs interpenetrate have hundreds.
 constexpr std::size_t kMostPlaces = 2000;
+/// Of stature: skin this deep, reported so little inside or outside, is looked at more closely.
+constexpr double kHoleDepth = 7e-3 / 1.7, kHoleMargin = 2e-3 / 1.7;
 
 }  // namespace
 
@@ -48,9 +51,10 @@ ReliefAnswers ReliefTables::ask(std::span<const ReliefSample> samples) const {
 }
 
 ReliefAnswers ReliefTables::ask_around(std::span<const std::uint32_t> leaks) {
-  std::vector<Vec3> places;
-  for (const std::uint32_t leak : leaks.first(std::min(leaks.size(), kMostPlaces)))
-    places.push_back(samples_[leak].point);
+  std::vector<Vec3> places =
+      find_holes(context_, skin_, data_, kHoleDepth * data_.stature_m, kHoleMargin * data_.stature_m);
+  for (const std::uint32_t leak : leaks) places.push_back(samples_[leak].point);
+  places.resize(std::min(places.size(), kMostPlaces));
   const auto more = sample_around(context_, skin_, places, kInsideSpacing * data_.stature_m,
                                   proxy::relief_reach(data_.stature_m).in_m);
   samples_.insert(samples_.end(), more.begin(), more.end());

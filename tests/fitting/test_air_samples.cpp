@@ -1,0 +1,45 @@
+// Where a union stands in the air, and only there.
+#include <doctest/doctest.h>
+
+#include <bodice/geometry/mesh_distance.hpp>
+
+#include "air_samples.hpp"
+#include "shapes.hpp"
+
+using namespace bodice;
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kGap_m = 0.008, kMost_m = 0.2;
+
+/// Samples that ellipsoids ask for beside two legs, 20 cm apart.
+std::vector<fitting::DistanceSample> asked_by(const std::vector<geometry::Ellipsoid>& ellipsoids,
+                                              const geometry::MeshDistance& distance,
+                                              const fitting_test::Skin& skin) {
+  auto view = skin.view();
+  view.distance = &distance;
+  const auto source = fitting::make_skin_source({}, view, fitting::kAllParts);
+  return fitting::samples_in_air({}, source, ellipsoids, 2000, kGap_m, kMost_m);
+}
+
+}  // namespace
+
+TEST_CASE("air: an ellipsoid across the gap between two legs is told how far off the skin it stands") {
+  const geometry::Ellipsoid left{Vec3(0.1, 0.4, 0), geometry::Mat3::Identity(), Vec3(0.05, 0.4, 0.05)};
+  const geometry::Ellipsoid right{Vec3(-0.1, 0.4, 0), geometry::Mat3::Identity(), Vec3(0.05, 0.4, 0.05)};
+  const geometry::Ellipsoid across{Vec3(0, 0.4, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.05)};
+  fitting_test::Skin skin;
+  fitting_test::add_ellipsoid(skin, left, body::Part::kThighL);
+  fitting_test::add_ellipsoid(skin, right, body::Part::kThighR);
+  skin.stature_m = 1.7;
+  const geometry::MeshDistance distance({}, skin.mesh);
+  CHECK(asked_by({left, right}, distance, skin).empty());
+  const auto samples = asked_by({left, across}, distance, skin);
+  CHECK(samples.size() > 200);
+  for (const auto& s : samples) {
+    CHECK(s.signed_distance_m > kGap_m);
+    CHECK(s.signed_distance_m == doctest::Approx(distance.nearest(s.point).signed_distance).epsilon(1e-9));
+    CHECK(geometry::level(left, s.point) >= 1.0);  // what another ellipsoid holds is not the union's surface
+  }
+}
