@@ -42,7 +42,7 @@ void CagePlan::place_armhole(int side) {
 
 void CagePlan::arm(int side) {
   const Region region = region_of_side(Region::kArmL, side);
-  const double upper = f.upper_arm_length(), lower = f.p.forearm;
+  const double upper = f.upper_arm_length(), lower = f.forearm_length();
   Loop ring = armhole_loop(side);
   for (const double s : {0.22 * upper, 0.45 * upper, 0.72 * upper, upper, upper + 0.3 * lower,
                          upper + 0.65 * lower, upper + lower}) {

@@ -36,7 +36,7 @@ void CagePlan::leg(int side) {
   };
   for (const double share : {0.38, 0.58, 0.8, 1.0})
     ring = cage.extrude(ring, place(share * thigh, 0.042), region);
-  for (const double share : {0.2, 0.42, 0.66, 0.88})
+  for (const double share : {0.2, 0.42, 0.66, 0.9})
     ring = cage.extrude(ring, place(thigh + share * calf, 0.026), region);
   const double h = f.ankle_height, l = f.p.foot_length;
   // The tube bends forward over the heel: its back runs down and along the sole, its front over the instep.

@@ -90,7 +90,7 @@ void place_arm(Figure& f, int side) {
   at(Bone::kUpperArmL) = {sign * half_breadth, f.p.acromion_height - 0.028, -0.012};
   at(Bone::kClavicleL) = {sign * 0.25 * half_breadth, f.p.acromion_height - 0.015, 0.0};
   at(Bone::kForearmL) = at(Bone::kUpperArmL) + f.upper_arm_length() * axes.along;
-  at(Bone::kHandL) = at(Bone::kForearmL) + f.p.forearm * axes.along;
+  at(Bone::kHandL) = at(Bone::kForearmL) + f.forearm_length() * axes.along;
   at(Bone::kFingersL) = at(Bone::kHandL) + palm * axes.along;
   at(Bone::kFingertipsL) = at(Bone::kFingersL) + 0.22 * f.p.hand * axes.along;
   at(Bone::kThumbL) = at(Bone::kHandL) + 0.2 * f.p.hand * axes.along + 0.012 * axes.front;

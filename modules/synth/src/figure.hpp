@@ -89,12 +89,16 @@ struct Figure {
   std::array<LimbAxes, 2> arm, leg;    ///< left, right
 
   double female() const { return sex == body::Sex::kFemale ? 1.0 : 0.0; }
-  double upper_arm_length() const { return p.upper_arm - kShoulderDrop; }
-  double arm_length() const { return upper_arm_length() + p.forearm; }  ///< shoulder joint to wrist
-  double leg_length() const { return hip_height - ankle_height; }       ///< hip joint to ankle joint
-  double thigh_length() const { return hip_height - p.knee_height; }
+  double upper_arm_length() const { return p.upper_arm - kShoulderDrop - kCapitulum; }
+  double forearm_length() const { return p.forearm + kCapitulum; }
+  double arm_length() const { return upper_arm_length() + forearm_length(); }  ///< shoulder joint to wrist
+  double leg_length() const { return hip_height - ankle_height; }              ///< hip joint to ankle joint
+  double thigh_length() const { return hip_height - p.knee_height - kCondyle; }
 
   static constexpr double kShoulderDrop = 0.012;  ///< acromion above the centre of the joint
+  // Surveys measure to radiale and tibiale, the edges of the forearm's and the shin's bone. Elbow and knee
+  // turn about the centres of the knuckles that roll on them, a radius above: some 11 and 21 mm.
+  static constexpr double kCapitulum = 0.0065, kCondyle = 0.0125;
   static constexpr double kLegSpread_rad = 0.20943951023931953;
   static constexpr double kArmDrop_rad = 0.78539816339744828;
 };

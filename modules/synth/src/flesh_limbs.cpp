@@ -55,7 +55,7 @@ Digit digit_of(const Figure& f, int side, int digit) {
 
 void Flesh::add_arm(const Figure& f, int side) {
   const LimbAxes& axes = f.arm[side];
-  const double upper = f.upper_arm_length(), lower = f.p.forearm,
+  const double upper = f.upper_arm_length(), lower = f.forearm_length(),
                size = f.build.arm * (f.female() > 0.0 ? 0.95 : 1.1);
   const auto row = [&](double s, double side_r, double front, double back, double fat) -> Section {
     const double grow = size * std::max(1.0 + fat * f.fat, 0.5);
