@@ -80,6 +80,11 @@ void sweep(const engine::Context& context, bool bend, float inverse_h2, State& s
   });
 }
 
+FrameShare share(int substep, const Plan& plan) {
+  const auto all = static_cast<float>(plan.substeps);
+  return {static_cast<float>(substep) / all, static_cast<float>(substep + 1) / all};
+}
+
 std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
                           const Plan& plan, int substep, State& s) {
   Particles& p = s.particles;
@@ -100,7 +105,7 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
     push_apart(context, s.contacts.touching, static_cast<float>(s.fabric.friction), plan.substep_s, s.self,
                p);
   return limits | meet_body(context, collider, s.options, static_cast<float>(s.fabric.friction),
-                            plan.substep_s, s.contacts, p);
+                            {plan.substep_s, share(substep, plan)}, s.contacts, p);
 }
 
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {
@@ -120,7 +125,8 @@ void end_frame(const engine::Context& context, const Plan& plan, State& s) {
 void meet_collider(const collision::Collider* collider, State& s) {
   const Vec3 before = s.particles.origin;
   if (collider != nullptr) rebase(s.particles, collider->origin());
-  if (collider != s.last_collider || before != s.particles.origin) wake_all(s.sleep);
+  const bool moved = collider != nullptr && moves(*collider);
+  if (moved || collider != s.last_collider || before != s.particles.origin) wake_all(s.sleep);
   s.last_collider = collider;
 }
 
@@ -137,7 +143,8 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
   if (plan.substeps > 0) begin_frame(context, plan, s);
-  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, s.options, s.particles, s.contacts);
+  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, s.options, dt_s, s.particles,
+                      s.contacts);
   for (int substep = 0; substep < plan.substeps; ++substep)
     report.limits |= run_substep(context, collider, plan, substep, s);
   report_contacts(s.contacts, report);

@@ -17,15 +17,6 @@ constexpr float kFar_m = 1e6f;
 constexpr std::size_t kWorthAsking = 8;
 constexpr int kWait = 15;
 
-// A body's velocity is affine over each ellipsoid: still at four places that span space, still everywhere.
-bool moves(const collision::Collider& body) {
-  const Vec3 places[] = {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-  for (std::uint32_t k = 0; k < body.size(); ++k)
-    for (const Vec3& place : places)
-      if (body.surface_velocity(k, place) != Vec3::Zero()) return true;
-  return false;
-}
-
 void ask(const engine::Context& context, const collision::Collider& body, float thickness_m, Particles& p,
          Clearance& c) {
   collision::Particles all;
@@ -49,14 +40,14 @@ Clearance make_clearance(std::size_t particles) {
   return c;
 }
 
-void begin_clearance(const engine::Context& context, const collision::Collider* collider, double thickness_m,
-                     Particles& particles, Clearance& c) {
+void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
+                     double thickness_m, Particles& particles, Clearance& c) {
   const bool wait = c.frames_without > 0 && --c.frames_without > 0;
-  if (wait || collider == nullptr || moves(*collider)) {
+  if (wait || still_body == nullptr) {
     std::ranges::fill(c.free_m, 0.0f);
     return;
   }
-  ask(context, *collider, static_cast<float>(thickness_m), particles, c);
+  ask(context, *still_body, static_cast<float>(thickness_m), particles, c);
   const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });
   if (static_cast<std::size_t>(far) * kWorthAsking < c.free_m.size()) c.frames_without = kWait;
 }

@@ -22,10 +22,10 @@ struct Clearance {
 
 Clearance make_clearance(std::size_t particles);
 
-/// Begins a frame. Everything counts as near without a collider, while the body moves (what it sweeps over
-/// says nothing to distances at its end), and for some frames after most was found near.
-void begin_clearance(const engine::Context& context, const collision::Collider* collider, double thickness_m,
-                     Particles& particles, Clearance& clearance);
+/// Begins a frame. Everything counts as near without a body that stands still (what one sweeps over says
+/// nothing to distances at its end), and for some frames after most was found near.
+void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
+                     double thickness_m, Particles& particles, Clearance& clearance);
 
 /// Whether the particles [begin, end) of a cluster, moved from old_* to their positions, may touch now.
 bool may_touch(const Particles& particles, std::size_t begin, std::size_t end, Clearance& clearance);

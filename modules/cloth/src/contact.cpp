@@ -34,19 +34,22 @@ void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end,
 }
 
 // The push out is `depth` along n. Friction may take back that much times mu of the displacement along the
-// surface; no velocity is left along n.
-void friction_and_velocity(Particles& p, std::size_t i, float mu, float inverse_h) {
+// surface, against the body's material, which comes `carried` far; no velocity against it is left along n.
+void friction_and_velocity(Particles& p, std::size_t i, Float4 carried, float mu, float inverse_h) {
   const Point& before = p.point[i];
   const float px = p.x[i] - before.x, py = p.y[i] - before.y, pz = p.z[i] - before.z;
   const float depth = std::sqrt(px * px + py * py + pz * pz);
   const float nx = px / depth, ny = py / depth, nz = pz / depth;
-  const float dx = p.x[i] - p.old_x[i], dy = p.y[i] - p.old_y[i], dz = p.z[i] - p.old_z[i];
+  const float dx = p.x[i] - p.old_x[i] - carried[0], dy = p.y[i] - p.old_y[i] - carried[1],
+              dz = p.z[i] - p.old_z[i] - carried[2];
   const float along_n = dx * nx + dy * ny + dz * nz;
   const float tx = dx - along_n * nx, ty = dy - along_n * ny, tz = dz - along_n * nz;
   const float slip = std::sqrt(tx * tx + ty * ty + tz * tz);
   const float kept = slip > mu * depth ? 1.0f - mu * depth / slip : 0.0f;
   p.x[i] -= (1.0f - kept) * tx, p.y[i] -= (1.0f - kept) * ty, p.z[i] -= (1.0f - kept) * tz;
-  p.vx[i] = kept * tx * inverse_h, p.vy[i] = kept * ty * inverse_h, p.vz[i] = kept * tz * inverse_h;
+  p.vx[i] = (kept * tx + carried[0]) * inverse_h;
+  p.vy[i] = (kept * ty + carried[1]) * inverse_h;
+  p.vz[i] = (kept * tz + carried[2]) * inverse_h;
 }
 
 struct Meeting {
@@ -54,6 +57,7 @@ struct Meeting {
   collision::ResolveOptions how;
   float friction;
   float inverse_h;
+  FrameShare share;
 
   bool paper() const { return how.response == collision::Response::kPaper; }
 };
@@ -62,7 +66,9 @@ void respond(Particles& p, ContactState& s, std::size_t i, const Meeting& meetin
   const Point& before = p.point[i];
   if (p.inverse_mass[i] == 0.0f) p.x[i] = before.x, p.y[i] = before.y, p.z[i] = before.z;
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
-  if (s.touching[i] && !meeting.paper()) friction_and_velocity(p, i, meeting.friction, meeting.inverse_h);
+  if (!s.touching[i] || meeting.paper()) return;
+  const Float4 carried = (meeting.share.end - meeting.share.begin) * load(s.carry.by[i]);
+  friction_and_velocity(p, i, carried, meeting.friction, meeting.inverse_h);
 }
 
 // The collider sees the clusters that may touch, in runs as long as they come.
@@ -73,7 +79,10 @@ void meet_patch(const engine::Context& alone, const Meeting& meeting, std::size_
   auto meet_run = [&](std::size_t last) {
     if (first == last) return;
     const std::int64_t begin_ns = alone.clock->now_ns();
-    patch.report.add(meeting.collider->resolve(alone, view(p, first, last, meeting.paper()), meeting.how));
+    patch.report.add(
+        s.carry.moving && !meeting.paper()
+            ? meet_carried(alone, *meeting.collider, meeting.how, s.carry, meeting.share, first, last, p)
+            : meeting.collider->resolve(alone, view(p, first, last, meeting.paper()), meeting.how));
     patch.spent_ns += alone.clock->now_ns() - begin_ns;
   };
   for (std::size_t from = begin; from < end; from += kCluster) {
@@ -107,31 +116,35 @@ ContactState make_contacts(std::size_t particles) {
   ContactState s;
   s.touching.assign(particles, 0);
   s.clearance = make_clearance(particles);
+  s.carry.by.resize(particles), s.carry.ahead.resize(particles);
   s.patch.resize(engine::block_count(particles, kPatch));
   return s;
 }
 
 void begin_contact_frame(const engine::Context& context, const collision::Collider* collider,
-                         const SolverOptions& options, Particles& particles, ContactState& s) {
+                         const SolverOptions& options, double frame_s, Particles& particles,
+                         ContactState& s) {
   const std::int64_t begin_ns = context.clock->now_ns();
-  // The paper's response goes by its own distances.
-  const bool ask = options.response != collision::Response::kPaper;
-  begin_clearance(context, ask ? collider : nullptr, options.thickness_m, particles, s.clearance);
+  // The paper's response goes by its own distances and takes surface velocities by itself.
+  const collision::Collider* body = options.response == collision::Response::kPaper ? nullptr : collider;
+  begin_carry(context, body, frame_s, particles, s.carry);
+  begin_clearance(context, s.carry.moving ? nullptr : body, options.thickness_m, particles, s.clearance);
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
 }
 
 std::uint32_t meet_body(const engine::Context& context, const collision::Collider* collider,
-                        const SolverOptions& options, float friction, float substep_s, ContactState& s,
+                        const SolverOptions& options, float friction, const Substep& substep, ContactState& s,
                         Particles& p) {
   const bool paper = options.response == collision::Response::kPaper;
   const Meeting meeting = {collider,
                            {.response = options.response,
                             .thickness_m = static_cast<float>(options.thickness_m),
                             .friction = paper ? friction : 0.0f,
-                            .max_push_m = kRecovery_m_s * substep_s},
+                            .max_push_m = kRecovery_m_s * substep.length_s},
                            friction,
-                           1.0f / substep_s};
+                           1.0f / substep.length_s,
+                           substep.share};
   engine::Context alone = context;  // a patch is one worker's
   alone.executor = &engine::inline_executor();
   std::atomic<std::uint32_t> limits{0};

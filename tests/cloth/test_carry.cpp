@@ -1,0 +1,173 @@
+// A body that moves takes along what lies on it, as fast as friction allows, and sweeps away what it meets.
+#include <doctest/doctest.h>
+#include <bodice_test/allocations.hpp>
+#include <bodice_test/executors.hpp>
+
+#include <numbers>
+
+#include "fixtures.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60.0;
+
+cloth::Fabric undamped(double friction) {
+  cloth::Fabric fabric = cotton();
+  fabric.damping_per_s = 0.0;
+  fabric.friction = friction;
+  return fabric;
+}
+
+/// Gravity would have the band slip off: see README.md on what friction of tight cloth holds.
+cloth::SolverOptions weightless() {
+  cloth::SolverOptions options = vacuum();
+  options.environment.gravity_m_s2 = Vec3::Zero();
+  return options;
+}
+
+void move(collision::Collider& body, const geometry::Ellipsoid& shape) {
+  body.move_to({&shape, 1}, kFrame_s);
+}
+
+/// A spheroid about y that turns, and a band around its middle that is too short for it by a fiftieth.
+struct Turntable {
+  geometry::Ellipsoid shape{Vec3(0, 1, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.3, 0.15)};
+  collision::Collider body = ellipsoid_body(shape.center, shape.radii);
+  double angle_rad = 0.0;
+
+  void turn(double by_rad) {
+    angle_rad += by_rad;
+    shape.axes = Eigen::AngleAxisd(angle_rad, Vec3::UnitY()).toRotationMatrix();
+    move(body, shape);
+  }
+};
+
+constexpr int kAround = 48, kRows = 4;
+
+TriMesh band(double radius) {
+  TriMesh mesh;
+  for (int j = 0; j <= kRows; ++j)
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kAround;
+      mesh.positions.emplace_back(radius * std::cos(angle), 0.96 + 0.02 * j, -radius * std::sin(angle));
+    }
+  for (Index j = 0; j < kRows; ++j)
+    for (Index i = 0; i < kAround; ++i) {
+      const Index a = j * kAround + i, b = j * kAround + (i + 1) % kAround;
+      mesh.triangles.insert(mesh.triangles.end(), {{a, b, a + kAround}, {b, b + kAround, a + kAround}});
+    }
+  return mesh;
+}
+
+/// Mean angle about y from one state to another, less than half a turn.
+double turned_rad(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+  double sine = 0.0, cosine = 0.0;
+  for (std::size_t v = 0; v < from.size(); ++v) {
+    sine += from[v].z() * to[v].x() - from[v].x() * to[v].z();
+    cosine += from[v].x() * to[v].x() + from[v].z() * to[v].z();
+  }
+  return std::atan2(sine, cosine);
+}
+
+struct Ride {
+  double turned = 0.0;  ///< radians
+  std::uint64_t hash = 0;
+};
+
+Ride ride(double friction, engine::Executor& executor) {
+  Turntable table;
+  const TriMesh mesh = band(0.149);
+  cloth::Solver solver = make_solver(mesh, {}, undamped(friction), weightless());
+  const engine::Context context{.executor = &executor};
+  std::vector<Vec3> before;
+  for (int frame = 0; frame < 90; ++frame) {
+    if (frame == 30) before = positions(solver, mesh.positions.size());  // up to speed
+    table.turn(1.5 * kFrame_s);
+    solver.step(context, table.body, kFrame_s);
+  }
+  return {turned_rad(before, positions(solver, mesh.positions.size())), solver.hash()};
+}
+
+}  // namespace
+
+TEST_CASE("a band turns with the body it sits on, and does not without friction") {
+  CHECK(ride(0.45, engine::inline_executor()).turned == doctest::Approx(1.5).epsilon(0.005));
+  CHECK(std::abs(ride(0.0, engine::inline_executor()).turned) < 0.02);
+}
+
+TEST_CASE("a ride has the same bits for any number of workers") {
+  const std::uint64_t serial = ride(0.45, engine::inline_executor()).hash;
+  for (const int workers : {2, 3, 7}) CHECK(ride(0.45, *make_threads(workers)).hash == serial);
+}
+
+TEST_CASE("a band comes to rest with its body") {
+  Turntable table;
+  cloth::Solver solver = make_solver(band(0.149), {}, cotton(), weightless());
+  for (int frame = 0; frame < 30; ++frame) {
+    table.turn(1.5 * kFrame_s);
+    solver.step({}, table.body, kFrame_s);
+  }
+  cloth::FrameReport report;
+  for (int frame = 0; frame < 60; ++frame) {
+    table.turn(0.0);
+    report = solver.step({}, table.body, kFrame_s);
+  }
+  CHECK(report.median_speed_m_s < 1e-3);
+  CHECK(report.asleep == solver.particles());
+}
+
+TEST_CASE("a cloth on a sliding floor follows it up to the acceleration of friction, mu g") {
+  constexpr double kMu = 0.4, kGravity = 9.81;
+  for (const double acceleration : {0.5 * kMu * kGravity, 2.0 * kMu * kGravity}) {
+    CAPTURE(acceleration);
+    geometry::Ellipsoid floor{Vec3(0, 0, 0), geometry::Mat3::Identity(), Vec3(30, 5, 30)};
+    collision::Collider body = ellipsoid_body(floor.center, floor.radii);
+    const TriMesh mesh = sheet(10, 10, 0.3, 0.3, Vec3(-0.15, 5.001, -0.15));
+    cloth::Solver solver = make_solver(mesh, {}, undamped(kMu), vacuum());
+    for (int frame = 0; frame < 30; ++frame) solver.step({}, body, kFrame_s);
+    const double start = positions(solver, mesh.positions.size())[60].x();
+    for (int frame = 1; frame <= 30; ++frame) {
+      floor.center.x() = 0.5 * acceleration * std::pow(frame * kFrame_s, 2);
+      move(body, floor);
+      solver.step({}, body, kFrame_s);
+    }
+    const double expected = 0.5 * std::min(acceleration, kMu * kGravity) * 0.25;
+    CHECK(positions(solver, mesh.positions.size())[60].x() - start ==
+          doctest::Approx(expected).epsilon(0.02));
+  }
+}
+
+TEST_CASE("an arm that crosses its own width in a frame pushes a curtain and does not pass through it") {
+  geometry::Ellipsoid arm{Vec3(0, 0.7, -0.3), geometry::Mat3::Identity(), Vec3(0.5, 0.03, 0.03)};
+  collision::Collider body = ellipsoid_body(arm.center, arm.radii);
+  TriMesh mesh = sheet(30, 30, 0.6, 0.6, Vec3(-0.3, 0, 0));
+  for (Vec3& p : mesh.positions) p = Vec3(p.x(), 1.0 - p.z(), 0.0);
+  std::vector<Index> top;
+  for (Index i = 0; i <= 30; ++i) top.push_back(i);
+  cloth::Solver solver = make_solver(mesh, top, cotton(), {});
+  for (int frame = 0; frame < 6; ++frame) {  // 0.06 m each, 0.06 m beyond the curtain
+    arm.center.z() += 0.06;
+    move(body, arm);
+    CHECK(solver.step({}, body, kFrame_s).contacts.unresolved == 0);
+    const std::vector<Vec3> now = positions(solver, mesh.positions.size());
+    for (const Vec3& p : now) REQUIRE(geometry::nearest_point(arm, p).signed_distance > -1e-5);
+    for (Index i = 0; i <= 30; ++i) {  // each column still has its part before the arm
+      double foremost = 0.0;
+      for (Index j = 0; j <= 30; ++j) foremost = std::max(foremost, now[31 * j + i].z());
+      CHECK(foremost > arm.center.z() + 0.01);
+    }
+  }
+}
+
+TEST_CASE("a ride allocates nothing once warm") {
+  if (!bodice_test::counts_allocations()) return;
+  Turntable table;
+  cloth::Solver solver = make_solver(band(0.149), {}, cotton(), {});
+  for (int frame = 0; frame < 3; ++frame) table.turn(0.02), solver.step({}, table.body, kFrame_s);
+  const std::size_t before = bodice_test::allocations();
+  for (int frame = 0; frame < 5; ++frame) table.turn(0.02), solver.step({}, table.body, kFrame_s);
+  CHECK(bodice_test::allocations() == before);
+}

@@ -1,0 +1,111 @@
+// Whoever is said to be clear of the body is: against each particle's own distance in every substep.
+#include <doctest/doctest.h>
+
+#include <limits>
+
+#include <bodice/engine/random.hpp>
+
+#include "clearance.hpp"
+#include "fixtures.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+constexpr double kThickness_m = 0.004;
+constexpr std::size_t kClusters = 40, kCount = kClusters * cloth::kCluster - 13;  // the last one is not full
+
+std::vector<geometry::Ellipsoid> shapes() {
+  std::vector<geometry::Ellipsoid> out;
+  for (int k = 0; k < 3; ++k)
+    out.push_back(
+        {Vec3(0.15 * k, 0.1 * k, 0.0), geometry::Mat3::Identity(), Vec3(0.1, 0.2 - 0.05 * k, 0.07)});
+  return out;
+}
+
+collision::Collider body_of(const std::vector<geometry::Ellipsoid>& all) {
+  proxy::BodyProxy::Data data;
+  data.stature_m = 1.0;
+  for (const auto& shape : all) data.ellipsoids.push_back({.shape = shape});
+  return collision::Collider(*proxy::BodyProxy::make(std::move(data)));
+}
+
+double distance_m(const std::vector<geometry::Ellipsoid>& all, const Vec3& at) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& shape : all) least = std::min(least, geometry::nearest_point(shape, at).signed_distance);
+  return least;
+}
+
+Vec3 random_place(const engine::Random& random, std::uint64_t key, double reach) {
+  return reach * Vec3(2.0 * random.uniform_at(3 * key) - 1.0, 2.0 * random.uniform_at(3 * key + 1) - 1.0,
+                      2.0 * random.uniform_at(3 * key + 2) - 1.0);
+}
+
+/// Clusters of 4 cm at random places up to half a metre away, some of them in the body.
+cloth::Particles scatter(const engine::Random& random, const Vec3& origin) {
+  cloth::Particles p;
+  p.size = kCount;
+  p.origin = origin;
+  for (auto* a : {&p.x, &p.y, &p.z, &p.old_x, &p.old_y, &p.old_z}) a->assign(kCount + 3, 0.0f);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const Vec3 at = random_place(random, i / cloth::kCluster, 0.5) + random_place(random, 1000 + i, 0.02);
+    p.x[i] = static_cast<float>(at[0]), p.y[i] = static_cast<float>(at[1]),
+    p.z[i] = static_cast<float>(at[2]);
+  }
+  return p;
+}
+
+/// Each cluster goes its own way; one particle of each goes twice as fast, a random one.
+void travel(const engine::Random& random, std::uint64_t substep, cloth::Particles& p) {
+  p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::uint64_t cluster = i / cloth::kCluster;
+    const bool fast = i % cloth::kCluster == random.bits_at(77 * cluster + substep) % cloth::kCluster;
+    const Vec3 by = (fast ? 2.0 : 1.0) * random_place(random, 5000 + cluster + substep / 4 * 100, 0.015);
+    p.x[i] += static_cast<float>(by[0]), p.y[i] += static_cast<float>(by[1]),
+        p.z[i] += static_cast<float>(by[2]);
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "no particle in reach of the body is missed, and a cluster that may touch may for the whole frame") {
+  const std::vector<geometry::Ellipsoid> all = shapes();
+  const collision::Collider body = body_of(all);
+  std::size_t clear = 0, in_reach = 0;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    const engine::Random random(seed);
+    cloth::Particles p = scatter(random, body.origin());
+    cloth::Clearance clearance = cloth::make_clearance(kCount);
+    cloth::begin_clearance({}, &body, kThickness_m, p, clearance);
+    std::vector<bool> may(kClusters, false);
+    for (std::uint64_t substep = 0; substep < 16; ++substep) {
+      travel(random, substep, p);
+      for (std::size_t c = 0; c < kClusters; ++c) {
+        const std::size_t begin = c * cloth::kCluster, end = std::min(begin + cloth::kCluster, kCount);
+        const bool now = cloth::may_touch(p, begin, end, clearance);
+        CHECK((now || !may[c]));
+        may[c] = now;
+        clear += !now;
+        for (std::size_t i = begin; i < end; ++i) {
+          const bool reached = distance_m(all, p.world(i)) < kThickness_m;
+          in_reach += reached;
+          if (reached) REQUIRE(now);
+        }
+      }
+    }
+  }
+  CHECK(clear > 200);      // it does spare clusters,
+  CHECK(in_reach > 1000);  // and had the chance to spare wrong ones
+}
+
+TEST_CASE("without a body that stands still every cluster may touch") {
+  const collision::Collider body = body_of(shapes());
+  cloth::Particles p = scatter(engine::Random(3), body.origin() + Vec3::Constant(9.0));
+  cloth::Clearance clearance = cloth::make_clearance(kCount);
+  cloth::begin_clearance({}, nullptr, kThickness_m, p, clearance);
+  for (std::size_t c = 0; c + 1 < kClusters; ++c)
+    CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance));
+}
