@@ -70,9 +70,13 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32
   for (int axis = 0; axis < 3; ++axis) {
     cull.low[axis].assign(padded, nowhere);
     cull.high[axis].assign(padded, nowhere);
-    cull.center[axis].assign(padded, nowhere);
   }
   cull.shortest.assign(padded, 0.0f);
+  const std::size_t groups = padded / kGroup + kPad;  // read a vector at a time from any of them
+  for (int axis = 0; axis < 3; ++axis) {
+    cull.group_low[axis].assign(groups, nowhere);
+    cull.group_high[axis].assign(groups, nowhere);
+  }
   for (std::vector<float>& values : cull.baked) values.assign(padded, 1.0f);
   update(shapes);
 }
@@ -92,7 +96,9 @@ void Baked::update(const std::vector<Ellipsoid>& shapes) {
     for (int axis = 0; axis < 3; ++axis) {
       cull.low[axis][k] = static_cast<float>(box.low[axis]);
       cull.high[axis][k] = static_cast<float>(box.high[axis]);
-      cull.center[axis][k] = static_cast<float>(shapes[k].center[axis]);
+      float &low = cull.group_low[axis][k / kGroup], &high = cull.group_high[axis][k / kGroup];
+      low = k % kGroup == 0 ? cull.low[axis][k] : std::min(low, cull.low[axis][k]);
+      high = k % kGroup == 0 ? cull.high[axis][k] : std::max(high, cull.high[axis][k]);
     }
     cull.shortest[k] = static_cast<float>(shapes[k].radii.minCoeff());
     size_m = std::max({size_m, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});

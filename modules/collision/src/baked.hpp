@@ -34,12 +34,16 @@ struct CullArrays {
   std::vector<float> baked[kBakedFloats];  ///< the members of BakedEllipsoid, in order
   std::vector<float> bound[kBoundFloats];  ///< the members of BoundEllipsoid, in order
   std::vector<float> low[3], high[3];      ///< metres
-  std::vector<float> center[3];            ///< metres
   std::vector<float> shortest;             ///< r2, metres: radius of the ball inside
+  /// Boxes of the groups of kGroup consecutive ellipsoids, metres; padded likewise.
+  std::vector<float> group_low[3], group_high[3];
 };
 
+/// Ellipsoids that are culled together: the widest vector's floats.
+inline constexpr int kGroup = 16;
+
 struct Baked {
-  static constexpr std::size_t kPad = 16;  // the widest vector's floats
+  static constexpr std::size_t kPad = kGroup;
 
   Baked(const std::vector<geometry::Ellipsoid>& shapes, const std::vector<std::uint32_t>& names_of_shapes);
   /// Rewrites everything for other shapes of the same number; allocates nothing.

@@ -10,14 +10,11 @@ namespace bodice::collision {
 
 namespace {
 
-using Order = std::span<const std::uint32_t>;
-
-void copy_lanes(const float* from, Order order, std::size_t begin, int count, float* to) {
-  if (order.empty()) {
+void copy_lanes(const float* from, const std::uint32_t* index, std::size_t begin, int count, float* to) {
+  if (!index) {
     std::memcpy(to, from + begin, static_cast<std::size_t>(count) * sizeof(float));
     return;
   }
-  const std::uint32_t* index = order.data() + begin;
   for (int lane = 0; lane < count; ++lane) to[lane] = from[index[lane]];
 }
 
@@ -91,8 +88,8 @@ void pad(Gathering& block) {
 
 }  // namespace
 
-void gather(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
-            std::size_t end, Gathered& out) {
+void gather(const Particles& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
+            Gathered& out) {
   Gathering& block = out.batch;
   const int count = block.count = static_cast<int>(end - begin);
   block.has_velocity = particles.vx != nullptr;
@@ -100,22 +97,22 @@ void gather(const Particles& particles, std::span<const std::uint32_t> order, st
   out.far_count = 0;
   out.not_finite = 0;
   for (int lane = 0; lane < count; ++lane)
-    out.index[lane] = order.empty() ? static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(lane)
-                                    : order[begin + static_cast<std::size_t>(lane)];
-  copy_lanes(particles.x, order, begin, count, block.x);
-  copy_lanes(particles.y, order, begin, count, block.y);
-  copy_lanes(particles.z, order, begin, count, block.z);
+    out.index[lane] =
+        index ? index[lane] : static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(lane);
+  copy_lanes(particles.x, index, begin, count, block.x);
+  copy_lanes(particles.y, index, begin, count, block.y);
+  copy_lanes(particles.z, index, begin, count, block.z);
   bool near = all_near(block.x, count) && all_near(block.y, count) && all_near(block.z, count);
   if (block.has_velocity) {
-    copy_lanes(particles.vx, order, begin, count, block.vx);
-    copy_lanes(particles.vy, order, begin, count, block.vy);
-    copy_lanes(particles.vz, order, begin, count, block.vz);
+    copy_lanes(particles.vx, index, begin, count, block.vx);
+    copy_lanes(particles.vy, index, begin, count, block.vy);
+    copy_lanes(particles.vz, index, begin, count, block.vz);
     near = near && all_near(block.vx, count) && all_near(block.vy, count) && all_near(block.vz, count);
   }
   if (block.has_safe) {
-    copy_lanes(particles.safe_x, order, begin, count, block.sx);
-    copy_lanes(particles.safe_y, order, begin, count, block.sy);
-    copy_lanes(particles.safe_z, order, begin, count, block.sz);
+    copy_lanes(particles.safe_x, index, begin, count, block.sx);
+    copy_lanes(particles.safe_y, index, begin, count, block.sy);
+    copy_lanes(particles.safe_z, index, begin, count, block.sz);
     if (!all_near(block.sx, count) || !all_near(block.sy, count) || !all_near(block.sz, count))
       mend_safe(block);
   }

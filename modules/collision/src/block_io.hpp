@@ -19,10 +19,10 @@ struct Gathered {
   std::uint64_t not_finite = 0;
 };
 
-/// Gathers particles [begin, end), at most kBatch, of `order` (of the arrays if it is empty). Particles with
-/// a coordinate that is not finite are left out and counted.
-void gather(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
-            std::size_t end, Gathered& out);
+/// Gathers end - begin particles, at most kBatch: those of the index, or [begin, end) if it is null.
+/// Particles with a coordinate that is not finite are left out and counted.
+void gather(const Particles& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
+            Gathered& out);
 
 /// Writes the position and velocity of one lane back.
 void scatter(const Gathered& gathered, int lane, const Particles& particles);

@@ -13,8 +13,6 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr std::size_t kGrain = 32 * kBlock;  // particles a task: some tens of microseconds
-
 /// Sums of integers and maxima: the same for any order of the blocks.
 class SharedReport {
  public:
@@ -32,11 +30,31 @@ class SharedReport {
   ContactReport total_;
 };
 
-/// Calls work(begin, end) for every `size` particles of [begin, end).
+/// Calls work(begin, end, sequence) for every `size` particles of [begin, end).
 template <class Work>
-void by_blocks(std::size_t begin, std::size_t end, int size, Work&& work) {
+void by_blocks(std::size_t begin, std::size_t end, int size, const Sequence& sequence, Work&& work) {
   for (std::size_t at = begin; at < end; at += static_cast<std::size_t>(size))
-    work(at, std::min(at + static_cast<std::size_t>(size), end));
+    work(at, std::min(at + static_cast<std::size_t>(size), end), sequence);
+}
+
+/// The same for all particles, in the order that is kept (null: none), and done(task's result) for each task.
+template <class Result, class Work, class Done>
+void by_tasks(const engine::Context& context, const Particles& particles, ParticleOrder* kept, int size,
+              Work&& work, Done&& done) {
+  if (kept) kept->refresh(particles);
+  engine::parallel_for(context, particles.count, TaskOrder::kMost, [&](std::size_t begin, std::size_t end) {
+    Result result;
+    const auto some = [&](std::size_t from, std::size_t to, const Sequence& sequence) {
+      work(from, to, sequence, result);
+    };
+    if (kept) {
+      by_blocks(begin, end, size, {kept->order(), 0, kept}, some);
+    } else {
+      const TaskOrder own(particles, begin, end);
+      by_blocks(begin, end, size, {own.order(), begin, nullptr}, some);
+    }
+    done(result);
+  });
 }
 
 /// Fillets gain nothing from many blocks at a time: each has its own candidates.
@@ -99,27 +117,18 @@ Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point
 Contact Collider::query(const float (&local_point)[3]) const noexcept {
   float x = local_point[0], y = local_point[1], z = local_point[2];
   Contact contact;
-  impl_->query_some({1, &x, &y, &z}, 0, 1, {&contact, 1}, nullptr);
+  impl_->query_some({1, &x, &y, &z}, 0, 1, {}, {&contact, 1});
   return contact;
 }
 
 void Collider::query(const engine::Context& context, const Particles& particles,
                      std::span<Contact> contacts) const {
-  engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    by_blocks(begin, end, kBatch, [&](std::size_t from, std::size_t to) {
-      impl_->query_some(particles, from, to, contacts, nullptr);
-    });
-  });
+  impl_->query(context, particles, contacts, nullptr);
 }
 
 void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
                      Workspace& workspace) const {
-  workspace.order_->refresh(particles);
-  engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    by_blocks(begin, end, kBatch, [&](std::size_t from, std::size_t to) {
-      impl_->query_some(particles, from, to, contacts, workspace.order_.get());
-    });
-  });
+  impl_->query(context, particles, contacts, workspace.order_.get());
 }
 
 std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
@@ -149,30 +158,34 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options) const {
-  SharedReport total;
-  const int together = batch_of(options, impl_->relief.has_value());
-  engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    ContactReport report;
-    by_blocks(begin, end, together, [&](std::size_t from, std::size_t to) {
-      impl_->resolve_some(particles, from, to, options, nullptr, report);
-    });
-    total.add(report);
-  });
-  return total.total();
+  return impl_->resolve(context, particles, options, nullptr);
 }
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options, Workspace& workspace) const {
-  workspace.order_->refresh(particles);
+  return impl_->resolve(context, particles, options, workspace.order_.get());
+}
+
+void Collider::Impl::query(const engine::Context& context, const Particles& particles,
+                           std::span<Contact> contacts, ParticleOrder* kept) const {
+  struct Nothing {};
+  by_tasks<Nothing>(
+      context, particles, kept, kBatch,
+      [&](std::size_t begin, std::size_t end, const Sequence& sequence, Nothing&) {
+        query_some(particles, begin, end, sequence, contacts);
+      },
+      [](const Nothing&) {});
+}
+
+ContactReport Collider::Impl::resolve(const engine::Context& context, const Particles& particles,
+                                      const ResolveOptions& options, ParticleOrder* kept) const {
   SharedReport total;
-  const int together = batch_of(options, impl_->relief.has_value());
-  engine::parallel_for(context, particles.count, kGrain, [&](std::size_t begin, std::size_t end) {
-    ContactReport report;
-    by_blocks(begin, end, together, [&](std::size_t from, std::size_t to) {
-      impl_->resolve_some(particles, from, to, options, workspace.order_.get(), report);
-    });
-    total.add(report);
-  });
+  by_tasks<ContactReport>(
+      context, particles, kept, batch_of(options, relief.has_value()),
+      [&](std::size_t begin, std::size_t end, const Sequence& sequence, ContactReport& report) {
+        resolve_some(particles, begin, end, sequence, options, report);
+      },
+      [&](const ContactReport& report) { total.add(report); });
   return total.total();
 }
 

@@ -1,10 +1,10 @@
 #include "collider_impl.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "tolerances.hpp"
 
@@ -13,8 +13,6 @@ namespace bodice::collision {
 using geometry::Vec3;
 
 namespace {
-
-constexpr double kSlab_m = 0.15;  // height of the slabs by which ellipsoids are ordered
 
 Vec3 middle_of(const proxy::BodyProxy& proxy) {
   geometry::Box box;
@@ -26,17 +24,31 @@ Vec3 middle_of(const proxy::BodyProxy& proxy) {
   return box.empty() ? Vec3(Vec3::Zero()) : box.center();
 }
 
-/// By height, then across: sixteen consecutive ones are neighbours. Equal centres keep their order, so that
+/// Halves the span across its longest side until groups are left; equal centres keep their order, so that
 /// the lowest index still wins a tie between identical ellipsoids.
+void halve(std::span<std::uint32_t> order, std::span<const proxy::ProxyEllipsoid> ellipsoids) {
+  if (order.size() <= kGroup) {
+    std::sort(order.begin(), order.end());
+    return;
+  }
+  const auto center = [&](std::uint32_t k) -> const Vec3& { return ellipsoids[k].shape.center; };
+  geometry::Box box;
+  for (const std::uint32_t k : order) box.extend(center(k));
+  int axis = 0;
+  (box.high - box.low).maxCoeff(&axis);
+  const std::size_t half = (order.size() / 2 + kGroup - 1) / kGroup * kGroup;
+  const auto key = [&](std::uint32_t k) { return std::pair(center(k)[axis], k); };
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  halve(order.first(half), ellipsoids);
+  halve(order.subspan(half), ellipsoids);
+}
+
+/// Each group of consecutive ones are neighbours.
 std::vector<std::uint32_t> spatial_order(const proxy::BodyProxy& proxy) {
   std::vector<std::uint32_t> order(proxy.ellipsoids().size());
   std::iota(order.begin(), order.end(), 0u);
-  const auto key = [&](std::uint32_t k) {
-    const Vec3 cell = (proxy.ellipsoids()[k].shape.center / kSlab_m).array().floor();
-    return std::array<double, 3>{cell.y(), cell.x(), cell.z()};
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  halve(order, proxy.ellipsoids());
   return order;
 }
 
@@ -109,10 +121,6 @@ Contact nothing() {
   return contact;
 }
 
-std::span<const std::uint32_t> indices(const ParticleOrder* order) {
-  return order ? order->order() : std::span<const std::uint32_t>();
-}
-
 }  // namespace
 
 Collider::Impl::Impl(const proxy::BodyProxy& proxy)
@@ -178,11 +186,11 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
 }
 
 void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
-                                  const ResolveOptions& options, ParticleOrder* order,
+                                  const Sequence& sequence, const ResolveOptions& options,
                                   ContactReport& report) const {
   if (field.size() == 0) return;
   Gathered gathered;
-  gather(particles, indices(order), begin, end, gathered);
+  gather(particles, sequence.from(begin), begin, end, gathered);
   Gathering& batch = gathered.batch;
   const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
                             static_cast<float>(kCertificate * field.size_m()),
@@ -198,7 +206,7 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   if (!settled && options.response == Response::kNearest && end - begin > kBlock) {
     // Too many ellipsoids near for a batch may do for its blocks.
     for (std::size_t from = begin; from < end; from += kBlock)
-      resolve_some(particles, from, std::min(from + kBlock, end), options, order, report);
+      resolve_some(particles, from, std::min(from + kBlock, end), sequence, options, report);
     return;
   }
   report.not_finite += gathered.not_finite;
@@ -208,8 +216,9 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
       resolve_exactly(particles, gathered.index[lane], options, report);
     return;
   }
-  for (std::size_t block = 0; order && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
-    order->note_radius(begin / kBlock + block, response.radius_m[block]);
+  ParticleOrder* const notes = sequence.notes;
+  for (std::size_t block = 0; notes && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
+    notes->note_radius(begin / kBlock + block, response.radius_m[block]);
   for_lanes(response.contact, batch.count, [&](int lane) {
     scatter(gathered, lane, particles);
     ++report.contacts_by_part[static_cast<int>(part[response.owner[lane]])];

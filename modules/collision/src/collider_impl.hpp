@@ -21,13 +21,18 @@ struct Collider::Impl {
 
   const ReliefTables* tables() const { return relief ? &*relief : nullptr; }
 
-  /// Particles [begin, end), at most kBatch, of `order` (of the arrays if there is none).
-  void query_some(const Particles& particles, std::size_t begin, std::size_t end, std::span<Contact> contacts,
-                  ParticleOrder* order) const;
+  /// In the order that is kept; null: as they are stored, or in that of each task.
+  void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+             ParticleOrder* kept) const;
+  ContactReport resolve(const engine::Context& context, const Particles& particles,
+                        const ResolveOptions& options, ParticleOrder* kept) const;
+  /// Particles [begin, end) of the sequence, at most kBatch.
+  void query_some(const Particles& particles, std::size_t begin, std::size_t end, const Sequence& sequence,
+                  std::span<Contact> contacts) const;
   bool query_kernel(const float* x, const float* y, const float* z, const std::uint32_t* index, int count,
-                    Contact* contacts, std::size_t block, ParticleOrder* order) const;
-  void resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
-                    const ResolveOptions& options, ParticleOrder* order, ContactReport& report) const;
+                    Contact* contacts, std::size_t block, ParticleOrder* notes) const;
+  void resolve_some(const Particles& particles, std::size_t begin, std::size_t end, const Sequence& sequence,
+                    const ResolveOptions& options, ContactReport& report) const;
   /// One particle on the exact side, from the arrays and back.
   void resolve_exactly(const Particles& particles, std::uint32_t i, const ResolveOptions& options,
                        ContactReport& report) const;

@@ -75,16 +75,17 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
   for (int step = 0; step < kEntrySteps; ++step) {
     double advance = length - t;
     entry.ellipsoid = kNoEllipsoid;
-    for (std::size_t k = 0; k < field.size(); ++k) {
-      if (field.lower_bound(k, entry.point) - clearance_m >= advance) continue;
+    const auto meet = [&](std::size_t k) {
       const NearestPoint at = geometry::nearest_point(field.shape(k), entry.point);
       const double slope = at.normal.dot(direction);
       // Convexity again: before the tangent's root the distance is above the clearance.
-      if (slope >= 0.0 || at.signed_distance - clearance_m >= -slope * advance) continue;
+      if (slope >= 0.0 || at.signed_distance - clearance_m >= -slope * advance) return;
       advance = std::max(0.0, (at.signed_distance - clearance_m) / -slope);
       entry.normal = at.normal;
       entry.ellipsoid = static_cast<std::uint32_t>(k);
-    }
+    };
+    field.visit_near(
+        entry.point, [&] { return advance + clearance_m; }, meet);
     if (entry.ellipsoid == kNoEllipsoid) return std::nullopt;
     if (advance <= arrived) return entry;
     t += advance;

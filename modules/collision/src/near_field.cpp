@@ -21,17 +21,17 @@ void NearField::expect(const Vec3& center, double radius_m) {
   crowded_ = false;
   shortest_m_ = std::numeric_limits<double>::infinity();
   const double within_m = window_m() + radius_m;
-  for (std::uint32_t k = 0; k < field_.size(); ++k) {
-    if (field_.lower_bound(k, center) >= within_m) continue;
-    const NearestPoint at = geometry::nearest_point(field_.shape(k), center);
-    if (at.signed_distance >= within_m) continue;
-    shortest_m_ = std::min(shortest_m_, field_.shape(k).radii.minCoeff());
-    if (candidate_count_ == kMost) {
-      crowded_ = true;
-      return;
-    }
-    candidates_[candidate_count_++] = {k, at.signed_distance, at.normal};
-  }
+  field_.visit_near(
+      center, [&] { return within_m; },
+      [&](std::size_t k) {
+        if (crowded_) return;
+        const NearestPoint at = geometry::nearest_point(field_.shape(k), center);
+        if (at.signed_distance >= within_m) return;
+        shortest_m_ = std::min(shortest_m_, field_.shape(k).radii.minCoeff());
+        crowded_ = candidate_count_ == kMost;
+        if (!crowded_)
+          candidates_[candidate_count_++] = {static_cast<std::uint32_t>(k), at.signed_distance, at.normal};
+      });
 }
 
 void NearField::meet(std::uint32_t k, const Vec3& x) {
@@ -61,8 +61,8 @@ void NearField::collect_near(const Vec3& x) {
 }
 
 void NearField::collect_all(const Vec3& x) {
-  for (std::uint32_t k = 0; k < field_.size(); ++k)
-    if (field_.lower_bound(k, x) <= least_m_ + blend_m_) meet(k, x);
+  field_.visit_near(
+      x, [&] { return least_m_ + blend_m_; }, [&](std::size_t k) { meet(static_cast<std::uint32_t>(k), x); });
 }
 
 /// Newton on a convex function of the root, from above.

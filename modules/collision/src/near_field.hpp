@@ -50,7 +50,7 @@ class NearField {
   int evaluations() const { return evaluations_; }
 
  private:
-  static constexpr int kMost = 48, kShares = 6, kRootSteps = 24;
+  static constexpr int kMost = 160, kShares = 6, kRootSteps = 24;
 
   struct Candidate {
     std::uint32_t ellipsoid;

@@ -5,16 +5,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "kernels.hpp"
 #include "tolerances.hpp"
 
 namespace bodice::collision {
 
 namespace {
 
-constexpr int kBitsPerAxis = 10;
-constexpr int kDigitBits = 10;
-constexpr std::uint32_t kCells = 1u << kBitsPerAxis;
+constexpr int kDigitBits = 9;
 
 /// Spreads the low ten bits so that two zeros follow each.
 std::uint32_t spread_bits(std::uint32_t v) {
@@ -24,10 +21,11 @@ std::uint32_t spread_bits(std::uint32_t v) {
   return (v | (v << 2)) & 0x09249249u;
 }
 
+/// Cells along one axis.
 struct Range {
-  float low = 0.0f, scale = 0.0f;
+  float low = 0.0f, last, scale = 0.0f;
 
-  Range(const float* values, std::size_t count) {
+  Range(const float* values, std::size_t count, int bits) : last(static_cast<float>((1 << bits) - 1)) {
     float least = std::numeric_limits<float>::max(), largest = -least;
     for (std::size_t i = 0; i < count; ++i) {
       // Values that are not finite, or absurd, do not stretch the grid.
@@ -36,54 +34,85 @@ struct Range {
       largest = std::max(largest, std::abs(values[i]) < kFarthest ? v : largest);
     }
     low = least;
-    if (largest > least) scale = static_cast<float>(kCells - 1) / (largest - least);
+    if (largest > least) scale = last / (largest - least);
   }
 
   std::uint32_t cell(float v) const {
     const float at = (v - low) * scale;
     // Also false for NaN.
-    return at > 0.0f ? static_cast<std::uint32_t>(std::min(at, static_cast<float>(kCells - 1))) : 0u;
+    return at > 0.0f ? static_cast<std::uint32_t>(std::min(at, last)) : 0u;
   }
 };
+
+struct Order {
+  std::span<std::uint32_t> order, key, other_order, other_key;
+};
+
+/// The indices of particles [begin, begin + size) along a Z-order curve of 2^(3 bits) cells; `digits` of
+/// kDigitBits take them. By radix, least digit first: stable, so that equal keys keep the caller's order.
+void sort(const Particles& particles, std::size_t begin, int digits, Order o) {
+  const std::size_t count = o.order.size();
+  const int bits = digits * kDigitBits / 3;
+  const float *px = particles.x + begin, *py = particles.y + begin, *pz = particles.z + begin;
+  const Range x(px, count, bits), y(py, count, bits), z(pz, count, bits);
+  for (std::size_t i = 0; i < count; ++i) {
+    o.order[i] = static_cast<std::uint32_t>(begin + i);
+    o.key[i] = spread_bits(x.cell(px[i])) | spread_bits(y.cell(py[i])) << 1 | spread_bits(z.cell(pz[i])) << 2;
+  }
+  for (int digit = 0; digit < digits; ++digit) {
+    std::array<std::uint32_t, 1u << kDigitBits> start{};
+    const auto digit_of = [&](std::uint32_t key) {
+      return key >> digit * kDigitBits & ((1u << kDigitBits) - 1);
+    };
+    for (const std::uint32_t key : o.key) ++start[digit_of(key)];
+    std::exclusive_scan(start.begin(), start.end(), start.begin(), 0u);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t to = start[digit_of(o.key[i])]++;
+      o.other_key[to] = o.key[i];
+      o.other_order[to] = o.order[i];
+    }
+    std::swap(o.key, o.other_key);
+    std::swap(o.order, o.other_order);
+  }
+  if (digits % 2 != 0) std::copy(o.order.begin(), o.order.end(), o.other_order.begin());
+}
+
+/// Whether particles half a block apart in the arrays are about as far from each other as any two.
+bool scattered(const Particles& particles, std::size_t begin, std::size_t end) {
+  if (end - begin < 4 * kBlock) return false;
+  const std::size_t far = (end - begin) / 2;
+  double near_sum = 0.0, far_sum = 0.0;
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return std::abs(particles.x[i] - particles.x[j]) + std::abs(particles.y[i] - particles.y[j]) +
+           std::abs(particles.z[i] - particles.z[j]);
+  };
+  for (std::size_t i = begin; i < begin + far; i += kBlock / 4) {
+    near_sum += double{distance(i, i + kBlock / 2)};
+    far_sum += double{distance(i, i + far)};
+  }
+  return near_sum > kScattered * far_sum;  // not so if any is NaN
+}
 
 }  // namespace
 
 void ParticleOrder::refresh(const Particles& particles) {
-  const bool changed = order_.size() != particles.count;
+  const std::size_t count = particles.count;
+  const bool changed = order_.size() != count;
   const double spread = std::accumulate(radius_m_.begin(), radius_m_.end(), 0.0);
   if (!changed && spread_when_sorted_m_ < 0.0) spread_when_sorted_m_ = spread;
   if (!changed && spread <= kSortAgain * spread_when_sorted_m_) return;
-  sort(particles);
-}
-
-void ParticleOrder::sort(const Particles& particles) {
-  const std::size_t count = particles.count;
-  order_.resize(count);
-  other_order_.resize(count);
-  key_.resize(count);
-  other_key_.resize(count);
+  for (std::vector<std::uint32_t>* values : {&order_, &other_order_, &key_, &other_key_})
+    values->resize(count);
   radius_m_.assign((count + kBlock - 1) / kBlock, 0.0f);
   spread_when_sorted_m_ = -1.0;
-  const Range x(particles.x, count), y(particles.y, count), z(particles.z, count);
-  for (std::size_t i = 0; i < count; ++i) {
-    order_[i] = static_cast<std::uint32_t>(i);
-    key_[i] = spread_bits(x.cell(particles.x[i])) | spread_bits(y.cell(particles.y[i])) << 1 |
-              spread_bits(z.cell(particles.z[i])) << 2;
-  }
-  // Radix sort, least digit first: stable, so that equal keys keep the caller's order.
-  for (int shift = 0; shift < 3 * kBitsPerAxis; shift += kDigitBits) {
-    std::array<std::uint32_t, 1u << kDigitBits> start{};
-    constexpr std::uint32_t kMask = (1u << kDigitBits) - 1;
-    for (const std::uint32_t key : key_) ++start[key >> shift & kMask];
-    std::exclusive_scan(start.begin(), start.end(), start.begin(), 0u);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::uint32_t to = start[key_[i] >> shift & kMask]++;
-      other_key_[to] = key_[i];
-      other_order_[to] = order_[i];
-    }
-    key_.swap(other_key_);
-    order_.swap(other_order_);
-  }
+  sort(particles, 0, 3, {order_, key_, other_order_, other_key_});
+}
+
+TaskOrder::TaskOrder(const Particles& particles, std::size_t begin, std::size_t end) {
+  if (!scattered(particles, begin, end)) return;
+  count_ = end - begin;
+  const auto some = [this](std::uint32_t* values) { return std::span(values, count_); };
+  sort(particles, begin, 2, {some(order_), some(key_), some(other_order_), some(other_key_)});
 }
 
 Workspace::Workspace() : order_(std::make_unique<ParticleOrder>()) {}

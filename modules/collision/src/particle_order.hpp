@@ -1,5 +1,5 @@
-// A spatial order of particles that is kept from call to call: what makes the kernels' speed independent of
-// the order in which the caller stores them.
+// A spatial order of particles: what makes the kernels' speed independent of the order in which the caller
+// stores them. Kept from call to call, or made anew for some thousand particles at a time.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,8 @@
 #include <vector>
 
 #include <bodice/collision/collider.hpp>
+
+#include "kernels.hpp"
 
 namespace bodice::collision {
 
@@ -21,12 +23,39 @@ class ParticleOrder {
   void note_radius(std::size_t block, float radius_m) { radius_m_[block] = radius_m; }
 
  private:
-  void sort(const Particles& particles);
-
   std::vector<std::uint32_t> order_, other_order_;
   std::vector<std::uint32_t> key_, other_key_;
   std::vector<float> radius_m_;       // a block
   double spread_when_sorted_m_ = -1;  // sum of the radii; negative: not measured yet
+};
+
+/// The particles of one task, in an order of their own where that pays.
+class TaskOrder {
+ public:
+  static constexpr std::size_t kMost = 32 * kBlock;  ///< particles a task: some tens of microseconds
+
+  /// Particles [begin, end), at most kMost.
+  TaskOrder(const Particles& particles, std::size_t begin, std::size_t end);
+
+  /// Empty: as they are stored.
+  std::span<const std::uint32_t> order() const { return {order_, count_}; }
+
+ private:
+  std::uint32_t order_[kMost], other_order_[kMost];
+  std::uint32_t key_[kMost], other_key_[kMost];
+  std::size_t count_ = 0;
+};
+
+/// In which order particles are worked on.
+struct Sequence {
+  std::span<const std::uint32_t> order;  ///< of particles first, first + 1, ...; empty: as they are stored
+  std::size_t first = 0;
+  ParticleOrder* notes = nullptr;  ///< who wants to know the blocks' radii, or null
+
+  bool stored() const { return order.empty(); }
+  std::size_t operator[](std::size_t i) const { return stored() ? i : order[i - first]; }
+  /// From the i-th on.
+  const std::uint32_t* from(std::size_t i) const { return stored() ? nullptr : order.data() + (i - first); }
 };
 
 }  // namespace bodice::collision

@@ -26,16 +26,16 @@ void copy(const float* from, const Places& places, std::size_t begin, bool in_or
   for (int i = 0; i < places.count; ++i) to[i] = from[places.index[i]];
 }
 
-void collect(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
-             std::size_t end, Places& out) {
+void collect(const Particles& particles, const Sequence& sequence, std::size_t begin, std::size_t end,
+             Places& out) {
   out.count = static_cast<int>(end - begin);
-  if (order.empty())
+  if (sequence.stored())
     std::iota(out.index, out.index + out.count, static_cast<std::uint32_t>(begin));
   else
-    std::memcpy(out.index, order.data() + begin, static_cast<std::size_t>(out.count) * sizeof(std::uint32_t));
-  copy(particles.x, out, begin, order.empty(), out.x);
-  copy(particles.y, out, begin, order.empty(), out.y);
-  copy(particles.z, out, begin, order.empty(), out.z);
+    std::memcpy(out.index, sequence.from(begin), static_cast<std::size_t>(out.count) * sizeof(std::uint32_t));
+  copy(particles.x, out, begin, sequence.stored(), out.x);
+  copy(particles.y, out, begin, sequence.stored(), out.y);
+  copy(particles.z, out, begin, sequence.stored(), out.z);
 }
 
 /// Also false for NaN. Without branches, for loops of vectors.
@@ -73,10 +73,11 @@ constexpr int kLine = 64 / sizeof(float);
 
 /// What the batch after this one reads and writes, so that it is in the cache by then. The processor foresees
 /// rows of numbers, but not where they are stored in the caller's order.
-void prefetch(const Particles& particles, std::span<const std::uint32_t> order, std::size_t begin,
+void prefetch(const Particles& particles, const Sequence& sequence, std::size_t begin,
               std::span<Contact> contacts) {
-  const std::size_t end = std::min(begin + kBatch, particles.count);
-  if (order.empty()) {
+  const std::size_t last = sequence.stored() ? particles.count : sequence.first + sequence.order.size();
+  const std::size_t end = std::min(begin + kBatch, last);
+  if (sequence.stored()) {
     for (std::size_t i = begin; i < end; i += 2) __builtin_prefetch(&contacts[i], 1);
     for (std::size_t i = begin; i < end; i += kLine) {
       __builtin_prefetch(particles.x + i);
@@ -86,7 +87,7 @@ void prefetch(const Particles& particles, std::span<const std::uint32_t> order, 
     return;
   }
   for (std::size_t i = begin; i < end; ++i) {
-    const std::uint32_t at = order[i];
+    const std::size_t at = sequence[i];
     __builtin_prefetch(&contacts[at], 1);
     __builtin_prefetch(particles.x + at);
     __builtin_prefetch(particles.y + at);
@@ -98,7 +99,7 @@ void prefetch(const Particles& particles, std::span<const std::uint32_t> order, 
 
 bool Collider::Impl::query_kernel(const float* x, const float* y, const float* z, const std::uint32_t* index,
                                   int count, Contact* contacts, std::size_t block,
-                                  ParticleOrder* order) const {
+                                  ParticleOrder* notes) const {
   QueryBatch batch{.x = x,
                    .y = y,
                    .z = z,
@@ -108,22 +109,21 @@ bool Collider::Impl::query_kernel(const float* x, const float* y, const float* z
                    .contacts = contacts,
                    .radius_m = {}};
   if (!query_batch(baked, tables(), batch)) return false;
-  for (std::size_t i = 0; order && i < static_cast<std::size_t>((count + kBlock - 1) / kBlock); ++i)
-    order->note_radius(block + i, batch.radius_m[i]);
+  for (std::size_t i = 0; notes && i < static_cast<std::size_t>((count + kBlock - 1) / kBlock); ++i)
+    notes->note_radius(block + i, batch.radius_m[i]);
   return true;
 }
 
 void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
-                                std::span<Contact> contacts, ParticleOrder* order) const {
-  const auto indices = order ? order->order() : std::span<const std::uint32_t>();
-  prefetch(particles, indices, end, contacts);
+                                const Sequence& sequence, std::span<Contact> contacts) const {
+  prefetch(particles, sequence, end, contacts);
   const int all = static_cast<int>(end - begin);
-  if (!order && all == kBatch && field.size() > 0 &&
+  if (sequence.stored() && all == kBatch && field.size() > 0 &&
       query_kernel(particles.x + begin, particles.y + begin, particles.z + begin, nullptr, all,
                    contacts.data() + begin, 0, nullptr))
     return;
   Places places;
-  collect(particles, indices, begin, end, places);
+  collect(particles, sequence, begin, end, places);
   const auto exactly = [&](int i) {
     contacts[places.index[i]] =
         exact_contact({double{places.x[i]}, double{places.y[i]}, double{places.z[i]}});
@@ -134,10 +134,11 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
   }
   const auto kernel = [&](int from, int count) {
     return query_kernel(places.x + from, places.y + from, places.z + from, places.index + from, count,
-                        contacts.data(), begin / kBlock + static_cast<std::size_t>(from / kBlock), order);
+                        contacts.data(), begin / kBlock + static_cast<std::size_t>(from / kBlock),
+                        sequence.notes);
   };
   pad(places);
-  if (order && kernel(0, places.count)) return;
+  if (!sequence.stored() && kernel(0, places.count)) return;
   // Too many ellipsoids near for a batch may do for its blocks; or some places are too far for floats.
   keep_near(places, exactly);
   if (places.count == 0) return;

@@ -99,16 +99,17 @@ ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, 
   const double least = owner.at.signed_distance, blend = double{relief.blend_m};
   double weights = 0.0, distance = 0.0;
   Vec3 gradient = Vec3::Zero();
-  for (std::uint32_t k = 0; k < field.size(); ++k) {
-    if (field.lower_bound(k, p) >= least + blend) continue;
+  const auto add = [&](std::size_t k) {
     const geometry::NearestPoint at = geometry::nearest_point(field.shape(k), p);
     const double root = 1.0 - (at.signed_distance - least) / blend;
-    if (!(root > 0.0)) continue;
-    const ReliefSample one = correct(field, relief, k, at);
+    if (!(root > 0.0)) return;
+    const ReliefSample one = correct(field, relief, static_cast<std::uint32_t>(k), at);
     weights += root * root;
     distance += root * root * one.distance_m;
     gradient += root * root * one.gradient;
-  }
+  };
+  field.visit_near(
+      p, [&] { return least + blend; }, add);
   result.distance_m = distance / weights;
   result.gradient = gradient / weights;
   return result;

@@ -13,19 +13,20 @@ ParticleReport resolve_paper(const UnionField& field, double clearance_m, Partic
   ParticleReport report;
   const Vec3 p0 = particle.position;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < field.size(); ++k) {
-    if (field.lower_bound(k, p0) > clearance_m) continue;
+  const auto push = [&](std::size_t k) {
     const geometry::Ellipsoid& shape = field.shape(k);
     const Vec3 surface = geometry::radial_projection(shape, p0);
     const Vec3 ray = (surface - shape.center).normalized();
     const double depth = (surface - p0).dot(ray) + clearance_m;
-    if (depth < 0.0) continue;
+    if (depth < 0.0) return;
     report.depth_m = std::max(report.depth_m, depth);
-    if (depth >= least) continue;
+    if (depth >= least) return;
     least = depth;
     report.ellipsoid = static_cast<std::uint32_t>(k);
     particle.position = surface + clearance_m * ray;
-  }
+  };
+  field.visit_near(
+      p0, [&] { return clearance_m; }, push);
   if (report.ellipsoid == kNoEllipsoid) return report;
   const double to_surface = (particle.position - field.shape(report.ellipsoid).center).norm();
   particle.velocity *= to_surface / (to_surface + least);

@@ -75,6 +75,10 @@ inline constexpr int kExitHalvings = 20;
 /// stay in float range over the smallest radius that a proxy may have.
 inline constexpr float kFarthest = 1e9f;
 
+/// Distance of particles half a block apart, relative to that of any two of a task, from which on sorting the
+/// task by place pays: in no order it is 1, along a curve through space a quarter.
+inline constexpr double kScattered = 0.6;
+
 /// Growth of the blocks' summed radii that makes a new spatial sort worth its 10 ns a particle.
 inline constexpr double kSortAgain = 1.3;
 

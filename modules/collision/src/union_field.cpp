@@ -1,7 +1,7 @@
 #include "union_field.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 namespace bodice::collision {
 
@@ -9,7 +9,9 @@ using geometry::Box;
 using geometry::Vec3;
 
 UnionField::UnionField(std::vector<geometry::Ellipsoid> shapes)
-    : shapes_(std::move(shapes)), boxes_(shapes_.size()) {
+    : shapes_(std::move(shapes)),
+      boxes_(shapes_.size()),
+      group_boxes_((shapes_.size() + kGroup - 1) / kGroup) {
   bound();
 }
 
@@ -22,27 +24,25 @@ void UnionField::bound() {
   size_m_ = 0.0;
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
     const Box box = boxes_[k] = geometry::bounding_box(shapes_[k]);
+    Box& group = group_boxes_[k / kGroup];
+    if (k % kGroup == 0) group = box;
+    group.extend(box.low);
+    group.extend(box.high);
     size_m_ = std::max({size_m_, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
   }
-}
-
-double UnionField::lower_bound(std::size_t k, const Vec3& p) const {
-  const Box& box = boxes_[k];
-  const Vec3 outside = (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0);
-  const double distance = outside.norm();
-  return distance > 0.0 ? distance : -std::numeric_limits<double>::infinity();
 }
 
 Owner UnionField::owner(const Vec3& p, double below_m) const {
   Owner best;
   double least = below_m;
-  for (std::size_t k = 0; k < shapes_.size(); ++k) {
-    if (lower_bound(k, p) >= least) continue;
-    const geometry::NearestPoint at = geometry::nearest_point(shapes_[k], p);
-    if (at.signed_distance >= least) continue;
-    least = at.signed_distance;
-    best = {static_cast<std::uint32_t>(k), at};
-  }
+  visit_near(
+      p, [&] { return least; },
+      [&](std::size_t k) {
+        const geometry::NearestPoint at = geometry::nearest_point(shapes_[k], p);
+        if (at.signed_distance >= least) return;
+        least = at.signed_distance;
+        best = {static_cast<std::uint32_t>(k), at};
+      });
   return best;
 }
 

@@ -2,7 +2,9 @@
 // float kernels leave open.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <bodice/collision/collider.hpp>
@@ -30,18 +32,35 @@ class UnionField {
   const geometry::Ellipsoid& shape(std::size_t k) const { return shapes_[k]; }
   const geometry::Box& box(std::size_t k) const { return boxes_[k]; }
 
-  /// Never above the signed distance of ellipsoid k; minus infinity inside its box.
-  double lower_bound(std::size_t k, const geometry::Vec3& p) const;
+  /// Calls visit(k), by rising k, for each ellipsoid whose box, or that of its group, is not farther from p
+  /// than limit(), which may shrink meanwhile.
+  template <class Limit, class Visit>
+  void visit_near(const geometry::Vec3& p, Limit&& limit, Visit&& visit) const {
+    for (std::size_t group = 0; group < group_boxes_.size(); ++group) {
+      if (lower_bound(group_boxes_[group], p) > limit()) continue;
+      const std::size_t end = std::min((group + 1) * kGroup, shapes_.size());
+      for (std::size_t k = group * kGroup; k < end; ++k)
+        if (!(lower_bound(boxes_[k], p) > limit())) visit(k);
+    }
+  }
 
   /// argmin_k d_k(p) among those with d_k(p) < `below_m`; no ellipsoid if there is none. The lowest index
   /// wins a tie.
   Owner owner(const geometry::Vec3& p, double below_m) const;
 
  private:
+  static constexpr std::size_t kGroup = 16;  ///< neighbours in space, as the shapes are ordered
+
+  /// Never above the signed distance to anything in the box; minus infinity inside.
+  static double lower_bound(const geometry::Box& box, const geometry::Vec3& p) {
+    const geometry::Vec3 outside = (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0);
+    const double distance = outside.norm();
+    return distance > 0.0 ? distance : -std::numeric_limits<double>::infinity();
+  }
   void bound();
 
   std::vector<geometry::Ellipsoid> shapes_;
-  std::vector<geometry::Box> boxes_;
+  std::vector<geometry::Box> boxes_, group_boxes_;
   double size_m_ = 0.0;
 };
 

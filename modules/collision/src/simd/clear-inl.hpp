@@ -14,15 +14,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// For each box all ellipsoids of the source whose distance may be below the limit at some place in it; false
-/// if they are more than kMaxCandidates.
+/// For each piece all ellipsoids of the source whose distance may be below the limit at some place in its
+/// box; false if they are more than kMaxCandidates.
 template <class Source>
-HWY_INLINE bool find_below(const Source& source, const Extent* boxes, int blocks, float limit_m, Near* out) {
-  return collect_near(source, boxes, blocks, out, [&](const BoundLanes& lanes, const auto& at, int block) {
-    const V reach = dot(absolute(slope_of(lanes, at)), broadcast3(boxes[block].half));
+HWY_INLINE bool find_below(const Source& source, const Extent& around, const Piece* pieces, int count,
+                           float limit_m, Near* out) {
+  const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
+    const V reach = dot(absolute(slope_of(lanes, at)), broadcast3(pieces[i].box.half));
     // Not above, rather than below: a plane that is NaN bounds nothing.
     return hn::Not(hn::Gt(hn::Sub(at.base, reach), all(limit_m)));
-  });
+  };
+  return collect_near(source, around, limit_m, pieces, count, out, keep);
 }
 
 /// Places and what they were put clear of: indices of ellipsoids, or below zero.
@@ -55,48 +57,57 @@ HWY_INLINE void bound_others(const Baked& baked, const Columns& columns, const N
   }
 }
 
-/// Some blocks of the batch whose candidates are the columns.
+/// Some pieces of the batch whose candidates are the columns.
 template <int kTables>
-HWY_INLINE bool others_of(const Baked& baked, const Placed& placed, float limit_m, int first, int blocks,
-                          const Near* near, const Columns& columns, Open& open, Batched& out) {
+HWY_INLINE bool others_of(const Baked& baked, const Placed& placed, float limit_m, const Piece* pieces,
+                          int count, const Near* near, const Columns& columns, Open& open, Batched& out) {
+  const QueryBatch& batch = placed.batch;
   open.pairs.count = open.count = 0;
   const V limit = bound_limit(baked, all(limit_m), 0.0f);
-  for (int block = 0; block < blocks; ++block) {
-    const int begin = (first + block) * kBlock;
-    for (int from = begin; from < end_of_block(placed.batch, begin); from += kTogether * kWidth) {
+  for (int piece = 0; piece < count; ++piece)
+    for (int from = pieces[piece].begin; from < end_of(pieces[piece]); from += kStep) {
       Lowest<1> lowest[kTogether];
-      bound_others(baked, columns, near[block], placed, from, lowest);
-      if (!open.pairs.fit(kTogether)) return false;
+      bound_others(baked, columns, near[piece], placed, from, lowest);
+      (void)make_room<kTables>(kTogether, nullptr, columns, batch, open.pairs, out);
       for (int v = 0; v < kTogether; ++v) open.add<1, 0>(lowest[v], limit, hn::Iota(I(), from + v * kWidth));
     }
-  }
-  if (!collect_rest(baked, columns, placed.batch, open)) return false;
-  answer_pairs<kTables>(nullptr, columns, placed.batch, open.pairs);
-  combine_nearest(open.pairs, out);
+  (void)collect_rest<kTables>(baked, nullptr, columns, batch, open, out);
+  flush<kTables>(nullptr, columns, batch, open.pairs, out);
   return true;
 }
 
 /// The nearest of the other ellipsoids at each place where it is nearer than the limit, exactly; elsewhere
-/// some distance beyond the limit. False if the kernel has no room.
+/// some distance beyond the limit. False if a place is too far for floats.
 inline bool nearest_others(const Baked& baked, const Placed& placed, float limit_m, Scratch& scratch,
                            Batched& out) {
-  Extent boxes[kBlocks];
-  const int count = placed.batch.count;
-  if (!boxes_of(placed.batch, boxes)) return false;
-  for (int i = 0; i < count; i += kWidth) {
+  const QueryBatch& batch = placed.batch;
+  const Blocks blocks(batch);
+  if (!blocks.near) return false;
+  for (int i = 0; i < batch.count; i += kWidth) {
     hn::Store(all(1e30f), f, out.distance + i);
     hn::Store(hn::Zero(I()), I(), out.name + i);
   }
   const float below_m = limit_m + 4.0f * baked.rounding_m;
-  const auto find = [&](const auto& source, const Extent* around, int blocks, Near* lists) {
-    return find_below(source, around, blocks, below_m, lists);
+  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
+                        Near* lists) { return find_below(source, around, pieces, count, below_m, lists); };
+  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
+                        const Near* lists) {
+    return others_of<tables()>(baked, placed, limit_m, pieces, count, lists, columns, scratch.open, out);
   };
-  const auto work = [&](auto tables, const Columns& columns, int first, int blocks, const Near* lists) {
-    return others_of<tables()>(baked, placed, limit_m, first, blocks, lists, columns, scratch.open, out);
-  };
-  return together_or_alone(count, [&](int first, int blocks) {
-    return share(baked, nullptr, boxes, first, blocks, scratch, find, work);
-  });
+  return together_or_apart(
+      batch, blocks,
+      [&](const Piece* pieces, int count) {
+        return share(baked, nullptr, pieces, count, scratch, find, work);
+      },
+      [&](const Piece& piece) {
+        in_parts(
+            baked, piece, scratch,
+            [&](const Everything& source, Near* list) {
+              (void)find_below(source, piece.box, &piece, 1, below_m, list);
+            },
+            work);
+        return true;
+      });
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

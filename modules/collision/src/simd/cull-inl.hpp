@@ -96,16 +96,23 @@ HWY_INLINE Extent extent_of(const Gathering& block) {
   return extent_between(low, high);
 }
 
-/// Distance from the block's box to the ellipsoids' boxes, sixteen floats or fewer at a time.
-HWY_INLINE V box_distance(const CullArrays& cull, const Extent& e, std::size_t k) {
+using Corner = std::vector<float>[3];
+
+/// Distance from the block's box to the boxes [k, k + kWidth).
+HWY_INLINE V box_distance(const Corner& low, const Corner& high, const Extent& e, std::size_t k) {
   V sum = hn::Zero(f);
   for (int axis = 0; axis < 3; ++axis) {
-    const V below = hn::Sub(hn::LoadU(f, cull.low[axis].data() + k), all(e.middle[axis] + e.half[axis]));
-    const V above = hn::Sub(all(e.middle[axis] - e.half[axis]), hn::LoadU(f, cull.high[axis].data() + k));
+    const V below = hn::Sub(hn::LoadU(f, low[axis].data() + k), all(e.middle[axis] + e.half[axis]));
+    const V above = hn::Sub(all(e.middle[axis] - e.half[axis]), hn::LoadU(f, high[axis].data() + k));
     const V outside = hn::Max(hn::Zero(f), hn::Max(below, above));
     sum = hn::MulAdd(outside, outside, sum);
   }
   return hn::Sqrt(sum);
+}
+
+/// The same to ellipsoids [k, k + kWidth).
+HWY_INLINE V box_distance(const CullArrays& cull, const Extent& e, std::size_t k) {
+  return box_distance(cull.low, cull.high, e, k);
 }
 
 /// Exact distance and normal, at the block's middle, of the ellipsoids whose boxes are within `window` of the

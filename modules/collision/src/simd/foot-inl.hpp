@@ -206,9 +206,10 @@ HWY_INLINE Foot finished(const Shape& s, V3 y, Search& search) {
   result.u = search.u;
   const V3 g = {raw.x, hn::Mul(raw.y, s.inverse1), hn::Mul(raw.z, s.inverse2)};
   // Of w and of w / r side by side: the normal does not care how long w is.
-  const V3 w = result.w = scaled(raw, inverse_sqrt(dot(raw, raw)));
+  const V inverse_norm = inverse_sqrt(dot(raw, raw));
+  const V3 w = result.w = scaled(raw, inverse_norm);
   const V3 n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));  // unit normal times r0, first octant
-  const V3 off = {hn::Sub(search.y.x, w.x), hn::NegMulAdd(s.radius1, w.y, search.y.y),
+  const V3 off = {hn::NegMulAdd(raw.x, inverse_norm, search.y.x), hn::NegMulAdd(s.radius1, w.y, search.y.y),
                   hn::NegMulAdd(s.radius2, w.z, search.y.z)};
   result.distance = dot(n, off);
   const V3 m = {hn::CopySign(n.x, y.x), hn::CopySign(n.y, y.y), hn::CopySign(n.z, y.z)};

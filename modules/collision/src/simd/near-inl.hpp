@@ -1,4 +1,4 @@
-// Which ellipsoids can be the nearest of some place in a box, for the boxes of a batch's blocks. With d_j
+// Which ellipsoids can be the nearest of some place in a box, for the boxes of pieces of a batch. With d_j
 // convex and the tangent plane of another ellipsoid k below d_k, d_j minus the plane is convex, so that it is
 // largest at a corner of the box: if j is nearer than k's plane at all eight, k is nowhere the nearest.
 #if defined(BODICE_COLLISION_NEAR_INL_) == defined(HWY_TARGET_TOGGLE)
@@ -8,6 +8,9 @@
 #define BODICE_COLLISION_NEAR_INL_
 #endif
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "simd/cull-inl.hpp"
@@ -19,6 +22,13 @@ namespace bodice::collision::HWY_NAMESPACE {
 constexpr int kBlocks = kBatch / kBlock;
 constexpr int kCorners = 8, kRivals = 2;
 static_assert(kRivals * kCorners % kWidth == 0);
+static_assert(kGroup % kWidth == 0);
+
+/// Consecutive lanes of a batch and their box.
+struct Piece {
+  Extent box;
+  int begin, end;
+};
 
 struct Near {
   int count = 0;
@@ -37,11 +47,33 @@ HWY_INLINE BoundLanes bound_lanes(Row&& row) {
   return {row3(0), row3(3), row3(6), row3(kBoundOffset), row3(kBoundInverse)};
 }
 
-/// Where candidates are looked for: in the whole proxy,
+/// Where candidates are looked for: in the proxy's ellipsoids [begin, end), of which groups whose boxes are
+/// too far from the places' box are passed over,
 struct Everything {
   const Baked& baked;
+  int begin, end;  ///< begin is the first of a group
 
-  int count() const { return static_cast<int>(baked.size()); }
+  explicit Everything(const Baked& b) : Everything(b, 0, static_cast<int>(b.size())) {}
+  Everything(const Baked& b, int first, int last) : baked(b), begin(first), end(last) {}
+
+  /// Of the nearest group.
+  HWY_INLINE float least_gap(const Extent& box) const {
+    V least = all(1e30f);
+    for_groups([&](int group) { least = hn::Min(least, gap(box, group)); });
+    return hn::GetLane(hn::MinOfLanes(f, least));
+  }
+  /// Calls work(index of the first ellipsoid) for each vector that may come within `within_m` of the box.
+  template <class Work>
+  HWY_INLINE void for_vectors(const Extent& box, float within_m, Work&& work) const {
+    const V limit = all(std::max(0.0f, within_m) + rounding(box));
+    for_groups([&](int group) {
+      const std::uint64_t near = bits(hn::Le(gap(box, group), limit));
+      for (std::uint64_t left = near; left != 0; left &= left - 1) {
+        const int first = (group + std::countr_zero(left)) * kGroup;
+        for (int k = first; k < std::min(first + kGroup, end); k += kWidth) work(k);
+      }
+    });
+  }
   HWY_INLINE BoundLanes bounds(int k) const {
     return bound_lanes([&](int i) { return hn::LoadU(f, baked.cull.bound[i].data() + k); });
   }
@@ -51,14 +83,32 @@ struct Everything {
     if constexpr (kWidth <= kCorners) return one(first);
     return select(hn::FirstN(f, kCorners), one(first), one(second));
   }
+
+ private:
+  template <class Work>
+  HWY_INLINE void for_groups(Work&& work) const {
+    for (int group = begin / kGroup; group * kGroup < end; group += kWidth) work(group);
+  }
+  HWY_INLINE V gap(const Extent& box, int group) const {
+    return box_distance(baked.cull.group_low, baked.cull.group_high, box, static_cast<std::size_t>(group));
+  }
+  HWY_INLINE float rounding(const Extent& box) const {
+    const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
+    return baked.rounding_m + static_cast<float>(kFloatRounding) * (away + box.radius);
+  }
 };
 
 /// or in the columns of several blocks.
 template <int kTables>
 struct AmongColumns {
   const Columns& columns;
+  int end = columns.count();
 
-  int count() const { return columns.count(); }
+  HWY_INLINE float least_gap(const Extent&) const { return 0.0f; }
+  template <class Work>
+  HWY_INLINE void for_vectors(const Extent&, float, Work&& work) const {
+    for (int k = 0; k < end; k += kWidth) work(k);
+  }
   HWY_INLINE BoundLanes bounds(int k) const {
     return bound_lanes([&](int i) { return hn::LoadU(f, columns.row(Columns::kBound + i) + k); });
   }
@@ -112,23 +162,25 @@ HWY_INLINE void pick_rivals(LaneLeast least, Rivals& out) {
   }
 }
 
+/// Of all boxes, which `around` contains.
 template <class Source>
-HWY_INLINE void find_rivals(const Source& source, const Extent* boxes, int blocks, Rivals* out) {
+HWY_INLINE void find_rivals(const Source& source, const Extent& around, const Piece* pieces, int count,
+                            Rivals* out) {
   LaneLeast least[kBlocks];
   for (LaneLeast& l : least) l = {all(1e30f), hn::Zero(I())};
-  const VI end = hn::Set(I(), source.count());
-  for (int k = 0; k < source.count(); k += kWidth) {
+  const VI end = hn::Set(I(), source.end);
+  source.for_vectors(around, source.least_gap(around), [&](int k) {
     const BoundLanes lanes = source.bounds(k);
     const VI index = hn::Iota(I(), k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
-    for (int block = 0; block < blocks; ++block) {
-      const V distance = planes_at(lanes, broadcast3(boxes[block].middle)).base;
-      const M nearer = hn::And(real, hn::Lt(distance, least[block].distance));
-      least[block].distance = hn::IfThenElse(nearer, distance, least[block].distance);
-      least[block].index = hn::IfThenElse(hn::RebindMask(I(), nearer), index, least[block].index);
+    for (int i = 0; i < count; ++i) {
+      const V distance = planes_at(lanes, broadcast3(pieces[i].box.middle)).base;
+      const M nearer = hn::And(real, hn::Lt(distance, least[i].distance));
+      least[i].distance = hn::IfThenElse(nearer, distance, least[i].distance);
+      least[i].index = hn::IfThenElse(hn::RebindMask(I(), nearer), index, least[i].index);
     }
-  }
-  for (int block = 0; block < blocks; ++block) pick_rivals(least[block], out[block]);
+  });
+  for (int i = 0; i < count; ++i) pick_rivals(least[i], out[i]);
 }
 
 /// Corners [i, i + kWidth) of the box, once for each rival.
@@ -144,25 +196,33 @@ HWY_INLINE V3 corners(const Extent& e, int i) {
 }
 
 template <class Source>
-HWY_INLINE void measure_corners(const Source& source, const Extent* boxes, int blocks, Rivals* rivals) {
+HWY_INLINE void measure_corners(const Source& source, const Piece* pieces, int count, Rivals* rivals) {
   constexpr int kEach = kRivals * kCorners / kWidth;
-  const int vectors = blocks * kEach;
+  const int vectors = count * kEach;
   for (int from = 0; from < vectors; from += kTogether) {
     Shape shapes[kTogether];
     V3 places[kTogether];
     Foot feet[kTogether];
     float* to[kTogether];
     for (int v = 0; v < kTogether; ++v) {
-      const int which = std::min(from + v, vectors - 1), block = which / kEach;
+      const int which = std::min(from + v, vectors - 1), piece = which / kEach;
       const int i = which % kEach * kWidth;
-      const std::int32_t* const index = rivals[block].index;
+      const std::int32_t* const index = rivals[piece].index;
       shapes[v] = source.shapes(index[i / kCorners], index[kRivals - 1]);
-      places[v] = corners(boxes[block], i);
-      to[v] = rivals[block].distance + i;
+      places[v] = corners(pieces[piece].box, i);
+      to[v] = rivals[piece].distance + i;
     }
     feet_of(shapes, places, feet);
     for (int v = 0; v < kTogether; ++v) hn::Store(feet[v].distance, f, to[v]);
   }
+}
+
+/// By convexity the first rival is nowhere in the boxes farther than this.
+HWY_INLINE float farthest(const Rivals* rivals, int count) {
+  float most = -1e30f;
+  for (int i = 0; i < count; ++i)
+    for (int corner = 0; corner < kCorners; ++corner) most = std::max(most, rivals[i].distance[corner]);
+  return most;
 }
 
 /// Ellipsoids that no rival beats by more than `beyond` at every corner.
@@ -179,38 +239,50 @@ HWY_INLINE M unbeaten(const Planes& at, V3 slope, V3 half, const Rivals& rivals,
   return hn::Not(hn::And(hn::Gt(hn::Max(lead[0], lead[1]), beyond), hn::Eq(at.base, at.base)));
 }
 
-/// For each box all ellipsoids of the source that keep(bounds, planes at its middle, block) keeps, by rising
-/// index; false if they are more than kMaxCandidates.
+/// For each piece all ellipsoids of the source, of those within `within_m` of `around`, that keep(bounds,
+/// planes at its middle, piece) keeps, by rising index; false if they are more than kMaxCandidates.
 template <class Source, class Keep>
-HWY_INLINE bool collect_near(const Source& source, const Extent* boxes, int blocks, Near* out, Keep&& keep) {
-  for (int block = 0; block < blocks; ++block) out[block].count = 0;
-  const VI end = hn::Set(I(), source.count());
-  for (int k = 0; k < source.count(); k += kWidth) {
+HWY_INLINE bool collect_near(const Source& source, const Extent& around, float within_m, const Piece* pieces,
+                             int count, Near* out, Keep&& keep) {
+  for (int i = 0; i < count; ++i) out[i].count = 0;
+  const VI end = hn::Set(I(), source.end);
+  bool fits = true;
+  source.for_vectors(around, within_m, [&](int k) {
     const BoundLanes lanes = source.bounds(k);
     const VI index = hn::Iota(I(), k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
-    for (int block = 0; block < blocks; ++block) {
-      Near& to = out[block];
-      if (to.count + kWidth > kMaxCandidates) return false;
-      const M kept = hn::And(real, keep(lanes, planes_at(lanes, broadcast3(boxes[block].middle)), block));
+    for (int i = 0; i < count; ++i) {
+      Near& to = out[i];
+      const M kept = hn::And(real, keep(lanes, planes_at(lanes, broadcast3(pieces[i].box.middle)), i));
       hn::StoreU(hn::Compress(index, hn::RebindMask(I(), kept)), I(), to.index + to.count);
       to.count += static_cast<int>(hn::CountTrue(f, kept));
+      // What comes after a list that is full is written over its end.
+      fits = fits && to.count <= kMaxCandidates;
+      to.count = std::min(to.count, kMaxCandidates);
     }
-  }
-  return true;
+  });
+  return fits;
 }
 
-/// For each box all ellipsoids of the source that can be the nearest of a place in it, or within `beyond_m`
-/// of the nearest, by rising index; false if they are more than kMaxCandidates.
+/// For each piece all ellipsoids of the source that its rivals do not keep from being the nearest of a place
+/// in its box, or within `beyond_m` of the nearest, by rising index; false if they are more than
+/// kMaxCandidates. The boxes lie in `around`.
 template <class Source>
-HWY_INLINE bool find_near(const Source& source, const Extent* boxes, int blocks, float beyond_m, Near* out) {
+HWY_INLINE bool collect_unbeaten(const Source& source, const Extent& around, const Piece* pieces, int count,
+                                 const Rivals* rivals, float beyond_m, Near* out) {
+  const auto keep = [&, beyond = all(beyond_m)](const BoundLanes& lanes, const Planes& at, int i) {
+    return unbeaten(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), rivals[i], beyond);
+  };
+  return collect_near(source, around, farthest(rivals, count) + beyond_m, pieces, count, out, keep);
+}
+
+template <class Source>
+HWY_INLINE bool find_near(const Source& source, const Extent& around, const Piece* pieces, int count,
+                          float beyond_m, Near* out) {
   Rivals rivals[kBlocks];
-  find_rivals(source, boxes, blocks, rivals);
-  measure_corners(source, boxes, blocks, rivals);
-  const V beyond = all(beyond_m);
-  return collect_near(source, boxes, blocks, out, [&](const BoundLanes& lanes, const auto& at, int block) {
-    return unbeaten(at, slope_of(lanes, at), broadcast3(boxes[block].half), rivals[block], beyond);
-  });
+  find_rivals(source, around, pieces, count, rivals);
+  measure_corners(source, pieces, count, rivals);
+  return collect_unbeaten(source, around, pieces, count, rivals, beyond_m, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

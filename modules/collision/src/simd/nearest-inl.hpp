@@ -9,6 +9,9 @@
 #define BODICE_COLLISION_NEAREST_INL_
 #endif
 
+#include <algorithm>
+#include <limits>
+
 #include "simd/combine-inl.hpp"
 #include "simd/lowest-inl.hpp"
 #include "simd/near-inl.hpp"
@@ -52,9 +55,30 @@ struct Open {
   }
 };
 
+/// What was collected: answered, and of plain ellipsoids taken over.
+template <int kTables>
+void flush(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch, Pairs& pairs,
+           Batched& out) {
+  answer_pairs<kTables>(relief, columns, batch, pairs);
+  if (relief) return;
+  combine_nearest(pairs, out);
+  pairs.count = 0;
+}
+
+/// Room for pairs of so many vectors; false if there is none, as blended answers must be kept together.
+template <int kTables>
+HWY_INLINE bool make_room(int vectors, const ReliefTables* relief, const Columns& columns,
+                          const QueryBatch& batch, Pairs& pairs, Batched& out) {
+  if (pairs.fit(vectors)) return true;
+  if (relief) return false;
+  flush<kTables>(nullptr, columns, batch, pairs, out);
+  return true;
+}
+
 /// The pairs of the particles with many; false if they do not fit.
-HWY_INLINE bool collect_rest(const Baked& baked, const Columns& columns, const QueryBatch& batch,
-                             Open& open) {
+template <int kTables>
+HWY_INLINE bool collect_rest(const Baked& baked, const ReliefTables* relief, const Columns& columns,
+                             const QueryBatch& batch, Open& open, Batched& out) {
   for (int from = 0; from < open.count; from += kWidth) {
     const M valid = hn::FirstN(f, static_cast<std::size_t>(open.count - from));
     const VI lanes = hn::IfThenElseZero(hn::RebindMask(I(), valid), hn::Load(I(), open.lane + from));
@@ -62,7 +86,7 @@ HWY_INLINE bool collect_rest(const Baked& baked, const Columns& columns, const Q
                   hn::GatherIndex(f, batch.z, lanes)};
     const V kept = hn::Load(f, open.kept + from), limit = hn::Load(f, open.limit + from);
     for (int i = 0; i < columns.count(); ++i) {
-      if (!open.pairs.fit(1)) return false;
+      if (!make_room<kTables>(1, relief, columns, batch, open.pairs, out)) return false;
       const VI rank = hn::Set(I(), i);
       const V bound = ranked(lower_bound(baked.bounds[columns.ellipsoid(i)], p), rank);
       open.pairs.add(hn::And(valid, hn::AndNot(hn::Gt(bound, limit), hn::Gt(bound, kept))), lanes, rank);
@@ -71,18 +95,20 @@ HWY_INLINE bool collect_rest(const Baked& baked, const Columns& columns, const Q
   return true;
 }
 
-/// Of its lanes, in whole groups of vectors.
-HWY_INLINE int end_of_block(const QueryBatch& batch, int begin) {
-  constexpr int kGroup = kTogether * kWidth;
-  return begin + (std::min(kBlock, batch.count - begin) + kGroup - 1) / kGroup * kGroup;
+constexpr int kStep = kTogether * kWidth;  // lanes that are worked on together
+
+/// Of its lanes, in whole steps.
+HWY_INLINE int end_of(const Piece& piece) {
+  return piece.begin + (piece.end - piece.begin + kStep - 1) / kStep * kStep;
 }
 
-/// The first answers of one block; false if there is no room for what they leave open.
+/// The first answers of one piece; false if there is no room for what they leave open.
 template <int kKept, int kTables>
 HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                             int begin, const Near& near, const Columns& columns, Open& open, Batched& out) {
+                             const Piece& piece, const Near& near, const Columns& columns, Open& open,
+                             Batched& out) {
   const float beyond_m = relief ? relief->blend_m : 0.0f;
-  for (int from = begin; from < end_of_block(batch, begin); from += kTogether * kWidth) {
+  for (int from = piece.begin; from < end_of(piece); from += kStep) {
     V3 p[kTogether];
     Lowest<kKept> lowest[kTogether];
     VI first[kTogether];
@@ -94,7 +120,7 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
     bound_vectors(baked, columns, near, p, lowest);
     for (int v = 0; v < kTogether; ++v) first[v] = lowest[v].rank(0);
     answer_each<kTables>(relief, columns, first, p, answers);
-    if (!open.pairs.fit((kKept - 1) * kTogether)) return false;
+    if (!make_room<kTables>((kKept - 1) * kTogether, relief, columns, batch, open.pairs, out)) return false;
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
       put(answers[v], relief != nullptr, out, i);
@@ -104,23 +130,18 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
   return true;
 }
 
-/// Some blocks of the batch whose candidates are the columns.
+/// Some pieces of the batch whose candidates are the columns.
 template <int kKept, int kTables>
-HWY_INLINE bool nearest_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch, int first,
-                           int blocks, const Near* near, const Columns& columns, Open& open, Batched& out) {
+HWY_INLINE bool nearest_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                           const Piece* pieces, int count, const Near* near, const Columns& columns,
+                           Open& open, Batched& out) {
   open.pairs.count = open.count = 0;
-  for (int block = 0; block < blocks; ++block)
-    if (!answer_first<kKept, kTables>(baked, relief, batch, (first + block) * kBlock, near[block], columns,
-                                      open, out))
+  for (int i = 0; i < count; ++i)
+    if (!answer_first<kKept, kTables>(baked, relief, batch, pieces[i], near[i], columns, open, out))
       return false;
-  if (!collect_rest(baked, columns, batch, open)) return false;
-  answer_pairs<kTables>(relief, columns, batch, open.pairs);
-  if (relief) {
-    const int last = (first + blocks - 1) * kBlock;
-    combine_blended(*relief, first * kBlock, end_of_block(batch, last), open.pairs, out);
-  } else {
-    combine_nearest(open.pairs, out);
-  }
+  if (!collect_rest<kTables>(baked, relief, columns, batch, open, out)) return false;
+  flush<kTables>(relief, columns, batch, open.pairs, out);
+  if (relief) combine_blended(*relief, pieces[0].begin, end_of(pieces[count - 1]), open.pairs, out);
   return true;
 }
 
@@ -133,86 +154,162 @@ HWY_INLINE void choose_all(const Columns& columns, Near& out) {
 struct Scratch {
   Columns columns, alone;
   Open open;
-  Near near, of_block[kBlocks], of_alone;
+  Near near, of_piece[kBlocks], of_alone;
 };
 
-/// Finds the candidates of blocks [first, first + blocks) at once, and among them those of each: `find` (a
-/// source, boxes, their number, lists out). Then calls `work` (number of tables, columns, first, blocks,
-/// their lists) on all, if their candidates fit into two vectors, or on each. False if either has no room.
+/// All columns for one piece.
+template <class Work>
+HWY_INLINE bool work_alone(const Piece& piece, const Columns& columns, Near& list, Work&& work) {
+  bool fits = false;
+  choose_all(columns, list);
+  with_tables(columns, [&](auto tables) { fits = work(tables, columns, &piece, 1, &list); });
+  return fits;
+}
+
+/// Finds the candidates of some pieces at once, and among them those of each: `find` (a source, the box
+/// around, pieces, their number, lists out). Then calls `work` (number of tables, columns, pieces, their
+/// number, their lists) on all, if their candidates fit into two vectors, or on each. False if either has no
+/// room.
 template <class Find, class Work>
-HWY_INLINE bool share(const Baked& baked, const ReliefTables* relief, const Extent* boxes, int first,
-                      int blocks, Scratch& s, Find&& find, Work&& work) {
-  Extent around = boxes[first];
-  for (int block = 1; block < blocks; ++block) around = united(around, boxes[first + block]);
-  if (!find(Everything{baked}, &around, 1, &s.near)) return false;
+HWY_INLINE bool share(const Baked& baked, const ReliefTables* relief, const Piece* pieces, int count,
+                      Scratch& s, Find&& find, Work&& work) {
+  Piece around = pieces[0];
+  for (int i = 1; i < count; ++i) around.box = united(around.box, pieces[i].box);
+  if (!find(Everything(baked), around.box, &around, 1, &s.near)) return false;
   if (s.near.count == 0) return true;
   s.columns.fill(baked, relief, s.near.index, s.near.count);
+  if (count == 1) return work_alone(pieces[0], s.columns, s.of_piece[0], work);
   bool fits = false;
-  if (blocks == 1 || s.near.count <= 2 * kWidth) {
+  if (s.near.count <= 2 * kWidth) {
     with_tables(s.columns, [&](auto tables) {
-      if (blocks == 1)
-        choose_all(s.columns, s.of_block[0]);
-      else
-        (void)find(AmongColumns<tables()>{s.columns}, boxes + first, blocks, s.of_block);
-      fits = work(tables, s.columns, first, blocks, s.of_block);
+      (void)find(AmongColumns<tables()>{s.columns}, around.box, pieces, count, s.of_piece);
+      fits = work(tables, s.columns, pieces, count, s.of_piece);
     });
     return fits;
   }
-  if (!find(AmongColumns<0>{s.columns}, boxes + first, blocks, s.of_block)) return false;
-  for (int block = 0; block < blocks; ++block) {
-    Near& list = s.of_block[block];
+  if (!find(AmongColumns<0>{s.columns}, around.box, pieces, count, s.of_piece)) return false;
+  for (int i = 0; i < count; ++i) {
+    Near& list = s.of_piece[i];
     if (list.count == 0) continue;
-    for (int i = 0; i < list.count; ++i) list.index[i] = s.near.index[list.index[i]];
+    for (int k = 0; k < list.count; ++k) list.index[k] = s.near.index[list.index[k]];
     s.alone.fill(baked, relief, list.index, list.count);
-    choose_all(s.alone, s.of_alone);
-    with_tables(s.alone, [&](auto tables) { fits = work(tables, s.alone, first + block, 1, &s.of_alone); });
-    if (!fits) return false;
+    if (!work_alone(pieces[i], s.alone, s.of_alone, work)) return false;
   }
   return true;
 }
 
-/// The box of each block of places; false if some place is too far for floats.
-HWY_INLINE bool boxes_of(const QueryBatch& batch, Extent* boxes) {
-  bool all_near = true;
-  for (int begin = 0; begin < batch.count; begin += kBlock) {
-    bool near = false;
-    boxes[begin / kBlock] = extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin,
-                                            std::min(kBlock, batch.count - begin), near);
-    all_near = all_near && near;
+/// One piece and any number of plain ellipsoids, as many at a time as there is room for: `find` (a source,
+/// the list out), `work` as above.
+template <class Find, class Work>
+HWY_INLINE void in_parts(const Baked& baked, const Piece& piece, Scratch& s, Find&& find, Work&& work) {
+  constexpr int kPart = kMaxCandidates;
+  static_assert(kPart % kGroup == 0);
+  const int end = static_cast<int>(baked.size());
+  for (int k = 0; k < end; k += kPart) {
+    find(Everything(baked, k, std::min(k + kPart, end)), &s.near);
+    if (s.near.count == 0) continue;
+    s.columns.fill(baked, nullptr, s.near.index, s.near.count);
+    (void)work_alone(piece, s.columns, s.of_alone, work);
   }
-  return all_near;
 }
 
-/// What fits together is done together: `work` (first block, blocks).
+/// `near` tells whether all are within kFarthest, which NaN is not.
+HWY_INLINE Piece piece_of(const QueryBatch& batch, int begin, int end, bool& near) {
+  return {extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, end - begin, near), begin, end};
+}
+
+/// The blocks of a batch.
+struct Blocks {
+  Piece pieces[kBlocks];
+  int count = 0;
+  bool near = true;  ///< no place is too far for floats
+
+  explicit HWY_INLINE Blocks(const QueryBatch& batch) {
+    for (int begin = 0; begin < batch.count; begin += kBlock) {
+      bool all_near = false;
+      pieces[count++] = piece_of(batch, begin, std::min(begin + kBlock, batch.count), all_near);
+      near = near && all_near;
+    }
+  }
+};
+
+/// What fits together is done together: `work` (pieces, their number); what does not, block by block, then
+/// step by step; what even then has no room is left to `last` (a piece), which may give up.
+template <class Work, class Last>
+HWY_INLINE bool together_or_apart(const QueryBatch& batch, const Blocks& blocks, Work&& work, Last&& last) {
+  if (work(blocks.pieces, blocks.count)) return true;
+  for (int i = 0; i < blocks.count; ++i) {
+    if (blocks.count > 1 && work(blocks.pieces + i, 1)) continue;
+    for (int begin = blocks.pieces[i].begin; begin < blocks.pieces[i].end; begin += kStep) {
+      bool near = false;
+      const Piece step = piece_of(batch, begin, std::min(begin + kStep, blocks.pieces[i].end), near);
+      if (!work(&step, 1) && !last(step)) return false;
+    }
+  }
+  return true;
+}
+
+/// The nearer of two answers about the lanes of a piece; of equals, that of the lowest index.
+HWY_INLINE void take_nearer(const Piece& piece, const Batched& other, Batched& out) {
+  for (int i = piece.begin; i < piece.end; ++i) {
+    if (other.distance[i] > out.distance[i]) continue;
+    if (other.distance[i] == out.distance[i] && other.name[i] > out.name[i]) continue;
+    out.distance[i] = other.distance[i];
+    out.gx[i] = other.gx[i];
+    out.gy[i] = other.gy[i];
+    out.gz[i] = other.gz[i];
+    out.name[i] = other.name[i];
+  }
+}
+
+/// Plain ellipsoids, however many are near the piece.
 template <class Work>
-HWY_INLINE bool together_or_alone(int count, Work&& work) {
-  const int blocks = (count + kBlock - 1) / kBlock;
-  if (work(0, blocks)) return true;
-  for (int block = 0; block < blocks; ++block)
-    if (blocks == 1 || !work(block, 1)) return false;
-  return true;
+HWY_INLINE void nearest_in_parts(const Baked& baked, const Piece& piece, float beyond_m, Scratch& scratch,
+                                 Work&& work, Batched& out) {
+  Rivals rivals;
+  find_rivals(Everything(baked), piece.box, &piece, 1, &rivals);
+  measure_corners(Everything(baked), &piece, 1, &rivals);
+  Batched part;
+  std::fill(out.distance + piece.begin, out.distance + piece.end, std::numeric_limits<float>::infinity());
+  const auto find = [&](const Everything& source, Near* list) {
+    (void)collect_unbeaten(source, piece.box, &piece, 1, &rivals, beyond_m, list);
+  };
+  in_parts(baked, piece, scratch, find,
+           [&](auto tables, const Columns& columns, const Piece* pieces, int count, const Near* lists) {
+             (void)work(tables, columns, pieces, count, lists, part);
+             take_nearer(piece, part, out);
+             return true;
+           });
 }
 
-/// Distance, unit gradient and owner of every particle; false if the kernel has no room, or a place is too
-/// far for floats.
+/// Distance, unit gradient and owner of every particle; false if a place is too far for floats, or more
+/// ellipsoids with relief are near than the kernel has room for.
 inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Scratch& scratch,
                     Batched& out) {
-  Extent boxes[kBlocks];
-  if (!boxes_of(batch, boxes)) return false;
-  for (int block = 0; block * kBlock < batch.count; ++block) batch.radius_m[block] = boxes[block].radius;
+  const Blocks blocks(batch);
+  if (!blocks.near) return false;
+  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
-  const auto find = [&](const auto& source, const Extent* around, int count, Near* lists) {
-    return find_near(source, around, count, beyond_m, lists);
-  };
-  const auto work = [&](auto tables, const Columns& columns, int first, int blocks, const Near* lists) {
+  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
+                        Near* lists) { return find_near(source, around, pieces, count, beyond_m, lists); };
+  const auto answer = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
+                          const Near* lists, Batched& to) {
     Open& open = scratch.open;
-    if (relief)
-      return nearest_of<3, tables()>(baked, relief, batch, first, blocks, lists, columns, open, out);
-    return nearest_of<2, tables()>(baked, nullptr, batch, first, blocks, lists, columns, open, out);
+    if (relief) return nearest_of<3, tables()>(baked, relief, batch, pieces, count, lists, columns, open, to);
+    return nearest_of<2, tables()>(baked, nullptr, batch, pieces, count, lists, columns, open, to);
   };
-  return together_or_alone(batch.count, [&](int first, int blocks) {
-    return share(baked, relief, boxes, first, blocks, scratch, find, work);
-  });
+  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
+                        const Near* lists) { return answer(tables, columns, pieces, count, lists, out); };
+  return together_or_apart(
+      batch, blocks,
+      [&](const Piece* pieces, int count) {
+        return share(baked, relief, pieces, count, scratch, find, work);
+      },
+      [&](const Piece& piece) {
+        if (relief) return false;
+        nearest_in_parts(baked, piece, beyond_m, scratch, answer, out);
+        return true;
+      });
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

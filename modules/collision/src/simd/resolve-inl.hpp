@@ -67,14 +67,6 @@ HWY_INLINE V3 surface_velocity(const SurfaceMotion* motion, VI owner, V3 x) {
   return V3{dot(r0, x), dot(r1, x), dot(r2, x)} + shift;
 }
 
-HWY_INLINE std::uint64_t bits(M m) {
-  std::uint8_t bytes[8] = {};
-  (void)hn::StoreMaskBits(f, m, bytes);
-  std::uint64_t result;
-  std::memcpy(&result, bytes, sizeof(result));
-  return result;
-}
-
 /// Paths, relative to the ellipsoid that owns the place, longer than the limit. Without an owner any
 /// ellipsoid may have come past.
 HWY_INLINE M moved_far(const Gathering& batch, const Clearance& clearance, int i, V3 p, VI owner,

@@ -6,6 +6,9 @@
 #define BODICE_COLLISION_VEC3_INL_
 #endif
 
+#include <cstdint>
+#include <cstring>
+
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -100,6 +103,14 @@ HWY_INLINE V3 load3(const float* x, const float* y, const float* z) {
 }
 HWY_INLINE V3 broadcast3(const float* xyz) {
   return {all(xyz[0]), all(xyz[1]), all(xyz[2])};
+}
+/// A bit a lane.
+HWY_INLINE std::uint64_t bits(M m) {
+  std::uint8_t bytes[8] = {};
+  (void)hn::StoreMaskBits(f, m, bytes);
+  std::uint64_t result;
+  std::memcpy(&result, bytes, sizeof(result));
+  return result;
 }
 HWY_INLINE void store3(V3 a, float* x, float* y, float* z) {
   hn::Store(a.x, f, x);
