@@ -1,7 +1,7 @@
 // drape [--data DIR] [--only TEXT] [--cache DIR] [--sheet FILE.png]: every garment of the data folder on its
 // body for 300 frames of gusty wind and 300 calm ones; the bars stand over the columns. --substeps
 // 2,4,8,16,32 makes a table of what they buy. Of a garment there in two resolutions the outlines are
-// compared.
+// compared; --halve makes the second one.
 #include <cstdio>
 #include <map>
 
@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
   std::string data = "../shared/data", only, cache, picture, fabric = "cotton", tier = "relief";
   std::vector<double> wind = {0.0, 0.0, 2.0};
   int workers = 2;
+  bool also_halved = false;
   std::vector<int> substeps = {bodice::tryon::DrapeOptions{}.solver.substeps};
   bench::WearOptions options;
   options.solver = bodice::tryon::DrapeOptions{}.solver;
@@ -95,6 +96,7 @@ int main(int argc, char** argv) {
   app.add_option("--wind", wind, "metres a second")->expected(3)->delimiter(',');
   app.add_option("--gust", options.solver.environment.gust);
   app.add_option("--threads", workers);
+  app.add_flag("--halve", also_halved, "each garment again with its edges halved");
   app.add_flag("--trace", options.trace, "a line every thirty frames");
   CLI11_PARSE(app, argc, argv);
   options.solver.environment.wind_m_s = {wind[0], wind[1], wind[2]};
@@ -105,7 +107,7 @@ int main(int argc, char** argv) {
   bench::Sheet sheet;
   std::map<std::string, Hung> hung;
   print_head();
-  for (const bench::Outfit& outfit : bench::find_outfits(data, only)) {
+  for (const bench::Outfit& outfit : bench::find_outfits(data, only, also_halved)) {
     const bench::Body body =
         bench::load_body(context, outfit.body, proxy::tier_from_name(tier).value(), cache);
     const tryon::WornGarment garment = bench::load_garment(context, outfit, body);

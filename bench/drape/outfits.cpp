@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -22,16 +23,38 @@ T or_exit(engine::Result<T> result) {
   std::exit(1);
 }
 
+/// Each triangle as four, cut at the middles of its edges.
+geometry::TriMesh halve_edges(const geometry::TriMesh& mesh) {
+  geometry::TriMesh fine{.positions = mesh.positions};
+  std::map<std::pair<geometry::Index, geometry::Index>, geometry::Index> middle;
+  auto between = [&](geometry::Index a, geometry::Index b) {
+    const auto [it, fresh] =
+        middle.try_emplace(std::minmax(a, b), static_cast<geometry::Index>(fine.positions.size()));
+    if (fresh) fine.positions.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
+    return it->second;
+  };
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto ab = between(a, b), bc = between(b, c), ca = between(c, a);
+    fine.triangles.insert(fine.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+  }
+  return fine;
+}
+
 }  // namespace
 
-std::vector<Outfit> find_outfits(const fs::path& data, const std::string& only) {
+std::vector<Outfit> find_outfits(const fs::path& data, const std::string& only, bool also_halved) {
   std::ifstream in(data / "garments" / "garments.json");
   std::vector<Outfit> outfits;
   for (const auto& entry : nlohmann::json::parse(in)) {
     const std::string file = entry["file"], body = entry["body"], pose = entry["pose"];
     if (file.find(only) == std::string::npos) continue;
-    outfits.push_back({file.substr(0, file.rfind('.')), data / "garments" / file,
-                       data / "bodies" / (body + "_" + pose + ".obj")});
+    Outfit outfit{file.substr(0, file.rfind('.')), data / "garments" / file,
+                  data / "bodies" / (body + "_" + pose + ".obj")};
+    outfits.push_back(outfit);
+    if (!also_halved) continue;
+    outfit.name.insert(outfit.name.find("__"), "_fine");
+    outfit.halved = true;
+    outfits.push_back(std::move(outfit));
   }
   return outfits;
 }
@@ -53,6 +76,7 @@ Body load_body(const engine::Context& context, const fs::path& file, proxy::Tier
 tryon::WornGarment load_garment(const engine::Context& context, const Outfit& outfit, const Body& body) {
   io::ImportedMesh mesh = or_exit(io::import_garment(context, outfit.garment, body.skin.input.frame));
   tryon::WornGarment worn{.name = outfit.name, .mesh = std::move(mesh.skin)};
+  if (outfit.halved) worn.mesh = halve_edges(worn.mesh);
   worn.held = tryon::held_vertices(worn.mesh, body.skin);
   return worn;
 }

@@ -12,10 +12,13 @@ namespace bench {
 struct Outfit {
   std::string name;
   std::filesystem::path garment, body;
+  bool halved = false;  ///< its edges: each triangle is four
 };
 
-/// Those of garments.json whose name holds `only`.
-std::vector<Outfit> find_outfits(const std::filesystem::path& data, const std::string& only);
+/// Those of garments.json whose name holds `only`; each followed by NAME_fine__BODY, its edges halved, if
+/// asked for.
+std::vector<Outfit> find_outfits(const std::filesystem::path& data, const std::string& only,
+                                 bool also_halved);
 
 /// What a drape needs of a body.
 struct Body {

@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include <bodice/cloth/weld.hpp>
+
 #include "fixtures.hpp"
 
 using namespace bodice;
@@ -105,9 +107,17 @@ TEST_CASE("one triangle, slivers and wild mass ratios are garments too") {
   one.positions = {Vec3(-0.05, 1.3, 0), Vec3(0.05, 1.3, 0), Vec3(0, 1.3, 0.1)};
   one.triangles = {{0, 1, 2}};
   CHECK(run(one, {}, body, 1.0 / 60.0, 120).reach < 50.0);
-  TriMesh mixed = one;  // areas 1e4 apart, joined at a corner
-  mixed.positions.insert(mixed.positions.end(), {Vec3(0.0005, 1.3, 0.101), Vec3(-0.0005, 1.3, 0.101)});
-  mixed.triangles.push_back({2, 3, 4});
+  TriMesh mixed = one;  // areas 1e4 apart, joined at a corner; most are small, so that none is dropped
+  for (Index k = 0; k < 6; ++k) {
+    mixed.positions.insert(mixed.positions.end(),
+                           {Vec3(0.0005, 1.3, 0.101 + 0.001 * k), Vec3(-0.0005, 1.3, 0.101 + 0.001 * k)});
+    const Index right = 3 + 2 * k, left = right + 1;
+    if (k == 0)
+      mixed.triangles.push_back({2, right, left});
+    else
+      mixed.triangles.insert(mixed.triangles.end(), {{right - 2, right, left}, {right - 2, left, left - 2}});
+  }
+  REQUIRE(cloth::weld(mixed)->mesh.triangles.size() == mixed.triangles.size());
   CHECK(run(mixed, {}, body, 1.0 / 60.0, 120).report.stretch_max < 10.0);
   TriMesh sliver = one;
   sliver.positions.push_back(Vec3(0, 1.3, -1e-6));

@@ -46,6 +46,25 @@ TEST_CASE("a soup of triangles welds back to the sheet at any scale and place") 
   }
 }
 
+TEST_CASE("an edge far shorter than the others is a particle, and a chain of such does not shrink to one") {
+  // A strip whose quads are 1 high and 1 wide, but for three columns of 0.06 in its middle.
+  const double x[] = {0.0, 1.0, 2.0, 2.06, 2.12, 2.18, 3.18, 4.18};
+  TriMesh mesh;
+  for (Index i = 0; i < 8; ++i)
+    mesh.positions.insert(mesh.positions.end(), {Vec3(x[i], 0, 0), Vec3(x[i], 1, 0)});
+  for (Index i = 0; i < 7; ++i)
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {{2 * i, 2 * i + 2, 2 * i + 3}, {2 * i, 2 * i + 3, 2 * i + 1}});
+  const auto welded = cloth::weld(mesh);
+  REQUIRE(welded.ok());
+  CHECK(welded->mesh.positions.size() == 12);  // 2 and 2.06 are one, 2.12 and 2.18 are
+  CHECK(welded->particle_of_vertex[4] == welded->particle_of_vertex[6]);
+  CHECK(welded->particle_of_vertex[8] == welded->particle_of_vertex[10]);
+  CHECK(welded->particle_of_vertex[6] != welded->particle_of_vertex[8]);
+  for (std::size_t v = 0; v < 16; ++v)
+    CHECK((welded->mesh.positions[welded->particle_of_vertex[v]] - mesh.positions[v]).norm() < 0.1);
+}
+
 TEST_CASE("damaged vertices and triangles are dropped and reported, the rest stays") {
   TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3::Zero());
   const double nan = std::numeric_limits<double>::quiet_NaN();

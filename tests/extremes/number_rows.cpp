@@ -115,6 +115,11 @@ std::vector<Row> number_rows() {
                       fabric.stretch_n_m = value;
                       return check_cloth(fabric, {}, 1.0 / 60);
                     }});
+    rows.push_back({"cloth, bend_friction_n", name, [=] {
+                      auto fabric = cotton;
+                      fabric.bend_friction_n = value;
+                      return check_cloth(fabric, {}, 1.0 / 60);
+                    }});
     rows.push_back({"a particle at x", name, [=] { return check_particle(static_cast<float>(value)); }});
   }
   return rows;

@@ -93,6 +93,25 @@ std::vector<Index> representatives(const TriMesh& mesh, double tolerance) {
   return parent;
 }
 
+// Ends of an edge that is too short are one particle, too: the one that comes first and is none of another's.
+// So that no chain of short edges shrinks, nobody moves farther than `tolerance`.
+void join_short_edges(const TriMesh& mesh, double tolerance, std::vector<Index>& rep) {
+  std::vector<std::pair<Index, Index>> edges;
+  for (const Triangle& t : mesh.triangles) {
+    if (!usable_indices(mesh, t)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(rep[t[k]], rep[t[(k + 1) % 3]]);
+      if (a != b && (mesh.positions[a] - mesh.positions[b]).norm() < tolerance) edges.emplace_back(a, b);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  std::vector<Index> joined(rep.size());
+  std::iota(joined.begin(), joined.end(), Index{0});
+  for (const auto& [a, b] : edges)  // ascending in a: whether it joined another is settled
+    if (joined[a] == a && joined[b] == b) joined[b] = a;
+  for (Index& r : rep) r = joined[r];
+}
+
 bool has_area(const TriMesh& mesh, const Triangle& t) {
   const Vec3 a = mesh.positions[t[0]], u = mesh.positions[t[1]] - a, v = mesh.positions[t[2]] - a;
   const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
@@ -140,15 +159,16 @@ void warn_about_drops(const TriMesh& garment, WeldedGarment& out) {
   warn(unused, "garment-vertices-isolated", " vertices belong to no usable triangle and stay where they are.",
        "");
   warn(flat, "garment-triangles-dropped",
-       " triangles have no area, repeat another or use a dropped vertex, and were dropped.", "");
+       " triangles have no size, repeat another or use a dropped vertex, and were dropped.", "");
 }
 
 }  // namespace
 
 engine::Result<WeldedGarment> weld(const TriMesh& garment, double seam_relative) {
   WeldedGarment out;
-  const double tolerance = std::max(0.0, seam_relative) * median_edge(garment);
-  const std::vector<Index> rep = representatives(garment, tolerance);
+  const double median_m = median_edge(garment);
+  std::vector<Index> rep = representatives(garment, std::max(0.0, seam_relative) * median_m);
+  join_short_edges(garment, kShortRelative * median_m, rep);
   out.mesh.triangles = kept_triangles(garment, rep);
   if (out.mesh.triangles.empty()) {
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
