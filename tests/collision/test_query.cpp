@@ -117,6 +117,13 @@ TEST_CASE("identical, nested and tangent ellipsoids, and more of them than a blo
   CHECK(compare(tangent, std::vector<Vec3>(100, Vec3::Zero()), 1.0).distance < 1e-6);
 }
 
+TEST_CASE("seven hundred different ellipsoids in one place, particles in no order") {
+  const auto shapes = random_ellipsoids(5, 700, 0.05, 0.08, 0.1);
+  const Errors errors = compare(shapes, places_around(3, 3000, 0.2), 0.2);
+  CHECK(errors.distance < 2e-6);
+  CHECK(errors.wrong_owner == 0);
+}
+
 TEST_CASE("ten kilometres from the origin the answers are those at the origin") {
   auto shapes = random_ellipsoids(3, 40, 0.6, 0.03, 0.2);
   const Collider near(proxy_of(shapes));
@@ -152,6 +159,7 @@ TEST_CASE("no ellipsoids, no particles, and particles that are not numbers") {
   cloud.x[3] = nan;
   cloud.z[77] = inf;
   const Cloud before = cloud;
+  CHECK(empty.resolve({}, cloud.particles(), {}).not_finite == 2);
   const ContactReport report = one.resolve({}, cloud.particles(), {});
   CHECK(report.not_finite == 2);
   CHECK(std::isnan(cloud.x[3]));

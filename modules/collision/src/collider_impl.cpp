@@ -188,9 +188,12 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
 void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
                                   const Sequence& sequence, const ResolveOptions& options,
                                   ContactReport& report) const {
-  if (field.size() == 0) return;
   Gathered gathered;
   gather(particles, sequence.from(begin), begin, end, gathered);
+  if (field.size() == 0) {
+    report.not_finite += gathered.not_finite;
+    return;
+  }
   Gathering& batch = gathered.batch;
   const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
                             static_cast<float>(kCertificate * field.size_m()),
