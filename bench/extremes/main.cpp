@@ -1,6 +1,6 @@
 // How large each algorithm's error is, against the input's scale, its distance from the origin and its
-// aspect: three tables, a curve a row, on the terminal and as CSV. Repeats to the bit. Usage: extremes [--out
-// FOLDER] [--quick]    quick: without the fits of whole bodies
+// aspect: three tables, a curve a row, on the terminal, and as a page and CSV in FOLDER. Repeats to the bit.
+// Usage: extremes [--out FOLDER] [--quick]    quick: without the fits of whole bodies
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -87,14 +87,21 @@ int main(int argc, char** argv) {
       if (!quick || !curve.algorithm.starts_with("fit")) curves.push_back(std::move(curve));
   const bench::Origin origin = bench::find_origin();
   if (!folder.empty()) std::filesystem::create_directories(folder);
+  const std::string command = quick ? "extremes --quick" : "extremes";
+  std::string page = "# Error at the extremes\n\n`" + command + "`, " + bench::title(origin) + "\n";
   bool written = true;
+  const auto write = [&](const std::string& file, const std::string& text) {
+    if (folder.empty()) return;
+    std::ofstream out(folder / file);
+    out << text;
+    written = written && out.good();
+  };
   for (const Range& range : kRanges) {
     const bench::Table table = measure(range, curves);
-    std::printf("%s\n\n%s\n", table.caption().c_str(), table.markdown().c_str());
-    if (folder.empty()) continue;
-    std::ofstream csv(folder / (table.name() + ".csv"));
-    csv << table.csv(origin, quick ? "extremes --quick" : "extremes");
-    written = written && csv.good();
+    page += "\n" + table.caption() + "\n\n" + table.markdown();
+    write(table.name() + ".csv", table.csv(origin, command));
   }
+  write("extremes.md", page);
+  std::fputs(page.c_str(), stdout);
   return written ? 0 : 1;
 }
