@@ -156,6 +156,32 @@ TEST_CASE("fit: scale and distance from the origin change nothing but the scale"
   CHECK(result->accuracy.gap_m.mean < 1.5 * gap + 1e-4);
 }
 
+TEST_CASE("fit: of twin limbs the same one is split first wherever the body stands") {
+  const auto counts_at = [](const Vec3& offset) {
+    fitting_test::Skin skin;
+    skin.stature_m = 1.0;
+    const auto add = [&](double x, double y, const Vec3& radii, body::Part part) {
+      fitting_test::add_ellipsoid(skin, {offset + Vec3(x, y, 0), geometry::Mat3::Identity(), radii}, part);
+    };
+    add(0.0, 0.7, {0.12, 0.25, 0.08}, body::Part::kTorsoUL);
+    for (const double side : {1.0, -1.0}) {
+      add(side * 0.2, 0.7, {0.03, 0.25, 0.04}, side > 0.0 ? body::Part::kForearmL : body::Part::kForearmR);
+      add(side * 0.08, 0.2, {0.05, 0.2, 0.07}, side > 0.0 ? body::Part::kThighL : body::Part::kThighR);
+    }
+    FitOptions options;
+    options.tier = Tier::kPaper;
+    options.max_ellipsoids = 18;  // the twins cannot have equal shares of all of them
+    std::vector<std::size_t> counts;
+    const auto result = fitting::fit({}, skin.view(), options);
+    REQUIRE(result.ok());
+    for (const auto& part : result->parts) counts.push_back(part.ellipsoids);
+    return counts;
+  };
+  const auto expected = counts_at(Vec3::Zero());
+  for (const double far : {0.37, 10.0, 777.7, 1e4, 33333.3})
+    CHECK(counts_at(Vec3(far, -0.3 * far, 0.7 * far)) == expected);
+}
+
 TEST_CASE("fit: improvements are published in order and are valid proxies") {
   const Skin skin = three_ellipsoids();
   FitOptions options = options_for(Tier::kRelief, 6);

@@ -6,6 +6,8 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/fitting/mvee.hpp>
 
+#include "first_largest.hpp"
+
 namespace bodice::fitting {
 namespace {
 
@@ -91,11 +93,9 @@ double Refinement::worst_error() const {
 }
 
 void Refinement::split_worst() {
-  std::size_t worst = clusters_.size();
-  for (std::size_t k = 0; k < clusters_.size(); ++k)
-    if (clusters_[k].items.size() >= kMinItemsToSplit &&
-        (worst == clusters_.size() || clusters_[k].error_m > clusters_[worst].error_m))
-      worst = k;
+  std::vector<double> error;
+  for (const Cluster& c : clusters_) error.push_back(c.items.size() < kMinItemsToSplit ? 0.0 : c.error_m);
+  const std::size_t worst = first_largest(error);
   if (worst == clusters_.size()) return;
   int longest = 0;
   const geometry::Ellipsoid& e = clusters_[worst].ellipsoid;

@@ -7,6 +7,8 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "first_largest.hpp"
+
 namespace bodice::fitting {
 namespace {
 
@@ -46,11 +48,9 @@ std::vector<double> rehearse(const engine::Context& context, std::vector<Vec3> p
   clusters.emplace_back(std::move(points));
   while (static_cast<int>(errors.size()) < most) {
     context.checkpoint();
-    std::size_t worst = clusters.size();
-    for (std::size_t k = 0; k < clusters.size(); ++k)
-      if (clusters[k].points.size() >= kLeastPoints &&
-          (worst == clusters.size() || clusters[k].error_m > clusters[worst].error_m))
-        worst = k;
+    std::vector<double> error;
+    for (const Rehearsed& c : clusters) error.push_back(c.points.size() < kLeastPoints ? 0.0 : c.error_m);
+    const std::size_t worst = first_largest(error);
     if (worst == clusters.size()) break;
     errors.push_back(clusters[worst].error_m);
     std::vector<Vec3> low, high;
@@ -83,12 +83,12 @@ std::vector<int> share_counts(const engine::Context& context, const Items& items
     left -= share.back();
   }
   for (; left > 0; --left) {
-    std::size_t worst = regions.size();
-    double most = 0.0;
+    std::vector<double> next(regions.size(), 0.0);
     for (std::size_t r = 0; r < regions.size(); ++r) {
-      const auto next = static_cast<std::size_t>(share[r] - 1);
-      if (next < errors[r].size() && errors[r][next] > most) most = errors[r][next], worst = r;
+      const auto splits = static_cast<std::size_t>(share[r] - 1);
+      if (splits < errors[r].size()) next[r] = errors[r][splits];
     }
+    const std::size_t worst = first_largest(next);
     if (worst == regions.size()) break;
     ++share[worst];
   }

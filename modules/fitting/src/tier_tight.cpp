@@ -16,8 +16,11 @@ namespace {
 /// candidates.
 constexpr std::size_t kCoarse = 5;
 constexpr int kCoarseIterations = 36, kIterations = 500;
-constexpr double kCoarseMotion = 0.03, kMotion = 0.008;  // of the scaled body
-constexpr std::size_t kAirProbes = 8;                    // samples a probe of the union's surface
+constexpr double kCoarseMotion = 0.03, kMotion = 0.012;  // of the scaled body
+/// Depths are asked for as heights are: ellipsoids that are right on the skin alone are a third more wrong
+/// 2 cm under it, and leave holes there.
+constexpr double kInward_mm = 25.0, kOutward_mm = 20.0;
+constexpr std::size_t kAirProbes = 8;    // samples a probe of the union's surface
 constexpr float kCoveringWeight = 4.0f;  // of uncovered skin, before what is left is covered by growth
 
 /// Every triangle of the wanted, unburied skin into an ellipsoid.
@@ -45,6 +48,7 @@ class TightRun {
       : context_(context), source_(source), options_(options), draft_(draft), scaling_(source.skin) {
     descent_.out_of_time = [this, deadline_ns] { return context_.clock->now_ns() >= deadline_ns; };
     descent_.more_samples = [this](std::span<const geometry::Ellipsoid> found) { return in_air(found); };
+    loss_.ignore_depth = static_cast<float>(1e-3 * kInward_mm);
     if (options.covering) loss_.uncovered_weight = kCoveringWeight;
   }
 
@@ -115,10 +119,11 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   draft.parts = source.parts;
   draft.data.ellipsoids = medial_start(context, source, count);
   const double mm = Scaling(source.skin).mm();
-  const std::size_t samples = std::clamp<std::size_t>(200 * static_cast<std::size_t>(count), 6000, 60000);
-  // Less than half on the skin: with more, ellipsoids spread in air that nobody asks about.
+  const std::size_t samples = std::clamp<std::size_t>(250 * static_cast<std::size_t>(count), 7500, 75000);
+  // Less than a third on the skin: with more, ellipsoids spread in air that nobody asks about.
   TightRun(context, source, options, draft, deadline_ns)
-      .run(sample_near_skin(context, source, {samples, 8 * mm, 20 * mm, 0.45, 0.15, 200 * mm, 11}));
+      .run(sample_near_skin(context, source,
+                            {samples, kInward_mm * mm, kOutward_mm * mm, 0.3, 0.15, 200 * mm, 11}));
   if (options.covering) cover_skin(context, source, draft.data.ellipsoids);
   return draft;
 }

@@ -26,7 +26,7 @@ constexpr double kMinRadius = 0.002;
 constexpr double kFirstDamping = 1e-2;
 constexpr int kStopWindow = 48;
 constexpr double kExact = 2e-5;          // root of the mean square residual: nothing is left to gain
-constexpr double kMostHeldBack = 0.1;    // steps an ellipsoid, before the candidates are chosen afresh
+constexpr double kMostHeldBack = 0.25;   // steps an ellipsoid, before the candidates are chosen afresh
 constexpr std::uint32_t kLeastSkin = 4;  // samples; with fewer an ellipsoid stands for nothing
 
 struct State {
