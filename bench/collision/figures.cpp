@@ -50,13 +50,14 @@ bool over_body_vertices(std::size_t largest) {
   }
   run(ours);
   std::printf(
-      "| body vertices | ellipsoids | proxy, least ms a frame | pair of trees, ms | contacts of the trees |\n"
-      "|---|---|---|---|---|\n");
+      "| body vertices | ellipsoids | proxy, least ms a frame | contacts | judged in double | pair of trees, "
+      "ms "
+      "| contacts of the trees |\n|---|---|---|---|---|---|---|\n");
   double least = 1e30, most = 0.0;
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const double ms = ours[i].sorted_ms().front();
-    std::printf("| %zu | %zu | %.3f | %.1f | %zu |\n", vertices[i], ours[i].ellipsoids(), ms, trees[i].ms,
-                trees[i].contacts);
+    std::printf("| %zu | %zu | %.3f | %zu | %zu | %.1f | %zu |\n", vertices[i], ours[i].ellipsoids(), ms,
+                ours[i].contacts(), ours[i].judged_exactly(), trees[i].ms, trees[i].contacts);
     least = std::min(least, ms);
     most = std::max(most, ms);
   }

@@ -60,6 +60,7 @@ void ProxyFrames::run() {
   const double ms = watch.cpu_ms();
   if (frame_++ > 1) ms_.push_back(ms);
   contacts_ = report.contacts;
+  judged_exactly_ = report.judged_exactly;
 }
 
 std::vector<double> ProxyFrames::sorted_ms() const {

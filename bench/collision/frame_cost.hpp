@@ -33,6 +33,7 @@ class ProxyFrames {
   /// Processor time of each frame but the first two, which sort the particles; rising.
   std::vector<double> sorted_ms() const;
   std::size_t contacts() const { return contacts_; }
+  std::size_t judged_exactly() const { return judged_exactly_; }
   std::size_t ellipsoids() const { return shapes_.size(); }
   std::size_t particles() const { return start_.size(); }
 
@@ -43,7 +44,7 @@ class ProxyFrames {
   std::vector<bodice::geometry::Ellipsoid> shapes_;
   Cloud start_, now_;
   std::vector<double> ms_;
-  std::size_t contacts_ = 0;
+  std::size_t contacts_ = 0, judged_exactly_ = 0;
   int frame_ = 0;
 };
 

@@ -2,6 +2,7 @@
 // run, CPU time, median and min of the repeats, interleaved so that a slow minute hits all rows alike.
 // Usage: collision [particles [repeats [fit seconds [rows.csv]]]]
 //        collision figures [largest body]
+//        collision counts [particles [repeats]]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +19,7 @@
 
 #include <bench_support/origin.hpp>
 
+#include "counts.hpp"
 #include "figures.hpp"
 #include "peers.hpp"
 #include "subject.hpp"
@@ -215,6 +217,11 @@ void write_csv(const std::string& file, const std::vector<Row>& rows, const benc
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "figures")
     return bench::draw_figures(argc > 2 ? static_cast<std::size_t>(std::atol(argv[2])) : 856000) ? 0 : 1;
+  if (argc > 1 && std::string_view(argv[1]) == "counts") {
+    bench::grow_counts(argc > 2 ? static_cast<std::size_t>(std::atol(argv[2])) : 100000,
+                       argc > 3 ? std::atoi(argv[3]) : 3);
+    return 0;
+  }
   const std::size_t count = argc > 1 ? static_cast<std::size_t>(std::atol(argv[1])) : 100000;
   const int repeats = argc > 2 ? std::max(1, std::atoi(argv[2])) : 11;
   const double fit_s = argc > 3 ? std::atof(argv[3]) : 4.0;
@@ -248,6 +255,7 @@ int main(int argc, char** argv) {
   }
   std::vector<bench::Peer> peers = bench::embree_peers(body.mesh, kBand_m + 0.001);
   if (peers.empty()) std::printf("Embree is not installed here: not measured\n");
+  for (bench::Peer& peer : bench::cgal_peers(body.mesh)) peers.push_back(std::move(peer));
   for (const double cell_m : {0.010, 0.005}) peers.push_back(bench::grid_peer(body.mesh, skin, cell_m));
   std::vector<float> distances(count);
   std::vector<Row> rows;

@@ -25,6 +25,9 @@ Peer grid_peer(const bodice::geometry::TriMesh& mesh, const bodice::geometry::Me
 /// Embree's point query over the skin's triangles, within `reach_m`, unsigned; nothing where it is missing.
 std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double reach_m);
 
+/// CGAL's tree of boxes over the skin's triangles, exact and unsigned; nothing where it is missing.
+std::vector<Peer> cgal_peers(const bodice::geometry::TriMesh& mesh);
+
 /// CPU seconds of this process, for one-threaded work: what preemption takes is not counted.
 double cpu_s();
 

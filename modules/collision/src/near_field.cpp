@@ -25,12 +25,10 @@ void NearField::expect(const Vec3& center, double radius_m) {
       center, [&] { return within_m; },
       [&](std::size_t k) {
         if (crowded_) return;
-        const NearestPoint at = geometry::nearest_point(field_.shape(k), center);
-        if (at.signed_distance >= within_m) return;
         shortest_m_ = std::min(shortest_m_, field_.shape(k).radii.minCoeff());
         crowded_ = candidate_count_ == kMost;
         if (!crowded_)
-          candidates_[candidate_count_++] = {static_cast<std::uint32_t>(k), at.signed_distance, at.normal};
+          candidates_[candidate_count_++] = {static_cast<std::uint32_t>(k), field_.plane(k, center)};
       });
 }
 
@@ -51,7 +49,8 @@ void NearField::collect_near(const Vec3& x) {
   double bounds[kMost];
   int first = 0;
   for (int i = 0; i < candidate_count_; ++i) {
-    bounds[i] = candidates_[i].distance_m + candidates_[i].normal.dot(x - center_);
+    const UnionField::Plane& plane = candidates_[i].plane;
+    bounds[i] = plane.distance_m + plane.normal.dot(x - center_);
     if (bounds[i] < bounds[first]) first = i;
   }
   if (candidate_count_ == 0 || bounds[first] >= window_m()) return;

@@ -1,5 +1,5 @@
-// The proxy's distance around one particle: the few ellipsoids that matter there are found once, with their
-// tangent planes, which bound them from below wherever the particle is moved to.
+// The proxy's distance around one particle: the few ellipsoids that matter there are found once, with
+// planes that they lie behind, which bound them from below wherever the particle is moved to.
 //
 // Without relief, and with a blend radius, it is the smooth union: the root F of
 //   sum_k max(0, 1 - (d_k - F) / blend)^2 = 1
@@ -54,8 +54,7 @@ class NearField {
 
   struct Candidate {
     std::uint32_t ellipsoid;
-    double distance_m;      ///< at the centre
-    geometry::Vec3 normal;  ///< there
+    UnionField::Plane plane;  ///< at the centre
   };
   struct Foot {
     std::uint32_t ellipsoid;

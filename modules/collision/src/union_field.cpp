@@ -1,6 +1,7 @@
 #include "union_field.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace bodice::collision {
@@ -30,6 +31,15 @@ void UnionField::bound() {
     group.extend(box.high);
     size_m_ = std::max({size_m_, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
   }
+}
+
+UnionField::Plane UnionField::plane(std::size_t k, const Vec3& p) const {
+  const geometry::Ellipsoid& e = shapes_[k];
+  const Vec3 u = (e.axes.transpose() * (p - e.center)).cwiseQuotient(e.radii);
+  const Vec3 v = u.cwiseQuotient(e.radii);
+  const double level = u.norm(), slope = v.norm();
+  if (!(slope > 0.0)) return {-std::numeric_limits<double>::infinity(), Vec3::Zero()};
+  return {level * (level - 1.0) / slope - kBoundRounding * size_m_, e.axes * (v / slope)};
 }
 
 Owner UnionField::owner(const Vec3& p, double below_m) const {

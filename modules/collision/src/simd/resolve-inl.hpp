@@ -140,6 +140,8 @@ HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
 /// Writes one vector back: place, velocity, and what is told about it.
 HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way, int i, Gathering& batch,
                        BatchResponse& out) {
+  M contact = mask_of(out.contact, i);
+  if (hn::AllFalse(f, contact)) return;
   const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
   const V3 position = load3(way.x + i, way.y + i, way.z + i);
   const V3 push = position - p;
@@ -147,7 +149,6 @@ HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way
   const V depth = hn::Sub(all(clearance.distance_m), hn::Load(f, way.distance + i));
   const VI owner = hn::Load(I(), way.owner + i);
   const V longest = hn::Min(all(reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
-  M contact = mask_of(out.contact, i);
   const M beyond = hn::And(contact, hn::Gt(length2, hn::Mul(longest, longest)));
   out.hard.add(bits(hn::Or(beyond, hn::And(contact, mask_of(way.open, i)))), i);
   contact = hn::AndNot(mask_of(out.hard, i), contact);
@@ -175,10 +176,10 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
                            BatchResponse& out) {
   Batched found;
   QueryBatch query = places(batch.x, batch.y, batch.z, batch.count);
-  if (!measure(surface, query, found)) return false;
   Way way;
   Pushed pushed;
   way.clear_others();
+  if (!measure_first(surface, query, way, found)) return false;
   for (int i = 0; i < batch.count; i += kWidth)
     push_first(surface, batch, short_path_m, found, i, way, pushed, out);
   if (out.contact.none()) return true;

@@ -209,6 +209,14 @@ HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out)
   return true;
 }
 
+/// The same where the lanes begin; of plain ellipsoids only where one is below the clearance.
+HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Way& way, Batched& out) {
+  if (surface.bent()) return measure(surface, batch, out);
+  std::memset(way.clear1, 0xFF, sizeof(way.clear1));
+  const Placed placed{batch, way.clear1, way.clear2, way.clear3};
+  return nearest_others(surface.baked, placed, surface.clearance.distance_m, surface.scratch, out);
+}
+
 /// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.
 HWY_INLINE bool measure_again(const Surface& surface, const Pushed& pushed, Batched& out) {
   QueryBatch batch = places(pushed.x, pushed.y, pushed.z, pushed.count);
