@@ -50,12 +50,12 @@ double leave(const UnionField& field, const Owner& owner, const Vec3& x, const V
 }  // namespace
 
 std::optional<Vec3> exit_along_ray(const UnionField& field, const Vec3& p, const Vec3& direction,
-                                   double clearance_m) {
+                                   double clearance_m, double longest_m) {
   const double nudge_m = kCertificate * (field.size_m() + p.cwiseAbs().maxCoeff());
   Vec3 x = p;
   // Each body costs one step to its far side and a few for the clearance.
   const std::size_t limit = 8 * field.size() + 8;
-  for (std::size_t step = 0; step < limit; ++step) {
+  for (std::size_t step = 0; step < limit && !((x - p).norm() > longest_m); ++step) {
     const Owner owner = field.owner(x, clearance_m);
     if (owner.ellipsoid == kNoEllipsoid) return x;
     x += leave(field, owner, x, direction, clearance_m, nudge_m) * direction;

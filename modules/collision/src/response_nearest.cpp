@@ -158,19 +158,26 @@ class Resolver {
     const bool fold = stored_distance(x_) > surface_m_ - kFoldDepth * size_m;
     if (fold && std::isfinite(options_.max_push_m)) return;
     report_.fallback = true;
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
     std::optional<Vec3> best;
+    double best_m = kAnywhere;
     for (int i = 0; i < contact_.size(); ++i) {
-      const auto out = exit_along(contact_[i].normal);
-      if (out && (!best || (*out - p_).norm() < (*best - p_).norm())) best = out;
+      const auto out = exit_along(contact_[i].normal, best_m);
+      if (!out || (*out - p_).norm() >= best_m) continue;
+      best = out;
+      best_m = (*out - p_).norm();
     }
-    if (!best) best = exit_along(Vec3::UnitY());
+    if (!best) best = exit_along(Vec3::UnitY(), kAnywhere);
     if (!best) return;
     x_ = *best;
     contact_ = single((x_ - p_).stableNormalized());
   }
 
-  std::optional<Vec3> exit_along(const Vec3& direction) {
-    const auto far = exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + near_.bulge_m());
+  /// May give up beyond `longest_m`; not on bent surfaces, which are left before the bulge around them.
+  std::optional<Vec3> exit_along(const Vec3& direction, double longest_m) {
+    const double within_m = near_.bent() ? std::numeric_limits<double>::infinity() : longest_m;
+    const auto far =
+        exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + near_.bulge_m(), within_m);
     if (!far || !near_.bent()) return far ? std::optional<Vec3>(*far + slack_m_ * direction) : far;
     Vec3 in = p_, out = *far;
     for (int i = 0; i < kExitHalvings; ++i) {
