@@ -17,6 +17,7 @@ using bodice::geometry::Vec3;
 namespace {
 
 constexpr int kGarmentVertices = 20000, kEllipsoids = 89, kFrames = 24;
+constexpr double kOver_m = 0.004;
 
 bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
   bodice::fitting::FitOptions options;
@@ -26,6 +27,20 @@ bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
       bodice::fitting::fit({}, {.mesh = body.mesh, .part = body.part, .stature_m = body.stature_m}, options);
   if (!result.ok()) std::puts(result.error().sentence().c_str()), std::exit(1);
   return result->proxy;
+}
+
+/// The places' nearest ones 4 mm over the proxy's surface. Over one and the same skin instead, the proxies of
+/// coarse bodies, whose flat triangles miss it by millimetres, would have other contacts than those of fine
+/// ones.
+Cloud over(const bodice::proxy::BodyProxy& proxy, const Cloud& places) {
+  const bodice::collision::Collider collider(proxy);
+  Cloud start = local(places, collider), result;
+  std::vector<bodice::collision::Contact> nearest(start.size());
+  collider.query({}, start.particles(), nearest);
+  const auto vec = [](const float(&v)[3]) { return Vec3(double{v[0]}, double{v[1]}, double{v[2]}); };
+  for (const auto& contact : nearest)
+    result.add(collider.origin() + vec(contact.point) + kOver_m * vec(contact.normal));
+  return result;
 }
 
 /// In turns.
@@ -44,7 +59,8 @@ bool over_body_vertices(std::size_t largest) {
   for (const std::size_t count : {4500u, 13000u, 54000u, 214000u, 856000u}) {
     if (count > largest) break;
     const auto body = make_subject(static_cast<int>(count));
-    ours.emplace_back(fit(body), cloud);
+    const auto proxy = fit(body);
+    ours.emplace_back(proxy, over(proxy, cloud));
     vertices.push_back(body.mesh.positions.size());
     trees.push_back(tree_frame(body.mesh, garment));
   }
