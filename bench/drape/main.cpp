@@ -1,7 +1,7 @@
 // drape [--data DIR] [--only TEXT] [--cache DIR] [--sheet FILE.png]: every garment of the data folder on its
 // body for 300 frames of gusty wind and 300 calm ones; the bars stand over the columns. --substeps
 // 2,4,8,16,32 makes a table of what they buy. Of a garment there in two resolutions the outlines are
-// compared; --halve makes the second one.
+// compared; --halve makes the second one. --turn 90 turns the bodies.
 #include <cstdio>
 #include <map>
 
@@ -16,6 +16,8 @@ namespace {
 // Bars, in the columns' units; stretch is judged for the preset that the bar is stated for.
 constexpr double kSettledDeepest_mm = 3.0, kEndDeepest_mm = 1.0, kStretchP95_percent = 5.0,
                  kRestSpeed_mm_s = 1.0, kOutlines_percent = 2.0;
+
+constexpr double kRadians = 0.017453292519943295;  // a degree
 
 std::string missed_bars(const bench::Wear& w) {
   std::string missed;
@@ -77,6 +79,7 @@ int main(int argc, char** argv) {
   std::string data = "../shared/data", only, cache, picture, fabric = "cotton", tier = "relief";
   std::vector<double> wind = {0.0, 0.0, 2.0};
   int workers = 2;
+  double turn_deg_s = 0.0;
   bool also_halved = false;
   std::vector<int> substeps = {bodice::tryon::DrapeOptions{}.solver.substeps};
   bench::WearOptions options;
@@ -96,11 +99,13 @@ int main(int argc, char** argv) {
   app.add_option("--wind", wind, "metres a second")->expected(3)->delimiter(',');
   app.add_option("--gust", options.solver.environment.gust);
   app.add_option("--threads", workers);
+  app.add_option("--turn", turn_deg_s, "degrees a second that the body turns");
   app.add_flag("--halve", also_halved, "each garment again with its edges halved");
   app.add_flag("--trace", options.trace, "a line every thirty frames");
   CLI11_PARSE(app, argc, argv);
   options.solver.environment.wind_m_s = {wind[0], wind[1], wind[2]};
   options.fabric = cloth::find_fabric(fabric).value();
+  options.turn_rad_s = turn_deg_s * kRadians;
 
   const auto executor = engine::make_tbb_executor(workers);
   const engine::Context context{.executor = executor.get()};
@@ -116,6 +121,7 @@ int main(int argc, char** argv) {
       options.solver.substeps = count;
       worn = bench::wear(context, body, garment, options);
       print_row(substeps.size() > 1 ? std::to_string(count) + " " + outfit.name : outfit.name, worn);
+      if (turn_deg_s != 0.0) std::printf("  behind its body by %.2f degrees\n", worn.behind_rad / kRadians);
     }
     sheet.add(body, garment, worn.end);
     hung[outfit.name] = {{worn.end, garment.mesh.triangles}, body.proxy.stature_m()};

@@ -9,7 +9,8 @@ struct WearOptions {
   int calm_frames = 300;  ///< without wind, after them: at rest is at rest
   bodice::cloth::SolverOptions solver;
   bodice::cloth::Fabric fabric;
-  bool trace = false;  ///< a line every thirty frames
+  double turn_rad_s = 0.0;  ///< the body turns about the vertical through its middle
+  bool trace = false;       ///< a line every thirty frames
 };
 
 /// What a garment did on its body; every depth is measured in the exact signed distance to the skin.
@@ -22,6 +23,7 @@ struct Wear {
   double drop_m = 0.0;           ///< of the garment's mean height
   double windy_speed_m_s = 0.0;  ///< median, last windy frame
   double rest_speed_m_s = 0.0;   ///< median, last calm frame
+  double behind_rad = 0.0;       ///< that the garment turned less than its body
   double pierced_share = 0.0;    ///< of the cloth's area, at the end
   bool finite = true;
   std::vector<bodice::geometry::Vec3> end;  ///< #V after the windy frames

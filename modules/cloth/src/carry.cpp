@@ -1,6 +1,7 @@
 #include "carry.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -49,6 +50,23 @@ void carry_patch(const collision::Collider& body, double frame_s, std::size_t be
   }
 }
 
+// The way of each particle against the body, in a substep, begins at `safe`; returns the longest.
+float find_ways(const Carry& carry, const FrameShare& substep, std::size_t begin, std::size_t end,
+                const Particles& p, Moved& safe, Moved& now) {
+  Float4 longest2 = splat(0.0f);
+  for (std::size_t i = begin; i < end; ++i) {
+    const Float4 ahead = load(carry.ahead[i]);
+    const Float4 from = (1.0f - substep.begin) * ahead, to = (1.0f - substep.end) * ahead;
+    // The collider takes safe positions along as the whole frame does: they go in as they would be before it.
+    safe.put(i - begin, p.old_x[i], p.old_y[i], p.old_z[i], from - load(carry.by[i]));
+    now.put(i - begin, p.x[i], p.y[i], p.z[i], to);
+    const Float4 way =
+        Float4{p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f} + to - from;
+    longest2 = max(longest2, splat(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]));
+  }
+  return std::sqrt(longest2[0]);
+}
+
 }  // namespace
 
 // The velocity is affine over each ellipsoid: still at four places that span space, still everywhere.
@@ -73,28 +91,22 @@ void begin_carry(const engine::Context& context, const collision::Collider* body
   });
 }
 
-// The collider takes safe positions along as the whole frame does: they go in as they would be before it.
+// Following a particle along its way costs much more than pushing it out where it is, and finds the same side
+// unless it came through.
 collision::ContactReport meet_carried(const engine::Context& context, const collision::Collider& body,
                                       const collision::ResolveOptions& how, const Carry& carry,
                                       const FrameShare& substep, std::size_t begin, std::size_t end,
                                       Particles& p) {
   Moved safe, before;
-  for (std::size_t i = begin; i < end; ++i) {
-    const Float4 ahead = load(carry.ahead[i]);
-    safe.put(i - begin, p.old_x[i], p.old_y[i], p.old_z[i],
-             (1.0f - substep.begin) * ahead - load(carry.by[i]));
-    before.put(i - begin, p.x[i], p.y[i], p.z[i], (1.0f - substep.end) * ahead);
-  }
+  const float way_m = find_ways(carry, substep, begin, end, p, safe, before);
   Moved after = before;
-  const collision::ContactReport report = body.resolve(context,
-                                                       {.count = end - begin,
-                                                        .x = after.x,
-                                                        .y = after.y,
-                                                        .z = after.z,
-                                                        .safe_x = safe.x,
-                                                        .safe_y = safe.y,
-                                                        .safe_z = safe.z},
-                                                       how);
+  collision::Particles view{.count = end - begin, .x = after.x, .y = after.y, .z = after.z};
+  collision::ResolveOptions options = how;
+  if (way_m > carry.followed_m)
+    view.safe_x = safe.x, view.safe_y = safe.y, view.safe_z = safe.z;
+  else
+    options.max_push_m += way_m;
+  const collision::ContactReport report = body.resolve(context, view, options);
   for (std::size_t i = begin; i < end; ++i) {  // who was left alone stays, to the bit
     p.x[i] += after.x[i - begin] - before.x[i - begin];
     p.y[i] += after.y[i - begin] - before.y[i - begin];

@@ -11,6 +11,9 @@ namespace {
 // Share of the strain limit that coarse limits allow: distances along edges are 2 % too long as it is.
 constexpr double kCoarseSlack = 0.25;
 
+// Of the longest travel in a substep. A garment a metre across: 5 mm, within the radius of fingers.
+constexpr float kFollowed = 0.1f;
+
 // Layers keep this share of the median edge apart: below 0.71 a particle passes through the middle of a quad.
 constexpr double kSelfRadius = 0.75;
 
@@ -91,6 +94,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.scratch.resize(s.stretch.a.size());
   s.counts = make_digit_counts();
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
+  s.contacts.carry.followed_m = kFollowed * s.max_travel_m;
   s.input = resting_places(garment, mesh);
   s.particle_of_vertex = std::move(welded->particle_of_vertex);
   return s;
