@@ -108,6 +108,9 @@ engine::Result<void> check_readable(const std::filesystem::path& file) {
                          "Check that you may read it."};
   if (stream.peek() == std::ifstream::traits_type::eof())
     return engine::Error{engine::ErrorCode::kUnreadable, name + " is empty.", "Export the mesh again."};
+  if (lower_extension(file) == ".off")  // a face list that is cut off makes assimp's reader crash
+    return engine::Error{engine::ErrorCode::kUnreadable, name + " is an OFF file, which is not read.",
+                         "Export the mesh as OBJ, PLY, STL, glTF, FBX or Collada."};
   if (lower_extension(file) == ".ply" && !has_ply_header(stream))
     return engine::Error{engine::ErrorCode::kUnreadable, name + " has no whole PLY header.",
                          "It may be cut off: export the mesh again."};

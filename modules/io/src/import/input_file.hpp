@@ -15,7 +15,8 @@ namespace bodice::io {
 enum class Format { kOther, kObj, kCollada, kColladaArchive, kGltf, kFbx };
 Format format_of(const std::filesystem::path& file);
 
-/// Fails with one sentence where there is nothing to parse: no such file, a directory, empty, no access.
+/// Fails with one sentence where there is nothing to parse: no such file, a directory, empty, no access, a
+/// format whose reader is not safe.
 engine::Result<void> check_readable(const std::filesystem::path& file);
 
 /// The whole file. Empty on failure.
