@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <numeric>
 
 namespace bench {
@@ -51,7 +52,7 @@ constexpr Bin kBins[] = {{0.0, 0.25}, {0.25, 0.5}, {0.5, 0.7}, {0.7, 0.8}, {0.8,
 
 void Report::claim(const Case& c, const Score& s, const bodice::anatomy::Anatomy& a) {
   const double bar = c.rest ? kRestBar : kPosedBar;
-  ++kinds_[c.kind];
+  kinds_[c.kind].push_back(s.agreement);
   std::map<std::string, bool> over;
   for (const auto& mark : a.landmarks) {
     const auto error = s.error.find(std::string(bodice::body::name(mark.id)));
@@ -82,11 +83,16 @@ void Report::print_claims() const {
 }
 
 void Report::print_kinds() const {
-  std::printf("bodies over a bar, by kind and landmark:\n%-14s %6s", "", "bodies");
+  std::printf("by kind: bodies, their agreement, and how many are over a landmark's bar:\n%-14s %6s %6s %6s",
+              "", "bodies", "mean%", "least%");
   for (const auto& [landmark, e] : errors_) std::printf(" %9s", landmark.c_str());
   std::printf("\n");
-  for (const auto& [kind, count] : kinds_) {
-    std::printf("%-14s %6d", kind.c_str(), count);
+  for (const auto& [kind, all] : kinds_) {
+    std::vector<double> known;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(known), [](double a) { return a >= 0.0; });
+    const double least = known.empty() ? -1.0 : *std::min_element(known.begin(), known.end());
+    std::printf("%-14s %6zu %6s %6s", kind.c_str(), all.size(),
+                percent(known.empty() ? -1.0 : mean(known)).c_str(), percent(least).c_str());
     const auto row = misses_.find(kind);
     for (const auto& [landmark, e] : errors_) {
       const bool any = row != misses_.end() && row->second.contains(landmark);

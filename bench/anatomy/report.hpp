@@ -39,7 +39,7 @@ class Report {
   std::map<std::string, Errors> errors_;  ///< by landmark, left and right together
   std::vector<Claim> claims_;
   std::map<std::string, std::map<std::string, int>> misses_;  ///< by kind of body, by landmark
-  std::map<std::string, int> kinds_;
+  std::map<std::string, std::vector<double>> kinds_;  ///< agreement of each body, negative where unknown
   int bodies_ = 0, refused_ = 0, missed_ = 0, missed_silently_ = 0;
 };
 
