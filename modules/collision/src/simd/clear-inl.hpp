@@ -97,11 +97,11 @@ inline bool nearest_others(const Baked& baked, const Placed& placed, float limit
   return together_or_apart(
       batch, blocks,
       [&](const Piece* pieces, int count) {
-        return share(baked, nullptr, pieces, count, scratch, find, work);
+        return share(baked, nullptr, pieces, count, scratch.lists, find, work);
       },
       [&](const Piece& piece) {
         in_parts(
-            baked, piece, scratch,
+            baked, piece, scratch.lists,
             [&](const Everything& source, Near* list) {
               (void)find_below(source, piece.box, &piece, 1, below_m, list);
             },

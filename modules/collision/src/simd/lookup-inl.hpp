@@ -7,8 +7,7 @@
 #define BODICE_COLLISION_LOOKUP_INL_
 #endif
 
-#include <array>
-#include <bit>
+#include <cstring>
 #include <utility>
 
 #include "kernels.hpp"
@@ -34,7 +33,7 @@ class Columns {
     else if (count <= 2 * kPad)
       fill_by<2 * kPad>(baked, relief, ellipsoids);
     else
-      fill_by<kMaxCandidates>(baked, relief, ellipsoids);
+      fill_by<kWidest>(baked, relief, ellipsoids);
   }
   int count() const { return count_; }
   /// Of the proxy's, which column i holds.
@@ -43,6 +42,8 @@ class Columns {
 
  private:
   static constexpr int kPad = 16;
+  // Not a power of two: rows of one column would share their few places in the cache.
+  static constexpr int kWidest = kMaxCandidates + kPad;
 
   // The stride is a constant, so that the copies become plain moves.
   template <int kStride>
@@ -59,14 +60,14 @@ class Columns {
   template <int kStride, int kFloats = 0, class Member>
   static HWY_INLINE void put(const Member& member, float* to) {
     constexpr std::size_t kSize = sizeof(Member) / sizeof(float), kUsed = kFloats == 0 ? kSize : kFloats;
-    const auto values = std::bit_cast<std::array<float, kSize>>(member);
+    const auto* const from = reinterpret_cast<const unsigned char*>(&member);
     [&]<std::size_t... i>(std::index_sequence<i...>) {
-      ((to[i * kStride] = values[i]), ...);
+      (std::memcpy(to + i * kStride, from + i * sizeof(float), sizeof(float)), ...);
     }
     (std::make_index_sequence<kUsed>());
   }
 
-  alignas(64) float values_[kRows * kMaxCandidates];
+  alignas(64) float values_[kRows * kWidest];
   const std::int32_t* ellipsoids_ = nullptr;
   int stride_ = 0, count_ = 0;
 };

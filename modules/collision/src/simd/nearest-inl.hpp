@@ -14,7 +14,7 @@
 
 #include "simd/combine-inl.hpp"
 #include "simd/lowest-inl.hpp"
-#include "simd/near-inl.hpp"
+#include "simd/share-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -95,13 +95,6 @@ HWY_INLINE bool collect_rest(const Baked& baked, const ReliefTables* relief, con
   return true;
 }
 
-constexpr int kStep = kTogether * kWidth;  // lanes that are worked on together
-
-/// Of its lanes, in whole steps.
-HWY_INLINE int end_of(const Piece& piece) {
-  return piece.begin + (piece.end - piece.begin + kStep - 1) / kStep * kStep;
-}
-
 /// The first answers of one piece; false if there is no room for what they leave open.
 template <int kKept, int kTables>
 HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
@@ -145,109 +138,10 @@ HWY_INLINE bool nearest_of(const Baked& baked, const ReliefTables* relief, const
   return true;
 }
 
-/// Every column, for a block that does not share them.
-HWY_INLINE void choose_all(const Columns& columns, Near& out) {
-  out.count = columns.count();
-  for (int i = 0; i < out.count; i += kWidth) hn::Store(hn::Iota(I(), i), I(), out.index + i);
-}
-
 struct Scratch {
-  Columns columns, alone;
+  Lists lists;
   Open open;
-  Near near, of_piece[kBlocks], of_alone;
 };
-
-/// All columns for one piece.
-template <class Work>
-HWY_INLINE bool work_alone(const Piece& piece, const Columns& columns, Near& list, Work&& work) {
-  bool fits = false;
-  choose_all(columns, list);
-  with_tables(columns, [&](auto tables) { fits = work(tables, columns, &piece, 1, &list); });
-  return fits;
-}
-
-/// Finds the candidates of some pieces at once, and among them those of each: `find` (a source, the box
-/// around, pieces, their number, lists out). Then calls `work` (number of tables, columns, pieces, their
-/// number, their lists) on all, if their candidates fit into two vectors, or on each. False if either has no
-/// room.
-template <class Find, class Work>
-HWY_INLINE bool share(const Baked& baked, const ReliefTables* relief, const Piece* pieces, int count,
-                      Scratch& s, Find&& find, Work&& work) {
-  Piece around = pieces[0];
-  for (int i = 1; i < count; ++i) around.box = united(around.box, pieces[i].box);
-  if (!find(Everything(baked), around.box, &around, 1, &s.near)) return false;
-  if (s.near.count == 0) return true;
-  s.columns.fill(baked, relief, s.near.index, s.near.count);
-  if (count == 1) return work_alone(pieces[0], s.columns, s.of_piece[0], work);
-  bool fits = false;
-  if (s.near.count <= 2 * kWidth) {
-    with_tables(s.columns, [&](auto tables) {
-      (void)find(AmongColumns<tables()>{s.columns}, around.box, pieces, count, s.of_piece);
-      fits = work(tables, s.columns, pieces, count, s.of_piece);
-    });
-    return fits;
-  }
-  if (!find(AmongColumns<0>{s.columns}, around.box, pieces, count, s.of_piece)) return false;
-  for (int i = 0; i < count; ++i) {
-    Near& list = s.of_piece[i];
-    if (list.count == 0) continue;
-    for (int k = 0; k < list.count; ++k) list.index[k] = s.near.index[list.index[k]];
-    s.alone.fill(baked, relief, list.index, list.count);
-    if (!work_alone(pieces[i], s.alone, s.of_alone, work)) return false;
-  }
-  return true;
-}
-
-/// One piece and any number of plain ellipsoids, as many at a time as there is room for: `find` (a source,
-/// the list out), `work` as above.
-template <class Find, class Work>
-HWY_INLINE void in_parts(const Baked& baked, const Piece& piece, Scratch& s, Find&& find, Work&& work) {
-  constexpr int kPart = kMaxCandidates;
-  static_assert(kPart % kGroup == 0);
-  const int end = static_cast<int>(baked.size());
-  for (int k = 0; k < end; k += kPart) {
-    find(Everything(baked, k, std::min(k + kPart, end)), &s.near);
-    if (s.near.count == 0) continue;
-    s.columns.fill(baked, nullptr, s.near.index, s.near.count);
-    (void)work_alone(piece, s.columns, s.of_alone, work);
-  }
-}
-
-/// `near` tells whether all are within kFarthest, which NaN is not.
-HWY_INLINE Piece piece_of(const QueryBatch& batch, int begin, int end, bool& near) {
-  return {extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, end - begin, near), begin, end};
-}
-
-/// The blocks of a batch.
-struct Blocks {
-  Piece pieces[kBlocks];
-  int count = 0;
-  bool near = true;  ///< no place is too far for floats
-
-  explicit HWY_INLINE Blocks(const QueryBatch& batch) {
-    for (int begin = 0; begin < batch.count; begin += kBlock) {
-      bool all_near = false;
-      pieces[count++] = piece_of(batch, begin, std::min(begin + kBlock, batch.count), all_near);
-      near = near && all_near;
-    }
-  }
-};
-
-/// What fits together is done together: `work` (pieces, their number); what does not, block by block, then
-/// step by step; what even then has no room is left to `last` (a piece), which may give up.
-template <class Work, class Last>
-HWY_INLINE bool together_or_apart(const QueryBatch& batch, const Blocks& blocks, Work&& work, Last&& last) {
-  if (work(blocks.pieces, blocks.count)) return true;
-  for (int i = 0; i < blocks.count; ++i) {
-    if (blocks.count > 1 && work(blocks.pieces + i, 1)) continue;
-    for (int begin = blocks.pieces[i].begin; begin < blocks.pieces[i].end; begin += kStep) {
-      bool near = false;
-      const Piece step = piece_of(batch, begin, std::min(begin + kStep, blocks.pieces[i].end), near);
-      if (!work(&step, 1) && !last(step)) return false;
-    }
-  }
-  return true;
-}
 
 /// The nearer of two answers about the lanes of a piece; of equals, that of the lowest index.
 HWY_INLINE void take_nearer(const Piece& piece, const Batched& other, Batched& out) {
@@ -274,7 +168,7 @@ HWY_INLINE void nearest_in_parts(const Baked& baked, const Piece& piece, float b
   const auto find = [&](const Everything& source, Near* list) {
     (void)collect_unbeaten(source, piece.box, &piece, 1, &rivals, beyond_m, list);
   };
-  in_parts(baked, piece, scratch, find,
+  in_parts(baked, piece, scratch.lists, find,
            [&](auto tables, const Columns& columns, const Piece* pieces, int count, const Near* lists) {
              (void)work(tables, columns, pieces, count, lists, part);
              take_nearer(piece, part, out);
@@ -303,7 +197,7 @@ inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& 
   return together_or_apart(
       batch, blocks,
       [&](const Piece* pieces, int count) {
-        return share(baked, relief, pieces, count, scratch, find, work);
+        return share(baked, relief, pieces, count, scratch.lists, find, work);
       },
       [&](const Piece& piece) {
         if (relief) return false;
