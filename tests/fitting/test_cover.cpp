@@ -10,6 +10,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 
 #include "cover.hpp"
+#include "cover_pieces.hpp"
 #include "shapes.hpp"
 
 using namespace bodice;
@@ -115,4 +116,30 @@ TEST_CASE("cover: what no triangle needs is taken back, and every triangle stays
     };
     CHECK(std::ranges::any_of(shapes, held_by));
   }
+}
+
+TEST_CASE("cover: triangles across a crease are cut, the others and the skin's area stay") {
+  const geometry::Mat3 upright = geometry::Mat3::Identity();
+  Skin skin;
+  fitting_test::add_ellipsoid(skin, {Vec3(0, 0.5, 0), upright, Vec3(0.1, 0.4, 0.1)}, body::Part::kTorsoUL);
+  skin.stature_m = 1.7;
+  std::vector<geometry::Index> all(skin.mesh.triangles.size());
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<geometry::Index>(t);
+  const std::vector<geometry::Ellipsoid> halves{{Vec3(0, 0.3, 0), upright, Vec3(0.1, 0.2, 0.1)},
+                                                {Vec3(0, 0.7, 0), upright, Vec3(0.1, 0.2, 0.1)}};
+  const auto area = [](const geometry::TriMesh& mesh) {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) sum += geometry::area_vector(mesh, t).norm();
+    return sum;
+  };
+  const auto pieces = fitting::cut_at_creases(skin.view(), all, halves);
+  CHECK(area(pieces.mesh) == doctest::Approx(area(skin.mesh)).epsilon(1e-12));
+  CHECK(pieces.mesh.triangles.size() > all.size() + 3 * 48);  // at least once around the waist
+  std::size_t whole = 0;
+  for (const auto& t : pieces.mesh.triangles)
+    whole += std::ranges::all_of(t, [&](geometry::Index v) { return v < skin.mesh.positions.size(); });
+  CHECK(whole > all.size() - 6 * 48);  // only there
+  CHECK(whole < all.size());
+  CHECK(fitting::cut_at_creases(skin.view(), all, std::span(halves).first(1)).mesh.triangles.size() ==
+        all.size());
 }

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <numeric>
 
 #include <bodice/engine/clock.hpp>
 
 #include "air_samples.hpp"
 #include "cover.hpp"
+#include "cover_pieces.hpp"
 #include "medial_start.hpp"
 #include "scaling.hpp"
 #include "tiers.hpp"
@@ -23,7 +25,11 @@ constexpr double kInward_mm = 25.0, kOutward_mm = 20.0;
 constexpr std::size_t kAirProbes = 8;    // samples a probe of the union's surface
 constexpr float kCoveringWeight = 4.0f;  // of uncovered skin, before what is left is covered by growth
 
-/// Every triangle of the wanted, unburied skin into an ellipsoid.
+/// What all ellipsoids give before any has to grow for its triangles, and what none gives back: less and a
+/// few have to grow much.
+constexpr double kGrowFirst_mm = 3.0, kLeastGrown = 1.03;
+
+/// Every triangle of the wanted, unburied skin into ellipsoids, in pieces.
 void cover_skin(const engine::Context& context, const SkinSource& source,
                 std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   const LabelledSkin& skin = source.skin;
@@ -32,11 +38,17 @@ void cover_skin(const engine::Context& context, const SkinSource& source,
     const auto part = static_cast<int>(skin.part[skin.mesh.triangles[t][0]]);
     if (((source.parts >> part) & 1u) && !source.buried[t]) triangles.push_back(static_cast<Index>(t));
   }
-  std::vector<geometry::Ellipsoid> shapes;
-  for (const auto& e : ellipsoids) shapes.push_back(e.shape);
-  const std::vector<geometry::Ellipsoid> anchors = shapes;
-  cover_triangles(context, skin.mesh, triangles, shapes);
-  relax_cover(context, skin.mesh, triangles, anchors, shapes);
+  std::vector<geometry::Ellipsoid> shapes, anchors;
+  for (const auto& e : ellipsoids) {
+    const auto& [center, axes, radii] = e.shape;
+    anchors.push_back({center, axes, kLeastGrown * radii});
+    shapes.push_back({center, axes, radii.array() + kGrowFirst_mm * Scaling(skin).mm()});
+  }
+  const CoverPieces pieces = cut_at_creases(skin, triangles, shapes);
+  std::vector<Index> all(pieces.mesh.triangles.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  cover_triangles(context, pieces.mesh, all, shapes);
+  relax_cover(context, pieces.mesh, all, anchors, shapes);
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
 }
 
