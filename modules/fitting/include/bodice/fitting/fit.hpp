@@ -76,9 +76,11 @@ struct PartFit {
   body::Part part = body::Part::kHead;
   std::size_t vertices = 0;
   std::size_t ellipsoids = 0;
-  double radial_error_mean_m = 0.0;  ///< the paper's E_j over the part's ellipsoids
-  double radial_error_max_m = 0.0;   ///< the worst ellipsoid's
-  Spread gap_m;                      ///< distance between the proxy's surface and the skin
+  /// Eq. (6) over all the part's vertices, each by the ellipsoid of the part that is nearest along its ray;
+  /// the paper's E_j are means over one cluster each.
+  double radial_error_mean_m = 0.0;
+  double radial_error_max_m = 0.0;  ///< the worst ellipsoid's mean over the vertices nearest to it
+  Spread gap_m;                     ///< distance between the proxy's surface and the skin
 };
 
 /// Against the exact signed distance to the skin, never against the proxy.
