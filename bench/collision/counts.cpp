@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include <bench_references/subject.hpp>
+#include <bench_support/stopwatch.hpp>
 #include "counts.hpp"
-#include "peers.hpp"
-#include "subject.hpp"
 
 namespace bench {
 
@@ -45,11 +45,11 @@ double least_ns(int repeats, std::size_t particles, const std::function<void()>&
   double least = std::numeric_limits<double>::infinity();
   for (int r = 0; r <= repeats; ++r) {
     prepare();
-    const double start = cpu_s();
+    const Stopwatch watch;
     work();
-    if (r > 0) least = std::min(least, cpu_s() - start);
+    if (r > 0) least = std::min(least, watch.cpu_ms());
   }
-  return 1e9 * least / static_cast<double>(particles);
+  return 1e6 * least / static_cast<double>(particles);
 }
 
 void print_row(const BodyProxy& proxy, const Cloud& ordered, const Cloud& shuffled, int repeats) {

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <vector>
 
+#include <bench_references/frame_cost.hpp>
+#include <bench_references/subject.hpp>
 #include "figures.hpp"
-#include "frame_cost.hpp"
-#include "subject.hpp"
 
 namespace bench {
 

@@ -18,11 +18,12 @@
 #include <Eigen/Geometry>
 
 #include <bench_support/origin.hpp>
+#include <bench_support/stopwatch.hpp>
 
+#include <bench_references/peers.hpp>
+#include <bench_references/subject.hpp>
 #include "counts.hpp"
 #include "figures.hpp"
-#include "peers.hpp"
-#include "subject.hpp"
 #include "targets.hpp"
 
 namespace {
@@ -50,9 +51,9 @@ void measure(std::vector<Row>& rows, int repeats) {
   for (int r = 0; r < repeats; ++r)
     for (Row& row : rows) {
       row.work();  // what came before has filled the caches with its own data
-      const double start = bench::cpu_s();
+      const bench::Stopwatch watch;
       row.work();
-      row.ns.push_back(1e9 * (bench::cpu_s() - start) / row.particles);
+      row.ns.push_back(1e6 * watch.cpu_ms() / row.particles);
     }
   for (Row& row : rows) std::sort(row.ns.begin(), row.ns.end());
 }

@@ -5,7 +5,7 @@
 
 #include <hwy/targets.h>
 
-#include "peers.hpp"
+#include <bench_support/stopwatch.hpp>
 
 namespace bench {
 
@@ -28,9 +28,9 @@ void compare_targets(const std::string& name, const std::function<void()>& query
     use(left & -left);
     double least = 1e30;
     for (int r = 0; r < repeats; ++r) {
-      const double start = cpu_s();
+      const Stopwatch watch;
       query();
-      least = std::min(least, 1e9 * (cpu_s() - start) / particles);
+      least = std::min(least, 1e6 * watch.cpu_ms() / particles);
     }
     // The best target comes first.
     if (best == 0.0) best = least;

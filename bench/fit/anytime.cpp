@@ -7,7 +7,7 @@
 namespace fit_bench {
 
 bool print_anytime(const bodice::engine::Context& context, const std::string& name,
-                   const bodice::fitting::LabelledSkin& skin, const std::vector<Probe>& probes,
+                   const bodice::fitting::LabelledSkin& skin, const std::vector<bench::Probe>& probes,
                    bodice::proxy::Tier tier) {
   using namespace bodice;
   using Clock = std::chrono::steady_clock;
@@ -25,12 +25,12 @@ bool print_anytime(const bodice::engine::Context& context, const std::string& na
   const auto end = fitting::fit(context, skin, options);
   if (!start || !end) return false;
   published.emplace_back(ms(), end->proxy);
-  const double first = judge(context, start->proxy, probes).mean_mm;
-  const double last = judge(context, end->proxy, probes).mean_mm;
+  const double first = bench::judge(context, start->proxy, probes).mean_mm;
+  const double last = bench::judge(context, end->proxy, probes).mean_mm;
   double half_ms = 0.0;
   std::printf("%s,0,%.3f\n", name.c_str(), first);
   for (const auto& [at_ms, found] : published) {
-    const double mean_mm = judge(context, found, probes).mean_mm;
+    const double mean_mm = bench::judge(context, found, probes).mean_mm;
     if (half_ms == 0.0 && first - mean_mm >= 0.5 * (first - last)) half_ms = at_ms;
     std::printf("%s,%.0f,%.3f\n", name.c_str(), at_ms, mean_mm);
   }

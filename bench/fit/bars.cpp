@@ -22,7 +22,7 @@ void Bars::at_most(const std::string& kind, const std::string& measure, double b
 }
 
 void Bars::note(const std::string& body, const std::string& kind, const bodice::fitting::FitResult& result,
-                const NearSkin& near) {
+                const bench::NearSkin& near) {
   const auto& a = result.accuracy;
   const auto add = [&](const char* measure, double bar, double value) {
     at_most(kind, measure, bar, value, body);

@@ -8,7 +8,7 @@
 
 #include <bodice/fitting/fit.hpp>
 
-#include "near_skin.hpp"
+#include <bench_references/near_skin.hpp>
 
 namespace fit_bench {
 
@@ -20,7 +20,7 @@ class Bars {
  public:
   /// `kind` is a tier's name, or "covering".
   void note(const std::string& body, const std::string& kind, const bodice::fitting::FitResult& result,
-            const NearSkin& near);
+            const bench::NearSkin& near);
   /// CSV: kind, measure, bar (at most), mean over the bodies, worst, worst body, bodies that miss it.
   void print() const;
 

@@ -18,12 +18,12 @@
 
 #include <bodice/fitting/fit.hpp>
 
+#include <bench_references/near_skin.hpp>
 #include "anytime.hpp"
 #include "bars.hpp"
 #include "front_svg.hpp"
 #include "growth.hpp"
 #include "laws.hpp"
-#include "near_skin.hpp"
 #include "query_cost.hpp"
 #include "real_body.hpp"
 
@@ -88,7 +88,7 @@ Arguments parse(int argc, char** argv) {
 
 using fit_bench::stage_ms;
 
-void print_line(const std::string& name, const fitting::FitResult& r, const fit_bench::NearSkin& near,
+void print_line(const std::string& name, const fitting::FitResult& r, const bench::NearSkin& near,
                 double query_ns) {
   const auto& a = r.accuracy;
   std::printf(
@@ -107,13 +107,13 @@ struct Subject {
   std::string name;
   fit_bench::LabelledBody body;
   geometry::MeshDistance distance;
-  std::vector<fit_bench::Probe> probes;
+  std::vector<bench::Probe> probes;
 
   Subject(const engine::Context& context, std::string called, fit_bench::LabelledBody made)
       : name(std::move(called)),
         body(std::move(made)),
         distance(context, body.mesh),
-        probes(fit_bench::near_skin_probes(context, body.mesh, distance)) {}
+        probes(bench::near_skin_probes(context, body.mesh, distance)) {}
 
   fitting::LabelledSkin skin() const { return {body.mesh, body.part, body.stature_m, {}, &distance}; }
 };
@@ -195,7 +195,7 @@ bool front(const engine::Context& context, const Arguments& arguments) {
       "near_max_mm,deep_leaks,mu_torso_mm,mu_limbs_mm,query_ns\n");
   std::vector<fit_bench::FrontPoint> points;
   const auto judge = [&](const Subject& subject, int count, const fitting::FitResult& result) {
-    const auto near = fit_bench::judge(context, result.proxy, subject.probes);
+    const auto near = bench::judge(context, result.proxy, subject.probes);
     print_line(subject.name, result, near, fit_bench::query_ns(result.proxy, subject.body.mesh));
     points.push_back(
         {std::string(proxy::name(result.proxy.tier())), static_cast<double>(count), near.mean_mm});
@@ -250,7 +250,7 @@ bool bars(const engine::Context& context, const Arguments& arguments) {
       options.max_ellipsoids = 89;
       const auto result = fitted(context, subject, options);
       if (!result) return false;
-      table.note(subject.name, kind, *result, fit_bench::judge(context, result->proxy, subject.probes));
+      table.note(subject.name, kind, *result, bench::judge(context, result->proxy, subject.probes));
     }
     return true;
   });

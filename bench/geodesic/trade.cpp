@@ -12,7 +12,7 @@
 #include <bodice/geodesic/distance_solver.hpp>
 #include <bodice/synth/body.hpp>
 
-#include "exact.hpp"
+#include <bench_references/exact_geodesic.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include "frame_times.hpp"
 
-#include <frame_cost.hpp>
-#include <subject.hpp>
+#include <bench_references/frame_cost.hpp>
+#include <bench_references/subject.hpp>
 
 namespace paper_bench {
 namespace {

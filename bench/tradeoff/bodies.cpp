@@ -5,7 +5,7 @@
 
 #include <bodice/engine/random.hpp>
 
-#include "../fit/near_skin.hpp"
+#include <bench_references/near_skin.hpp>
 #include "must.hpp"
 
 namespace tradeoff {
@@ -20,7 +20,7 @@ constexpr double kBand_m = 0.030;
 void add_truth(const engine::Context& context, Subject& subject) {
   const geometry::MeshDistance& skin = *subject.skin.distance;
   bench::Cloud near;
-  for (const fit_bench::Probe& probe : fit_bench::near_skin_probes(context, subject.skin.input.skin, skin))
+  for (const bench::Probe& probe : bench::near_skin_probes(context, subject.skin.input.skin, skin))
     if (std::abs(probe.signed_distance_m) < kBand_m) near.add(probe.point);
   subject.particles = bench::coherent(near);
   for (std::size_t i = 0; i < subject.particles.size(); ++i)

@@ -10,7 +10,7 @@
 #include <bodice/synth/body.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-#include "../collision/subject.hpp"
+#include <bench_references/subject.hpp>
 
 namespace tradeoff {
 

@@ -7,7 +7,7 @@
 #include <bodice/body/part.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-#include "../collision/subject.hpp"
+#include <bench_references/subject.hpp>
 
 namespace tradeoff {
 

@@ -6,7 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "../collision/peers.hpp"
+#include <bench_references/peers.hpp>
+#include <bench_support/stopwatch.hpp>
 
 namespace tradeoff {
 namespace {
@@ -49,9 +50,9 @@ double least_us(const std::function<void()>& work, int batch) {
   constexpr int kRepeats = 5;
   double least = std::numeric_limits<double>::infinity();
   for (int r = 0; r < kRepeats; ++r) {
-    const double start = bench::cpu_s();
+    const bench::Stopwatch watch;
     for (int i = 0; i < batch; ++i) work();
-    least = std::min(least, 1e6 * (bench::cpu_s() - start) / batch);
+    least = std::min(least, 1e3 * watch.cpu_ms() / batch);
   }
   return least;
 }
@@ -89,9 +90,9 @@ std::vector<Cost> time_all(std::vector<Contender>& contenders, std::size_t parti
   std::vector<Cost> costs(contenders.size(), Cost{inf, inf});
   const auto measure = [&](const std::function<void()>& work, double& least) {
     work();  // what came before has filled the caches with its own data
-    const double start = bench::cpu_s();
+    const bench::Stopwatch watch;
     work();
-    least = std::min(least, 1e9 * (bench::cpu_s() - start) / static_cast<double>(particles));
+    least = std::min(least, 1e6 * watch.cpu_ms() / static_cast<double>(particles));
   };
   for (int round = 0; round < rounds; ++round)
     for (std::size_t i = 0; i < contenders.size(); ++i) {

@@ -97,8 +97,8 @@ std::vector<SubjectSource> unseen_bodies(const Setting& setting) {
 Findings sweep_dials(const Setting& setting) {
   auto errors = questions(
       setting.by_effort<std::vector<double>>({5.0}, {0.5, 2.0, 10.0}, {0.5, 1.0, 2.0, 5.0, 10.0, 20.0}));
-  auto budgets =
-      questions(setting.by_effort<std::vector<double>>({60.0}, {100.0, 300.0}, {60.0, 150.0, 300.0, 600.0}));
+  auto budgets = questions(
+      setting.by_effort<std::vector<double>>({100.0}, {100.0, 300.0}, {100.0, 150.0, 300.0, 600.0}));
   bench::Table by_error("dial_error_by_body", "Asked and achieved mean gap.",
                         {"body", "asked_mm", "achieved_mm", "ratio", "missed", "warned", "near_skin_mean_mm",
                          "tier", "ellipsoids", "bytes", "fit_ms"});

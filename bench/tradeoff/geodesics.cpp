@@ -4,7 +4,7 @@
 
 #include <bodice/geodesic/distance_solver.hpp>
 
-#include "../geodesic/exact.hpp"
+#include <bench_references/exact_geodesic.hpp>
 #include "contender.hpp"
 #include "sweep.hpp"
 

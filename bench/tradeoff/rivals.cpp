@@ -1,7 +1,8 @@
 #include <cmath>
 #include <memory>
 
-#include "../collision/peers.hpp"
+#include <bench_references/peers.hpp>
+#include <bench_support/stopwatch.hpp>
 #include "capsules.hpp"
 #include "contender.hpp"
 
@@ -37,10 +38,10 @@ void turn(std::vector<Capsule>& capsules) {
 }
 
 Contender of_capsules(const Subject& subject) {
-  const double start = bench::cpu_s();
+  const bench::Stopwatch watch;
   const auto capsules = std::make_shared<std::vector<Capsule>>(
       fit_capsules(subject.skin.input.skin, subject.skin.anatomy.part));
-  const double build_ms = 1e3 * (bench::cpu_s() - start);
+  const double build_ms = watch.cpu_ms();
   const auto count = static_cast<double>(capsules->size());
   bench::Peer peer;
   peer.build_ms = build_ms;

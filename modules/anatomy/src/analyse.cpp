@@ -92,11 +92,11 @@ engine::Result<Anatomy> understand_fine(const engine::Context& context, const Sk
                                         const Options& options, Anatomy anatomy) {
   const std::size_t vertices = skin.mesh.positions.size();
   if (vertices > kCoarse || vertices < kNoBody) return understand(context, skin, options, std::move(anatomy));
-  StageTimer skin_timer(context, anatomy.stages, "skin");
+  StageTimer finer_timer(context, anatomy.stages, "finer skin");
   const FinerSkin finer = halve_edges(skin);
   Skin fine = make_skin(context, finer.mesh);
   fine.open_edges = skin.open_edges;
-  skin_timer.stop();
+  finer_timer.stop();
   auto result = understand(context, fine, options, std::move(anatomy));
   if (result.ok()) forget_added(finer.origin, vertices, *result);
   return result;

@@ -1,4 +1,4 @@
-#include "subject.hpp"
+#include <bench_references/subject.hpp>
 
 #include <algorithm>
 #include <cmath>

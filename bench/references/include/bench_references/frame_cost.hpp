@@ -10,7 +10,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-#include "subject.hpp"
+#include <bench_references/subject.hpp>
 
 namespace bench {
 

@@ -1,4 +1,4 @@
-#include "frame_cost.hpp"
+#include <bench_references/frame_cost.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -7,7 +7,7 @@
 
 #include <bench_support/stopwatch.hpp>
 
-#include "triangle_trees.hpp"
+#include <bench_references/triangle_trees.hpp>
 
 namespace bench {
 

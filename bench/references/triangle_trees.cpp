@@ -1,4 +1,4 @@
-#include "triangle_trees.hpp"
+#include <bench_references/triangle_trees.hpp>
 
 #include <algorithm>
 #include <limits>

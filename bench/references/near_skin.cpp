@@ -1,4 +1,4 @@
-#include "near_skin.hpp"
+#include <bench_references/near_skin.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <bodice/geometry/sampling.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
-namespace fit_bench {
+namespace bench {
 namespace {
 
 using namespace bodice;
@@ -87,4 +87,4 @@ NearSkin judge(const engine::Context& context, const proxy::BodyProxy& proxy,
   return result;
 }
 
-}  // namespace fit_bench
+}  // namespace bench

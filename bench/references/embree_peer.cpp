@@ -1,6 +1,7 @@
 #include <cmath>
 
-#include "peers.hpp"
+#include <bench_references/peers.hpp>
+#include <bench_support/stopwatch.hpp>
 
 #ifdef BENCH_EMBREE
 #include <embree3/rtcore.h>
@@ -91,14 +92,14 @@ std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double rea
                              0, 12, mesh.positions.size());
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, scene->indices.data(), 0,
                              12, mesh.triangles.size());
-  const double start = cpu_s();
+  const Stopwatch watch;
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene->scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene->scene);
   Peer peer;
   peer.name = "Embree 3 point query, skin, within " + std::to_string(static_cast<int>(1e3 * reach_m)) + " mm";
-  peer.build_ms = 1e3 * (cpu_s() - start);
+  peer.build_ms = watch.cpu_ms();
   peer.query = [scene, reach_m](const Cloud& cloud, std::span<float> distance_m) {
     query_all(*scene, static_cast<float>(reach_m), cloud, distance_m);
   };

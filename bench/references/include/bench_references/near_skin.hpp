@@ -7,7 +7,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace fit_bench {
+namespace bench {
 
 struct Probe {
   bodice::geometry::Vec3 point;
@@ -30,4 +30,4 @@ std::vector<Probe> near_skin_probes(const bodice::engine::Context& context,
 NearSkin judge(const bodice::engine::Context& context, const bodice::proxy::BodyProxy& proxy,
                const std::vector<Probe>& probes);
 
-}  // namespace fit_bench
+}  // namespace bench

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
-#include "peers.hpp"
+#include <bench_references/peers.hpp>
+#include <bench_support/stopwatch.hpp>
 
 namespace bench {
 
@@ -76,17 +76,13 @@ float sample(const Grid& g, float x, float y, float z) {
 
 }  // namespace
 
-double cpu_s() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
-
 Peer grid_peer(const bodice::geometry::TriMesh& mesh, const bodice::geometry::MeshDistance& skin,
                double cell_m) {
   auto grid = std::make_shared<Grid>(empty_grid(bodice::geometry::bounding_box(mesh.positions), cell_m));
-  const double start = cpu_s();
+  const Stopwatch watch;
   fill(*grid, skin, cell_m);
   Peer peer;
-  peer.build_ms = 1e3 * (cpu_s() - start);
+  peer.build_ms = watch.cpu_ms();
   peer.name = "dense distance grid, " + std::to_string(static_cast<int>(std::lround(1e3 * cell_m))) + " mm";
   peer.bytes = 4.0 * static_cast<double>(grid->value.size());
   peer.query = [grid](const Cloud& cloud, std::span<float> distance_m) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "subject.hpp"
+#include <bench_references/subject.hpp>
 
 namespace bench {
 
@@ -27,8 +27,5 @@ std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double rea
 
 /// CGAL's tree of boxes over the skin's triangles, exact and unsigned; nothing where it is missing.
 std::vector<Peer> cgal_peers(const bodice::geometry::TriMesh& mesh);
-
-/// CPU seconds of this process, for one-threaded work: what preemption takes is not counted.
-double cpu_s();
 
 }  // namespace bench

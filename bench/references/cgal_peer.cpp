@@ -1,6 +1,7 @@
 #include <cmath>
 
-#include "peers.hpp"
+#include <bench_references/peers.hpp>
+#include <bench_support/stopwatch.hpp>
 
 #ifdef BENCH_CGAL
 #include <CGAL/AABB_traits.h>
@@ -36,13 +37,13 @@ std::vector<Peer> cgal_peers(const bodice::geometry::TriMesh& mesh) {
   for (const auto& t : mesh.triangles)
     scene->triangles.emplace_back(point(mesh.positions[t[0]]), point(mesh.positions[t[1]]),
                                   point(mesh.positions[t[2]]));
-  const double start = cpu_s();
+  const Stopwatch watch;
   scene->tree.insert(scene->triangles.cbegin(), scene->triangles.cend());
   scene->tree.build();
   scene->tree.accelerate_distance_queries();
   Peer peer;
   peer.name = "CGAL AABB tree, skin, any distance";
-  peer.build_ms = 1e3 * (cpu_s() - start);
+  peer.build_ms = watch.cpu_ms();
   peer.query = [scene](const Cloud& cloud, std::span<float> distance_m) {
     for (std::size_t i = 0; i < cloud.size(); ++i)
       distance_m[i] = static_cast<float>(std::sqrt(scene->tree.squared_distance(point(cloud.at(i)))));

@@ -1,7 +1,7 @@
 // Based on: Joseph Mitchell, David Mount, Christos Papadimitriou. The discrete geodesic problem. 1987.
 // Based on: Shi-Qing Xin, Guo-Jin Wang. Improving Chen and Han's algorithm on the discrete geodesic problem.
 // 2009. - windows in a priority queue, filtered by the distances of the corners
-#include "exact.hpp"
+#include <bench_references/exact_geodesic.hpp>
 
 #include <cmath>
 #include <limits>
