@@ -261,6 +261,31 @@ TEST_CASE("places so close that one ellipsoid, or a handful, can be the nearest,
   }
 }
 
+TEST_CASE("a place far away hides nothing from its neighbours in the block") {
+  constexpr int kTogether = 64;
+  const proxy::BodyProxy proxy = proxy_of(random_ellipsoids(13, 120, 0.6, 0.03, 0.2));
+  const Collider collider(proxy);
+  engine::Random random(29);
+  double worst_m = 0.0, lowest_m = 1.0;
+  for (int block = 0; block < 200; ++block) {
+    Cloud cloud;
+    cloud.add(std::pow(10.0, random.uniform(2.0, 8.0)) * random_direction(random));
+    while (cloud.size() < kTogether) cloud.add(random_vector(random, 0.7));
+    const Cloud before = cloud;
+    std::vector<Contact> contacts(cloud.size());
+    collider.query({}, cloud.particles(), contacts);
+    collider.resolve({}, cloud.particles(), {});
+    for (std::size_t i = 1; i < kTogether; ++i) {
+      const double truth = proxy::proxy_distance(proxy, before.position(i) + collider.origin()).distance;
+      worst_m = std::max(worst_m, std::abs(truth - double{contacts[i].signed_distance}));
+      lowest_m =
+          std::min(lowest_m, proxy::proxy_distance(proxy, cloud.position(i) + collider.origin()).distance);
+    }
+  }
+  CHECK(worst_m < 2e-6);
+  CHECK(lowest_m > -2e-6);
+}
+
 TEST_CASE("random shapes to 1:1000 over twelve decades: the foot is exact to 1e-6 and lies on the surface") {
   engine::Random random(4);
   for (int shape = 0; shape < 120; ++shape) {

@@ -19,10 +19,11 @@ namespace bodice::collision::HWY_NAMESPACE {
 template <class Source>
 HWY_INLINE bool find_below(const Source& source, const Extent& around, const Piece* pieces, int count,
                            float limit_m, Near* out) {
+  const PieceRounding rounding(pieces, count);
   const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
     const V reach = dot(absolute(slope_of(lanes, at)), broadcast3(pieces[i].box.half));
     // Not above, rather than below: a plane that is NaN bounds nothing.
-    return hn::Not(hn::Gt(hn::Sub(at.base, reach), all(limit_m)));
+    return hn::Not(hn::Gt(hn::Sub(at.base, reach), all(limit_m + rounding.m[i])));
   };
   return collect_near(source, around, limit_m, pieces, count, out, keep);
 }

@@ -47,6 +47,21 @@ HWY_INLINE BoundLanes bound_lanes(Row&& row) {
   return {row3(0), row3(3), row3(6), row3(kBoundOffset), row3(kBoundInverse)};
 }
 
+/// What the plane of an ellipsoid, or a distance to it, is off by over the box, however small the ellipsoid.
+HWY_INLINE float rounding_over(const Extent& box) {
+  const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
+  return 2.0f * static_cast<float>(kFloatRounding) * (away + box.radius);
+}
+
+/// The same for each piece.
+struct PieceRounding {
+  float m[kBlocks];
+
+  HWY_INLINE PieceRounding(const Piece* pieces, int count) {
+    for (int i = 0; i < count; ++i) m[i] = rounding_over(pieces[i].box);
+  }
+};
+
 /// Where candidates are looked for: in the proxy's ellipsoids [begin, end), of which groups whose boxes are
 /// too far from the places' box are passed over,
 struct Everything {
@@ -65,7 +80,7 @@ struct Everything {
   /// Calls work(index of the first ellipsoid) for each vector that may come within `within_m` of the box.
   template <class Work>
   HWY_INLINE void for_vectors(const Extent& box, float within_m, Work&& work) const {
-    const V limit = all(std::max(0.0f, within_m) + rounding(box));
+    const V limit = all(std::max(0.0f, within_m) + baked.rounding_m + rounding_over(box));
     for_groups([&](int group) {
       const std::uint64_t near = bits(hn::Le(gap(box, group), limit));
       for (std::uint64_t left = near; left != 0; left &= left - 1) {
@@ -91,10 +106,6 @@ struct Everything {
   }
   HWY_INLINE V gap(const Extent& box, int group) const {
     return box_distance(baked.cull.group_low, baked.cull.group_high, box, static_cast<std::size_t>(group));
-  }
-  HWY_INLINE float rounding(const Extent& box) const {
-    const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
-    return baked.rounding_m + static_cast<float>(kFloatRounding) * (away + box.radius);
   }
 };
 
@@ -270,7 +281,9 @@ HWY_INLINE bool collect_near(const Source& source, const Extent& around, float w
 template <class Source>
 HWY_INLINE bool collect_unbeaten(const Source& source, const Extent& around, const Piece* pieces, int count,
                                  const Rivals* rivals, float beyond_m, Near* out) {
-  const auto keep = [&, beyond = all(beyond_m)](const BoundLanes& lanes, const Planes& at, int i) {
+  const PieceRounding rounding(pieces, count);
+  const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
+    const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // a plane's and a rival's
     return unbeaten(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), rivals[i], beyond);
   };
   return collect_near(source, around, farthest(rivals, count) + beyond_m, pieces, count, out, keep);
