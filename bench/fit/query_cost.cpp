@@ -1,10 +1,10 @@
 #include "query_cost.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <limits>
 #include <vector>
 
+#include <bench_support/stopwatch.hpp>
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/sampling.hpp>
@@ -37,9 +37,9 @@ double query_ns(const bodice::proxy::BodyProxy& proxy, const bodice::geometry::T
   collision::Workspace workspace;
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
-    const std::clock_t start = std::clock();
+    const bench::Stopwatch watch;
     collider.query({}, particles, contacts, workspace);
-    least = std::min(least, 1e9 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+    least = std::min(least, 1e6 * watch.cpu_ms());
   }
   return least / static_cast<double>(x.size());
 }

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <string>
 #include <vector>
 
+#include <bench_support/stopwatch.hpp>
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/random.hpp>
 
@@ -24,12 +24,6 @@ namespace {
 
 constexpr int kPaths = 2000, kSteps = 200;
 constexpr double kStep_m = 1e-4;
-
-double cpu_s() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Batch {
   std::vector<float> x, y, z, vx, vy, vz;
@@ -151,15 +145,15 @@ std::pair<double, double> cost_ns(const collision::Collider& collider, const std
   double query = 1e9, response = 1e9;
   Batch moved = cloud;
   for (int repeat = 0; repeat < 25; ++repeat) {
-    double start = cpu_s();
+    const bench::Stopwatch asked;
     collider.query({}, cloud.view(false), contacts, order);
-    query = std::min(query, cpu_s() - start);
+    query = std::min(query, asked.cpu_ms());
     moved = cloud;
-    start = cpu_s();
+    const bench::Stopwatch pushed;
     collider.resolve({}, moved.view(false), {.blend_m = blend_m}, order);
-    response = std::min(response, cpu_s() - start);
+    response = std::min(response, pushed.cpu_ms());
   }
-  const double per = 1e9 / static_cast<double>(cloud.x.size());
+  const double per = 1e6 / static_cast<double>(cloud.x.size());
   return {query * per, response * per};
 }
 

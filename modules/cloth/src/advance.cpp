@@ -121,13 +121,14 @@ void end_frame(const engine::Context& context, const Plan& plan, State& s) {
   s.time_s += plan.simulated_s;
 }
 
-// A body that moved or changed may have taken a sleeper's support away.
-void meet_collider(const collision::Collider* collider, State& s) {
+// A body that moved or changed may have taken a sleeper's support away. Whether it moved.
+bool meet_collider(const collision::Collider* collider, State& s) {
   const Vec3 before = s.particles.origin;
   if (collider != nullptr) rebase(s.particles, collider->origin());
   const bool moved = collider != nullptr && moves(*collider);
   if (moved || collider != s.last_collider || before != s.particles.origin) wake_all(s.sleep);
   s.last_collider = collider;
+  return moved;
 }
 
 }  // namespace
@@ -135,7 +136,7 @@ void meet_collider(const collision::Collider* collider, State& s) {
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
                     State& s) {
   const std::int64_t start_ns = context.clock->now_ns();
-  meet_collider(collider, s);
+  const bool moved = meet_collider(collider, s);
   const Plan plan = plan_frame(s.options, dt_s, fastest(context, s.particles),
                                static_cast<double>(s.max_travel_m), s.budget.level);
   FrameReport report;
@@ -143,7 +144,7 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
   if (plan.substeps > 0) begin_frame(context, plan, s);
-  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, s.options, dt_s, s.particles,
+  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, moved, s.options, dt_s, s.particles,
                       s.contacts);
   for (int substep = 0; substep < plan.substeps; ++substep)
     report.limits |= run_substep(context, collider, plan, substep, s);

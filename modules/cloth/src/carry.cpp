@@ -78,16 +78,16 @@ bool moves(const collision::Collider& body) {
   return false;
 }
 
-void begin_carry(const engine::Context& context, const collision::Collider* body, double frame_s,
+void begin_carry(const engine::Context& context, const collision::Collider* moving_body, double frame_s,
                  const Particles& p, Carry& carry) {
   const bool moved = carry.moving;
-  carry.moving = body != nullptr && moves(*body);
+  carry.moving = moving_body != nullptr;
   if (!carry.moving) {
     if (moved) std::ranges::fill(carry.by, Point{});
     return;
   }
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
-    carry_patch(*body, frame_s, begin, end, p, carry);
+    carry_patch(*moving_body, frame_s, begin, end, p, carry);
   });
 }
 

@@ -30,9 +30,9 @@ struct FrameShare {
 /// Whether anything of the body moved to where it is now.
 bool moves(const collision::Collider& body);
 
-/// Begins a frame in which the body comes to where it is now, `frame_s` after where it was. Cost: two queries
-/// a particle if it moves, nothing otherwise.
-void begin_carry(const engine::Context& context, const collision::Collider* body, double frame_s,
+/// Begins a frame in which the body comes to where it is now, `frame_s` after where it was; null: none moves.
+/// Cost: two queries a particle if it moves, nothing otherwise.
+void begin_carry(const engine::Context& context, const collision::Collider* moving_body, double frame_s,
                  const Particles& particles, Carry& carry);
 
 /// Moves the particles [begin, end) out of a moving body as it stands at the end of a substep; old_* is where

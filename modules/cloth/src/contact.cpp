@@ -121,13 +121,13 @@ ContactState make_contacts(std::size_t particles) {
   return s;
 }
 
-void begin_contact_frame(const engine::Context& context, const collision::Collider* collider,
+void begin_contact_frame(const engine::Context& context, const collision::Collider* collider, bool moved,
                          const SolverOptions& options, double frame_s, Particles& particles,
                          ContactState& s) {
   const std::int64_t begin_ns = context.clock->now_ns();
   // The paper's response goes by its own distances and takes surface velocities by itself.
   const collision::Collider* body = options.response == collision::Response::kPaper ? nullptr : collider;
-  begin_carry(context, body, frame_s, particles, s.carry);
+  begin_carry(context, moved ? body : nullptr, frame_s, particles, s.carry);
   begin_clearance(context, s.carry.moving ? nullptr : body, options.thickness_m, particles, s.clearance);
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;

@@ -35,7 +35,8 @@ struct Substep {
 
 ContactState make_contacts(std::size_t particles);
 
-void begin_contact_frame(const engine::Context& context, const collision::Collider* collider,
+/// `moved`: as moves(*collider) has it.
+void begin_contact_frame(const engine::Context& context, const collision::Collider* collider, bool moved,
                          const SolverOptions& options, double frame_s, Particles& particles,
                          ContactState& state);
 

@@ -96,6 +96,12 @@ HWY_INLINE Extent extent_of(const Gathering& block) {
   return extent_between(low, high);
 }
 
+/// What the plane of an ellipsoid, or a distance to it, is off by over the box, however small the ellipsoid.
+HWY_INLINE float rounding_over(const Extent& box) {
+  const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
+  return 2.0f * static_cast<float>(kFloatRounding) * (away + box.radius);
+}
+
 using Corner = std::vector<float>[3];
 
 /// Distance from the block's box to the boxes [k, k + kWidth).
@@ -172,10 +178,10 @@ HWY_INLINE bool cull_for_response(const Baked& baked, const Gathering& block, fl
                                   Candidates& out) {
   const Extent e = extent_of(block);
   out.radius_m = e.radius;
-  const float slack = baked.rounding_m + 1e-6f * e.radius;
+  const float slack = baked.rounding_m + rounding_over(e);
   float least;
   if (!tangents(baked, e, clearance_m + slack, out, least)) return false;
-  const float depth = clearance_m - (least - e.radius);
+  const float depth = clearance_m + slack - (least - e.radius);
   if (out.count == 0 || depth <= 0.0f) {
     out.count = 0;
     return true;

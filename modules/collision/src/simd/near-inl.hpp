@@ -47,13 +47,7 @@ HWY_INLINE BoundLanes bound_lanes(Row&& row) {
   return {row3(0), row3(3), row3(6), row3(kBoundOffset), row3(kBoundInverse)};
 }
 
-/// What the plane of an ellipsoid, or a distance to it, is off by over the box, however small the ellipsoid.
-HWY_INLINE float rounding_over(const Extent& box) {
-  const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
-  return 2.0f * static_cast<float>(kFloatRounding) * (away + box.radius);
-}
-
-/// The same for each piece.
+/// rounding_over() each piece.
 struct PieceRounding {
   float m[kBlocks];
 
