@@ -24,6 +24,7 @@ struct Candidates {
   alignas(64) float distance[kMaxCandidates + 16];
   alignas(64) float nx[kMaxCandidates + 16], ny[kMaxCandidates + 16], nz[kMaxCandidates + 16];
   float middle[3];
+  float slack_m = 0.0f;  ///< what distances and planes are off by over the block
   float radius_m = 0.0f;  ///< of the block
   float reach_m = 0.0f;   ///< pushes up to this long meet no ellipsoid that is not among them
 };
@@ -178,7 +179,7 @@ HWY_INLINE bool cull_for_response(const Baked& baked, const Gathering& block, fl
                                   Candidates& out) {
   const Extent e = extent_of(block);
   out.radius_m = e.radius;
-  const float slack = baked.rounding_m + rounding_over(e);
+  const float slack = out.slack_m = baked.rounding_m + rounding_over(e);
   float least;
   if (!tangents(baked, e, clearance_m + slack, out, least)) return false;
   const float depth = clearance_m + slack - (least - e.radius);

@@ -208,7 +208,7 @@ HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, co
   const float bulge_m = relief ? relief->highest_m + relief->blend_m : 2.0f * clearance.blend_m;
   const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
   const float window_m = clearance.distance_m + bulge_m + travel_m;
-  const float shortest_m = shortest_radius(baked, e, window_m + baked.rounding_m + 1e-6f * e.radius);
+  const float shortest_m = shortest_radius(baked, e, window_m + baked.rounding_m + rounding_over(e));
   if (shortest_m >= 1e30f) return true;
   Candidates candidates;
   if (filleted && !cull_for_response(baked, batch, window_m, candidates)) return false;

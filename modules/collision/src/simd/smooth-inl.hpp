@@ -43,7 +43,7 @@ HWY_INLINE V smooth_root(const Blended& b, V least, V per_blend) {
 
 HWY_INLINE Sample smooth_distance(const Baked& baked, float blend_m, const Candidates& c, V3 p, V below) {
   Blended near;
-  const V slack = all(baked.rounding_m), blend = all(blend_m), per_blend = all(1.0f / blend_m);
+  const V slack = all(c.slack_m), blend = all(blend_m), per_blend = all(1.0f / blend_m);
   Sample best{below, {hn::Zero(f), hn::Zero(f), hn::Zero(f)}, hn::Set(I(), -1)};
   for (int i = 0; i < c.count; ++i) {
     const V window = hn::Add(best.distance, hn::Add(blend, slack));
