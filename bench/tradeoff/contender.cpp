@@ -74,6 +74,7 @@ Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::s
   c.bytes = static_cast<double>(fit.proxy.bytes());
   c.prepare_ms = fit_ms(fit);
   c.update_us = least_us([&] { queries->turn(); });
+  c.particles = subject.particles.size();
   c.query = [queries] { queries->query(); };
   c.respond = [queries] { queries->respond(); };
   c.distances_m = [queries] {
@@ -85,10 +86,10 @@ Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::s
   return c;
 }
 
-std::vector<Cost> time_all(std::vector<Contender>& contenders, std::size_t particles, int rounds) {
+std::vector<Cost> time_all(const std::vector<Contender>& contenders, int rounds) {
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<Cost> costs(contenders.size(), Cost{inf, inf});
-  const auto measure = [&](const std::function<void()>& work, double& least) {
+  const auto measure = [](const std::function<void()>& work, std::size_t particles, double& least) {
     work();  // what came before has filled the caches with its own data
     const bench::Stopwatch watch;
     work();
@@ -96,8 +97,9 @@ std::vector<Cost> time_all(std::vector<Contender>& contenders, std::size_t parti
   };
   for (int round = 0; round < rounds; ++round)
     for (std::size_t i = 0; i < contenders.size(); ++i) {
-      measure(contenders[i].query, costs[i].query_ns);
-      if (contenders[i].respond) measure(contenders[i].respond, costs[i].response_ns);
+      measure(contenders[i].query, contenders[i].particles, costs[i].query_ns);
+      if (contenders[i].respond)
+        measure(contenders[i].respond, contenders[i].particles, costs[i].response_ns);
     }
   for (std::size_t i = 0; i < contenders.size(); ++i)
     if (!contenders[i].respond) costs[i].response_ns = 0.0;

@@ -20,6 +20,7 @@ struct Contender {
   double bytes = 0.0;             ///< 0: not known
   double prepare_ms = 0.0;        ///< from the segmented skin to the first query
   double update_us = 0.0;         ///< what a body that moves pays a frame
+  std::size_t particles = 0;      ///< of one query or response
   std::function<void()> query;    ///< all particles once
   std::function<void()> respond;  ///< pushes all out once; empty: cannot
   std::function<std::vector<float>()> distances_m;
@@ -41,6 +42,6 @@ double fit_ms(const bodice::fitting::FitResult& fit);
 struct Cost {
   double query_ns = 0.0, response_ns = 0.0;  ///< the latter 0 if it cannot
 };
-std::vector<Cost> time_all(std::vector<Contender>& contenders, std::size_t particles, int rounds);
+std::vector<Cost> time_all(const std::vector<Contender>& contenders, int rounds);
 
 }  // namespace tradeoff

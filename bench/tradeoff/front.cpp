@@ -83,7 +83,7 @@ bench::Table table_by_body() {
 
 void judge_body(const Setting& setting, const Subject& subject, std::vector<Row>& rows, bench::Table& table) {
   auto all = contenders_of(setting, subject);
-  const std::vector<Cost> costs = time_all(all, subject.particles.size(), setting.by_effort(1, 5, 11));
+  const std::vector<Cost> costs = time_all(all, setting.by_effort(1, 5, 11));
   rows.resize(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Contender& c = all[i];

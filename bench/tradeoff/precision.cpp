@@ -27,7 +27,7 @@ void add_tier(const Setting& setting, const Subject& subject, proxy::Tier tier, 
   const auto fit = must(fitting::fit(setting.context, tryon::labelled(subject.skin),
                                      {.tier = tier, .max_ellipsoids = setting.by_effort(15, 30, 89)}));
   std::vector<Contender> one{of_proxy(subject, fit, "")};
-  const double float_ns = time_all(one, subject.particles.size(), 5)[0].query_ns;
+  const double float_ns = time_all(one, 5)[0].query_ns;
   const std::vector<float> narrow = one[0].distances_m(), wide = in_double(fit.proxy, subject.particles);
   const double double_ns = 1e3 * least_us([&] { in_double(fit.proxy, subject.particles); }, 1) /
                            static_cast<double>(subject.particles.size());

@@ -19,6 +19,7 @@ Contender of_peer(const Subject& subject, std::string kind, std::string dial, be
   c.bytes = shared->bytes;
   c.prepare_ms = shared->build_ms;
   c.update_us = 1e3 * shared->build_ms;  // a body that moves is built anew
+  c.particles = particles->size();
   c.query = [=] { shared->query(*particles, *found); };
   c.distances_m = [=] {
     shared->query(*particles, *found);
