@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <numeric>
+#include <utility>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -13,7 +12,7 @@ namespace bodice::cloth {
 namespace {
 
 constexpr int kFewestBits = 12;        // 16 cells a row, 256 rows: near ones stay apart
-constexpr int kSlotsAParticle = 2;     // more would leave the caches, which costs more than far cells met
+constexpr int kSlotsAParticle = 1;     // more would leave the caches, which costs more than far cells met
 constexpr double kGolden = 0.381966;   // skew of the lattice, in rows: its shortest vector is the longest
 constexpr float kFarthestCell = 1e8f;  // beyond it, integers would overflow
 
@@ -38,14 +37,16 @@ CellGrid::CellGrid(float cell_m, std::size_t points) {
   per_cell_ = 1.0f / cell_m;
   chapter_shift_ = bits - kChapterBits;
   begin_.assign((std::size_t{1} << bits) + 1, 0);
-  staged_.resize(points), particle_.resize(points);
+  staged_.resize(points), particle_.resize(points + 3), slot_.resize(points);
   for (auto* a : {&x_, &y_, &z_}) a->assign(points + 3, 0.0f);
   chapter_next_.assign(kBlocks * kChapters, 0), chapter_begin_.assign(kChapters + 1, 0);
 }
 
 CellGrid::Cell CellGrid::cell_of(const Point& at) const {
   auto cell = [&](float value) {
-    return static_cast<int>(std::floor(std::clamp(value * per_cell_, -kFarthestCell, kFarthestCell)));
+    const float at_cell = std::clamp(value * per_cell_, -kFarthestCell, kFarthestCell);
+    const int whole = static_cast<int>(at_cell);  // towards zero; std::floor would be a call
+    return whole - (static_cast<float>(whole) > at_cell ? 1 : 0);
   };
   return {cell(at.x), cell(at.y), cell(at.z)};
 }
@@ -101,8 +102,17 @@ void CellGrid::sort_chapter(std::size_t chapter) {
   for (Index k = last; k-- > first;) {
     const Staged& from = staged_[k];
     const Index to = --begin_[from.slot];
-    x_[to] = from.x, y_[to] = from.y, z_[to] = from.z, particle_[to] = from.particle;
+    x_[to] = from.x, y_[to] = from.y, z_[to] = from.z, particle_[to] = from.particle, slot_[to] = from.slot;
   }
+}
+
+void CellGrid::append(Index first, std::size_t count, Gathered& to) const {
+  for (std::size_t k = 0; k < count; k += 4) {
+    const std::size_t from = first + k, at = to.count + k;
+    store(&to.x[at], load(&x_[from])), store(&to.y[at], load(&y_[from])), store(&to.z[at], load(&z_[from]));
+    std::copy_n(&particle_[from], 4, &to.particle[at]);
+  }
+  to.count += count;
 }
 
 }  // namespace bodice::cloth

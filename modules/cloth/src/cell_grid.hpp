@@ -1,21 +1,28 @@
 // Cells of one size in a table of a power of two slots: far cells share a slot, near ones never do. Rows of
-// cells lie together, so that 27 cells are nine runs of memory. Based on: Matthias Teschner et al. Optimized
-// Spatial Hashing for Collision Detection of Deformable Objects. 2003. Differs: rows are placed by a skewed
-// lattice in place of a hash, so that what shares a slot is far away whatever way the cloth hangs; slots are
-// filled by a counting sort in two steps, first by chapters of the table, which all workers share, then
-// inside each: the order in a slot is that of the particles.
+// cells lie together, so that 27 cells are nine runs of memory, gathered once for all that a cell holds.
+// Based on: Matthias Teschner et al. Optimized Spatial Hashing for Collision Detection of Deformable Objects.
+// 2003. Differs: rows are placed by a skewed lattice in place of a hash, so that what shares a slot is far
+// away whatever way the cloth hangs; slots are filled by a counting sort in two steps, first by chapters of
+// the table, which all workers share, then inside each: the order in a slot is that of the particles.
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <span>
 #include <vector>
 
 #include <bodice/engine/context.hpp>
+#include <bodice/engine/parallel.hpp>
 
 #include "particles.hpp"
 
 namespace bodice::cloth {
+
+/// Points with their particles, as structure of arrays.
+struct PointRun {
+  const float *x = nullptr, *y = nullptr, *z = nullptr;  ///< #count each, readable up to a multiple of four
+  const Index* particle = nullptr;
+  std::size_t count = 0;
+};
 
 class CellGrid {
  public:
@@ -26,17 +33,20 @@ class CellGrid {
   /// `points` are as many as were announced.
   void fill(const engine::Context& context, std::span<const Point> points);
 
-  /// Calls visit(particle) for all points within sqrt(reach2_m2) of `at`, which is at most a cell's size.
+  /// Calls visit(inside, round) for all slots with points: those in the slot, and all points of the cells in
+  /// and round it, others among them, in one or more pieces of bounded size. Slots run in any order and on
+  /// any worker, the pieces of one in order on the same.
   template <class Visit>
-  void visit_within(const Point& at, float reach2_m2, Visit&& visit) const {
-    const Cell c = cell_of(at);
-    const std::size_t left = static_cast<std::size_t>(c.x - 1) & x_mask_;
-    const std::size_t run = std::min<std::size_t>(3, x_mask_ + 1 - left);  // cells before the fold
-    for (int row = 0; row < 9; ++row) {
-      const std::size_t first = row_of(c.y + row % 3 - 1, c.z + row / 3 - 1);
-      visit_run(first + left, run, at, reach2_m2, visit);
-      if (run < 3) visit_run(first, 3 - run, at, reach2_m2, visit);
-    }
+  void for_each_slot(const engine::Context& context, Visit&& visit) const {
+    engine::parallel_for(context, chapter_begin_.size() - 1, 1, [&](std::size_t chapter, std::size_t) {
+      Gathered round;
+      for (Index k = chapter_begin_[chapter]; k < chapter_begin_[chapter + 1];) {
+        const std::size_t slot = slot_[k], count = begin_[slot + 1] - k;
+        const PointRun inside = {&x_[k], &y_[k], &z_[k], &particle_[k], count};
+        gather_round(slot, round, [&] { visit(inside, round.run()); });
+        k += static_cast<Index>(count);
+      }
+    });
   }
 
  private:
@@ -47,21 +57,44 @@ class CellGrid {
     float x, y, z;
     Index particle, slot;
   };
+  // Copies of points. Writing four where fewer are wanted spares a loop.
+  struct Gathered {
+    static constexpr std::size_t kMost = 256;
+    float x[kMost + 4], y[kMost + 4], z[kMost + 4];
+    Index particle[kMost + 4];
+    std::size_t count = 0;
+
+    PointRun run() const { return {x, y, z, particle, count}; }
+  };
+
   Cell cell_of(const Point& at) const;
   Index slot_of(const Point& at) const;
   std::size_t row_of(int y, int z) const {
     return ((static_cast<std::size_t>(y) + skew_ * static_cast<std::size_t>(z)) & row_mask_) << x_bits_;
   }
-  template <class Visit>
-  void visit_run(std::size_t slot, std::size_t cells, const Point& at, float reach2_m2, Visit& visit) const {
-    const Index last = begin_[slot + cells];
-    for (Index k = begin_[slot]; k < last; k += 4) {
-      const Float4 dx = load(&x_[k]) - at.x, dy = load(&y_[k]) - at.y, dz = load(&z_[k]) - at.z;
-      unsigned within = lanes(dx * dx + dy * dy + dz * dz <= splat(reach2_m2));
-      if (last - k < 4) within &= (1u << (last - k)) - 1;
-      for (; within != 0; within &= within - 1)
-        visit(particle_[k + static_cast<Index>(std::countr_zero(within))]);
+  void append(Index first, std::size_t count, Gathered& to) const;
+
+  // Far cells that share a slot share what lies round it, too: places of slots are linear in those of cells.
+  template <class Flush>
+  void gather_round(std::size_t slot, Gathered& round, Flush&& flush) const {
+    round.count = 0;
+    auto gather = [&](std::size_t from, std::size_t cells) {
+      const Index last = begin_[from + cells];
+      for (Index k = begin_[from]; k < last;) {
+        const std::size_t count = std::min<std::size_t>(last - k, Gathered::kMost - round.count);
+        append(k, count, round);
+        k += static_cast<Index>(count);
+        if (round.count == Gathered::kMost) flush(), round.count = 0;
+      }
+    };
+    const std::size_t row = slot >> x_bits_, left = (slot - 1) & x_mask_;
+    const std::size_t cells = std::min<std::size_t>(3, x_mask_ + 1 - left);  // before the fold
+    for (std::size_t k = 0; k < 9; ++k) {
+      const std::size_t first = ((row + k % 3 - 1 + skew_ * (k / 3 - 1)) & row_mask_) << x_bits_;
+      gather(first + left, cells);
+      if (cells < 3) gather(first, 3 - cells);
     }
+    if (round.count > 0) flush();
   }
 
   void begin_chapters(std::size_t blocks);
@@ -72,7 +105,8 @@ class CellGrid {
   float per_cell_ = 0.0f;             // cells a metre
   std::vector<Index> begin_;          // #slots + 1
   std::vector<float> x_, y_, z_;      // #P and three more, by slot, ascending particles inside one
-  std::vector<Index> particle_;       // #P, in the same order; before, each point's slot
+  std::vector<Index> particle_;       // #P and three more, in the same order; before, each point's slot
+  std::vector<Index> slot_;           // #P, in the same order
   std::vector<Staged> staged_;        // #P, by chapter, ascending inside one
   std::vector<Index> chapter_next_;   // #blocks x #chapters: counts, then where the next one goes
   std::vector<Index> chapter_begin_;  // #chapters + 1

@@ -87,8 +87,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.bend = make_bend(mesh, topology, fabric, s.particles);
   s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
   s.air = make_air(mesh);
-  s.self = make_self_contact(s.particles, kSelfRadius * welded->median_edge_m);
   s.ring = make_ring(mesh, topology);
+  s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
   s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count());
   s.scratch.resize(s.stretch.a.size());

@@ -1,6 +1,7 @@
 #include "self_contact.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <span>
 
@@ -15,6 +16,9 @@ namespace {
 // all pairs of smooth cloth would be such.
 constexpr float kSearch = 1.8f;
 
+// Reaches a cell: several particles share what is gathered round it, and few of that lie out of their reach.
+constexpr float kCell = 2.0f;
+
 // A particle that lies on the body gives way this much less to another layer: what the body will take back
 // would let the outer layer sink into the inner one.
 constexpr float kTouchingMass = 8.0f;
@@ -23,6 +27,7 @@ constexpr float kTouchingMass = 8.0f;
 constexpr float kRecovery_m_s = 0.1f;
 
 constexpr std::size_t kBlock = 256;  // particles a task: few of a garment's touch, and those lie together
+static_assert(kParticleGrain % kBlock == 0);
 
 constexpr double kFresh = 0.3;  // radii the fastest may travel between searches; 0.4 is the bound
 
@@ -36,26 +41,21 @@ float distance2(const Point& a, const Point& b) {
   return dd[0] + dd[1] + dd[2];
 }
 
-// Particles that edges join to one, itself included: asked for each particle near it.
-class Joined {
- public:
-  Joined(Index own, std::span<const Index> ring) {
-    for (std::size_t k = 0; k < kFirst; ++k)
-      first_[k / 4][k % 4] = static_cast<int>(k < ring.size() ? ring[k] : own);
-    if (ring.size() >= kFirst) more_ = ring.subspan(kFirst - 1);
-    first_[kFirst / 4 - 1][3] = static_cast<int>(own);
-  }
-  bool has(Index j) const {
-    const auto id = static_cast<int>(j);
-    const Int4 ids = {id, id, id, id};
-    return any((first_[0] == ids) | (first_[1] == ids)) || std::ranges::find(more_, j) != more_.end();
-  }
+Joined join(Index own, std::span<const Index> ring) {
+  Joined out;
+  for (std::size_t k = 0; k < Joined::kFirst; ++k)
+    out.id[k / 4][k % 4] = static_cast<int>(k + 1 < Joined::kFirst && k < ring.size() ? ring[k] : own);
+  return out;
+}
 
- private:
-  static constexpr std::size_t kFirst = 8;
-  Int4 first_[kFirst / 4];
-  std::span<const Index> more_;  // of those with more neighbours than a mesh's vertices have
-};
+// Asked for each particle near another.
+bool are_joined(const Joined& joined, const Ring& ring, Index i, Index j) {
+  const auto id = static_cast<int>(j);
+  const Int4 ids = {id, id, id, id};
+  if (any((joined.id[0] == ids) | (joined.id[1] == ids))) return true;
+  const std::span<const Index> all = ring.of(i);
+  return all.size() >= Joined::kFirst && std::ranges::find(all, j) != all.end();
+}
 
 void offer(SelfContact& s, Index i, Index j) {
   if (s.close_count[i] == kMaxClose) return;
@@ -64,13 +64,37 @@ void offer(SelfContact& s, Index i, Index j) {
   s.close_m[at] = std::min(s.radius_m, std::sqrt(distance2(s.rest[i], s.rest[j])));
 }
 
-void find_close(const Ring& ring, const Particles& p, SelfContact& s, Index i) {
+constexpr std::size_t kMasked = 64;  // points whose nearness is one word
+
+// Of the points from `first` on, a bit each that is near.
+std::uint64_t near_ones(const PointRun& points, std::size_t first, Float4 x, Float4 y, Float4 z,
+                        Float4 reach2) {
+  const std::size_t count = std::min(kMasked, points.count - first);
+  std::uint64_t near = 0;
+  for (std::size_t k = 0; k < count; k += 4) {
+    const Float4 dx = load(&points.x[first + k]) - x, dy = load(&points.y[first + k]) - y,
+                 dz = load(&points.z[first + k]) - z;
+    near |= std::uint64_t{lanes(dx * dx + dy * dy + dz * dz <= reach2)} << k;
+  }
+  return count < kMasked ? near & ((std::uint64_t{1} << count) - 1) : near;
+}
+
+// Pairs of the points `inside` a slot with those `round` it.
+void find_close(const Ring& ring, const PointRun& inside, const PointRun& round, SelfContact& s) {
   const float reach_m = kSearch * s.radius_m;
-  const Joined joined(i, ring.of(i));
-  s.close_count[i] = 0;
-  s.grid.visit_within(p.point[i], reach_m * reach_m, [&](Index j) {
-    if (!joined.has(j)) offer(s, i, j);
-  });
+  for (std::size_t k = 0; k < inside.count; ++k) __builtin_prefetch(&s.joined[inside.particle[k]]);
+  for (std::size_t k = 0; k < inside.count; ++k) {
+    const Index i = inside.particle[k];
+    const Joined joined = s.joined[i];
+    const Float4 x = splat(inside.x[k]), y = splat(inside.y[k]), z = splat(inside.z[k]);
+    for (std::size_t first = 0; first < round.count; first += kMasked) {
+      std::uint64_t near = near_ones(round, first, x, y, z, splat(reach_m * reach_m));
+      for (; near != 0; near &= near - 1) {
+        const Index j = round.particle[first + static_cast<std::size_t>(std::countr_zero(near))];
+        if (!are_joined(joined, ring, i, j)) offer(s, i, j);
+      }
+    }
+  }
 }
 
 float yielding(const Particles& p, const std::vector<std::uint8_t>& touching, Index i) {
@@ -117,6 +141,19 @@ Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching,
   return pushes > 1.0f ? sum / pushes : sum;
 }
 
+void list_active(const engine::Context& context, SelfContact& s) {
+  engine::parallel_for(context, s.active.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; block += kBlock) {
+      Index count = 0;
+      for (std::size_t i = block; i < std::min(block + kBlock, end); ++i) {
+        s.active[block + count] = static_cast<Index>(i);
+        count += s.close_count[i] > 0;
+      }
+      s.active_count[block / kBlock] = count;
+    }
+  });
+}
+
 // Calls visit(k) for each place k of `active` that is taken.
 template <class Visit>
 void for_each_active(const engine::Context& context, const SelfContact& s, Visit&& visit) {
@@ -127,13 +164,15 @@ void for_each_active(const engine::Context& context, const SelfContact& s, Visit
 
 }  // namespace
 
-SelfContact make_self_contact(const Particles& particles, double radius_m) {
+SelfContact make_self_contact(const Particles& particles, const Ring& ring, double radius_m) {
   SelfContact s;
   const std::size_t count = particles.count();
   s.radius_m = static_cast<float>(radius_m);
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     s.rest.push_back({particles.x[i], particles.y[i], particles.z[i], 0});
-  s.grid = CellGrid(kSearch * s.radius_m, count);
+    s.joined.push_back(join(static_cast<Index>(i), ring.of(i)));
+  }
+  s.grid = CellGrid(kCell * kSearch * s.radius_m, count);
   s.close_count.assign(count, 0), s.active.assign(count, 0), s.move.assign(count, {});
   s.active_count.assign(engine::block_count(count, kBlock), 0);
   s.close.assign(count * kMaxClose, 0), s.close_m.assign(count * kMaxClose, 0.0f);
@@ -145,13 +184,10 @@ void find_close_pairs(const engine::Context& context, const Ring& ring, const Pa
   if (!(self.radius_m > 0.0f) || self.travel_m < kFresh * static_cast<double>(self.radius_m)) return;
   self.travel_m = 0.0;
   self.grid.fill(context, {particles.point.data(), particles.count()});
-  engine::parallel_for(context, particles.count(), kBlock, [&](std::size_t begin, std::size_t end) {
-    Index& count = self.active_count[begin / kBlock] = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      find_close(ring, particles, self, static_cast<Index>(i));
-      if (self.close_count[i] > 0) self.active[begin + count++] = static_cast<Index>(i);
-    }
-  });
+  std::ranges::fill(self.close_count, std::uint8_t{0});
+  self.grid.for_each_slot(
+      context, [&](const PointRun& inside, const PointRun& round) { find_close(ring, inside, round, self); });
+  list_active(context, self);
 }
 
 void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, float friction,

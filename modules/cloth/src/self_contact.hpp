@@ -15,11 +15,18 @@ namespace bodice::cloth {
 
 inline constexpr std::size_t kMaxClose = 8;  ///< pairs kept a particle; the first in the grid's order
 
+/// The first particles that edges join to one, itself last; itself where there are fewer.
+struct Joined {
+  static constexpr std::size_t kFirst = 8;  ///< as most vertices of a mesh have at most
+  Int4 id[kFirst / 4];
+};
+
 struct SelfContact {
   float radius_m = 0.0f;  ///< particles are kept this far apart, or as far as they were at rest
   double travel_m = std::numeric_limits<double>::infinity();  ///< of the fastest since the pairs were found
   CellGrid grid;
   std::vector<Point> rest;                ///< #P, metres, in the particles' frame of the start
+  std::vector<Joined> joined;             ///< #P
   std::vector<Index> close;               ///< #P * kMaxClose
   std::vector<float> close_m;             ///< #P * kMaxClose, distance each pair must keep
   std::vector<std::uint8_t> close_count;  ///< #P
@@ -28,7 +35,7 @@ struct SelfContact {
   std::vector<Point> move;                ///< as active: metres, corrections of this sweep
 };
 
-SelfContact make_self_contact(const Particles& particles, double radius_m);
+SelfContact make_self_contact(const Particles& particles, const Ring& ring, double radius_m);
 
 /// Finds the pairs nearer than 1.8 times the radius, unless none of the last search can have been missed: two
 /// particles that each moved 0.4 radii since are still a radius apart. O(#P).
