@@ -14,11 +14,14 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr int kIterations = 14;
-constexpr double kMostMotion = 0.03;      // of the scaled body: few samples, so that candidates cost little
+constexpr int kIterations = 11;  // the twelfth would move ellipsoids, too late for that to pay
+/// Of the scaled body: with so few samples and ellipsoids a region, choosing candidates again costs more than
+/// keeping all that may ever be near.
+constexpr double kMostMotion = 0.3;
 constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
 constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
 constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
+constexpr double kGrowFirst_mm = 2.0;     // before any ellipsoid has to grow more for its triangles
 /// Up to so many in a region, growth after a descent may cost more than enclosing clusters of triangles.
 constexpr int kFewEllipsoids = 2;
 
@@ -66,7 +69,9 @@ FittedRegion cover_region(const engine::Context& context, const LabelledSkin& sk
                           const Region& region, std::vector<proxy::ProxyEllipsoid> ellipsoids) {
   if (ellipsoids.empty()) ellipsoids.push_back(speck(items, region, skin.stature_m));
   std::vector<geometry::Ellipsoid> shapes;
-  for (const auto& e : ellipsoids) shapes.push_back(e.shape);
+  const double first = kGrowFirst_mm * Scaling(skin).mm();
+  for (const auto& e : ellipsoids)
+    shapes.push_back({e.shape.center, e.shape.axes, e.shape.radii.array() + first});
   std::vector<Index> triangles;
   for (const Index i : region.items) triangles.push_back(items.triangle[i]);
   cover_triangles(context, skin.mesh, triangles, shapes);
