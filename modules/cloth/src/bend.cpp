@@ -13,6 +13,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "kernels.hpp"
 #include "tiny.hpp"
 
 namespace bodice::cloth {
@@ -50,60 +51,6 @@ Stencil stencil(const geometry::TriMesh& mesh, const Hinge& h) {
   return s;
 }
 
-struct Bent {
-  Float4 value;       // n . K x - rest
-  Float4 nx, ny, nz;  // unit normal; zero where the hinge is folded shut
-};
-
-Bent measure(const BendConstraints& c, std::size_t first, const Float4 (&at)[4][kPack]) {
-  Float4 e[kPack], f[kPack], bent[kPack];
-  for (std::size_t k = 0; k < kPack; ++k) {
-    // Differences to the first corner: the weights sum to zero, and small numbers keep their digits.
-    const Float4 to_c = at[2][k] - at[0][k], to_d = at[3][k] - at[0][k];
-    e[k] = at[1][k] - at[0][k], f[k] = to_c - to_d;
-    bent[k] = c.k[1][first + k] * e[k] + c.k[2][first + k] * to_c + c.k[3][first + k] * to_d;
-  }
-  transpose(e[0], e[1], e[2], e[3]);
-  transpose(f[0], f[1], f[2], f[3]);
-  transpose(bent[0], bent[1], bent[2], bent[3]);
-  const Float4 nx = e[1] * f[2] - e[2] * f[1], ny = e[2] * f[0] - e[0] * f[2], nz = e[0] * f[1] - e[1] * f[0];
-  const Float4 scale = 1.0f / root(nx * nx + ny * ny + nz * nz + kTinyLength2);
-  const Float4 along = nx * bent[0] + ny * bent[1] + nz * bent[2];
-  return {scale * along - load(&c.rest_m[first]), scale * nx, scale * ny, scale * nz};
-}
-
-void load_corners(const BendConstraints& c, std::size_t first, const Point* p, Float4 (&at)[4][kPack]) {
-  for (std::size_t q = 0; q < 4; ++q)
-    for (std::size_t k = 0; k < kPack; ++k) at[q][k] = load(p[c.corner[q][first + k]]);
-}
-
-// Where friction holds the hinge, `value` after; at most `slip` from there. NaN leaves it.
-Float4 hold(Float4 held, Float4 value, Float4 slip) {
-  return min(value + slip, max(value - slip, held));
-}
-
-void solve_pack(BendConstraints& c, std::size_t pack, Float4 inverse_h2, Point* p) {
-  const std::size_t first = pack * kPack;
-  Float4 at[4][kPack], w[4];
-  load_corners(c, first, p, at);
-  const Bent bent = measure(c, first, at);
-  const Float4 compliance = load(&c.compliance[first]);
-  const Float4 held = hold(load(&c.held[first]), bent.value, c.slip_n * compliance);
-  store(&c.held[first], held);
-  // Two springs, to the rest shape and to where it is held, are one.
-  Float4 weight = c.soften * compliance * inverse_h2 + kTinyWeight;
-  for (std::size_t q = 0; q < 4; ++q) {
-    const Float4 k = load(&c.k[q][first]);
-    w[q] = weights(at[q][0], at[q][1], at[q][2], at[q][3]) * k;
-    weight += w[q] * k;
-  }
-  const Float4 move = ((1.0f - c.soften) * held - bent.value) / weight;
-  Float4 m[kPack] = {move * bent.nx, move * bent.ny, move * bent.nz, splat(0.0f)};
-  transpose(m[0], m[1], m[2], m[3]);
-  for (std::size_t q = 0; q < 4; ++q)
-    for (std::size_t k = 0; k < kPack; ++k) store(p[c.corner[q][first + k]], at[q][k] + w[q][k] * m[k]);
-}
-
 }  // namespace
 
 BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
@@ -132,30 +79,21 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
 
 void solve_bend_block(BendConstraints& c, std::size_t block, float inverse_h2, Particles& p) {
   if (c.schedule.packs() == 0) return;
-  for (std::size_t pack = c.schedule.block_begin[block]; pack < c.schedule.block_begin[block + 1]; ++pack)
-    solve_pack(c, pack, splat(inverse_h2), p.point.data());
+  solve_bend_packs(c, {c.schedule.block_begin[block], c.schedule.block_begin[block + 1]}, inverse_h2,
+                   p.point.data());
 }
 
 void solve_bend_across(const engine::Context& context, BendConstraints& c, float inverse_h2, Particles& p) {
-  for_each_across(context, c.schedule,
-                  [&](std::size_t pack) { solve_pack(c, pack, splat(inverse_h2), p.point.data()); });
+  for_each_across(context, c.schedule, [&](std::size_t begin, std::size_t end) {
+    solve_bend_packs(c, {begin, end}, inverse_h2, p.point.data());
+  });
 }
 
 double bend_energy(const engine::Context& context, const BendConstraints& c, const Particles& p) {
   return engine::ordered_reduce(
       context, c.schedule.packs(), reduce_grain(c.schedule.packs()), 0.0,
       [&](std::size_t begin, std::size_t end) {
-        double energy = 0.0;
-        for (std::size_t pack = begin; pack < end; ++pack) {
-          Float4 at[4][kPack];
-          load_corners(c, pack * kPack, p.point.data(), at);
-          const Float4 value = measure(c, pack * kPack, at).value;
-          const Float4 slack = value - load(&c.held[pack * kPack]);
-          const float stick = 1.0f / c.soften - 1.0f;
-          const Float4 twice = (value * value + stick * slack * slack) / load(&c.compliance[pack * kPack]);
-          energy += 0.5 * static_cast<double>(twice[0] + twice[1] + twice[2] + twice[3]);
-        }
-        return energy;
+        return bend_energy_packs(c, {begin, end}, p.point.data());
       },
       [](double l, double r) { return l + r; });
 }

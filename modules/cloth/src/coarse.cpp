@@ -15,10 +15,10 @@ namespace {
 
 // Four ties; true if one was too long.
 bool pull_pack(CoarseLevel& level, std::size_t pack) {
-  const std::size_t first = pack * kPack;
+  const std::size_t first = pack * kTiePack;
   const Index *a = &level.ties.a[first], *b = &level.ties.b[first];
-  Float4 at_a[kPack], at_b[kPack], d[kPack];
-  for (std::size_t k = 0; k < kPack; ++k) {
+  Float4 at_a[kTiePack], at_b[kTiePack], d[kTiePack];
+  for (std::size_t k = 0; k < kTiePack; ++k) {
     at_a[k] = load(level.at[a[k]]), at_b[k] = load(level.at[b[k]]);
     d[k] = xyz(at_a[k] - at_b[k]);
   }
@@ -32,7 +32,7 @@ bool pull_pack(CoarseLevel& level, std::size_t pack) {
   const Float4 length = root(length2 + kTinyLength2);
   const Float4 scale = longer ? (length - limit) / (length * (wa + wb + kTinyWeight)) : splat(0.0f);
   const Float4 to_a = scale * wa, to_b = scale * wb;
-  for (std::size_t k = 0; k < kPack; ++k) {
+  for (std::size_t k = 0; k < kTiePack; ++k) {
     store(level.at[a[k]], at_a[k] - to_a[k] * d[k]);
     store(level.at[b[k]], at_b[k] + to_b[k] * d[k]);
   }
@@ -52,7 +52,11 @@ bool pull(const engine::Context& context, CoarseLevel& level) {
       longer = pull_pack(level, pack) || longer;
     note(longer);
   });
-  for_each_across(context, schedule, [&](std::size_t pack) { note(pull_pack(level, pack)); });
+  for_each_across(context, schedule, [&](std::size_t begin, std::size_t end) {
+    bool longer = false;
+    for (std::size_t pack = begin; pack < end; ++pack) longer = pull_pack(level, pack) || longer;
+    note(longer);
+  });
   return pulled.load();
 }
 

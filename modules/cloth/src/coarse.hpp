@@ -14,6 +14,7 @@
 namespace bodice::cloth {
 
 inline constexpr std::size_t kParents = 4;
+inline constexpr std::size_t kTiePack = 4;  ///< ties solved together; larger packs of so few were half idle
 
 /// Nodes that carry a particle.
 struct Parents {

@@ -61,10 +61,10 @@ Ties make_ties(const std::vector<Tie>& wanted, std::size_t nodes) {
   std::vector<Index> ends;
   for (const Tie& tie : wanted) ends.push_back(tie.a), ends.push_back(tie.b);
   Ties out;
-  out.schedule = make_schedule(ends, 2, nodes);
+  out.schedule = make_schedule(ends, 2, nodes, kTiePack);
   for (std::size_t slot = 0; slot < out.schedule.slot.size(); ++slot) {
     const std::uint32_t t = out.schedule.slot[slot];
-    const Index idle = out.schedule.idle[slot / kPack];
+    const Index idle = out.schedule.idle[slot / kTiePack];
     const Tie tie = t == kIdle ? Tie{idle, idle, 1.0f} : wanted[t];
     out.a.push_back(tie.a), out.b.push_back(tie.b), out.limit_m.push_back(tie.limit_m);
   }

@@ -33,8 +33,8 @@ std::vector<std::uint32_t> append(const Wanted& wanted, const std::vector<std::u
   for (std::size_t k = 0; k < coloring.colors(); ++k) {
     for (std::uint32_t i = coloring.begin[k]; i < coloring.begin[k + 1]; ++i)
       out.slot.push_back(listed[coloring.order[i]]);
-    out.slot.resize((out.slot.size() + kPack - 1) / kPack * kPack, kIdle);
-    out.idle.resize(out.slot.size() / kPack, idle);
+    out.slot.resize((out.slot.size() + out.pack - 1) / out.pack * out.pack, kIdle);
+    out.idle.resize(out.slot.size() / out.pack, idle);
     begin.push_back(static_cast<std::uint32_t>(out.packs()));
   }
   return begin;
@@ -51,7 +51,8 @@ std::size_t idle_particles(std::size_t particles) {
   return engine::block_count(particles, block_size(particles)) + 1;
 }
 
-Schedule make_schedule(std::span<const Index> members, std::size_t arity, std::size_t particle_count) {
+Schedule make_schedule(std::span<const Index> members, std::size_t arity, std::size_t particle_count,
+                       std::size_t pack) {
   const Wanted wanted{members, arity, particle_count};
   const std::size_t size = block_size(particle_count), blocks = engine::block_count(particle_count, size);
   std::vector<std::vector<std::uint32_t>> inside(blocks);
@@ -63,6 +64,7 @@ Schedule make_schedule(std::span<const Index> members, std::size_t arity, std::s
     (whole ? inside[block] : across).push_back(static_cast<std::uint32_t>(c));
   }
   Schedule out;
+  out.pack = pack;
   out.block_begin.push_back(0);
   for (std::size_t b = 0; b < blocks; ++b) {
     append(wanted, inside[b], static_cast<Index>(particle_count + b), out);

@@ -13,13 +13,14 @@
 
 namespace bodice::cloth {
 
-inline constexpr std::size_t kPack = 4;  ///< constraints solved together; they share no particle
+inline constexpr std::size_t kPack = 8;  ///< constraints solved together; they share no particle
 inline constexpr std::uint32_t kIdle = ~std::uint32_t{0};
 /// Packs a task, of those across blocks.
-inline constexpr std::size_t kPackGrain = 64;
+inline constexpr std::size_t kPackGrain = 32;
 
 struct Schedule {
-  std::vector<std::uint32_t> slot;         ///< kPack a pack: a constraint, or kIdle
+  std::size_t pack = kPack;                ///< slots a pack
+  std::vector<std::uint32_t> slot;         ///< a constraint each, or kIdle
   std::vector<geometry::Index> idle;       ///< a pack: the particle that its idle slots may name
   std::vector<std::uint32_t> block_begin;  ///< #blocks + 1, packs
   std::vector<std::uint32_t> color_begin;  ///< #colours + 1, packs across blocks
@@ -34,17 +35,15 @@ std::size_t idle_particles(std::size_t particles);
 
 /// `members` holds `arity` particles (< particle_count) a constraint. O(#C arity + #blocks #P).
 Schedule make_schedule(std::span<const geometry::Index> members, std::size_t arity,
-                       std::size_t particle_count);
+                       std::size_t particle_count, std::size_t pack = kPack);
 
-/// Calls solve(pack) for the packs across blocks, colour by colour.
+/// Calls solve(begin, end) for the packs across blocks, colour by colour.
 template <class Solve>
 void for_each_across(const engine::Context& context, const Schedule& schedule, Solve&& solve) {
   for (std::size_t c = 0; c + 1 < schedule.color_begin.size(); ++c) {
     const std::size_t first = schedule.color_begin[c];
     engine::parallel_for(context, schedule.color_begin[c + 1] - first, kPackGrain,
-                         [&](std::size_t begin, std::size_t end) {
-                           for (std::size_t p = begin; p < end; ++p) solve(first + p);
-                         });
+                         [&](std::size_t begin, std::size_t end) { solve(first + begin, first + end); });
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "kernels.hpp"
 #include "tiny.hpp"
 
 namespace bodice::cloth {
@@ -27,42 +28,6 @@ constexpr float kWorthTwoSweeps_s = 3e-4f;
 double edge_stiffness(const Edge& edge, double length, const Fabric& fabric) {
   const double shape = edge.area_m2 / (length * length);
   return edge.diagonal ? fabric.shear_n_m / shape : fabric.stretch_n_m * shape;
-}
-
-void solve_pack(const StretchConstraints& c, std::size_t pack, Float4 inverse_h2, Point* p) {
-  const std::size_t first = pack * kPack;
-  const Index *a = &c.a[first], *b = &c.b[first];
-  Float4 at_a[kPack], at_b[kPack], d[kPack];
-  for (std::size_t k = 0; k < kPack; ++k) {
-    at_a[k] = load(p[a[k]]), at_b[k] = load(p[b[k]]);
-    d[k] = xyz(at_a[k] - at_b[k]);
-  }
-  const Float4 wa = weights(at_a[0], at_a[1], at_a[2], at_a[3]);
-  const Float4 wb = weights(at_b[0], at_b[1], at_b[2], at_b[3]);
-  Float4 x = d[0], y = d[1], z = d[2], none = d[3];
-  transpose(x, y, z, none);
-  const Float4 length = root(x * x + y * y + z * z + kTinyLength2);
-  const Float4 w = wa + wb + kTinyWeight;
-  const Float4 soft = (length - load(&c.rest_m[first])) / (w + load(&c.compliance[first]) * inverse_h2);
-  const Float4 hard = (length - load(&c.limit_m[first])) / w;
-  const Float4 scale = max(soft, hard) / length;  // hard is above soft only beyond the limit
-  const Float4 to_a = scale * wa, to_b = scale * wb;
-  for (std::size_t k = 0; k < kPack; ++k) {
-    store(p[a[k]], at_a[k] - to_a[k] * d[k]);
-    store(p[b[k]], at_b[k] + to_b[k] * d[k]);
-  }
-}
-
-// Strains of a pack and twice its energy.
-Float4 measure_pack(const StretchConstraints& c, std::size_t pack, const Point* p, Float4& strain) {
-  const std::size_t first = pack * kPack;
-  Float4 d[kPack];
-  for (std::size_t k = 0; k < kPack; ++k) d[k] = load(p[c.a[first + k]]) - load(p[c.b[first + k]]);
-  transpose(d[0], d[1], d[2], d[3]);
-  const Float4 rest = load(&c.rest_m[first]);
-  const Float4 longer = root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - rest;
-  strain = longer / (rest + 1e-30f);
-  return longer * longer / load(&c.compliance[first]);
 }
 
 }  // namespace
@@ -90,16 +55,16 @@ StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& t
 
 void solve_stretch_block(const StretchConstraints& c, std::size_t block, float inverse_h2, Particles& p) {
   const int sweeps = inverse_h2 * kWorthTwoSweeps_s * kWorthTwoSweeps_s < 1.0f ? 2 : 1;
-  const Float4 shared = splat(static_cast<float>(sweeps) * inverse_h2);
+  const PackRange packs = {c.schedule.block_begin[block], c.schedule.block_begin[block + 1]};
   for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (std::size_t pack = c.schedule.block_begin[block]; pack < c.schedule.block_begin[block + 1]; ++pack)
-      solve_pack(c, pack, shared, p.point.data());
+    solve_stretch_packs(c, packs, static_cast<float>(sweeps) * inverse_h2, p.point.data());
 }
 
 void solve_stretch_across(const engine::Context& context, const StretchConstraints& c, float inverse_h2,
                           Particles& p) {
-  for_each_across(context, c.schedule,
-                  [&](std::size_t pack) { solve_pack(c, pack, splat(inverse_h2), p.point.data()); });
+  for_each_across(context, c.schedule, [&](std::size_t begin, std::size_t end) {
+    solve_stretch_packs(c, {begin, end}, inverse_h2, p.point.data());
+  });
 }
 
 Strain measure_stretch(const engine::Context& context, const StretchConstraints& c, const Particles& p,
@@ -107,17 +72,7 @@ Strain measure_stretch(const engine::Context& context, const StretchConstraints&
   return engine::ordered_reduce(
       context, c.schedule.packs(), reduce_grain(c.schedule.packs()), Strain{},
       [&](std::size_t begin, std::size_t end) {
-        Strain sum;
-        Float4 longest = splat(0.0f);
-        for (std::size_t pack = begin; pack < end; ++pack) {
-          Float4 own;
-          const Float4 twice = measure_pack(c, pack, p.point.data(), own);
-          store(&strain[pack * kPack], own);
-          longest = max(longest, own);
-          sum.energy_j += 0.5 * static_cast<double>(twice[0] + twice[1] + twice[2] + twice[3]);
-        }
-        sum.longest = std::max({longest[0], longest[1], longest[2], longest[3]});
-        return sum;
+        return measure_stretch_packs(c, {begin, end}, p.point.data(), strain);
       },
       [](const Strain& l, const Strain& r) {
         return Strain{l.energy_j + r.energy_j, std::max(l.longest, r.longest)};
