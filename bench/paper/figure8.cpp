@@ -29,7 +29,7 @@ engine::Result<void> draw(const Subject& subject, const anatomy::Anatomy& anatom
   scene.body = &subject.mesh;
   scene.part = anatomy.part;
   scene.proxy = &fit.proxy;
-  return io::write_picture(scene, {}, file, {.width = 320, .height = 480, .show_ellipsoids = true});
+  return io::write_picture(scene, {}, file, {.width = 320, .height = 480, .show_proxy = true});
 }
 
 std::vector<bench::Cell> cells_of(const Subject& subject, const Variant& variant,

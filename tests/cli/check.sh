@@ -51,8 +51,8 @@ says "ansur2"
 expect 0 "make a body and a garment" "$bodice" make --vertices 4500 -o body.obj --garment skirt --garment-out skirt.obj
 exists body.obj
 exists skirt.obj
-expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --labels l.txt --report r.json --picture p.png --trace t.json
-for file in p.json p.glb l.txt r.json p.png t.json; do exists $file; done
+expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --surface s.obj --labels l.txt --report r.json --picture p.png --trace t.json
+for file in p.json p.glb s.obj l.txt r.json p.png t.json; do exists $file; done
 expect 0 "fit the built-in body, binary proxy" "$bodice" fit --tier paper --vertices 4500 -o p.bodice --quiet
 exists p.bodice
 [ -s out.txt ] && { echo "FAILED: --quiet printed"; failures=$((failures + 1)); }

@@ -104,10 +104,36 @@ TEST_CASE("the same scene gives the same bytes") {
 TEST_CASE("ellipsoids can be shown in place of the skin") {
   const SceneFixture fixture;
   io::PictureOptions options = kSmall;
-  options.show_ellipsoids = true;
+  options.show_proxy = true;
   const Picture picture = drawn(fixture.scene, {}, options);
   CHECK(count(picture, 0, 0, 120, 200) > 500);
   CHECK(picture.rgb != drawn(fixture.scene, {}, kSmall).rgb);
+}
+
+TEST_CASE("the proxy's surface can be shown in place of its ellipsoids, if it is that of the proxy") {
+  const SceneFixture fixture;
+  io::PictureOptions options = kSmall;
+  options.show_proxy = true;
+  const Picture ellipsoids = drawn(fixture.scene, {}, options);
+  auto surface = proxy::proxy_surface({}, *fixture.scene.proxy, 0.01);
+  REQUIRE(surface.ok());
+  io::Scene scene = fixture.scene;
+  scene.surface = &*surface;
+  const Picture picture = drawn(scene, {}, options);
+  int differ = 0;  // drawn or not
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 240; ++x) differ += picture.drawn(x, y) != ellipsoids.drawn(x, y);
+  CHECK(differ < 100);                               // of the outline's pixels
+  CHECK(picture.at(60, 50) != picture.at(60, 150));  // parts
+  const TempFolder folder;
+  for (int broken = 0; broken < 3; ++broken) {
+    proxy::ProxySurface other = *surface;
+    if (broken == 0) other.owner.back() = 2;
+    if (broken == 1) other.normals.pop_back();
+    if (broken == 2) other.mesh.triangles.back()[1] = 1'000'000;
+    scene.surface = &other;
+    CHECK(!io::write_picture(scene, {}, folder / "a.png", options).ok());
+  }
 }
 
 TEST_CASE("the fifteen parts have fifteen colours") {

@@ -1,6 +1,8 @@
 #include <memory>
 
+#include <bodice/io/obj.hpp>
 #include <bodice/proxy/proxy_file.hpp>
+#include <bodice/proxy/proxy_surface.hpp>
 
 #include "run.hpp"
 
@@ -9,14 +11,28 @@ namespace {
 
 struct FitCommand {
   CommonOptions common;
-  std::string output;
+  std::string output, surface;
 };
 
-engine::Result<void> write_outputs(const FitCommand& command, const tryon::PreparedBody& body,
-                                   std::vector<std::string>& written) {
-  const io::Scene scene = scene_of(body);
+/// The proxy's surface where it is wanted: to be written, or to be seen, since ellipsoids alone do not show
+/// what the tables of relief correct.
+engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const engine::Context& context,
+                                                const proxy::BodyProxy& proxy) {
+  constexpr double kCellsAStature = 300.0;
+  const bool seen = !command.common.picture.empty() && !proxy.relief().empty();
+  if (command.surface.empty() && !seen) return proxy::ProxySurface{};
+  return proxy::proxy_surface(context, proxy, proxy.stature_m() / kCellsAStature);
+}
+
+engine::Result<void> write_outputs(const FitCommand& command, const engine::Context& context,
+                                   const tryon::PreparedBody& body, std::vector<std::string>& written) {
+  const proxy::BodyProxy& proxy = body.fit.proxy;
+  const auto surface = surface_for(command, context, proxy);
+  if (!surface) return surface.error();
+  io::Scene scene = scene_of(body);
+  if (!proxy.relief().empty() && !surface->mesh.empty()) scene.surface = &*surface;
   if (!command.output.empty()) {
-    if (auto saved = proxy::save(body.fit.proxy, command.output); !saved) return saved;
+    if (auto saved = proxy::save(proxy, command.output); !saved) return saved;
     written.push_back(command.output);
   }
   if (!command.common.glb.empty()) {
@@ -24,9 +40,13 @@ engine::Result<void> write_outputs(const FitCommand& command, const tryon::Prepa
     written.push_back(command.common.glb);
   }
   if (!command.common.picture.empty()) {
-    if (auto saved = io::write_picture(scene, {}, command.common.picture, {.show_ellipsoids = true}); !saved)
+    if (auto saved = io::write_picture(scene, {}, command.common.picture, {.show_proxy = true}); !saved)
       return saved;
     written.push_back(command.common.picture);
+  }
+  if (!command.surface.empty()) {
+    if (auto saved = io::write_obj(surface->mesh, command.surface, proxy.frame()); !saved) return saved;
+    written.push_back(command.surface);
   }
   return {};
 }
@@ -34,7 +54,9 @@ engine::Result<void> write_outputs(const FitCommand& command, const tryon::Prepa
 engine::Result<void> fit(const FitCommand& command) {
   const CommonOptions& o = command.common;
   Run run(o);
-  if (auto ok = run.check_outputs({command.output, o.glb, o.picture, o.labels, o.report, o.trace}); !ok)
+  if (auto ok =
+          run.check_outputs({command.output, command.surface, o.glb, o.picture, o.labels, o.report, o.trace});
+      !ok)
     return ok;
   auto skin = run.segment();
   if (!skin) return std::move(skin).error();
@@ -43,7 +65,7 @@ engine::Result<void> fit(const FitCommand& command) {
   auto body = tryon::fit_proxy(run.context(), std::move(skin).value(), *options, run.progress().callback());
   if (!body) return std::move(body).error();
   std::vector<std::string> written;
-  if (auto done = write_outputs(command, *body, written); !done) return done;
+  if (auto done = write_outputs(command, run.context(), *body, written); !done) return done;
   return run.finish(*body, nullptr, written);
 }
 
@@ -55,6 +77,9 @@ void add_fit_command(CLI::App& app, int& exit_code) {
   sub->add_option("-o,--output", command->output, "the proxy: .json, or .bodice for the compact binary")
       ->group("Output");
   sub->add_option("--glb", command->common.glb, "body by part and ellipsoids, for any glTF viewer")
+      ->group("Output");
+  sub->add_option("--surface", command->surface,
+                  "the proxy's surface as triangles (OBJ), for tools that collide with meshes")
       ->group("Output");
   add_common_options(*sub, command->common);
   sub->footer("Example: bodice fit body.obj -o proxy.json --target-error-mm 2 --report report.json");

@@ -26,6 +26,13 @@ bool valid_mesh(const geometry::TriMesh& mesh) {
          });
 }
 
+bool fits(const proxy::ProxySurface& surface, const proxy::BodyProxy* proxy) {
+  const std::size_t count = surface.mesh.positions.size();
+  return proxy && valid_mesh(surface.mesh) && surface.normals.size() == count &&
+         surface.owner.size() == count &&
+         std::ranges::all_of(surface.owner, [&](std::uint32_t k) { return k < proxy->ellipsoids().size(); });
+}
+
 engine::Result<void> check_track(const GarmentTrack& track) {
   const std::string name = "The garment '" + track.name + "'";
   if (!valid_mesh(track.mesh)) return invalid(name + " is empty, not finite or refers to missing vertices.");
@@ -53,6 +60,8 @@ engine::Result<void> check_scene(const Scene& scene) {
   if (scene.body && !scene.part.empty() && scene.part.size() != scene.body->positions.size())
     return invalid("The body has " + std::to_string(scene.body->positions.size()) + " vertices but " +
                    std::to_string(scene.part.size()) + " parts.");
+  if (scene.surface && !fits(*scene.surface, scene.proxy))
+    return invalid("The proxy's surface is not that of the scene's proxy.");
   for (const GarmentTrack& track : scene.garments)
     if (auto checked = check_track(track); !checked) return checked;
   return {};

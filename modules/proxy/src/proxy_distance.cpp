@@ -82,19 +82,39 @@ Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const Reli
   return {d - value.h - value.a * clamped / reach.out_m, e.axes * local};
 }
 
+/// The signed distance is at least this: by the sphere around, and because the map from the unit sphere
+/// stretches by the least radius at least and by the largest at most.
+double lower_bound(const geometry::Ellipsoid& e, const Vec3& point) {
+  constexpr double kRounding = 1e-12;
+  const Vec3 p = point - e.center;
+  const double shortest = e.radii.minCoeff(), longest = e.radii.maxCoeff();
+  const double beyond = (e.axes.transpose() * p).cwiseQuotient(e.radii).norm() - 1.0;
+  const double length = p.norm();
+  return std::max(length - longest, beyond * (beyond > 0.0 ? shortest : longest)) -
+         kRounding * (length + longest);
+}
+
 ProxyDistance evaluate(std::span<const ProxyEllipsoid> ellipsoids, std::span<const ReliefTable> relief,
                        std::span<const ReliefTexel> texels, double stature_m, double margin_m,
                        const Vec3& point) {
   ProxyDistance result;
   result.distance = std::numeric_limits<double>::infinity();
+  if (ellipsoids.empty()) return result;
   const ReliefReach reach = relief_reach(stature_m);
+  const double keep = relief.empty() ? 0.0 : reach.blend_m;
+  std::vector<double> bound;
+  bound.reserve(ellipsoids.size());
+  for (const ProxyEllipsoid& e : ellipsoids) bound.push_back(lower_bound(e.shape, point));
+  // What the ellipsoid of the least bound is beaten by is not much farther down: few feet are left to take.
+  const auto first = static_cast<std::size_t>(std::ranges::min_element(bound) - bound.begin());
+  const geometry::NearestPoint first_foot = geometry::nearest_point(ellipsoids[first].shape, point);
+  double least = first_foot.signed_distance;
   std::vector<Candidate> near;  // within the blend of the nearest so far
   for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
     const geometry::Ellipsoid& e = ellipsoids[k].shape;
-    const double bound = (point - e.center).norm() - e.radii.maxCoeff();  // d_k is at least this
-    const double keep = relief.empty() ? 0.0 : reach.blend_m;
-    if (bound > result.distance + keep) continue;
-    const geometry::NearestPoint foot = geometry::nearest_point(e, point);
+    if (k != first && bound[k] > least + keep) continue;
+    const geometry::NearestPoint foot = k == first ? first_foot : geometry::nearest_point(e, point);
+    least = std::min(least, foot.signed_distance);
     if (foot.signed_distance < result.distance) {
       result.distance = foot.signed_distance;
       result.normal = foot.normal;
@@ -102,8 +122,7 @@ ProxyDistance evaluate(std::span<const ProxyEllipsoid> ellipsoids, std::span<con
     }
     if (!relief.empty()) near.push_back({foot, k});
   }
-  if (!relief.empty() && !near.empty()) {
-    const double least = result.distance;
+  if (!relief.empty()) {
     double weights = 0.0, sum = 0.0;
     Vec3 gradient = Vec3::Zero();
     for (const Candidate& c : near) {

@@ -57,13 +57,31 @@ void add_ellipsoids(const proxy::BodyProxy& proxy, std::vector<Actor>& actors) {
   }
 }
 
+/// In the colours of the parts whose ellipsoids make it.
+Actor surface_actor(const proxy::BodyProxy& proxy, const proxy::ProxySurface& surface) {
+  Actor actor;
+  actor.triangles = surface.mesh.triangles;
+  for (const Vec3& p : surface.mesh.positions) actor.positions.push_back(p.cast<float>());
+  for (const Vec3& n : surface.normals) actor.normals.push_back(n.cast<float>());
+  for (const std::uint32_t owner : surface.owner)
+    actor.colors.push_back(to_linear(part_color(proxy.ellipsoids()[owner].part)));
+  return actor;
+}
+
+void add_proxy(const Scene& scene, std::vector<Actor>& actors) {
+  if (scene.surface)
+    actors.push_back(surface_actor(*scene.proxy, *scene.surface));
+  else
+    add_ellipsoids(*scene.proxy, actors);
+}
+
 /// Everything of one moment; `frame` absent: the body alone.
 std::vector<Actor> actors_of(const Scene& scene, const std::size_t* frame, const PictureOptions& options) {
   std::vector<Actor> actors;
-  const bool ellipsoids = options.show_ellipsoids && scene.proxy;
+  const bool show_proxy = options.show_proxy && scene.proxy;
   const bool garments = options.show_garments && frame && !scene.garments.empty();
-  if (ellipsoids) add_ellipsoids(*scene.proxy, actors);
-  if (scene.body && !ellipsoids) actors.push_back(body_actor(scene, !garments));
+  if (show_proxy) add_proxy(scene, actors);
+  if (scene.body && !show_proxy) actors.push_back(body_actor(scene, !garments));
   if (!garments) return actors;
   for (std::size_t k = 0; k < scene.garments.size(); ++k) {
     const GarmentTrack& track = scene.garments[k];
@@ -105,7 +123,7 @@ engine::Result<void> write_picture(const Scene& scene, std::span<const std::size
   for (const std::size_t& frame : frames) rows.push_back(actors_of(scene, &frame, options));
   if (frames.empty()) rows.push_back(actors_of(scene, nullptr, options));
   if (rows.front().empty())
-    return invalid("The picture would show nothing.", "Give a body, or show the ellipsoids or garments.");
+    return invalid("The picture would show nothing.", "Give a body, or show the proxy or garments.");
   const std::vector<std::byte> png = encode_png(draw(rows, options));
   if (png.empty())
     return engine::Error{engine::ErrorCode::kWriteFailed,

@@ -11,6 +11,7 @@
 #include <bodice/geometry/frame.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
+#include <bodice/proxy/proxy_surface.hpp>
 
 namespace bodice::io {
 
@@ -25,6 +26,7 @@ struct Scene {
   const geometry::TriMesh* body = nullptr;
   std::span<const body::Part> part;  ///< #V of the body, or empty
   const proxy::BodyProxy* proxy = nullptr;
+  const proxy::ProxySurface* surface = nullptr;  ///< of the proxy: pictures show it for the ellipsoids
   std::vector<GarmentTrack> garments;
   geometry::Frame frame;  ///< of the input: what is written is in it
 };
@@ -38,7 +40,7 @@ engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& 
 
 struct PictureOptions {
   int width = 640, height = 960;  ///< of one view, pixels
-  bool show_ellipsoids = false;   ///< in place of the skin
+  bool show_proxy = false;        ///< its surface if there is one, or its ellipsoids, in place of the skin
   bool show_garments = true;
 };
 

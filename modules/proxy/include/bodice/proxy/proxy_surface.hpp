@@ -1,0 +1,33 @@
+// The proxy's surface as triangles: to look at, or to give to tools that collide with meshes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace bodice::proxy {
+
+struct ProxySurface {
+  geometry::TriMesh mesh;               ///< closed, wound outward
+  std::vector<geometry::Vec3> normals;  ///< #V, unit gradients of the distance
+  std::vector<std::uint32_t> owner;     ///< #V, indices into BodyProxy::ellipsoids()
+};
+
+/// Where proxy_distance() is zero, sampled on a cubic lattice of `cell_m`: what is thinner than a cell may be
+/// missed, creases are rounded within a cell, other vertices lie within a thousandth of a cell of the
+/// surface. Every edge is shared by an even number of triangles: two, but where the surface touches itself
+/// within a cell. A proxy without ellipsoids has no surface. The same bits for any number of workers. Fails
+/// with kInvalidArgument if the cell is not positive, or so small that the surface takes millions of them.
+/// Cost: two or three scalar distances a vertex; a body of 89 ellipsoids with relief at a three-hundredth of
+/// its stature has 80,000 of them and takes a second of one core.
+// Based on: Sarah F. F. Gibson. Constrained Elastic Surface Nets. 1998.
+// Differs: only cells that the surface crosses are visited, each from a neighbour; vertices go down the
+// distance's gradient in place of relaxing.
+engine::Result<ProxySurface> proxy_surface(const engine::Context& context, const BodyProxy& proxy,
+                                           double cell_m);
+
+}  // namespace bodice::proxy
