@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -44,7 +45,24 @@ struct Row {
   std::vector<double> ns = {};  ///< a particle, one a repeat
 
   double median() const { return ns[ns.size() / 2]; }
+  double least() const { return ns.front(); }
 };
+
+/// What is asked, and how far a peer without a sign has to look for the same.
+struct Question {
+  const char* name;
+  float within_m;
+  double peer_reach_m;
+  bool bar;  ///< whether the bar of FACTS.md, section 5 is held against it
+};
+
+/// The bar of 7.5 and 15 ns comes from a prototype that answered the last of these: nearest points of
+/// particles that are inside, nothing about others. It is held against the first as well. Embree's distance
+/// has no sign: who is inside, and how deep, only the nearest triangle tells, however far it is.
+constexpr Question kQuestions[] = {
+    {"all distances", std::numeric_limits<float>::infinity(), kBand_m + 0.001, true},
+    {"contacts within 10 mm", 0.010f, 0.010, false},
+    {"inside only", 0.0f, kBand_m + 0.001, true}};
 
 void measure(std::vector<Row>& rows, int repeats) {
   for (Row& row : rows) row.work();
@@ -58,11 +76,13 @@ void measure(std::vector<Row>& rows, int repeats) {
   for (Row& row : rows) std::sort(row.ns.begin(), row.ns.end());
 }
 
-/// Mean and 95th percentile of | |found| - |truth| |, mm, where the truth is within the band.
-std::string error_of(const std::vector<float>& found, const std::vector<double>& truth, bool with_sign) {
+/// Mean and 95th percentile of | |found| - |truth| |, mm, where the truth is within reach.
+std::string error_of(const std::vector<float>& found, const std::vector<double>& truth, bool with_sign,
+                     double reach_m = kBand_m) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const double value = static_cast<double>(found[i]);
+    if (std::abs(truth[i]) > reach_m) continue;
     errors.push_back(1e3 * std::abs(with_sign ? value - truth[i] : std::abs(value) - std::abs(truth[i])));
   }
   std::sort(errors.begin(), errors.end());
@@ -118,15 +138,28 @@ struct Contender {
   }
 };
 
+void add_queries(Contender& c, std::vector<Row>& rows) {
+  const auto n = static_cast<double>(c.coherent.size());
+  for (const Question& q : kQuestions) {
+    const bodice::collision::QueryOptions options{.within_m = q.within_m};
+    const std::string name = c.name + ": query, " + q.name;
+    rows.push_back({name + ", coherent",
+                    [&c, options] { c.collider.query({}, c.coherent.particles(), c.contacts, options); }, n,
+                    !q.bar     ? 0.0
+                    : c.relief ? 30.0
+                               : 7.5});
+    rows.push_back(
+        {name + ", random, order kept",
+         [&c, options] { c.collider.query({}, c.random.particles(), c.contacts, c.kept_query, options); }, n,
+         !q.bar     ? 0.0
+         : c.relief ? 60.0
+                    : 15.0});
+  }
+}
+
 void add_rows(Contender& c, std::vector<Row>& rows) {
   const auto n = static_cast<double>(c.coherent.size());
-  const bool relief = c.relief;
-  rows.push_back({c.name + ": query, coherent",
-                  [&c] { c.collider.query({}, c.coherent.particles(), c.contacts); }, n,
-                  relief ? 30.0 : 7.5});
-  rows.push_back({c.name + ": query, random, order kept",
-                  [&c] { c.collider.query({}, c.random.particles(), c.contacts, c.kept_query); }, n,
-                  relief ? 60.0 : 15.0});
+  add_queries(c, rows);
   rows.push_back({c.name + ": query, random, sorted anew",
                   [&c] {
                     Workspace fresh;
@@ -185,23 +218,39 @@ void add_limits(Limits& limits, std::vector<Row>& rows) {
   rows.push_back({"the copy in every response row", [&limits] { limits.copy = limits.cloud; }, n});
 }
 
-double median_of(const std::vector<Row>& rows, const std::string& name) {
+const Row& row_of(const std::vector<Row>& rows, const std::string& name) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
-  return row == rows.end() ? 0.0 : row->median();
+  if (row == rows.end()) throw std::logic_error("no row " + name);
+  return *row;
 }
 
-/// What is promised as a ratio: the response to the query, Embree to the query.
-void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, const std::vector<Row>& rows) {
-  std::printf("\n| ratio of medians | measured | bar |\n|---|---|---|\n");
-  for (const auto& c : contenders) {
-    const double query = median_of(rows, c->name + ": query, coherent");
-    const double response = median_of(rows, c->name + ": response, coherent (with a copy)");
-    std::printf("| %s: response to query | %.2f | at most 2 |\n", c->name.c_str(), response / query);
-    for (const Row& row : rows)
-      if (row.name.starts_with("Embree") && row.name.ends_with(", coherent"))
-        std::printf("| %s: Embree to query | %.0f | at least %d |\n", c->name.c_str(), row.median() / query,
-                    c->relief ? 30 : 100);
-  }
+void print_ratio(const std::string& what, const Row& over, const Row& under, const std::string& bar) {
+  std::printf("| %s | %.2f | %.2f | %s |\n", what.c_str(), over.median() / under.median(),
+              over.least() / under.least(), bar.c_str());
+}
+
+std::string embree_name(double reach_m) {
+  return "Embree 3 point query, skin, within " + std::to_string(static_cast<int>(1e3 * reach_m)) + " mm";
+}
+
+/// What is promised as a ratio: the response to the query, Embree to the query that asks the same of it.
+void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, const std::vector<Row>& rows,
+                  bool embree) {
+  std::printf("\n| ratio | of medians | of mins | bar |\n|---|---|---|---|\n");
+  for (const auto& c : contenders)
+    for (const char* order : {", coherent", ", random, order kept"}) {
+      const std::string all = c->name + ": query, " + kQuestions[0].name + order;
+      print_ratio(c->name + order + ": response to query",
+                  row_of(rows, c->name + ": response" + order + " (with a copy)"), row_of(rows, all),
+                  "at most 2");
+    }
+  for (const auto& c : contenders)
+    for (const Question& q : kQuestions)
+      if (embree)
+        print_ratio(c->name + ", coherent: Embree to query, " + q.name,
+                    row_of(rows, embree_name(q.peer_reach_m) + ", coherent"),
+                    row_of(rows, c->name + ": query, " + q.name + ", coherent"),
+                    c->relief ? "at least 30" : "at least 100");
 }
 
 void write_csv(const std::string& file, const std::vector<Row>& rows, const bench::Origin& origin,
@@ -209,8 +258,7 @@ void write_csv(const std::string& file, const std::vector<Row>& rows, const benc
   std::ofstream out(file);
   out << "# " << bench::title(origin) << "; " << origin.flags << "; repeats " << repeats << "\n";
   out << "row,ns_median,ns_min\n";
-  for (const Row& row : rows)
-    out << '"' << row.name << "\"," << row.median() << ',' << row.ns.front() << '\n';
+  for (const Row& row : rows) out << '"' << row.name << "\"," << row.median() << ',' << row.least() << '\n';
 }
 
 }  // namespace
@@ -238,7 +286,9 @@ int main(int argc, char** argv) {
   std::printf(
       "%s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
       "repeats. A query answers signed distance, nearest point, normal and ellipsoid; peers the distance "
-      "alone.\n\n",
+      "alone, without sign but for grids. The bars of 7.5 and 15 ns (30 and 60 with relief) come from a "
+      "prototype that answered 'inside only'; they are held against all distances, too. A peer without sign "
+      "must look as far for that as for all distances.\n\n",
       bench::title(origin).c_str(), origin.flags.c_str(), count, 1e3 * kBand_m, body.mesh.positions.size(),
       repeats);
 
@@ -254,8 +304,11 @@ int main(int argc, char** argv) {
                 error_of(contenders.back()->distances(), truth, true).c_str(),
                 1e-3 * static_cast<double>(proxy.bytes()));
   }
-  std::vector<bench::Peer> peers = bench::embree_peers(body.mesh, kBand_m + 0.001);
-  if (peers.empty()) std::printf("Embree is not installed here: not measured\n");
+  std::vector<bench::Peer> peers;
+  for (const double reach_m : {kBand_m + 0.001, 0.010})
+    for (bench::Peer& peer : bench::embree_peers(body.mesh, reach_m)) peers.push_back(std::move(peer));
+  const bool embree = !peers.empty();
+  if (!embree) std::printf("Embree is not installed here: not measured\n");
   for (bench::Peer& peer : bench::cgal_peers(body.mesh)) peers.push_back(std::move(peer));
   for (const double cell_m : {0.010, 0.005}) peers.push_back(bench::grid_peer(body.mesh, skin, cell_m));
   std::vector<float> distances(count);
@@ -265,7 +318,8 @@ int main(int argc, char** argv) {
   for (bench::Peer& peer : peers) {
     peer.query(coherent, distances);
     std::printf("%s: error %s mm, build %.1f ms, %.0f kB\n", peer.name.c_str(),
-                error_of(distances, truth, peer.bytes > 0.0).c_str(), peer.build_ms, 1e-3 * peer.bytes);
+                error_of(distances, truth, peer.bytes > 0.0, peer.reach_m).c_str(), peer.build_ms,
+                1e-3 * peer.bytes);
     rows.push_back(
         {peer.name + ", coherent", [&] { peer.query(coherent, distances); }, static_cast<double>(count)});
     rows.push_back(
@@ -274,11 +328,11 @@ int main(int argc, char** argv) {
   measure(rows, repeats);
   std::printf("\n| question | ns a particle, median | min | bar |\n|---|---|---|---|\n");
   for (const Row& row : rows) {
-    std::printf("| %s | %.1f | %.1f |", row.name.c_str(), row.median(), row.ns.front());
+    std::printf("| %s | %.1f | %.1f |", row.name.c_str(), row.median(), row.least());
     if (row.bar > 0.0) std::printf(" %.1f", row.bar);
     std::puts(" |");
   }
-  print_ratios(contenders, rows);
+  print_ratios(contenders, rows, embree);
   std::printf(
       "\n| query, coherent | least ns a particle | to the best target (bar for AVX2: 1.6) "
       "|\n|---|---|---|\n");

@@ -100,6 +100,7 @@ std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double rea
   Peer peer;
   peer.name = "Embree 3 point query, skin, within " + std::to_string(static_cast<int>(1e3 * reach_m)) + " mm";
   peer.build_ms = watch.cpu_ms();
+  peer.reach_m = reach_m;
   peer.query = [scene, reach_m](const Cloud& cloud, std::span<float> distance_m) {
     query_all(*scene, static_cast<float>(reach_m), cloud, distance_m);
   };

@@ -1,5 +1,7 @@
 // Unions of ellipsoids as no fit makes them, plain and with tables.
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -147,6 +149,24 @@ double tolerance_m(const Union& u) {
   return (u.relief ? 1.6e-5 : 2e-6) * (longest + 2.0 * u.size_m);
 }
 
+/// A contact distance picks from the answers and changes none.
+std::string check_within(const collision::Collider& collider, Cloud& cloud,
+                         const std::vector<collision::Contact>& all) {
+  std::vector<float> distances;
+  for (const collision::Contact& c : all) distances.push_back(c.signed_distance);
+  std::sort(distances.begin(), distances.end());
+  std::vector<collision::Contact> found(all.size());
+  for (const float within_m : {0.0f, distances[distances.size() / 3], distances[distances.size() / 2]}) {
+    collider.query({}, cloud.particles(), found, {.within_m = within_m});
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool told = all[i].signed_distance <= within_m && all[i].ellipsoid != collision::kNoEllipsoid;
+      if ((found[i].ellipsoid != collision::kNoEllipsoid) != told) return "told of the wrong particles";
+      if (told && std::memcmp(&found[i], &all[i], sizeof(all[i])) != 0) return "a limit changes answers";
+    }
+  }
+  return {};
+}
+
 std::string check_query(const Union& u) {
   const auto proxy = proxy_of(u);
   const collision::Collider collider(proxy);
@@ -165,7 +185,7 @@ std::string check_query(const Union& u) {
     const collision::Contact one = collider.query({cloud.x[i], cloud.y[i], cloud.z[i]});
     if (!(std::abs(double{one.signed_distance} - truth) <= tolerance_m(u))) return "a single query disagrees";
   }
-  return {};
+  return check_within(collider, cloud, contacts);
 }
 
 std::string check_resolve(const Union& u, collision::Response response, double dt_s) {

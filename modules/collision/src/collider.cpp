@@ -114,21 +114,21 @@ Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point
   return impl_->motion[impl_->internal[ellipsoid]].at(local_point);
 }
 
-Contact Collider::query(const float (&local_point)[3]) const noexcept {
+Contact Collider::query(const float (&local_point)[3], const QueryOptions& options) const noexcept {
   float x = local_point[0], y = local_point[1], z = local_point[2];
   Contact contact;
-  impl_->query_some({1, &x, &y, &z}, 0, 1, {}, {&contact, 1});
+  impl_->query_some({1, &x, &y, &z}, 0, 1, {}, options, {&contact, 1});
   return contact;
 }
 
-void Collider::query(const engine::Context& context, const Particles& particles,
-                     std::span<Contact> contacts) const {
-  impl_->query(context, particles, contacts, nullptr);
+void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+                     const QueryOptions& options) const {
+  impl_->query(context, particles, contacts, options, nullptr);
 }
 
 void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
-                     Workspace& workspace) const {
-  impl_->query(context, particles, contacts, workspace.order_.get());
+                     Workspace& workspace, const QueryOptions& options) const {
+  impl_->query(context, particles, contacts, options, workspace.order_.get());
 }
 
 std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
@@ -167,12 +167,13 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
 }
 
 void Collider::Impl::query(const engine::Context& context, const Particles& particles,
-                           std::span<Contact> contacts, ParticleOrder* kept) const {
+                           std::span<Contact> contacts, const QueryOptions& options,
+                           ParticleOrder* kept) const {
   struct Nothing {};
   by_tasks<Nothing>(
       context, particles, kept, kBatch,
       [&](std::size_t begin, std::size_t end, const Sequence& sequence, Nothing&) {
-        query_some(particles, begin, end, sequence, contacts);
+        query_some(particles, begin, end, sequence, options, contacts);
       },
       [](const Nothing&) {});
 }

@@ -114,13 +114,6 @@ std::uint64_t count(const LaneBits& lanes) {
   return static_cast<std::uint64_t>(result);
 }
 
-Contact nothing() {
-  Contact contact;
-  contact.signed_distance = std::numeric_limits<float>::infinity();
-  contact.ellipsoid = kNoEllipsoid;
-  return contact;
-}
-
 }  // namespace
 
 Collider::Impl::Impl(const proxy::BodyProxy& proxy)
@@ -152,7 +145,7 @@ Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec
 }
 
 Contact Collider::Impl::exact_contact(const Vec3& p) const {
-  if (!p.allFinite() || field.size() == 0) return nothing();
+  if (!p.allFinite() || field.size() == 0) return no_contact();
   if (relief) {
     const ReliefSample sample = relief_sample(field, *relief, p);
     return make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), sample.owner);

@@ -23,14 +23,13 @@ struct Collider::Impl {
 
   /// In the order that is kept; null: as they are stored, or in that of each task.
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
-             ParticleOrder* kept) const;
+             const QueryOptions& options, ParticleOrder* kept) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options, ParticleOrder* kept) const;
   /// Particles [begin, end) of the sequence, at most kBatch.
   void query_some(const Particles& particles, std::size_t begin, std::size_t end, const Sequence& sequence,
-                  std::span<Contact> contacts) const;
-  bool query_kernel(const float* x, const float* y, const float* z, const std::uint32_t* index, int count,
-                    Contact* contacts, std::size_t block, ParticleOrder* notes) const;
+                  const QueryOptions& options, std::span<Contact> contacts) const;
+  bool query_kernel(QueryBatch& batch, std::size_t block, ParticleOrder* notes) const;
   void resolve_some(const Particles& particles, std::size_t begin, std::size_t end, const Sequence& sequence,
                     const ResolveOptions& options, ContactReport& report) const;
   /// One particle on the exact side, from the arrays and back.

@@ -26,6 +26,10 @@ bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
   return query_batch_lanes(baked, relief, batch);
 }
 
+bool query_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  return query_within_lanes(baked, relief, batch);
+}
+
 bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Gathering& batch,
              BatchResponse& out) {
   return resolve_lanes(baked, relief, clearance, batch, out);
@@ -42,10 +46,13 @@ HWY_AFTER_NAMESPACE();
 namespace bodice::collision {
 
 HWY_EXPORT(query);
+HWY_EXPORT(query_within);
 HWY_EXPORT(resolve);
 HWY_EXPORT(target);
 
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  if (batch.within_m != std::numeric_limits<float>::infinity())
+    return HWY_DYNAMIC_DISPATCH(query_within)(baked, relief, batch);
   return HWY_DYNAMIC_DISPATCH(query)(baked, relief, batch);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include <bodice/collision/collider.hpp>
 
@@ -27,9 +28,18 @@ struct QueryBatch {
   const std::uint32_t* index;  ///< into contacts, a particle; null: in order
   int count;                   ///< at most kBatch
   float margin_m;
+  float within_m;                   ///< particles farther from the surface are told nothing
   Contact* contacts;                ///< of the whole call
   float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal
 };
+
+/// What is told about a particle that is not finite, or is farther than was asked for.
+inline Contact no_contact() {
+  Contact contact;
+  contact.signed_distance = std::numeric_limits<float>::infinity();
+  contact.ellipsoid = kNoEllipsoid;
+  return contact;
+}
 
 /// Particles of some blocks, gathered; up to a whole block lanes beyond `count` repeat the last one.
 struct alignas(64) Gathering {

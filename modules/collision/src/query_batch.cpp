@@ -69,6 +69,16 @@ void pad(Places& places) {
     std::fill(values + places.count, values + end, values[places.count - 1]);
 }
 
+/// Place i only.
+void take(const Places& places, int i, Places& out) {
+  out.x[0] = places.x[i];
+  out.y[0] = places.y[i];
+  out.z[0] = places.z[i];
+  out.index[0] = places.index[i];
+  out.count = 1;
+  pad(out);
+}
+
 constexpr int kLine = 64 / sizeof(float);
 
 /// What the batch after this one reads and writes, so that it is in the cache by then. The processor foresees
@@ -97,45 +107,44 @@ void prefetch(const Particles& particles, const Sequence& sequence, std::size_t 
 
 }  // namespace
 
-bool Collider::Impl::query_kernel(const float* x, const float* y, const float* z, const std::uint32_t* index,
-                                  int count, Contact* contacts, std::size_t block,
-                                  ParticleOrder* notes) const {
-  QueryBatch batch{.x = x,
-                   .y = y,
-                   .z = z,
-                   .index = index,
-                   .count = count,
-                   .margin_m = static_cast<float>(margin_m),
-                   .contacts = contacts,
-                   .radius_m = {}};
+bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, ParticleOrder* notes) const {
   if (!query_batch(baked, tables(), batch)) return false;
-  for (std::size_t i = 0; notes && i < static_cast<std::size_t>((count + kBlock - 1) / kBlock); ++i)
-    notes->note_radius(block + i, batch.radius_m[i]);
+  const std::size_t blocks = static_cast<std::size_t>((batch.count + kBlock - 1) / kBlock);
+  for (std::size_t i = 0; notes && i < blocks; ++i) notes->note_radius(block + i, batch.radius_m[i]);
   return true;
 }
 
 void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
-                                const Sequence& sequence, std::span<Contact> contacts) const {
+                                const Sequence& sequence, const QueryOptions& options,
+                                std::span<Contact> contacts) const {
   prefetch(particles, sequence, end, contacts);
   const int all = static_cast<int>(end - begin);
-  if (sequence.stored() && all == kBatch && field.size() > 0 &&
-      query_kernel(particles.x + begin, particles.y + begin, particles.z + begin, nullptr, all,
-                   contacts.data() + begin, 0, nullptr))
-    return;
+  QueryBatch batch{.x = particles.x + begin,
+                   .y = particles.y + begin,
+                   .z = particles.z + begin,
+                   .index = nullptr,
+                   .count = all,
+                   .margin_m = static_cast<float>(margin_m),
+                   .within_m = options.within_m,
+                   .contacts = contacts.data() + begin,
+                   .radius_m = {}};
+  if (sequence.stored() && all == kBatch && field.size() > 0 && query_kernel(batch, 0, nullptr)) return;
   Places places;
   collect(particles, sequence, begin, end, places);
   const auto exactly = [&](int i) {
-    contacts[places.index[i]] =
-        exact_contact({double{places.x[i]}, double{places.y[i]}, double{places.z[i]}});
+    const Contact found = exact_contact({double{places.x[i]}, double{places.y[i]}, double{places.z[i]}});
+    contacts[places.index[i]] = found.signed_distance <= options.within_m ? found : no_contact();
   };
   if (field.size() == 0) {
     for (int i = 0; i < places.count; ++i) exactly(i);
     return;
   }
+  batch.contacts = contacts.data();
   const auto kernel = [&](int from, int count) {
-    return query_kernel(places.x + from, places.y + from, places.z + from, places.index + from, count,
-                        contacts.data(), begin / kBlock + static_cast<std::size_t>(from / kBlock),
-                        sequence.notes);
+    batch.x = places.x + from, batch.y = places.y + from, batch.z = places.z + from;
+    batch.index = places.index + from;
+    batch.count = count;
+    return query_kernel(batch, (begin + static_cast<std::size_t>(from)) / kBlock, sequence.notes);
   };
   pad(places);
   if (!sequence.stored() && kernel(0, places.count)) return;
@@ -146,7 +155,15 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
   for (int from = 0; from < places.count; from += kBlock) {
     const int to = std::min(from + kBlock, places.count);
     if (kernel(from, to - from)) continue;
-    for (int i = from; i < to; ++i) exactly(i);
+    // Whether floats answer a particle must not depend on its neighbours.
+    for (int i = from; i < to; ++i) {
+      Places alone;
+      take(places, i, alone);
+      batch.x = alone.x, batch.y = alone.y, batch.z = alone.z;
+      batch.index = alone.index;
+      batch.count = 1;
+      if (!query_kernel(batch, 0, nullptr)) exactly(i);
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@ struct Peer {
   std::string name;
   double build_ms = 0.0;  ///< what a body that moves pays every frame
   double bytes = 0.0;     ///< 0: not known
+  double reach_m = std::numeric_limits<double>::infinity();  ///< no distance beyond is looked for
   std::function<void(const Cloud&, std::span<float> distance_m)> query;
 };
 

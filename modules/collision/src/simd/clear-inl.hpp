@@ -21,9 +21,7 @@ HWY_INLINE bool find_below(const Source& source, const Extent& around, const Pie
                            float limit_m, Near* out) {
   const PieceRounding rounding(pieces, count);
   const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
-    const V reach = dot(absolute(slope_of(lanes, at)), broadcast3(pieces[i].box.half));
-    // Not above, rather than below: a plane that is NaN bounds nothing.
-    return hn::Not(hn::Gt(hn::Sub(at.base, reach), all(limit_m + rounding.m[i])));
+    return not_beyond(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), all(limit_m + rounding.m[i]));
   };
   return collect_near(source, around, limit_m, pieces, count, out, keep);
 }
@@ -70,7 +68,10 @@ HWY_INLINE bool others_of(const Baked& baked, const Placed& placed, float limit_
       Lowest<1> lowest[kTogether];
       bound_others(baked, columns, near[piece], placed, from, lowest);
       (void)make_room<kTables>(kTogether, nullptr, columns, batch, open.pairs, out);
-      for (int v = 0; v < kTogether; ++v) open.add<1, 0>(lowest[v], limit, hn::Iota(I(), from + v * kWidth));
+      for (int v = 0; v < kTogether; ++v) {
+        const int i = from + v * kWidth;
+        open.add<1, 0>(lanes_of(pieces[piece], i), lowest[v], limit, hn::Iota(I(), i));
+      }
     }
   (void)collect_rest<kTables>(baked, nullptr, columns, batch, open, out);
   flush<kTables>(nullptr, columns, batch, open.pairs, out);

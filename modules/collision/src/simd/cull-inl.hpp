@@ -24,7 +24,7 @@ struct Candidates {
   alignas(64) float distance[kMaxCandidates + 16];
   alignas(64) float nx[kMaxCandidates + 16], ny[kMaxCandidates + 16], nz[kMaxCandidates + 16];
   float middle[3];
-  float slack_m = 0.0f;  ///< what distances and planes are off by over the block
+  float slack_m = 0.0f;   ///< what distances and planes are off by over the block
   float radius_m = 0.0f;  ///< of the block
   float reach_m = 0.0f;   ///< pushes up to this long meet no ellipsoid that is not among them
 };

@@ -21,6 +21,7 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kBlocks = kBatch / kBlock;
 constexpr int kCorners = 8, kRivals = 2;
+constexpr float kNoLimit = 1e30f;
 static_assert(kRivals * kCorners % kWidth == 0);
 static_assert(kGroup % kWidth == 0);
 
@@ -269,27 +270,38 @@ HWY_INLINE bool collect_near(const Source& source, const Extent& around, float w
   return fits;
 }
 
+/// Whether ellipsoids may come within the limit of some place in the box.
+HWY_INLINE M not_beyond(const Planes& at, V3 slope, V3 half, V limit) {
+  // Not above, rather than below: a plane that is NaN bounds nothing.
+  return hn::Not(hn::Gt(hn::Sub(at.base, dot(absolute(slope), half)), limit));
+}
+
 /// For each piece all ellipsoids of the source that its rivals do not keep from being the nearest of a place
-/// in its box, or within `beyond_m` of the nearest, by rising index; false if they are more than
-/// kMaxCandidates. The boxes lie in `around`.
-template <class Source>
+/// in its box, or within `beyond_m` of the nearest, and that may come within `limit_m` of such a place
+/// (kNoLimit: any), by rising index; false if they are more than kMaxCandidates. The boxes lie in `around`.
+template <bool kLimited, class Source>
 HWY_INLINE bool collect_unbeaten(const Source& source, const Extent& around, const Piece* pieces, int count,
-                                 const Rivals* rivals, float beyond_m, Near* out) {
+                                 const Rivals* rivals, float beyond_m, float limit_m, Near* out) {
   const PieceRounding rounding(pieces, count);
   const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
     const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // a plane's and a rival's
-    return unbeaten(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), rivals[i], beyond);
+    const V3 slope = slope_of(lanes, at), half = broadcast3(pieces[i].box.half);
+    const M kept = unbeaten(at, slope, half, rivals[i], beyond);
+    if constexpr (!kLimited) return kept;
+    return hn::And(kept, not_beyond(at, slope, half, all(limit_m + rounding.m[i])));
   };
-  return collect_near(source, around, farthest(rivals, count) + beyond_m, pieces, count, out, keep);
+  const float within_m = farthest(rivals, count) + beyond_m;
+  return collect_near(source, around, kLimited ? std::min(within_m, limit_m) : within_m, pieces, count, out,
+                      keep);
 }
 
-template <class Source>
+template <bool kLimited, class Source>
 HWY_INLINE bool find_near(const Source& source, const Extent& around, const Piece* pieces, int count,
-                          float beyond_m, Near* out) {
+                          float beyond_m, float limit_m, Near* out) {
   Rivals rivals[kBlocks];
   find_rivals(source, around, pieces, count, rivals);
   measure_corners(source, pieces, count, rivals);
-  return collect_unbeaten(source, around, pieces, count, rivals, beyond_m, out);
+  return collect_unbeaten<kLimited>(source, around, pieces, count, rivals, beyond_m, limit_m, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -42,12 +42,12 @@ struct Open {
   alignas(64) float kept[kBatch + 16], limit[kBatch + 16];
   int count = 0;
 
-  /// Candidates kFirst and following of those kept.
+  /// Candidates kFirst and following of those kept, of the lanes `of`.
   template <int kKept, int kFirst>
-  HWY_INLINE void add(const Lowest<kKept>& lowest, V limits, VI lanes) {
+  HWY_INLINE void add(M of, const Lowest<kKept>& lowest, V limits, VI lanes) {
     for (int i = kFirst; i < kKept; ++i)
-      pairs.add(hn::Not(hn::Gt(lowest.bound[i], limits)), lanes, lowest.rank(i));
-    const M many = hn::Not(hn::Gt(lowest.bound[kKept], limits));
+      pairs.add(hn::AndNot(hn::Gt(lowest.bound[i], limits), of), lanes, lowest.rank(i));
+    const M many = hn::AndNot(hn::Gt(lowest.bound[kKept], limits), of);
     hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), many)), I(), lane + count);
     hn::StoreU(hn::Compress(lowest.bound[kKept - 1], many), f, kept + count);
     hn::StoreU(hn::Compress(limits, many), f, limit + count);
@@ -75,21 +75,33 @@ HWY_INLINE bool make_room(int vectors, const ReliefTables* relief, const Columns
   return true;
 }
 
-/// The pairs of the particles with many; false if they do not fit.
+constexpr int kNext = 4;
+
+/// The pairs of the particles with many, by rising bounds for each, which no other candidates change the
+/// order of; false if they do not fit.
 template <int kTables>
 HWY_INLINE bool collect_rest(const Baked& baked, const ReliefTables* relief, const Columns& columns,
                              const QueryBatch& batch, Open& open, Batched& out) {
   for (int from = 0; from < open.count; from += kWidth) {
-    const M valid = hn::FirstN(f, static_cast<std::size_t>(open.count - from));
-    const VI lanes = hn::IfThenElseZero(hn::RebindMask(I(), valid), hn::Load(I(), open.lane + from));
+    M more = hn::FirstN(f, static_cast<std::size_t>(open.count - from));
+    const VI lanes = hn::IfThenElseZero(hn::RebindMask(I(), more), hn::Load(I(), open.lane + from));
     const V3 p = {hn::GatherIndex(f, batch.x, lanes), hn::GatherIndex(f, batch.y, lanes),
                   hn::GatherIndex(f, batch.z, lanes)};
-    const V kept = hn::Load(f, open.kept + from), limit = hn::Load(f, open.limit + from);
-    for (int i = 0; i < columns.count(); ++i) {
-      if (!make_room<kTables>(1, relief, columns, batch, open.pairs, out)) return false;
-      const VI rank = hn::Set(I(), i);
-      const V bound = ranked(lower_bound(baked.bounds[columns.ellipsoid(i)], p), rank);
-      open.pairs.add(hn::And(valid, hn::AndNot(hn::Gt(bound, limit), hn::Gt(bound, kept))), lanes, rank);
+    V kept = hn::Load(f, open.kept + from);
+    const V limit = hn::Load(f, open.limit + from);
+    for (int taken = 0; taken < columns.count() && !hn::AllFalse(f, more); taken += kNext) {
+      Lowest<kNext> next;
+      next.clear();
+      for (int i = 0; i < columns.count(); ++i) {
+        const VI rank = hn::Set(I(), i);
+        const V bound = ranked(lower_bound(baked.bounds[columns.ellipsoid(i)], p), rank);
+        next.add(hn::IfThenElse(hn::Gt(bound, kept), bound, all(1e29f)), rank);
+      }
+      if (!make_room<kTables>(kNext, relief, columns, batch, open.pairs, out)) return false;
+      for (int i = 0; i < kNext; ++i)
+        open.pairs.add(hn::AndNot(hn::Gt(next.bound[i], limit), more), lanes, next.rank(i));
+      more = hn::AndNot(hn::Gt(next.bound[kNext], limit), more);
+      kept = next.bound[kNext - 1];
     }
   }
   return true;
@@ -117,7 +129,8 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
       put(answers[v], relief != nullptr, out, i);
-      open.add<kKept, 1>(lowest[v], bound_limit(baked, answers[v].distance, beyond_m), hn::Iota(I(), i));
+      open.add<kKept, 1>(lanes_of(piece, i), lowest[v], bound_limit(baked, answers[v].distance, beyond_m),
+                         hn::Iota(I(), i));
     }
   }
   return true;
@@ -166,7 +179,7 @@ HWY_INLINE void nearest_in_parts(const Baked& baked, const Piece& piece, float b
   Batched part;
   std::fill(out.distance + piece.begin, out.distance + piece.end, std::numeric_limits<float>::infinity());
   const auto find = [&](const Everything& source, Near* list) {
-    (void)collect_unbeaten(source, piece.box, &piece, 1, &rivals, beyond_m, list);
+    (void)collect_unbeaten<false>(source, piece.box, &piece, 1, &rivals, beyond_m, kNoLimit, list);
   };
   in_parts(baked, piece, scratch.lists, find,
            [&](auto tables, const Columns& columns, const Piece* pieces, int count, const Near* lists) {
@@ -176,8 +189,32 @@ HWY_INLINE void nearest_in_parts(const Baked& baked, const Piece& piece, float b
            });
 }
 
+/// With relief, each particle of the piece by itself: `work` (batch, pieces, their number, answers out).
+/// False if even then there is no room.
+template <class Work>
+HWY_INLINE bool one_by_one(const QueryBatch& batch, const Piece& piece, Work&& work, Batched& out) {
+  alignas(64) float x[kStep], y[kStep], z[kStep];
+  Batched alone;
+  for (int i = piece.begin; i < piece.end; ++i) {
+    std::fill(x, x + kStep, batch.x[i]);
+    std::fill(y, y + kStep, batch.y[i]);
+    std::fill(z, z + kStep, batch.z[i]);
+    const QueryBatch one = places(x, y, z, 1);
+    bool near = false;
+    const Piece place = piece_of(one, 0, 1, near);
+    if (!work(one, &place, 1, alone)) return false;
+    out.distance[i] = alone.distance[0];
+    out.value[i] = alone.value[0];
+    out.gx[i] = alone.gx[0];
+    out.gy[i] = alone.gy[0];
+    out.gz[i] = alone.gz[0];
+    out.name[i] = alone.name[0];
+  }
+  return true;
+}
+
 /// Distance, unit gradient and owner of every particle; false if a place is too far for floats, or more
-/// ellipsoids with relief are near than the kernel has room for.
+/// ellipsoids with relief are near one than the kernel has room for.
 inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Scratch& scratch,
                     Batched& out) {
   const Blocks blocks(batch);
@@ -185,23 +222,28 @@ inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& 
   for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
   const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
-                        Near* lists) { return find_near(source, around, pieces, count, beyond_m, lists); };
-  const auto answer = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
-                          const Near* lists, Batched& to) {
-    Open& open = scratch.open;
-    if (relief) return nearest_of<3, tables()>(baked, relief, batch, pieces, count, lists, columns, open, to);
-    return nearest_of<2, tables()>(baked, nullptr, batch, pieces, count, lists, columns, open, to);
+                        Near* lists) {
+    return find_near<false>(source, around, pieces, count, beyond_m, kNoLimit, lists);
   };
-  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
-                        const Near* lists) { return answer(tables, columns, pieces, count, lists, out); };
+  const auto answer = [&](auto tables, const QueryBatch& of, const Columns& columns, const Piece* pieces,
+                          int count, const Near* lists, Batched& to) {
+    Open& open = scratch.open;
+    if (relief) return nearest_of<3, tables()>(baked, relief, of, pieces, count, lists, columns, open, to);
+    return nearest_of<2, tables()>(baked, nullptr, of, pieces, count, lists, columns, open, to);
+  };
+  const auto share_among = [&](const QueryBatch& of, const Piece* pieces, int count, Batched& to) {
+    const auto work = [&](auto tables, const Columns& columns, const Piece* some, int number,
+                          const Near* lists) { return answer(tables, of, columns, some, number, lists, to); };
+    return share(baked, relief, pieces, count, scratch.lists, find, work);
+  };
+  const auto in_part = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
+                           const Near* lists,
+                           Batched& to) { return answer(tables, batch, columns, pieces, count, lists, to); };
   return together_or_apart(
-      batch, blocks,
-      [&](const Piece* pieces, int count) {
-        return share(baked, relief, pieces, count, scratch.lists, find, work);
-      },
+      batch, blocks, [&](const Piece* pieces, int count) { return share_among(batch, pieces, count, out); },
       [&](const Piece& piece) {
-        if (relief) return false;
-        nearest_in_parts(baked, piece, beyond_m, scratch, answer, out);
+        if (relief) return one_by_one(batch, piece, share_among, out);
+        nearest_in_parts(baked, piece, beyond_m, scratch, in_part, out);
         return true;
       });
 }

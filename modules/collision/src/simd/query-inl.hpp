@@ -6,7 +6,7 @@
 #define BODICE_COLLISION_QUERY_INL_
 #endif
 
-#include "simd/nearest-inl.hpp"
+#include "simd/within-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -79,6 +79,54 @@ HWY_INLINE void write(const Batched& found, const QueryBatch& batch) {
       store_contacts(d, point, n, name, [&](int lane) { return into(batch.contacts + i + lane); });
     }
   }
+}
+
+HWY_INLINE Contact& contact_of(const QueryBatch& batch, int lane) {
+  return batch.contacts[batch.index ? batch.index[lane] : static_cast<std::uint32_t>(lane)];
+}
+
+/// Takes back what is farther than was asked for.
+HWY_INLINE void keep_within(const QueryBatch& batch) {
+  for (int lane = 0; lane < batch.count; ++lane) {
+    Contact& contact = contact_of(batch, lane);
+    if (!(contact.signed_distance <= batch.within_m)) contact = no_contact();
+  }
+}
+
+HWY_INLINE void write_reached(const Reached& reached, const Batched& found, const QueryBatch& batch) {
+  const Contact none = no_contact();
+  for (int lane = 0; lane < batch.count; ++lane) contact_of(batch, lane) = none;
+  const V margin = all(batch.margin_m), within = all(batch.within_m);
+  for (int i = 0; i < reached.count; i += kWidth) {
+    const V d = hn::Sub(hn::Load(f, found.distance + i), margin);
+    const VI lanes = hn::Load(I(), reached.lane + i);
+    const M told = hn::And(hn::Le(d, within), hn::RebindMask(f, hn::Gt(lanes, hn::Set(I(), -1))));
+    if (hn::AllFalse(f, told)) continue;
+    const V3 n = load3(found.gx + i, found.gy + i, found.gz + i);
+    const V3 point = along(load3(reached.x + i, reached.y + i, reached.z + i), hn::Neg(d), n);
+    const V name = hn::BitCast(f, hn::Load(I(), found.name + i));
+    alignas(64) Contact contacts[kWidth];
+    store_contacts(d, point, n, name, [&](int lane) { return &contacts[lane].signed_distance; });
+    for (std::uint64_t left = bits(told); left != 0; left &= left - 1) {
+      const int k = std::countr_zero(left);
+      contact_of(batch, reached.lane[i + k]) = contacts[k];
+    }
+  }
+}
+
+HWY_INLINE bool query_within_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  Batched found;
+  Scratch scratch;
+  Reached reached;
+  const float limit_m = batch.within_m + batch.margin_m;
+  if (limit_m < kFarthest && nearest_within(baked, relief, batch, limit_m, scratch, reached, found)) {
+    write_reached(reached, found, batch);
+    return true;
+  }
+  if (!nearest(baked, relief, batch, scratch, found)) return false;
+  write(found, batch);
+  keep_within(batch);
+  return true;
 }
 
 HWY_INLINE bool query_batch_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {

@@ -191,17 +191,6 @@ HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch
   }
 }
 
-HWY_INLINE QueryBatch places(const float* x, const float* y, const float* z, int count) {
-  return {.x = x,
-          .y = y,
-          .z = z,
-          .index = nullptr,
-          .count = count,
-          .margin_m = 0.0f,
-          .contacts = nullptr,
-          .radius_m = {}};
-}
-
 /// Distance, unit gradient, its length and the name of the owner at each place; false if there is no room.
 HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out) {
   if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out);

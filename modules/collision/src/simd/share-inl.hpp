@@ -21,6 +21,11 @@ HWY_INLINE int end_of(const Piece& piece) {
   return piece.begin + (piece.end - piece.begin + kStep - 1) / kStep * kStep;
 }
 
+/// Those of the lanes from i on that are the piece's.
+HWY_INLINE M lanes_of(const Piece& piece, int i) {
+  return hn::FirstN(f, static_cast<std::size_t>(std::max(0, piece.end - i)));
+}
+
 struct Lists {
   Columns columns, alone;
   Near near, of_piece[kBlocks], of_alone;
@@ -86,6 +91,18 @@ HWY_INLINE void in_parts(const Baked& baked, const Piece& piece, Lists& s, Find&
     s.columns.fill(baked, nullptr, s.near.index, s.near.count);
     (void)work_alone(piece, s.columns, s.of_alone, work);
   }
+}
+
+HWY_INLINE QueryBatch places(const float* x, const float* y, const float* z, int count) {
+  return {.x = x,
+          .y = y,
+          .z = z,
+          .index = nullptr,
+          .count = count,
+          .margin_m = 0.0f,
+          .within_m = kNoLimit,
+          .contacts = nullptr,
+          .radius_m = {}};
 }
 
 /// `near` tells whether all are within kFarthest, which NaN is not.

@@ -21,8 +21,8 @@ struct Particles {
   const float *safe_x = nullptr, *safe_y = nullptr, *safe_z = nullptr;  ///< metres
 };
 
-/// Contact::ellipsoid where there is none: an empty proxy, or a particle that is not finite. The distance is
-/// then +infinity.
+/// Contact::ellipsoid where there is none: an empty proxy, a particle that is not finite, or one farther than
+/// QueryOptions::within_m. The distance is then +infinity.
 inline constexpr std::uint32_t kNoEllipsoid = ~std::uint32_t{0};
 
 struct Contact {
@@ -30,6 +30,14 @@ struct Contact {
   float point[3] = {0, 0, 0};    ///< nearest surface point, local frame
   float normal[3] = {0, 1, 0};   ///< outward unit normal there
   std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids(); kNoEllipsoid: nothing to tell
+};
+
+struct QueryOptions {
+  /// Contact distance: particles whose signed distance is at most this are answered with the same bits as
+  /// without a limit (with relief and over 256 ellipsoids near one place: to rounding), all others with
+  /// kNoEllipsoid. That depends neither on other particles nor on their order nor on workers. Zero asks for
+  /// those inside only, less for deep ones. What is not answered costs a bound; whole blocks of it, nothing.
+  float within_m = std::numeric_limits<float>::infinity();
 };
 
 enum class Response : std::uint8_t {
@@ -102,10 +110,11 @@ class Collider {
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
 
   /// Signed distance, nearest point, normal and owner of each particle; contacts has particles.count entries.
-  void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts) const;
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
-             Workspace& workspace) const;
-  Contact query(const float (&local_point)[3]) const noexcept;
+             const QueryOptions& options = {}) const;
+  void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+             Workspace& workspace, const QueryOptions& options = {}) const;
+  Contact query(const float (&local_point)[3], const QueryOptions& options = {}) const noexcept;
   /// Every ellipsoid within `within_m` of the point, nearest first, each with its own surface (and table);
   /// returns how many there are, which may be more than fit into `contacts`.
   std::size_t query_all(const float (&local_point)[3], float within_m,

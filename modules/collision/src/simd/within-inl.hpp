@@ -1,0 +1,156 @@
+// The proxy's distance at those particles of a batch that are within a limit of its surface: bounds tell most
+// of the others, what is left closes up across the batch, so that only it is paid for, a whole vector at a
+// time. The answers have the same bits as without a limit.
+#if defined(BODICE_COLLISION_WITHIN_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_WITHIN_INL_
+#undef BODICE_COLLISION_WITHIN_INL_
+#else
+#define BODICE_COLLISION_WITHIN_INL_
+#endif
+
+#include "simd/nearest-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+/// Particles of a batch that may be within the limit, closed up; each run of those that were found together
+/// starts at a whole step, behind repetitions of the one before.
+struct alignas(64) Reached {
+  static constexpr int kMostKept = 3, kSize = kBatch + 2 * kStep;
+  float x[kSize], y[kSize], z[kSize];
+  float bound[kMostKept + 1][kSize];  ///< as Lowest has them
+  std::int32_t lane[kSize];           ///< in the batch; -1: a repetition
+  int count = 0;
+
+  template <int kKept>
+  HWY_INLINE void add(M which, VI lanes, V3 p, const Lowest<kKept>& lowest) {
+    const auto store = [&](V values, float* to) { hn::StoreU(hn::Compress(values, which), f, to + count); };
+    store(p.x, x);
+    store(p.y, y);
+    store(p.z, z);
+    for (int i = 0; i <= kKept; ++i) store(lowest.bound[i], bound[i]);
+    hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), which)), I(), lane + count);
+    count += static_cast<int>(hn::CountTrue(f, which));
+  }
+  /// Fills up to a whole step; `from` is where the run starts.
+  template <int kKept>
+  HWY_INLINE void pad(int from) {
+    if (count == from) return;
+    const int last = count - 1, end = from + (count - from + kStep - 1) / kStep * kStep;
+    for (; count < end; ++count) {
+      for (float* values : {x, y, z}) values[count] = values[last];
+      for (int i = 0; i <= kKept; ++i) bound[i][count] = bound[i][last];
+      lane[count] = -1;
+    }
+  }
+  template <int kKept>
+  HWY_INLINE Lowest<kKept> lowest(int i) const {
+    Lowest<kKept> result;
+    for (int k = 0; k <= kKept; ++k) result.bound[k] = hn::Load(f, bound[k] + i);
+    return result;
+  }
+};
+
+/// The particles of a piece that may be within the limit.
+template <int kKept>
+HWY_INLINE void reach(const Baked& baked, const QueryBatch& batch, float limit_m, const Piece& piece,
+                      const Near& near, const Columns& columns, Reached& out) {
+  const V limit = bound_limit(baked, all(limit_m), 0.0f);
+  for (int from = piece.begin; from < piece.end; from += kStep) {
+    V3 p[kTogether];
+    Lowest<kKept> lowest[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const int i = from + v * kWidth;
+      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
+    }
+    bound_vectors(baked, columns, near, p, lowest);
+    for (int v = 0; v < kTogether; ++v) {
+      const int i = from + v * kWidth;
+      const M within = hn::AndNot(hn::Gt(lowest[v].bound[0], limit), lanes_of(piece, i));
+      out.add(within, hn::Iota(I(), i), p[v], lowest[v]);
+    }
+  }
+}
+
+/// The first answers to the particles [begin, reached.count); false if there is no room for what they leave
+/// open.
+template <int kKept, int kTables>
+HWY_INLINE bool answer_reached(const Baked& baked, const ReliefTables* relief, float limit_m,
+                               const Reached& reached, const QueryBatch& at, int begin,
+                               const Columns& columns, Open& open, Batched& out) {
+  const float beyond_m = relief ? relief->blend_m : 0.0f;
+  for (int from = begin; from < reached.count; from += kStep) {
+    V3 p[kTogether];
+    VI first[kTogether];
+    Answer answers[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const int i = from + v * kWidth;
+      p[v] = load3(reached.x + i, reached.y + i, reached.z + i);
+      first[v] = reached.lowest<kKept>(i).rank(0);
+    }
+    answer_each<kTables>(relief, columns, first, p, answers);
+    if (!make_room<kTables>((kKept - 1) * kTogether, relief, columns, at, open.pairs, out)) return false;
+    for (int v = 0; v < kTogether; ++v) {
+      const int i = from + v * kWidth;
+      put(answers[v], relief != nullptr, out, i);
+      const V least = hn::Min(answers[v].distance, all(limit_m));
+      const auto real = hn::RebindMask(f, hn::Gt(hn::Load(I(), reached.lane + i), hn::Set(I(), -1)));
+      open.add<kKept, 1>(real, reached.lowest<kKept>(i), bound_limit(baked, least, beyond_m),
+                         hn::Iota(I(), i));
+    }
+  }
+  return true;
+}
+
+/// Some pieces of the batch whose candidates are the columns.
+template <int kKept, int kTables>
+HWY_INLINE bool within_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                          float limit_m, const Piece* pieces, int count, const Near* near,
+                          const Columns& columns, Reached& reached, Open& open, Batched& out) {
+  const int begin = reached.count;
+  for (int i = 0; i < count; ++i)
+    if (near[i].count > 0) reach<kKept>(baked, batch, limit_m, pieces[i], near[i], columns, reached);
+  if (reached.count == begin) return true;
+  reached.pad<kKept>(begin);
+  const QueryBatch at = places(reached.x, reached.y, reached.z, reached.count);
+  open.pairs.count = open.count = 0;
+  if (!answer_reached<kKept, kTables>(baked, relief, limit_m, reached, at, begin, columns, open, out))
+    return false;
+  if (!collect_rest<kTables>(baked, relief, columns, at, open, out)) return false;
+  flush<kTables>(relief, columns, at, open.pairs, out);
+  if (relief) combine_blended(*relief, begin, reached.count, open.pairs, out);
+  return true;
+}
+
+/// Distance, unit gradient and owner of every particle that is reached, as `reached` numbers them: all that
+/// are within limit_m of the surface, and some others. False if there is no room, or a place too far for
+/// floats.
+inline bool nearest_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, float limit_m,
+                           Scratch& scratch, Reached& reached, Batched& out) {
+  const Blocks blocks(batch);
+  if (!blocks.near) return false;
+  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
+  // The surface is nowhere higher over the ellipsoids.
+  const float plain_m = limit_m + (relief ? relief->highest_m : 0.0f) + 4.0f * baked.rounding_m;
+  const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
+  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
+                        Near* lists) {
+    return find_near<true>(source, around, pieces, count, beyond_m, plain_m + beyond_m, lists);
+  };
+  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
+                        const Near* lists) {
+    Open& open = scratch.open;
+    if (relief)
+      return within_of<3, tables()>(baked, relief, batch, plain_m, pieces, count, lists, columns, reached,
+                                    open, out);
+    return within_of<2, tables()>(baked, nullptr, batch, plain_m, pieces, count, lists, columns, reached,
+                                  open, out);
+  };
+  reached.count = 0;
+  return share(baked, relief, blocks.pieces, blocks.count, scratch.lists, find, work);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

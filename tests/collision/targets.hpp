@@ -1,0 +1,23 @@
+// Every instruction set that the machine has, in turn.
+#pragma once
+
+#include <cstdint>
+
+#include <hwy/targets.h>
+
+namespace bodice_test {
+
+/// Runs `body` (its name) once for every instruction set that this machine has.
+template <class Body>
+void on_every_target(Body&& body) {
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    const std::int64_t target = left & -left;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    body(hwy::TargetName(target));
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+}  // namespace bodice_test
