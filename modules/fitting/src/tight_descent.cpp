@@ -174,7 +174,6 @@ class Descent {
   }
 
   void judge_moves() {
-    refresh();
     if (before_moves_.ellipsoids.empty()) return;
     const bool paid = problem_.total() < cost_before_moves_;
     relocation_.judge(paid);

@@ -17,21 +17,34 @@ constexpr std::size_t kBlock = 32;  // samples that are compared with the ellips
 
 }  // namespace
 
-/// Of a stretch of samples: the nearest kNear, ascending, and how many of them can become the nearest.
+/// The ellipsoids that can be the nearest of some sample of a block, and how far each sample is from them.
 struct TightProblem::Candidates {
-  std::array<std::array<std::uint32_t, kNear>, kBlock> ellipsoid;
-  std::array<std::array<float, kNear>, kBlock> distance;
+  std::vector<std::uint32_t> ellipsoid;             ///< #C
+  std::vector<std::array<float, kBlock>> distance;  ///< at least #C
+  std::array<float, kBlock> least;                  ///< over the ellipsoids
 
-  void insert(std::size_t i, std::uint32_t k, float d) {
-    auto& near = distance[i];
-    if (!(d < near[kNear - 1])) return;
-    int slot = kNear - 1;
-    for (; slot > 0 && d < near[slot - 1]; --slot) {
-      near[slot] = near[slot - 1];
-      ellipsoid[i][slot] = ellipsoid[i][slot - 1];
+  void clear() {
+    ellipsoid.clear();
+    least.fill(std::numeric_limits<float>::infinity());
+  }
+  std::array<float, kBlock>& add(std::uint32_t k) {
+    ellipsoid.push_back(k);
+    if (distance.size() < ellipsoid.size()) distance.emplace_back();
+    return distance[ellipsoid.size() - 1];
+  }
+  /// Those within `reach` of sample i's least, ascending by distance, up to kNear; returns how many.
+  int nearest(std::size_t i, float reach, std::array<std::uint32_t, kNear>& found) const {
+    std::array<float, kNear> at;
+    int count = 0;
+    for (std::size_t c = 0; c < ellipsoid.size(); ++c) {
+      const float d = distance[c][i];
+      if (d > least[i] + reach || (count == kNear && d >= at[kNear - 1])) continue;
+      int slot = count < kNear ? count++ : kNear - 1;
+      for (; slot > 0 && d < at[slot - 1]; --slot) at[slot] = at[slot - 1], found[slot] = found[slot - 1];
+      at[slot] = d;
+      found[slot] = ellipsoid[c];
     }
-    near[slot] = d;
-    ellipsoid[i][slot] = k;
+    return count;
   }
 };
 
@@ -99,12 +112,12 @@ void TightProblem::find_candidates(std::span<const FootEllipsoid> ellipsoids, st
   const std::size_t begin = block * kBlock, count = std::min(kBlock, target_.size() - begin);
   const float enough =
       *std::min_element(of_ball.begin(), of_ball.end()) + 2.0f * ball_radius_[block] + reach_;
-  for (auto& d : found.distance) d.fill(std::numeric_limits<float>::infinity());
-  std::array<float, kBlock> d;
+  found.clear();
   for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
     if (of_ball[k] > enough) continue;
+    auto& d = found.add(k);
     foot_distances(ellipsoids[k], count, &point_[0][begin], &point_[1][begin], &point_[2][begin], d.data());
-    for (std::size_t i = 0; i < count; ++i) found.insert(i, k, d[i]);
+    for (std::size_t i = 0; i < count; ++i) found.least[i] = std::min(found.least[i], d[i]);
   }
 }
 
@@ -117,12 +130,8 @@ void TightProblem::choose_candidates(const engine::Context& context,
       find_candidates(ellipsoids, b, std::span(of_balls).subspan(b * ellipsoids.size(), ellipsoids.size()),
                       found);
       const std::size_t first = b * kBlock, samples = std::min(kBlock, target_.size() - first);
-      for (std::size_t i = 0; i < samples; ++i) {
-        int count = 1;
-        while (count < kNear && found.distance[i][count] <= found.distance[i][0] + reach_) ++count;
-        count_of_[first + i] = static_cast<std::uint8_t>(count);
-        pairs_of_[first + i] = found.ellipsoid[i];
-      }
+      for (std::size_t i = 0; i < samples; ++i)
+        count_of_[first + i] = static_cast<std::uint8_t>(found.nearest(i, reach_, pairs_of_[first + i]));
     }
   });
 }
