@@ -18,6 +18,8 @@ using geometry::Index;
 constexpr float kSizeToStature = 2.19F;
 /// The perineum is about half way between the feet.
 constexpr float kPerineumFrom = 0.45F, kPerineumTo = 0.58F;
+/// Where the legs merge, from breastbone and back, of the size: for legs whose merge is not found.
+constexpr float kUsualMergeFront = 0.34F, kUsualMergeBack = 0.39F;
 /// Beyond this distance from the head's end the sign of the neck's border means nothing; of the size.
 constexpr float kHeadReach = 0.48F;
 /// Where the loop around an arm usually widens, from fingertip to fingertip: for arms on which it does not.
@@ -74,30 +76,35 @@ void BodyCoordinates::measure_lengths() {
 }
 
 void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& skin) {
-  const Field &left_hand = *ends_.from_hand[0], &right_hand = *ends_.from_hand[1];
+  const Field &left_hand = *ends_.from_hand[0], &right_hand = *ends_.from_hand[1], &head = *ends_.from_head;
   const Field &left_foot = *ends_.from_foot[0], &right_foot = *ends_.from_foot[1];
   const float tilt = left_hand[ends_.head] - right_hand[ends_.head];
-  const float half_way = merge_.at.found() ? merge_.distance : 0.5F * ends_.feet_apart;
-  const float merge_forward =
-      merge_.at.found() ? value_at(skin, merge_.at, from_back_) - value_at(skin, merge_.at, from_front_)
-                        : 0.0F;
+  const bool merged = merge_.at.found();
+  const float half_way = merged ? merge_.distance : 0.5F * ends_.feet_apart;
+  const float merge_front = merged ? value_at(skin, merge_.at, from_front_) : kUsualMergeFront * size_;
+  const float merge_back = merged ? value_at(skin, merge_.at, from_back_) : kUsualMergeBack * size_;
+  const auto expected = kPerineum.expected(
+      {ends_.feet_apart / size_, ends_.hands_apart / size_, merge_front / size_, merge_back / size_});
   const auto distance2 = [&](std::size_t v) {
-    return kPerineum.distance2({(left_foot[v] + right_foot[v]) / (2.0F * half_way),
-                                (left_foot[v] - right_foot[v]) / ends_.feet_apart,
-                                (left_hand[v] - right_hand[v] - tilt) / ends_.hands_apart,
-                                from_front_[v] / size_, from_back_[v] / size_,
-                                0.5F * (merge_forward - from_back_[v] + from_front_[v]) / size_});
+    return kPerineum.distance2(
+        {(left_foot[v] + right_foot[v]) / (2.0F * half_way),
+         (left_foot[v] - right_foot[v]) / ends_.feet_apart,
+         (left_hand[v] - right_hand[v] - tilt) / ends_.hands_apart, from_front_[v] / size_,
+         from_back_[v] / size_, 0.5F * (merge_back - merge_front - from_back_[v] + from_front_[v]) / size_,
+         0.5F * (left_hand[v] + right_hand[v]) / ends_.hands_apart, head[v] / size_,
+         0.5F * ((head[v] + left_foot[v]) / head_to_foot_[0] + (head[v] + right_foot[v]) / head_to_foot_[1])},
+        expected);
   };
-  const NearestSignature found = nearest_signature(
-      context, left_foot.size(),
-      [&](std::size_t v) {
-        const float feet = left_foot[v] + right_foot[v];
-        return feet > 2.0F * kPerineumFrom * ends_.feet_apart && feet < 2.0F * kPerineumTo * ends_.feet_apart;
-      },
-      distance2);
-  perineum_place_ = soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(size_),
-                               [&](Index v) { return std::exp(-0.5F * distance2(v)); });
-  perineum_ = found.vertex;
+  const auto may_be = [&](std::size_t v) {
+    const float feet = left_foot[v] + right_foot[v];
+    return feet > 2.0F * kPerineumFrom * ends_.feet_apart && feet < 2.0F * kPerineumTo * ends_.feet_apart;
+  };
+  const NearestSignature found = nearest_signature(context, left_foot.size(), may_be, distance2);
+  const float least2 = found.misfit * found.misfit;
+  perineum_place_ = soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(size_), [&](Index v) {
+    return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F;
+  });
+  perineum_ = vertex_near(skin, perineum_place_, found.vertex);
   perineum_misfit_ = found.misfit;
 }
 

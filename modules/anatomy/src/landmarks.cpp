@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include <bodice/engine/parallel.hpp>
+
+#include "armpit.hpp"
 #include "crown.hpp"
 #include "curve.hpp"
-#include "nearest_signature.hpp"
 #include "neck_joint.hpp"
 #include "soft_place.hpp"
 
@@ -23,14 +25,6 @@ constexpr float kNeckReach = 0.40F, kElbowReach = 0.36F, kKneeReach = 0.40F;
 /// Skin weights put the border a little below the knee's centre of turning: how far the joint's loop lies
 /// beyond the border, as a score.
 constexpr float kKneeBeyond = 0.0115F;
-/// The armpit lies this far from its own hand, of hand to hand.
-constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
-/// It is near the level where the arm widens (of hand to hand), and near the shortest way from hand to foot.
-constexpr float kNearShoulder = 0.06F, kArmpitDetour = 1.10F;
-/// The ways around the chest that count for one side lie beyond its forearm, nearer to its own hand, and
-/// under the arm: ways over the neck are shorter on heavy bodies.
-constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
-constexpr float kLeastHalfChest = 0.02F;  // of the size
 /// How much nearer to the head than its tip the front of a foot reaches, and
 /// how far to the sides; of head to feet.
 constexpr float kBlunt = 0.010F, kToes = 0.04F;
@@ -83,44 +77,6 @@ Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Bo
   return girth;
 }
 
-/// Half the girth of the chest on one side: the shortest way from the midline's front to its back under the
-/// arm, of the size. 0 if there is none.
-float half_chest(const BodyCoordinates& coordinates, int side) {
-  float least = 0.0F;
-  for (std::size_t v = 0; v < coordinates.from_perineum().size(); ++v) {
-    const CoordinateArray x = coordinates.at(v, side);
-    if (!(x[kOwnHand] > kChestFrom && x[kOwnHand] < kOwnSide * x[kOtherHand])) continue;
-    if (!(x[kHandFootDetour] < kUnderArm)) continue;
-    const float around = x[kFromFront] + x[kFromBack];
-    if (least == 0.0F || around < least) least = around;
-  }
-  return least;
-}
-
-void find_armpit(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
-                 int side, Landmarks& marks) {
-  const float half = std::max(half_chest(coordinates, side), kLeastHalfChest);
-  const auto distance2 = [&](std::size_t v) {
-    const CoordinateArray x = coordinates.at(v, side);
-    return kArmpit.distance2({x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack],
-                              x[kFromPerineum], x[kPastShoulder], (x[kFromFront] - x[kFromBack]) / half,
-                              (x[kFromFront] + x[kFromBack]) / half, x[kHandFootDetour]});
-  };
-  const NearestSignature found = nearest_signature(
-      context, coordinates.from_perineum().size(),
-      [&](std::size_t v) {
-        const CoordinateArray x = coordinates.at(v, side);
-        return x[kOwnHand] > kArmpitFrom && x[kOwnHand] < kArmpitTo &&
-               std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
-      },
-      distance2);
-  marks.armpit_place[side] =
-      soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(coordinates.size_m()),
-                 [&](Index v) { return std::exp(-0.5F * distance2(v)); });
-  marks.armpit[side] = found.vertex;
-  marks.armpit_confidence[side] = confidence_of(found.misfit, kHopelessArmpit);
-}
-
 body::Landmark at_vertex(const Skin& skin, Index v, double confidence) {
   if (v == kNoIndex) return {};
   return {body::LandmarkId::kCrown, skin.mesh.positions[v], v, confidence};
@@ -159,7 +115,11 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
       marks.elbow[side] = border_loop(skin, coordinates, kElbow, 0.0F, side, kOwnHand, kElbowReach);
     if (task == 2 || task == 3)
       marks.knee[side] = border_loop(skin, coordinates, kKnee, kKneeBeyond, side, kOwnFoot, kKneeReach);
-    if (task == 4 || task == 5) find_armpit(context, skin, coordinates, side, marks);
+    if (task != 4 && task != 5) return;
+    const SignedPlace armpit = find_armpit(context, skin, coordinates, side);
+    marks.armpit[side] = armpit.vertex;
+    marks.armpit_place[side] = armpit.position;
+    marks.armpit_confidence[side] = confidence_of(armpit.misfit, kHopelessArmpit);
   });
   const Crown crown = find_crown(skin, coordinates, marks.neck);
   marks.crown = crown.vertex;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include "skin.hpp"
 
@@ -30,6 +31,19 @@ geometry::Vec3 soft_place(const Skin& skin, geometry::Index vertex, double radiu
     }
   }
   return all > 0.0 ? geometry::Vec3(center + moment / all) : center;
+}
+
+/// The vertex of the body nearest to a place, the lowest among equals; `otherwise` if there is none. O(#V).
+inline geometry::Index vertex_near(const Skin& skin, const geometry::Vec3& place, geometry::Index otherwise) {
+  geometry::Index best = otherwise;
+  double least = std::numeric_limits<double>::infinity();
+  for (geometry::Index v = 0; v < skin.mesh.positions.size(); ++v) {
+    const double d = (skin.mesh.positions[v] - place).squaredNorm();
+    if (skin.component[v] != 0 || !(d < least)) continue;
+    least = d;
+    best = v;
+  }
+  return best;
 }
 
 }  // namespace bodice::anatomy
