@@ -57,6 +57,8 @@ cloth::Particles scatter(const engine::Random& random, const Vec3& origin) {
 }
 
 /// Each cluster goes its own way; one particle of each goes twice as fast, a random one.
+const std::vector<std::uint8_t> untouched(kCount, 0);
+
 void travel(const engine::Random& random, std::uint64_t substep, cloth::Particles& p) {
   p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
   for (std::size_t i = 0; i < kCount; ++i) {
@@ -79,7 +81,7 @@ TEST_CASE(
     const engine::Random random(seed);
     cloth::Particles p = scatter(random, body.origin());
     cloth::Clearance clearance = cloth::make_clearance(kCount);
-    cloth::begin_clearance({}, &body, kThickness_m, p, clearance);
+    cloth::begin_clearance({}, &body, kThickness_m, untouched, p, clearance);
     std::vector<bool> may(kClusters, false);
     for (std::uint64_t substep = 0; substep < 16; ++substep) {
       travel(random, substep, p);
@@ -105,7 +107,20 @@ TEST_CASE("without a body that stands still every cluster may touch") {
   const collision::Collider body = body_of(shapes());
   cloth::Particles p = scatter(engine::Random(3), body.origin() + Vec3::Constant(9.0));
   cloth::Clearance clearance = cloth::make_clearance(kCount);
-  cloth::begin_clearance({}, nullptr, kThickness_m, p, clearance);
+  cloth::begin_clearance({}, nullptr, kThickness_m, {}, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance));
+}
+
+TEST_CASE("a cluster of which one touched is near without asking, and no other for that") {
+  const collision::Collider body = body_of(shapes());
+  cloth::Particles p = scatter(engine::Random(3), body.origin());
+  for (float& y : p.y) y += 9.0f;
+  p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
+  std::vector<std::uint8_t> touching = untouched;
+  touching[2 * cloth::kCluster - 1] = 1;
+  cloth::Clearance clearance = cloth::make_clearance(kCount);
+  cloth::begin_clearance({}, &body, kThickness_m, touching, p, clearance);
+  for (std::size_t c = 0; c + 1 < kClusters; ++c)
+    CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance) == (c == 1));
 }

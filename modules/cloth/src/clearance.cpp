@@ -17,17 +17,33 @@ constexpr float kFar_m = 1e6f;
 constexpr std::size_t kWorthAsking = 8;
 constexpr int kWait = 15;
 
-void ask(const engine::Context& context, const collision::Collider& body, float thickness_m, Particles& p,
-         Clearance& c) {
-  collision::Particles all;
-  all.count = p.count();
-  all.x = p.x.data(), all.y = p.y.data(), all.z = p.z.data();
-  body.query(context, all, c.nearest);
+// Distances of the particles [begin, end), whole clusters, and what each cluster may travel.
+void ask_run(const collision::Collider& body, float thickness_m, std::size_t begin, std::size_t end,
+             Particles& p, Clearance& c) {
+  if (begin == end) return;
+  const engine::Context alone{.executor = &engine::inline_executor()};
+  const collision::Particles run{.count = end - begin, .x = &p.x[begin], .y = &p.y[begin], .z = &p.z[begin]};
+  body.query(alone, run, std::span(c.nearest).subspan(begin, end - begin));
+  for (std::size_t i = begin; i < end; ++i) {
+    float& free_m = c.free_m[i / kCluster];
+    free_m = std::min(i % kCluster == 0 ? kFar_m : free_m, c.nearest[i].signed_distance - thickness_m);
+  }
+}
+
+// Those of which one touched are near, and need no asking.
+void ask(const engine::Context& context, const collision::Collider& body, float thickness_m,
+         std::span<const std::uint8_t> touching, Particles& p, Clearance& c) {
   engine::parallel_for(context, p.count(), kCluster * 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      float& free_m = c.free_m[i / kCluster];
-      free_m = std::min(i % kCluster == 0 ? kFar_m : free_m, c.nearest[i].signed_distance - thickness_m);
+    std::size_t first = begin;  // of the run so far
+    for (std::size_t from = begin; from < end; from += kCluster) {
+      const std::size_t to = std::min(from + kCluster, end);
+      if (std::ranges::count(touching.subspan(from, to - from), 0) == static_cast<std::ptrdiff_t>(to - from))
+        continue;
+      ask_run(body, thickness_m, first, from, p, c);
+      c.free_m[from / kCluster] = 0.0f;
+      first = to;
     }
+    ask_run(body, thickness_m, first, end, p, c);
   });
 }
 
@@ -41,13 +57,14 @@ Clearance make_clearance(std::size_t particles) {
 }
 
 void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
-                     double thickness_m, Particles& particles, Clearance& c) {
+                     double thickness_m, std::span<const std::uint8_t> touching, Particles& particles,
+                     Clearance& c) {
   const bool wait = c.frames_without > 0 && --c.frames_without > 0;
   if (wait || still_body == nullptr) {
     std::ranges::fill(c.free_m, 0.0f);
     return;
   }
-  ask(context, *still_body, static_cast<float>(thickness_m), particles, c);
+  ask(context, *still_body, static_cast<float>(thickness_m), touching, particles, c);
   const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });
   if (static_cast<std::size_t>(far) * kWorthAsking < c.free_m.size()) c.frames_without = kWait;
 }

@@ -2,6 +2,8 @@
 // since is taken off them. The collider sees the others only.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bodice/collision/collider.hpp>
@@ -23,9 +25,11 @@ struct Clearance {
 Clearance make_clearance(std::size_t particles);
 
 /// Begins a frame. Everything counts as near without a body that stands still (what one sweeps over says
-/// nothing to distances at its end), and for some frames after most was found near.
+/// nothing to distances at its end), and for some frames after most was found near. `touching`: who was moved
+/// by the body in the substep before, #P.
 void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
-                     double thickness_m, Particles& particles, Clearance& clearance);
+                     double thickness_m, std::span<const std::uint8_t> touching, Particles& particles,
+                     Clearance& clearance);
 
 /// Whether the particles [begin, end) of a cluster, moved from old_* to their positions, may touch now.
 bool may_touch(const Particles& particles, std::size_t begin, std::size_t end, Clearance& clearance);
