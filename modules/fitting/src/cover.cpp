@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/fitting/mvee.hpp>
 
 #include "mvee_finish.hpp"
+#include "triangle_levels.hpp"
 
 namespace bodice::fitting {
 namespace {
@@ -17,7 +18,6 @@ namespace {
 using geometry::Ellipsoid;
 
 constexpr int kPasses = 4;
-constexpr double kInside = 1.0 - 1e-12;  // levels below this stay inside under rounding of the stored radii
 
 std::array<Vec3, 12> icosahedron() {
   const double g = std::numbers::phi, length = std::sqrt(1.0 + g * g);
@@ -32,79 +32,93 @@ std::array<Vec3, 12> icosahedron() {
   return corners;
 }
 
-/// Levels of the mesh's vertices that the triangles use, one row an ellipsoid.
-struct Levels {
-  std::vector<Index> used;    ///< vertices, ascending
-  std::vector<Index> corner;  ///< 3 #T, into used
-  std::vector<double> level;  ///< #E x #used
-
-  Levels(const geometry::TriMesh& mesh, std::span<const Index> triangles) {
-    for (const Index t : triangles)
-      used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    std::vector<Index> place(mesh.positions.size());
-    for (std::size_t i = 0; i < used.size(); ++i) place[used[i]] = static_cast<Index>(i);
-    for (const Index t : triangles)
-      for (const Index v : mesh.triangles[t]) corner.push_back(place[v]);
+/// Calls f(batch, begin) for the triangles named by `which` (positions in `triangles`), a batch at a time.
+template <class F>
+void for_each_batch(const geometry::TriMesh& mesh, std::span<const Index> triangles,
+                    std::span<const Index> which, F&& f) {
+  TriangleBatch batch;
+  for (std::size_t begin = 0; begin < which.size(); begin += TriangleBatch::kMost) {
+    batch.count = 0;
+    for (const Index t : which.subspan(begin, std::min(TriangleBatch::kMost, which.size() - begin))) {
+      const std::size_t triangle = triangles[t];
+      batch.add(mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2));
+    }
+    f(batch, begin);
   }
+}
 
-  void measure(const engine::Context& context, const geometry::TriMesh& mesh,
-               const std::vector<Ellipsoid>& ellipsoids, std::span<const std::size_t> which) {
-    level.resize(ellipsoids.size() * used.size());
-    engine::parallel_for(context, which.size(), 4, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) {
-        const Ellipsoid& e = ellipsoids[which[n]];
-        const geometry::Mat3 whiten = e.radii.cwiseInverse().asDiagonal() * e.axes.transpose();
-        double* const row = &level[which[n] * used.size()];
-        for (std::size_t i = 0; i < used.size(); ++i)
-          row[i] = (whiten * (mesh.positions[used[i]] - e.center)).squaredNorm();
-      }
-    });
-  }
+std::vector<Index> all_of(std::span<const Index> triangles) {
+  std::vector<Index> all(triangles.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
 
-  double worst(std::size_t e, std::size_t t) const {
-    const double* const row = &level[e * used.size()];
-    return std::max({row[corner[3 * t]], row[corner[3 * t + 1]], row[corner[3 * t + 2]]});
-  }
+/// Of a triangle: who holds it, or who has to grow for it.
+struct Home {
+  std::uint32_t ellipsoid = 0;
+  bool held = false;
 };
 
-constexpr std::size_t kCovered = std::numeric_limits<std::size_t>::max();
-
-/// For each triangle that no ellipsoid holds whole: the one that has to grow least for it, by the length of
-/// ray outside it. Others: kCovered.
-std::vector<std::size_t> homes(const engine::Context& context, const geometry::TriMesh& mesh,
-                               std::span<const Index> triangles, const Levels& levels,
-                               const std::vector<Ellipsoid>& ellipsoids) {
-  std::vector<std::size_t> home(triangles.size(), kCovered);
-  engine::parallel_for(context, triangles.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      double least = std::numeric_limits<double>::infinity();
-      std::size_t best = 0;
-      for (std::size_t e = 0; e < ellipsoids.size(); ++e) {
-        const double level = levels.worst(e, t);
-        if (level <= kInside) {
-          best = kCovered;
-          break;
-        }
-        const double ray = (mesh.corner(triangles[t], 0) - ellipsoids[e].center).norm();
-        const double outside = ray * (1.0 - 1.0 / std::sqrt(level));
-        if (outside < least) least = outside, best = e;
-      }
-      home[t] = best;
-    }
-  });
-  return home;
+/// Brings the homes of the triangles named by `which` up to date.
+void find_homes(const engine::Context& context, const geometry::TriMesh& mesh,
+                std::span<const Index> triangles, std::span<const Index> which,
+                const std::vector<Ellipsoid>& ellipsoids, std::vector<Home>& home) {
+  const std::vector<LevelForm> forms(ellipsoids.begin(), ellipsoids.end());
+  engine::parallel_for(
+      context, which.size(), 4 * TriangleBatch::kMost, [&](std::size_t begin, std::size_t end) {
+        const auto mine = which.subspan(begin, end - begin);
+        TriangleHomes found;
+        for_each_batch(mesh, triangles, mine, [&](const TriangleBatch& batch, std::size_t first) {
+          found.clear(batch.count);
+          for (std::uint32_t e = 0; e < forms.size(); ++e) {
+            offer_home(forms[e], e, batch, found);
+            if (e % 4 == 3 && found.all_held(batch.count)) break;
+          }
+          for (std::size_t i = 0; i < batch.count; ++i)
+            home[mine[first + i]] = {found.ellipsoid[i], found.held(i)};
+        });
+      });
 }
+
+/// Corners of triangles, by the ellipsoid that has to grow for them.
+class CornersToHold {
+ public:
+  CornersToHold(std::size_t vertices, std::size_t ellipsoids) : of_(ellipsoids), last_(vertices, 0) {}
+
+  void collect(const geometry::TriMesh& mesh, std::span<const Index> triangles,
+               const std::vector<Home>& home) {
+    for (auto& mine : of_) mine.clear();
+    stamp_ += static_cast<std::uint32_t>(of_.size());
+    for (std::size_t t = 0; t < home.size(); ++t)
+      if (!home[t].held)
+        for (const Index v : mesh.triangles[triangles[t]]) add(mesh, v, home[t].ellipsoid);
+  }
+  const std::vector<Vec3>& of(std::size_t e) const { return of_[e]; }
+
+ private:
+  /// A corner that triangles share is mostly asked for by one ellipsoid: it is noted once.
+  void add(const geometry::TriMesh& mesh, Index v, std::uint32_t e) {
+    if (last_[v] == stamp_ + e) return;
+    last_[v] = stamp_ + e;
+    of_[e].push_back(mesh.positions[v]);
+  }
+
+  std::vector<std::vector<Vec3>> of_;
+  std::vector<std::uint32_t> last_;  // of each vertex: in which round, and for whom
+  std::uint32_t stamp_ = 1;
+};
 
 }  // namespace
 
 Ellipsoid grown(const Ellipsoid& ellipsoid, std::span<const Vec3> points) {
-  static constexpr double kVolumeTolerance = 1e-4;
+  static constexpr double kVolumeTolerance = 1e-3;  // a third of a thousandth of the radii
+  constexpr double kSlack = 1.0 + 1e-9;             // the point that touches is held, under rounding too
   std::vector<Vec3> all(points.begin(), points.end());
   for (const Vec3& u : icosahedron())
     all.push_back(ellipsoid.center + ellipsoid.axes * ellipsoid.radii.cwiseProduct(u));
-  return mvee(all, {kVolumeTolerance, ellipsoid.radii.minCoeff()}).ellipsoid;
+  Ellipsoid e = mvee(all, {kVolumeTolerance, ellipsoid.radii.minCoeff()}).ellipsoid;
+  e.radii *= kSlack;
+  return e;
 }
 
 Ellipsoid stretched(const Ellipsoid& e, const Vec3& point) {
@@ -124,33 +138,43 @@ Ellipsoid stretched(const Ellipsoid& e, const Vec3& point) {
 void cover_triangles(const engine::Context& context, const geometry::TriMesh& mesh,
                      std::span<const Index> triangles, std::vector<Ellipsoid>& ellipsoids) {
   if (ellipsoids.empty()) return;
-  Levels levels(mesh, triangles);
-  std::vector<std::size_t> changed(ellipsoids.size());
-  for (std::size_t e = 0; e < changed.size(); ++e) changed[e] = e;
+  std::vector<Home> home(triangles.size());
+  CornersToHold corners(mesh.positions.size(), ellipsoids.size());
+  std::vector<Index> unsure = all_of(triangles);
   for (int pass = 0; pass <= kPasses; ++pass) {
-    levels.measure(context, mesh, ellipsoids, changed);
-    const auto home = homes(context, mesh, triangles, levels, ellipsoids);
-    std::vector<std::vector<Vec3>> extra(ellipsoids.size());
-    for (std::size_t t = 0; t < home.size(); ++t) {
-      if (home[t] == kCovered) continue;
-      for (int k = 0; k < 3; ++k) extra[home[t]].push_back(mesh.corner(triangles[t], k));
-    }
-    changed.clear();
-    for (std::size_t e = 0; e < extra.size(); ++e)
-      if (!extra[e].empty()) changed.push_back(e);
-    if (changed.empty()) return;
+    find_homes(context, mesh, triangles, unsure, ellipsoids, home);
+    corners.collect(mesh, triangles, home);
+    const auto grows = [&](std::size_t e) { return !corners.of(e).empty(); };
     // Growing is not nested: a new ellipsoid may let go of what the old one held. Stretching is.
     const bool last = pass == kPasses;
-    engine::parallel_for(context, changed.size(), 1, [&](std::size_t n, std::size_t) {
-      const std::size_t e = changed[n];
-      if (!last) ellipsoids[e] = grown(ellipsoids[e], extra[e]);
-      for (std::size_t i = 0; last && i < extra[e].size(); ++i)
-        ellipsoids[e] = stretched(ellipsoids[e], extra[e][i]);
+    engine::parallel_for(context, ellipsoids.size(), 1, [&](std::size_t e, std::size_t) {
+      if (!grows(e)) return;
+      if (!last) ellipsoids[e] = grown(ellipsoids[e], corners.of(e));
+      for (std::size_t i = 0; last && i < corners.of(e).size(); ++i)
+        ellipsoids[e] = stretched(ellipsoids[e], corners.of(e)[i]);
     });
+    unsure.clear();
+    for (std::size_t t = 0; t < home.size(); ++t)
+      if (grows(home[t].ellipsoid)) unsure.push_back(static_cast<Index>(t));
+    if (unsure.empty()) return;
   }
 }
 
 namespace {
+
+/// Which of the triangles named by `which` the ellipsoid holds.
+std::vector<Index> held_of(const Ellipsoid& e, const geometry::TriMesh& mesh,
+                           std::span<const Index> triangles, std::span<const Index> which) {
+  std::vector<Index> held;
+  const LevelForm form(e);
+  std::array<double, TriangleBatch::kMost> level;
+  for_each_batch(mesh, triangles, which, [&](const TriangleBatch& batch, std::size_t first) {
+    worst_levels(form, batch, level.data());
+    for (std::size_t i = 0; i < batch.count; ++i)
+      if (level[i] <= kInside) held.push_back(which[first + i]);
+  });
+  return held;
+}
 
 /// As little around the anchor and the triangles as growing finds, surely holding the triangles.
 Ellipsoid around(const Ellipsoid& anchor, const geometry::TriMesh& mesh, std::span<const Index> triangles) {
@@ -170,28 +194,27 @@ void relax_cover(const engine::Context& context, const geometry::TriMesh& mesh,
                  std::span<const Index> triangles, std::span<const Ellipsoid> anchors,
                  std::vector<Ellipsoid>& ellipsoids) {
   constexpr int kRounds = 3;
-  Levels levels(mesh, triangles);
-  std::vector<std::size_t> all(ellipsoids.size());
-  for (std::size_t e = 0; e < all.size(); ++e) all[e] = e;
-  levels.measure(context, mesh, ellipsoids, all);
-  std::vector<int> holders(triangles.size(), 0);
-  const auto count = [&](std::size_t e, int by) {
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (levels.worst(e, t) <= kInside) holders[t] += by;
-  };
-  for (const std::size_t e : all) count(e, 1);
+  const std::vector<Index> all = all_of(triangles);
+  // What an ellipsoid comes to hold anew while it shrinks is not counted, which errs on the safe side.
+  std::vector<std::vector<Index>> held(ellipsoids.size());
+  engine::parallel_for(context, held.size(), 1, [&](std::size_t e, std::size_t) {
+    held[e] = held_of(ellipsoids[e], mesh, triangles, all);
+  });
+  std::vector<std::uint32_t> holders(triangles.size(), 0);
+  for (const auto& mine : held)
+    for (const Index t : mine) ++holders[t];
   for (int round = 0; round < kRounds; ++round)
-    for (const std::size_t e : all) {
+    for (std::size_t e = 0; e < ellipsoids.size(); ++e) {
       context.checkpoint();
       std::vector<Index> alone;
-      for (std::size_t t = 0; t < triangles.size(); ++t)
-        if (holders[t] == 1 && levels.worst(e, t) <= kInside) alone.push_back(triangles[t]);
+      for (const Index t : held[e])
+        if (holders[t] == 1) alone.push_back(triangles[t]);
       const Ellipsoid smaller = around(anchors[e], mesh, alone);
       if (!(geometry::volume(smaller) < geometry::volume(ellipsoids[e]))) continue;
-      count(e, -1);
+      for (const Index t : held[e]) --holders[t];
       ellipsoids[e] = smaller;
-      levels.measure(context, mesh, ellipsoids, std::span(&e, 1));
-      count(e, 1);
+      held[e] = held_of(smaller, mesh, triangles, held[e]);
+      for (const Index t : held[e]) ++holders[t];
     }
 }
 

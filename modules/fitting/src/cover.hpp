@@ -8,6 +8,8 @@
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
+#include "interior_grid.hpp"
+
 namespace bodice::fitting {
 
 using geometry::Index;
@@ -34,9 +36,9 @@ void relax_cover(const engine::Context& context, const geometry::TriMesh& mesh,
                  std::span<const Index> triangles, std::span<const geometry::Ellipsoid> anchors,
                  std::vector<geometry::Ellipsoid>& ellipsoids);
 
-/// Stretches the ellipsoids until the union holds every column of the mesh's inside, `spacing_m` apart, along
-/// its whole length. Returns the length that had to be covered, metres.
-double cover_interior(const engine::Context& context, const geometry::TriMesh& mesh, double spacing_m,
+/// Stretches the ellipsoids until the union holds every column of the inside along its whole length. Returns
+/// the length that had to be covered, metres.
+double cover_interior(const engine::Context& context, const InteriorColumns& columns,
                       std::vector<geometry::Ellipsoid>& ellipsoids);
 
 }  // namespace bodice::fitting

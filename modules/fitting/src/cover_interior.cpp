@@ -12,7 +12,7 @@ namespace bodice::fitting {
 namespace {
 
 using geometry::Ellipsoid;
-using Stretch = std::pair<double, double>;
+using Stretch = InteriorColumns::Stretch;
 
 /// An ellipsoid made ready for lines along y.
 struct Line {
@@ -28,7 +28,6 @@ struct Line {
   /// The stretch of the line through (x, z) inside the ellipsoid; empty (first > second) if there is none.
   Stretch inside(double x, double z) const {
     constexpr Stretch kNone{1.0, 0.0};
-    if (x < box.low.x() || x > box.high.x() || z < box.low.z() || z > box.high.z()) return kNone;
     const Vec3 along = whiten.col(1), from = whiten * Vec3(x - center.x(), 0.0, z - center.z());
     const double a = along.squaredNorm(), b = from.dot(along), c = from.squaredNorm() - 1.0;
     const double root = b * b - a * c;
@@ -42,14 +41,41 @@ struct Hole {
   Vec3 low, high;  // ends of a stretch that no ellipsoid covers
 };
 
+/// A covered stretch of one column of a row.
+struct Covered {
+  int column;
+  Stretch stretch;
+};
+
+/// Every stretch of row k that an ellipsoid covers where the body is, by column and begin.
+void cover_row(const InteriorColumns& columns, int k, std::span<const Line> lines,
+               std::vector<Covered>& covered) {
+  covered.clear();
+  const double z = columns.z(k);
+  for (const Line& line : lines) {
+    if (z < line.box.low.z() || z > line.box.high.z()) continue;
+    const auto [first, last] =
+        cells_within(line.box.low.x(), line.box.high.x(), columns.low.x(), columns.spacing_m, columns.nx);
+    for (int i = first; i <= last; ++i) {
+      if (columns.at(i, k).empty()) continue;
+      const Stretch s = line.inside(columns.x(i), z);
+      if (s.first < s.second) covered.push_back({i, s});
+    }
+  }
+  std::sort(covered.begin(), covered.end(), [](const Covered& a, const Covered& b) {
+    return a.column != b.column ? a.column < b.column : a.stretch < b.stretch;
+  });
+}
+
 /// What `wanted` has that none of the `covered` stretches (sorted by their begin) has.
-void subtract(const Stretch& wanted, const std::vector<Stretch>& covered, const InteriorColumn& column,
-              double shortest, std::vector<Hole>& holes) {
+void subtract(const Stretch& wanted, std::span<const Covered> covered, double x, double z, double shortest,
+              std::vector<Hole>& holes) {
   double from = wanted.first;
   const auto note = [&](double to) {
-    if (to - from > shortest) holes.push_back({Vec3(column.x, from, column.z), Vec3(column.x, to, column.z)});
+    if (to - from > shortest) holes.push_back({Vec3(x, from, z), Vec3(x, to, z)});
   };
-  for (const auto& [begin, end] : covered) {
+  for (const Covered& c : covered) {
+    const auto& [begin, end] = c.stretch;
     if (end <= from) continue;
     if (begin >= wanted.second) break;
     note(begin);
@@ -59,26 +85,29 @@ void subtract(const Stretch& wanted, const std::vector<Stretch>& covered, const 
   note(wanted.second);
 }
 
-std::vector<Hole> find_holes(const engine::Context& context, const std::vector<InteriorColumn>& columns,
+std::vector<Hole> find_holes(const engine::Context& context, const InteriorColumns& columns,
                              const std::vector<Ellipsoid>& ellipsoids, double shortest) {
   const std::vector<Line> lines(ellipsoids.begin(), ellipsoids.end());
-  constexpr std::size_t kGrain = 256;
-  std::vector<std::vector<Hole>> of_block(engine::block_count(columns.size(), kGrain));
-  engine::parallel_for(context, columns.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Stretch> covered;
-    for (std::size_t c = begin; c < end; ++c) {
-      covered.clear();
-      for (const Line& line : lines) {
-        const Stretch s = line.inside(columns[c].x, columns[c].z);
-        if (s.first < s.second) covered.push_back(s);
+  const auto rows = static_cast<std::size_t>(columns.nz);
+  std::vector<std::vector<Hole>> of_row(rows);
+  constexpr std::size_t kGrain = 8;
+  engine::parallel_for(context, rows, kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<Covered> covered;
+    for (std::size_t row = begin; row < end; ++row) {
+      const int k = static_cast<int>(row);
+      cover_row(columns, k, lines, covered);
+      std::span<const Covered> rest = covered;
+      for (int i = 0; i < columns.nx; ++i) {
+        std::size_t own = 0;
+        while (own < rest.size() && rest[own].column == i) ++own;
+        for (const Stretch& wanted : columns.at(i, k))
+          subtract(wanted, rest.first(own), columns.x(i), columns.z(k), shortest, of_row[row]);
+        rest = rest.subspan(own);
       }
-      std::sort(covered.begin(), covered.end());
-      for (const Stretch& wanted : columns[c].inside)
-        subtract(wanted, covered, columns[c], shortest, of_block[begin / kGrain]);
     }
   });
   std::vector<Hole> holes;
-  for (const auto& block : of_block) holes.insert(holes.end(), block.begin(), block.end());
+  for (const auto& row : of_row) holes.insert(holes.end(), row.begin(), row.end());
   return holes;
 }
 
@@ -101,11 +130,11 @@ void fill(const Vec3& low, const Vec3& high, std::vector<Ellipsoid>& ellipsoids)
 
 }  // namespace
 
-double cover_interior(const engine::Context& context, const geometry::TriMesh& mesh, double spacing_m,
+double cover_interior(const engine::Context& context, const InteriorColumns& columns,
                       std::vector<Ellipsoid>& ellipsoids) {
+  const double spacing_m = columns.spacing_m;
   double length_m = 0.0;
   if (ellipsoids.empty()) return length_m;
-  const auto columns = interior_columns(mesh, spacing_m);
   for (const Hole& hole : find_holes(context, columns, ellipsoids, 1e-3 * spacing_m)) {
     context.checkpoint();
     const double height = hole.high.y() - hole.low.y();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -7,14 +9,32 @@
 
 namespace bodice::fitting {
 
-/// A line along y and the stretches of it that lie inside the mesh.
-struct InteriorColumn {
-  double x = 0.0, z = 0.0;
-  std::vector<std::pair<double, double>> inside;  ///< ascending in y
+/// Lines along y on a grid of nx x nz cells (some millions at most), and the stretches of each that lie
+/// inside a mesh.
+struct InteriorColumns {
+  using Stretch = std::pair<double, double>;  ///< of y, ascending
+
+  geometry::Vec3 low = geometry::Vec3::Zero();
+  double spacing_m = 0.0;
+  int nx = 0, nz = 0;
+  std::vector<std::uint32_t> begin;  ///< nx nz + 1, into inside; x runs fastest
+  std::vector<Stretch> inside;
+
+  double x(int i) const { return low.x() + (i + 0.5) * spacing_m; }
+  double z(int k) const { return low.z() + (k + 0.5) * spacing_m; }
+  std::size_t cell(int i, int k) const { return static_cast<std::size_t>(k * nx + i); }
+  std::span<const Stretch> at(int i, int k) const {
+    const std::size_t c = cell(i, k);
+    return std::span(inside).subspan(begin[c], begin[c + 1] - begin[c]);
+  }
 };
 
-/// Columns `spacing_m` apart that meet the inside, counted as in interior_grid(). O(#F + columns).
-std::vector<InteriorColumn> interior_columns(const geometry::TriMesh& mesh, double spacing_m);
+/// The cells whose middles lie within [low, high] of one axis of `n` cells: first and last, empty if
+/// first > last.
+std::pair<int, int> cells_within(double low, double high, double origin, double spacing, int n);
+
+/// Columns `spacing_m` apart, counted as in interior_grid(); none without a box. O(#F + columns).
+InteriorColumns interior_columns(const geometry::TriMesh& mesh, double spacing_m);
 
 /// Points of a cubic grid that lie inside the mesh, `spacing_m` apart, by counting signed crossings along
 /// columns (above zero is inside, so overlaps stay inside). Columns that do not close (holes) are left out.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bodice/engine/parallel.hpp>
+
 #include "cover.hpp"
 #include "items.hpp"
 #include "medial_start.hpp"
@@ -97,17 +99,27 @@ double total_volume(const FittedRegion& fitted) {
   return sum;
 }
 
+InteriorColumns columns_of(const LabelledSkin& skin) {
+  return interior_columns(skin.mesh, kColumnSpacing * skin.stature_m);
+}
+
+/// Fills in the columns of the inside, if they are asked for, while the skin is sampled.
 engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& context,
                                                         const LabelledSkin& skin, const Items& items,
                                                         const std::vector<Region>& regions, int count,
-                                                        const FitOptions& options) {
+                                                        const FitOptions& options, InteriorColumns* columns) {
   std::vector<PartSkin> skins;
   RegionTasks tasks{.verb = "cover"};
   tasks.parts = options.parts;
   tasks.on_part = options.on_part;
   tasks.share = [&](const engine::Context& inner) {
     const std::size_t samples = kSamplesEach * static_cast<std::size_t>(count);
-    skins = sample_parts(inner, skin, regions, std::clamp<std::size_t>(samples, 1500, 20000));
+    engine::parallel_for(inner, columns ? 2 : 1, 1, [&](std::size_t job, std::size_t) {
+      if (job == 0)
+        skins = sample_parts(inner, skin, regions, std::clamp<std::size_t>(samples, 1500, 20000));
+      else
+        *columns = columns_of(skin);
+    });
     return shares_by_demand(skins, count, skin.stature_m);
   };
   tasks.fit = [&](const engine::Context& inner, const Region& region, int share) {
@@ -122,11 +134,11 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
   return run_region_tasks(context, regions, tasks);
 }
 
-void close_inside(const engine::Context& context, const LabelledSkin& skin,
+void close_inside(const engine::Context& context, const InteriorColumns& columns,
                   std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(e.shape);
-  cover_interior(context, skin.mesh, kColumnSpacing * skin.stature_m, shapes);
+  cover_interior(context, columns, shapes);
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
 }
 
@@ -139,16 +151,19 @@ engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSk
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
   Draft draft;
   draft.data.tier = proxy::Tier::kSolid;
+  // The inside of a body of some regions only is not its own to cover.
+  draft.parts = fitted_parts(regions, options.parts);
+  const bool whole = draft.parts == fitted_parts(regions, kAllParts);
+  InteriorColumns columns;
+  if (whole && mu.given()) columns = columns_of(skin);
   const auto fitted =
       mu.given() ? refine_regions(context, items, regions, refine_options(skin.stature_m), mu, count, options)
-                 : cover_regions(context, skin, items, regions, count, options);
+                 : cover_regions(context, skin, items, regions, count, options, whole ? &columns : nullptr);
   if (!fitted) return fitted.error();
   if (mu.given()) report_thresholds(regions, *fitted, mu, draft);
   for (const FittedRegion& f : *fitted)
     draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());
-  // The inside of a body of some regions only is not its own to cover.
-  draft.parts = fitted_parts(regions, options.parts);
-  if (draft.parts == fitted_parts(regions, kAllParts)) close_inside(context, skin, draft.data.ellipsoids);
+  if (whole) close_inside(context, columns, draft.data.ellipsoids);
   return draft;
 }
 
