@@ -10,6 +10,7 @@ namespace bench {
 namespace {
 
 constexpr double kMeanAgreement = 0.975, kLeastAgreement = 0.93, kMostSwapped = 0.001;
+constexpr double kFalseAlarms = 0.05;  // of the bodies
 
 bool misses(const Score& s, double bar) {
   return (s.agreement >= 0.0 && s.agreement < kLeastAgreement) || s.swapped > kMostSwapped ||
@@ -43,6 +44,33 @@ std::string percent(double share) {
   return text.data();
 }
 
+/// Warnings that tell of the input and leave the answer as good as it was.
+bool doubts_a_place(const bodice::engine::Warning& w) {
+  constexpr std::array<const char*, 4> kOfInput{"holes", "extra-pieces", "skin-touches",
+                                                "unusual-proportions"};
+  return std::none_of(kOfInput.begin(), kOfInput.end(), [&](const char* code) { return w.code == code; });
+}
+
+/// The part that a warning about a landmark names.
+std::string part_named_for(const std::string& landmark) {
+  const std::string kind = without_side(landmark);
+  if (kind == "crown" || kind == "neck") return "head";
+  if (kind == "perineum") return "thigh_l";
+  const std::string side = landmark.substr(kind.size());
+  return (kind == "fingertip" ? "forearm"
+          : kind == "knee"    ? "thigh"
+          : kind == "toe"     ? "calf"
+                              : "upper_arm") +
+         side;
+}
+
+/// True if some warning names what was missed, or doubts the whole body.
+bool told_of(const std::string& landmark, const std::vector<bodice::engine::Warning>& warnings) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const bodice::engine::Warning& w) {
+    return doubts_a_place(w) && (w.part.empty() || w.part == part_named_for(landmark));
+  });
+}
+
 struct Bin {
   double from, to;
 };
@@ -61,6 +89,32 @@ void Report::claim(const Case& c, const Score& s, const bodice::anatomy::Anatomy
     if (error->second > bar) over[without_side(error->first)] = true;
   }
   for (const auto& [name, yes] : over) misses_[c.kind][name] += yes;
+}
+
+void Report::weigh_warnings(const Case& c, const Score& s, const bodice::anatomy::Anatomy& a, bool missed) {
+  const double bar = c.rest ? kRestBar : kPosedBar;
+  bool silent = missed && std::none_of(a.warnings.begin(), a.warnings.end(), doubts_a_place);
+  for (const auto& [landmark, error] : s.error)
+    silent = silent || (error > bar && !told_of(landmark, a.warnings));
+  missed_silently_ += silent;
+  std::map<std::string, bool> codes;
+  for (const auto& w : a.warnings) codes[w.code] = true;
+  for (const auto& [code, yes] : codes) {
+    ++warned_[code].bodies;
+    warned_[code].rightly += missed;
+  }
+  if (std::none_of(a.warnings.begin(), a.warnings.end(), doubts_a_place)) return;
+  ++warned_of_places_.bodies;
+  warned_of_places_.rightly += missed;
+}
+
+void Report::print_warnings() const {
+  const int wrongly = warned_of_places_.bodies - warned_of_places_.rightly;
+  std::printf("bodies with a place in doubt %d, of them rightly %d; false alarms %.1f %% of all (bar %.0f)\n",
+              warned_of_places_.bodies, warned_of_places_.rightly,
+              100.0 * static_cast<double>(wrongly) / static_cast<double>(bodies_), 100.0 * kFalseAlarms);
+  for (const auto& [code, w] : warned_)
+    std::printf("  %-24s %4d bodies, %3d of them miss a bar\n", code.c_str(), w.bodies, w.rightly);
 }
 
 void Report::print_claims() const {
@@ -112,7 +166,7 @@ void Report::add(const Case& c, const bodice::anatomy::Anatomy& a) {
   const bool missed = misses(s, c.rest ? kRestBar : kPosedBar);
   ++bodies_;
   missed_ += missed;
-  missed_silently_ += missed && a.warnings.empty();
+  weigh_warnings(c, s, a, missed);
   if (s.agreement >= 0.0) agreement_.push_back(s.agreement);
   worst_swap_ = std::max(worst_swap_, s.swapped);
   for (const auto& [name, error] : s.error) {
@@ -141,8 +195,8 @@ void Report::add_refused(const Case& c, const std::string& sentence) {
 
 void Report::summary() const {
   if (bodies_ == 0) return;
-  std::printf("\nbodies %d, refused %d, with a bar missed %d, of them without a warning %d\n", bodies_,
-              refused_, missed_, missed_silently_);
+  std::printf("\nbodies %d, refused %d, with a bar missed %d, of them without a warning that names it %d\n",
+              bodies_, refused_, missed_, missed_silently_);
   if (!agreement_.empty())
     std::printf(
         "agreement, %% of the skin: mean %.2f (bar %.1f), least %.2f (bar %.0f); swapped %.2f (bar 0)\n",
@@ -157,6 +211,7 @@ void Report::summary() const {
     std::printf("\n");
   }
   print_kinds();
+  print_warnings();
   print_claims();
 }
 

@@ -31,7 +31,10 @@ class Report {
     double confidence, error_of_bar;
   };
   void claim(const Case& c, const Score& s, const bodice::anatomy::Anatomy& a);
+  /// What the warnings of one body say against what was missed on it.
+  void weigh_warnings(const Case& c, const Score& s, const bodice::anatomy::Anatomy& a, bool missed);
   void print_claims() const;
+  void print_warnings() const;
   void print_kinds() const;
   bool every_row_, every_landmark_;
   std::vector<double> agreement_;
@@ -40,6 +43,12 @@ class Report {
   std::vector<Claim> claims_;
   std::map<std::string, std::map<std::string, int>> misses_;  ///< by kind of body, by landmark
   std::map<std::string, std::vector<double>> kinds_;  ///< agreement of each body, negative where unknown
+  /// Bodies that were warned of, and those of them that do miss a bar.
+  struct Warned {
+    int bodies = 0, rightly = 0;
+  };
+  std::map<std::string, Warned> warned_;  ///< by code of the warning
+  Warned warned_of_places_;               ///< by any warning that doubts a place
   int bodies_ = 0, refused_ = 0, missed_ = 0, missed_silently_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "made.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 #include <bodice/engine/random.hpp>
@@ -86,6 +88,51 @@ double error(const bodice::synth::Body& truth, const bodice::anatomy::Anatomy& f
              bodice::body::LandmarkId id) {
   const auto i = static_cast<std::size_t>(id);
   return (truth.landmarks[i].position - found.landmarks[i].position).norm() / truth.stature_m;
+}
+
+namespace {
+
+using bodice::geometry::Index;
+using bodice::geometry::TriMesh;
+
+Vec3 middle(const TriMesh& mesh, Index f) {
+  return (mesh.corner(f, 0) + mesh.corner(f, 1) + mesh.corner(f, 2)) / 3.0;
+}
+
+std::vector<Index> triangles_of(const bodice::synth::Body& truth, const TriMesh& mesh, Part part) {
+  std::vector<Index> found;
+  for (Index f = 0; f < mesh.triangles.size(); ++f) {
+    const auto& t = mesh.triangles[f];
+    if (truth.part[t[0]] == part && truth.part[t[1]] == part && truth.part[t[2]] == part) found.push_back(f);
+  }
+  return found;
+}
+
+}  // namespace
+
+TriMesh fused(const bodice::synth::Body& truth, const TriMesh& mesh, Part one, Part other) {
+  Index f = 0, g = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Index a : triangles_of(truth, mesh, one))
+    for (const Index b : triangles_of(truth, mesh, other)) {
+      const double d = (middle(mesh, a) - middle(mesh, b)).squaredNorm();
+      const auto &s = mesh.triangles[a], &t = mesh.triangles[b];
+      const bool touch = std::find_first_of(s.begin(), s.end(), t.begin(), t.end()) != s.end();
+      if (touch || d >= least) continue;
+      least = d;
+      f = a;
+      g = b;
+    }
+  const auto a = mesh.triangles[f], b = mesh.triangles[g];
+  TriMesh joined{mesh.positions, {}};
+  for (Index t = 0; t < mesh.triangles.size(); ++t)
+    if (t != f && t != g) joined.triangles.push_back(mesh.triangles[t]);
+  for (int i = 0; i < 3; ++i) {  // walked against each other, so that the tube is oriented like the skin
+    const int next = (i + 1) % 3;
+    joined.triangles.push_back({a[i], a[next], b[(3 - next) % 3]});
+    joined.triangles.push_back({a[i], b[(3 - next) % 3], b[(3 - i) % 3]});
+  }
+  return joined;
 }
 
 }  // namespace made

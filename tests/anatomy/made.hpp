@@ -22,4 +22,9 @@ double swapped(const bodice::synth::Body& truth, const std::vector<bodice::body:
 double error(const bodice::synth::Body& truth, const bodice::anatomy::Anatomy& found,
              bodice::body::LandmarkId id);
 
+/// The body with the nearest triangles of two parts replaced by a tube between them: what a remesher makes of
+/// limbs that touch.
+bodice::geometry::TriMesh fused(const bodice::synth::Body& truth, const bodice::geometry::TriMesh& mesh,
+                                bodice::body::Part one, bodice::body::Part other);
+
 }  // namespace made

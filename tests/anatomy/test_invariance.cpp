@@ -137,7 +137,7 @@ TEST_CASE("damage that leaves the body whole changes nothing; what welds limbs i
   }
   const auto fused = bodice_test::data_file("awkward/m_avg_armsdown_fused.obj");
   REQUIRE(fused);
-  const anatomy::Anatomy found = understood(repaired(*fused));
-  CHECK(std::any_of(found.warnings.begin(), found.warnings.end(),
-                    [](const engine::Warning& w) { return w.code == "hand-fused-to-leg"; }));
+  const auto refused = anatomy::analyse({}, repaired(*fused), {*body::find_profile("ansur2")});
+  REQUIRE(!refused.ok());
+  CHECK(refused.error().message.find("fused where a hand touches a leg") != std::string::npos);
 }

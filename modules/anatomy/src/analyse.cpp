@@ -3,6 +3,7 @@
 #include <bodice/geometry/fins.hpp>
 
 #include "diagnose.hpp"
+#include "fused.hpp"
 #include "halve_edges.hpp"
 #include "landmarks.hpp"
 #include "segment.hpp"
@@ -67,6 +68,7 @@ engine::Result<Anatomy> understand(const engine::Context& context, const Skin& s
   Landmarks marks = find_landmarks(context, skin, coordinates);
   const SecondWays second = ask_second_ways(context, skin, coordinates, marks);
   weigh(second, marks);
+  if (const auto spoilt = spoilt_by_welds(skin, coordinates, marks, second)) return *spoilt;
   anatomy.stature_m = find_stature(skin, ends, marks);
   anatomy.up = upwards(skin, marks);
   anatomy.landmarks = as_list(skin, ends, marks);

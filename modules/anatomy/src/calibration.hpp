@@ -1,8 +1,9 @@
 // Where the places of a body lie in its own coordinates, as data.
-// Borders were fitted by weighted least squares to labelled CC0 bodies (twelve builds, thin to obese, pregnant,
-// children, in about ten poses each) and, with less weight, to made bodies; places to the same, to thirteen
-// builds in twenty more poses, and to made bodies of other seeds than bench/anatomy and the tests use. With each build left out in turn, the
-// borders put 1 % of the skin of real bodies into the wrong part and 1 to 3 % of children and obese ones.
+// Borders were fitted by weighted least squares to labelled CC0 bodies (twelve builds, thin to obese,
+// pregnant, children, in about ten poses each) and, with less weight, to made bodies. With each build left
+// out in turn, they put 1 % of the skin of real bodies into the wrong part and 1 to 3 % of children and obese
+// ones. Places were fitted to the same, to thirteen builds in twenty more poses, and to made bodies of other
+// seeds than bench/anatomy and the tests use.
 // Borders are the label borders of those bodies' skin weights, so a joint's border runs through the joint. No
 // coordinate that the borders use is a height or a share of the stature: a large head or short legs do not
 // move them.

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "fused.hpp"
+
 namespace bodice::anatomy {
 namespace {
 
@@ -9,22 +11,9 @@ using engine::Warning;
 
 /// Above this the five ends lie at unusual distances, in deviations.
 constexpr double kFairMisfit = 2.0;
-/// Below these confidences a place is named in a warning.
-constexpr double kUncertain = 0.35, kUncertainSides = 0.3;
+constexpr double kUncertainSides = 0.3;
 /// Left and right differ by more than poses explain, of the stature.
 constexpr double kAsymmetry = 0.12;
-/// A hand welded to a thigh makes the way from hand to foot shorter than this, of the stature; legs welded
-/// together the way from foot to foot.
-constexpr double kHandToFoot = 1.0, kFootToFoot = 0.86;
-
-/// Handles of the closed body: 0 for any skin without welds between limbs.
-int handles(const Skin& skin) {
-  long euler = 0;
-  for (const geometry::Index c : skin.component) euler += c == 0;
-  for (const auto& ends : skin.edges.ends) euler -= skin.component[ends[0]] == 0;
-  for (const auto& t : skin.mesh.triangles) euler += skin.component[t[0]] == 0;
-  return static_cast<int>((2 - euler) / 2);
-}
 
 void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
   if (skin.open_edges > 0)
@@ -35,7 +24,7 @@ void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
                         std::to_string(skin.pieces - 1) +
                             " pieces are not connected to the body and take the part of the nearest skin.",
                         "Remove eyes, clothes or scan debris to leave them out."});
-  const int count = skin.edges.boundary == 0 && skin.edges.non_manifold == 0 ? handles(skin) : 0;
+  const int count = handles(skin);
   if (count > 0)
     warnings.push_back(
         {"limbs-fused", "",
@@ -44,15 +33,15 @@ void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
          "Separate what touches, or give a pose with arms and legs apart."});
 }
 
-void check_welds(const BodyEnds& ends, double size, std::vector<Warning>& warnings) {
+void check_welds(const BodyCoordinates& coordinates, std::vector<Warning>& warnings) {
   constexpr std::array<const char*, 2> forearm{"forearm_l", "forearm_r"};
   for (int side = 0; side < 2; ++side)
-    if (static_cast<double>((*ends.from_hand[side])[ends.foot[side]]) < kHandToFoot * size)
+    if (hand_meets_leg(coordinates, side))
       warnings.push_back(
           {"hand-fused-to-leg", forearm[side],
            "The way along the skin from this hand to its foot is too short.",
            "Separate the hand from the thigh, or give a pose with the arms away from the body."});
-  if (static_cast<double>(ends.feet_apart) < kFootToFoot * size)
+  if (legs_meet(coordinates))
     warnings.push_back({"legs-fused", "thigh_l", "The way along the skin from foot to foot is too short.",
                         "Separate the legs, or give a pose with the legs apart."});
 }
@@ -146,7 +135,7 @@ std::vector<Warning> diagnose(const Skin& skin, const EndPoints& found, const Si
   std::vector<Warning> warnings;
   const auto size = static_cast<double>(coordinates.size_m());
   check_surface(skin, warnings);
-  check_welds(coordinates.ends(), size, warnings);
+  check_welds(coordinates, warnings);
   check_symmetry(coordinates.ends(), size, warnings);
   check_places(marks, warnings);
   check_second_ways(second, warnings);

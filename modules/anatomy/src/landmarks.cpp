@@ -28,9 +28,9 @@ constexpr float kKneeBeyond = 0.0115F;
 /// How much nearer to the head than its tip the front of a foot reaches, and
 /// how far to the sides; of head to feet.
 constexpr float kBlunt = 0.010F, kToes = 0.04F;
-/// A signature this many deviations off is no evidence any more. Armpits that are wrong are 4 to 8 off, right
-/// ones 2 to 4; the perineum's misfit tells less.
-constexpr double kHopelessArmpit = 6.0, kHopelessPerineum = 12.0;
+/// A signature this many deviations off is no evidence any more. Of armpits, one in fifty is more than 5.3
+/// off and one in a hundred wrong among these; of perineums one in fifty is more than 4 off.
+constexpr double kHopelessArmpit = 6.6, kHopelessPerineum = 6.4;
 
 double confidence_of(float misfit, double hopeless) {
   const double m = static_cast<double>(misfit) / hopeless;

@@ -1,0 +1,25 @@
+// Limbs that are welded to each other where they touch.
+#pragma once
+
+#include <optional>
+
+#include <bodice/engine/result.hpp>
+
+#include "second_ways.hpp"
+
+namespace bodice::anatomy {
+
+/// Handles of the closed body: 0 for a skin without welds between limbs, and for one with holes, which cannot
+/// be counted.
+int handles(const Skin& skin);
+
+/// A way along the skin that a weld cuts short: from hand to foot, from foot to foot.
+bool hand_meets_leg(const BodyCoordinates& coordinates, int side);
+bool legs_meet(const BodyCoordinates& coordinates);
+
+/// The sentence that names what is fused, if that leaves no usable answer: a weld where limbs merely touch
+/// spoils few places, one far from the trunk moves ends, middle and most of the borders.
+std::optional<engine::Error> spoilt_by_welds(const Skin& skin, const BodyCoordinates& coordinates,
+                                             const Landmarks& marks, const SecondWays& second);
+
+}  // namespace bodice::anatomy
