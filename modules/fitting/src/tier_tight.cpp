@@ -19,6 +19,11 @@ namespace {
 constexpr std::size_t kCoarse = 5;
 constexpr int kCoarseIterations = 36, kIterations = 500;
 constexpr double kCoarseMotion = 0.03, kMotion = 0.012;  // of the scaled body
+/// What those samples find fits them better than the skin between them, by a twentieth: the last steps are
+/// taken on so many times the samples, without a search for other places.
+constexpr std::size_t kFine = 4;
+constexpr int kFineIterations = 24;
+constexpr double kFineMotion = 0.005;
 /// Depths are asked for as heights are: ellipsoids that are right on the skin alone are a third more wrong
 /// 2 cm under it, and leave holes there.
 constexpr double kInward_mm = 25.0, kOutward_mm = 20.0;
@@ -64,20 +69,34 @@ class TightRun {
     if (options.covering) loss_.uncovered_weight = kCoveringWeight;
   }
 
-  void run(std::span<const DistanceSample> samples) {
-    air_probes_ = samples.size() / kAirProbes;
+  void run(std::size_t count) {
     std::vector<geometry::Ellipsoid> state;
     for (const auto& e : draft_.data.ellipsoids) state.push_back(scaling_.in(e.shape));
-    std::vector<DistanceSample> few;
+    std::vector<DistanceSample> samples = drawn(count, 11), few;
+    air_probes_ = samples.size() / kAirProbes;
     for (std::size_t i = 0; i < samples.size(); i += kCoarse) few.push_back(samples[i]);
     descend_on(few, kCoarseMotion, kCoarseIterations, state);
-    const DescentReport report = descend_on(samples, kMotion, kIterations, state);
+    DescentReport report = descend_on(samples, kMotion, kIterations, state);
+    if (!descent_.out_of_time()) {
+      const std::vector<DistanceSample> more = drawn((kFine - 1) * count, 12);
+      samples.insert(samples.end(), more.begin(), more.end());
+      air_probes_ = samples.size() / kAirProbes;
+      descent_.relocate = false;
+      report = descend_on(samples, kFineMotion, kFineIterations, state);
+    }
     for (auto idle = report.idle.rbegin(); idle != report.idle.rend(); ++idle)
       if (draft_.data.ellipsoids.size() > 1)
         draft_.data.ellipsoids.erase(draft_.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(*idle));
   }
 
  private:
+  /// Less than a third on the skin: with more, ellipsoids spread in air that nobody asks about.
+  std::vector<DistanceSample> drawn(std::size_t count, std::uint64_t seed) const {
+    const double mm = scaling_.mm();
+    return sample_near_skin(context_, source_,
+                            {count, kInward_mm * mm, kOutward_mm * mm, 0.3, 0.15, 200 * mm, seed});
+  }
+
   DescentReport descend_on(std::span<const DistanceSample> samples, double motion, int iterations,
                            std::vector<geometry::Ellipsoid>& state) {
     TightProblem problem(samples, scaling_, loss_, motion);
@@ -130,12 +149,8 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   draft.data.tier = proxy::Tier::kTight;
   draft.parts = source.parts;
   draft.data.ellipsoids = medial_start(context, source, count);
-  const double mm = Scaling(source.skin).mm();
-  const std::size_t samples = std::clamp<std::size_t>(250 * static_cast<std::size_t>(count), 7500, 75000);
-  // Less than a third on the skin: with more, ellipsoids spread in air that nobody asks about.
   TightRun(context, source, options, draft, deadline_ns)
-      .run(sample_near_skin(context, source,
-                            {samples, kInward_mm * mm, kOutward_mm * mm, 0.3, 0.15, 200 * mm, 11}));
+      .run(std::clamp<std::size_t>(250 * static_cast<std::size_t>(count), 7500, 75000));
   if (options.covering) cover_skin(context, source, draft.data.ellipsoids);
   return draft;
 }

@@ -24,6 +24,7 @@ using geometry::Ellipsoid;
 constexpr int kRelocateEvery = 12;  // iterations that a move is given to prove itself
 constexpr double kMinRadius = 0.002;
 constexpr double kFirstDamping = 1e-2;
+constexpr double kOverStep = 1.3;  // neighbours give way to each other: what each block asks for is too short
 constexpr int kStopWindow = 48;
 constexpr double kExact = 2e-5;          // root of the mean square residual: nothing is left to gain
 constexpr double kMostHeldBack = 0.25;   // steps an ellipsoid, before the candidates are chosen afresh
@@ -46,6 +47,7 @@ Step stepped(const Ellipsoid& e, const NormalBlock& block, double damping, doubl
   for (int j = 0; j < 9; ++j) a(j, j) += damping * (a(j, j) + 0.005 * typical) + 1e-4 * typical + 1e-12;
   NormalBlock::Vector step = -a.ldlt().solve(block.jtr);
   if (!step.allFinite()) return {e};
+  step *= kOverStep;
   const Vec3 stretch = e.radii.cwiseProduct(step.segment<3>(3));
   const double motion =
       step.head<3>().norm() + stretch.cwiseAbs().maxCoeff() + e.radii.maxCoeff() * step.tail<3>().norm();
@@ -76,17 +78,17 @@ class Descent {
   }
 
   DescentReport run() {
+    if (!options_.relocate) look_around();
     while (report_.iterations < options_.max_iterations &&
            !(options_.out_of_time && options_.out_of_time())) {
       context_.checkpoint();
       const int i = ++report_.iterations;
       iterate();
-      if (i % kRelocateEvery == 0) judge_moves();
+      const bool pauses = i % kRelocateEvery == 0;
+      if (pauses && options_.relocate) judge_moves();
       note_best();
-      if (i % kRelocateEvery == 0) {
-        look_around();
-        start_moves();
-      }
+      if (pauses) look_around();
+      if (pauses && options_.relocate) start_moves();
       if (is_done(i)) break;
     }
     problem_.refresh(context_, best_.ellipsoids);
@@ -136,7 +138,7 @@ class Descent {
         held_back_ += moved_[k] > 0.9 * problem_.most_motion();
       } else {
         problem_.restore(k);
-        state_.damping[k] = std::min(1e6, 5.0 * state_.damping[k]);
+        state_.damping[k] = std::min(1e6, 2.0 * state_.damping[k]);
         restored = true;
       }
     }

@@ -9,6 +9,7 @@ namespace bodice::fitting {
 
 struct DescentOptions {
   int max_iterations = 500;
+  bool relocate = true;  ///< false: ellipsoids stay where they are needed, and samples are asked for once
   /// Ends when this much of the cost is not gained over 48 iterations.
   double least_gain = 0.005;
   std::function<bool()> out_of_time;  ///< asked once an iteration
