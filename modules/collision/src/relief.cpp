@@ -35,6 +35,8 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
     find_sorted_axes(proxy.ellipsoids()[k].shape.radii, table.sorted_axis);
     if (from.nodes_per_side == 0) {
       tables.push_back(table);  // flat: of two nodes and no height
+      top_m.push_back(0.0f);
+      steep.push_back(0.0f);
       continue;
     }
     table.first_byte = static_cast<std::int32_t>(2 * from.first_texel);
@@ -46,8 +48,12 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
     tables.push_back(table);
     const float h = std::max(from.h_offset_m, from.h_offset_m + from.h_scale_m);
     const float a = std::max(std::abs(from.a_offset), std::abs(from.a_offset + from.a_scale));
+    top_m.push_back(h);
+    steep.push_back(a / out_m);
     highest_m = std::max(highest_m, h + a * std::max(in_m, out_m) / out_m);
   }
+  top_m.push_back(*std::max_element(top_m.begin(), top_m.end()));
+  steep.push_back(*std::max_element(steep.begin(), steep.end()));
 }
 
 }  // namespace bodice::collision

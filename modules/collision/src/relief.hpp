@@ -35,6 +35,8 @@ struct ReliefTables {
   std::vector<std::uint8_t> texels;  ///< pairs h, a; padded, since kernels read two texels at a time
   float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
   float highest_m = 0.0f;  ///< F_k >= d_k - highest_m
+  /// F_k >= d_k - top_m[k] - steep[k] |clamp(d_k, -in, out)|, and the same of all: the last entry.
+  std::vector<float> top_m, steep;
 };
 
 }  // namespace bodice::collision

@@ -14,18 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// For each piece all ellipsoids of the source whose distance may be below the limit at some place in its
-/// box; false if they are more than kMaxCandidates.
-template <class Source>
-HWY_INLINE bool find_below(const Source& source, const Extent& around, const Piece* pieces, int count,
-                           float limit_m, Near* out) {
-  const PieceRounding rounding(pieces, count);
-  const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
-    return not_beyond(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), all(limit_m + rounding.m[i]));
-  };
-  return collect_near(source, around, limit_m, pieces, count, out, keep);
-}
-
 /// Places and what they were put clear of: indices of ellipsoids, or below zero.
 struct Placed {
   const QueryBatch& batch;
@@ -70,7 +58,7 @@ HWY_INLINE bool others_of(const Baked& baked, const Placed& placed, float limit_
       (void)make_room<kTables>(kTogether, nullptr, columns, batch, open.pairs, out);
       for (int v = 0; v < kTogether; ++v) {
         const int i = from + v * kWidth;
-        open.add<1, 0>(lanes_of(pieces[piece], i), lowest[v], limit, hn::Iota(I(), i));
+        open.add<1, 0>(lanes_below(i, pieces[piece].end), lowest[v], limit, hn::Iota(I(), i));
       }
     }
   (void)collect_rest<kTables>(baked, nullptr, columns, batch, open, out);

@@ -38,6 +38,7 @@ class Columns {
   int count() const { return count_; }
   /// Of the proxy's, which column i holds.
   std::size_t ellipsoid(int i) const { return static_cast<std::size_t>(ellipsoids_[i]); }
+  const std::int32_t* ellipsoids() const { return ellipsoids_; }
   const float* row(int i) const { return values_ + i * stride_; }
 
  private:

@@ -304,6 +304,18 @@ HWY_INLINE bool find_near(const Source& source, const Extent& around, const Piec
   return collect_unbeaten<kLimited>(source, around, pieces, count, rivals, beyond_m, limit_m, out);
 }
 
+/// For each piece all ellipsoids of the source whose distance may be below the limit at some place in its
+/// box; false if they are more than kMaxCandidates.
+template <class Source>
+HWY_INLINE bool find_below(const Source& source, const Extent& around, const Piece* pieces, int count,
+                           float limit_m, Near* out) {
+  const PieceRounding rounding(pieces, count);
+  const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
+    return not_beyond(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), all(limit_m + rounding.m[i]));
+  };
+  return collect_near(source, around, limit_m, pieces, count, out, keep);
+}
+
 }  // namespace bodice::collision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -77,32 +77,66 @@ HWY_INLINE bool make_room(int vectors, const ReliefTables* relief, const Columns
 
 constexpr int kNext = 4;
 
-/// The pairs of the particles with many, by rising bounds for each, which no other candidates change the
-/// order of; false if they do not fit.
+/// Some particles with more candidates below their limits than were kept.
+struct Crowded {
+  M lanes;
+  VI lane;
+  V3 p;
+  V kept, limit;
+};
+
+/// All the others of their candidates.
+template <int kTables>
+HWY_INLINE void collect_all(const Baked& baked, const Columns& columns, const QueryBatch& batch,
+                            const Crowded& who, Pairs& pairs, Batched& out) {
+  for (int i = 0; i < columns.count(); ++i) {
+    (void)make_room<kTables>(1, nullptr, columns, batch, pairs, out);
+    const VI rank = hn::Set(I(), i);
+    const V bound = ranked(lower_bound(baked.bounds[columns.ellipsoid(i)], who.p), rank);
+    const M open = hn::AndNot(hn::Gt(bound, who.limit), hn::Gt(bound, who.kept));
+    pairs.add(hn::And(who.lanes, open), who.lane, rank);
+  }
+}
+
+/// The same by rising bounds: blended answers are summed in an order that other candidates must not change.
+/// False if they do not fit.
+template <int kTables>
+HWY_INLINE bool collect_rising(const Baked& baked, const ReliefTables& relief, const Columns& columns,
+                               const QueryBatch& batch, Crowded& who, Pairs& pairs, Batched& out) {
+  M& more = who.lanes;
+  for (int taken = 0; taken < columns.count() && !hn::AllFalse(f, more); taken += kNext) {
+    Lowest<kNext> next;
+    next.clear();
+    for (int i = 0; i < columns.count(); ++i) {
+      const VI rank = hn::Set(I(), i);
+      const V bound = ranked(lower_bound(baked.bounds[columns.ellipsoid(i)], who.p), rank);
+      next.add(hn::IfThenElse(hn::Gt(bound, who.kept), bound, all(1e29f)), rank);
+    }
+    if (!make_room<kTables>(kNext, &relief, columns, batch, pairs, out)) return false;
+    for (int i = 0; i < kNext; ++i)
+      pairs.add(hn::AndNot(hn::Gt(next.bound[i], who.limit), more), who.lane, next.rank(i));
+    more = hn::AndNot(hn::Gt(next.bound[kNext], who.limit), more);
+    who.kept = next.bound[kNext - 1];
+  }
+  return true;
+}
+
+/// The pairs of the particles with many; false if they do not fit.
 template <int kTables>
 HWY_INLINE bool collect_rest(const Baked& baked, const ReliefTables* relief, const Columns& columns,
                              const QueryBatch& batch, Open& open, Batched& out) {
   for (int from = 0; from < open.count; from += kWidth) {
-    M more = hn::FirstN(f, static_cast<std::size_t>(open.count - from));
-    const VI lanes = hn::IfThenElseZero(hn::RebindMask(I(), more), hn::Load(I(), open.lane + from));
-    const V3 p = {hn::GatherIndex(f, batch.x, lanes), hn::GatherIndex(f, batch.y, lanes),
-                  hn::GatherIndex(f, batch.z, lanes)};
-    V kept = hn::Load(f, open.kept + from);
-    const V limit = hn::Load(f, open.limit + from);
-    for (int taken = 0; taken < columns.count() && !hn::AllFalse(f, more); taken += kNext) {
-      Lowest<kNext> next;
-      next.clear();
-      for (int i = 0; i < columns.count(); ++i) {
-        const VI rank = hn::Set(I(), i);
-        const V bound = ranked(lower_bound(baked.bounds[columns.ellipsoid(i)], p), rank);
-        next.add(hn::IfThenElse(hn::Gt(bound, kept), bound, all(1e29f)), rank);
-      }
-      if (!make_room<kTables>(kNext, relief, columns, batch, open.pairs, out)) return false;
-      for (int i = 0; i < kNext; ++i)
-        open.pairs.add(hn::AndNot(hn::Gt(next.bound[i], limit), more), lanes, next.rank(i));
-      more = hn::AndNot(hn::Gt(next.bound[kNext], limit), more);
-      kept = next.bound[kNext - 1];
-    }
+    Crowded who;
+    who.lanes = hn::FirstN(f, static_cast<std::size_t>(open.count - from));
+    who.lane = hn::IfThenElseZero(hn::RebindMask(I(), who.lanes), hn::Load(I(), open.lane + from));
+    who.p = {hn::GatherIndex(f, batch.x, who.lane), hn::GatherIndex(f, batch.y, who.lane),
+             hn::GatherIndex(f, batch.z, who.lane)};
+    who.kept = hn::Load(f, open.kept + from);
+    who.limit = hn::Load(f, open.limit + from);
+    if (!relief)
+      collect_all<kTables>(baked, columns, batch, who, open.pairs, out);
+    else if (!collect_rising<kTables>(baked, *relief, columns, batch, who, open.pairs, out))
+      return false;
   }
   return true;
 }
@@ -129,8 +163,8 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
       put(answers[v], relief != nullptr, out, i);
-      open.add<kKept, 1>(lanes_of(piece, i), lowest[v], bound_limit(baked, answers[v].distance, beyond_m),
-                         hn::Iota(I(), i));
+      open.add<kKept, 1>(lanes_below(i, piece.end), lowest[v],
+                         bound_limit(baked, answers[v].distance, beyond_m), hn::Iota(I(), i));
     }
   }
   return true;

@@ -179,7 +179,7 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
   Way way;
   Pushed pushed;
   way.clear_others();
-  if (!measure_first(surface, query, way, found)) return false;
+  if (!measure_first(surface, query, found)) return false;
   for (int i = 0; i < batch.count; i += kWidth)
     push_first(surface, batch, short_path_m, found, i, way, pushed, out);
   if (out.contact.none()) return true;

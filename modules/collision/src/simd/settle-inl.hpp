@@ -10,6 +10,7 @@
 
 #include "simd/clear-inl.hpp"
 #include "simd/smooth-inl.hpp"
+#include "simd/within-inl.hpp"
 #include "tolerances.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -198,12 +199,34 @@ HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out)
   return true;
 }
 
-/// The same where the lanes begin; of plain ellipsoids only where one is below the clearance.
-HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Way& way, Batched& out) {
-  if (surface.bent()) return measure(surface, batch, out);
-  std::memset(way.clear1, 0xFF, sizeof(way.clear1));
-  const Placed placed{batch, way.clear1, way.clear2, way.clear3};
-  return nearest_others(surface.baked, placed, surface.clearance.distance_m, surface.scratch, out);
+/// Answers back to the lanes of the batch; those that were not reached are far.
+HWY_INLINE void spread(const Reached& reached, const Batched& answers, int count, Batched& out) {
+  for (int i = 0; i < count; i += kWidth) {
+    hn::Store(all(1e30f), f, out.distance + i);
+    hn::Store(hn::Zero(I()), I(), out.name + i);
+  }
+  for (int i = 0; i < reached.count; ++i) {
+    const int lane = reached.lane[i];
+    if (lane < 0) continue;
+    out.distance[lane] = answers.distance[i];
+    out.value[lane] = answers.value[i];
+    out.gx[lane] = answers.gx[i];
+    out.gy[lane] = answers.gy[i];
+    out.gz[lane] = answers.gz[i];
+    out.name[lane] = answers.name[i];
+  }
+}
+
+/// The same where the lanes begin; only where one is below the clearance.
+HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Batched& out) {
+  if (surface.filleted) return measure(surface, batch, out);
+  Reached reached;
+  Batched answers;
+  const float limit_m = surface.clearance.distance_m;
+  if (!nearest_within(surface.baked, surface.relief, batch, limit_m, surface.scratch, reached, answers))
+    return measure(surface, batch, out);
+  spread(reached, answers, batch.count, out);
+  return true;
 }
 
 /// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.

@@ -21,9 +21,9 @@ HWY_INLINE int end_of(const Piece& piece) {
   return piece.begin + (piece.end - piece.begin + kStep - 1) / kStep * kStep;
 }
 
-/// Those of the lanes from i on that are the piece's.
-HWY_INLINE M lanes_of(const Piece& piece, int i) {
-  return hn::FirstN(f, static_cast<std::size_t>(std::max(0, piece.end - i)));
+/// Those of the lanes from i on that are below the end.
+HWY_INLINE M lanes_below(int i, int end) {
+  return hn::FirstN(f, static_cast<std::size_t>(std::max(0, end - i)));
 }
 
 struct Lists {

@@ -51,23 +51,75 @@ struct alignas(64) Reached {
   }
 };
 
-/// The particles of a piece that may be within the limit.
+/// The largest d_k at which the corrected distance F_k may be within the limit, of ellipsoids k: where
+/// d - top - steep |clamp(d, -in, out)|, which F_k is not below, comes to the limit.
+HWY_INLINE V reach_over(const ReliefTables& relief, float limit_m, VI k) {
+  const V one = all(1.0f), in = all(relief.in_m), out = all(relief.out_m);
+  const V steep = hn::GatherIndex(f, relief.steep.data(), k);
+  const V least = hn::Add(all(limit_m), hn::GatherIndex(f, relief.top_m.data(), k));
+  const V outside =
+      hn::MulAdd(steep, hn::Min(out, hn::Div(least, hn::Max(hn::Sub(one, steep), all(1e-6f)))), least);
+  const V inside = hn::MulAdd(steep, hn::Min(in, hn::Div(hn::Neg(least), hn::Add(one, steep))), least);
+  const V farthest = hn::MulAdd(steep, hn::Max(in, out), least);
+  const V reach = hn::IfThenElse(hn::Lt(least, hn::Zero(f)), inside, outside);
+  return hn::IfThenElse(hn::Lt(steep, one), reach, farthest);
+}
+
+/// The bounds of the columns' ellipsoids above which they leave no particle within the limit.
+struct Reaches {
+  alignas(64) float limit[kMaxCandidates + 16];
+
+  HWY_INLINE Reaches(const Baked& baked, const ReliefTables& relief, float limit_m, const Columns& columns) {
+    for (int i = 0; i < columns.count(); i += kWidth) {
+      const M valid = lanes_below(i, columns.count());
+      const VI k = hn::IfThenElseZero(hn::RebindMask(I(), valid), hn::LoadU(I(), columns.ellipsoids() + i));
+      hn::Store(bound_limit(baked, reach_over(relief, limit_m, k), 0.0f), f, limit + i);
+    }
+  }
+};
+
+/// Bounds as bound_vectors() has them; `near` tells the particles that some ellipsoid leaves within its
+/// limit.
 template <int kKept>
-HWY_INLINE void reach(const Baked& baked, const QueryBatch& batch, float limit_m, const Piece& piece,
-                      const Near& near, const Columns& columns, Reached& out) {
+HWY_INLINE void bound_reached(const Baked& baked, const Columns& columns, const Near& near,
+                              const Reaches& reaches, const V3 (&p)[kTogether],
+                              Lowest<kKept> (&out)[kTogether], M (&within)[kTogether]) {
+  for (int v = 0; v < kTogether; ++v) out[v].clear(), within[v] = hn::FirstN(f, 0);
+  for (int i = 0; i < near.count; ++i) {
+    const std::int32_t column = near.index[i];
+    const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(column)];
+    const VI rank = hn::Set(I(), column);
+    const V limit = all(reaches.limit[column]);
+    for (int v = 0; v < kTogether; ++v) {
+      const V bound = lower_bound(e, p[v]);
+      out[v].add(bound, rank);
+      within[v] = hn::Or(within[v], hn::Le(bound, limit));
+    }
+  }
+}
+
+/// The particles of a piece that may be within the limit. `reaches` is not null with relief.
+template <int kKept>
+HWY_INLINE void reach(const Baked& baked, const QueryBatch& batch, float limit_m, const Reaches* reaches,
+                      const Piece& piece, const Near& near, const Columns& columns, Reached& out) {
   const V limit = bound_limit(baked, all(limit_m), 0.0f);
   for (int from = piece.begin; from < piece.end; from += kStep) {
     V3 p[kTogether];
     Lowest<kKept> lowest[kTogether];
+    M within[kTogether];
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
       p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
     }
-    bound_vectors(baked, columns, near, p, lowest);
+    if (reaches) {
+      bound_reached(baked, columns, near, *reaches, p, lowest, within);
+    } else {
+      bound_vectors(baked, columns, near, p, lowest);
+      for (int v = 0; v < kTogether; ++v) within[v] = hn::Not(hn::Gt(lowest[v].bound[0], limit));
+    }
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
-      const M within = hn::AndNot(hn::Gt(lowest[v].bound[0], limit), lanes_of(piece, i));
-      out.add(within, hn::Iota(I(), i), p[v], lowest[v]);
+      out.add(hn::And(within[v], lanes_below(i, piece.end)), hn::Iota(I(), i), p[v], lowest[v]);
     }
   }
 }
@@ -102,19 +154,33 @@ HWY_INLINE bool answer_reached(const Baked& baked, const ReliefTables* relief, f
   return true;
 }
 
+/// How far is asked for: from the surface, and what that is over the ellipsoids at most.
+struct Limits {
+  float surface_m, plain_m;
+};
+
 /// Some pieces of the batch whose candidates are the columns.
 template <int kKept, int kTables>
 HWY_INLINE bool within_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                          float limit_m, const Piece* pieces, int count, const Near* near,
+                          const Limits& limits, const Piece* pieces, int count, const Near* near,
                           const Columns& columns, Reached& reached, Open& open, Batched& out) {
   const int begin = reached.count;
-  for (int i = 0; i < count; ++i)
-    if (near[i].count > 0) reach<kKept>(baked, batch, limit_m, pieces[i], near[i], columns, reached);
+  const auto reach_each = [&](const Reaches* reaches) {
+    for (int i = 0; i < count; ++i)
+      if (near[i].count > 0)
+        reach<kKept>(baked, batch, limits.plain_m, reaches, pieces[i], near[i], columns, reached);
+  };
+  if (relief) {
+    const Reaches reaches(baked, *relief, limits.surface_m, columns);
+    reach_each(&reaches);
+  } else {
+    reach_each(nullptr);
+  }
   if (reached.count == begin) return true;
   reached.pad<kKept>(begin);
   const QueryBatch at = places(reached.x, reached.y, reached.z, reached.count);
   open.pairs.count = open.count = 0;
-  if (!answer_reached<kKept, kTables>(baked, relief, limit_m, reached, at, begin, columns, open, out))
+  if (!answer_reached<kKept, kTables>(baked, relief, limits.plain_m, reached, at, begin, columns, open, out))
     return false;
   if (!collect_rest<kTables>(baked, relief, columns, at, open, out)) return false;
   flush<kTables>(relief, columns, at, open.pairs, out);
@@ -130,21 +196,29 @@ inline bool nearest_within(const Baked& baked, const ReliefTables* relief, Query
   const Blocks blocks(batch);
   if (!blocks.near) return false;
   for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
-  // The surface is nowhere higher over the ellipsoids.
-  const float plain_m = limit_m + (relief ? relief->highest_m : 0.0f) + 4.0f * baked.rounding_m;
+  Limits limits{limit_m + 4.0f * baked.rounding_m, limit_m + 4.0f * baked.rounding_m};
+  if (relief) {
+    const VI of_all = hn::Set(I(), static_cast<std::int32_t>(relief->tables.size()));
+    limits.plain_m = hn::GetLane(reach_over(*relief, limits.surface_m, of_all));
+  }
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
+  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen feet a
+  // block.
+  const bool close = limits.surface_m <= 2.0f * blocks.pieces[0].box.radius;
   const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
                         Near* lists) {
-    return find_near<true>(source, around, pieces, count, beyond_m, plain_m + beyond_m, lists);
+    const float below_m = limits.plain_m + beyond_m;
+    if (close) return find_below(source, around, pieces, count, below_m, lists);
+    return find_near<true>(source, around, pieces, count, beyond_m, below_m, lists);
   };
   const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
                         const Near* lists) {
     Open& open = scratch.open;
     if (relief)
-      return within_of<3, tables()>(baked, relief, batch, plain_m, pieces, count, lists, columns, reached,
+      return within_of<3, tables()>(baked, relief, batch, limits, pieces, count, lists, columns, reached,
                                     open, out);
-    return within_of<2, tables()>(baked, nullptr, batch, plain_m, pieces, count, lists, columns, reached,
-                                  open, out);
+    return within_of<2, tables()>(baked, nullptr, batch, limits, pieces, count, lists, columns, reached, open,
+                                  out);
   };
   reached.count = 0;
   return share(baked, relief, blocks.pieces, blocks.count, scratch.lists, find, work);
