@@ -5,6 +5,7 @@
 #include "coarse.hpp"
 
 #include <atomic>
+#include <span>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -60,32 +61,37 @@ bool pull(const engine::Context& context, CoarseLevel& level) {
   return pulled.load();
 }
 
-// The nodes' displacements, shared out to the particles they carry.
-void carry(const engine::Context& context, const CoarseLevel& level, Particles& p) {
-  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (p.point[i].weight == 0.0f) continue;
-      const Parents& parents = level.parents[i];
-      Float4 sum = splat(0.0f);
-      for (std::size_t k = 0; k < kParents; ++k) sum += parents.share[k] * load(level.move[parents.node[k]]);
-      store(p.point[i], load(p.point[i]) + sum);
-    }
-  });
+// What the nodes' displacements come to at particle i.
+Float4 carried(const CoarseLevel& level, std::size_t i) {
+  const Parents& parents = level.parents[i];
+  Float4 sum = splat(0.0f);
+  for (std::size_t k = 0; k < kParents; ++k) sum += parents.share[k] * load(level.move[parents.node[k]]);
+  return sum;
 }
 
-void load_nodes(const engine::Context& context, const Particles& p, CoarseLevel& level) {
+// Where the levels before have brought particle i.
+Float4 moved_to(std::span<const CoarseLevel* const> moved, const Particles& p, std::size_t i) {
+  Float4 at = load(p.point[i]);
+  if (p.point[i].weight == 0.0f) return at;
+  for (const CoarseLevel* level : moved) at += carried(*level, i);
+  return at;
+}
+
+void load_nodes(const engine::Context& context, std::span<const CoarseLevel* const> moved, const Particles& p,
+                CoarseLevel& level) {
   engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n) {
-      const Point& from = p.point[level.node[n]];
-      level.at[n].x = from.x, level.at[n].y = from.y, level.at[n].z = from.z;
+      const Float4 from = moved_to(moved, p, level.node[n]);
+      store(level.move[n], from);
+      level.at[n].x = from[0], level.at[n].y = from[1], level.at[n].z = from[2];
     }
   });
 }
 
-void to_displacements(const engine::Context& context, const Particles& p, CoarseLevel& level) {
+void to_displacements(const engine::Context& context, CoarseLevel& level) {
   engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t n = begin; n < end; ++n)
-      store(level.move[n], xyz(load(level.at[n]) - load(p.point[level.node[n]])));
+      store(level.move[n], xyz(load(level.at[n]) - load(level.move[n])));
   });
 }
 
@@ -113,18 +119,25 @@ void update_weights(const engine::Context& context, const Particles& p, std::vec
   }
 }
 
-void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& particles) {
+// A finer level's nodes start where the coarser ones bring them; the particles follow all levels at once.
+void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& p) {
+  const CoarseLevel* moved[kMostLevels] = {};
+  std::size_t count = 0;
   for (CoarseLevel& level : levels) {
-    load_nodes(context, particles, level);
-    bool moved = false;
+    load_nodes(context, {moved, count}, p, level);
+    bool pulled = false;
     for (int sweep = 0; sweep < level.sweeps; ++sweep) {
       if (!pull(context, level)) break;  // all within their limits: a further sweep would find the same
-      moved = true;
+      pulled = true;
     }
-    if (!moved) continue;
-    to_displacements(context, particles, level);
-    carry(context, level, particles);
+    if (!pulled) continue;
+    to_displacements(context, level);
+    moved[count++] = &level;
   }
+  if (count == 0) return;
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) store(p.point[i], moved_to({moved, count}, p, i));
+  });
 }
 
 }  // namespace bodice::cloth

@@ -14,6 +14,7 @@
 namespace bodice::cloth {
 
 inline constexpr std::size_t kParents = 4;
+inline constexpr std::size_t kMostLevels = 2;
 inline constexpr std::size_t kTiePack = 4;  ///< ties solved together; larger packs of so few were half idle
 
 /// Nodes that carry a particle.
@@ -39,7 +40,7 @@ struct CoarseLevel {
   int sweeps = 1;
   std::vector<Index> node;  ///< #N, the particle at each node
   std::vector<Point> at;    ///< #N, those that idle slots name; weight: inverse mass it stands for
-  std::vector<Point> move;  ///< #N, metres, of the last solve
+  std::vector<Point> move;  ///< #N, metres: where a solve begins, and after it how far it went
   Ties ties;
   std::vector<Parents> parents;    ///< #P
   std::vector<Index> child_begin;  ///< #N + 1, offsets into child

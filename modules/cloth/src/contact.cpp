@@ -4,6 +4,7 @@
 // 2020. - section 3.5 (static friction on positions, zero restitution on velocities)
 #include "contact.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -84,22 +85,37 @@ void meet_patch(const engine::Context& alone, const Meeting& meeting, std::size_
             ? meet_carried(alone, *meeting.collider, meeting.how, s.carry, meeting.share, first, last, p)
             : meeting.collider->resolve(alone, view(p, first, last, meeting.paper()), meeting.how));
     patch.spent_ns += alone.clock->now_ns() - begin_ns;
+    if (!meeting.paper()) velocities_from_positions(p, first, last, meeting.inverse_h);
+    for (std::size_t i = first; i < last; ++i) respond(p, s, i, meeting);
   };
   for (std::size_t from = begin; from < end; from += kCluster) {
     const std::size_t to = std::min(from + kCluster, end);
     if (may_touch(p, from, to, s.clearance)) continue;
     meet_run(from);
+    if (!meeting.paper()) velocities_from_positions(p, from, to, meeting.inverse_h);
+    std::fill_n(&s.touching[from], to - from, std::uint8_t{0});
     first = to;
   }
   meet_run(end);
-  if (!meeting.paper()) velocities_from_positions(p, begin, end, meeting.inverse_h);
-  for (std::size_t i = begin; i < end; ++i) respond(p, s, i, meeting);
+}
+
+// From four points to the positions, if they are finite.
+bool take_four(Particles& p, std::size_t i) {
+  const Point* const point = &p.point[i];
+  Float4 x = load(point[0]), y = load(point[1]), z = load(point[2]), weight = load(point[3]);
+  transpose(x, y, z, weight);
+  const Float4 sum = x + y + z, none = sum - sum;
+  if (lanes(none == splat(0.0f)) != 0xFu) return false;
+  store(&p.x[i], x), store(&p.y[i], y), store(&p.z[i], z);
+  return true;
 }
 
 // From the points to the positions. A particle that is not finite goes back to where the substep began.
 std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end) {
   std::uint32_t limits = 0;
   for (std::size_t i = begin; i < end; ++i) {
+    while (i + 4 <= end && take_four(p, i)) i += 4;
+    if (i == end) break;
     Point& at = p.point[i];
     if (!std::isfinite(at.x + at.y + at.z)) {
       at.x = p.old_x[i], at.y = p.old_y[i], at.z = p.old_z[i];

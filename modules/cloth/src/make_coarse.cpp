@@ -14,7 +14,7 @@ struct Spacing {
   double edges;
   int sweeps;
 };
-constexpr Spacing kSpacings[] = {{16.0, 8}, {4.0, 3}};
+constexpr Spacing kSpacings[kMostLevels] = {{16.0, 8}, {4.0, 3}};
 constexpr double kNeighbours = 1.7;  // nodes this many spacings apart are tied
 constexpr double kReach = 1.7;       // a particle's parents lie within this many spacings
 constexpr std::size_t kFewNodes = 3;

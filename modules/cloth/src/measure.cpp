@@ -21,12 +21,12 @@ Motion add(const Motion& a, const Motion& b) {
 // The 95th percentile is that of the longest 5 % of edges; idle slots and shortened edges hold no elongation.
 double strain_p95(const engine::Context& context, State& s) {
   const auto longer = static_cast<std::size_t>(0.05 * static_cast<double>(s.stretch.edges));
-  return static_cast<double>(nth_largest(context, s.scratch, longer, s.counts));
+  return static_cast<double>(nth_largest(context, s.scratch, longer, s.selection));
 }
 
 double median_speed(const engine::Context& context, State& s) {
   const std::size_t faster = s.particles.count() - 1 - (s.particles.count() - 1) / 2;
-  return static_cast<double>(nth_largest(context, s.sleep.speed, faster, s.counts));
+  return static_cast<double>(nth_largest(context, s.sleep.speed, faster, s.selection));
 }
 
 Motion measure_block(const State& s, std::size_t begin, std::size_t end) {

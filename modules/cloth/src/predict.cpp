@@ -21,11 +21,8 @@ struct Velocity {
   Float4 x, y, z;
 };
 
-// Those that nothing but the host or the end of sleep moves get their velocity back. Points from `end` on are
-// other tasks' or idle ones.
-void keep_held(const Velocity& before, std::size_t i, std::size_t end, Float4 damping, Particles& p) {
-  Float4 weight = splat(0.0f);
-  for (std::size_t k = i; k < end; ++k) weight[k - i] = p.point[k].weight;
+// Those that nothing but the host or the end of sleep moves get their velocity back.
+void keep_held(const Velocity& before, std::size_t i, Float4 weight, Float4 damping, Particles& p) {
   const auto free = weight > splat(0.0f);
   store(&p.vx[i], free ? damping * load(&p.vx[i]) : before.x);
   store(&p.vy[i], free ? damping * load(&p.vy[i]) : before.y);
@@ -39,6 +36,13 @@ bool any_faster(const Particles& p, std::size_t i, float top_speed) {
   return !(v2[0] <= limit && v2[1] <= limit && v2[2] <= limit && v2[3] <= limit);
 }
 
+// Four points at (x, y, z), fewer at the end: points from there on are other tasks' or idle ones.
+void place(Float4 x, Float4 y, Float4 z, Float4 weight, std::size_t count, Point* point) {
+  Float4 at[4] = {x, y, z, weight};
+  transpose(at[0], at[1], at[2], at[3]);
+  for (std::size_t k = 0; k < count; ++k) store(point[k], at[k]);
+}
+
 }  // namespace
 
 std::uint32_t predict(const Environment& environment, const Air& air, const Prediction& how,
@@ -49,14 +53,14 @@ std::uint32_t predict(const Environment& environment, const Air& air, const Pred
     const Velocity before = {load(&p.vx[i]), load(&p.vy[i]), load(&p.vz[i])};
     accelerate(environment, air, how.substep_s, i, i + 4, p);
     const std::size_t last = std::min(i + 4, end);
-    keep_held(before, i, last, damping, p);
+    Point* const point = &p.point[i];
+    const Float4 weight = weights(load(point[0]), load(point[1]), load(point[2]), load(point[3]));
+    keep_held(before, i, weight, damping, p);
     if (any_faster(p, i, how.top_speed_m_s))
       for (std::size_t k = i; k < last; ++k) limits |= bound_velocity(p, k, how.top_speed_m_s);
-    Float4 x = load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]);
-    Float4 y = load(&p.old_y[i]) + how.substep_s * load(&p.vy[i]);
-    Float4 z = load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]);
-    for (std::size_t k = i; k < last; ++k)
-      p.point[k].x = x[k - i], p.point[k].y = y[k - i], p.point[k].z = z[k - i];
+    place(load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]),
+          load(&p.old_y[i]) + how.substep_s * load(&p.vy[i]),
+          load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]), weight, last - i, point);
   }
   return limits;
 }

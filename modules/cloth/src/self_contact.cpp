@@ -126,17 +126,32 @@ Float4 part(const Particles& p, const Rub& rub, Index i, Index j, float near_m) 
   return push * normal - held * tangent;
 }
 
+// Of the four pairs from `first` on, a bit each that is too near. Places that are not taken name particles,
+// too, and are left out.
+unsigned too_near(const Particles& p, const SelfContact& s, Index i, std::size_t first) {
+  const Float4 at = load(p.point[i]);
+  Float4 d[4];
+  for (std::size_t k = 0; k < 4; ++k) d[k] = at - load(p.point[s.close[first + k]]);
+  transpose(d[0], d[1], d[2], d[3]);
+  const Float4 near_m = load(&s.close_m[first]);
+  const unsigned near = lanes(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < near_m * near_m);
+  const std::size_t left = i * kMaxClose + s.close_count[i] - first;
+  return left < 4 ? near & ((1u << left) - 1) : near;
+}
+
 Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching, const Rub& rub,
                   const SelfContact& s, Index i) {
   const float own = yielding(p, touching, i);
   Float4 sum = splat(0.0f);
   float pushes = 0.0f;
-  for (std::size_t k = i * kMaxClose; k < i * kMaxClose + s.close_count[i]; ++k) {
-    const Index j = s.close[k];
-    if (distance2(p.point[i], p.point[j]) >= s.close_m[k] * s.close_m[k]) continue;
-    const float share = own / (own + yielding(p, touching, j) + kTinyWeight);
-    sum += share * part(p, rub, i, j, s.close_m[k]);
-    pushes += 1.0f;
+  for (std::size_t first = i * kMaxClose; first < i * kMaxClose + s.close_count[i]; first += 4) {
+    for (unsigned near = too_near(p, s, i, first); near != 0; near &= near - 1) {
+      const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(near));
+      const Index j = s.close[k];
+      const float share = own / (own + yielding(p, touching, j) + kTinyWeight);
+      sum += share * part(p, rub, i, j, s.close_m[k]);
+      pushes += 1.0f;
+    }
   }
   return pushes > 1.0f ? sum / pushes : sum;
 }

@@ -36,7 +36,7 @@ struct State {
   Budget budget;
   const collision::Collider* last_collider = nullptr;  ///< compared, never read
   std::vector<float> scratch;                          ///< #slots of edges, strains
-  DigitCounts counts;
+  Selection selection;
   float max_travel_m = 0.0f;  ///< a substep
   double time_s = 0.0;
 
