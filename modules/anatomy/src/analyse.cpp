@@ -47,6 +47,7 @@ void weigh(const SecondWays& second, Landmarks& marks) {
     after(marks.fingertip_confidence[side], second.fingertip[side], kFingertipApart);
     after(marks.elbow[side].confidence, second.elbow[side], kElbowApart);
     after(marks.armpit_confidence[side], second.armpit[side], kArmpitApart);
+    after(marks.armpit_confidence[side], second.armpits, kArmpitsDiffer);
     after(marks.knee[side].confidence, second.knee[side], kKneeApart);
     after(marks.toe_confidence[side], second.toe[side], kToeApart);
   }

@@ -53,6 +53,13 @@ double armpit_apart(const BodyCoordinates& coordinates, const Landmarks& marks, 
   return static_cast<double>(std::abs(found - level) / coordinates.size_m());
 }
 
+/// Arms are of one length; a shrug or a twist changes the ways along them by half of what is a contradiction.
+double armpits_differ(const BodyCoordinates& coordinates, const Landmarks& marks) {
+  const BodyEnds& ends = coordinates.ends();
+  const float left = (*ends.from_hand[0])[marks.armpit[0]], right = (*ends.from_hand[1])[marks.armpit[1]];
+  return static_cast<double>(std::abs(left - right) / coordinates.size_m());
+}
+
 }  // namespace
 
 SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
@@ -64,6 +71,7 @@ SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
   });
   ask_second_places(context, skin, coordinates, marks, second);
   for (int side = 0; side < 2; ++side) second.armpit[side] = armpit_apart(coordinates, marks, side);
+  second.armpits = armpits_differ(coordinates, marks);
   return second;
 }
 

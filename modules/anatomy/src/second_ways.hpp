@@ -10,7 +10,8 @@ struct SecondWays {
   double neck = -1.0;      ///< centre of the least girth between head and shoulders, as in the paper
   double perineum = -1.0;  ///< where the legs' loops merge
   std::array<double, 2> armpit{-1.0, -1.0};  ///< level where the loop around the arm widens into the trunk
-  double crown = -1.0;                       ///< farthest from the perineum
+  double armpits = -1.0;  ///< how much farther one armpit lies from its fingertip than the other
+  double crown = -1.0;    ///< farthest from the perineum
   std::array<double, 2> fingertip{-1.0, -1.0}, toe{-1.0, -1.0};  ///< the same
   std::array<double, 2> elbow{-1.0, -1.0}, knee{-1.0, -1.0};     ///< bend of the limb's axis, or proportion
 };
@@ -26,7 +27,8 @@ double agreed(double confidence, double apart, double most);
 /// and its narrowest place, which lie some 4 % apart. Each bound is passed by one of a hundred places that
 /// are right.
 inline constexpr double kNeckApart = 0.10, kPerineumApart = 0.07, kArmpitApart = 0.08, kCrownApart = 0.06,
-                        kFingertipApart = 0.02, kToeApart = 0.035, kElbowApart = 0.07, kKneeApart = 0.038;
+                        kArmpitsDiffer = 0.065, kFingertipApart = 0.02, kToeApart = 0.035, kElbowApart = 0.07,
+                        kKneeApart = 0.038;
 /// Below this confidence a place is named in a warning.
 inline constexpr double kUncertain = 0.35;
 
