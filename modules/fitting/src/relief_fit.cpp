@@ -16,7 +16,7 @@ constexpr int kLeastSide = 4, kMostSide = 96;
 // A point this deep that is reported outside is a leak: particles there would be let out the wrong way.
 constexpr double kLeakDepth = 7e-3 / 1.7, kLeakMargin = 6e-3 / 1.7;  // of stature
 constexpr float kLeakFactor = 20.0f;
-constexpr int kLeakRounds = 4, kSettleSteps = 8, kMostLooks = 2;
+constexpr int kLeakRounds = 4, kSettleSteps = 5, kMostLooks = 2;
 constexpr double kSpokenFor = 0.05;  // weight from which a node's value counts for the range of a table
 
 std::size_t square(int side) {
