@@ -8,6 +8,8 @@
 #include <bodice/fitting/fit.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/sampling.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 
 #include "cover.hpp"
 #include "cover_pieces.hpp"
@@ -94,6 +96,32 @@ TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering o
   CHECK(deepest_uncovered(skin, balanced->proxy) > 5e-4);
   CHECK(deepest_uncovered(skin, covering->proxy) <= 1e-9);
   CHECK(covering->accuracy.gap_m.mean > balanced->accuracy.gap_m.mean);
+}
+
+TEST_CASE("tight, covering: skin that dips into another limb is covered up to where it dips") {
+  // Triangles of four centimetres, of which those across the seam have buried corners.
+  const geometry::Ellipsoid left{Vec3(-0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
+  const geometry::Ellipsoid right{Vec3(0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
+  Skin skin;
+  fitting_test::add_ellipsoid(skin, left, body::Part::kThighL, 12);
+  fitting_test::add_ellipsoid(skin, right, body::Part::kThighR, 12);
+  skin.stature_m = 1.0;
+  fitting::FitOptions options;
+  options.tier = proxy::Tier::kTight;
+  options.max_ellipsoids = 8;
+  options.covering = true;
+  const auto covering = fitting::fit({}, skin.view(), options);
+  REQUIRE(covering.ok());
+  double deepest = 0.0;
+  int seam = 0;
+  for (const auto& sample : geometry::sample_surface(skin.mesh, 20000, 5)) {
+    const bool of_left = sample.triangle < skin.mesh.triangles.size() / 2;
+    if (geometry::level(of_left ? right : left, sample.point) < 1.0) continue;  // inside the other
+    seam += std::abs(sample.point.x()) < 0.02;
+    deepest = std::max(deepest, proxy::proxy_distance(covering->proxy, sample.point).distance);
+  }
+  CHECK(seam > 50);
+  CHECK(deepest <= 1e-9);
 }
 
 TEST_CASE("cover: what no triangle needs is taken back, and every triangle stays held") {

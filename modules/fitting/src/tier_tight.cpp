@@ -34,22 +34,34 @@ constexpr float kCoveringWeight = 4.0f;  // of uncovered skin, before what is le
 /// few have to grow much.
 constexpr double kGrowFirst_mm = 3.0, kLeastGrown = 1.03;
 
-/// Every triangle of the wanted, unburied skin into ellipsoids, in pieces.
+/// Triangles that reach into the open: one that dips into another limb is flagged as buried, but its rest
+/// bounds the body.
+std::vector<Index> open_triangles(const SkinSource& source) {
+  const auto& [positions, triangles] = source.skin.mesh;
+  std::vector<std::uint8_t> open(positions.size(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (!source.buried[t])
+      for (const Index v : triangles[t]) open[v] = 1;
+  std::vector<Index> found;
+  for (Index t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    const auto part = static_cast<int>(source.skin.part[a]);
+    if (((source.parts >> part) & 1u) && (open[a] || open[b] || open[c])) found.push_back(t);
+  }
+  return found;
+}
+
+/// Every open triangle of the wanted skin into ellipsoids, in pieces.
 void cover_skin(const engine::Context& context, const SkinSource& source,
                 std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   const LabelledSkin& skin = source.skin;
-  std::vector<Index> triangles;
-  for (std::size_t t = 0; t < skin.mesh.triangles.size(); ++t) {
-    const auto part = static_cast<int>(skin.part[skin.mesh.triangles[t][0]]);
-    if (((source.parts >> part) & 1u) && !source.buried[t]) triangles.push_back(static_cast<Index>(t));
-  }
   std::vector<geometry::Ellipsoid> shapes, anchors;
   for (const auto& e : ellipsoids) {
     const auto& [center, axes, radii] = e.shape;
     anchors.push_back({center, axes, kLeastGrown * radii});
     shapes.push_back({center, axes, radii.array() + kGrowFirst_mm * Scaling(skin).mm()});
   }
-  const CoverPieces pieces = cut_at_creases(skin, triangles, shapes);
+  const CoverPieces pieces = cut_at_creases(skin, open_triangles(source), shapes);
   std::vector<Index> all(pieces.mesh.triangles.size());
   std::iota(all.begin(), all.end(), Index{0});
   cover_triangles(context, pieces.mesh, all, shapes);

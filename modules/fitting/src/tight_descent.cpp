@@ -87,7 +87,7 @@ class Descent {
       const bool pauses = i % kRelocateEvery == 0;
       if (pauses && options_.relocate) judge_moves();
       note_best();
-      if (pauses) look_around();
+      if (pauses && i < options_.max_iterations) look_around();
       if (pauses && options_.relocate) start_moves();
       if (is_done(i)) break;
     }
