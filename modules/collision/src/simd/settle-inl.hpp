@@ -223,10 +223,16 @@ HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Batched
   Reached reached;
   Batched answers;
   const float limit_m = surface.clearance.distance_m;
-  if (!nearest_within(surface.baked, surface.relief, batch, limit_m, surface.scratch, reached, answers))
-    return measure(surface, batch, out);
-  spread(reached, answers, batch.count, out);
-  return true;
+  if (nearest_within(surface.baked, surface.relief, batch, limit_m, surface.scratch, reached, answers)) {
+    spread(reached, answers, batch.count, out);
+    return true;
+  }
+  if (surface.bent()) return measure(surface, batch, out);
+  // More ellipsoids are near than there is room for at once.
+  alignas(64) std::int32_t none[kBatch];
+  std::memset(none, 0xFF, sizeof(none));
+  const Placed placed{batch, none, none, none};
+  return nearest_others(surface.baked, placed, limit_m, surface.scratch, out);
 }
 
 /// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.

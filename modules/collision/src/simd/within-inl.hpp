@@ -78,8 +78,7 @@ struct Reaches {
   }
 };
 
-/// Bounds as bound_vectors() has them; `near` tells the particles that some ellipsoid leaves within its
-/// limit.
+/// Bounds as bound_vectors() has them; `within` becomes those particles that an ellipsoid leaves within.
 template <int kKept>
 HWY_INLINE void bound_reached(const Baked& baked, const Columns& columns, const Near& near,
                               const Reaches& reaches, const V3 (&p)[kTogether],
