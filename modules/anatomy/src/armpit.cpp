@@ -23,10 +23,12 @@ constexpr float kLeastHalfChest = 0.02F;  // of the size
 /// Half the girth of the chest on one side: the shortest way from the midline's front to its back under the
 /// arm, of the size.
 float half_chest(const BodyCoordinates& coordinates, int side) {
+  const BodyEnds& ends = coordinates.ends();
+  const geodesic::Field &own = *ends.from_hand[side], &other = *ends.from_hand[1 - side];
   float least = 0.0F;
-  for (std::size_t v = 0; v < coordinates.from_perineum().size(); ++v) {
+  for (std::size_t v = 0; v < own.size(); ++v) {
+    if (!(own[v] > kChestFrom * ends.hands_apart && own[v] < kOwnSide * other[v])) continue;
     const CoordinateArray x = coordinates.at(v, side);
-    if (!(x[kOwnHand] > kChestFrom && x[kOwnHand] < kOwnSide * x[kOtherHand])) continue;
     if (!(x[kHandFootDetour] < kUnderArm)) continue;
     const float around = x[kFromFront] + x[kFromBack];
     if (least == 0.0F || around < least) least = around;
@@ -60,10 +62,12 @@ SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const 
          x[kHandFootDetour], x[kOtherFoot], x[kHeadHandDetour], x[kHeadFootDetour], x[kFromHead]},
         expected);
   };
+  const geodesic::Field& own = *coordinates.ends().from_hand[side];
+  const float apart = coordinates.ends().hands_apart;
   const auto may_be = [&](std::size_t v) {
+    if (!(own[v] > kArmpitFrom * apart && own[v] < kArmpitTo * apart)) return false;
     const CoordinateArray x = coordinates.at(v, side);
-    return x[kOwnHand] > kArmpitFrom && x[kOwnHand] < kArmpitTo &&
-           std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
+    return std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
   };
   const NearestSignature found =
       nearest_signature(context, coordinates.from_perineum().size(), may_be, distance2);
