@@ -99,16 +99,16 @@ TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering o
 }
 
 TEST_CASE("tight, covering: skin that dips into another limb is covered up to where it dips") {
-  // Triangles of four centimetres, of which those across the seam have buried corners.
+  // Triangles of a decimetre, of which those across the seam have buried corners.
   const geometry::Ellipsoid left{Vec3(-0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
   const geometry::Ellipsoid right{Vec3(0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
   Skin skin;
-  fitting_test::add_ellipsoid(skin, left, body::Part::kThighL, 12);
-  fitting_test::add_ellipsoid(skin, right, body::Part::kThighR, 12);
+  fitting_test::add_ellipsoid(skin, left, body::Part::kThighL, 6);
+  fitting_test::add_ellipsoid(skin, right, body::Part::kThighR, 6);
   skin.stature_m = 1.0;
   fitting::FitOptions options;
   options.tier = proxy::Tier::kTight;
-  options.max_ellipsoids = 8;
+  options.max_ellipsoids = 30;
   options.covering = true;
   const auto covering = fitting::fit({}, skin.view(), options);
   REQUIRE(covering.ok());
@@ -144,6 +144,25 @@ TEST_CASE("cover: what no triangle needs is taken back, and every triangle stays
     };
     CHECK(std::ranges::any_of(shapes, held_by));
   }
+}
+
+TEST_CASE("cover: taking back leaves alone what one ellipsoid holds by itself") {
+  const geometry::Mat3 upright = geometry::Mat3::Identity();
+  Skin skin;
+  fitting_test::add_ellipsoid(skin, {Vec3(0, 0.5, 0), upright, Vec3(0.1, 0.4, 0.1)}, body::Part::kTorsoUL);
+  std::vector<geometry::Index> all(skin.mesh.triangles.size());
+  for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<geometry::Index>(t);
+  // Both hold the middle, each holds its own end.
+  std::vector<geometry::Ellipsoid> shapes{{Vec3(0, 0.7, 0), upright, Vec3(0.3, 0.4, 0.3)},
+                                          {Vec3(0, 0.3, 0), upright, Vec3(0.3, 0.4, 0.3)}};
+  const std::vector<geometry::Ellipsoid> anchors{{Vec3(0, 0.7, 0), upright, Vec3(0.02, 0.02, 0.02)},
+                                                 {Vec3(0, 0.3, 0), upright, Vec3(0.02, 0.02, 0.02)}};
+  fitting::relax_cover({}, skin.mesh, all, anchors, shapes);
+  for (const auto& triangle : skin.mesh.triangles)
+    CHECK(std::ranges::any_of(shapes, [&](const geometry::Ellipsoid& e) {
+      return std::ranges::all_of(
+          triangle, [&](geometry::Index v) { return geometry::level(e, skin.mesh.positions[v]) <= 1.0; });
+    }));
 }
 
 TEST_CASE("cover: triangles across a crease are cut, the others and the skin's area stay") {
