@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;
 /// First tables that are usable soon, and say where more texels pay; then those that last.
-constexpr std::size_t kFirstNormals = 8000, kNormals = 22000;
+constexpr std::size_t kFirstNormals = 8000, kNormals = 28000;
 constexpr int kFirstPerNormal = 3, kPerNormal = 4;
-constexpr int kFirstSteps = 16, kSteps = 20;
+constexpr int kFirstSteps = 16, kSteps = 24;
 /// Of stature: turns most misses of a tenth of a millimetre into hits.
 constexpr double kMargin = 0.1e-3 / 1.7;
 /// Of stature: finds every hole between ellipsoids that a thumb fits into.
