@@ -18,8 +18,8 @@ class ReliefTables {
 
   /// Tables that are usable soon, and say where more texels pay. `bytes` as texels_within() takes them.
   void fit_first(std::size_t bytes);
-  /// The tables that last, after fit_first. Some four times the samples, well under a second on two cores the first
-  /// time, a third of that at every other size.
+  /// The tables that last, after fit_first. Some four times the samples, well under a second on two cores the
+  /// first time, a third of that at every other size.
   void fit(std::size_t bytes);
 
  private:
