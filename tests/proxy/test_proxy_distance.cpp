@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include <bodice/engine/random.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
@@ -64,6 +66,38 @@ TEST_CASE("proxy distance: without tables it is the least of the exact distances
       least = std::min(least, geometry::nearest_point(e.shape, p).signed_distance);
     CHECK(proxy::proxy_distance(data, p).distance == doctest::Approx(least - 0.002).epsilon(1e-12));
   }
+}
+
+TEST_CASE("proxy distance: no ellipsoid is passed over, however thin and turned") {
+  engine::Random random(6);
+  int owners_not_nearest_by_center = 0;
+  for (int set = 0; set < 40; ++set) {
+    proxy::BodyProxy::Data data;
+    data.ellipsoids.resize(30);
+    for (proxy::ProxyEllipsoid& e : data.ellipsoids) {
+      e.shape.center = 0.3 * random_unit(random);
+      e.shape.axes =
+          Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), random_unit(random)).toRotationMatrix();
+      for (int j = 0; j < 3; ++j) e.shape.radii[j] = std::exp(random.uniform(std::log(1e-3), std::log(0.4)));
+    }
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 p = random.uniform(0.0, 0.8) * random_unit(random);
+      double least = 1e300;
+      std::size_t nearest = 0, nearest_center = 0;
+      for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) {
+        const geometry::Ellipsoid& e = data.ellipsoids[k].shape;
+        const double d = geometry::nearest_point(e, p).signed_distance;
+        if (d < least) least = d, nearest = k;
+        if ((p - e.center).norm() < (p - data.ellipsoids[nearest_center].shape.center).norm())
+          nearest_center = k;
+      }
+      const proxy::ProxyDistance found = proxy::proxy_distance(data, p);
+      CHECK(found.distance == least);
+      CHECK(found.owner == nearest);
+      owners_not_nearest_by_center += nearest != nearest_center;
+    }
+  }
+  CHECK(owners_not_nearest_by_center > 1000);  // the sets do ask for the bound
 }
 
 TEST_CASE("proxy distance: relief is continuous across owners and seams") {
