@@ -69,6 +69,25 @@ TEST_CASE("dial: a coarser target never costs more ellipsoids") {
   }
 }
 
+TEST_CASE("dial: a target between a limb with and without an ellipsoid is spent on covered skin") {
+  const Skin skin = bent_limbs();
+  const auto with = [&](int count) {
+    return fitting::fit({}, skin.view(), {.tier = Tier::kTight, .max_ellipsoids = count});
+  };
+  const auto three = with(3), two = with(2);
+  REQUIRE((three.ok() && two.ok()));
+  const double finer_m = three->accuracy.gap_m.mean, target_m = 2.3 * finer_m;
+  REQUIRE(two->accuracy.gap_m.mean > 1.1 * target_m);  // no whole number comes within a tenth
+  FitOptions options;
+  options.tier = Tier::kTight;
+  options.target_error_m = target_m;
+  const auto result = fitting::fit({}, skin.view(), options);
+  REQUIRE(result.ok());
+  CHECK(result->accuracy.gap_m.mean == doctest::Approx(target_m).epsilon(0.1));
+  CHECK(result->proxy.ellipsoids().size() == 3);
+  CHECK(result->accuracy.skin_outside_percent < 0.5 * three->accuracy.skin_outside_percent);
+}
+
 TEST_CASE("dial: more time gives a finer proxy; a budget below the fixed cost of a query is said to be") {
   const Skin skin = bent_limbs();
   std::size_t fewer = 0;

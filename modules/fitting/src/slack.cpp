@@ -6,7 +6,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kNearEnough = 1.10;
-constexpr double kMostSlack = 2.0;  // with more, it is not the whole numbers that kept the search away
+constexpr double kMostSlack = 3.0;  // a limb that gets its first ellipsoid takes away up to 2.5 times
 constexpr int kSteps = 10;
 
 proxy::BodyProxy::Data grown_by(proxy::BodyProxy::Data data, double length_m) {
