@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <bodice/body/proportions.hpp>
+#include <bodice/engine/message.hpp>
 
 #include "profiles.hpp"
 
@@ -36,9 +37,8 @@ Proportions read_sex(const json& root, const char* sex, const std::string& file)
            "Give every measure as a ratio to stature.");
     const double value = table[m.name].get<double>();
     if (!(value >= m.least && value <= m.most))
-      fail(engine::ErrorCode::kInvalidArgument, where + " = " + std::to_string(value) + " is implausible.",
-           "Expected a ratio to stature between " + std::to_string(m.least) + " and " +
-               std::to_string(m.most) + ".");
+      fail(engine::ErrorCode::kInvalidArgument, engine::message(where, " = ", value, " is implausible."),
+           engine::message("Expected a ratio to stature between ", m.least, " and ", m.most, "."));
     result.*m.ratio = value;
   }
   return result;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include <bodice/engine/message.hpp>
+
 namespace bodice::cloth {
 namespace {
 
@@ -33,8 +35,8 @@ engine::Result<void> check(const SolverOptions& o) {
   if (auto good = check_count("substeps", o.substeps, kMaxSubsteps); !good) return good;
   if (auto good = check_count("iterations", o.iterations, kMaxIterations); !good) return good;
   if (!(o.thickness_m >= 0.0 && o.thickness_m <= kMostMetres))
-    return bad("thickness_m is " + std::to_string(o.thickness_m), "Give metres, 0 to 1e9.");
-  if (!(o.budget_us >= 0.0)) return bad("budget_us is " + std::to_string(o.budget_us), "Give zero or more.");
+    return bad(engine::message("thickness_m is ", o.thickness_m), "Give metres, 0 to 1e9.");
+  if (!(o.budget_us >= 0.0)) return bad(engine::message("budget_us is ", o.budget_us), "Give zero or more.");
   return check(o.environment);
 }
 

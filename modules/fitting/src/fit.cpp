@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 
 #include "check_input.hpp"
@@ -70,15 +71,15 @@ void add_warnings(const FitOptions& options, const Draft& draft, FitResult& resu
   const double frame_us = predicted_frame_us(result.proxy.tier(), count);
   if (options.budget_us && frame_us > kBudgetKeptTo * *options.budget_us)
     result.warnings.push_back({"budget-not-reached", "",
-                               "A query of 10,000 particles takes about " + std::to_string(frame_us) +
-                                   " us where " + std::to_string(*options.budget_us) + " us were asked for.",
+                               engine::message("A query of 10,000 particles takes about ", frame_us,
+                                               " us where ", *options.budget_us, " us were asked for."),
                                "Allow more time, or choose tier tight with few ellipsoids."});
   if (options.target_error_m && result.accuracy.gap_m.mean > kWarnAbove * *options.target_error_m)
-    result.warnings.push_back({"target-error-not-reached", "",
-                               "The mean gap is " + std::to_string(1e3 * result.accuracy.gap_m.mean) +
-                                   " mm where " + std::to_string(1e3 * *options.target_error_m) +
-                                   " mm were asked for.",
-                               "Choose a finer tier, allow more ellipsoids or more time."});
+    result.warnings.push_back(
+        {"target-error-not-reached", "",
+         engine::message("The mean gap is ", 1e3 * result.accuracy.gap_m.mean, " mm where ",
+                         1e3 * *options.target_error_m, " mm were asked for."),
+         "Choose a finer tier, allow more ellipsoids or more time."});
 }
 
 struct Found {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/geometry/adjacency.hpp>
 #include <bodice/geometry/fins.hpp>
 
@@ -222,7 +223,7 @@ engine::Result<RepairedMesh> repair(const engine::Context& context, const TriMes
   if (!(options.weld_relative >= 0.0 && options.weld_relative < 1.0))
     return Error{ErrorCode::kInvalidArgument,
                  "The weld distance must be a fraction of the diagonal, in [0, 1).",
-                 "Use " + std::to_string(kWeldRelative) + ", or 0 to weld exact copies only."};
+                 engine::message("Use ", kWeldRelative, ", or 0 to weld exact copies only.")};
   try {
     return Repair(input, options).run(context);
   } catch (const engine::Cancelled&) {

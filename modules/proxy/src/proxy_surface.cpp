@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
@@ -109,7 +110,7 @@ void span_faces(const CrossedCells& cells, geometry::TriMesh& mesh) {
 
 engine::Error unusable_cell(double cell_m) {
   return {engine::ErrorCode::kInvalidArgument,
-          "A surface in cells of " + std::to_string(cell_m) + " m cannot be made of this proxy.",
+          engine::message("A surface in cells of ", cell_m, " m cannot be made of this proxy."),
           "Give a positive cell; a three-hundredth of the stature is usual."};
 }
 

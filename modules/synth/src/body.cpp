@@ -3,22 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
+
+#include <bodice/engine/message.hpp>
 
 #include "deform.hpp"
 #include "truth.hpp"
 
 namespace bodice::synth {
 namespace {
-
-/// All arguments in one sentence.
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream out;
-  out.precision(4);
-  (out << ... << parts);
-  return out.str();
-}
 
 constexpr double kDensity = 1010.0;   // kg per cubic metre of living body
 constexpr int kLeastVertices = 1350;  // the cage's own, with the smallest allowance of ten percent
@@ -32,16 +24,18 @@ std::optional<engine::Error> check(const BodyOptions& o) {
     return engine::Error{engine::ErrorCode::kInvalidArgument, std::move(message), std::move(remedy)};
   };
   if (!(o.stature_m >= 0.4 && o.stature_m <= 2.6))
-    return wrong(text("A stature of ", o.stature_m, " m is not a human's."), "Ask for 0.4 to 2.6 m.");
+    return wrong(engine::message("A stature of ", o.stature_m, " m is not a human's."),
+                 "Ask for 0.4 to 2.6 m.");
   const double bmi = o.mass_kg / (o.stature_m * o.stature_m);
   if (!(bmi >= 10.0 && bmi <= 70.0))
-    return wrong(text(o.mass_kg, " kg at ", o.stature_m, " m is a body mass index of ", bmi, "."),
+    return wrong(engine::message(o.mass_kg, " kg at ", o.stature_m, " m is a body mass index of ", bmi, "."),
                  "Ask for a mass whose index lies between 10 and 70.");
   if (!(o.childhood >= 0.0 && o.childhood <= 1.0))
-    return wrong(text("A childhood of ", o.childhood, " is no share."), "Ask for 0 (grown up) to 1.");
+    return wrong(engine::message("A childhood of ", o.childhood, " is no share."),
+                 "Ask for 0 (grown up) to 1.");
   if (o.vertices < kLeastVertices || o.vertices > kMostVertices)
-    return wrong(text("A body of ", o.vertices, " vertices cannot be made."),
-                 text("Ask for ", kLeastVertices, " to ", kMostVertices, "."));
+    return wrong(engine::message("A body of ", o.vertices, " vertices cannot be made."),
+                 engine::message("Ask for ", kLeastVertices, " to ", kMostVertices, "."));
   return std::nullopt;
 }
 

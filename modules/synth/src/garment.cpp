@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include <Eigen/Geometry>
+
+#include <bodice/engine/message.hpp>
 
 #include "keep_ease.hpp"
 
@@ -54,10 +55,9 @@ void face_outward(Cut& cut) {
 std::optional<engine::Error> check(const SegmentedBody& body, const GarmentOptions& o) {
   const double edge = o.edge_length_m / body.stature_m, ease = o.ease_m / body.stature_m;
   if (edge >= 1e-3 && edge <= 0.1 && ease >= 0.0 && ease <= 0.05) return std::nullopt;
-  std::ostringstream sentence;
-  sentence << "An edge of " << o.edge_length_m << " m with an ease of " << o.ease_m
-           << " m does not suit a body of " << body.stature_m << " m.";
-  return engine::Error{engine::ErrorCode::kInvalidArgument, sentence.str(),
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       engine::message("An edge of ", o.edge_length_m, " m with an ease of ", o.ease_m,
+                                       " m does not suit a body of ", body.stature_m, " m."),
                        "Use edges of 0.001 to 0.1 and an ease of 0 to 0.05 of the stature."};
 }
 

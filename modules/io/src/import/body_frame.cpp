@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <bodice/engine/message.hpp>
 
 namespace bodice::io {
 
@@ -54,12 +55,6 @@ std::optional<double> metres_from_area(double area) {
   return std::nullopt;
 }
 
-std::string format_number(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
-
 void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, std::optional<double> file_says,
                  DetectedFrame& out) {
   for (const NamedUnit& unit : kUnits) {
@@ -77,19 +72,19 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
     out.frame.metres_per_unit = *metres;
     out.unit = unit_name(*metres);
     if (file_says && !believable)
-      out.warnings.push_back({"unit-contradicted", "",
-                              "The file says that a unit is " + format_number(*file_says) +
-                                  " m, which makes the body " + format_number(*file_says * length) +
-                                  " m long; '" + out.unit + "' fits its skin and was taken.",
-                              "Give --unit if that is wrong."});
+      out.warnings.push_back(
+          {"unit-contradicted", "",
+           engine::message("The file says that a unit is ", *file_says, " m, which makes the body ",
+                           *file_says * length, " m long; '", out.unit, "' fits its skin and was taken."),
+           "Give --unit if that is wrong."});
     return;
   }
   out.frame.metres_per_unit = area > 0.0 ? std::sqrt(kTypicalSkinM2 / area) : 1.0;
   out.unit = "unknown";
   out.warnings.push_back({"unit-unknown", "",
-                          "No common unit makes the body, " + format_number(length) +
-                              " units long, a person's size; it was scaled to " +
-                              format_number(out.frame.metres_per_unit * length) + " m.",
+                          engine::message("No common unit makes the body, ", length,
+                                          " units long, a person's size; it was scaled to ",
+                                          out.frame.metres_per_unit * length, " m."),
                           "Give --unit to set it."});
 }
 

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <cstdio>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/io/import.hpp>
 
@@ -34,11 +34,9 @@ void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedM
     if (p.allFinite()) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
   const double grid_m = farthest * kFloatGrid * out.frame.metres_per_unit;
   if (kept_digits || grid_m <= kWorthAWordM) return;
-  char grid_mm[32];
-  std::snprintf(grid_mm, sizeof grid_mm, "%.2g", 1e3 * grid_m);
   out.warnings.push_back({"far-from-origin", out.mesh,
-                          "The mesh lies so far from the origin that its coordinates are " +
-                              std::string(grid_mm) + " mm apart in the reader's single precision.",
+                          engine::message("The mesh lies so far from the origin that its coordinates are ",
+                                          1e3 * grid_m, " mm apart in the reader's single precision."),
                           "Move it near the origin before exporting, or export it as OBJ."});
 }
 
