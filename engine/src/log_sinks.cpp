@@ -37,7 +37,11 @@ class CallbackSink final : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    callback_(from_spdlog(message.level), {message.payload.data(), message.payload.size()});
+    // spdlog itself holds back std::exception only, and a job that logs is noexcept.
+    try {
+      callback_(from_spdlog(message.level), {message.payload.data(), message.payload.size()});
+    } catch (...) {
+    }
   }
   void flush_() override {}
 
