@@ -75,6 +75,7 @@ TEST_CASE("what cannot be a proxy is refused, and the ellipsoid is named") {
                             [](auto& d) { d.relief[3].nodes_per_side = 1; },
                             [](auto& d) { d.relief[3].nodes_per_side = 5000; },
                             [](auto& d) { d.relief[3] = {8, 0, 0, 0, 0, 0xffffffffu}; },
+                            [](auto& d) { d.relief[3] = {0, 0, 0, 0, 0, 0xffffffffu}; },
                             [=](auto& d) { d.relief[3].h_scale_m = static_cast<float>(nan); }};
   for (const Damage& damage : damages) {
     auto data = sample_data(3);
@@ -91,6 +92,16 @@ TEST_CASE("what cannot be a proxy is refused, and the ellipsoid is named") {
     data.frame.metres_per_unit = value;
     CHECK_FALSE(BodyProxy::make(data).ok());
   }
+}
+
+TEST_CASE("more texels than a file may hold are refused, and just as many are not") {
+  BodyProxy::Data data = sample_data(3, 1, false);
+  data.texels.resize(kMaxReliefTexels);
+  CHECK(BodyProxy::make(data).ok());
+  data.texels.resize(kMaxReliefTexels + 1);
+  const auto refused = BodyProxy::make(std::move(data));
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().message.find("relief texels") != std::string::npos);
 }
 
 TEST_CASE("zero, one and 4096 ellipsoids, and the shapes of the shared table") {

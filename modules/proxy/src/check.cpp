@@ -39,6 +39,8 @@ Fault check_header(const BodyProxy::Data& data) {
     return fault("the up axis is not x, y or z");
   if (data.ellipsoids.size() > kMaxEllipsoids)
     return fault("there are more than " + std::to_string(kMaxEllipsoids) + " ellipsoids");
+  if (data.texels.size() > kMaxReliefTexels)
+    return fault("there are more than " + std::to_string(kMaxReliefTexels) + " relief texels");
   return std::nullopt;
 }
 
@@ -62,7 +64,7 @@ Fault check_table(const ReliefTable& table, std::size_t texels, const std::strin
   const std::uint64_t n = table.nodes_per_side;
   if (n == 1 || n > static_cast<std::uint64_t>(kMaxReliefNodes))
     return fault(which + " has a relief table of " + std::to_string(n) + " nodes a side");
-  if (n > 0 && table.first_texel + n * n > texels)
+  if (table.first_texel + n * n > texels)
     return fault(which + " has a relief table that ends beyond the texels");
   for (float value : {table.h_scale_m, table.h_offset_m, table.a_scale, table.a_offset})
     if (!bounded(std::abs(static_cast<double>(value)), 0.0, kLargestM))

@@ -14,8 +14,10 @@ namespace fs = std::filesystem;
 using engine::Error;
 using engine::ErrorCode;
 
-// The largest proxy (kMaxEllipsoids with tables) in JSON stays below; beyond, it is some other file.
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 30;
+// Beyond the largest proxy in JSON, which takes four digits a texel and less than 1 kB for an ellipsoid and
+// its table, it is some other file.
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 29;
+static_assert(4 * kMaxReliefTexels + 1000 * (kMaxEllipsoids + 1) < kLargestFile);
 
 Error write_failed(const fs::path& file, const std::string& why) {
   return {ErrorCode::kWriteFailed, "Cannot write the proxy " + file.string() + ": " + why + ".",
@@ -54,7 +56,7 @@ engine::Result<std::vector<std::byte>> read_file(const fs::path& file) {
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) return missing;
   if (size > kLargestFile)
-    return Error{ErrorCode::kUnreadable, file.string() + " is over a gigabyte: not a proxy.",
+    return Error{ErrorCode::kUnreadable, file.string() + " is over half a gigabyte: not a proxy.",
                  "Check the path."};
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   std::ifstream in(file, std::ios::binary);

@@ -24,6 +24,7 @@ std::optional<Tier> tier_from_name(std::string_view text);
 inline constexpr std::int16_t kNoBone = -1;
 inline constexpr std::size_t kMaxEllipsoids = 65536;
 inline constexpr int kMaxReliefNodes = 1024;
+inline constexpr std::size_t kMaxReliefTexels = std::size_t{1} << 26;
 
 struct ProxyEllipsoid {
   geometry::Ellipsoid shape;
@@ -37,7 +38,8 @@ struct ReliefTable {
   std::uint16_t nodes_per_side = 0;           ///< N, 2..kMaxReliefNodes; 0: no table
   float h_scale_m = 0.0f, h_offset_m = 0.0f;  ///< h = offset + scale * byte / 255
   float a_scale = 0.0f, a_offset = 0.0f;      ///< a likewise, metres
-  std::uint32_t first_texel = 0;              ///< into BodyProxy::texels(), N*N texels, row-major
+  std::uint32_t first_texel = 0;              ///< into BodyProxy::texels(), N*N texels, row-major; not
+                                              ///< beyond their end without a table either
 };
 
 struct ReliefTexel {
