@@ -1,37 +1,4 @@
-# How bodice declares a layer, and the flags of our own build.
-
-# Flags that let the compiler assume there is no NaN or Inf, or reorder sums,
-# break the certificates of the MVEE solver and the determinism contract.
-function(bodice_reject_unsafe_math_flags)
-  string(TOUPPER "${CMAKE_BUILD_TYPE}" config)
-  foreach(flags IN ITEMS "${CMAKE_CXX_FLAGS}" "${CMAKE_CXX_FLAGS_${config}}")
-    if(flags MATCHES "-(ffast-math|Ofast|ffinite-math-only|fassociative-math|funsafe-math-optimizations)")
-      message(FATAL_ERROR "bodice: ${CMAKE_MATCH_0} is forbidden: remove it from CMAKE_CXX_FLAGS. "
-                          "Certificates and determinism need IEEE arithmetic.")
-    endif()
-  endforeach()
-endfunction()
-
-# Warnings and sanitizers live on a target that is linked PRIVATE and never
-# exported, so that none of them reaches a project that embeds bodice.
-function(bodice_define_build_flags)
-  add_library(bodice_build_flags INTERFACE)
-  if(PROJECT_IS_TOP_LEVEL)
-    target_compile_options(bodice_build_flags INTERFACE
-      -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
-      -Wno-missing-field-initializers  # designated initialisers leave the rest at their defaults on purpose
-      -Werror)
-    # g++ 12 sees overlapping copies in `"text" + std::string` that are not there (GCC bug 105651).
-    target_compile_options(bodice_build_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
-    # clang takes `double{f}` for a promotion that nobody asked for.
-    target_compile_options(bodice_build_flags INTERFACE $<$<CXX_COMPILER_ID:Clang>:-Wno-double-promotion>)
-    if(BODICE_SANITIZE)
-      target_compile_options(bodice_build_flags INTERFACE
-        -fsanitize=${BODICE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
-      target_link_options(bodice_build_flags INTERFACE -fsanitize=${BODICE_SANITIZE})
-    endif()
-  endif()
-endfunction()
+# How bodice declares a layer and installs what was declared.
 
 # bodice_layer(<name> USES <layers...> [PRIVATE <targets...>])
 # Declares the static library bodice::<name> from <name>/src/**.cpp. It exports
