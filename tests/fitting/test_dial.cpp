@@ -91,7 +91,7 @@ TEST_CASE("dial: a target between a limb with and without an ellipsoid is spent 
 TEST_CASE("dial: more time gives a finer proxy; a budget below the fixed cost of a query is said to be") {
   const Skin skin = bent_limbs();
   std::size_t fewer = 0;
-  for (const double budget_us : {5.0, 90.0, 130.0, 250.0}) {
+  for (const double budget_us : {5.0, 90.0, 140.0, 250.0}) {
     FitOptions options;
     options.budget_us = budget_us;
     const auto result = fitting::fit({}, skin.view(), options);
@@ -99,7 +99,7 @@ TEST_CASE("dial: more time gives a finer proxy; a budget below the fixed cost of
     CAPTURE(budget_us);
     const std::size_t count = result->proxy.ellipsoids().size();
     CHECK(result->proxy.tier() == (budget_us > 120.0 ? Tier::kRelief : Tier::kTight));
-    CHECK(count >= 6);  // fewer would not even stand for a body's limbs
+    CHECK(count >= 12);  // fewer save no time; up to four of sixteen may turn out idle
     const bool warned = !result->warnings.empty() && result->warnings[0].code == "budget-not-reached";
     CHECK(warned == (budget_us < 50.0));
     if (budget_us > 200.0) CHECK(count > 2 * fewer);

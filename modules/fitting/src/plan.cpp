@@ -14,6 +14,7 @@ using proxy::Tier;
 constexpr int kMostAttempts = 9;
 constexpr double kNearEnough = 1.10;
 constexpr double kFewestToStart = 8.0;  // with fewer than the body has limbs the law does not hold
+constexpr int kFewestInBudget = 16;     // fewer take as long: they are asked a register at a time
 /// Fractions of stature. Below the first, plain ellipsoids take more work and time a particle than relief.
 constexpr double kFinestPlain = 1.6e-3 / 1.7;
 constexpr double kFinestOf32 = 0.75e-3 / 1.7, kFinestOf55 = 0.40e-3 / 1.7;
@@ -57,8 +58,7 @@ Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double st
   for (const Tier candidate : {Tier::kTight, Tier::kRelief}) {
     const Tier t = tier.value_or(candidate);
     const int largest = t == Tier::kRelief ? kDefaultEllipsoids : kMostEllipsoids;
-    // With fewer than a handful the fixed cost hardly falls any more, and nothing looks like a body.
-    const int wanted = std::max(static_cast<int>(kFewestToStart), count_within_budget(t, budget_us));
+    const int wanted = std::max(kFewestInBudget, count_within_budget(t, budget_us));
     const int count = std::min({most, largest, wanted});
     const double gap = predicted_gap_m(t, count, stature_m);
     if (predicted_frame_us(t, count) > kBudgetKeptTo * budget_us && std::isfinite(least)) continue;
@@ -70,8 +70,8 @@ Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double st
 }  // namespace
 
 double predicted_frame_us(Tier tier, int ellipsoids) {
-  // 10,000 particles: nanoseconds a particle times ten.
-  return tier == Tier::kRelief ? 10.0 * (10.0 + 0.30 * ellipsoids) : 10.0 * (7.0 + 0.19 * ellipsoids);
+  // Nanoseconds a particle times ten; `bench/tradeoff --only laws` measures the constants anew.
+  return tier == Tier::kRelief ? 10.0 * (11.0 + 0.31 * ellipsoids) : 10.0 * (8.0 + 0.165 * ellipsoids);
 }
 
 int count_within_budget(Tier tier, double budget_us) {
@@ -91,7 +91,10 @@ Dial::Dial(const FitOptions& options, double stature_m)
       tier_is_free_(!options.tier) {
   plan_ = {options.tier.value_or(Tier::kRelief), std::min(most_, kDefaultEllipsoids), kReliefBytes};
   if (options.max_ellipsoids) plan_.count = *options.max_ellipsoids;
-  if (options.mu_torso_m && options.mu_limbs_m) plan_.count = most_ = 10 * kMostEllipsoids;
+  if (options.mu_torso_m) {  // they stop the split, not a count
+    if (tier_is_free_) plan_.tier = Tier::kPaper;
+    plan_.count = most_ = options.max_ellipsoids.value_or(10 * kMostEllipsoids);
+  }
   if (options.budget_us) {
     plan_ = plan_within(*options.budget_us, options.tier, most_, stature_m);
     most_ = plan_.count;

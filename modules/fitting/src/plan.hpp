@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <bodice/fitting/budget.hpp>
 #include <bodice/fitting/fit.hpp>
 
 namespace bodice::fitting {
@@ -20,10 +21,6 @@ struct Plan {
 
 /// A budget is kept within a fifth, or there is a warning.
 inline constexpr double kBudgetKeptTo = 1.2;
-
-/// Time of one query of 10,000 coherent particles, microseconds: a line through what `bench/fit --laws`
-/// prints at 16 to 89 ellipsoids (FitOptions::budget_us says on which machine).
-double predicted_frame_us(proxy::Tier tier, int ellipsoids);
 
 /// The largest count whose predicted time is within the budget, at least 1.
 int count_within_budget(proxy::Tier tier, double budget_us);
