@@ -74,7 +74,7 @@ void trace(int frame, const cloth::FrameReport& r, double deepest_m) {
 
 Wear wear(const engine::Context& context, const Body& body, const tryon::WornGarment& garment,
           const WearOptions& options) {
-  const tryon::Wardrobe all = tryon::join({garment});
+  const tryon::Wardrobe all = tryon::join({garment}).value();
   cloth::SolverOptions settings = options.solver;
   settings.thickness_m =
       tryon::fitted_thickness_m(context, all.mesh, *body.skin.distance, body.proxy.stature_m());

@@ -51,7 +51,7 @@ tryon::PreparedBody prepare(const fs::path& file, proxy::Tier tier) {
 Outcome drape(const tryon::PreparedBody& body, const fs::path& file, int frames, bool each) {
   auto garment = must(io::import_garment({}, file, body.skin.input.frame));
   const tryon::WornGarment worn{file.string(), garment.skin, tryon::held_vertices(garment.skin, body.skin)};
-  const tryon::Wardrobe all = tryon::join({worn});
+  const tryon::Wardrobe all = tryon::join({worn}).value();
   const proxy::BodyProxy& proxy = body.fit.proxy;
   cloth::SolverOptions options{.substeps = 16};
   options.thickness_m = tryon::covering_thickness_m(all.mesh, proxy.stature_m());

@@ -100,7 +100,7 @@ void add_tier(const Setting& setting, const Subject& subject, const tryon::WornG
   progress("regions", subject.name + ", " + garment.name + ", " + std::string(proxy::name(tier)));
   const std::span<const geometry::TriMesh> mesh(&garment.mesh, 1);
   const bench::Stopwatch watch;
-  const std::uint32_t parts = tryon::reachable_parts(setting.context, subject.skin, mesh, kMargin_m);
+  const std::uint32_t parts = tryon::reachable_parts(setting.context, subject.skin, mesh, kMargin_m).value();
   const double reach_ms = watch.wall_ms();
   const Fitted whole = fit_parts(setting, subject, tier, fitting::kAllParts);
   const Fitted region = fit_parts(setting, subject, tier, parts);

@@ -61,6 +61,19 @@ TEST_CASE("a coarse proxy comes first, and all come in the same order to the bit
   }
 }
 
+TEST_CASE("no proxy on the way has more ellipsoids than were asked for") {
+  auto options = options_for(proxy::Tier::kTight);
+  options.fit.max_ellipsoids = 20;
+  std::vector<std::size_t> counts;
+  auto preparation = tryon::Preparation::make(
+      options, [&](const auto&, const proxy::BodyProxy& p) { counts.push_back(p.ellipsoids().size()); });
+  REQUIRE(preparation.ok());
+  REQUIRE(preparation->run({}, synth::BodyOptions{.vertices = 1500}).ok());
+  REQUIRE(counts.size() > 3);
+  // While parts come one by one, the solid ones stand beside coarse ones of the others.
+  CHECK(*std::ranges::max_element(counts) <= 20);
+}
+
 TEST_CASE("parts take the places of the coarse ones as each is ready") {
   std::vector<proxy::BodyProxy> proxies;
   auto preparation =

@@ -63,7 +63,7 @@ proxy::BodyProxy fit(proxy::Tier tier, std::uint32_t parts) {
 }
 
 std::uint32_t reached() {
-  return tryon::reachable_parts({}, dressed().skin, {&dressed().skirt, 1}, kMargin_m);
+  return tryon::reachable_parts({}, dressed().skin, {&dressed().skirt, 1}, kMargin_m).value();
 }
 
 double at(const proxy::BodyProxy& proxy, const Vec3& place) {

@@ -88,6 +88,18 @@ TEST_CASE("a body that cannot be read is an error of its ticket, and the frames 
   CHECK_FALSE(session.frame(1.0 / 60.0).has_body);
 }
 
+TEST_CASE("with one worker a frame prepares the body itself, before and after the first") {
+  tryon::Session session({}, {.fit = {.tier = proxy::Tier::kSolid}});
+  REQUIRE(session.dress({sheet()}).ok());
+  CHECK_FALSE(session.frame(1.0 / 60.0).has_body);
+  session.submit(synth::BodyOptions{.stature_m = 1.5, .mass_kg = 50, .vertices = 1500});
+  REQUIRE(session.frame(1.0 / 60.0).has_body);
+  CHECK(session.body()->proxy.stature_m() < 1.6);
+  session.submit(synth::BodyOptions{.stature_m = 1.9, .mass_kg = 80, .vertices = 1500});
+  REQUIRE(session.frame(1.0 / 60.0).has_body);
+  CHECK(session.body()->proxy.stature_m() > 1.8);
+}
+
 TEST_CASE("in deterministic mode a run repeats to the bit, whatever the workers") {
   const std::uint64_t serial = run_deterministic(engine::inline_executor());
   for (const auto& [name, executor] : bodice_test::all_executors()) {

@@ -104,7 +104,7 @@ TEST_CASE("only the parts that a garment can reach are fitted") {
   auto skin = tryon::segment_builtin(context, {.vertices = 3000}, {});
   REQUIRE(skin.ok());
   const tryon::WornGarment skirt = skirt_for(context, *skin);
-  const std::uint32_t parts = tryon::reachable_parts(context, *skin, std::span(&skirt.mesh, 1), 0.05);
+  const std::uint32_t parts = tryon::reachable_parts(context, *skin, std::span(&skirt.mesh, 1), 0.05).value();
   auto has = [&](body::Part part) { return (parts >> static_cast<int>(part) & 1u) != 0; };
   CHECK(has(body::Part::kThighL));
   CHECK(has(body::Part::kThighR));

@@ -51,8 +51,10 @@ engine::Result<fitting::FitOptions> Run::fit_options_for(const tryon::SegmentedS
   if (options_.region_of.empty()) return options;
   auto garment = io::import_garment(context_, options_.region_of, skin.input.frame);
   if (!garment) return std::move(garment).error();
-  options.parts =
+  const auto reached =
       tryon::reachable_parts(context_, skin, std::span(&garment->skin, 1), options_.region_margin_mm * 1e-3);
+  if (!reached) return reached.error();
+  options.parts = *reached;
   if (options.parts == 0)
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
                          options_.region_of + ": no part of the body is within reach of this garment.",

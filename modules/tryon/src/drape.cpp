@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/tryon/penetration.hpp>
@@ -14,7 +15,8 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr double kInsideTolerance = 1e-6;  ///< of stature: what float particles may be off by
+constexpr double kInsideTolerance = 1e-6;           ///< of stature: what float particles may be off by
+constexpr double kReliefTolerance = 0.05e-3 / 1.7;  ///< of stature: what the collider certifies with relief
 constexpr std::size_t kGrain = 256;
 
 /// Frames worth keeping: at most `kept` of 0..frames, evenly spread, first and last included.
@@ -32,8 +34,8 @@ std::vector<int> frames_to_keep(int frames, int kept) {
 /// do.
 std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& proxy,
                          const collision::Collider& collider, std::span<const Vec3> positions) {
-  const double tolerance_m = kInsideTolerance * proxy.stature_m();
   const bool relief = !proxy.relief().empty();
+  const double tolerance_m = (relief ? kReliefTolerance : kInsideTolerance) * proxy.stature_m();
   return engine::ordered_reduce(
       context, positions.size(), kGrain, std::size_t{0},
       [&](std::size_t begin, std::size_t end) {
@@ -41,7 +43,7 @@ std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy&
         for (std::size_t i = begin; i < end; ++i) {
           if (relief) {
             const Eigen::Vector3f p = (positions[i] - collider.origin()).cast<float>();
-            inside += collider.query({p.x(), p.y(), p.z()}).signed_distance < -0.05e-3f;
+            inside += double{collider.query({p.x(), p.y(), p.z()}).signed_distance} < -tolerance_m;
             continue;
           }
           inside += std::ranges::any_of(proxy.ellipsoids(), [&](const proxy::ProxyEllipsoid& e) {
@@ -90,6 +92,19 @@ class Recorder {
   std::vector<io::GarmentTrack> tracks_;
 };
 
+engine::Result<void> check(const DrapeOptions& options) {
+  const auto bad = [](std::string what, std::string remedy) {
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "Drape option " + what + ".",
+                         std::move(remedy)};
+  };
+  if (options.frames < 1) return bad(engine::message("frames is ", options.frames), "Give 1 or more.");
+  if (options.kept_frames < 2)
+    return bad(engine::message("kept_frames is ", options.kept_frames), "Give 2 or more.");
+  if (!(options.dt_s >= 0.0 && std::isfinite(options.dt_s)))
+    return bad(engine::message("dt_s is ", options.dt_s), "Give seconds, zero or more.");
+  return {};
+}
+
 cloth::SolverOptions solver_options(const engine::Context& context, const DrapeOptions& options,
                                     const PreparedBody& body, const geometry::TriMesh& garments) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
@@ -107,15 +122,14 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
                                   const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                   const Progress& progress) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
-  const Wardrobe all = join(garments);
-  cloth::Fabric fabric = options.fabric;
-  if (fabric.name.empty()) {
-    auto cotton = cloth::find_fabric("cotton");
-    if (!cotton) return std::move(cotton).error();
-    fabric = std::move(cotton).value();
-  }
+  if (auto good = check(options); !good) return std::move(good).error();
+  const auto joined = join(garments);
+  if (!joined) return joined.error();
+  const Wardrobe& all = *joined;
+  const auto fabric = fabric_or_cotton(options.fabric);
+  if (!fabric) return fabric.error();
   const cloth::SolverOptions solver_settings = solver_options(context, options, body, all.mesh);
-  auto solver = cloth::Solver::make(all.mesh, all.held, fabric, solver_settings);
+  auto solver = cloth::Solver::make(all.mesh, all.held, *fabric, solver_settings);
   if (!solver) return std::move(solver).error();
   const collision::Collider collider(proxy);
   solver->move_pins(held_positions(all, collider, solver_settings.thickness_m));

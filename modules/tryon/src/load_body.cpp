@@ -51,4 +51,9 @@ engine::Result<io::ImportedMesh> load_body(const engine::Context& context, const
   return std::visit(Loader{context, options}, source);
 }
 
+engine::Error of_body(engine::Error error, const io::ImportedMesh& body) {
+  error.message = (body.file.empty() ? "The given body" : body.file.string()) + ": " + error.message;
+  return error;
+}
+
 }  // namespace bodice::tryon

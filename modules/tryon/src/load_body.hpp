@@ -8,4 +8,7 @@ namespace bodice::tryon {
 engine::Result<io::ImportedMesh> load_body(const engine::Context& context, const BodySource& source,
                                            const io::ImportOptions& options);
 
+/// The error, with the body that it is about.
+engine::Error of_body(engine::Error error, const io::ImportedMesh& body);
+
 }  // namespace bodice::tryon

@@ -20,17 +20,13 @@ using proxy::BodyProxy;
 Result<std::uint32_t> choose_region(const Context& context, const PreparationOptions& options,
                                     const SegmentedSkin& skin) {
   if (options.garments.empty()) return options.fit.parts;
-  const std::uint32_t parts =
-      options.fit.parts & reachable_parts(context, skin, options.garments, options.region_margin_m);
-  if (parts != 0) return parts;
-  return engine::Error{engine::ErrorCode::kUnusableGeometry,
-                       skin.input.file.string() + ": no part of the body is within reach of the garments.",
-                       "Check that they are in the same place and units, or raise the margin."};
-}
-
-engine::Error of_file(engine::Error error, const SegmentedSkin& skin) {
-  error.message = skin.input.file.string() + ": " + error.message;
-  return error;
+  const auto reached = reachable_parts(context, skin, options.garments, options.region_margin_m);
+  if (!reached) return reached.error();
+  if (const std::uint32_t parts = options.fit.parts & *reached) return parts;
+  return of_body(
+      {engine::ErrorCode::kUnusableGeometry, "No part of the body is within reach of the garments.",
+       "Check that they are in the same place and units, or raise the margin."},
+      skin.input);
 }
 
 /// What has been handed on of a body. Hands each proxy on once, though the last iterate of a tier is its
@@ -78,7 +74,7 @@ Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin
     static_cast<void>(handover.give_part(tier, part));
   };
   auto fit = fitting::fit(context, labelled(skin), options);
-  if (!fit) return of_file(std::move(fit).error(), skin);
+  if (!fit) return of_body(std::move(fit).error(), skin.input);
   handover.give(fit->proxy);
   return fit;
 }
@@ -105,7 +101,7 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
       "coarse proxy",
       [handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         auto enclosed = fitting::enclose_parts(c, labelled(*on), parts);
-        if (!enclosed) return of_file(std::move(enclosed).error(), *on);
+        if (!enclosed) return of_body(std::move(enclosed).error(), on->input);
         handover->begin(on);
         handover->give(*enclosed);
         return {};
@@ -116,8 +112,14 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
       "solid parts",
       [set, handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
-        auto fit =
-            fit_parts(c, *on, {.tier = proxy::Tier::kSolid, .measure_accuracy = false}, parts, *handover);
+        // Within the limits that were asked for: the frames between have no more time than those after.
+        auto fit = fit_parts(c, *on,
+                             {.tier = proxy::Tier::kSolid,
+                              .max_ellipsoids = set->fit.max_ellipsoids,
+                              .budget_us = set->fit.budget_us,
+                              .measure_accuracy = false,
+                              .seed = set->fit.seed},
+                             parts, *handover);
         if (!fit) return std::move(fit).error();
         return {};
       },

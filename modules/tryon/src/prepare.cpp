@@ -5,6 +5,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "check_garment.hpp"
 #include "load_body.hpp"
 #include "segment_tasks.hpp"
 
@@ -80,16 +81,13 @@ engine::Result<PreparedBody> fit_proxy(const engine::Context& context, Segmented
                                        const fitting::FitOptions& options, const Progress& progress) {
   tell(progress, "fit", 0.0);
   auto fit = fitting::fit(context, labelled(skin), options);
-  if (!fit) {
-    engine::Error error = std::move(fit).error();
-    error.message = skin.input.file.string() + ": " + error.message;
-    return error;
-  }
+  if (!fit) return of_body(std::move(fit).error(), skin.input);
   return PreparedBody{.skin = std::move(skin), .fit = std::move(fit).value()};
 }
 
-std::uint32_t reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
-                              std::span<const geometry::TriMesh> garments, double margin_m) {
+engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
+                                              std::span<const geometry::TriMesh> garments, double margin_m) {
+  if (auto good = check_triangles(garments); !good) return std::move(good).error();
   const geometry::TriMesh& mesh = skin.input.skin;
   std::atomic<std::uint32_t> reached = 0;  // a union of bits: the order of the writers does not matter
   for (const geometry::TriMesh& garment : garments) {
@@ -102,7 +100,7 @@ std::uint32_t reachable_parts(const engine::Context& context, const SegmentedSki
       }
     });
   }
-  return reached;
+  return reached.load();
 }
 
 }  // namespace bodice::tryon

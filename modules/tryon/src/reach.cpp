@@ -7,6 +7,8 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
+#include "check_garment.hpp"
+
 namespace bodice::tryon {
 namespace {
 
@@ -70,6 +72,7 @@ engine::Result<BodyProxy> within_reach(const engine::Context& context, const Bod
   if (!(margin_m >= 0.0) || !std::isfinite(margin_m))
     return engine::Error{engine::ErrorCode::kInvalidArgument, "The margin of a garment's reach is no length.",
                          "Give metres, zero or more."};
+  if (auto good = check_triangles(garments); !good) return std::move(good).error();
   // Beyond its own distance an ellipsoid has a say as long as it is blended with the nearest.
   const double blend_m = proxy.relief().empty() ? 0.0 : proxy::relief_reach(proxy.stature_m()).blend_m;
   const std::vector<Ball> balls = balls_of(garments);

@@ -121,7 +121,8 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
                  {"warnings", warnings},
                  {"stages", stages}};
   if (drape) report["drape"] = drape_json(*drape);
-  return report.dump(2) + "\n";
+  // Names of files and meshes need not be UTF-8; a report is written all the same.
+  return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string labels_text(const SegmentedSkin& skin) {

@@ -6,6 +6,8 @@
 
 #include <bodice/engine/stage_timer.hpp>
 
+#include "load_body.hpp"
+
 namespace bodice::tryon {
 namespace {
 
@@ -55,21 +57,16 @@ std::shared_ptr<SegmentedSkin> join(const engine::Context&, const io::ImportedMe
 engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks(
     engine::GraphBuilder& builder, const engine::Output<io::ImportedMesh>& mesh,
     const SegmentOptions& options) {
-  body::ProportionProfile profile = options.profile;
-  if (profile.name.empty()) {
-    auto usual = body::find_profile("ansur2");
-    if (!usual) return std::move(usual).error();
-    profile = std::move(usual).value();
-  }
+  const auto profile = options.profile ? engine::Result<body::ProportionProfile>(*options.profile)
+                                       : body::find_profile("ansur2");
+  if (!profile) return profile.error();
   auto anatomy = builder.add(
       "anatomy",
-      [profile](const engine::Context& context,
-                const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
+      [profile = *profile](const engine::Context& context,
+                           const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
         auto found = anatomy::analyse(context, body.skin, {.profile = profile});
-        if (found) return found;
-        engine::Error error = std::move(found).error();
-        error.message = body.file.string() + ": " + error.message;
-        return error;
+        if (!found) return of_body(std::move(found).error(), body);
+        return found;
       },
       mesh);
   auto field = builder.add("distance field", measure_distances, mesh);

@@ -22,9 +22,14 @@ OnProxy publish_to(LiveSink& sink) {
 
 struct Session::Impl {
   Impl(const engine::Context& context, SessionOptions o)
-      : options(std::move(o)), pipeline(context, options.pipeline), bodies(pipeline) {}
+      : options(std::move(o)),
+        nothing_runs_behind(context.executor->concurrency() == 1 &&
+                            options.pipeline.mode == engine::PipelineMode::kLatency),
+        pipeline(context, options.pipeline),
+        bodies(pipeline) {}
 
   SessionOptions options;
+  bool nothing_runs_behind;
   engine::FramePipeline pipeline;
   LiveStream bodies;  // after the pipeline: streams must go first
   std::optional<cloth::Solver> solver;
@@ -59,22 +64,20 @@ engine::Ticket Session::submit(BodySource source) {
 }
 
 engine::Result<void> Session::dress(const std::vector<WornGarment>& garments) {
-  Wardrobe all = join(garments);
-  cloth::Fabric fabric = impl_->options.fabric;
-  if (fabric.name.empty()) {
-    auto cotton = cloth::find_fabric("cotton");
-    if (!cotton) return std::move(cotton).error();
-    fabric = std::move(cotton).value();
-  }
-  auto solver = cloth::Solver::make(all.mesh, all.held, fabric, impl_->options.solver);
+  auto all = join(garments);
+  if (!all) return std::move(all).error();
+  const auto fabric = fabric_or_cotton(impl_->options.fabric);
+  if (!fabric) return fabric.error();
+  auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, impl_->options.solver);
   if (!solver) return std::move(solver).error();
   impl_->solver.emplace(std::move(solver).value());
-  impl_->wardrobe = std::move(all);
+  impl_->wardrobe = std::move(all).value();
   impl_->fitted_to = nullptr;
   return {};
 }
 
 FrameOutcome Session::frame(double dt_s) {
+  if (impl_->nothing_runs_behind) impl_->pipeline.run_pending();
   FrameOutcome outcome;
   outcome.timing = impl_->pipeline.frame([&](const engine::Context& context) {
     const LiveBody* body = impl_->bodies.current();

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
+
+#include "check_garment.hpp"
 
 namespace bodice::tryon {
 namespace {
@@ -13,11 +16,24 @@ constexpr std::size_t kGrain = 256;         // about a millisecond of signed dis
 constexpr double kLimbRadius =
     0.03;  // of stature: thighs and upper arms, the tightest turns that cloth covers
 
+engine::Result<void> check(const WornGarment& garment, std::size_t number) {
+  const std::string name = garment.name.empty() ? engine::message("Garment ", number) : garment.name;
+  if (auto good = check_triangles(garment.mesh, name); !good) return good;
+  for (const geometry::Index v : garment.held)
+    if (v >= garment.mesh.positions.size())
+      return engine::Error{engine::ErrorCode::kInvalidArgument,
+                           engine::message(name, ": the held vertex ", v, " is none of its ",
+                                           garment.mesh.positions.size(), " vertices."),
+                           "Count a garment's own vertices, from zero."};
+  return {};
+}
+
 }  // namespace
 
-Wardrobe join(const std::vector<WornGarment>& garments) {
+engine::Result<Wardrobe> join(const std::vector<WornGarment>& garments) {
   Wardrobe all;
   for (const WornGarment& garment : garments) {
+    if (auto good = check(garment, all.first_vertex.size()); !good) return std::move(good).error();
     const auto offset = static_cast<geometry::Index>(all.mesh.positions.size());
     all.first_vertex.push_back(offset);
     all.mesh.positions.insert(all.mesh.positions.end(), garment.mesh.positions.begin(),
@@ -28,6 +44,11 @@ Wardrobe join(const std::vector<WornGarment>& garments) {
   }
   all.first_vertex.push_back(all.mesh.positions.size());
   return all;
+}
+
+engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric) {
+  if (fabric) return *fabric;
+  return cloth::find_fabric("cotton");
 }
 
 double covering_thickness_m(const geometry::TriMesh& garment, double stature_m) {

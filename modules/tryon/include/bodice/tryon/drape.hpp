@@ -13,11 +13,12 @@
 namespace bodice::tryon {
 
 struct DrapeOptions {
-  int frames = 120;
-  double dt_s = 1.0 / 60.0;
-  int kept_frames = 31;  ///< at most this many frames are kept for output, first and last included
-  cloth::Fabric fabric;  ///< empty name: cotton
-  /// Its thickness_m is not used: see below. Two sweeps keep cotton under 5 % of stretch at 95 %.
+  int frames = 120;          ///< 1 or more
+  double dt_s = 1.0 / 60.0;  ///< a frame, 0 or more
+  int kept_frames = 31;      ///< 2 or more: at most so many are kept for output, first and last included
+  std::optional<cloth::Fabric> fabric;  ///< absent: cotton
+  /// Its thickness_m is not used: see below; a paper proxy is met with the paper's response. Two sweeps keep
+  /// cotton under 5 % of stretch at 95 %.
   cloth::SolverOptions solver = {.substeps = 16, .iterations = 2};
   std::optional<double> thickness_m;  ///< kept between particles and skin; absent: fitted_thickness_m()
 };
@@ -46,7 +47,8 @@ struct DrapeResult {
   DrapeReport report;
 };
 
-/// Drapes all garments together. Fails with kUnusableGeometry when no garment has a usable triangle.
+/// Drapes all garments together. Fails with kUnusableGeometry when no garment has a usable triangle, with
+/// kInvalidArgument when an option is out of its range or a garment names a vertex that it does not have.
 engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
                                   const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                   const Progress& progress = {});

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,7 +42,7 @@ struct PreparedBody {
 
 struct SegmentOptions {
   io::ImportOptions import;
-  body::ProportionProfile profile;  ///< empty name: "ansur2"
+  std::optional<body::ProportionProfile> profile;  ///< absent: "ansur2"
 };
 
 /// Reads a body file and segments it. Errors name the file and the remedy.
@@ -64,8 +65,9 @@ engine::Result<PreparedBody> fit_proxy(const engine::Context& context, Segmented
                                        const fitting::FitOptions& options, const Progress& progress = {});
 
 /// The parts of the skin within `margin_m` of any of the garments, as FitOptions::parts takes them: what a
-/// garment cannot reach need not be fitted.
-std::uint32_t reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
-                              std::span<const geometry::TriMesh> garments, double margin_m);
+/// garment cannot reach need not be fitted. Zero when they reach none. Fails with kInvalidArgument when a
+/// triangle names a vertex that is not there.
+engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
+                                              std::span<const geometry::TriMesh> garments, double margin_m);
 
 }  // namespace bodice::tryon

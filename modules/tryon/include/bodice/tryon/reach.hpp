@@ -14,8 +14,8 @@ namespace bodice::tryon {
 /// Where a place is within a of a garment and the whole proxy's nearest ellipsoid within margin_m - a of the
 /// place, proxy_distance() gives the same bits as with the whole proxy. A garment that moves farther than the
 /// margin may meet nothing. Fails with kUnusableGeometry when nothing is within reach, with kInvalidArgument
-/// when the margin is negative or not finite. Deterministic. Cost: O(#triangles #ellipsoids), a sphere test
-/// for most.
+/// when the margin is negative or not finite or a triangle names a vertex that is not there. Deterministic.
+/// Cost: O(#triangles #ellipsoids), a sphere test for most.
 engine::Result<proxy::BodyProxy> within_reach(const engine::Context& context, const proxy::BodyProxy& proxy,
                                               std::span<const geometry::TriMesh> garments, double margin_m);
 

@@ -28,8 +28,8 @@ struct SessionOptions {
   fitting::FitOptions fit;  ///< its on_improved and on_part are the session's
   /// Given: a submitted body is fitted only where a garment worn at that moment is within this distance.
   std::optional<double> region_margin_m;
-  cloth::Fabric fabric;  ///< empty name: cotton
-  cloth::SolverOptions solver;
+  std::optional<cloth::Fabric> fabric;  ///< absent: cotton
+  cloth::SolverOptions solver;          ///< as they stand: a runtime's eight substeps, not drape()'s sixteen
 };
 
 /// A body as the frames see it. Each refinement of its proxy is a new one, with the same skin.
@@ -57,10 +57,12 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   /// Prepares a body behind the frames: an ellipsoid a part at first, then solid parts as each is ready, then
-  /// what FitOptions asks for. Each takes effect at a frame boundary. Work on an earlier body stops.
+  /// what FitOptions asks for. Each takes effect at a frame boundary. Work on an earlier body stops. Where
+  /// the executor has one worker, nothing runs behind: the next frame() does the work first and is late.
   engine::Ticket submit(BodySource source);
 
   /// Puts garments on, in place of those worn; not in a frame. They wait where they are for the first body.
+  /// Fails as drape() does.
   engine::Result<void> dress(const std::vector<WornGarment>& garments);
 
   /// A frame boundary, then dt_s of cloth. Allocates nothing once warm, but for the first frame of a new

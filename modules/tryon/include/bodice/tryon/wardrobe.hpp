@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <bodice/cloth/fabric.hpp>
 #include <bodice/collision/collider.hpp>
+#include <bodice/engine/result.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
@@ -22,8 +25,12 @@ struct Wardrobe {
   std::vector<std::size_t> first_vertex;  ///< #garments + 1
 };
 
-/// Joins the garments, in order. O(vertices).
-Wardrobe join(const std::vector<WornGarment>& garments);
+/// Joins the garments, in order. Fails with kInvalidArgument, naming garment and element, when a triangle or
+/// the list of held vertices names a vertex that the garment does not have. O(vertices).
+engine::Result<Wardrobe> join(const std::vector<WornGarment>& garments);
+
+/// The fabric, or cotton where none is given.
+engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric);
 
 /// A thickness that keeps triangles out of the skin, not only their corners: 1.5 mm plus the height of the
 /// arc over a long edge (90 % are shorter) on a limb, at most 8 mm. O(#edges).
