@@ -1,11 +1,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include <bodice/engine/clock.hpp>
 #include <bodice/engine/executor.hpp>
 #include <bodice/fitting/fit.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
@@ -110,6 +112,36 @@ TEST_CASE("fit: thresholds in, thresholds kept, and reported") {
   CHECK(automatic->mu_limbs_m > 0.0);
 }
 
+TEST_CASE("fit: thresholds choose the published tier, and nothing that would ignore them") {
+  const Skin skin = three_ellipsoids();
+  FitOptions options;
+  options.mu_torso_m = 0.004;
+  options.mu_limbs_m = 0.002;
+  const auto free = fitting::fit({}, skin.view(), options);
+  REQUIRE(free.ok());
+  CHECK(free->proxy.tier() == Tier::kPaper);
+  CHECK(free->mu_torso_m == 0.004);
+  options.mu_torso_m = options.mu_limbs_m = 1e-15;
+  options.max_ellipsoids = 7;
+  const auto bounded = fitting::fit({}, skin.view(), options);
+  REQUIRE(bounded.ok());
+  CHECK(bounded->proxy.ellipsoids().size() <= 7);
+  CHECK(std::ranges::any_of(bounded->warnings,
+                            [](const auto& warning) { return warning.code == "thresholds-not-reached"; }));
+
+  const auto refused = [&](FitOptions wrong) {
+    const auto result = fitting::fit({}, skin.view(), wrong);
+    return !result.ok() && result.error().code == engine::ErrorCode::kInvalidArgument &&
+           result.error().message.find("threshold") != std::string::npos;
+  };
+  CHECK(refused({.mu_torso_m = 0.004}));
+  CHECK(refused({.mu_limbs_m = 0.004}));
+  CHECK(refused({.tier = Tier::kTight, .mu_torso_m = 0.004, .mu_limbs_m = 0.002}));
+  CHECK(refused({.tier = Tier::kRelief, .mu_torso_m = 0.004, .mu_limbs_m = 0.002}));
+  CHECK(refused({.target_error_m = 0.002, .mu_torso_m = 0.004, .mu_limbs_m = 0.002}));
+  CHECK(refused({.budget_us = 100.0, .mu_torso_m = 0.004, .mu_limbs_m = 0.002}));
+}
+
 TEST_CASE("fit: a target error that cannot be reached is said") {
   const Skin skin = three_ellipsoids();
   FitOptions options = options_for(Tier::kPaper, 4);
@@ -191,6 +223,35 @@ TEST_CASE("fit: improvements are published in order and are valid proxies") {
   REQUIRE(seen.size() >= 2);
   CHECK(seen.front() == Tier::kTight);
   CHECK(seen.back() == Tier::kRelief);
+}
+
+TEST_CASE("fit: a time budget is the whole search's, and what is shown belongs to its first try") {
+  struct Impatient : engine::Clock {  // a minute between any two looks at it
+    std::int64_t now_ns() const noexcept override { return now.fetch_add(60'000'000'000); }
+    mutable std::atomic<std::int64_t> now = 0;
+  };
+  const Skin skin = three_ellipsoids();
+  const auto tries = [](const fitting::FitResult& result) {
+    return std::ranges::count_if(result.stages, [](const auto& stage) { return stage.name == "measure"; });
+  };
+  FitOptions options;
+  options.tier = Tier::kTight;
+  options.target_error_m = 0.15e-3;  // the law of bodies is far off here
+  std::vector<std::size_t> shown;
+  options.on_improved = [&](const proxy::BodyProxy& proxy) { shown.push_back(proxy.ellipsoids().size()); };
+  const auto patient = fitting::fit({}, skin.view(), options);
+  REQUIRE(patient.ok());
+  CHECK(tries(*patient) > 1);
+  REQUIRE_FALSE(shown.empty());
+  CHECK(std::ranges::count(shown, shown.front()) == static_cast<std::ptrdiff_t>(shown.size()));
+
+  const Impatient clock;
+  engine::Context context;
+  context.clock = &clock;
+  options.time_budget_s = 1.0;
+  const auto hasty = fitting::fit(context, skin.view(), options);
+  REQUIRE(hasty.ok());
+  CHECK(tries(*hasty) == 1);
 }
 
 TEST_CASE("fit: no time still gives a valid proxy; only the wanted parts are fitted") {

@@ -14,14 +14,28 @@ bool positive(const std::optional<double>& value) {
   return !value || (std::isfinite(*value) && *value > 0.0);
 }
 
+engine::Result<void> check_thresholds(const FitOptions& options) {
+  if (!positive(options.mu_torso_m) || !positive(options.mu_limbs_m))
+    return bad("A threshold mu is not positive.", "Give metres above 0, or leave it out.");
+  if (options.mu_torso_m.has_value() != options.mu_limbs_m.has_value())
+    return bad("One of the two thresholds mu is missing.", "Give the torso's and the limbs', or neither.");
+  if (!options.mu_torso_m) return {};
+  if (options.tier.value_or(proxy::Tier::kPaper) > proxy::Tier::kSolid)
+    return bad("The thresholds mu do not apply to the tier " + std::string(proxy::name(*options.tier)) + ".",
+               "Choose paper or solid, or leave the thresholds out.");
+  if (options.target_error_m || options.budget_us)
+    return bad("The thresholds mu and a target error or a budget both say how many ellipsoids there are.",
+               "Give one of them.");
+  return {};
+}
+
 engine::Result<void> check_options(const FitOptions& options) {
   if (options.max_ellipsoids && (*options.max_ellipsoids < 1 || *options.max_ellipsoids > 10000))
     return bad("max_ellipsoids is " + std::to_string(*options.max_ellipsoids) + ".", "Ask for 1 to 10000.");
   if (!positive(options.target_error_m))
     return bad("target_error_m is not positive.", "Give metres above 0.");
   if (!positive(options.budget_us)) return bad("budget_us is not positive.", "Give microseconds above 0.");
-  if (!positive(options.mu_torso_m) || !positive(options.mu_limbs_m))
-    return bad("A threshold mu is not positive.", "Give metres above 0, or leave it out.");
+  if (auto good = check_thresholds(options); !good) return good;
   if (options.time_budget_s && !(*options.time_budget_s >= 0.0))
     return bad("time_budget_s is negative or NaN.", "Give seconds.");
   if ((options.parts & ((1u << body::kPartCount) - 1)) == 0)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include <bodice/engine/clock.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 
@@ -44,9 +45,17 @@ class PlanRunner {
              std::vector<engine::StageTime>& stages)
       : context_(context), skin_(skin), options_(options), stages_(stages) {}
 
-  engine::Result<Draft> run(const Plan& plan) {
+  engine::Result<Draft> run(const Plan& plan, std::optional<double> time_left_s) {
     options_.tier = plan.tier;
-    if (plan.tier != proxy::Tier::kRelief) return run_tier(context_, skin_, options_, plan.count, stages_);
+    options_.time_budget_s = time_left_s;
+    auto draft = plan.tier == proxy::Tier::kRelief ? engine::Result<Draft>(run_relief(plan))
+                                                   : run_tier(context_, skin_, options_, plan.count, stages_);
+    options_.on_improved = nullptr;  // another plan starts over: its iterates are no better than its result
+    return draft;
+  }
+
+ private:
+  const Draft& run_relief(const Plan& plan) {
     if (relief_ && relief_->count() == plan.count)
       relief_->resize(plan.relief_bytes);
     else
@@ -54,7 +63,6 @@ class PlanRunner {
     return relief_->draft();
   }
 
- private:
   const engine::Context& context_;
   const LabelledSkin& skin_;
   FitOptions options_;
@@ -99,9 +107,11 @@ engine::Result<Found> search(const engine::Context& context, const LabelledSkin&
                              const FitOptions& options, std::vector<engine::StageTime>& stages) {
   Dial dial(options, skin.stature_m);
   PlanRunner runner(context, skin, options, stages);
+  const std::int64_t begin_ns = context.clock->now_ns();
+  std::optional<double> left_s = options.time_budget_s;
   std::optional<Found> best;
   for (bool more = true; more;) {
-    auto draft = runner.run(dial.plan());
+    auto draft = runner.run(dial.plan(), left_s);
     if (!draft) return draft.error();
     if (draft->data.ellipsoids.empty()) return no_skin();
     draft->data.stature_m = skin.stature_m;
@@ -111,7 +121,10 @@ engine::Result<Found> search(const engine::Context& context, const LabelledSkin&
       engine::StageTimer timer(context, stages, "measure");
       now = measure(context, draft->data, skin, *skin.distance, draft->parts);
     }
-    more = options.target_error_m && dial.correct(now.accuracy.gap_m.mean);
+    if (left_s)
+      left_s = std::max(
+          0.0, *options.time_budget_s - 1e-9 * static_cast<double>(context.clock->now_ns() - begin_ns));
+    more = options.target_error_m && left_s.value_or(1.0) > 0.0 && dial.correct(now.accuracy.gap_m.mean);
     if (!best || better(now, best->measured, options.target_error_m.value_or(0.0)))
       best = {std::move(*draft), std::move(now)};
   }

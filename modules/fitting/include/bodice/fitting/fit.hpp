@@ -47,8 +47,11 @@ struct FitOptions {
   /// one thread of a 2.5 GHz server with AVX-512, particles kept in a Workspace. Where `bench/fit --laws`
   /// finds twice its 10 + .30 n nanoseconds a particle for n ellipsoids of relief, ask for half.
   std::optional<double> budget_us;
-  std::optional<double> mu_torso_m, mu_limbs_m;  ///< the paper's thresholds; automatic if absent
-  /// The anytime tiers stop after this long; absent: when they gain no more, which makes runs repeatable.
+  /// The paper's thresholds, both or neither (automatic then): they say where splitting stops, so that they
+  /// go with the tiers paper (if none is asked for) and solid, and without a target or a budget.
+  std::optional<double> mu_torso_m, mu_limbs_m;
+  /// The anytime tiers and the search for a target stop after this long; absent: when they gain no more,
+  /// which makes runs repeatable.
   std::optional<double> time_budget_s;
   /// Tight: the ellipsoids grow in the end until no skin is outside, at the price of the mean gap.
   bool covering = false;
@@ -60,7 +63,8 @@ struct FitOptions {
   /// Bit a part: only regions that have one of these are fitted. Their share of the ellipsoids is the one
   /// they have in a fit of the whole body, and paper and solid give them the same bits as there.
   std::uint32_t parts = kAllParts;
-  /// Called with each better proxy of an anytime tier, from the calling thread's task.
+  /// Called with each better proxy of an anytime tier, from the calling thread's task. Under a target error
+  /// the first try's are told: another try starts over.
   std::function<void(const proxy::BodyProxy&)> on_improved;
   /// Paper and solid: called with each region once it and those before it are fitted: one call at a time,
   /// in the order of the parts (the torso as its first), from any worker. What it shows is in the result,
