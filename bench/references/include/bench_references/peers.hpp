@@ -16,7 +16,8 @@ struct Peer {
   std::string name;
   double build_ms = 0.0;  ///< what a body that moves pays every frame
   double bytes = 0.0;     ///< 0: not known
-  double reach_m = std::numeric_limits<double>::infinity();  ///< no distance beyond is looked for
+  /// No distance beyond is looked for.
+  double reach_m = std::numeric_limits<double>::infinity();
   std::function<void(const Cloud&, std::span<float> distance_m)> query;
 };
 

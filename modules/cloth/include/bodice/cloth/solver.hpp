@@ -37,10 +37,10 @@ struct SolverOptions {
 
 /// What a frame had to leave out or bound, as bits of FrameReport::limits.
 enum FrameLimit : std::uint32_t {
-  kTimeCut = 1u << 0,  ///< dt_s was above what kMaxSubsteps substeps may cover, the rest was dropped; or
-                       ///< under 1e-15 s, and all of it was
-  kMoreSubsteps = 1u << 1,    ///< more substeps than asked for, because dt_s or the speeds were large
-  kSpeedClamped = 1u << 2,    ///< a particle would have crossed kMaxTravel in a substep and was slowed
+  kTimeCut = 1u << 0,       ///< dt_s was above what kMaxSubsteps substeps may cover, the rest was dropped; or
+                            ///< under 1e-15 s, and all of it was
+  kMoreSubsteps = 1u << 1,  ///< more substeps than asked for, because dt_s or the speeds were large
+  kSpeedClamped = 1u << 2,  ///< a particle would have crossed kMaxTravel in a substep and was slowed
   kParticlesReset = 1u << 3,  ///< a particle became NaN or infinite and was put back where it was
   kNoSelfContact = 1u << 4,   ///< dropped for the budget
   kBendingHalved = 1u << 5,   ///< for the budget: on every second substep only
