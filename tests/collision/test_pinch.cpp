@@ -96,6 +96,37 @@ TEST_CASE("a particle that is put back beside a jump of relief is clear as it is
   CHECK(lowest_m > -5e-5);
 }
 
+TEST_CASE("a particle that leaves by a ray across a jump of relief is clear as it is stored, in floats") {
+  // A ball under the disc: down there is no room, and upward the corrected distance jumps to clear.
+  auto data = jumping_disc();
+  const Ellipsoid disc = data.ellipsoids[0].shape;
+  data.ellipsoids[1].shape.center = disc.center - 0.0515 * disc.axes.col(2);
+  data.relief[1].h_scale_m = data.relief[1].h_offset_m = 0.0f;
+  data.ellipsoids.push_back(data.ellipsoids[1]);
+  data.ellipsoids[2].shape.center = -disc.center;
+  data.relief.push_back(data.relief[1]);
+  const auto proxy = proxy_of(data);
+  const Collider collider(proxy);
+  engine::Random random(5);
+  Cloud cloud;
+  for (int i = 0; i < 4000; ++i) {
+    const Vec3 below(random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01), random.uniform(-0.004, -1e-4));
+    cloud.add(disc.center + disc.axes * below - collider.origin());
+  }
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  double lowest_m = 1.0;
+  int across = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3 p = cloud.position(i) + collider.origin();
+    lowest_m = std::min(lowest_m, proxy::proxy_distance(proxy, p).distance);
+    across += std::abs(disc.axes.col(2).dot(p - disc.center)) < 1e-5;
+  }
+  CHECK(across > 100);
+  CHECK(report.fallbacks > 100);
+  CHECK(report.unresolved == 0);
+  CHECK(lowest_m > -5e-5);
+}
+
 TEST_CASE("a particle in a gap narrower than the clearance goes midway, and stays there") {
   for (const bool relief : {false, true}) {
     const auto data = data_of(two_balls(0.1, 0.002));

@@ -37,18 +37,19 @@ void by_blocks(std::size_t begin, std::size_t end, int size, const Sequence& seq
     work(at, std::min(at + static_cast<std::size_t>(size), end), sequence);
 }
 
-/// The same for all particles, in the order that is kept (null: none), and done(task's result) for each task.
+/// The same for all particles, with what is remembered of them (null: nothing), and done(task's result) for
+/// each task.
 template <class Result, class Work, class Done>
-void by_tasks(const engine::Context& context, const Particles& particles, ParticleOrder* kept, int size,
+void by_tasks(const engine::Context& context, const Particles& particles, Memory* memory, int size,
               Work&& work, Done&& done) {
-  if (kept) kept->refresh(particles);
+  if (memory) memory->order.refresh(particles);
   engine::parallel_for(context, particles.count, TaskOrder::kMost, [&](std::size_t begin, std::size_t end) {
     Result result;
     const auto some = [&](std::size_t from, std::size_t to, const Sequence& sequence) {
       work(from, to, sequence, result);
     };
-    if (kept) {
-      by_blocks(begin, end, size, {kept->order(), 0, kept}, some);
+    if (memory) {
+      by_blocks(begin, end, size, {memory->order.order(), 0, memory}, some);
     } else {
       const TaskOrder own(particles, begin, end);
       by_blocks(begin, end, size, {own.order(), begin, nullptr}, some);
@@ -128,7 +129,7 @@ void Collider::query(const engine::Context& context, const Particles& particles,
 
 void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
                      Workspace& workspace, const QueryOptions& options) const {
-  impl_->query(context, particles, contacts, options, workspace.order_.get());
+  impl_->query(context, particles, contacts, options, workspace.memory_.get());
 }
 
 std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
@@ -163,15 +164,15 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options, Workspace& workspace) const {
-  return impl_->resolve(context, particles, options, workspace.order_.get());
+  return impl_->resolve(context, particles, options, workspace.memory_.get());
 }
 
 void Collider::Impl::query(const engine::Context& context, const Particles& particles,
-                           std::span<Contact> contacts, const QueryOptions& options,
-                           ParticleOrder* kept) const {
+                           std::span<Contact> contacts, const QueryOptions& options, Memory* memory) const {
   struct Nothing {};
+  recall(particles, memory);
   by_tasks<Nothing>(
-      context, particles, kept, kBatch,
+      context, particles, memory, kBatch,
       [&](std::size_t begin, std::size_t end, const Sequence& sequence, Nothing&) {
         query_some(particles, begin, end, sequence, options, contacts);
       },
@@ -179,10 +180,11 @@ void Collider::Impl::query(const engine::Context& context, const Particles& part
 }
 
 ContactReport Collider::Impl::resolve(const engine::Context& context, const Particles& particles,
-                                      const ResolveOptions& options, ParticleOrder* kept) const {
+                                      const ResolveOptions& options, Memory* memory) const {
   SharedReport total;
+  recall(particles, memory);
   by_tasks<ContactReport>(
-      context, particles, kept, batch_of(options, relief.has_value()),
+      context, particles, memory, batch_of(options, relief.has_value()),
       [&](std::size_t begin, std::size_t end, const Sequence& sequence, ContactReport& report) {
         resolve_some(particles, begin, end, sequence, options, report);
       },

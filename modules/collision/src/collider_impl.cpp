@@ -188,6 +188,7 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
     return;
   }
   Gathering& batch = gathered.batch;
+  batch.keeping = keeping_of(particles, begin, end, sequence.memory);
   const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
                             static_cast<float>(kCertificate * field.size_m()),
                             options.friction,
@@ -212,9 +213,9 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
       resolve_exactly(particles, gathered.index[lane], options, report);
     return;
   }
-  ParticleOrder* const notes = sequence.notes;
-  for (std::size_t block = 0; notes && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
-    notes->note_radius(begin / kBlock + block, response.radius_m[block]);
+  Memory* const memory = sequence.memory;
+  for (std::size_t block = 0; memory && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
+    memory->order.note_radius(begin / kBlock + block, response.radius_m[block]);
   for_lanes(response.contact, batch.count, [&](int lane) {
     scatter(gathered, lane, particles);
     ++report.contacts_by_part[static_cast<int>(part[response.owner[lane]])];

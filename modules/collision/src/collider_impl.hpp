@@ -8,7 +8,7 @@
 
 #include "baked.hpp"
 #include "block_io.hpp"
-#include "particle_order.hpp"
+#include "memory.hpp"
 #include "relief.hpp"
 #include "response.hpp"
 #include "surface_motion.hpp"
@@ -21,15 +21,21 @@ struct Collider::Impl {
 
   const ReliefTables* tables() const { return relief ? &*relief : nullptr; }
 
-  /// In the order that is kept; null: as they are stored, or in that of each task.
+  /// With what is remembered of the particles, or null: as they are stored, or in an order of each task.
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
-             const QueryOptions& options, ParticleOrder* kept) const;
+             const QueryOptions& options, Memory* memory) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,
-                        const ResolveOptions& options, ParticleOrder* kept) const;
+                        const ResolveOptions& options, Memory* memory) const;
   /// Particles [begin, end) of the sequence, at most kBatch.
   void query_some(const Particles& particles, std::size_t begin, std::size_t end, const Sequence& sequence,
                   const QueryOptions& options, std::span<Contact> contacts) const;
-  bool query_kernel(QueryBatch& batch, std::size_t block, ParticleOrder* notes) const;
+  bool query_kernel(QueryBatch& batch, std::size_t block, Memory* memory) const;
+  /// Before a call's batches; memory may be null.
+  void recall(const Particles& particles, Memory* memory) const {
+    if (memory) memory->candidates.begin(particles.count, shapes, relief ? relief->blend_m : 0.0f);
+  }
+  /// What is remembered of a whole batch, or of the last.
+  Keeping keeping_of(const Particles& particles, std::size_t begin, std::size_t end, Memory* memory) const;
   void resolve_some(const Particles& particles, std::size_t begin, std::size_t end, const Sequence& sequence,
                     const ResolveOptions& options, ContactReport& report) const;
   /// One particle on the exact side, from the arrays and back.

@@ -22,6 +22,15 @@ inline constexpr int kBatch = 256;
 /// Ellipsoids near a block; where more are, the exact side works.
 inline constexpr int kMaxCandidates = 256;
 
+struct KeptBatch;
+
+/// What is kept about a batch from call to call.
+struct Keeping {
+  KeptBatch* batch = nullptr;  ///< null: nothing
+  double travelled_m = 0.0;    ///< length of the proxy's way
+  float least_reach_m = 0.0f, most_reach_m = 0.0f;
+};
+
 /// What a query reads and writes.
 struct QueryBatch {
   const float *x, *y, *z;      ///< metres, local frame; repeated up to a whole block
@@ -30,7 +39,8 @@ struct QueryBatch {
   float margin_m;
   float within_m;                   ///< particles farther from the surface are told nothing
   Contact* contacts;                ///< of the whole call
-  float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal
+  float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal; below zero: not measured
+  Keeping keeping = {};
 };
 
 /// What is told about a particle that is not finite, or is farther than was asked for.
@@ -49,6 +59,7 @@ struct alignas(64) Gathering {
   int count = 0;
   bool has_velocity = false;
   bool has_safe = false;
+  Keeping keeping = {};
 };
 
 /// What a response asks of the kernel.

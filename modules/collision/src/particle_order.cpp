@@ -93,6 +93,25 @@ bool scattered(const Particles& particles, std::size_t begin, std::size_t end) {
   return near_sum > kScattered * far_sum;  // not so if any is NaN
 }
 
+/// Sum over the blocks of their boxes' sides; `order` may be empty: as they are stored.
+double spread_of(const Particles& particles, std::span<const std::uint32_t> order) {
+  double sum = 0.0;
+  for (std::size_t begin = 0; begin < particles.count; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, particles.count);
+    for (const float* values : {particles.x, particles.y, particles.z}) {
+      float low = kFarthest, high = -kFarthest;
+      for (std::size_t i = begin; i < end; ++i) {
+        const float v = values[order.empty() ? i : order[i]];
+        if (!(std::abs(v) < kFarthest)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
+      sum += double{std::max(0.0f, high - low)};
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 void ParticleOrder::refresh(const Particles& particles) {
@@ -106,6 +125,8 @@ void ParticleOrder::refresh(const Particles& particles) {
   radius_m_.assign((count + kBlock - 1) / kBlock, 0.0f);
   spread_when_sorted_m_ = -1.0;
   sort(particles, 0, 3, {order_, key_, other_order_, other_key_});
+  const double as_sorted = spread_of(particles, order_);
+  stored_ = spread_of(particles, {}) <= kStoredWell * as_sorted;
 }
 
 TaskOrder::TaskOrder(const Particles& particles, std::size_t begin, std::size_t end) {
@@ -114,10 +135,5 @@ TaskOrder::TaskOrder(const Particles& particles, std::size_t begin, std::size_t 
   const auto some = [this](std::uint32_t* values) { return std::span(values, count_); };
   sort(particles, begin, 2, {some(order_), some(key_), some(other_order_), some(other_key_)});
 }
-
-Workspace::Workspace() : order_(std::make_unique<ParticleOrder>()) {}
-Workspace::~Workspace() = default;
-Workspace::Workspace(Workspace&&) noexcept = default;
-Workspace& Workspace::operator=(Workspace&&) noexcept = default;
 
 }  // namespace bodice::collision

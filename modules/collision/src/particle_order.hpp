@@ -12,20 +12,26 @@
 
 namespace bodice::collision {
 
+struct Memory;
+
 class ParticleOrder {
  public:
   /// Sorts again if the number has changed or the blocks have come apart since the last sort.
   void refresh(const Particles& particles);
 
-  std::span<const std::uint32_t> order() const { return order_; }
+  /// Empty: as they are stored, which is about as good.
+  std::span<const std::uint32_t> order() const { return stored_ ? std::span<const std::uint32_t>() : order_; }
 
-  /// Written by whoever works on a block: the block's radius, metres. One writer a block.
-  void note_radius(std::size_t block, float radius_m) { radius_m_[block] = radius_m; }
+  /// Written by whoever works on a block: the block's radius, metres, unless below zero. One writer a block.
+  void note_radius(std::size_t block, float radius_m) {
+    if (radius_m >= 0.0f) radius_m_[block] = radius_m;
+  }
 
  private:
   std::vector<std::uint32_t> order_, other_order_;
   std::vector<std::uint32_t> key_, other_key_;
-  std::vector<float> radius_m_;       // a block
+  std::vector<float> radius_m_;  // a block
+  bool stored_ = false;
   double spread_when_sorted_m_ = -1;  // sum of the radii; negative: not measured yet
 };
 
@@ -50,7 +56,7 @@ class TaskOrder {
 struct Sequence {
   std::span<const std::uint32_t> order;  ///< of particles first, first + 1, ...; empty: as they are stored
   std::size_t first = 0;
-  ParticleOrder* notes = nullptr;  ///< who wants to know the blocks' radii, or null
+  Memory* memory = nullptr;  ///< of the set of particles, or null
 
   bool stored() const { return order.empty(); }
   std::size_t operator[](std::size_t i) const { return stored() ? i : order[i - first]; }

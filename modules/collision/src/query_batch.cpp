@@ -107,11 +107,19 @@ void prefetch(const Particles& particles, const Sequence& sequence, std::size_t 
 
 }  // namespace
 
-bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, ParticleOrder* notes) const {
+bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, Memory* memory) const {
   if (!query_batch(baked, tables(), batch)) return false;
   const std::size_t blocks = static_cast<std::size_t>((batch.count + kBlock - 1) / kBlock);
-  for (std::size_t i = 0; notes && i < blocks; ++i) notes->note_radius(block + i, batch.radius_m[i]);
+  for (std::size_t i = 0; memory && i < blocks; ++i) memory->order.note_radius(block + i, batch.radius_m[i]);
   return true;
+}
+
+Keeping Collider::Impl::keeping_of(const Particles& particles, std::size_t begin, std::size_t end,
+                                   Memory* memory) const {
+  if (!memory || (end - begin != kBatch && end != particles.count) || begin % kBatch != 0) return {};
+  const auto share = [&](double of_size) { return static_cast<float>(of_size * field.size_m()); };
+  return {&memory->candidates.batch(begin / kBatch), memory->candidates.travelled_m(), share(kLeastReach),
+          share(kMostReach)};
 }
 
 void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
@@ -127,8 +135,10 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
                    .margin_m = static_cast<float>(margin_m),
                    .within_m = options.within_m,
                    .contacts = contacts.data() + begin,
-                   .radius_m = {}};
-  if (sequence.stored() && all == kBatch && field.size() > 0 && query_kernel(batch, 0, nullptr)) return;
+                   .radius_m = {},
+                   .keeping = keeping_of(particles, begin, end, sequence.memory)};
+  const bool in_place = sequence.stored() && all == kBatch;
+  if (in_place && field.size() > 0 && query_kernel(batch, begin / kBlock, sequence.memory)) return;
   Places places;
   collect(particles, sequence, begin, end, places);
   const auto exactly = [&](int i) {
@@ -144,10 +154,11 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
     batch.x = places.x + from, batch.y = places.y + from, batch.z = places.z + from;
     batch.index = places.index + from;
     batch.count = count;
-    return query_kernel(batch, (begin + static_cast<std::size_t>(from)) / kBlock, sequence.notes);
+    return query_kernel(batch, (begin + static_cast<std::size_t>(from)) / kBlock, sequence.memory);
   };
   pad(places);
-  if (!sequence.stored() && kernel(0, places.count)) return;
+  if (!in_place && kernel(0, places.count)) return;
+  batch.keeping = {};
   // Too many ellipsoids near for a batch may do for its blocks; or some places are too far for floats.
   keep_near(places, exactly);
   if (places.count == 0) return;

@@ -24,16 +24,17 @@ class Columns {
   static constexpr int kTable = kBakedFloats, kName = kTable + kTableFloats, kBound = kName + 1,
                        kRows = kBound + kBoundFloats;
 
+  /// `bounds`: whether candidates will be looked for among the columns.
   HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
-                       int count) {
+                       int count, bool bounds = true) {
     count_ = count;
     ellipsoids_ = ellipsoids;
     if (count <= kPad)
-      fill_by<kPad>(baked, relief, ellipsoids);
+      fill_by<kPad>(baked, relief, ellipsoids, bounds);
     else if (count <= 2 * kPad)
-      fill_by<2 * kPad>(baked, relief, ellipsoids);
+      fill_by<2 * kPad>(baked, relief, ellipsoids, bounds);
     else
-      fill_by<kWidest>(baked, relief, ellipsoids);
+      fill_by<kWidest>(baked, relief, ellipsoids, bounds);
   }
   int count() const { return count_; }
   /// Of the proxy's, which column i holds.
@@ -48,14 +49,15 @@ class Columns {
 
   // The stride is a constant, so that the copies become plain moves.
   template <int kStride>
-  HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids) {
+  HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
+                          bool bounds) {
     stride_ = kStride;
     for (int c = 0; c < count_; ++c) {
       const auto k = static_cast<std::size_t>(ellipsoids[c]);
       put<kStride>(baked.ellipsoids[k], values_ + c);
       if (relief) put<kStride>(relief->tables[k], values_ + kTable * kStride + c);
       put<kStride>(baked.names[k], values_ + kName * kStride + c);
-      put<kStride, kBoundFloats>(baked.bounds[k], values_ + kBound * kStride + c);
+      if (bounds) put<kStride, kBoundFloats>(baked.bounds[k], values_ + kBound * kStride + c);
     }
   }
   template <int kStride, int kFloats = 0, class Member>

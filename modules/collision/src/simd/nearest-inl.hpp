@@ -13,8 +13,7 @@
 #include <limits>
 
 #include "simd/combine-inl.hpp"
-#include "simd/lowest-inl.hpp"
-#include "simd/share-inl.hpp"
+#include "simd/kept-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -170,15 +169,45 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
   return true;
 }
 
+/// The answers of one piece that has but one candidate: nothing to choose, and the same shape in every lane.
+inline void answer_alone(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                         const Piece& piece, std::size_t ellipsoid, Batched& out) {
+  const Shape shape = broadcast(baked.ellipsoids[ellipsoid]);
+  const VI name = hn::Set(I(), baked.names[ellipsoid]);
+  Shape shapes[kTogether];
+  std::fill_n(shapes, kTogether, shape);
+  for (int from = piece.begin; from < end_of(piece); from += kStep) {
+    V3 p[kTogether];
+    Foot feet[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const int i = from + v * kWidth;
+      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
+    }
+    feet_of(shapes, p, feet);
+    for (int v = 0; v < kTogether; ++v) {
+      Answer answer = {feet[v].distance, feet[v].distance, feet[v].normal, name};
+      if (relief) {
+        const Corrected one = corrected(*relief, broadcast(relief->tables[ellipsoid]), shape, feet[v]);
+        answer.value = one.value;
+        answer.gradient = one.gradient;
+      }
+      put(answer, relief != nullptr, out, from + v * kWidth);
+    }
+  }
+}
+
 /// Some pieces of the batch whose candidates are the columns.
 template <int kKept, int kTables>
 HWY_INLINE bool nearest_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                            const Piece* pieces, int count, const Near* near, const Columns& columns,
                            Open& open, Batched& out) {
   open.pairs.count = open.count = 0;
-  for (int i = 0; i < count; ++i)
-    if (!answer_first<kKept, kTables>(baked, relief, batch, pieces[i], near[i], columns, open, out))
+  for (int i = 0; i < count; ++i) {
+    if (near[i].count == 1)
+      answer_alone(baked, relief, batch, pieces[i], columns.ellipsoid(near[i].index[0]), out);
+    else if (!answer_first<kKept, kTables>(baked, relief, batch, pieces[i], near[i], columns, open, out))
       return false;
+  }
   if (!collect_rest<kTables>(baked, relief, columns, batch, open, out)) return false;
   flush<kTables>(relief, columns, batch, open.pairs, out);
   if (relief) combine_blended(*relief, pieces[0].begin, end_of(pieces[count - 1]), open.pairs, out);
@@ -251,9 +280,6 @@ HWY_INLINE bool one_by_one(const QueryBatch& batch, const Piece& piece, Work&& w
 /// ellipsoids with relief are near one than the kernel has room for.
 inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Scratch& scratch,
                     Batched& out) {
-  const Blocks blocks(batch);
-  if (!blocks.near) return false;
-  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
   const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
                         Near* lists) {
@@ -273,6 +299,15 @@ inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& 
   const auto in_part = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
                            const Near* lists,
                            Batched& to) { return answer(tables, batch, columns, pieces, count, lists, to); };
+  if (is_kept(baked, relief, beyond_m, batch, scratch.lists) &&
+      share_kept(baked, relief, batch, kNoLimit, scratch.lists,
+                 [&](auto tables, const Columns& columns, const Piece* pieces, int count, const Near* lists) {
+                   return answer(tables, batch, columns, pieces, count, lists, out);
+                 }))
+    return true;
+  const Blocks blocks(batch);
+  if (!blocks.near) return false;
+  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
   return together_or_apart(
       batch, blocks, [&](const Piece* pieces, int count) { return share_among(batch, pieces, count, out); },
       [&](const Piece& piece) {

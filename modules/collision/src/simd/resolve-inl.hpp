@@ -176,6 +176,7 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
                            BatchResponse& out) {
   Batched found;
   QueryBatch query = places(batch.x, batch.y, batch.z, batch.count);
+  query.keeping = batch.keeping;
   Way way;
   Pushed pushed;
   way.clear_others();

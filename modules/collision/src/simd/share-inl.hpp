@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "kept.hpp"
 #include "simd/near-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +29,7 @@ HWY_INLINE M lanes_below(int i, int end) {
 
 struct Lists {
   Columns columns, alone;
-  Near near, of_piece[kBlocks], of_alone;
+  Near near, of_piece[kBlocks], of_alone, of_span[KeptBatch::kSpans];
 };
 
 /// Every column, for a block that does not share them.
@@ -102,7 +103,8 @@ HWY_INLINE QueryBatch places(const float* x, const float* y, const float* z, int
           .margin_m = 0.0f,
           .within_m = kNoLimit,
           .contacts = nullptr,
-          .radius_m = {}};
+          .radius_m = {},
+          .keeping = {}};
 }
 
 /// `near` tells whether all are within kFarthest, which NaN is not.

@@ -192,24 +192,12 @@ HWY_INLINE bool within_of(const Baked& baked, const ReliefTables* relief, const 
 /// floats.
 inline bool nearest_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, float limit_m,
                            Scratch& scratch, Reached& reached, Batched& out) {
-  const Blocks blocks(batch);
-  if (!blocks.near) return false;
-  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
   Limits limits{limit_m + 4.0f * baked.rounding_m, limit_m + 4.0f * baked.rounding_m};
   if (relief) {
     const VI of_all = hn::Set(I(), static_cast<std::int32_t>(relief->tables.size()));
     limits.plain_m = hn::GetLane(reach_over(*relief, limits.surface_m, of_all));
   }
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
-  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen feet a
-  // block.
-  const bool close = limits.surface_m <= 2.0f * blocks.pieces[0].box.radius;
-  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
-                        Near* lists) {
-    const float below_m = limits.plain_m + beyond_m;
-    if (close) return find_below(source, around, pieces, count, below_m, lists);
-    return find_near<true>(source, around, pieces, count, beyond_m, below_m, lists);
-  };
   const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
                         const Near* lists) {
     Open& open = scratch.open;
@@ -220,6 +208,23 @@ inline bool nearest_within(const Baked& baked, const ReliefTables* relief, Query
                                   out);
   };
   reached.count = 0;
+  if (is_kept(baked, relief, beyond_m, batch, scratch.lists)) {
+    const float least_m = hn::GetLane(bound_limit(baked, all(limits.plain_m), 0.0f));
+    if (share_kept(baked, relief, batch, least_m, scratch.lists, work)) return true;
+    reached.count = 0;
+  }
+  const Blocks blocks(batch);
+  if (!blocks.near) return false;
+  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
+  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen feet a
+  // block.
+  const bool close = limits.surface_m <= 2.0f * blocks.pieces[0].box.radius;
+  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
+                        Near* lists) {
+    const float below_m = limits.plain_m + beyond_m;
+    if (close) return find_below(source, around, pieces, count, below_m, lists);
+    return find_near<true>(source, around, pieces, count, beyond_m, below_m, lists);
+  };
   return share(baked, relief, blocks.pieces, blocks.count, scratch.lists, find, work);
 }
 

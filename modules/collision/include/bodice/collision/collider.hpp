@@ -49,12 +49,13 @@ struct ResolveOptions {
   Response response = Response::kNearest;
   float thickness_m = 0.0f;  ///< kept between particle and surface
   float friction = 0.3f;     ///< Coulomb coefficient
-  /// Longest move a call, beyond taking back the path from the safe position: particles that start deep inside
-  /// come out over several calls (`pending`), and those in a fold of the body without room stay midway in it.
+  /// Longest move a call, beyond taking back the path from the safe position: particles that start deep
+  /// inside come out over several calls (`pending`), and those in a fold of the body without room stay midway
+  /// in it.
   float max_push_m = std::numeric_limits<float>::infinity();
-  /// Fillets the creases where plain ellipsoids meet, so that normals turn over this length instead of jumping:
-  /// the surface rises there by up to 0.29 of it (more where more than two meet). Relief blends by itself;
-  /// kPaper does not blend. Twice to three times the cost.
+  /// Fillets the creases where plain ellipsoids meet, so that normals turn over this length instead of
+  /// jumping: the surface rises there by up to 0.29 of it (more where more than two meet). Relief blends by
+  /// itself; kPaper does not blend. Twice to three times the cost.
   float blend_m = 0.0f;
 };
 
@@ -62,11 +63,11 @@ struct ResolveOptions {
 struct ContactReport {
   std::uint64_t contacts = 0;
   std::uint64_t contacts_by_part[body::kPartCount] = {};
-  std::uint64_t unresolved = 0;  ///< still inside after the fallback; zero, or `paper` mode
-  std::uint64_t pending = 0;     ///< on their way out, held back by max_push_m
-  std::uint64_t pinched = 0;     ///< put midway where two surfaces leave less room than the thickness
-  std::uint64_t wrong_side = 0;  ///< put back on the side of the body that their path came from
-  std::uint64_t fallbacks = 0;   ///< resolved by the certified fallback
+  std::uint64_t unresolved = 0;      ///< still inside after the fallback; zero, or `paper` mode
+  std::uint64_t pending = 0;         ///< on their way out, held back by max_push_m
+  std::uint64_t pinched = 0;         ///< put midway where two surfaces leave less room than the thickness
+  std::uint64_t wrong_side = 0;      ///< put back on the side of the body that their path came from
+  std::uint64_t fallbacks = 0;       ///< resolved by the certified fallback
   std::uint64_t judged_exactly = 0;  ///< not settled by the float kernels; includes some without contact
   std::uint64_t not_finite = 0;      ///< NaN or Inf, left alone
   std::uint32_t max_iterations = 0;
@@ -75,8 +76,9 @@ struct ContactReport {
 };
 
 /// What a caller keeps from call to call for one set of particles: a spatial order, so that the speed does
-/// not depend on the order in which they are stored. Refreshed by itself when the particles have moved
-/// apart; any collider may use it. Not thread-safe; allocates when the particles become more.
+/// not depend on the order in which they are stored, and which ellipsoids are near, which holds while
+/// particles and proxy move by millimetres. Changes no bit of an answer. Refreshed by itself; any collider
+/// may use it. Not thread-safe; allocates, about 30 bytes a particle, when these become more.
 class Workspace {
  public:
   Workspace();
@@ -86,7 +88,7 @@ class Workspace {
 
  private:
   friend class Collider;
-  std::unique_ptr<class ParticleOrder> order_;
+  std::unique_ptr<struct Memory> memory_;
 };
 
 /// A proxy baked for queries: floats in a local frame, boxes for culling. Thread-safe but for move_to().

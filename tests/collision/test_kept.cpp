@@ -1,0 +1,183 @@
+// What a workspace keeps between calls must never show in an answer.
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <doctest/doctest.h>
+
+#include "scenes.hpp"
+
+namespace {
+
+using namespace bodice_test;
+using bodice::collision::Collider;
+using bodice::collision::Contact;
+using bodice::collision::Workspace;
+using bodice::engine::Random;
+
+constexpr float kAll = std::numeric_limits<float>::infinity();
+
+/// A crowd of small ellipsoids: many places are about as near to one as to the next.
+bodice::proxy::BodyProxy crowd(bool relief, int count) {
+  auto data = data_of(random_ellipsoids(81, count, 0.4, 0.03, 0.15));
+  return proxy_of(relief ? with_relief(std::move(data), 9, 0.002, 82) : data);
+}
+
+/// Neighbours in space are neighbours in the arrays.
+Cloud lattice(int side) {
+  Random random(83);
+  Cloud cloud;
+  for (int i = 0; i < side * side * side; ++i) {
+    const Vec3 cell(i % side, i / side % side, i / (side * side));
+    cloud.add(1.1 * (cell / side - Vec3::Constant(0.5)) + random_vector(random, 0.3 / side));
+  }
+  return cloud;
+}
+
+void scatter(Random& random, double step_m, Cloud& cloud) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3 p = cloud.position(i) + step_m * random_direction(random);
+    cloud.x[i] = static_cast<float>(p.x());
+    cloud.y[i] = static_cast<float>(p.y());
+    cloud.z[i] = static_cast<float>(p.z());
+  }
+}
+
+void turn(double angle_rad, std::vector<Ellipsoid>& shapes) {
+  const Mat3 by = Eigen::AngleAxisd(angle_rad, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (Ellipsoid& e : shapes) {
+    e.center = by * e.center;
+    e.axes = by * e.axes;
+  }
+}
+
+std::vector<Ellipsoid> shapes_of(const bodice::proxy::BodyProxy& proxy) {
+  std::vector<Ellipsoid> shapes;
+  for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
+  return shapes;
+}
+
+/// Answers with what is kept that differ from those without.
+int differences(const Collider& collider, Cloud& cloud, Workspace& workspace, float within_m) {
+  std::vector<Contact> fresh(cloud.size()), kept(cloud.size());
+  collider.query({}, cloud.particles(), fresh, {.within_m = within_m});
+  collider.query({}, cloud.particles(), kept, workspace, {.within_m = within_m});
+  int differ = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    differ += std::memcmp(&fresh[i], &kept[i], sizeof(Contact)) != 0;
+  return differ;
+}
+
+}  // namespace
+
+TEST_CASE("candidates that are kept while particles wander change no bit") {
+  for (const bool relief : {false, true})
+    for (const double step_m : {0.0, 2e-4, 1e-3, 4e-3, 0.05}) {
+      CAPTURE(relief);
+      CAPTURE(step_m);
+      const Collider collider(crowd(relief, 60));
+      Random random(84);
+      Cloud cloud = lattice(24);
+      Workspace workspace;
+      for (int call = 0; call < 9; ++call) {
+        const float within_m = call % 3 == 0 ? kAll : call % 3 == 1 ? 0.01f : 0.0f;
+        CHECK(differences(collider, cloud, workspace, within_m) == 0);
+        scatter(random, step_m, cloud);
+      }
+    }
+}
+
+TEST_CASE("candidates that are kept while all particles drift one way change no bit") {
+  // All of a batch come from one ellipsoid's side to the other's at once.
+  const Collider collider(crowd(false, 200));
+  Cloud cloud = lattice(20);
+  Workspace workspace;
+  int differ = 0;
+  for (int call = 0; call < 60; ++call) {
+    differ += differences(collider, cloud, workspace, kAll);
+    for (float& x : cloud.x) x += 7e-4f;
+  }
+  CHECK(differ == 0);
+}
+
+TEST_CASE("candidates that are kept while the proxy moves change no bit") {
+  for (const bool relief : {false, true}) {
+    const auto proxy = crowd(relief, 60);
+    Collider collider(proxy);
+    std::vector<Ellipsoid> shapes = shapes_of(proxy);
+    Cloud cloud = lattice(20);
+    Workspace workspace;
+    int differ = 0;
+    for (int call = 0; call < 40; ++call) {
+      differ += differences(collider, cloud, workspace, kAll);
+      turn(call % 10 == 9 ? 0.3 : 1e-3, shapes);
+      collider.move_to(shapes, 0.01);
+    }
+    CHECK(differ == 0);
+  }
+}
+
+TEST_CASE("responses among candidates that are kept change no bit") {
+  for (const bool relief : {false, true}) {
+    const Collider collider(crowd(relief, 60));
+    Random random(87);
+    Cloud cloud = lattice(16);
+    Workspace workspace;
+    for (int call = 0; call < 5; ++call) {
+      Cloud fresh = cloud, kept = cloud;
+      collider.resolve({}, fresh.particles(), {.thickness_m = 0.001f});
+      collider.resolve({}, kept.particles(), {.thickness_m = 0.001f}, workspace);
+      CHECK(fresh.x == kept.x);
+      CHECK(fresh.y == kept.y);
+      CHECK(fresh.z == kept.z);
+      CHECK(fresh.vx == kept.vx);
+      scatter(random, 1e-3, cloud);
+    }
+  }
+}
+
+TEST_CASE("one workspace serves colliders and clouds in turns") {
+  const Collider first(crowd(false, 60)), second(crowd(true, 60)), third(crowd(false, 200));
+  Cloud large = lattice(14), small = lattice(9);
+  Workspace workspace;
+  int differ = 0;
+  for (int call = 0; call < 4; ++call)
+    for (Cloud* cloud : {&large, &small})
+      for (const Collider* collider : {&first, &second, &third})
+        differ += differences(*collider, *cloud, workspace, kAll);
+  CHECK(differ == 0);
+}
+
+TEST_CASE("particles that are not finite spoil nothing that is kept") {
+  const Collider collider(crowd(false, 60));
+  Cloud cloud = lattice(14);
+  Workspace workspace;
+  int differ = 0;
+  for (int call = 0; call < 6; ++call) {
+    Cloud now = cloud;
+    if (call % 2 == 1) now.x[700] = std::numeric_limits<float>::quiet_NaN(), now.y[30] = 1e20f;
+    differ += differences(collider, now, workspace, kAll);
+  }
+  CHECK(differ == 0);
+}
+
+TEST_CASE("coordinates of any scale keep their candidates") {
+  for (const double scale : {1e-6, 1e-3, 1e6}) {
+    CAPTURE(scale);
+    auto data = data_of(random_ellipsoids(85, 40, 0.4 * scale, 0.03 * scale, 0.15 * scale));
+    const Collider collider(proxy_of(data));
+    Random random(86);
+    Cloud cloud;
+    for (int i = 0; i < 2000; ++i) cloud.add(random_vector(random, 0.5 * scale));
+    Workspace workspace;
+    int differ = 0;
+    for (int call = 0; call < 6; ++call) {
+      differ += differences(collider, cloud, workspace, kAll);
+      scatter(random, 1e-3 * scale, cloud);
+    }
+    CHECK(differ == 0);
+  }
+}
