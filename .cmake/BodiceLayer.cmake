@@ -1,11 +1,11 @@
 # How bodice declares a layer and installs what was declared.
 
-# bodice_layer(<name> USES <layers...> [PRIVATE <targets...>])
-# Declares the static library bodice::<name> from <name>/src/**.cpp. It exports
-# only its own include folder and those of the layers it uses; PRIVATE packages
-# are invisible to its users.
+# bodice_layer(<name> USES <layers...> [PUBLIC <targets...>] [PRIVATE <targets...>] [HEADERS <targets...>])
+# Declares the static library bodice::<name> from <name>/src/**.cpp. It exports only its own include folder and
+# those of the layers it uses. Packages: PUBLIC ones are in its headers, PRIVATE ones must be there to link it,
+# and HEADERS ones only to compile it, so that users of an installed bodice need them not.
 function(bodice_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DIR" "USES;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DIR" "USES;PUBLIC;PRIVATE;HEADERS")
   if(NOT arg_DIR)
     set(arg_DIR "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
   endif()
@@ -16,31 +16,51 @@ function(bodice_layer name)
   set_target_properties(${target} PROPERTIES
     EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON)
+  if(NOT BODICE_INSTALL)  # compiled where something links it
+    set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${arg_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE "${arg_DIR}/src")
+  set(below "")
   foreach(layer IN LISTS arg_USES)
     target_link_libraries(${target} PUBLIC bodice_${layer})
+    get_property(layers GLOBAL PROPERTY BODICE_LAYER_${layer}_BELOW)
+    list(APPEND below ${layers} ${layer})
   endforeach()
-  target_link_libraries(${target} PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:bodice_build_flags>)
+  list(REMOVE_DUPLICATES below)
+  set(packages ${arg_PUBLIC} ${arg_PRIVATE})
+  list(TRANSFORM packages REPLACE "::.*" "")  # a package's targets carry its name
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC}
+    PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:${arg_HEADERS}> $<BUILD_INTERFACE:bodice_build_flags>)
   set_property(GLOBAL APPEND PROPERTY BODICE_LAYERS ${name})
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_USES ${arg_USES})
+  set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_BELOW ${below})
+  set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_PACKAGES ${packages})
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_DIR ${arg_DIR})
 endfunction()
 
-# Installs every layer and a package file, so that find_package(bodice) gives bodice::<layer>.
+# Installs the program, every layer and a package file, so that find_package(bodice COMPONENTS <layer>) gives
+# bodice::<layer>. An export set a layer: one that was not asked for is not there.
 function(bodice_install_layers)
   include(CMakePackageConfigHelpers)
   set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/bodice")
   get_property(layers GLOBAL PROPERTY BODICE_LAYERS)
+  set(bodice_layer_table "set(_bodice_layers ${layers})\n")
   foreach(layer IN LISTS layers)
     get_property(dir GLOBAL PROPERTY BODICE_LAYER_${layer}_DIR)
-    install(TARGETS bodice_${layer} EXPORT bodice-targets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    install(TARGETS bodice_${layer} EXPORT bodice-${layer} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+    install(EXPORT bodice-${layer} NAMESPACE bodice:: DESTINATION "${package_dir}")
     install(DIRECTORY "${dir}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+    get_property(below GLOBAL PROPERTY BODICE_LAYER_${layer}_BELOW)
+    get_property(packages GLOBAL PROPERTY BODICE_LAYER_${layer}_PACKAGES)
+    string(APPEND bodice_layer_table
+           "set(_bodice_below_${layer} ${below})\nset(_bodice_packages_${layer} ${packages})\n")
   endforeach()
-  install(TARGETS bodice_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-  install(EXPORT bodice-targets NAMESPACE bodice:: DESTINATION "${package_dir}")
+  if(TARGET bodice_cli)
+    install(TARGETS bodice_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  endif()
   configure_package_config_file("${PROJECT_SOURCE_DIR}/.cmake/bodice-config.cmake.in"
     "${PROJECT_BINARY_DIR}/bodice-config.cmake" INSTALL_DESTINATION "${package_dir}")
   write_basic_package_version_file("${PROJECT_BINARY_DIR}/bodice-config-version.cmake"

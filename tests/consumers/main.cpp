@@ -21,6 +21,7 @@ int main() {
   particles.x = &x, particles.y = &y, particles.z = &z;
   const auto report = collider.resolve({}, particles, {});
   const float moved_to = x + static_cast<float>(collider.origin().x());
-  std::printf("%d contact, moved to x = %g m\n", static_cast<int>(report.contacts), static_cast<double>(moved_to));
+  std::printf("%d contact, moved to x = %g m\n", static_cast<int>(report.contacts),
+              static_cast<double>(moved_to));
   return report.contacts == 1 && std::abs(moved_to - 1.0f) < 1e-4f ? 0 : 1;
 }

@@ -1,0 +1,20 @@
+# What find_package must refuse, and what it says then: a layer whose package is missing, asked for by name or with
+# all the others, and a layer that there is not.
+function(must_be_refused name components why)
+  file(WRITE "${SCRATCH}/${name}/CMakeLists.txt"
+       "cmake_minimum_required(VERSION 3.25)\nproject(asks LANGUAGES CXX)\n"
+       "find_package(bodice REQUIRED CONFIG ${components})\n")
+  execute_process(COMMAND ${CMAKE_COMMAND} -S "${SCRATCH}/${name}" -B "${SCRATCH}/${name}/build" -G "${GENERATOR}"
+                  ${SETTINGS} "-DCMAKE_PREFIX_PATH=${PREFIX}" -DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON
+                  RESULT_VARIABLE failed OUTPUT_QUIET ERROR_VARIABLE said)
+  string(REGEX REPLACE "[ \n]+" " " said "${said}")
+  if(NOT failed)
+    message(SEND_ERROR "find_package(bodice ${components}) without assimp was let through")
+  elseif(NOT said MATCHES "${why}")
+    message(SEND_ERROR "find_package(bodice ${components}) without assimp does not say `${why}`:\n${said}")
+  endif()
+endfunction()
+
+must_be_refused(by_name "COMPONENTS tryon" "bodice::io needs assimp, which is not found: install it")
+must_be_refused(with_all "" "bodice::io needs assimp, which is not found: install it")
+must_be_refused(unknown "COMPONENTS colision" "has no layer colision: it was built with engine")
