@@ -25,10 +25,12 @@
 #include <bench_references/subject.hpp>
 #include "counts.hpp"
 #include "figures.hpp"
+#include "frames.hpp"
 #include "targets.hpp"
 
 namespace {
 
+using bench::Frames;
 using bodice::collision::Collider;
 using bodice::collision::Contact;
 using bodice::collision::Workspace;
@@ -41,8 +43,9 @@ struct Row {
   std::string name;
   std::function<void()> work;
   double particles;
-  double bar = 0.0;             ///< what it must not exceed, ns; zero: none of its own
-  std::vector<double> ns = {};  ///< a particle, one a repeat
+  double bar = 0.0;                       ///< what it must not exceed, ns; zero: none of its own
+  std::function<void()> prepare = [] {};  ///< before each, not timed
+  std::vector<double> ns = {};            ///< a particle, one a repeat
 
   double median() const { return ns[ns.size() / 2]; }
   double least() const { return ns.front(); }
@@ -69,7 +72,9 @@ void measure(std::vector<Row>& rows, int repeats) {
   for (Row& row : rows) row.work();
   for (int r = 0; r < repeats; ++r)
     for (Row& row : rows) {
+      row.prepare();
       row.work();  // what came before has filled the caches with its own data
+      row.prepare();
       const bench::Stopwatch watch;
       row.work();
       row.ns.push_back(1e6 * watch.cpu_ms() / row.particles);
@@ -100,10 +105,10 @@ struct Contender {
   std::string name;
   Collider collider, moving;
   std::vector<bodice::geometry::Ellipsoid> shapes;
-  bench::Cloud coherent, random, moved;
+  bench::Cloud coherent, moved;
   std::vector<Contact> contacts;
   bool relief;
-  Workspace kept_query, kept_response;
+  Frames frames[2], response_frames[2], beside_moving;  ///< coherent, in no order
 
   Contender(std::string label, const bodice::proxy::BodyProxy& proxy, const bench::Cloud& ordered,
             const bench::Cloud& shuffled)
@@ -111,17 +116,19 @@ struct Contender {
         collider(proxy),
         moving(proxy),
         coherent(bench::local(ordered, collider)),
-        random(bench::local(shuffled, collider)),
         moved(coherent),
         contacts(ordered.size()),
-        relief(!proxy.relief().empty()) {
+        relief(!proxy.relief().empty()),
+        frames{Frames(coherent), Frames(bench::local(shuffled, collider))},
+        response_frames{Frames(coherent), Frames(bench::local(shuffled, collider))},
+        beside_moving(coherent) {
     for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
   }
 
   /// A step of a turn about the vertical and of a walk, there or back.
-  void move_rigidly() {
+  void move_rigidly(double angle_rad) {
     const bodice::geometry::Mat3 turn =
-        Eigen::AngleAxisd(forth ? 0.01 : -0.01, bodice::geometry::Vec3::UnitY()).toRotationMatrix();
+        Eigen::AngleAxisd(forth ? angle_rad : -angle_rad, bodice::geometry::Vec3::UnitY()).toRotationMatrix();
     forth = !forth;
     for (auto& e : shapes) {
       e.center = turn * e.center;
@@ -139,48 +146,70 @@ struct Contender {
   }
 };
 
+/// Of what a workspace makes fast, and how it is asked for.
+constexpr const char* kFrames[] = {", coherent, frames", ", random, frames"};
+
 void add_queries(Contender& c, std::vector<Row>& rows) {
   const auto n = static_cast<double>(c.coherent.size());
   for (const Question& q : kQuestions) {
     const bodice::collision::QueryOptions options{.within_m = q.within_m};
     const std::string name = c.name + ": query, " + q.name;
-    rows.push_back({name + ", coherent",
+    const double bars[] = {c.relief ? 30.0 : 7.5, c.relief ? 60.0 : 15.0};
+    rows.push_back({name + ", coherent, nothing kept",
                     [&c, options] { c.collider.query({}, c.coherent.particles(), c.contacts, options); }, n,
-                    !q.bar     ? 0.0
-                    : c.relief ? 30.0
-                               : 7.5});
-    rows.push_back(
-        {name + ", random, order kept",
-         [&c, options] { c.collider.query({}, c.random.particles(), c.contacts, c.kept_query, options); }, n,
-         !q.bar     ? 0.0
-         : c.relief ? 60.0
-                    : 15.0});
+                    q.bar ? bars[0] : 0.0});
+    for (int order = 0; order < 2; ++order) {
+      Frames& frames = c.frames[order];
+      rows.push_back({name + kFrames[order],
+                      [&c, &frames, options] {
+                        c.collider.query({}, frames.now().particles(), c.contacts, frames.workspace, options);
+                      },
+                      n, q.bar ? bars[order] : 0.0, [&frames] { frames.step(); }});
+    }
+  }
+}
+
+void add_responses(Contender& c, std::vector<Row>& rows) {
+  const auto n = static_cast<double>(c.coherent.size());
+  rows.push_back({c.name + ": response, coherent, nothing kept (with a copy)",
+                  [&c] {
+                    c.moved = c.coherent;
+                    c.collider.resolve({}, c.moved.particles(), {});
+                  },
+                  n});
+  for (int order = 0; order < 2; ++order) {
+    Frames& frames = c.response_frames[order];
+    rows.push_back({c.name + ": response" + kFrames[order] + " (with a copy)",
+                    [&c, &frames] {
+                      c.moved = frames.now();
+                      c.collider.resolve({}, c.moved.particles(), {}, frames.workspace);
+                    },
+                    n, 0.0, [&frames] { frames.step(); }});
   }
 }
 
 void add_rows(Contender& c, std::vector<Row>& rows) {
   const auto n = static_cast<double>(c.coherent.size());
   add_queries(c, rows);
-  rows.push_back({c.name + ": query, random, sorted anew",
+  rows.push_back({c.name + ": query, all distances, coherent, frames, the proxy turning by a millimetre, too",
+                  [&c] {
+                    Frames& frames = c.beside_moving;
+                    c.moving.query({}, frames.now().particles(), c.contacts, frames.workspace);
+                  },
+                  n, 0.0,
+                  [&c] {
+                    c.beside_moving.step();
+                    c.move_rigidly(2e-3);
+                  }});
+  rows.push_back({c.name + ": query, random, all found anew",
                   [&c] {
                     Workspace fresh;
-                    c.collider.query({}, c.random.particles(), c.contacts, fresh);
+                    c.collider.query({}, c.frames[1].now().particles(), c.contacts, fresh);
                   },
                   n});
-  rows.push_back({c.name + ": response, coherent (with a copy)",
-                  [&c] {
-                    c.moved = c.coherent;
-                    c.collider.resolve({}, c.moved.particles(), {});
-                  },
-                  n});
-  rows.push_back({c.name + ": response, random, order kept (with a copy)",
-                  [&c] {
-                    c.moved = c.random;
-                    c.collider.resolve({}, c.moved.particles(), {}, c.kept_response);
-                  },
-                  n});
+  add_responses(c, rows);
   rows.push_back({c.name + ": update of a proxy that moved rigidly (not a particle)",
-                  [&c] { c.move_rigidly(); }, 1.0, 20e3});
+                  [&c] { c.move_rigidly(0.01); }, 1.0, 20e3});
 }
 
 /// What no query can be faster than: its bytes, and one nearest point a particle with nothing to choose.
@@ -239,7 +268,7 @@ void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, con
                   bool embree) {
   std::printf("\n| ratio | of medians | of mins | bar |\n|---|---|---|---|\n");
   for (const auto& c : contenders)
-    for (const char* order : {", coherent", ", random, order kept"}) {
+    for (const std::string order : {", coherent, nothing kept", kFrames[0], kFrames[1]}) {
       const std::string all = c->name + ": query, " + kQuestions[0].name + order;
       print_ratio(c->name + order + ": response to query",
                   row_of(rows, c->name + ": response" + order + " (with a copy)"), row_of(rows, all),
@@ -250,11 +279,12 @@ void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, con
       for (const double reach_m : {kFarReach_m, kShortReach_m}) {
         const bool deep_missed = reach_m == kShortReach_m;
         if (!embree || (deep_missed && q.within_m != kShort_m)) continue;
-        print_ratio(c->name + ", coherent: " + embree_name(reach_m) +
-                        (deep_missed ? " (silent on deeper ones)" : "") + ", to query, " + q.name,
-                    row_of(rows, embree_name(reach_m) + ", coherent"),
-                    row_of(rows, c->name + ": query, " + q.name + ", coherent"),
-                    c->relief ? "at least 30" : "at least 100");
+        for (const std::string how : {", coherent, nothing kept", kFrames[0]})
+          print_ratio(c->name + how + ": " + embree_name(reach_m) +
+                          (deep_missed ? " (silent on deeper ones)" : "") + ", to query, " + q.name,
+                      row_of(rows, embree_name(reach_m) + ", coherent"),
+                      row_of(rows, c->name + ": query, " + q.name + how),
+                      c->relief ? "at least 30" : "at least 100");
       }
 }
 
@@ -292,8 +322,9 @@ int main(int argc, char** argv) {
       "%s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
       "repeats. A query answers signed distance, nearest point, normal and ellipsoid; peers the distance "
       "alone, without sign but for grids. The bars of 7.5 and 15 ns (30 and 60 with relief) come from a "
-      "prototype that answered 'inside only'; they are held against all distances, too. A peer without sign "
-      "must look as far for that as for all distances.\n\n",
+      "prototype that answered 'inside only'; they are held against all distances, too. 'Frames': particles "
+      "drift by a millimetre a call and a workspace keeps what it can; 'nothing kept': without one. A peer "
+      "without sign must look as far for that as for all distances.\n\n",
       bench::title(origin).c_str(), origin.flags.c_str(), count, 1e3 * kBand_m, body.mesh.positions.size(),
       repeats);
 
