@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <bodice/engine/text.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
 #include "json_form.hpp"
@@ -75,8 +76,8 @@ std::string to_json(const BodyProxy& proxy) {
   field("up", Json(kAxisNames[static_cast<std::size_t>(frame.up)]).dump());
   field("stature", Json(proxy.stature_m() / frame.metres_per_unit).dump());
   field("margin", Json(proxy.margin_m() / frame.metres_per_unit).dump());
-  field("source_hash", Json(hex64(proxy.source_hash())).dump());
-  field("hash", Json(hex64(proxy.hash())).dump());
+  field("source_hash", Json(engine::hex64(proxy.source_hash())).dump());
+  field("hash", Json(engine::hex64(proxy.hash())).dump());
   field("ellipsoids", lines(proxy.ellipsoids(), [&](const auto& e) { return ellipsoid_line(e, frame); }));
   field("relief", lines(proxy.relief(), [&](const auto& t) { return table_line(t, frame); }));
   field("texels", Json(texel_hex(proxy.texels())).dump(), "\n}\n");
