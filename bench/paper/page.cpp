@@ -1,6 +1,6 @@
 #include "page.hpp"
 
-#include <bodice/io/files.hpp>
+#include <bodice/engine/write_file.hpp>
 
 namespace paper_bench {
 
@@ -13,7 +13,7 @@ Page::Page(std::filesystem::path folder, std::string command)
 }
 
 void Page::write(const std::string& name, const std::string& content) {
-  const auto done = bodice::io::write_file(folder_ / name, content);
+  const auto done = bodice::engine::write_file(folder_ / name, content);
   if (!done && !failed_) failed_ = done.error();
 }
 

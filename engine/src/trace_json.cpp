@@ -1,9 +1,8 @@
 // Based on: Google. Trace Event Format. (complete events "X", instants "i", metadata "M")
 #include <cstdio>
-#include <fstream>
-#include <system_error>
 
 #include <bodice/engine/trace.hpp>
+#include <bodice/engine/write_file.hpp>
 
 namespace bodice::engine {
 namespace {
@@ -67,25 +66,7 @@ std::string Trace::json() const {
 }
 
 Result<void> Trace::write(const std::filesystem::path& path) const {
-  std::filesystem::path partial = path;
-  partial += ".part";
-  {
-    std::ofstream file(partial, std::ios::binary | std::ios::trunc);
-    file << json();
-    file.flush();
-    if (!file) {
-      std::error_code ignored;
-      std::filesystem::remove(partial, ignored);
-      return Error{ErrorCode::kWriteFailed, "Cannot write the trace to '" + path.string() + "'.",
-                   "Check that the folder exists and has space."};
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(partial, path, error);
-  if (!error) return {};
-  std::filesystem::remove(partial, error);
-  return Error{ErrorCode::kWriteFailed, "Cannot move the trace to '" + path.string() + "'.",
-               "Check that the path is not a folder and may be replaced."};
+  return write_file(path, json());
 }
 
 }  // namespace bodice::engine

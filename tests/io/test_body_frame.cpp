@@ -3,12 +3,13 @@
 #include <array>
 
 #include <bodice/io/import.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 #include "figure.hpp"
-#include "temp_folder.hpp"
 
 using namespace bodice;
 using namespace io_test;
+using bodice_test::TempFolder;
 
 namespace {
 

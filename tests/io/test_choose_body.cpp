@@ -2,9 +2,9 @@
 
 #include <bodice/io/import.hpp>
 #include <bodice_test/shapes.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 #include "figure.hpp"
-#include "temp_folder.hpp"
 
 using namespace bodice;
 using namespace io_test;
@@ -12,6 +12,7 @@ using bodice_test::box;
 using bodice_test::cylinder;
 using bodice_test::icosphere;
 using bodice_test::sheet;
+using bodice_test::TempFolder;
 
 namespace {
 

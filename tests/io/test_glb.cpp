@@ -8,13 +8,14 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
+#include <bodice_test/temp_folder.hpp>
 #include <nlohmann/json.hpp>
 
 #include "scene_fixture.hpp"
-#include "temp_folder.hpp"
 
 using namespace bodice;
 using namespace io_test;
+using bodice_test::TempFolder;
 using nlohmann::json;
 
 namespace {

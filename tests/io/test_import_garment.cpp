@@ -2,12 +2,13 @@
 
 #include <bodice/io/import.hpp>
 #include <bodice_test/shapes.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 #include "figure.hpp"
-#include "temp_folder.hpp"
 
 using namespace bodice;
 using namespace io_test;
+using bodice_test::TempFolder;
 
 namespace {
 const engine::Context kContext;

@@ -6,11 +6,13 @@
 
 #include <png.h>
 
+#include <bodice_test/temp_folder.hpp>
+
 #include "scene_fixture.hpp"
-#include "temp_folder.hpp"
 
 using namespace bodice;
 using namespace io_test;
+using bodice_test::TempFolder;
 
 namespace {
 

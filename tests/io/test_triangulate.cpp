@@ -1,12 +1,13 @@
 #include <doctest/doctest.h>
 
 #include <bodice/io/import.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 #include "figure.hpp"
-#include "temp_folder.hpp"
 
 using namespace bodice;
 using namespace io_test;
+using bodice_test::TempFolder;
 
 namespace {
 

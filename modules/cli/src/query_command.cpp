@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include <bodice/collision/collider.hpp>
-#include <bodice/io/files.hpp>
+#include <bodice/engine/write_file.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
 #include "options.hpp"
@@ -63,7 +63,7 @@ engine::Result<void> query(const QueryCommand& command) {
   const collision::Collider collider(*proxy);
   std::string text;
   for (const Vec3& p : *points) text += answer(collider, *proxy, p);
-  if (!command.output.empty()) return io::write_file(command.output, std::string_view(text));
+  if (!command.output.empty()) return engine::write_file(command.output, std::string_view(text));
   std::fputs(text.c_str(), stdout);
   return {};
 }

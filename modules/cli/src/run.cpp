@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-#include <bodice/io/files.hpp>
+#include <bodice/engine/write_file.hpp>
 
 #include "summary.hpp"
 
@@ -71,7 +71,7 @@ engine::Result<void> Run::finish(const tryon::PreparedBody& body, const tryon::D
   auto write = [&](const std::string& file, const std::string& text) -> engine::Result<void> {
     if (file.empty()) return {};
     files.push_back(file);
-    return io::write_file(file, std::string_view(text));
+    return engine::write_file(file, std::string_view(text));
   };
   if (auto done = write(options_.labels, options_.labels.empty() ? "" : tryon::labels_text(body.skin)); !done)
     return done;

@@ -4,7 +4,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "json_form.hpp"
+#include <bodice/engine/write_file.hpp>
+
 #include "proxy_binary.hpp"
 
 namespace bodice::proxy {
@@ -18,35 +19,6 @@ using engine::ErrorCode;
 // its table, it is some other file.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 29;
 static_assert(4 * kMaxReliefTexels + 1000 * (kMaxEllipsoids + 1) < kLargestFile);
-
-Error write_failed(const fs::path& file, const std::string& why) {
-  return {ErrorCode::kWriteFailed, "Cannot write the proxy " + file.string() + ": " + why + ".",
-          "Check that the folder exists, is writable and has space."};
-}
-
-/// Writes beside the file and renames, so that the file is the old one or the whole new one at any time. The
-/// name carries the content's hash: two writers of one file do not write into each other.
-engine::Result<void> replace_file(const fs::path& file, std::span<const std::byte> bytes,
-                                  std::uint64_t hash) {
-  fs::path beside = file;
-  beside += "." + hex64(hash) + ".part";
-  std::error_code error;
-  {
-    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-    if (!out) return write_failed(file, "the file beside it cannot be made");
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) {
-      fs::remove(beside, error);
-      return write_failed(file, "not all bytes were taken");
-    }
-  }
-  fs::rename(beside, file, error);
-  if (!error) return {};
-  const std::string why = error.message();
-  fs::remove(beside, error);
-  return write_failed(file, why);
-}
 
 engine::Result<std::vector<std::byte>> read_file(const fs::path& file) {
   const Error missing{ErrorCode::kNotFound, "Cannot open the proxy " + file.string() + ".",
@@ -68,9 +40,8 @@ engine::Result<std::vector<std::byte>> read_file(const fs::path& file) {
 }  // namespace
 
 engine::Result<void> save(const BodyProxy& proxy, const fs::path& file) {
-  if (file.extension() == ".bodice") return replace_file(file, to_binary(proxy), proxy.hash());
-  const std::string json = to_json(proxy);
-  return replace_file(file, std::as_bytes(std::span(json)), proxy.hash());
+  if (file.extension() == ".bodice") return engine::write_file(file, to_binary(proxy));
+  return engine::write_file(file, to_json(proxy));
 }
 
 engine::Result<BodyProxy> load(const fs::path& file) {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include <bodice/io/files.hpp>
+#include <bodice/engine/write_file.hpp>
 #include <bodice/io/scene.hpp>
 
 #include "../color.hpp"
@@ -199,7 +199,7 @@ engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& 
     return engine::Error{engine::ErrorCode::kWriteFailed,
                          "'" + file.string() + "' would be over the 4 GiB that a GLB can hold.",
                          "Keep fewer frames."};
-  return write_file(file, bytes);
+  return engine::write_file(file, bytes);
 }
 
 }  // namespace bodice::io

@@ -1,6 +1,6 @@
 #include <array>
 
-#include <bodice/io/files.hpp>
+#include <bodice/engine/write_file.hpp>
 #include <bodice/io/scene.hpp>
 
 #include "../color.hpp"
@@ -128,7 +128,7 @@ engine::Result<void> write_picture(const Scene& scene, std::span<const std::size
   if (png.empty())
     return engine::Error{engine::ErrorCode::kWriteFailed,
                          "'" + file.string() + "' could not be encoded as PNG.", "Use a smaller picture."};
-  return write_file(file, png);
+  return engine::write_file(file, png);
 }
 
 }  // namespace bodice::io

@@ -7,13 +7,13 @@
 
 #include <stdlib.h>
 
-namespace io_test {
+namespace bodice_test {
 
 /// A folder of its own, gone at the end of the scope.
 class TempFolder {
  public:
   TempFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "bodice_io_XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path() / "bodice_test_XXXXXX").string();
     path_ = ::mkdtemp(pattern.data());
   }
   ~TempFolder() {
@@ -37,4 +37,4 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace io_test
+}  // namespace bodice_test

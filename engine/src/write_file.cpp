@@ -1,0 +1,96 @@
+#include <bodice/engine/write_file.hpp>
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include <unistd.h>
+
+namespace bodice::engine {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Writers of this process that may be at one file at a time; leftovers of killed ones count.
+constexpr int kMostBeside = 1000;
+
+Error write_error(const fs::path& file, const std::string& why, std::string remedy) {
+  return {ErrorCode::kWriteFailed, "'" + file.string() + "' could not be written: " + why + ".",
+          std::move(remedy)};
+}
+
+Error refused(const fs::path& file, std::error_code why) {
+  return write_error(file, why.message(), "Check the path, write permission and free space.");
+}
+
+std::error_code last_error() {
+  return {errno, std::generic_category()};
+}
+
+/// Closes the stream. With `to_disk`, the bytes have left the system's memory, so that a rename cannot come
+/// before them.
+std::error_code put(std::FILE* stream, std::span<const std::byte> bytes, bool to_disk) {
+  errno = 0;
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size() &&
+                       std::fflush(stream) == 0 && (!to_disk || ::fsync(::fileno(stream)) == 0);
+  const std::error_code failure = written ? std::error_code() : last_error();
+  if (std::fclose(stream) != 0 && written) return last_error();
+  return failure;
+}
+
+/// A file that was not there before, and its name; no other writer has it.
+std::FILE* open_beside(const fs::path& file, fs::path& beside) {
+  for (int i = 0; i < kMostBeside; ++i) {
+    beside = file;
+    beside += "." + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part";
+    std::FILE* const stream = std::fopen(beside.c_str(), "wbx");
+    if (stream || errno != EEXIST) return stream;
+  }
+  return nullptr;
+}
+
+Result<void> replace(const fs::path& file, std::span<const std::byte> bytes) {
+  fs::path beside;
+  std::FILE* const stream = open_beside(file, beside);
+  if (!stream) return refused(file, last_error());
+  std::error_code failure = put(stream, bytes, true);
+  if (!failure) fs::rename(beside, file, failure);
+  if (!failure) return {};
+  std::error_code ignored;
+  fs::remove(beside, ignored);
+  return refused(file, failure);
+}
+
+Result<void> write_through(const fs::path& file, std::span<const std::byte> bytes) {
+  std::FILE* const stream = std::fopen(file.c_str(), "wb");
+  if (!stream) return refused(file, last_error());
+  const std::error_code failure = put(stream, bytes, false);
+  if (failure) return refused(file, failure);
+  return {};
+}
+
+}  // namespace
+
+Result<void> write_file(const fs::path& file, std::span<const std::byte> bytes) {
+  if (!file.has_filename()) return write_error(file, "the name is empty", "Name a file.");
+  std::error_code ignored;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!fs::is_directory(folder, ignored))
+    return write_error(file, "there is no folder '" + folder.string() + "'", "Create the folder first.");
+  const fs::file_status status = fs::status(file, ignored);
+  if (fs::is_directory(status))
+    return write_error(file, "a directory of that name exists", "Choose another name.");
+  if (fs::exists(status) && !fs::is_regular_file(status)) return write_through(file, bytes);
+  if (!fs::is_symlink(file, ignored)) return replace(file, bytes);
+  std::error_code failure;
+  const fs::path target = fs::canonical(file, failure);
+  if (failure) return refused(file, failure);
+  return replace(target, bytes);
+}
+
+Result<void> write_file(const fs::path& file, std::string_view text) {
+  return write_file(file, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+}  // namespace bodice::engine
