@@ -1,11 +1,11 @@
 #include "input_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
+
+#include <bodice/engine/text.hpp>
 
 namespace bodice::io {
 
@@ -150,9 +150,11 @@ std::optional<MovedObj> move_to_origin(std::string_view obj) {
   for_each_line(obj, [&](std::string_view line) {
     if (const auto vertex = take_vertex(line)) {
       const geometry::Vec3 near = *vertex - moved.offset;
-      std::array<char, 96> number;
-      std::snprintf(number.data(), number.size(), "v %.12g %.12g %.12g", near.x(), near.y(), near.z());
-      moved.text += number.data();
+      moved.text += 'v';
+      for (const double number : near) {
+        moved.text += ' ';
+        engine::append_number(moved.text, number, 12);
+      }
     }
     moved.text += line;  // whatever take_vertex left: colours, the line end, or the whole line
   });
