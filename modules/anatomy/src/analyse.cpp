@@ -1,4 +1,5 @@
 #include <bodice/anatomy/anatomy.hpp>
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/fins.hpp>
 
@@ -134,11 +135,8 @@ geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
   return kept;
 }
 
-}  // namespace
-
-engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
-                                const Options& options) {
-  if (mesh.empty()) return no_body("the mesh has no triangles.");
+engine::Result<Anatomy> analyse_mesh(const engine::Context& context, const geometry::TriMesh& mesh,
+                                     const Options& options) {
   Anatomy anatomy;
   StageTimer skin_timer(context, anatomy.stages, "skin");
   const Skin skin = make_skin(context, mesh);
@@ -146,6 +144,15 @@ engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::
   if (skin.edges.non_manifold == 0) return understand_apart(context, skin, options, std::move(anatomy));
   const geometry::TriMesh clean = without_fins(mesh);
   return understand_apart(context, make_skin(context, clean), options, std::move(anatomy));
+}
+
+}  // namespace
+
+engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
+                                const Options& options) {
+  if (mesh.empty()) return no_body("the mesh has no triangles.");
+  return engine::catch_cancelled("The analysis of the body",
+                                 [&] { return analyse_mesh(context, mesh, options); });
 }
 
 }  // namespace bodice::anatomy

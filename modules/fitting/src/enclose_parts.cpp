@@ -1,5 +1,6 @@
 #include <bodice/fitting/enclose_parts.hpp>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/fitting/mvee.hpp>
 
@@ -21,11 +22,8 @@ std::vector<std::uint32_t> holders(const LabelledSkin& skin) {
   return bits;
 }
 
-}  // namespace
-
-engine::Result<proxy::BodyProxy> enclose_parts(const engine::Context& context, const LabelledSkin& skin,
-                                               std::uint32_t parts) {
-  if (auto ok = check_input(skin, {.parts = parts}); !ok) return ok.error();
+engine::Result<proxy::BodyProxy> enclose_checked(const engine::Context& context, const LabelledSkin& skin,
+                                                 std::uint32_t parts) {
   // Loose on purpose: the gap is centimetres, so a volume within a percent of the least will do.
   const MveeOptions loose{.volume_tolerance = 1e-2, .min_radius_m = kLeastRadius * skin.stature_m};
   const std::vector<std::uint32_t> bits = holders(skin);
@@ -46,6 +44,15 @@ engine::Result<proxy::BodyProxy> enclose_parts(const engine::Context& context, c
     if (!points[part].empty()) data.ellipsoids.push_back({shapes[part], static_cast<body::Part>(part)});
   if (data.ellipsoids.empty()) return no_skin();
   return proxy::BodyProxy::make(std::move(data));
+}
+
+}  // namespace
+
+engine::Result<proxy::BodyProxy> enclose_parts(const engine::Context& context, const LabelledSkin& skin,
+                                               std::uint32_t parts) {
+  if (auto ok = check_input(skin, {.parts = parts}); !ok) return ok.error();
+  return engine::catch_cancelled("The enclosing of the parts",
+                                 [&] { return enclose_checked(context, skin, parts); });
 }
 
 }  // namespace bodice::fitting

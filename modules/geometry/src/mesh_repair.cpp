@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/geometry/adjacency.hpp>
 #include <bodice/geometry/fins.hpp>
@@ -224,11 +225,7 @@ engine::Result<RepairedMesh> repair(const engine::Context& context, const TriMes
     return Error{ErrorCode::kInvalidArgument,
                  "The weld distance must be a fraction of the diagonal, in [0, 1).",
                  engine::message("Use ", kWeldRelative, ", or 0 to weld exact copies only.")};
-  try {
-    return Repair(input, options).run(context);
-  } catch (const engine::Cancelled&) {
-    return Error{ErrorCode::kCancelled, "The mesh repair was cancelled.", ""};
-  }
+  return engine::catch_cancelled("The mesh repair", [&] { return Repair(input, options).run(context); });
 }
 
 }  // namespace bodice::geometry

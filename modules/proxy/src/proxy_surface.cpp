@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
@@ -114,10 +115,8 @@ engine::Error unusable_cell(double cell_m) {
           "Give a positive cell; a three-hundredth of the stature is usual."};
 }
 
-}  // namespace
-
-engine::Result<ProxySurface> proxy_surface(const engine::Context& context, const BodyProxy& proxy,
-                                           double cell_m) {
+engine::Result<ProxySurface> surface_of(const engine::Context& context, const BodyProxy& proxy,
+                                        double cell_m) {
   geometry::Box box;
   for (const ProxyEllipsoid& e : proxy.ellipsoids()) {
     const geometry::Box own = geometry::bounding_box(e.shape);
@@ -133,6 +132,13 @@ engine::Result<ProxySurface> proxy_surface(const engine::Context& context, const
   place_vertices(context, proxy, cells, cell_m, surface);
   span_faces(cells, surface.mesh);
   return surface;
+}
+
+}  // namespace
+
+engine::Result<ProxySurface> proxy_surface(const engine::Context& context, const BodyProxy& proxy,
+                                           double cell_m) {
+  return engine::catch_cancelled("The proxy's surface", [&] { return surface_of(context, proxy, cell_m); });
 }
 
 }  // namespace bodice::proxy

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/message.hpp>
 
 #include "deform.hpp"
@@ -129,11 +130,9 @@ engine::Result<Body> make_body(const engine::Context& context, const BodyOptions
   if (const auto error = check(options)) return *error;
   const auto profile = body::find_profile(options.profile);
   if (!profile) return profile.error();
-  try {
+  return engine::catch_cancelled("The making of the body", [&]() -> engine::Result<Body> {
     return make(context, options, profile.value().of(options.sex));
-  } catch (const engine::Cancelled&) {
-    return engine::Error{engine::ErrorCode::kCancelled, "The making of the body was cancelled.", ""};
-  }
+  });
 }
 
 }  // namespace bodice::synth

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/message.hpp>
 
 #include "keep_ease.hpp"
@@ -61,34 +62,35 @@ std::optional<engine::Error> check(const SegmentedBody& body, const GarmentOptio
                        "Use edges of 0.001 to 0.1 and an ease of 0 to 0.05 of the stature."};
 }
 
+engine::Result<Garment> make(const engine::Context& context, const SegmentedBody& body,
+                             const GarmentOptions& options) {
+  const auto leaning = trunk_frame(body);
+  if (!leaning) return leaning.error();
+  if (const auto error = check(body, options)) return *error;
+  const TrunkFrame frame = upright(body, leaning.value());
+  const Fitting fitting{body, options, frame, LocalSkin(body, frame),
+                        geometry::MeshDistance(context, body.mesh)};
+  auto cut = cut_garment(fitting);
+  if (!cut) return cut.error();
+  if (!keep_ease(context, fitting, cut.value()))
+    return engine::Error{engine::ErrorCode::kUnusableGeometry,
+                         "The garment cannot keep its ease from this body.",
+                         "Choose a smaller ease, or a pose with the arms away from the trunk."};
+  if (is_torn(cut.value(), options.edge_length_m))
+    return engine::Error{engine::ErrorCode::kUnusableGeometry,
+                         "The garment would be torn between limbs that are in its way.",
+                         "Choose a pose with the limbs away from the trunk, or another garment."};
+  face_outward(cut.value());
+  Garment garment{std::move(cut.value().mesh), std::move(cut.value().pinned)};
+  for (Vec3& p : garment.mesh.positions) p = fitting.frame.to_world(p);
+  return garment;
+}
+
 }  // namespace
 
 engine::Result<Garment> make_garment(const engine::Context& context, const SegmentedBody& body,
                                      const GarmentOptions& options) {
-  try {
-    const auto leaning = trunk_frame(body);
-    if (!leaning) return leaning.error();
-    if (const auto error = check(body, options)) return *error;
-    const TrunkFrame frame = upright(body, leaning.value());
-    const Fitting fitting{body, options, frame, LocalSkin(body, frame),
-                          geometry::MeshDistance(context, body.mesh)};
-    auto cut = cut_garment(fitting);
-    if (!cut) return cut.error();
-    if (!keep_ease(context, fitting, cut.value()))
-      return engine::Error{engine::ErrorCode::kUnusableGeometry,
-                           "The garment cannot keep its ease from this body.",
-                           "Choose a smaller ease, or a pose with the arms away from the trunk."};
-    if (is_torn(cut.value(), options.edge_length_m))
-      return engine::Error{engine::ErrorCode::kUnusableGeometry,
-                           "The garment would be torn between limbs that are in its way.",
-                           "Choose a pose with the limbs away from the trunk, or another garment."};
-    face_outward(cut.value());
-    Garment garment{std::move(cut.value().mesh), std::move(cut.value().pinned)};
-    for (Vec3& p : garment.mesh.positions) p = fitting.frame.to_world(p);
-    return garment;
-  } catch (const engine::Cancelled&) {
-    return engine::Error{engine::ErrorCode::kCancelled, "The making of the garment was cancelled.", ""};
-  }
+  return engine::catch_cancelled("The making of the garment", [&] { return make(context, body, options); });
 }
 
 }  // namespace bodice::synth

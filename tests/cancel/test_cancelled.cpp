@@ -1,0 +1,112 @@
+// Every public function that takes a Context and returns a Result, cancelled at one checkpoint after another:
+// it answers kCancelled or, if it was done before, with its result. Nothing is thrown.
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+
+#include <bodice/anatomy/anatomy.hpp>
+#include <bodice/engine/cancel.hpp>
+#include <bodice/fitting/enclose_parts.hpp>
+#include <bodice/fitting/fit.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+#include <bodice/io/import.hpp>
+#include <bodice/io/obj.hpp>
+#include <bodice/proxy/proxy_surface.hpp>
+#include <bodice/synth/body.hpp>
+#include <bodice/synth/garment.hpp>
+#include <bodice_test/temp_folder.hpp>
+
+using namespace bodice;
+using engine::Context;
+using engine::ErrorCode;
+
+namespace {
+
+/// Serial; cancels the work at its checkpoint number `at`, the first being 0.
+class CancellingExecutor final : public engine::Executor {
+ public:
+  explicit CancellingExecutor(int at) : left_(at) {
+    if (at == 0) source_.cancel();
+  }
+  int concurrency() const noexcept override { return 1; }
+  void bulk(std::size_t count, engine::FunctionRef<void(std::size_t)> body) override {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+  }
+  void yield() noexcept override {
+    if (--left_ == 0) source_.cancel();
+  }
+  Context context() { return {.executor = this, .cancel = source_.token()}; }
+
+ private:
+  engine::CancelSource source_;
+  int left_;
+};
+
+using Call = std::function<engine::Result<void>(const Context&)>;
+
+/// Forgets the value.
+template <class T>
+engine::Result<void> outcome(const engine::Result<T>& result) {
+  if (result.ok()) return {};
+  return result.error();
+}
+
+struct Subjects {
+  synth::Body body = *synth::make_body({}, {.vertices = 1500});
+  body::ProportionProfile profile = *body::find_profile("ansur2");
+  fitting::LabelledSkin skin{body.mesh, body.part, body.stature_m};
+  proxy::BodyProxy proxy = *fitting::enclose_parts({}, skin, fitting::kAllParts);
+  bodice_test::TempFolder folder;
+  std::filesystem::path file = folder / "body.obj";
+};
+
+/// How many of the places at which it was cancelled were reached.
+int cancel_everywhere(const std::string& name, const Call& call) {
+  CAPTURE(name);
+  int reached = 0;
+  for (int at : {0, 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144}) {
+    CAPTURE(at);
+    CancellingExecutor executor(at);
+    engine::Result<void> result;
+    CHECK_NOTHROW(result = call(executor.context()));
+    if (result.ok()) break;
+    REQUIRE(result.error().code == ErrorCode::kCancelled);
+    CHECK(result.error().message.find("cancelled") != std::string::npos);
+    ++reached;
+  }
+  return reached;
+}
+
+}  // namespace
+
+TEST_CASE("cancelled work is kCancelled from every public function, wherever it is cut") {
+  const Subjects of;
+  REQUIRE(io::write_obj(of.body.mesh, of.file).ok());
+  const struct {
+    const char* name;
+    Call call;
+  } rows[] = {
+      {"repair", [&](const Context& c) { return outcome(geometry::repair(c, of.body.mesh)); }},
+      {"proxy_surface", [&](const Context& c) { return outcome(proxy::proxy_surface(c, of.proxy, 0.05)); }},
+      {"make_body", [&](const Context& c) { return outcome(synth::make_body(c, {.vertices = 1500})); }},
+      {"make_garment",
+       [&](const Context& c) {
+         return outcome(synth::make_garment(
+             c, {of.body.mesh, of.body.part, of.body.landmarks, of.body.stature_m}, {.edge_length_m = 0.05}));
+       }},
+      {"analyse", [&](const Context& c) { return outcome(anatomy::analyse(c, of.body.mesh, {of.profile})); }},
+      {"enclose_parts",
+       [&](const Context& c) { return outcome(fitting::enclose_parts(c, of.skin, fitting::kAllParts)); }},
+      {"fit",
+       [&](const Context& c) {
+         return outcome(fitting::fit(c, of.skin, {.tier = proxy::Tier::kSolid, .max_ellipsoids = 20}));
+       }},
+      {"import_body", [&](const Context& c) { return outcome(io::import_body(c, of.file)); }},
+      {"import_garment", [&](const Context& c) { return outcome(io::import_garment(c, of.file, {})); }},
+  };
+  for (const auto& row : rows) {
+    CHECK_MESSAGE(cancel_everywhere(row.name, row.call) > 0, row.name);
+    CHECK_MESSAGE(row.call({}).ok(), row.name);
+  }
+}
