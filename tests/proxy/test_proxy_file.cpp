@@ -168,6 +168,18 @@ TEST_CASE("hostile JSON: depth, huge numbers, wrong types, huge counts") {
   CHECK_FALSE(from_json(replaced("\"nodes\":0", "\"nodes\":18446744073709551615")).ok());
 }
 
+TEST_CASE("a slip in a hand-edited JSON is found by line and column") {
+  const std::string good = to_json(*BodyProxy::make(sample_data(6, 1)));
+  std::string edited = good;
+  edited.replace(edited.find("\"stature\": "), 11, "\"stature\"= ");
+  const auto refused = from_json(edited);
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().message.find("up to line 7, column 11 is not JSON") != std::string::npos);
+  CHECK(from_json("").error().message.find("line 1, column 0 ") != std::string::npos);
+  CHECK(from_json("nope").error().message.find("line 1, column ") != std::string::npos);
+  CHECK(from_json("[1e999]").error().message.find("range of numbers") != std::string::npos);
+}
+
 TEST_CASE("a hand-edited JSON is refused while it carries its old hash, and read without it") {
   const std::string good = to_json(*BodyProxy::make(sample_data(6, 1)));
   std::string edited = good;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -144,6 +145,25 @@ std::vector<ReliefTexel> read_texels(const std::string& hex) {
   return texels;
 }
 
+/// Where the text stops being JSON, as an editor counts.
+std::string place_of(std::string_view source, std::size_t bytes_read) {
+  std::string_view before = source.substr(0, bytes_read);
+  if (before.ends_with('\n')) before.remove_suffix(1);
+  const auto line = 1 + std::ranges::count(before, '\n');
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+  return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_begin);
+}
+
+json parse(std::string_view source) {
+  try {
+    return json::parse(source);
+  } catch (const json::parse_error& error) {
+    fail("the text up to " + place_of(source, error.byte), "JSON");
+  } catch (const json::exception&) {
+    fail("a number in it", "within the range of numbers");
+  }
+}
+
 void check_format(const json& root) {
   if (!root.is_object()) fail("the file", "a JSON object");
   if (text(root, "format", "") != kJsonFormat) fail("format", "bodice-proxy");
@@ -179,7 +199,7 @@ BodyProxy::Data read_data(const json& root) {
 
 engine::Result<BodyProxy> from_json(std::string_view source) {
   try {
-    const json root = json::parse(source, nullptr, false);
+    const json root = parse(source);
     check_format(root);
     auto proxy = BodyProxy::make(read_data(root));
     if (proxy && root.contains("hash") && hash_value(root, "hash") != proxy->hash())
