@@ -30,8 +30,6 @@ class ValueStack {
     }
   }
   Node* take_all() noexcept { return top_.exchange(nullptr, std::memory_order_acquire); }
-  /// Puts `node` in the place of all others and returns those.
-  Node* replace(Node* node) noexcept { return top_.exchange(node, std::memory_order_acq_rel); }
 
   static void free_chain(Node* node) {
     while (node) delete std::exchange(node, node->next);
