@@ -7,9 +7,11 @@
 //
 //     FramePipeline pipeline(context, {});
 //     Stream<BodyProxy> proxies(pipeline);
-//     Ticket ticket = proxies.submit("fit", [](const Context& c, Sink<BodyProxy>& out) { ... out.publish(p);
-//     }); pipeline.frame([&](const Context& c) { if (const BodyProxy* proxy = proxies.current()) step(c,
-//     *proxy); });
+//     auto work = [](const Context& c, Sink<BodyProxy>& out) { return fit(c, out); };
+//     Ticket ticket = proxies.submit("fit", work);
+//     pipeline.frame([&](const Context& c) {
+//       if (const BodyProxy* proxy = proxies.current()) step(c, *proxy);
+//     });
 #pragma once
 
 #include <cstdint>

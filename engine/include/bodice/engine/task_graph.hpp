@@ -1,11 +1,14 @@
 // Named tasks that hand typed data to one another: built once, run many times.
 //
+//     // Field compute_field(const Context&, const TriMesh&);
+//     // Result<Proxy> fit_parts(const Context&, const TriMesh&, const Field&);  the graph unwraps it
 //     GraphBuilder builder;
-//     auto skin   = builder.input<TriMesh>("skin");
-//     auto field  = builder.add("geodesic", compute_field, skin);        // Field compute_field(context,
-//     skin) auto proxy  = builder.add("fit", fit_parts, skin, field);          // Result<Proxy> is unwrapped
-//     auto graph  = std::move(builder).build();                          // or an error that names the tasks
-//     graph->set(skin, mesh);  graph->run(context);  use(graph->get(proxy));
+//     auto skin = builder.input<TriMesh>("skin");
+//     auto field = builder.add("geodesic", compute_field, skin);
+//     auto proxy = builder.add("fit", fit_parts, skin, field);
+//     auto graph = std::move(builder).build();  // or an error that names the tasks
+//     graph->set(skin, mesh);
+//     if (graph->run(context)) use(graph->get(proxy));
 #pragma once
 
 #include <cstdint>
