@@ -6,6 +6,7 @@
 #include <string>
 
 #include <bodice/cloth/weld.hpp>
+#include <bodice/geometry/disjoint_sets.hpp>
 
 namespace bodice::cloth {
 namespace {
@@ -50,11 +51,6 @@ struct Cell {
   }
 };
 
-Index root(std::vector<Index>& parent, Index v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance) {
   geometry::Box box;
   for (const Vec3& p : mesh.positions) {
@@ -74,8 +70,7 @@ std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance) {
 
 // Representative of each vertex: the lowest index of those linked by steps of at most `tolerance`.
 std::vector<Index> representatives(const TriMesh& mesh, double tolerance) {
-  std::vector<Index> parent(mesh.positions.size());
-  std::iota(parent.begin(), parent.end(), Index{0});
+  geometry::DisjointSets linked(mesh.positions.size());
   const std::vector<Cell> cells = sorted_cells(mesh, tolerance);
   for (const Cell& c : cells) {
     for (int n = 0; n < 9; ++n) {  // the three cells along z are one run of the sorted list
@@ -84,13 +79,13 @@ std::vector<Index> representatives(const TriMesh& mesh, double tolerance) {
         if (it->key[0] != low[0] || it->key[1] != low[1] || it->key[2] > c.key[2] + 1) break;
         if (it->vertex >= c.vertex) continue;
         if ((mesh.positions[it->vertex] - mesh.positions[c.vertex]).norm() > tolerance) continue;
-        const Index a = root(parent, it->vertex), b = root(parent, c.vertex);
-        parent[std::max(a, b)] = std::min(a, b);
+        linked.unite(it->vertex, c.vertex);
       }
     }
   }
-  for (Index v = 0; v < parent.size(); ++v) parent[v] = root(parent, v);
-  return parent;
+  std::vector<Index> rep(mesh.positions.size());
+  for (Index v = 0; v < rep.size(); ++v) rep[v] = linked.find(v);
+  return rep;
 }
 
 // Ends of an edge that is too short are one particle, too: the one that comes first and is none of another's.

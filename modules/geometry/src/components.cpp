@@ -1,8 +1,7 @@
 #include <algorithm>
 
+#include <bodice/geometry/disjoint_sets.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
-
-#include "disjoint_sets.hpp"
 
 namespace bodice::geometry {
 

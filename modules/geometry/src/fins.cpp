@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "disjoint_sets.hpp"
+#include <bodice/geometry/disjoint_sets.hpp>
 
 namespace bodice::geometry {
 namespace {
