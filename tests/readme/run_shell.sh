@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# Runs every `sh` block of the README in an empty folder, with `bodice` on the path and a body.obj and dress.obj
-# made by it. The two set-up commands are checked for syntax only: they call this test.
+# Runs every `sh` block of the README in an empty folder and an empty home, with this build as build/release and a
+# body.obj and dress.obj made by it: `bodice` is found only where the README's own commands put it. The set-up
+# commands that call this test are checked for syntax only.
 set -euo pipefail
-source_dir=$1 bodice=$2 scratch=$3
-rm -rf "$scratch" && mkdir -p "$scratch/bin" && cd "$scratch"
-ln -s "$bodice" bin/bodice
-export PATH="$scratch/bin:$PATH"
+source_dir=$1 build_dir=$2 bodice=$3 scratch=$4
+rm -rf "$scratch" && mkdir -p "$scratch/build" "$scratch/home" && cd "$scratch"
+ln -s "$build_dir" build/release
+export HOME=$scratch/home
 
-bodice make -o body.obj --garment tunic --garment-out dress.obj --quiet
+"$bodice" make -o body.obj --garment tunic --garment-out dress.obj --quiet
 ran=0
 while IFS= read -r line; do
   case $line in
@@ -16,6 +17,7 @@ while IFS= read -r line; do
       script=${line#bash } script=${script%%[[:space:]]*}
       bash -n "$source_dir/$script"
       ;;
+    "export "*) eval "$line" ;;
     *)
       echo "+ $line"
       bash -euo pipefail -c "$line" >output.txt 2>&1 || { cat output.txt; exit 1; }
@@ -24,4 +26,8 @@ while IFS= read -r line; do
   esac
 done < <(awk '/^```sh/ { on = 1; next } /^```/ { on = 0 } on' "$source_dir/README.md")
 [ "$ran" -gt 0 ] || { echo "README.md has no shell line to run"; exit 1; }
+case $(command -v bodice) in
+  "$HOME"/*) ;;
+  *) echo "the README's commands do not put bodice on the path"; exit 1 ;;
+esac
 echo "$ran commands of the README ran"
