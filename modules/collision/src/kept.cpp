@@ -29,6 +29,7 @@ bool KeptBatch::renew(float least_reach_m, float most_reach_m) {
     --rest;
     return false;
   }
+  if (reach_m == 0.0f) reach_m = 0.5f * most_reach_m;
   const bool far = reach_m >= most_reach_m;
   if (count > 0 && used < kLeastUse && far) {
     give_up();

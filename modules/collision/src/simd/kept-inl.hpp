@@ -58,54 +58,59 @@ HWY_INLINE void sort_candidates(KeptBatch& kept) {
   std::copy_n(sorted, kept.candidates, kept.candidate);
 }
 
-/// Some vectors of places and the bounds above which ellipsoids are not kept.
+/// Some vectors of places, every candidate's bound there, and those above which ellipsoids are not kept.
 struct Wanted {
-  V3 p[kTogether];
+  alignas(64) float bound[kMaxCandidates * kStep];  ///< a step a candidate
   V limit[kTogether];
-  V least;  ///< bound of any
+  float least_m;  ///< bound of any
 };
 
 template <int kTables>
-HWY_INLINE Wanted wanted(const Baked& baked, const QueryBatch& batch, int from, const Near& near,
-                         const Columns& columns, float beyond_m) {
-  Wanted result;
+HWY_INLINE void measure_step(const Baked& baked, const QueryBatch& batch, int from, const Near& near,
+                             const Columns& columns, float beyond_m, Wanted& out) {
+  V3 p[kTogether];
   Lowest<1> lowest[kTogether];
   for (int v = 0; v < kTogether; ++v) {
     const int i = from + v * kWidth;
-    result.p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
+    p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
     lowest[v].clear();
   }
   for (int i = 0; i < near.count; ++i)
-    for (int v = 0; v < kTogether; ++v)
-      lowest[v].add(lower_bound(baked.bounds[columns.ellipsoid(near.index[i])], result.p[v]),
-                    hn::Set(I(), near.index[i]));
+    for (int v = 0; v < kTogether; ++v) {
+      const V bound = lower_bound(baked.bounds[columns.ellipsoid(near.index[i])], p[v]);
+      hn::Store(bound, f, out.bound + i * kStep + v * kWidth);
+      lowest[v].add(bound, hn::Set(I(), near.index[i]));
+    }
   Shape shapes[kTogether];
   Foot feet[kTogether];
   for (int v = 0; v < kTogether; ++v) shapes[v] = shape_of<kTables>(columns, lowest[v].rank(0));
-  feet_of(shapes, result.p, feet);
-  for (int v = 0; v < kTogether; ++v) result.limit[v] = bound_limit(baked, feet[v].distance, beyond_m);
-  result.least = lowest[0].bound[0];
-  for (int v = 1; v < kTogether; ++v) result.least = hn::Min(result.least, lowest[v].bound[0]);
-  return result;
+  feet_of(shapes, p, feet);
+  for (int v = 0; v < kTogether; ++v) out.limit[v] = bound_limit(baked, feet[v].distance, beyond_m);
+  V least = lowest[0].bound[0];
+  for (int v = 1; v < kTogether; ++v) least = hn::Min(least, lowest[v].bound[0]);
+  out.least_m = hn::GetLane(hn::MinOfLanes(f, least));
 }
 
 /// Keeps what may be the nearest of some place of the step, or farther by less than `beyond_m`; false if
-/// there is no room.
+/// there is no room. `slot`: where a column's ellipsoid is kept, or -1.
 template <int kTables>
 HWY_INLINE bool keep_step(const Baked& baked, const QueryBatch& batch, int from, const Near& near,
-                          const Columns& columns, float beyond_m, KeptBatch& kept) {
-  const Wanted step = wanted<kTables>(baked, batch, from, near, columns, beyond_m);
+                          const Columns& columns, float beyond_m, std::int32_t* slot, KeptBatch& kept) {
+  Wanted step;
+  measure_step<kTables>(baked, batch, from, near, columns, beyond_m, step);
   const int span = from / KeptBatch::kSpan;
-  kept.least_m[span] = std::min(kept.least_m[span], hn::GetLane(hn::MinOfLanes(f, step.least)));
+  kept.least_m[span] = std::min(kept.least_m[span], step.least_m);
   for (int i = 0; i < near.count; ++i) {
-    const auto k = columns.ellipsoid(near.index[i]);
     M below = hn::FirstN(f, 0);
-    for (int v = 0; v < kTogether; ++v)
-      below = hn::Or(below, hn::Not(hn::Gt(lower_bound(baked.bounds[k], step.p[v]), step.limit[v])));
+    for (int v = 0; v < kTogether; ++v) {
+      const V bound = hn::Load(f, step.bound + i * kStep + v * kWidth);
+      below = hn::Or(below, hn::Not(hn::Gt(bound, step.limit[v])));
+    }
     if (hn::AllFalse(f, below)) continue;
-    const int slot = slot_of(kept, static_cast<std::int32_t>(k));
-    if (slot < 0) return false;
-    kept.near[span] |= 1u << slot;
+    const std::int32_t column = near.index[i];
+    if (slot[column] < 0) slot[column] = slot_of(kept, static_cast<std::int32_t>(columns.ellipsoid(column)));
+    if (slot[column] < 0) return false;
+    kept.near[span] |= 1u << slot[column];
   }
   return true;
 }
@@ -137,9 +142,11 @@ inline bool keep(const Baked& baked, const ReliefTables* relief, float beyond_m,
   };
   const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
                         const Near* found) {
+    std::int32_t slot[kMaxCandidates];
+    std::fill_n(slot, columns.count(), -1);
     for (int i = 0; i < count; ++i)
       for (int from = pieces[i].begin; from < end_of(pieces[i]); from += kStep)
-        if (!keep_step<tables()>(baked, batch, from, found[i], columns, widest_m, kept)) return false;
+        if (!keep_step<tables()>(baked, batch, from, found[i], columns, widest_m, slot, kept)) return false;
     return true;
   };
   if (!share(baked, relief, blocks.pieces, blocks.count, lists, find, work)) return false;
