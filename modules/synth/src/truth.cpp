@@ -103,6 +103,30 @@ Index furthest(const Posed& b, Region region, const Vec3& direction) {
   return best;
 }
 
+/// How much less far than its farthest vertex the front of a foot reaches, and how far to the sides; a heavy
+/// thigh may reach as far.
+constexpr double kBluntFront = 0.016, kFootWidth = 0.06;  // of stature
+
+/// The tip of a foot, a little within. Its front is blunt, so that the farthest vertex lies anywhere on it:
+/// the middle of what reaches nearly as far, the more the farther.
+Vec3 tip_of_foot(const Posed& b, int side) {
+  const Region region = region_of_side(Region::kLegL, side);
+  const Index farthest = furthest(b, region, Vec3::UnitZ());
+  Vec3 moment = Vec3::Zero();
+  double all = 0.0;
+  for (const geometry::Triangle& t : b.triangles) {
+    const Vec3 across = (b.rest[t[1]] - b.rest[t[0]]).cross(b.rest[t[2]] - b.rest[t[0]]);
+    for (const Index v : t) {
+      const double reach = kBluntFront - (b.rest[farthest].z() - b.rest[v].z());
+      const bool near = (b.rest[v] - b.rest[farthest]).norm() < kFootWidth;
+      if (b.mesh.region[v] != region || !near || !(reach > 0.0)) continue;
+      moment += across.norm() * reach * b.posed[v];
+      all += across.norm() * reach;
+    }
+  }
+  return all > 0.0 ? Vec3(moment / all) : b.posed[farthest];
+}
+
 Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p) {
   Index best = 0;
   for (Index v = 1; v < positions.size(); ++v)
@@ -154,8 +178,7 @@ std::vector<body::Landmark> true_landmarks(const Posed& b) {
     constexpr int kMiddleFinger = 1;
     put_vertex(sided(LandmarkId::kFingertipL, side),
                furthest(b, digit_region(side, kMiddleFinger), b.figure.arm[side].along));
-    put_vertex(sided(LandmarkId::kToeL, side),
-               furthest(b, region_of_side(Region::kLegL, side), Vec3::UnitZ()));
+    put_vertex(sided(LandmarkId::kToeL, side), nearest_vertex(b.posed, tip_of_foot(b, side)));
     put(sided(LandmarkId::kElbowL, side), joint(of_side(Bone::kForearmL, side)));
     put(sided(LandmarkId::kKneeL, side), joint(of_side(Bone::kCalfL, side)));
     put(sided(LandmarkId::kArmpitL, side),
