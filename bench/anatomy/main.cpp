@@ -1,7 +1,7 @@
-// anatomy [--data DIR] [--only TEXT] [--seeds N] [--all] [--verbose] [--sheet FILE.png] [--cost]
+// anatomy [--data DIR] [--only TEXT] [--seeds N [--from M]] [--all] [--verbose] [--sheet FILE.png] [--cost]
 // How well is every body understood, and in what time? Rows of the bodies that miss a bar (--all: of every
-// body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: made
-// bodies in place of files. --sheet: a picture of every body by part.
+// body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
+// bodies in place of files, from seed M on. --sheet: a picture of every body by part.
 #include <cstdio>
 #include <cstring>
 
@@ -13,7 +13,7 @@ namespace {
 
 struct Arguments {
   std::string data = "../shared/data", only, picture;
-  std::uint64_t seeds = 0;
+  std::uint64_t seeds = 0, from = 0;
   bool all = false, verbose = false, cost = false;
 };
 
@@ -31,6 +31,8 @@ Arguments parse(int argc, char** argv) {
       a.only = argv[++i];
     else if (is("--seeds"))
       a.seeds = std::stoull(argv[++i]);
+    else if (is("--from"))
+      a.from = std::stoull(argv[++i]);
     else if (is("--sheet"))
       a.picture = argv[++i];
   }
@@ -55,7 +57,8 @@ int main(int argc, char** argv) {
   bench::Report report(arguments.all || arguments.verbose, arguments.verbose);
   bench::Sheet sheet;
   report.header();
-  for (std::uint64_t seed = 0; seed < arguments.seeds; ++seed) run(bench::synth_case(seed), report, sheet);
+  for (std::uint64_t i = 0; i < arguments.seeds; ++i)
+    run(bench::synth_case(arguments.from + i), report, sheet);
   if (arguments.seeds == 0)
     for (const bench::Case& c : bench::file_cases(arguments.data, arguments.only)) run(c, report, sheet);
   report.summary();
