@@ -1,65 +1,131 @@
+// Based on: Naonori Ueda, Ryohei Nakano, Zoubin Ghahramani, Geoffrey Hinton. SMEM algorithm for mixture
+// models. 2000 (splits and merges at once, tried with all other components fixed). Differs: least squares;
+// every ellipsoid's split and every pair of neighbours' merge is tried; as many moves are made at once as do
+// not touch each other.
 #include "relocation.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include <Eigen/Eigenvalues>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "local_fit.hpp"
 
 namespace bodice::fitting {
 namespace {
 
 using geometry::Ellipsoid;
+using Partners = std::vector<std::vector<std::uint32_t>>;
 
-constexpr double kWorthwhile = 0.5;  // of a costly ellipsoid's cost: what a second one may save
-constexpr int kBarredRounds = 12;
-constexpr int kFirstMoves = 12;  // one ellipsoid in so many
+constexpr std::size_t kPartners = 3;
 
-std::vector<std::size_t> ascending(const std::vector<double>& value) {
-  std::vector<std::size_t> order(value.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return value[a] < value[b]; });
-  return order;
-}
+/// What has been tried in place of one ellipsoid or of two.
+struct Trial {
+  std::uint32_t first = 0, second = 0;
+  double rise = 0.0;  ///< of the cost
+  std::vector<Ellipsoid> found;
+};
 
-/// Two ellipsoids over the halves of one along its longest axis.
-void split(Ellipsoid& e, Ellipsoid& twin) {
-  int longest = 0;
-  e.radii.maxCoeff(&longest);
-  const Vec3 half = 0.5 * e.radii[longest] * e.axes.col(longest);
-  e.radii[longest] *= 0.6;
-  twin = e;
+/// Two ellipsoids over the halves of one along an axis.
+std::vector<Ellipsoid> halves(Ellipsoid e, int axis) {
+  const Vec3 half = 0.5 * e.radii[axis] * e.axes.col(axis);
+  e.radii[axis] *= 0.6;
+  Ellipsoid twin = e;
   e.center += half;
   twin.center -= half;
+  return {e, twin};
+}
+
+/// One ellipsoid with the volume's mean and covariance of both. (A solid ellipsoid has covariance diag(r^2)
+/// / 5.)
+Ellipsoid merged(const Ellipsoid& a, const Ellipsoid& b) {
+  const double of_a = a.radii.prod() / (a.radii.prod() + b.radii.prod());
+  Ellipsoid e;
+  e.center = of_a * a.center + (1.0 - of_a) * b.center;
+  const auto moment = [&](const Ellipsoid& part) -> geometry::Mat3 {
+    const Vec3 off = part.center - e.center;
+    return part.axes * (0.2 * part.radii.cwiseAbs2()).asDiagonal() * part.axes.transpose() +
+           off * off.transpose();
+  };
+  const Eigen::SelfAdjointEigenSolver<geometry::Mat3> eigen(of_a * moment(a) + (1.0 - of_a) * moment(b));
+  e.axes = eigen.eigenvectors();
+  if (e.axes.determinant() < 0.0) e.axes.col(2) = -e.axes.col(2);
+  e.radii = (5.0 * eigen.eigenvalues()).cwiseMax(0.0).cwiseSqrt();  // none below the least of both
+  return e;
+}
+
+void sort_by_rise(std::vector<Trial>& trials) {
+  std::stable_sort(trials.begin(), trials.end(),
+                   [](const Trial& a, const Trial& b) { return a.rise < b.rise; });
+}
+
+std::vector<Trial> try_splits(const engine::Context& context, const TightProblem& problem,
+                              const std::vector<Ellipsoid>& ellipsoids) {
+  std::vector<Trial> splits(ellipsoids.size());
+  engine::parallel_for(context, splits.size(), 1, [&](std::size_t i, std::size_t) {
+    const auto k = static_cast<std::uint32_t>(i);
+    const Neighbourhood samples = problem.around({&k, 1});
+    splits[i] = {k, k, 0.0, {}};
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<Ellipsoid> twins = halves(ellipsoids[k], axis);
+      const double rise = fit_locally(samples, problem.loss(), twins);
+      if (rise < splits[i].rise) splits[i] = {k, k, rise, std::move(twins)};
+    }
+  });
+  std::erase_if(splits, [](const Trial& split) { return split.found.empty(); });
+  sort_by_rise(splits);
+  return splits;
+}
+
+std::vector<Trial> try_merges(const engine::Context& context, const TightProblem& problem,
+                              const Partners& partners, const std::vector<Ellipsoid>& ellipsoids) {
+  std::vector<Trial> merges;
+  for (std::uint32_t k = 0; k < partners.size(); ++k)
+    for (const std::uint32_t other : partners[k]) {
+      const bool told_twice = std::ranges::find(partners[other], k) != partners[other].end();
+      if (k < other || !told_twice) merges.push_back({k, other, 0.0, {}});
+    }
+  engine::parallel_for(context, merges.size(), 1, [&](std::size_t i, std::size_t) {
+    Trial& merge = merges[i];
+    const std::uint32_t both[] = {merge.first, merge.second};
+    merge.found = {merged(ellipsoids[merge.first], ellipsoids[merge.second])};
+    merge.rise = fit_locally(problem.around(both), problem.loss(), merge.found);
+  });
+  sort_by_rise(merges);
+  return merges;
 }
 
 }  // namespace
 
-Relocation::Relocation(std::size_t ellipsoids)
-    : moves_(std::max(1, static_cast<int>(ellipsoids) / kFirstMoves)), barred_until_(ellipsoids, 0) {}
-
-std::vector<std::size_t> Relocation::move(const TightProblem& problem, std::vector<Ellipsoid>& ellipsoids) {
-  ++round_;
-  last_.clear();
-  const std::vector<double> cost = problem.cost_of_each(), use = problem.use_of_each();
-  const std::vector<std::size_t> by_cost = ascending(cost), by_use = ascending(use);
-  std::vector<bool> taken(cost.size(), false);
+std::vector<std::size_t> relocate(const engine::Context& context, const TightProblem& problem,
+                                  std::vector<Ellipsoid>& ellipsoids) {
+  const std::vector<Trial> splits = try_splits(context, problem, ellipsoids);
+  if (splits.empty()) return {};
+  const Partners partners = problem.partners(kPartners);
+  const std::vector<Trial> merges = try_merges(context, problem, partners, ellipsoids);
+  std::vector<bool> taken(ellipsoids.size(), false);
   std::vector<std::size_t> changed;
-  auto idle = by_use.begin();
-  for (auto costly = by_cost.rbegin(); costly != by_cost.rend() && static_cast<int>(last_.size()) < moves_;
-       ++costly) {
-    if (taken[*costly] || barred_until_[*costly] > round_) continue;
-    while (idle != by_use.end() && (taken[*idle] || *idle == *costly)) ++idle;
-    if (idle == by_use.end() || use[*idle] > kWorthwhile * cost[*costly]) break;
-    taken[*costly] = taken[*idle] = true;
-    split(ellipsoids[*costly], ellipsoids[*idle]);
-    last_.push_back({*idle, *costly});
-    changed.insert(changed.end(), {*idle, *costly});
+  const auto take = [&](std::uint32_t k) {
+    changed.push_back(k);
+    taken[k] = true;
+    if (!partners[k].empty()) taken[partners[k].front()] = true;
+  };
+  for (const Trial& split : splits) {
+    if (taken[split.first]) continue;
+    const auto& beside = partners[split.first];
+    const auto meets = [&](std::uint32_t k) {
+      return taken[k] || k == split.first || std::ranges::find(beside, k) != beside.end();
+    };
+    const auto merge =
+        std::ranges::find_if(merges, [&](const Trial& m) { return !meets(m.first) && !meets(m.second); });
+    if (merge == merges.end() || split.rise + merge->rise >= 0.0) continue;
+    ellipsoids[merge->first] = merge->found[0];
+    ellipsoids[split.first] = split.found[0];
+    ellipsoids[merge->second] = split.found[1];
+    for (const std::uint32_t k : {merge->first, split.first, merge->second}) take(k);
   }
   return changed;
-}
-
-void Relocation::judge(bool paid) {
-  if (paid) return;
-  if (last_.size() == 1) barred_until_[last_[0].costly] = round_ + kBarredRounds;
-  moves_ = std::max(1, static_cast<int>(last_.size()) / 2);
 }
 
 }  // namespace bodice::fitting

@@ -1,4 +1,4 @@
-// Moves of ellipsoids from where they are hardly needed to where the cost is largest.
+// Moves of ellipsoids from where they are hardly needed to where they gain most.
 #pragma once
 
 #include <vector>
@@ -7,26 +7,10 @@
 
 namespace bodice::fitting {
 
-/// A search over moves: several at once while they pay, fewer after they did not, and never soon again one
-/// that did not pay alone.
-class Relocation {
- public:
-  explicit Relocation(std::size_t ellipsoids);
-
-  /// Puts the least useful ellipsoids onto halves of the costliest ones; returns which ellipsoids changed.
-  std::vector<std::size_t> move(const TightProblem& problem, std::vector<geometry::Ellipsoid>& ellipsoids);
-  /// Whether the last moves lowered the cost.
-  void judge(bool paid);
-
- private:
-  struct Move {
-    std::size_t idle, costly;
-  };
-
-  int moves_;
-  int round_ = 0;
-  std::vector<int> barred_until_;  ///< #E: rounds until it may be split again
-  std::vector<Move> last_;
-};
+/// Two neighbours become one, and the ellipsoid that this frees becomes half of another, wherever that lowers
+/// the cost. Returns which ellipsoids changed: none if no such move pays. The problem stays as it is: refresh
+/// it. Costs about as much as ten steps of the descent.
+std::vector<std::size_t> relocate(const engine::Context& context, const TightProblem& problem,
+                                  std::vector<geometry::Ellipsoid>& ellipsoids);
 
 }  // namespace bodice::fitting

@@ -39,6 +39,16 @@ double exact_distance(const SkinSource& source, const Vec3& point, double offset
   return distance.inside(point) ? -d : d;
 }
 
+/// Whether the nearest skin, |d| away, is that of a part that is not wanted: it must not draw ellipsoids
+/// there.
+bool is_of_others(const SkinSource& source, const Vec3& point, double d) {
+  if (source.parts == kAllParts) return false;
+  const auto hit = source.skin.distance->nearest_within(point, std::abs(d) * (1.0 + 1e-6));
+  if (!hit) return false;
+  const auto part = static_cast<int>(source.skin.part[source.skin.mesh.triangles[hit->triangle][0]]);
+  return ((source.parts >> part) & 1u) == 0;
+}
+
 double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const Vec3& inward, double radius) {
   constexpr int kSteps = 12;
   for (int step = 0; step < kSteps; ++step) {
@@ -78,8 +88,9 @@ std::vector<DistanceSample> sample_near_skin(const engine::Context& context, con
       double offset = on_skin ? 0.0 : (options.outward_m + options.inward_m) * u - options.inward_m;
       if (kind >= 1.0 - options.far) offset = options.outward_m + (options.far_m - options.outward_m) * u;
       const Vec3 p = surface[i].point + offset * normal;
-      samples[i] = {p, on_skin ? 0.0 : exact_distance(source, p, offset),
-                    skin.part[skin.mesh.triangles[t][0]]};
+      const double d = on_skin ? 0.0 : exact_distance(source, p, offset);
+      const bool one_sided = !on_skin && is_of_others(source, p, d);
+      samples[i] = {p, d, skin.part[skin.mesh.triangles[t][0]], one_sided};
     }
   });
   return samples;

@@ -1,30 +1,25 @@
 // Based on: Kenneth Levenberg. 1944; Donald W. Marquardt. 1963 (damped Gauss-Newton).
 // Differs: each residual depends on its nearest ellipsoid alone, so the normal matrix is block-diagonal, each
 // block of 9 has its own damping and its own verdict; steps are bounded so that no ellipsoid overtakes the
-// lists of who can be nearest; now and then the ellipsoids of least use are moved to where the cost is
-// largest (relocation.hpp), and moved back unless that paid.
+// lists of who can be nearest; now and then ellipsoids are moved to where they gain more (relocation.hpp).
 #include "tight_descent.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
-
 #include <bodice/engine/parallel.hpp>
 
 #include "relocation.hpp"
+#include "tight_step.hpp"
 
 namespace bodice::fitting {
 namespace {
 
 using geometry::Ellipsoid;
 
-constexpr int kRelocateEvery = 12;  // iterations that a move is given to prove itself
-constexpr double kMinRadius = 0.002;
-constexpr double kFirstDamping = 1e-2;
-constexpr double kOverStep = 1.3;  // neighbours give way to each other: what each block asks for is too short
+constexpr int kRelocateEvery = 12;
+constexpr int kIdleRounds = 3;  // after a search that found no move
 constexpr int kStopWindow = 48;
 constexpr double kExact = 2e-5;          // root of the mean square residual: nothing is left to gain
 constexpr double kMostHeldBack = 0.25;   // steps an ellipsoid, before the candidates are chosen afresh
@@ -35,32 +30,6 @@ struct State {
   std::vector<double> damping;
 };
 
-struct Step {
-  Ellipsoid ellipsoid;
-  double motion = 0.0;  ///< no point of the surface moves farther
-};
-
-/// A damped step, shortened to `most_motion`.
-Step stepped(const Ellipsoid& e, const NormalBlock& block, double damping, double most_motion) {
-  NormalBlock::Matrix a = block.jtj;
-  const double typical = a.trace() / 9.0;
-  for (int j = 0; j < 9; ++j) a(j, j) += damping * (a(j, j) + 0.005 * typical) + 1e-4 * typical + 1e-12;
-  NormalBlock::Vector step = -a.ldlt().solve(block.jtr);
-  if (!step.allFinite()) return {e};
-  step *= kOverStep;
-  const Vec3 stretch = e.radii.cwiseProduct(step.segment<3>(3));
-  const double motion =
-      step.head<3>().norm() + stretch.cwiseAbs().maxCoeff() + e.radii.maxCoeff() * step.tail<3>().norm();
-  if (motion > most_motion) step *= most_motion / motion;
-  Ellipsoid next = e;
-  next.center += step.head<3>();
-  next.radii = (e.radii.array() * (1.0 + step.segment<3>(3).array().max(-0.5))).max(kMinRadius);
-  const Vec3 turn = step.tail<3>();
-  const double angle = turn.norm();
-  if (angle > 0.0) next.axes = e.axes * Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  return {next, std::min(motion, most_motion)};
-}
-
 /// One descent under way.
 class Descent {
  public:
@@ -70,8 +39,7 @@ class Descent {
         problem_(problem),
         options_(options),
         state_{ellipsoids, std::vector<double>(ellipsoids.size(), kFirstDamping)},
-        moved_(ellipsoids.size(), 0.0),
-        relocation_(ellipsoids.size()) {
+        moved_(ellipsoids.size(), 0.0) {
     refresh();
     best_ = state_;
     report_.first_cost = report_.last_cost = told_ = window_cost_ = problem_.total();
@@ -84,11 +52,11 @@ class Descent {
       context_.checkpoint();
       const int i = ++report_.iterations;
       iterate();
-      const bool pauses = i % kRelocateEvery == 0;
-      if (pauses && options_.relocate) judge_moves();
       note_best();
-      if (pauses && i < options_.max_iterations) look_around();
-      if (pauses && options_.relocate) start_moves();
+      if (i % kRelocateEvery == 0 && i < options_.max_iterations) {
+        look_around();
+        if (options_.relocate) make_moves();
+      }
       if (is_done(i)) break;
     }
     problem_.refresh(context_, best_.ellipsoids);
@@ -104,30 +72,25 @@ class Descent {
     held_back_ = 0;
   }
 
-  void reset(State state) {
-    state_ = std::move(state);
-    refresh();
-  }
-
   /// One damped step of every ellipsoid; those that made it worse stay where they were.
   void iterate() {
     if (static_cast<double>(held_back_) > kMostHeldBack * static_cast<double>(moved_.size())) refresh();
     const auto blocks = problem_.normal_equations(context_, state_.ellipsoids);
-    std::vector<Step> steps(blocks.size());
+    std::vector<TightStep> steps(blocks.size());
     engine::parallel_for(context_, steps.size(), 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
-        steps[k] =
-            stepped(state_.ellipsoids[k], blocks[k], state_.damping[k], problem_.most_motion() - moved_[k]);
+        steps[k] = damped_step(state_.ellipsoids[k], blocks[k], state_.damping[k],
+                               problem_.most_motion() - moved_[k]);
     });
     problem_.remember();
     std::vector<Ellipsoid> trial;
-    for (const Step& step : steps) trial.push_back(step.ellipsoid);
+    for (const TightStep& step : steps) trial.push_back(step.ellipsoid);
     problem_.evaluate(context_, trial);
     problem_.assign(context_);
     judge_steps(steps);
   }
 
-  void judge_steps(const std::vector<Step>& steps) {
+  void judge_steps(const std::vector<TightStep>& steps) {
     const std::vector<double> gain = problem_.gains();
     bool restored = false;
     for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -167,19 +130,19 @@ class Descent {
     window_cost_ = std::max(window_cost_, report_.last_cost);
   }
 
-  void start_moves() {
-    before_moves_ = state_;
-    cost_before_moves_ = problem_.total();
+  /// Moves are tried with the rest fixed: what several do together may still be worse.
+  void make_moves() {
+    if (rounds_off_ > 0) return void(--rounds_off_);
     State moved = state_;
-    for (const std::size_t k : relocation_.move(problem_, moved.ellipsoids)) moved.damping[k] = kFirstDamping;
-    reset(std::move(moved));
-  }
-
-  void judge_moves() {
-    if (before_moves_.ellipsoids.empty()) return;
-    const bool paid = problem_.total() < cost_before_moves_;
-    relocation_.judge(paid);
-    if (!paid) reset(before_moves_);
+    const auto changed = relocate(context_, problem_, moved.ellipsoids);
+    for (const std::size_t k : changed) moved.damping[k] = kFirstDamping;
+    if (changed.empty()) return void(rounds_off_ = kIdleRounds);
+    const double cost = problem_.total();
+    std::swap(state_, moved);
+    refresh();
+    if (problem_.total() < cost) return note_best();
+    state_ = std::move(moved);
+    refresh();
   }
 
   bool is_done(int iteration) {
@@ -194,12 +157,12 @@ class Descent {
   const engine::Context& context_;
   TightProblem& problem_;
   const DescentOptions& options_;
-  State state_, best_, before_moves_;
+  State state_, best_;
   std::vector<double> moved_;  ///< #E: motion since the last refresh, at most
   std::size_t held_back_ = 0;  ///< steps that used up what an ellipsoid may move before a refresh
-  Relocation relocation_;
+  int rounds_off_ = 0;
   DescentReport report_;
-  double told_ = 0.0, window_cost_ = 0.0, cost_before_moves_ = 0.0;
+  double told_ = 0.0, window_cost_ = 0.0;
 };
 
 }  // namespace

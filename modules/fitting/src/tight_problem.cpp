@@ -179,18 +179,6 @@ void TightProblem::restore(std::size_t k) {
             distance_.begin() + pair_begin_[k]);
 }
 
-float TightProblem::cost_at(std::size_t i, float d) const {
-  const float target = target_[i];
-  if (one_sided_[i] && d >= target) return 0.0f;
-  if (target < -loss_.ignore_depth && d < -0.5f * loss_.ignore_depth) return 0.0f;
-  if (target > loss_.far && d > loss_.far) return 0.0f;
-  const float r = std::fabs(d - target);
-  const bool uncovered = target <= 0.0f && d > 0.0f;
-  const float h = uncovered ? loss_.uncovered_huber : loss_.huber;
-  const float w = uncovered ? loss_.uncovered_weight : 1.0f;
-  return w * (r <= h ? 0.5f * r * r : h * (r - 0.5f * h));
-}
-
 void TightProblem::assign(const engine::Context& context) {
   engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -203,7 +191,7 @@ void TightProblem::assign(const engine::Context& context) {
         least = d < least ? d : least;
       }
       owner_[i] = best;
-      cost_[i] = cost_at(i, least);
+      cost_[i] = loss_.cost(target_[i], one_sided_[i] != 0, least);
     }
   });
 }
@@ -219,22 +207,55 @@ double TightProblem::total() const {
   return sum;
 }
 
-std::vector<double> TightProblem::cost_of_each() const {
-  std::vector<double> cost(ellipsoids_, 0.0);
-  for (std::size_t i = 0; i < owner_.size(); ++i)
-    cost[ellipsoid_of_pair_[owner_[i]]] += static_cast<double>(cost_[i]);
-  return cost;
+Neighbourhood TightProblem::around(std::span<const std::uint32_t> ellipsoids) const {
+  Neighbourhood found;
+  for (const std::uint32_t k : ellipsoids)
+    for (std::uint32_t pair = pair_begin_[k]; pair < pair_begin_[k + 1]; ++pair) {
+      const std::uint32_t i = pair_sample_[pair];
+      float others = std::numeric_limits<float>::infinity();
+      bool is_first = true;  // a sample of several of the ellipsoids is taken with the lowest of them
+      for (int s = 0; s < count_of_[i]; ++s) {
+        const std::uint32_t p = pairs_of_[i][s], other = ellipsoid_of_pair_[p];
+        if (std::ranges::find(ellipsoids, other) == ellipsoids.end())
+          others = std::min(others, distance_[p]);
+        else
+          is_first = is_first && other >= k;
+      }
+      if (!is_first) continue;
+      found.x.push_back(point_[0][i]);
+      found.y.push_back(point_[1][i]);
+      found.z.push_back(point_[2][i]);
+      found.target.push_back(target_[i]);
+      found.others.push_back(others);
+      found.one_sided.push_back(one_sided_[i]);
+      found.cost += static_cast<double>(cost_[i]);
+    }
+  return found;
 }
 
-std::vector<double> TightProblem::use_of_each() const {
-  std::vector<double> use(ellipsoids_, 0.0);
+std::vector<std::vector<std::uint32_t>> TightProblem::partners(std::size_t most) const {
+  std::vector<std::array<std::uint32_t, 2>> met;  // owner and second of each sample that has one
   for (std::size_t i = 0; i < owner_.size(); ++i) {
-    float second = distance_[owner_[i]] + reach_;
-    for (int s = 0; s < count_of_[i]; ++s)
-      if (pairs_of_[i][s] != owner_[i]) second = std::min(second, distance_[pairs_of_[i][s]]);
-    use[ellipsoid_of_pair_[owner_[i]]] += static_cast<double>(cost_at(i, second) - cost_[i]);
+    std::uint32_t second = owner_[i];
+    for (int s = 0; s < count_of_[i]; ++s) {
+      const std::uint32_t p = pairs_of_[i][s];
+      if (p != owner_[i] && (second == owner_[i] || distance_[p] < distance_[second])) second = p;
+    }
+    if (second != owner_[i]) met.push_back({ellipsoid_of_pair_[owner_[i]], ellipsoid_of_pair_[second]});
   }
-  return use;
+  std::ranges::sort(met);
+  std::vector<std::vector<std::array<std::size_t, 2>>> votes(ellipsoids_);  // how many, for whom
+  for (std::size_t begin = 0, end = 0; begin < met.size(); begin = end) {
+    while (end < met.size() && met[end] == met[begin]) ++end;
+    votes[met[begin][0]].push_back({end - begin, met[begin][1]});
+  }
+  std::vector<std::vector<std::uint32_t>> found(ellipsoids_);
+  for (std::size_t k = 0; k < ellipsoids_; ++k) {
+    std::ranges::stable_sort(votes[k], [](const auto& a, const auto& b) { return a[0] > b[0]; });
+    for (std::size_t n = 0; n < std::min(most, votes[k].size()); ++n)
+      found[k].push_back(static_cast<std::uint32_t>(votes[k][n][1]));
+  }
+  return found;
 }
 
 std::vector<std::array<std::uint32_t, body::kPartCount>> TightProblem::skin_of_each() const {
@@ -257,17 +278,15 @@ std::vector<double> TightProblem::gains() const {
   return gain;
 }
 
-/// The samples that ellipsoid k is answerable for, with the weights of the robust loss.
+/// The samples that ellipsoid k is answerable for.
 void TightProblem::gather(std::size_t k, BlockSamples& mine) const {
   mine.clear();
   for (std::uint32_t pair = pair_begin_[k]; pair < pair_begin_[k + 1]; ++pair) {
     const std::uint32_t i = pair_sample_[pair];
     if (owner_[i] != pair || cost_[i] == 0.0f) continue;
-    const float r = distance_[pair] - target_[i];
-    const bool uncovered = target_[i] <= 0.0f && distance_[pair] > 0.0f;
-    const float h = uncovered ? loss_.uncovered_huber : loss_.huber;
-    const float weight = (uncovered ? loss_.uncovered_weight : 1.0f) * std::min(1.0f, h / std::fabs(r));
-    mine.add(pair_point_[0][pair], pair_point_[1][pair], pair_point_[2][pair], r, weight);
+    const float d = distance_[pair], target = target_[i];
+    mine.add(pair_point_[0][pair], pair_point_[1][pair], pair_point_[2][pair], d - target,
+             loss_.weight(target, d));
   }
 }
 

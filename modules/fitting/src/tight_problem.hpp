@@ -9,20 +9,13 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 
+#include "local_fit.hpp"
 #include "normal_block.hpp"
 #include "scaling.hpp"
 #include "skin_samples.hpp"
+#include "tight_loss.hpp"
 
 namespace bodice::fitting {
-
-/// How residuals (union distance - skin distance) are counted. Lengths in units of the scaled problem.
-struct TightLoss {
-  float huber = 0.003f;  ///< squared below, linear above
-  float uncovered_huber = 0.003f;
-  float uncovered_weight = 1.0f;  ///< of skin and interior that the union leaves outside
-  float ignore_depth = 0.008f;    ///< deeper samples that are inside ask nothing
-  float far = 0.030f;             ///< samples farther outside ask only not to be nearer than they are
-};
 
 /// Samples in spatial order; each keeps the ellipsoids that can be its nearest until they have moved by
 /// most_motion(), up to kNear of them.
@@ -36,6 +29,7 @@ class TightProblem {
   /// After refresh() no ellipsoid may move any point of its surface farther without another refresh().
   double most_motion() const { return most_motion_; }
   std::size_t sample_count() const { return target_.size(); }
+  const TightLoss& loss() const { return loss_; }
   /// More samples; asks for a refresh().
   void add(std::span<const DistanceSample> samples);
 
@@ -51,9 +45,10 @@ class TightProblem {
   void remember();
 
   double total() const;
-  /// Cost by owner, and what each ellipsoid's removal would add at most.
-  std::vector<double> cost_of_each() const;
-  std::vector<double> use_of_each() const;
+  /// The samples that one of `ellipsoids` may be the nearest of, with the distance to the others.
+  Neighbourhood around(std::span<const std::uint32_t> ellipsoids) const;
+  /// #E x up to `most`: who is second nearest to an ellipsoid's samples, the most frequent first.
+  std::vector<std::vector<std::uint32_t>> partners(std::size_t most) const;
   /// Samples on or just off the skin, within 5 mm, by the ellipsoid that owns them and by part.
   std::vector<std::array<std::uint32_t, body::kPartCount>> skin_of_each() const;
   /// Fall of the cost since remember(), by ellipsoid (owner before or after).
@@ -63,7 +58,6 @@ class TightProblem {
 
  private:
   struct Candidates;
-  float cost_at(std::size_t sample, float distance) const;
   void bound_blocks();
   std::vector<float> distances_of_blocks(const engine::Context& context,
                                          std::span<const FootEllipsoid> ellipsoids) const;

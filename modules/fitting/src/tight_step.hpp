@@ -1,0 +1,19 @@
+// One step of one ellipsoid of the anytime optimisation.
+#pragma once
+
+#include "normal_block.hpp"
+
+namespace bodice::fitting {
+
+constexpr double kFirstDamping = 1e-2;
+
+struct TightStep {
+  geometry::Ellipsoid ellipsoid;
+  double motion = 0.0;  ///< its distance changes by no more, at any point
+};
+
+/// A damped Gauss-Newton step, shortened so that its motion is at most `most_motion`.
+TightStep damped_step(const geometry::Ellipsoid& ellipsoid, const NormalBlock& block, double damping,
+                      double most_motion);
+
+}  // namespace bodice::fitting
