@@ -55,6 +55,11 @@ void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
     find_close_pairs(context, s.ring, p, s.self);
 }
 
+void solve_block(std::size_t block, bool bend, float inverse_h2, Patch& patch, State& s) {
+  if (bend) solve_bend_block(s.bend, block, inverse_h2, patch);
+  solve_stretch_block(s.stretch, block, inverse_h2, patch);
+}
+
 // Prediction and one sweep over the constraints inside blocks: a block's worker does both, while its patch of
 // cloth is at hand.
 std::uint32_t predict_and_sweep(const engine::Context& context, const Plan& plan, bool bend, float inverse_h2,
@@ -64,19 +69,22 @@ std::uint32_t predict_and_sweep(const engine::Context& context, const Plan& plan
   std::atomic<std::uint32_t> limits{0};
   const std::size_t size = block_size(s.particles.count());
   engine::parallel_for(context, s.particles.count(), size, [&](std::size_t begin, std::size_t end) {
-    limits.fetch_or(predict(s.options.environment, s.air, how, begin, end, s.particles),
+    Patch patch;
+    limits.fetch_or(predict(s.options.environment, s.air, how, begin, end, s.particles, patch.at),
                     std::memory_order_relaxed);
-    if (bend) solve_bend_block(s.bend, begin / size, inverse_h2, s.particles);
-    solve_stretch_block(s.stretch, begin / size, inverse_h2, s.particles);
+    solve_block(begin / size, bend, inverse_h2, patch, s);
+    std::copy_n(patch.at, end - begin, &s.particles.point[begin]);
   });
   return limits.load();
 }
 
 void sweep(const engine::Context& context, bool bend, float inverse_h2, State& s) {
   const std::size_t size = block_size(s.particles.count());
-  engine::parallel_for(context, s.particles.count(), size, [&](std::size_t begin, std::size_t) {
-    if (bend) solve_bend_block(s.bend, begin / size, inverse_h2, s.particles);
-    solve_stretch_block(s.stretch, begin / size, inverse_h2, s.particles);
+  engine::parallel_for(context, s.particles.count(), size, [&](std::size_t begin, std::size_t end) {
+    Patch patch;
+    std::copy_n(&s.particles.point[begin], end - begin, patch.at);
+    solve_block(begin / size, bend, inverse_h2, patch, s);
+    std::copy_n(patch.at, end - begin, &s.particles.point[begin]);
   });
 }
 
@@ -144,8 +152,8 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   report.simulated_s = plan.simulated_s;
   report.limits = plan.limits;
   if (plan.substeps > 0) begin_frame(context, plan, s);
-  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, moved, s.options, dt_s, s.particles,
-                      s.contacts);
+  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, moved, s.options, dt_s, plan.travel_m,
+                      s.particles, s.contacts);
   for (int substep = 0; substep < plan.substeps; ++substep)
     report.limits |= run_substep(context, collider, plan, substep, s);
   report_contacts(s.contacts, report);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -32,23 +33,36 @@ double cotangent(const Vec3& corner, const Vec3& u, const Vec3& v) {
 }
 
 struct Stencil {
-  std::array<double, 4> k;
-  double rest;
-  double area;
+  std::array<Half, 3> k = {};  // of b, c and d
+  double rest = 0.0;
+  double area = 1.0;
 };
 
+// The rest shape is that of the weights as they are rounded.
 Stencil stencil(const geometry::TriMesh& mesh, const Hinge& h) {
   const Vec3 &a = mesh.positions[h.a], &b = mesh.positions[h.b], &c = mesh.positions[h.c],
              &d = mesh.positions[h.d];
   const double ac = cotangent(a, b, c), bc = cotangent(b, a, c), ad = cotangent(a, b, d),
                bd = cotangent(b, a, d);
-  Stencil s{{bc + bd, ac + ad, -(ac + bc), -(ad + bd)}, 0.0, 0.0};
+  Stencil s{{to_half(ac + ad), to_half(-(ac + bc)), to_half(-(ad + bd))}};
+  auto weight = [&](std::size_t corner) { return static_cast<double>(to_float(s.k[corner])); };
   const Vec3 normal = (b - a).cross(c - d);
   const double length = normal.norm();
-  const Vec3 bent = s.k[0] * a + s.k[1] * b + s.k[2] * c + s.k[3] * d;
+  const Vec3 bent = weight(0) * (b - a) + weight(1) * (c - a) + weight(2) * (d - a);
   s.rest = length > 0.0 ? bent.dot(normal) / length : 0.0;
   s.area = 0.5 * ((b - a).cross(c - a).norm() + (b - a).cross(d - a).norm());
   return s;
+}
+
+template <class Id>
+void put(const Hinge& hinge, const Stencil& stencil, double bend_n_m, Index first, std::size_t k,
+         HingePack<Id>& pack) {
+  const Index corners[] = {hinge.a, hinge.b, hinge.c, hinge.d};
+  for (std::size_t q = 0; q < 4; ++q) pack.corner[q][k] = static_cast<Id>(corners[q] - first);
+  for (std::size_t q = 0; q < 3; ++q) pack.k[q][k] = stencil.k[q];
+  pack.compliance[k] = to_half(stencil.area / bend_n_m);
+  pack.rest_m[k] = static_cast<float>(stencil.rest);
+  pack.held[k] = 0.0f;
 }
 
 }  // namespace
@@ -58,44 +72,55 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
   BendConstraints out;
   if (fabric.bend_n_m <= 0.0) return out;
   const bool held = fabric.bend_friction_n > 0.0;
-  out.soften = held ? 1.0f / (1.0f + kStick) : 1.0f;
-  out.slip_n = static_cast<float>(fabric.bend_friction_n) / kStick;
+  out.yarn.soften = held ? 1.0f / (1.0f + kStick) : 1.0f;
+  out.yarn.slip_n = static_cast<float>(fabric.bend_friction_n) / kStick;
   std::vector<Index> corners;
   for (const Hinge& h : topology.hinges) corners.insert(corners.end(), {h.a, h.b, h.c, h.d});
   out.schedule = make_schedule(corners, 4, particles.count());
-  for (std::size_t slot = 0; slot < out.schedule.slot.size(); ++slot) {
-    const std::uint32_t h = out.schedule.slot[slot];
-    const Stencil s = h == kIdle ? Stencil{{}, 0.0, 1.0} : stencil(mesh, topology.hinges[h]);
-    for (std::size_t q = 0; q < 4; ++q) {
-      out.corner[q].push_back(h == kIdle ? out.schedule.idle[slot / kPack] : corners[4 * h + q]);
-      out.k[q].push_back(static_cast<float>(s.k[q]));
-    }
-    out.rest_m.push_back(static_cast<float>(s.rest));
-    out.compliance.push_back(static_cast<float>(s.area / fabric.bend_n_m));
-  }
-  out.held.assign(out.rest_m.size(), 0.0f);
+  const std::size_t inside = out.schedule.packs_inside();
+  out.inside.resize(inside), out.across.resize(out.schedule.packs() - inside);
+  for_each_slot(out.schedule, particles.count(),
+                [&](std::size_t pack, std::size_t k, std::uint32_t h, Index first, Index idle) {
+                  const Hinge hinge = h == kIdle ? Hinge{idle, idle, idle, idle} : topology.hinges[h];
+                  const Stencil s = h == kIdle ? Stencil{} : stencil(mesh, hinge);
+                  if (pack < inside)
+                    put(hinge, s, fabric.bend_n_m, first, k, out.inside[pack]);
+                  else
+                    put(hinge, s, fabric.bend_n_m, first, k, out.across[pack - inside]);
+                });
   return out;
 }
 
-void solve_bend_block(BendConstraints& c, std::size_t block, float inverse_h2, Particles& p) {
-  if (c.schedule.packs() == 0) return;
-  solve_bend_packs(c, {c.schedule.block_begin[block], c.schedule.block_begin[block + 1]}, inverse_h2,
-                   p.point.data());
+void solve_bend_block(BendConstraints& c, std::size_t block, float inverse_h2, Patch& patch) {
+  if (c.inside.empty()) return;
+  solve_packs(c.schedule.inside(std::span(c.inside), block), c.yarn, inverse_h2, patch.at);
 }
 
 void solve_bend_across(const engine::Context& context, BendConstraints& c, float inverse_h2, Particles& p) {
   for_each_across(context, c.schedule, [&](std::size_t begin, std::size_t end) {
-    solve_bend_packs(c, {begin, end}, inverse_h2, p.point.data());
+    solve_packs(c.schedule.across(std::span(c.across), begin, end), c.yarn, inverse_h2, p.point.data());
   });
 }
 
 double bend_energy(const engine::Context& context, const BendConstraints& c, const Particles& p) {
-  return engine::ordered_reduce(
-      context, c.schedule.packs(), reduce_grain(c.schedule.packs()), 0.0,
+  if (c.schedule.packs() == 0) return 0.0;
+  const std::size_t size = block_size(p.count());
+  const double inside = engine::ordered_reduce(
+      context, c.schedule.blocks(), few_blocks(c.schedule.blocks()), 0.0,
       [&](std::size_t begin, std::size_t end) {
-        return bend_energy_packs(c, {begin, end}, p.point.data());
+        double sum = 0.0;
+        for (std::size_t b = begin; b < end; ++b)
+          sum += energy_of_packs(c.schedule.inside(std::span(c.inside), b), c.yarn, &p.point[b * size]);
+        return sum;
       },
-      [](double l, double r) { return l + r; });
+      std::plus<>());
+  return inside + engine::ordered_reduce(
+                      context, c.across.size(), reduce_grain(c.across.size()), 0.0,
+                      [&](std::size_t begin, std::size_t end) {
+                        return energy_of_packs(std::span(c.across).subspan(begin, end - begin), c.yarn,
+                                               p.point.data());
+                      },
+                      std::plus<>());
 }
 
 }  // namespace bodice::cloth

@@ -13,17 +13,30 @@
 
 namespace bodice::cloth {
 
-/// A slot of the schedule each; idle slots have weights of zero. The constraint is n . sum_i k_i x_i - rest,
+/// Hinges that share no particle; idle ones have weights of zero. The constraint is n . sum_i k_i x_i - rest,
 /// n the hinge's normal.
+template <class Id>
+struct HingePack {
+  Id corner[4][kPack];     ///< the edge's ends, then the two opposite corners
+  Half k[3][kPack];        ///< cotangent weights of all but the first corner: they sum to zero
+  Half compliance[kPack];  ///< metres a newton
+  float rest_m[kPack];
+  float held[kPack];  ///< value at which friction holds it
+};
+
+static_assert(sizeof(HingePack<Local>) == 24 * kPack);  // a large garment's sweep is as fast as memory
+
+/// A spring to where each hinge is held, beside that to its rest shape.
+struct YarnFriction {
+  float soften = 1.0f;  ///< compliance of both springs together, in that of bending
+  float slip_n = 0.0f;  ///< friction gives way this far from held, in compliances
+};
+
 struct BendConstraints {
   Schedule schedule;
-  std::array<std::vector<Index>, 4> corner;  ///< the edge's ends, then the two opposite corners
-  std::array<std::vector<float>, 4> k;       ///< cotangent weights, they sum to zero
-  std::vector<float> rest_m;
-  std::vector<float> compliance;  ///< metres a newton
-  std::vector<float> held;        ///< value at which friction holds it
-  float soften = 1.0f;            ///< compliance of both springs together, in that of bending
-  float slip_n = 0.0f;            ///< friction gives way this far from held, in compliances
+  YarnFriction yarn;
+  std::vector<HingePack<Local>> inside;
+  std::vector<HingePack<Index>> across;
 };
 
 BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
@@ -31,8 +44,7 @@ BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topolog
 
 /// A Gauss-Seidel sweep is all blocks, in any order, then what lies across them. `inverse_h2` is sweeps a
 /// substep over its length squared.
-void solve_bend_block(BendConstraints& constraints, std::size_t block, float inverse_h2,
-                      Particles& particles);
+void solve_bend_block(BendConstraints& constraints, std::size_t block, float inverse_h2, Patch& patch);
 void solve_bend_across(const engine::Context& context, BendConstraints& constraints, float inverse_h2,
                        Particles& particles);
 

@@ -12,26 +12,36 @@ namespace {
 // Metres of distance that a metre of travel takes off at most. One for ellipsoids; tables of relief are steep
 // in places.
 constexpr float kSteepest = 2.0f;
-constexpr float kFar_m = 1e6f;
+// Travel asked for, in that expected: constraints pull some particles faster than gravity does.
+constexpr float kSpare = 2.0f;
+constexpr double kFar_m = 1e6;
 // Where fewer clusters are far, asking costs more than it spares; how many frames to wait then.
 constexpr std::size_t kWorthAsking = 8;
 constexpr int kWait = 15;
 
+/// How far from the body it matters how far.
+struct Reach {
+  float thickness_m = 0.0f;
+  float free_m = 0.0f;  // beyond the thickness
+};
+
 // Distances of the particles [begin, end), whole clusters, and what each cluster may travel.
-void ask_run(const collision::Collider& body, float thickness_m, std::size_t begin, std::size_t end,
+void ask_run(const collision::Collider& body, const Reach& reach, std::size_t begin, std::size_t end,
              Particles& p, Clearance& c) {
   if (begin == end) return;
   const engine::Context alone{.executor = &engine::inline_executor()};
   const collision::Particles run{.count = end - begin, .x = &p.x[begin], .y = &p.y[begin], .z = &p.z[begin]};
-  body.query(alone, run, std::span(c.nearest).subspan(begin, end - begin));
+  body.query(alone, run, std::span(c.nearest).subspan(begin, end - begin),
+             {.within_m = reach.thickness_m + reach.free_m});
   for (std::size_t i = begin; i < end; ++i) {
     float& free_m = c.free_m[i / kCluster];
-    free_m = std::min(i % kCluster == 0 ? kFar_m : free_m, c.nearest[i].signed_distance - thickness_m);
+    free_m =
+        std::min(i % kCluster == 0 ? reach.free_m : free_m, c.nearest[i].signed_distance - reach.thickness_m);
   }
 }
 
 // Those of which one touched are near, and need no asking.
-void ask(const engine::Context& context, const collision::Collider& body, float thickness_m,
+void ask(const engine::Context& context, const collision::Collider& body, const Reach& reach,
          std::span<const std::uint8_t> touching, Particles& p, Clearance& c) {
   engine::parallel_for(context, p.count(), kCluster * 16, [&](std::size_t begin, std::size_t end) {
     std::size_t first = begin;  // of the run so far
@@ -39,11 +49,11 @@ void ask(const engine::Context& context, const collision::Collider& body, float 
       const std::size_t to = std::min(from + kCluster, end);
       if (std::ranges::count(touching.subspan(from, to - from), 0) == static_cast<std::ptrdiff_t>(to - from))
         continue;
-      ask_run(body, thickness_m, first, from, p, c);
+      ask_run(body, reach, first, from, p, c);
       c.free_m[from / kCluster] = 0.0f;
       first = to;
     }
-    ask_run(body, thickness_m, first, end, p, c);
+    ask_run(body, reach, first, end, p, c);
   });
 }
 
@@ -57,14 +67,16 @@ Clearance make_clearance(std::size_t particles) {
 }
 
 void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
-                     double thickness_m, std::span<const std::uint8_t> touching, Particles& particles,
-                     Clearance& c) {
+                     double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
+                     Particles& particles, Clearance& c) {
   const bool wait = c.frames_without > 0 && --c.frames_without > 0;
   if (wait || still_body == nullptr) {
     std::ranges::fill(c.free_m, 0.0f);
     return;
   }
-  ask(context, *still_body, static_cast<float>(thickness_m), touching, particles, c);
+  const Reach reach = {static_cast<float>(thickness_m),
+                       kSpare * kSteepest * static_cast<float>(std::min(kFar_m, travel_m))};
+  ask(context, *still_body, reach, touching, particles, c);
   const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });
   if (static_cast<std::size_t>(far) * kWorthAsking < c.free_m.size()) c.frames_without = kWait;
 }

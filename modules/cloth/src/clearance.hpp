@@ -26,10 +26,11 @@ Clearance make_clearance(std::size_t particles);
 
 /// Begins a frame. Everything counts as near without a body that stands still (what one sweeps over says
 /// nothing to distances at its end), and for some frames after most was found near. `touching`: who was moved
-/// by the body in the substep before, #P.
+/// by the body in the substep before, #P. `travel_m`: nobody is expected to go farther in the frame;
+/// distances that this cannot use up are not asked for (who does go farther meets the collider in time).
 void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
-                     double thickness_m, std::span<const std::uint8_t> touching, Particles& particles,
-                     Clearance& clearance);
+                     double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
+                     Particles& particles, Clearance& clearance);
 
 /// Whether the particles [begin, end) of a cluster, moved from old_* to their positions, may touch now.
 bool may_touch(const Particles& particles, std::size_t begin, std::size_t end, Clearance& clearance);

@@ -138,14 +138,14 @@ ContactState make_contacts(std::size_t particles) {
 }
 
 void begin_contact_frame(const engine::Context& context, const collision::Collider* collider, bool moved,
-                         const SolverOptions& options, double frame_s, Particles& particles,
+                         const SolverOptions& options, double frame_s, double travel_m, Particles& particles,
                          ContactState& s) {
   const std::int64_t begin_ns = context.clock->now_ns();
   // The paper's response goes by its own distances and takes surface velocities by itself.
   const collision::Collider* body = options.response == collision::Response::kPaper ? nullptr : collider;
   begin_carry(context, moved ? body : nullptr, frame_s, particles, s.carry);
-  begin_clearance(context, s.carry.moving ? nullptr : body, options.thickness_m, s.touching, particles,
-                  s.clearance);
+  begin_clearance(context, s.carry.moving ? nullptr : body, options.thickness_m, travel_m, s.touching,
+                  particles, s.clearance);
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
 }

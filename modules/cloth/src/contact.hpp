@@ -35,9 +35,9 @@ struct Substep {
 
 ContactState make_contacts(std::size_t particles);
 
-/// `moved`: as moves(*collider) has it.
+/// `moved`: as moves(*collider) has it; `travel_m`: as begin_clearance() has it.
 void begin_contact_frame(const engine::Context& context, const collision::Collider* collider, bool moved,
-                         const SolverOptions& options, double frame_s, Particles& particles,
+                         const SolverOptions& options, double frame_s, double travel_m, Particles& particles,
                          ContactState& state);
 
 /// Takes the positions from the points, where the constraints left them, and moves them out of the body;

@@ -91,8 +91,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
   s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count());
-  s.scratch.resize(s.stretch.a.size());
-  s.selection = make_selection(std::max(s.stretch.a.size(), s.particles.count()));
+  s.scratch.resize(s.stretch.slots());
+  s.selection = make_selection(std::max(s.stretch.slots(), s.particles.count()));
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
   s.contacts.carry.followed_m = kFollowed * s.max_travel_m;
   s.input = resting_places(garment, mesh);

@@ -30,11 +30,11 @@ Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s,
   plan.simulated_s = std::min(dt_s, kMaxSubsteps * kMaxSubstep_s);
   plan.limits = dropped(level) | (plan.simulated_s < dt_s ? kTimeCut : 0u);
   const int asked = level >= 3 ? std::max(kFewestSubsteps, options.substeps / 2) : options.substeps;
-  const double travel =
+  plan.travel_m =
       plan.simulated_s * (top_speed_m_s + plan.simulated_s * options.environment.gravity_m_s2.norm());
   const double wanted =
       std::max({static_cast<double>(asked), std::ceil(plan.simulated_s / kMaxSubstep_s - 1e-9),
-                std::ceil(travel / max_travel_m)});
+                std::ceil(plan.travel_m / max_travel_m)});
   plan.substeps = static_cast<int>(std::min(wanted, static_cast<double>(kMaxSubsteps)));
   if (plan.substeps > asked) plan.limits |= kMoreSubsteps;
   plan.substep_s = static_cast<float>(plan.simulated_s / plan.substeps);

@@ -11,6 +11,7 @@ struct Plan {
   int substeps = 0;
   float substep_s = 0.0f;
   double simulated_s = 0.0;
+  double travel_m = 0.0;     ///< of the fastest, falling, in the frame
   std::uint32_t limits = 0;  ///< FrameLimit bits
 };
 

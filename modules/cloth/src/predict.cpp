@@ -36,7 +36,7 @@ bool any_faster(const Particles& p, std::size_t i, float top_speed) {
   return !(v2[0] <= limit && v2[1] <= limit && v2[2] <= limit && v2[3] <= limit);
 }
 
-// Four points at (x, y, z), fewer at the end: points from there on are other tasks' or idle ones.
+// Four points at (x, y, z), fewer at the end: what is behind it is what idle slots name.
 void place(Float4 x, Float4 y, Float4 z, Float4 weight, std::size_t count, Point* point) {
   Float4 at[4] = {x, y, z, weight};
   transpose(at[0], at[1], at[2], at[3]);
@@ -46,21 +46,21 @@ void place(Float4 x, Float4 y, Float4 z, Float4 weight, std::size_t count, Point
 }  // namespace
 
 std::uint32_t predict(const Environment& environment, const Air& air, const Prediction& how,
-                      std::size_t begin, std::size_t end, Particles& p) {
+                      std::size_t begin, std::size_t end, Particles& p, Point* at) {
   const Float4 damping = splat(std::exp(-how.damping_per_s * how.substep_s));
   std::uint32_t limits = 0;
   for (std::size_t i = begin; i < end; i += 4) {
     const Velocity before = {load(&p.vx[i]), load(&p.vy[i]), load(&p.vz[i])};
     accelerate(environment, air, how.substep_s, i, i + 4, p);
     const std::size_t last = std::min(i + 4, end);
-    Point* const point = &p.point[i];
+    const Point* const point = &p.point[i];
     const Float4 weight = weights(load(point[0]), load(point[1]), load(point[2]), load(point[3]));
     keep_held(before, i, weight, damping, p);
     if (any_faster(p, i, how.top_speed_m_s))
       for (std::size_t k = i; k < last; ++k) limits |= bound_velocity(p, k, how.top_speed_m_s);
     place(load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]),
           load(&p.old_y[i]) + how.substep_s * load(&p.vy[i]),
-          load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]), weight, last - i, point);
+          load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]), weight, last - i, at + (i - begin));
   }
   return limits;
 }

@@ -9,7 +9,6 @@ namespace {
 
 using geometry::Index;
 
-constexpr std::size_t kLargestBlock = 1024;  // its particles and constraints fit into a core's second cache
 constexpr std::size_t kSmallestBlock = 256;  // below it, more constraints cross than stay inside
 constexpr std::size_t kFewBlocks = 8;        // enough for a few workers to share evenly
 

@@ -13,14 +13,24 @@
 
 namespace bodice::cloth {
 
-/// A slot of the schedule each; idle slots are edges of no length and no weight.
+/// Edges that share no particle; idle ones have no length and no weight.
+template <class Id>
+struct EdgePack {
+  Id a[kPack], b[kPack];
+  float rest_m[kPack];
+  float compliance[kPack];  ///< metres a newton
+};
+
+static_assert(sizeof(EdgePack<Local>) == 12 * kPack);  // a large garment's sweep is as fast as memory
+
 struct StretchConstraints {
   Schedule schedule;
   std::size_t edges = 0;
-  std::vector<Index> a, b;
-  std::vector<float> rest_m;
-  std::vector<float> limit_m;     ///< longest length allowed
-  std::vector<float> compliance;  ///< metres a newton
+  float longest = 1.0f;  ///< length allowed, in rest lengths
+  std::vector<EdgePack<Local>> inside;
+  std::vector<EdgePack<Index>> across;
+
+  std::size_t slots() const { return kPack * schedule.packs(); }
 };
 
 StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
@@ -29,7 +39,7 @@ StretchConstraints make_stretch(const geometry::TriMesh& mesh, const Topology& t
 /// A Gauss-Seidel sweep is all blocks, in any order, then what lies across them. `inverse_h2` is sweeps a
 /// substep over its length squared.
 void solve_stretch_block(const StretchConstraints& constraints, std::size_t block, float inverse_h2,
-                         Particles& particles);
+                         Patch& patch);
 void solve_stretch_across(const engine::Context& context, const StretchConstraints& constraints,
                           float inverse_h2, Particles& particles);
 

@@ -17,4 +17,9 @@ inline constexpr std::size_t reduce_grain(std::size_t count) {
   return count / 64 + 1 > kParticleGrain ? count / 64 + 1 : kParticleGrain;
 }
 
+/// Blocks of particles a task, likewise.
+inline constexpr std::size_t few_blocks(std::size_t count) {
+  return count / 64 + 1;
+}
+
 }  // namespace bodice::cloth

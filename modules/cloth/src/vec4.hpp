@@ -2,7 +2,9 @@
 // dispatch. A particle is one load, where separate arrays cost four gathers.
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #if defined(__SSE2__)
@@ -19,6 +21,18 @@ struct alignas(16) Point {
   float x = 0.0f, y = 0.0f, z = 0.0f;  ///< metres
   float weight = 0.0f;                 ///< inverse mass; 0: pinned or asleep
 };
+
+/// The upper half of a float (bfloat16): its range at three digits, enough for what is known of a fabric.
+enum class Half : std::uint16_t {};
+
+/// To nearest, of a finite value.
+inline Half to_half(double value) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
+  return Half{static_cast<std::uint16_t>((bits + 0x8000u) >> 16)};
+}
+inline float to_float(Half half) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(half) << 16);
+}
 
 inline Float4 load(const Point& p) {
   Float4 v;

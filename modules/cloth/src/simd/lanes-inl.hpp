@@ -27,10 +27,12 @@ HWY_INLINE Lanes read(const float* from) {
 HWY_INLINE void write(float* to, Lanes v) {
   std::memcpy(to, &v, sizeof v);
 }
-HWY_INLINE Lanes read_points(const Point* p, const Index* id) {
+template <class Id>
+HWY_INLINE Lanes read_points(const Point* p, const Id* id) {
   return __builtin_shufflevector(load(p[id[0]]), load(p[id[4]]), 0, 1, 2, 3, 4, 5, 6, 7);
 }
-HWY_INLINE void write_points(Point* p, const Index* id, Lanes v) {
+template <class Id>
+HWY_INLINE void write_points(Point* p, const Id* id, Lanes v) {
   store(p[id[0]], __builtin_shufflevector(v, v, 0, 1, 2, 3));
   store(p[id[4]], __builtin_shufflevector(v, v, 4, 5, 6, 7));
 }
@@ -74,10 +76,12 @@ HWY_INLINE Lanes read(const float* from) {
 HWY_INLINE void write(float* to, Lanes v) {
   store(to, v);
 }
-HWY_INLINE Lanes read_points(const Point* p, const Index* id) {
+template <class Id>
+HWY_INLINE Lanes read_points(const Point* p, const Id* id) {
   return load(p[*id]);
 }
-HWY_INLINE void write_points(Point* p, const Index* id, Lanes v) {
+template <class Id>
+HWY_INLINE void write_points(Point* p, const Id* id, Lanes v) {
   store(p[*id], v);
 }
 template <int k>
@@ -99,6 +103,13 @@ HWY_INLINE Lanes weights_of(Lanes a, Lanes b, Lanes c, Lanes d) {
 
 #endif
 
+HWY_INLINE Lanes read(const Half* from) {
+  using Halves = std::uint16_t __attribute__((vector_size(2 * kLanes)));
+  using Bits = std::uint32_t __attribute__((vector_size(4 * kLanes)));
+  Halves halves;
+  std::memcpy(&halves, from, sizeof halves);
+  return reinterpret_cast<Lanes>(__builtin_convertvector(halves, Bits) << 16);
+}
 HWY_INLINE Lanes all(float s) {
   return s - Lanes{};
 }

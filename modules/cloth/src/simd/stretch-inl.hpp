@@ -13,16 +13,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::cloth::HWY_NAMESPACE {
 
-template <int k>
-HWY_INLINE void move_ends(Point* p, const Index* a, const Index* b, Lanes at_a, Lanes at_b, Lanes apart,
-                          Lanes to_a, Lanes to_b) {
+template <int k, class Id>
+HWY_INLINE void move_ends(Point* p, const Id* a, const Id* b, Lanes at_a, Lanes at_b, Lanes apart, Lanes to_a,
+                          Lanes to_b) {
   write_points(p, a + k, at_a - spread<k>(to_a) * apart);
   write_points(p, b + k, at_b + spread<k>(to_b) * apart);
 }
 
-/// Solves the edges of the slots from `first` on.
-HWY_INLINE void solve_edges(const StretchConstraints& c, std::size_t first, Lanes inverse_h2, Point* p) {
-  const Index *a = &c.a[first], *b = &c.b[first];
+/// Solves the edges of the slots from `first` on. `longest`: length allowed, in rest lengths.
+template <class Id>
+HWY_INLINE void solve_edges(const EdgePack<Id>& pack, std::size_t first, Lanes longest, Lanes inverse_h2,
+                            Point* p) {
+  const Id *a = &pack.a[first], *b = &pack.b[first];
   Lanes at_a[4], at_b[4], d[4];
   for (std::size_t k = 0; k < 4; ++k) {
     at_a[k] = read_points(p, a + k), at_b[k] = read_points(p, b + k);
@@ -35,9 +37,9 @@ HWY_INLINE void solve_edges(const StretchConstraints& c, std::size_t first, Lane
   const Lanes length = square_root(x * x + y * y + z * z + kTinyLength2);
   // The larger of (length - rest) / yielding and (length - limit) / w, over the length, by one division; the
   // second is above the first only beyond the limit.
-  const Lanes w = wa + wb + kTinyWeight, yielding = w + read(&c.compliance[first]) * inverse_h2;
-  const Lanes soft = (length - read(&c.rest_m[first])) * w;
-  const Lanes hard = (length - read(&c.limit_m[first])) * yielding;
+  const Lanes rest = read(&pack.rest_m[first]);
+  const Lanes w = wa + wb + kTinyWeight, yielding = w + read(&pack.compliance[first]) * inverse_h2;
+  const Lanes soft = (length - rest) * w, hard = (length - longest * rest) * yielding;
   const Lanes scale = larger(soft, hard) / (w * yielding * length);
   const Lanes to_a = scale * wa, to_b = scale * wb;
   move_ends<0>(p, a, b, at_a[0], at_b[0], d[0], to_a, to_b);
@@ -47,16 +49,16 @@ HWY_INLINE void solve_edges(const StretchConstraints& c, std::size_t first, Lane
 }
 
 /// Strains of the slots from `first` on; returns twice their energies, joules.
-HWY_INLINE Lanes measure_edges(const StretchConstraints& c, std::size_t first, const Point* p,
-                               Lanes& strain) {
+template <class Id>
+HWY_INLINE Lanes measure_edges(const EdgePack<Id>& pack, std::size_t first, const Point* p, Lanes& strain) {
   Lanes d[4];
   for (std::size_t k = 0; k < 4; ++k)
-    d[k] = read_points(p, &c.a[first + k]) - read_points(p, &c.b[first + k]);
+    d[k] = read_points(p, &pack.a[first + k]) - read_points(p, &pack.b[first + k]);
   transpose_blocks(d[0], d[1], d[2], d[3]);
-  const Lanes rest = read(&c.rest_m[first]);
+  const Lanes rest = read(&pack.rest_m[first]);
   const Lanes longer = square_root(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - rest;
   strain = longer / (rest + 1e-30f);
-  return longer * longer / read(&c.compliance[first]);
+  return longer * longer / read(&pack.compliance[first]);
 }
 
 }  // namespace bodice::cloth::HWY_NAMESPACE
