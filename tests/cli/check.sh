@@ -29,6 +29,9 @@ expect 0 "version" "$bodice" --version
 expect 2 "no command" "$bodice"
 expect 2 "unknown option" "$bodice" fit --frobnicate
 expect 2 "two dials at once" "$bodice" fit --max-ellipsoids 50 --target-error-mm 2
+expect 2 "one threshold of two" "$bodice" fit --mu-torso-mm 5
+expect 2 "thresholds and a target" "$bodice" fit --mu-torso-mm 5 --mu-limbs-mm 4 --target-error-mm 2
+expect 2 "more substeps than the solver takes" "$bodice" drape --substeps 129
 expect 2 "a tier that does not exist" "$bodice" fit --tier perfect
 expect 2 "a threshold of zero" "$bodice" fit --target-error-mm 0
 
@@ -53,6 +56,16 @@ exists body.obj
 exists skirt.obj
 expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --surface s.obj --labels l.txt --report r.json --picture p.png --trace t.json
 for file in p.json p.glb s.obj l.txt r.json p.png t.json; do exists $file; done
+expect 0 "a budget of time" "$bodice" fit body.obj --budget-us 90 --region-of skirt.obj
+says "10,000 particles near the skin take"
+expect 0 "fit the whole body tightly" "$bodice" fit body.obj --tier tight --max-ellipsoids 30 -o whole.json
+expect 0 "and what a skirt can reach of it" "$bodice" fit body.obj --tier tight --max-ellipsoids 30 --region-of skirt.obj --region-exact -o near.json
+[ "$(wc -c <near.json)" -lt "$(wc -c <whole.json)" ] || { echo "FAILED: nothing is out of a skirt's reach"; failures=$((failures + 1)); }
+awk '$1 == "v" && n++ % 20 == 0 { print $2, $3, $4 }' skirt.obj >points.txt
+for proxy in whole near; do "$bodice" query $proxy.json points.txt | cut -d' ' -f1-7 >$proxy.txt; done
+# To a micrometre: single precision counts from a proxy's own origin.
+paste -d' ' whole.txt near.txt | awk '{ d = $1 - $8; if (d > 1e-6 || d < -1e-6) bad = 1 } END { exit bad || NR < 100 }' || { echo "FAILED: an exact region answers otherwise"; failures=$((failures + 1)); }
+expect 2 "an exact region of nothing" "$bodice" fit body.obj --region-exact
 expect 0 "fit the built-in body, binary proxy" "$bodice" fit --tier paper --vertices 4500 -o p.bodice --quiet
 exists p.bodice
 [ -s out.txt ] && { echo "FAILED: --quiet printed"; failures=$((failures + 1)); }

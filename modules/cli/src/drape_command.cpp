@@ -117,7 +117,7 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
       ->group(group)
       ->capture_default_str();
   sub.add_option("--substeps", c.drape.solver.substeps, "solver steps a frame: more is stiffer and slower")
-      ->check(CLI::Range(1, 1000))
+      ->check(CLI::Range(1, cloth::kMaxSubsteps))
       ->group(group)
       ->capture_default_str();
   sub.add_option("--wind", c.wind_m_s, "x,y,z in the file's axes, metres a second")

@@ -36,8 +36,8 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Speed against accuracy";
   command
       .add_option("--tier", o.tier,
-                  "paper (as published), solid (no leaks), tight (1 to 2 mm), relief (a third of a "
-                  "millimetre; the default)")
+                  "paper (as published), solid (no leaks), tight (about a millimetre from the skin), relief "
+                  "(about a quarter of one; the default)")
       ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}))
       ->group(group)
       ->capture_default_str();
@@ -53,26 +53,37 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
       command
           .add_option(
               "--budget-us", o.budget_us,
-              "time of one query of 10,000 particles near the skin, microseconds, on a 2.5 GHz server")
+              "time of one query of 10,000 particles near the skin, microseconds, on one thread of a 2.5 GHz "
+              "server; measured here afterwards, so that you can scale it")
           ->check(CLI::PositiveNumber)
           ->group(group);
   error->excludes(count)->excludes(budget);
   count->excludes(budget);
-  command
-      .add_option("--mu-torso-mm", o.mu_torso_mm, "the paper's threshold for the torso (default: automatic)")
-      ->check(CLI::PositiveNumber)
-      ->group(group);
-  command
-      .add_option("--mu-limbs-mm", o.mu_limbs_mm,
-                  "the paper's threshold for head and limbs (default: automatic)")
-      ->check(CLI::PositiveNumber)
-      ->group(group);
+  auto* torso =
+      command
+          .add_option(
+              "--mu-torso-mm", o.mu_torso_mm,
+              "the paper's threshold for the torso, with the tiers paper (then the default) and solid "
+              "(default: automatic)")
+          ->check(CLI::PositiveNumber)
+          ->group(group);
+  auto* limbs = command
+                    .add_option("--mu-limbs-mm", o.mu_limbs_mm,
+                                "the paper's threshold for head and limbs (default: automatic)")
+                    ->check(CLI::PositiveNumber)
+                    ->group(group);
+  torso->needs(limbs)->excludes(error)->excludes(budget);
+  limbs->needs(torso)->excludes(error)->excludes(budget);
   command
       .add_option("--time-budget-s", o.time_budget_s,
                   "stop refining after this long (default: when nothing is gained; runs repeat to the bit)")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  command.add_option("--region-of", o.region_of, "fit only the parts that this garment can touch")
+  command
+      .add_option(
+          "--region-of", o.region_of,
+          "fit only the parts that this garment can touch: paper and solid give them the ellipsoids of the "
+          "whole body's fit, tight and relief others that are as accurate")
       ->group(group);
   command.add_option("--region-margin-mm", o.region_margin_mm, "how far that garment can reach")
       ->check(CLI::NonNegativeNumber)
