@@ -67,7 +67,7 @@ bench::Table frame_table(const std::string& name, const std::string& caption,
   bench::Table table(name, caption,
                      {"body vertices", "particles", "ellipsoids", "paper's tier and response_ms",
                       "exact response on solid_ms", "pair of trees_ms", "contacts of the trees",
-                      "trees to exact response in_ms"});
+                      "trees over exact response_timed"});
   for (const FrameTimes& row : rows)
     table.add({row.body_vertices, row.particles, row.ellipsoids, row.paper_ms, row.solid_ms, row.trees_ms,
                row.tree_contacts, row.trees_ms / row.solid_ms});

@@ -88,7 +88,7 @@ std::vector<bench::Table> table2(std::span<const Table2Row> rows) {
                      "Table 2, times. Here: processor time of one thread, segmentation and fitting. "
                      "Paper: the same on its machine, for its method and for [19].",
                      {"body", "source", "vertices", "paper's vertices", "ellipsoids", "paper's ellipsoids",
-                      "method", "segment_ms", "fit_ms", "times_ours_in_ms", "splits taken back",
+                      "method", "segment_ms", "fit_ms", "times_ours_timed", "splits taken back",
                       "paper: segment + fit (s)", "paper: total to its own (times)"});
   bench::Table quality(
       "table2_approximation",

@@ -58,6 +58,11 @@ std::string words(double x, double y, const std::string& text, const char* style
   return format("<text x='%.1f' y='%.1f' %s>", x, y, style) + escaped(text) + "</text>\n";
 }
 
+/// 50000, 1 million: no exponents.
+std::string number(double value) {
+  return value >= 1e6 ? format("%g million", 1e-6 * value) : format("%g", value);
+}
+
 std::string frame(const Plot& plot, const Axis& x, const Axis& y) {
   std::string svg = format(
       "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 %.0f %.0f' width='%.0f' height='%.0f' "
@@ -65,11 +70,11 @@ std::string frame(const Plot& plot, const Axis& x, const Axis& y) {
       kWidth, kHeight, kWidth, kHeight);
   for (const double value : x.ticks()) {
     svg += format("<path stroke='#ddd' d='M%.1f %.1fV%.1f'/>\n", x.at(value), y.from, y.to);
-    svg += words(x.at(value), kHeight - kBottom + 18, format("%g", value), "text-anchor='middle'");
+    svg += words(x.at(value), kHeight - kBottom + 18, number(value), "text-anchor='middle'");
   }
   for (const double value : y.ticks()) {
     svg += format("<path stroke='#ddd' d='M%.1f %.1fH%.1f'/>\n", x.from, y.at(value), x.to);
-    svg += words(kLeft - 8, y.at(value) + 4, format("%g", value), "text-anchor='end'");
+    svg += words(kLeft - 8, y.at(value) + 4, number(value), "text-anchor='end'");
   }
   svg += words(kLeft, 26, plot.title, "font-size='16'");
   svg += words(0.5 * (x.from + x.to), kHeight - kBottom + 40, plot.x_label, "text-anchor='middle'");
@@ -78,16 +83,43 @@ std::string frame(const Plot& plot, const Axis& x, const Axis& y) {
   return svg + words(kLeft, kHeight - 12, plot.footer, "font-size='10' fill='#777'");
 }
 
-std::string draw(const PlotSeries& series, const char* colour, const Axis& x, const Axis& y) {
+/// Where labels stand already: a new one goes to the first corner of its point that is free.
+class Labels {
+ public:
+  std::string put(double x, double y, const std::string& text, const char* colour) {
+    constexpr double kHigh = 11, kWide = 6, kAway = 6;
+    const double width = kWide * static_cast<double>(text.size());
+    const Box corners[] = {{x + kAway, y - kAway, width},
+                           {x + kAway, y + kAway + kHigh, width},
+                           {x - kAway - width, y - kAway, width},
+                           {x - kAway - width, y + kAway + kHigh, width},
+                           {x + kAway, y - kAway - kHigh, width}};
+    const auto hits = [&](const Box& a) {
+      return std::ranges::any_of(taken_, [&](const Box& b) {
+        return a.x < b.x + b.width && b.x < a.x + a.width && std::abs(a.y - b.y) < kHigh;
+      });
+    };
+    const auto at = std::ranges::find_if_not(corners, hits);
+    const Box& box = at == std::end(corners) ? corners[0] : *at;
+    taken_.push_back(box);
+    return words(box.x, box.y, text, format("font-size='10' fill='%s'", colour).c_str());
+  }
+
+ private:
+  struct Box {
+    double x, y, width;  ///< of the text's left end on its base line
+  };
+  std::vector<Box> taken_;
+};
+
+std::string draw(const PlotSeries& series, const char* colour, const Axis& x, const Axis& y, Labels& labels) {
   std::string path, marks;
   for (const PlotPoint& p : series.points) {
     if (!shows(p)) continue;
     path += format("%s%.1f %.1f", path.empty() ? "M" : "L", x.at(p.x), y.at(p.y));
     marks += format("<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' fill='%s'/>\n", x.at(p.x),
                     y.at(p.y), colour, series.hollow ? "white" : colour);
-    if (!p.label.empty())
-      marks +=
-          words(x.at(p.x) + 6, y.at(p.y) - 6, p.label, format("font-size='10' fill='%s'", colour).c_str());
+    if (!p.label.empty()) marks += labels.put(x.at(p.x), y.at(p.y), p.label, colour);
   }
   if (series.line)
     path = format("<path fill='none' stroke-width='1.5' stroke='%s' d='", colour) + path + "'/>\n";
@@ -104,11 +136,14 @@ std::string to_svg(const Plot& plot) {
       if (shows(p)) x.extend(p.x), y.extend(p.y);
   x.finish(), y.finish();
   std::string svg = frame(plot, x, y);
+  Labels labels;
   double legend_y = kTop + 10;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
-    const char* const colour = kColours[i % std::size(kColours)];
-    svg += draw(series, colour, x, y);
+    const std::size_t place = series.colour < 0 ? i : static_cast<std::size_t>(series.colour);
+    const char* const colour = kColours[place % std::size(kColours)];
+    if (std::ranges::none_of(series.points, shows)) continue;
+    svg += draw(series, colour, x, y, labels);
     svg += format("<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' fill='%s'/>\n",
                   kWidth - kRight + 18, legend_y - 4, colour, series.hollow ? "white" : colour);
     svg += words(kWidth - kRight + 28, legend_y, series.name, "");

@@ -13,6 +13,8 @@ std::string quoted(const std::string& text) {
 }
 
 std::string words(std::string name) {
+  constexpr std::string_view kTimed = "_timed";
+  if (name.ends_with(kTimed)) name.resize(name.size() - kTimed.size());
   for (char& c : name)
     if (c == '_') c = ' ';
   return name;

@@ -2,7 +2,7 @@
 # cmake -DPROGRAM=... -DFOLDER=... -P check_repeats.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Reads a CSV without its comments and without the columns whose names end in _ns, _us, _ms or _s.
+# Reads a CSV without its comments and without the columns whose names end in _ns, _us, _ms, _s or _timed.
 function(read_without_times file result)
   file(STRINGS "${file}" lines REGEX "^[^#]")
   list(POP_FRONT lines header)
@@ -13,7 +13,7 @@ function(read_without_times file result)
     set(index 0)
     foreach(column IN LISTS columns)
       list(GET cells ${index} cell)
-      if(NOT column MATCHES "_(ns|us|ms|s)$")
+      if(NOT column MATCHES "_(ns|us|ms|s|timed)$")
         string(APPEND kept ",${cell}")
       endif()
       math(EXPR index "${index} + 1")

@@ -76,11 +76,11 @@ void time_budgets(const std::vector<Budgeted>& asked, const std::vector<Contende
   }
 }
 
-bench::Table summary(const char* name, const char* caption, const char* asked, const std::string& unit,
+bench::Table summary(const char* name, const char* caption, const char* asked, const std::string& timed,
                      const std::vector<Question>& questions) {
   bench::Table table(name, caption,
-                     {asked, "bodies", "met" + unit, "least_ratio" + unit, "median_ratio" + unit,
-                      "largest_ratio" + unit, "median_ellipsoids", "median_KB", "median_fit_ms"});
+                     {asked, "bodies", "met" + timed, "least_ratio" + timed, "median_ratio" + timed,
+                      "largest_ratio" + timed, "median_ellipsoids", "median_KB", "median_fit_ms"});
   for (const Question& q : questions) {
     if (q.ratio.empty()) continue;
     table.add({q.asked, q.ratio.size(), q.met, std::ranges::min(q.ratio), middle(q.ratio),
@@ -114,8 +114,8 @@ Findings sweep_dials(const Setting& setting) {
                         {"body", "asked_mm", "achieved_mm", "ratio", "missed", "warned", "near_skin_mean_mm",
                          "tier", "ellipsoids", "bytes", "fit_ms"});
   bench::Table by_time("dial_budget_by_body", "Asked and measured time of 10,000 particles.",
-                       {"body", "asked_of_10000_particles", "tier", "ellipsoids", "gap_mean_mm", "query_us",
-                        "ratio_us", "response_us"});
+                       {"body", "asked_us_of_10000_particles", "tier", "ellipsoids", "gap_mean_mm",
+                        "query_us", "ratio_timed", "response_us"});
   std::vector<Budgeted> asked;
   std::vector<Contender> budgeted;
   const auto sources = unseen_bodies(setting);
@@ -143,7 +143,7 @@ Findings sweep_dials(const Setting& setting) {
   found.shown.push_back(
       summary("dial_error", "Mean gap achieved over asked, `--target-error-mm`.", "asked_mm", "", errors));
   found.shown.push_back(summary("dial_budget", "Time measured over asked, `--budget-us`.",
-                                "asked_of_10000_particles", "_us", budgets));
+                                "asked_us_of_10000_particles", "_timed", budgets));
   found.details.push_back(std::move(by_error));
   found.details.push_back(std::move(by_time));
   return found;

@@ -4,14 +4,15 @@ namespace tradeoff {
 namespace {
 
 constexpr double kLevels_mm[] = {0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
+constexpr const char* kTimed = "_timed";
 
-/// The unit ends the names of columns that depend on times, so that they are known as such.
-bench::Table levels(const char* name, const char* caption, const std::string& unit, double scale,
-                    const std::vector<std::string>& names, std::span<const Offer> offers,
+/// `timed` ends the names of columns that depend on times without being times.
+bench::Table levels(const char* name, const char* caption, const std::string& unit, const std::string& timed,
+                    double scale, const std::vector<std::string>& names, std::span<const Offer> offers,
                     const std::vector<bool>& ours) {
   bench::Table table(name, caption,
-                     {"error_at_most_mm", "ours_" + unit, "cost_" + unit, "nearest_rival_" + unit,
-                      "its_cost_" + unit, "rival_over_ours_" + unit});
+                     {"error_at_most_mm", "ours" + timed, "cost_" + unit, "nearest_rival" + timed,
+                      "its_cost_" + unit, "rival_over_ours" + timed});
   for (const double level : kLevels_mm) {
     const auto mine = cheapest(offers, ours, true, level), theirs = cheapest(offers, ours, false, level);
     std::vector<bench::Cell> row{level, "none", "", "none", "", ""};
@@ -27,8 +28,8 @@ bench::Table levels(const char* name, const char* caption, const std::string& un
 
 bench::Table levels_by_time(const std::vector<std::string>& names, std::span<const Offer> offers,
                             const std::vector<bool>& ours) {
-  return levels("levels_time", "The least time a particle at a mean error, and the nearest rival.", "ns", 1.0,
-                names, offers, ours);
+  return levels("levels_time", "The least time a particle at a mean error, and the nearest rival.", "ns",
+                kTimed, 1.0, names, offers, ours);
 }
 
 bench::Table levels_by_moving_frame(const std::vector<std::string>& names, std::span<const Offer> offers,
@@ -36,13 +37,13 @@ bench::Table levels_by_moving_frame(const std::vector<std::string>& names, std::
   return levels(
       "levels_moving",
       "The same for a frame of 10,000 particles on a body that has moved: its update and the queries.", "us",
-      1.0, names, offers, ours);
+      kTimed, 1.0, names, offers, ours);
 }
 
 bench::Table levels_by_bytes(const std::vector<std::string>& names, std::span<const Offer> offers,
                              const std::vector<bool>& ours) {
   return levels("levels_memory", "The least memory at a mean error, and the nearest rival of known size.",
-                "KB", 1e-3, names, offers, ours);
+                "KB", "", 1e-3, names, offers, ours);
 }
 
 }  // namespace tradeoff

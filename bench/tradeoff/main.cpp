@@ -23,6 +23,7 @@ namespace fs = std::filesystem;
 constexpr Sweep kSweeps[] = {
     {"front", "Error against time, memory and preparation", sweep_front},
     {"dials", "The dial: asked and achieved", sweep_dials},
+    {"laws", "What a budget of time goes by", sweep_laws},
     {"regions", "Only what a garment can reach", sweep_regions},
     {"drapes", "A frame of cloth", sweep_drapes},
     {"geodesics", "Distances along the skin", sweep_geodesics},

@@ -47,7 +47,7 @@ Findings sweep_precision(const Setting& setting) {
   const Subject subject = made_bodies(0, 1, setting.vertices())[0].make(setting.context);
   bench::Table table("precision", "The same proxy, answered in float and in double, one thread.",
                      {"tier", "ellipsoids", "difference_mean_um", "difference_max_um", "float_error_mm",
-                      "double_error_mm", "float_ns", "double_ns", "double_over_float_ns"});
+                      "double_error_mm", "float_ns", "double_ns", "double_over_float_timed"});
   for (const proxy::Tier tier : {proxy::Tier::kSolid, proxy::Tier::kTight, proxy::Tier::kRelief})
     if (setting.effort != Effort::kSmallest || tier == proxy::Tier::kSolid)
       add_tier(setting, subject, tier, table);

@@ -51,6 +51,7 @@ void progress(const char* what, const std::string& detail);
 
 Findings sweep_front(const Setting& setting);
 Findings sweep_dials(const Setting& setting);
+Findings sweep_laws(const Setting& setting);
 Findings sweep_regions(const Setting& setting);
 Findings sweep_drapes(const Setting& setting);
 Findings sweep_geodesics(const Setting& setting);

@@ -28,8 +28,9 @@ class Cell {
   double number_ = 0.0;
 };
 
-/// Rows under named columns. A column whose name ends in _ns, _us, _ms or _s holds times and what follows
-/// from them: only these may differ from run to run.
+/// Rows under named columns. A column whose name ends in _ns, _us, _ms or _s holds times, one that ends in
+/// _timed what follows from times in another unit (the page leaves that word out): only these may differ from
+/// run to run.
 class Table {
  public:
   /// `name` is the CSV's, without its ending; `caption` one sentence that says what is in it.
