@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <tuple>
 
 #include <bodice_test/executors.hpp>
 
@@ -93,6 +95,89 @@ TEST_CASE(
     REQUIRE(found.ok());
     for (const LandmarkId armpit : {LandmarkId::kArmpitL, LandmarkId::kArmpitR})
       CHECK(made::error(*truth, *found, armpit) < 0.025);
+  }
+}
+
+namespace {
+
+double worst_error(const synth::Body& truth, std::initializer_list<LandmarkId> ids) {
+  const auto found = analyse(truth.mesh);
+  REQUIRE(found.ok());
+  double worst = 0.0;
+  for (const LandmarkId id : ids) worst = std::max(worst, made::error(truth, *found, id));
+  return worst;
+}
+
+/// The body with its head bent back about the joint of the neck, and its crown with it.
+synth::Body looking_up(const synth::BodyOptions& options) {
+  synth::Body body = synth::make_body({}, options).value();
+  constexpr double kAngle_rad = -35.0 * M_PI / 180.0, kNeckLength = 0.09, kNeckWidth = 0.16;
+  const geometry::Vec3 neck = body.landmarks[static_cast<std::size_t>(LandmarkId::kNeck)].position;
+  const auto bent = [&](const geometry::Vec3& p) {
+    const geometry::Vec3 q = p - neck;
+    const double t = std::clamp(q.y() / (kNeckLength * body.stature_m), 0.0, 1.0);
+    const double share =
+        std::hypot(q.x(), q.z()) > kNeckWidth * body.stature_m ? 0.0 : t * t * (3.0 - 2.0 * t);
+    const double c = std::cos(share * kAngle_rad), s = std::sin(share * kAngle_rad);
+    return geometry::Vec3(neck + geometry::Vec3(q.x(), c * q.y() - s * q.z(), s * q.y() + c * q.z()));
+  };
+  for (std::size_t v = 0; v < body.part.size(); ++v)
+    if (body.part[v] < body::Part::kUpperArmL) body.mesh.positions[v] = bent(body.mesh.positions[v]);
+  auto& crown = body.landmarks[static_cast<std::size_t>(LandmarkId::kCrown)].position;
+  crown = bent(crown);
+  return body;
+}
+
+synth::BodyOptions child_of_two(synth::Pose pose) {
+  return {.stature_m = 0.86,
+          .mass_kg = 17.0 * 0.86 * 0.86,
+          .pose = pose,
+          .vertices = 5000,
+          .seed = 9,
+          .childhood = 1.0};
+}
+
+synth::BodyOptions very_heavy(synth::Pose pose) {
+  return {.mass_kg = 41.0 * 1.68 * 1.68, .pose = pose, .vertices = 5000, .seed = 14};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the crown of a head that is bent back is its top, although the folds of the nape shorten the way") {
+  for (const auto& options : {child_of_two(synth::Pose::kArmsUp), very_heavy(synth::Pose::kArmsUp)})
+    CHECK(worst_error(looking_up(options), {LandmarkId::kCrown}) < 0.028);
+}
+
+TEST_CASE("elbows and knees are where the bones turn, not where the borders' loops have their middle") {
+  const synth::BodyOptions adult{
+      .mass_kg = 24.0 * 1.68 * 1.68, .pose = synth::Pose::kT, .vertices = 5000, .seed = 5};
+  for (const auto& options : {child_of_two(synth::Pose::kT), very_heavy(synth::Pose::kT), adult}) {
+    const synth::Body truth = synth::make_body({}, options).value();
+    CHECK(worst_error(truth, {LandmarkId::kElbowL, LandmarkId::kElbowR}) < 0.015);
+    CHECK(worst_error(truth, {LandmarkId::kKneeL, LandmarkId::kKneeR}) < 0.012);
+  }
+}
+
+TEST_CASE("the neck's joint on a body of a random pose, whose border's loop lies off it") {
+  const synth::Body truth =
+      synth::make_body(
+          {},
+          {.stature_m = 1.685, .mass_kg = 60.9, .pose = synth::Pose::kRandom, .vertices = 11903, .seed = 478})
+          .value();
+  CHECK(worst_error(truth, {LandmarkId::kNeck}) < 0.035);
+}
+
+TEST_CASE("the tips of blunt feet are where they are found") {
+  for (const auto& [stature_m, mass_kg, seed] : {std::tuple{1.942, 108.3, 147U}, {1.798, 90.2, 160U}}) {
+    const synth::Body truth = synth::make_body({}, {.sex = body::Sex::kMale,
+                                                    .stature_m = stature_m,
+                                                    .mass_kg = mass_kg,
+                                                    .pose = synth::Pose::kA,
+                                                    .vertices = 10500,
+                                                    .seed = seed})
+                                  .value();
+    CHECK(worst_error(truth, {LandmarkId::kToeL, LandmarkId::kToeR}) < 0.025);
   }
 }
 

@@ -8,7 +8,7 @@
 #include "armpit.hpp"
 #include "crown.hpp"
 #include "curve.hpp"
-#include "neck_joint.hpp"
+#include "joints.hpp"
 #include "soft_place.hpp"
 
 namespace bodice::anatomy {
@@ -22,8 +22,7 @@ using geometry::kNoIndex;
 /// No joint's loop lies further from the end of its limb, in the coordinate of that end: beyond, the border's
 /// zero line means nothing.
 constexpr float kNeckReach = 0.40F, kElbowReach = 0.36F, kKneeReach = 0.40F;
-/// Skin weights put the border a little below the knee's centre of turning: how far the joint's loop lies
-/// beyond the border, as a score.
+/// How far the knee's loop lies beyond the border, as a score.
 constexpr float kKneeBeyond = 0.0115F;
 /// How much nearer to the head than its tip the front of a foot reaches, and
 /// how far to the sides; of head to feet.
@@ -95,8 +94,8 @@ geometry::Vec3 toe_place(const Skin& skin, const BodyEnds& ends, int side) {
                     [&](Index v) { return std::max(0.0F, blunt - std::abs(tip - (*ends.from_head)[v])); });
 }
 
-body::Landmark at_girth(const Girth& girth) {
-  return {body::LandmarkId::kCrown, girth.center, girth.vertex, girth.confidence};
+body::Landmark at_joint(const geometry::Vec3& place, const Girth& girth) {
+  return {body::LandmarkId::kCrown, place, girth.vertex, girth.confidence};
 }
 
 }  // namespace
@@ -121,10 +120,19 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
     marks.armpit_place[side] = armpit.position;
     marks.armpit_confidence[side] = confidence_of(armpit.misfit, kHopelessArmpit);
   });
-  const Crown crown = find_crown(skin, coordinates, marks.neck);
+  const Ball head = head_ball(skin, coordinates);
+  const Crown crown = find_crown(skin, coordinates, marks.neck, head);
   marks.crown = crown.vertex;
   marks.crown_place = crown.place;
-  marks.neck_place = neck_joint(skin, coordinates, marks.neck);
+  marks.neck_place = neck_joint(skin, coordinates, marks, head);
+  const auto& positions = skin.mesh.positions;
+  const BodyEnds& ends = coordinates.ends();
+  for (int side = 0; side < 2; ++side) {
+    marks.elbow_place[side] =
+        elbow_joint(coordinates, marks.elbow[side], marks.armpit_place[side], positions[ends.hand[side]]);
+    marks.knee_place[side] =
+        knee_joint(coordinates, marks.knee[side], marks.perineum_place, positions[ends.foot[side]]);
+  }
   return marks;
 }
 
@@ -134,13 +142,13 @@ std::vector<body::Landmark> as_list(const Skin& skin, const BodyEnds& ends, cons
       at_place(marks.neck_place, marks.neck.vertex, marks.neck.confidence),
       at_vertex(skin, ends.hand[0], marks.fingertip_confidence[0]),
       at_vertex(skin, ends.hand[1], marks.fingertip_confidence[1]),
-      at_girth(marks.elbow[0]),
-      at_girth(marks.elbow[1]),
+      at_joint(marks.elbow_place[0], marks.elbow[0]),
+      at_joint(marks.elbow_place[1], marks.elbow[1]),
       at_place(marks.armpit_place[0], marks.armpit[0], marks.armpit_confidence[0]),
       at_place(marks.armpit_place[1], marks.armpit[1], marks.armpit_confidence[1]),
       at_place(marks.perineum_place, marks.perineum, marks.perineum_confidence),
-      at_girth(marks.knee[0]),
-      at_girth(marks.knee[1]),
+      at_joint(marks.knee_place[0], marks.knee[0]),
+      at_joint(marks.knee_place[1], marks.knee[1]),
       at_place(toe_place(skin, ends, 0), ends.foot[0], marks.toe_confidence[0]),
       at_place(toe_place(skin, ends, 1), ends.foot[1], marks.toe_confidence[1])};
   for (int i = 0; i < body::kLandmarkCount; ++i) list[i].id = static_cast<body::LandmarkId>(i);

@@ -24,6 +24,7 @@ struct Landmarks {
   Girth neck;
   geometry::Vec3 neck_place = geometry::Vec3::Zero();
   std::array<Girth, 2> elbow, knee;
+  std::array<geometry::Vec3, 2> elbow_place{}, knee_place{};
   std::array<geometry::Index, 2> armpit{};
   std::array<geometry::Vec3, 2> armpit_place{};
   std::array<double, 2> armpit_confidence{};

@@ -24,7 +24,7 @@ double estimate(const BodyEnds& ends) {
 double find_stature(const Skin& skin, const BodyEnds& ends, const Landmarks& marks) {
   const double stature = estimate(ends);
   const auto& p = skin.mesh.positions;
-  const Vec3 axis = p[ends.head] - 0.5 * (marks.knee[0].center + marks.knee[1].center);
+  const Vec3 axis = p[ends.head] - 0.5 * (marks.knee_place[0] + marks.knee_place[1]);
   if (!(axis.norm() > 0.0)) return stature;
   const Vec3 up = axis.normalized();
   const double toes_differ = std::abs((p[ends.foot[0]] - p[ends.foot[1]]).dot(up));
