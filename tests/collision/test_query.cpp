@@ -1,5 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <vector>
+
 #include <bodice/proxy/proxy_distance.hpp>
 
 #include "scenes.hpp"
@@ -311,4 +316,41 @@ TEST_CASE("random shapes to 1:1000 over twelve decades: the foot is exact to 1e-
     CHECK(errors.point < 2e-6);
     CHECK(errors.wrong_owner == 0);
   }
+}
+
+TEST_CASE("fewer contacts than particles: only so many are asked about") {
+  const auto shapes = random_ellipsoids(3, 20, 0.8, 0.02, 0.2);
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  for (const Vec3& p : places_around(6, 1000, 1.2)) cloud.add(p - collider.origin());
+  std::vector<Contact> all(cloud.size()), some(cloud.size());
+  collider.query({}, cloud.particles(), all);
+  for (const std::size_t room : {std::size_t{0}, std::size_t{1}, std::size_t{300}, std::size_t{999}}) {
+    Contact untouched;
+    untouched.signed_distance = -77.0f;
+    std::ranges::fill(some, untouched);
+    collider.query({}, cloud.particles(), std::span(some).first(room));
+    for (std::size_t i = 0; i < some.size(); ++i)
+      CHECK(some[i].signed_distance == (i < room ? all[i].signed_distance : -77.0f));
+  }
+}
+
+TEST_CASE("a pose that is none is refused, and the proxy stays where it was") {
+  const auto shapes = random_ellipsoids(4, 5, 0.8, 0.02, 0.2);
+  Collider collider(proxy_of(shapes));
+  CHECK(collider.proxy_hash() == proxy_of(shapes).hash());
+  const auto answer = [&] { return collider.query({0.1f, 0.2f, 0.3f}).signed_distance; };
+  const float before = answer();
+  auto moved = shapes;
+  for (Ellipsoid& e : moved) e.center.x() += 0.5;
+  CHECK_FALSE(collider.move_to(std::span(moved).first(4), 0.01));
+  auto bad = moved;
+  bad[2].center.y() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(collider.move_to(bad, 0.01));
+  bad = moved;
+  bad[4].radii.z() = 0.0;
+  CHECK_FALSE(collider.move_to(bad, 0.01));
+  CHECK(answer() == before);
+  CHECK(collider.move_to(moved, 0.01));
+  CHECK(answer() != before);
 }

@@ -92,10 +92,17 @@ std::size_t Collider::size() const noexcept {
   return impl_->field.size();
 }
 
-void Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
-  const std::size_t count = std::min(shapes.size(), impl_->shapes.size());
+std::uint64_t Collider::proxy_hash() const noexcept {
+  return impl_->proxy_hash;
+}
+
+bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
+  const auto usable = [](const geometry::Ellipsoid& e) {
+    return e.center.allFinite() && e.axes.allFinite() && e.radii.allFinite() && e.radii.minCoeff() > 0.0;
+  };
+  if (shapes.size() != impl_->shapes.size() || !std::ranges::all_of(shapes, usable)) return false;
   double travel_m = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
     const std::uint32_t at = impl_->internal[k];
     geometry::Ellipsoid now = shapes[k];
     now.center -= impl_->origin;
@@ -108,6 +115,7 @@ void Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
   impl_->travel_m = static_cast<float>(1.001 * travel_m);
   impl_->field.update(impl_->shapes);
   impl_->baked.update(impl_->shapes);
+  return true;
 }
 
 Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point) const noexcept {
@@ -167,9 +175,11 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
   return impl_->resolve(context, particles, options, workspace.memory_.get());
 }
 
-void Collider::Impl::query(const engine::Context& context, const Particles& particles,
-                           std::span<Contact> contacts, const QueryOptions& options, Memory* memory) const {
+void Collider::Impl::query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
+                           const QueryOptions& options, Memory* memory) const {
   struct Nothing {};
+  Particles particles = all;
+  particles.count = std::min(all.count, contacts.size());
   recall(particles, memory);
   by_tasks<Nothing>(
       context, particles, memory, kBatch,

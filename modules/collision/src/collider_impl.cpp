@@ -117,7 +117,8 @@ std::uint64_t count(const LaneBits& lanes) {
 }  // namespace
 
 Collider::Impl::Impl(const proxy::BodyProxy& proxy)
-    : origin(middle_of(proxy)),
+    : proxy_hash(proxy.hash()),
+      origin(middle_of(proxy)),
       original(spatial_order(proxy)),
       margin_m(proxy.margin_m()),
       shapes(local_shapes(origin, proxy, original)),

@@ -22,7 +22,7 @@ struct Collider::Impl {
   const ReliefTables* tables() const { return relief ? &*relief : nullptr; }
 
   /// With what is remembered of the particles, or null: as they are stored, or in an order of each task.
-  void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+  void query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
              const QueryOptions& options, Memory* memory) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options, Memory* memory) const;
@@ -45,6 +45,7 @@ struct Collider::Impl {
   Contact make_contact(const geometry::Vec3& p, double distance_m, const geometry::Vec3& normal,
                        std::uint32_t ellipsoid) const;
 
+  std::uint64_t proxy_hash;
   geometry::Vec3 origin;
   /// Ellipsoids are kept in a spatial order, in which everything below and every index inside the module is:
   /// original[k] is the proxy's index of ellipsoid k, internal[] its inverse.

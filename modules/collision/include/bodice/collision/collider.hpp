@@ -102,16 +102,20 @@ class Collider {
 
   const geometry::Vec3& origin() const noexcept;  ///< world position of the local frame's origin
   std::size_t size() const noexcept;              ///< ellipsoids
+  std::uint64_t proxy_hash() const noexcept;      ///< of the proxy that it was made from
 
   /// Carries the proxy to another pose: `shapes` are its ellipsoids now, world metres, size() of them; tables
   /// move along. Contacts then know the surface's velocity, (now - before) / dt_s, zero if dt_s is not
   /// positive, and safe positions are carried with the ellipsoid they are nearest to. The origin stays.
+  /// False, and nothing moves, when their number is another or one of them is not finite or has no extent.
   /// Allocates nothing; must not overlap another call. Cost: about 0.1 microseconds an ellipsoid.
-  void move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
+  bool move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
   /// Velocity of the body's material at a place carried by an ellipsoid; metres a second, local frame.
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
 
-  /// Signed distance, nearest point, normal and owner of each particle; contacts has particles.count entries.
+  /// Signed distance, nearest point, normal and owner of each particle; contacts has particles.count entries
+  /// (with fewer, only so many particles are asked about). Throws engine::Cancelled if the context's work is
+  /// cancelled: what contacts hold then is unspecified.
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              const QueryOptions& options = {}) const;
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
@@ -123,7 +127,7 @@ class Collider {
                         std::span<Contact> contacts) const noexcept;
 
   /// Moves every particle that is inside (or nearer than the thickness) out and corrects its velocity.
-  /// Allocates nothing once warm.
+  /// Allocates nothing once warm. Throws engine::Cancelled as query() does: some particles are out then.
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,
