@@ -133,6 +133,20 @@ TEST_CASE("at rest no energy appears, the elastic one included, and who sleeps s
   }
 }
 
+TEST_CASE("who sleeps wakes when another body takes the place of the one below") {
+  collision::Collider body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.5, 3));
+  cloth::Solver solver = make_solver(sheet(8, 8, 0.2, 0.2, Vec3(-0.1, 0.502, -0.1)), {}, cotton(), {});
+  const engine::Context context;
+  cloth::FrameReport report;
+  for (int frame = 0; frame < 300; ++frame) report = solver.step(context, body, kFrame_s);
+  REQUIRE(report.asleep == solver.particles());
+  body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.3, 3));  // the same object, the same origin
+  for (int frame = 0; frame < 60; ++frame) report = solver.step(context, body, kFrame_s);
+  std::vector<Vec3> at(solver.particles());
+  solver.positions(at);
+  for (const Vec3& p : at) CHECK(p.y() < 0.32);
+}
+
 TEST_CASE("a wind of no gusts carries, and a seed changes gusts only") {
   auto drift = [](double gust, std::uint64_t seed) {
     cloth::SolverOptions options = windy();

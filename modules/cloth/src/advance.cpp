@@ -134,8 +134,12 @@ bool meet_collider(const collision::Collider* collider, State& s) {
   const Vec3 before = s.particles.origin;
   if (collider != nullptr) rebase(s.particles, collider->origin());
   const bool moved = collider != nullptr && moves(*collider);
-  if (moved || collider != s.last_collider || before != s.particles.origin) wake_all(s.sleep);
+  // An address alone does not tell: a better proxy may be put in place of one.
+  const std::uint64_t proxy_hash = collider != nullptr ? collider->proxy_hash() : 0;
+  if (moved || collider != s.last_collider || proxy_hash != s.last_proxy_hash || before != s.particles.origin)
+    wake_all(s.sleep);
   s.last_collider = collider;
+  s.last_proxy_hash = proxy_hash;
   return moved;
 }
 

@@ -84,6 +84,7 @@ class Solver {
 
   /// Advances by dt_s (0 is a no-op that still reports). Allocates nothing once warm. A body that moves: call
   /// collider.move_to(shapes, dt_s) before each step, and with the same shapes again once it stands still.
+  /// A frame begun is finished: the context's cancellation is not looked at.
   FrameReport step(const engine::Context& context, const collision::Collider& collider, double dt_s);
   /// The same without a body.
   FrameReport step(const engine::Context& context, double dt_s);
