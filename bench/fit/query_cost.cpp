@@ -34,11 +34,10 @@ double query_ns(const bodice::proxy::BodyProxy& proxy, const bodice::geometry::T
   particles.y = y.data();
   particles.z = z.data();
   std::vector<collision::Contact> contacts(x.size());
-  collision::Workspace workspace;
   double least = std::numeric_limits<double>::infinity();
   for (int run = 0; run < kRuns; ++run) {
     const bench::Stopwatch watch;
-    collider.query({}, particles, contacts, workspace);
+    collider.query({}, particles, contacts);
     least = std::min(least, 1e6 * watch.cpu_ms());
   }
   return least / static_cast<double>(x.size());

@@ -15,13 +15,13 @@ namespace {
 using namespace bodice;
 using collision::Collider;
 
-/// A proxy, its particles, and room for the answers.
+/// A proxy, its particles, and room for the answers. Without a Workspace: the same particles are asked about
+/// again and again, and what it keeps of them would be worth more than in a motion.
 struct Queries {
   Collider collider, moving;
   std::vector<geometry::Ellipsoid> shapes;
   bench::Cloud start, moved;
   std::vector<collision::Contact> contacts;
-  collision::Workspace kept_query, kept_response;
 
   Queries(const proxy::BodyProxy& proxy, const bench::Cloud& particles)
       : collider(proxy),
@@ -32,10 +32,10 @@ struct Queries {
     for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
   }
 
-  void query() { collider.query({}, start.particles(), contacts, kept_query); }
+  void query() { collider.query({}, start.particles(), contacts); }
   void respond() {
     moved = start;
-    collider.resolve({}, moved.particles(), {}, kept_response);
+    collider.resolve({}, moved.particles(), {});
   }
   void turn() {
     const geometry::Mat3 rotation = Eigen::AngleAxisd(0.001, geometry::Vec3::UnitY()).toRotationMatrix();

@@ -44,8 +44,8 @@ struct FitOptions {
   std::optional<int> max_ellipsoids;  ///< of the whole body, whatever `parts` says
   /// Time of one query of 10,000 particles near the skin, microseconds: gives tier and count, kept within a
   /// fifth (more is the warning budget-not-reached). Judged by a law (predicted_frame_us) and no clock, so
-  /// that results repeat: one thread of a 2.5 GHz server with AVX-512, particles kept in a Workspace. Where a
-  /// query takes twice the law's time, ask for half.
+  /// that results repeat: one thread of a 2.5 GHz server with AVX-512, nothing kept from an earlier query.
+  /// Where a query takes twice the law's time, ask for half.
   std::optional<double> budget_us;
   /// The paper's thresholds, both or neither (automatic then): they say where splitting stops, so that they
   /// go with the tiers paper (if none is asked for) and solid, and without a target or a budget.
