@@ -307,7 +307,6 @@ TEST_CASE("options out of range are one sentence with a remedy") {
   CHECK(fails({.stature_m = 1.7, .mass_kg = 204}) == engine::ErrorCode::kInvalidArgument);
   CHECK(fails({.vertices = 100}) == engine::ErrorCode::kInvalidArgument);
   CHECK(fails({.vertices = 50'000'000}) == engine::ErrorCode::kInvalidArgument);
-  CHECK(fails({.profile = "martian"}) == engine::ErrorCode::kNotFound);
 }
 
 }  // namespace

@@ -155,19 +155,25 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
   add_run_options(command, o);
 }
 
+engine::Result<body::ProportionProfile> proportions(const CommonOptions& o) {
+  const bool is_file = o.profile.ends_with(".json") || std::filesystem::exists(o.profile);
+  return is_file ? body::load_profile(o.profile) : body::find_profile(o.profile);
+}
+
 engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {
   tryon::SegmentOptions options;
   options.import.unit = kUnits.at(o.unit);
   if (o.up != "auto") options.import.up = static_cast<geometry::Axis>(o.up[0] - 'x');
   if (!o.mesh.empty()) options.import.mesh = o.mesh;
-  const bool is_file = o.profile.ends_with(".json") || std::filesystem::exists(o.profile);
-  auto profile = is_file ? body::load_profile(o.profile) : body::find_profile(o.profile);
+  auto profile = proportions(o);
   if (!profile) return std::move(profile).error();
   options.profile = std::move(profile).value();
   return options;
 }
 
 engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& o) {
+  auto profile = proportions(o);
+  if (!profile) return std::move(profile).error();
   synth::BodyOptions options;
   options.sex = o.sex == "male" ? body::Sex::kMale : body::Sex::kFemale;
   options.stature_m = o.height_m;
@@ -175,7 +181,7 @@ engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& o) {
   options.pose = kPoses.at(o.pose);
   options.vertices = o.vertices;
   options.seed = o.seed;
-  if (!o.profile.ends_with(".json")) options.profile = o.profile;
+  options.profile = std::move(profile).value();
   return options;
 }
 

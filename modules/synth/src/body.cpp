@@ -128,7 +128,8 @@ Body make(const engine::Context& context, const BodyOptions& options, const body
 
 engine::Result<Body> make_body(const engine::Context& context, const BodyOptions& options) {
   if (const auto error = check(options)) return *error;
-  const auto profile = body::find_profile(options.profile);
+  const auto profile = options.profile ? engine::Result<body::ProportionProfile>(*options.profile)
+                                       : body::find_profile("ansur2");
   if (!profile) return profile.error();
   return engine::catch_cancelled("The making of the body", [&]() -> engine::Result<Body> {
     return make(context, options, profile.value().of(options.sex));

@@ -1,6 +1,8 @@
 // Human bodies made from numbers, with known truth: what tests, benches and the built-in example stand on.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +34,8 @@ struct BodyOptions {
   double stature_m = 1.68;
   double mass_kg = 62.0;  ///< sets the girths
   Pose pose = Pose::kA;
-  std::string profile = "ansur2";  ///< proportion profile
-  int vertices = 8850;             ///< wanted; the mesh has this many within 10 %
+  std::optional<body::ProportionProfile> profile;  ///< absent: "ansur2"
+  int vertices = 8850;                             ///< wanted; the mesh has this many within 10 %
   std::uint64_t seed = 0;  ///< 0: the average body; others vary lengths and girths within the survey's spread
   double childhood =
       0.0;  ///< 0: grown up; 1: two years old, with a large head and short limbs; between: between
