@@ -15,6 +15,8 @@
 #include <bodice/proxy/proxy_surface.hpp>
 #include <bodice/synth/body.hpp>
 #include <bodice/synth/garment.hpp>
+#include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/reach.hpp>
 #include <bodice_test/temp_folder.hpp>
 
 using namespace bodice;
@@ -57,6 +59,9 @@ struct Subjects {
   body::ProportionProfile profile = *body::find_profile("ansur2");
   fitting::LabelledSkin skin{body.mesh, body.part, body.stature_m};
   proxy::BodyProxy proxy = *fitting::enclose_parts({}, skin, fitting::kAllParts);
+  tryon::PreparedBody worn = *tryon::fit_proxy({}, *tryon::segment_builtin({}, {.vertices = 1500}, {}),
+                                               {.tier = proxy::Tier::kPaper});
+  geometry::TriMesh patch{{{-0.1, 1.2, 0.3}, {0.1, 1.2, 0.3}, {0.0, 1.3, 0.3}}, {{0, 1, 2}}};
   bodice_test::TempFolder folder;
   std::filesystem::path file = folder / "body.obj";
 };
@@ -101,6 +106,18 @@ TEST_CASE("cancelled work is kCancelled from every public function, wherever it 
       {"fit",
        [&](const Context& c) {
          return outcome(fitting::fit(c, of.skin, {.tier = proxy::Tier::kSolid, .max_ellipsoids = 20}));
+       }},
+      {"reachable_parts",
+       [&](const Context& c) {
+         return outcome(tryon::reachable_parts(c, of.worn.skin, {&of.body.mesh, 1}, 0.05));
+       }},
+      {"within_reach",
+       [&](const Context& c) {
+         return outcome(tryon::within_reach(c, of.proxy, {&of.body.mesh, 1}, 0.05));
+       }},
+      {"drape",
+       [&](const Context& c) {
+         return outcome(tryon::drape(c, of.worn, {{.name = "patch", .mesh = of.patch}}, {.frames = 2}));
        }},
       {"import_body", [&](const Context& c) { return outcome(io::import_body(c, of.file)); }},
       {"import_garment", [&](const Context& c) { return outcome(io::import_garment(c, of.file, {})); }},

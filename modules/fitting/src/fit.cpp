@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/clock.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
@@ -165,11 +166,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
 engine::Result<FitResult> fit(const engine::Context& context, const LabelledSkin& skin,
                               const FitOptions& options) {
   if (auto ok = check_input(skin, options); !ok) return ok.error();
-  try {
-    return fit_checked(context, skin, options);
-  } catch (const engine::Cancelled&) {
-    return engine::Error{engine::ErrorCode::kCancelled, "The fit was cancelled.", ""};
-  }
+  return engine::catch_cancelled("The fit", [&] { return fit_checked(context, skin, options); });
 }
 
 }  // namespace bodice::fitting

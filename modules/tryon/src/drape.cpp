@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
@@ -116,11 +117,9 @@ cloth::SolverOptions solver_options(const engine::Context& context, const DrapeO
   return solver;
 }
 
-}  // namespace
-
-engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
-                                  const std::vector<WornGarment>& garments, const DrapeOptions& options,
-                                  const Progress& progress) {
+engine::Result<DrapeResult> simulate(const engine::Context& context, const PreparedBody& body,
+                                     const std::vector<WornGarment>& garments, const DrapeOptions& options,
+                                     const Progress& progress) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
   if (auto good = check(options); !good) return std::move(good).error();
   const auto joined = join(garments);
@@ -180,6 +179,15 @@ engine::Result<DrapeResult> drape(const engine::Context& context, const Prepared
   report.warnings.assign(solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();
   return result;
+}
+
+}  // namespace
+
+engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
+                                  const std::vector<WornGarment>& garments, const DrapeOptions& options,
+                                  const Progress& progress) {
+  return engine::catch_cancelled("The drape",
+                                 [&] { return simulate(context, body, garments, options, progress); });
 }
 
 }  // namespace bodice::tryon

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
@@ -77,10 +78,14 @@ engine::Result<BodyProxy> within_reach(const engine::Context& context, const Bod
   const double blend_m = proxy.relief().empty() ? 0.0 : proxy::relief_reach(proxy.stature_m()).blend_m;
   const std::vector<Ball> balls = balls_of(garments);
   std::vector<std::uint8_t> kept(proxy.ellipsoids().size());
-  engine::parallel_for(context, kept.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k)
-      kept[k] = reaches(proxy.ellipsoids()[k].shape, balls, margin_m + blend_m);
+  const auto searched = engine::catch_cancelled("The search for what is within reach", [&] {
+    engine::parallel_for(context, kept.size(), 4, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k)
+        kept[k] = reaches(proxy.ellipsoids()[k].shape, balls, margin_m + blend_m);
+    });
+    return engine::Result<void>();
   });
+  if (!searched) return searched.error();
   if (std::ranges::none_of(kept, [](std::uint8_t flag) { return flag != 0; }))
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
                          "Nothing of the proxy is within reach of the garments.",

@@ -1,8 +1,8 @@
 #include <bodice/tryon/report.hpp>
 
-#include <cstdio>
-
 #include <nlohmann/json.hpp>
+
+#include <bodice/engine/text.hpp>
 
 namespace bodice::tryon {
 namespace {
@@ -11,12 +11,6 @@ using Json = nlohmann::ordered_json;
 
 double mm(double metres) {
   return metres * 1e3;
-}
-
-std::string hex(std::uint64_t hash) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
-  return text;
 }
 
 std::string_view axis_name(geometry::Axis axis) {
@@ -92,7 +86,7 @@ Json drape_json(const DrapeReport& d) {
           {"stretch", {{"p95", d.stretch_p95}, {"max", d.stretch_max}}},
           {"median_speed_mm_s", mm(d.median_speed_m_s)},
           {"finite", d.finite},
-          {"hash", hex(d.hash)}};
+          {"hash", engine::hex64(d.hash)}};
 }
 
 }  // namespace
@@ -111,7 +105,7 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
                  {"tier", proxy::name(fit.proxy.tier())},
                  {"threads", run.threads},
                  {"seed", run.seed},
-                 {"hash", hex(fit.proxy.hash())},
+                 {"hash", engine::hex64(fit.proxy.hash())},
                  {"ellipsoids", fit.proxy.ellipsoids().size()},
                  {"bytes", fit.proxy.bytes()},
                  {"mu_mm", {{"torso", mm(fit.mu_torso_m)}, {"limbs", mm(fit.mu_limbs_m)}}},
@@ -127,12 +121,14 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
 
 std::string labels_text(const SegmentedSkin& skin) {
   std::string text;
-  char line[128];
   const geometry::TriMesh& mesh = skin.input.skin;
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const geometry::Vec3 p = skin.input.frame.to_file(mesh.positions[v]);
-    std::snprintf(line, sizeof line, "%.9g %.9g %.9g ", p.x(), p.y(), p.z());
-    text.append(line).append(body::name(skin.anatomy.part[v])).push_back('\n');
+    for (const double x : p) {
+      engine::append_number(text, x, 9);
+      text.push_back(' ');
+    }
+    text.append(body::name(skin.anatomy.part[v])).push_back('\n');
   }
   return text;
 }
