@@ -22,7 +22,7 @@ constexpr int kRelocateEvery = 12;
 constexpr int kIdleRounds = 3;  // after a search that found no move
 constexpr int kStopWindow = 48;
 constexpr double kExact = 2e-5;          // root of the mean square residual: nothing is left to gain
-constexpr double kMostHeldBack = 0.25;   // steps an ellipsoid, before the candidates are chosen afresh
+constexpr double kHeldBack = 0.9;        // of what it may move: an ellipsoid waits for other candidates
 constexpr std::uint32_t kLeastSkin = 4;  // samples; with fewer an ellipsoid stands for nothing
 
 struct State {
@@ -69,12 +69,13 @@ class Descent {
   void refresh() {
     problem_.refresh(context_, state_.ellipsoids);
     std::fill(moved_.begin(), moved_.end(), 0.0);
-    held_back_ = 0;
   }
 
   /// One damped step of every ellipsoid; those that made it worse stay where they were.
   void iterate() {
-    if (static_cast<double>(held_back_) > kMostHeldBack * static_cast<double>(moved_.size())) refresh();
+    // One that waits costs more than a refresh: its neighbours settle around a place that it will leave.
+    const double most = kHeldBack * problem_.most_motion();
+    if (std::ranges::any_of(moved_, [&](double motion) { return motion > most; })) refresh();
     const auto blocks = problem_.normal_equations(context_, state_.ellipsoids);
     std::vector<TightStep> steps(blocks.size());
     engine::parallel_for(context_, steps.size(), 8, [&](std::size_t begin, std::size_t end) {
@@ -98,7 +99,6 @@ class Descent {
         state_.ellipsoids[k] = steps[k].ellipsoid;
         state_.damping[k] = std::max(1e-6, 0.4 * state_.damping[k]);
         moved_[k] += steps[k].motion;
-        held_back_ += moved_[k] > 0.9 * problem_.most_motion();
       } else {
         problem_.restore(k);
         state_.damping[k] = std::min(1e6, 2.0 * state_.damping[k]);
@@ -159,7 +159,6 @@ class Descent {
   const DescentOptions& options_;
   State state_, best_;
   std::vector<double> moved_;  ///< #E: motion since the last refresh, at most
-  std::size_t held_back_ = 0;  ///< steps that used up what an ellipsoid may move before a refresh
   int rounds_off_ = 0;
   DescentReport report_;
   double told_ = 0.0, window_cost_ = 0.0;
