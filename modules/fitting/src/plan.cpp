@@ -71,7 +71,7 @@ Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double st
 
 double predicted_frame_us(Tier tier, int ellipsoids) {
   // Nanoseconds a particle times ten; `bench/tradeoff --only laws` measures the constants anew.
-  return tier == Tier::kRelief ? 10.0 * (11.0 + 0.31 * ellipsoids) : 10.0 * (8.0 + 0.165 * ellipsoids);
+  return tier == Tier::kRelief ? 10.0 * (9.7 + 0.224 * ellipsoids) : 10.0 * (6.2 + 0.12 * ellipsoids);
 }
 
 int count_within_budget(Tier tier, double budget_us) {
