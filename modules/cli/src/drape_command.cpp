@@ -91,7 +91,9 @@ engine::Result<void> drape(const DrapeCommand& command) {
   if (!skin) return std::move(skin).error();
   auto worn = dress(run, command, *skin);
   if (!worn) return std::move(worn).error();
-  auto fit_options = run.fit_options_for(*skin);
+  const auto region = run.region_garments(*skin);
+  if (!region) return region.error();
+  auto fit_options = run.fit_options_for(*skin, *region);
   if (!fit_options) return std::move(fit_options).error();
   auto options = drape_options(command, skin->input.frame);
   if (!options) return std::move(options).error();

@@ -101,6 +101,11 @@ void add_output_options(CLI::App& command, CommonOptions& o) {
       ->group(group);
 }
 
+engine::Result<body::ProportionProfile> proportions(const CommonOptions& o) {
+  const bool is_file = o.profile.ends_with(".json") || std::filesystem::exists(o.profile);
+  return is_file ? body::load_profile(o.profile) : body::find_profile(o.profile);
+}
+
 }  // namespace
 
 void add_input_options(CLI::App& command, CommonOptions& o) {
@@ -153,11 +158,6 @@ void add_common_options(CLI::App& command, CommonOptions& o) {
   add_builtin_options(command, o);
   add_output_options(command, o);
   add_run_options(command, o);
-}
-
-engine::Result<body::ProportionProfile> proportions(const CommonOptions& o) {
-  const bool is_file = o.profile.ends_with(".json") || std::filesystem::exists(o.profile);
-  return is_file ? body::load_profile(o.profile) : body::find_profile(o.profile);
 }
 
 engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include <bodice/collision/collider.hpp>
+#include <bodice/engine/text.hpp>
 #include <bodice/engine/write_file.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
@@ -48,11 +49,11 @@ std::string answer(const collision::Collider& collider, const proxy::BodyProxy& 
       frame.to_file(collider.origin() + Vec3(double{c.point[0]}, double{c.point[1]}, double{c.point[2]}));
   const Vec3 normal =
       frame.direction_to_file({double{c.normal[0]}, double{c.normal[1]}, double{c.normal[2]}});
-  char line[256];
-  std::snprintf(line, sizeof line, "%.7g %.9g %.9g %.9g %.6g %.6g %.6g %u\n",
-                double{c.signed_distance} / frame.metres_per_unit, point.x(), point.y(), point.z(),
-                normal.x(), normal.y(), normal.z(), c.ellipsoid);
-  return line;
+  std::string line;
+  engine::append_number(line, double{c.signed_distance} / frame.metres_per_unit, 7);
+  for (const double v : point) engine::append_number(line += ' ', v, 9);
+  for (const double v : normal) engine::append_number(line += ' ', v, 6);
+  return line + ' ' + std::to_string(c.ellipsoid) + '\n';
 }
 
 engine::Result<void> query(const QueryCommand& command) {

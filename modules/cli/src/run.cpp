@@ -46,13 +46,20 @@ engine::Result<tryon::SegmentedSkin> Run::segment() {
   return tryon::segment_builtin(context_, *body, *options, progress_.callback());
 }
 
-engine::Result<fitting::FitOptions> Run::fit_options_for(const tryon::SegmentedSkin& skin) {
-  fitting::FitOptions options = fit_options(options_);
-  if (options_.region_of.empty()) return options;
+engine::Result<std::vector<geometry::TriMesh>> Run::region_garments(const tryon::SegmentedSkin& skin) {
+  std::vector<geometry::TriMesh> garments;
+  if (options_.region_of.empty()) return garments;
   auto garment = io::import_garment(context_, options_.region_of, skin.input.frame);
   if (!garment) return std::move(garment).error();
-  const auto reached =
-      tryon::reachable_parts(context_, skin, std::span(&garment->skin, 1), options_.region_margin_mm * 1e-3);
+  garments.push_back(std::move(garment->skin));
+  return garments;
+}
+
+engine::Result<fitting::FitOptions> Run::fit_options_for(const tryon::SegmentedSkin& skin,
+                                                         std::span<const geometry::TriMesh> garments) {
+  fitting::FitOptions options = fit_options(options_);
+  if (garments.empty()) return options;
+  const auto reached = tryon::reachable_parts(context_, skin, garments, options_.region_margin_mm * 1e-3);
   if (!reached) return reached.error();
   options.parts = *reached;
   if (options.parts == 0)

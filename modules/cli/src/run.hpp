@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,11 @@ class Run {
   /// Fails early when an output could not be written after long work.
   engine::Result<void> check_outputs(const std::vector<std::string>& files) const;
   engine::Result<tryon::SegmentedSkin> segment();
-  /// The fit's options, with only the parts near `garments` when --region-of was given.
-  engine::Result<fitting::FitOptions> fit_options_for(const tryon::SegmentedSkin& skin);
+  /// The garment of --region-of, where the skin is; empty when none was given.
+  engine::Result<std::vector<geometry::TriMesh>> region_garments(const tryon::SegmentedSkin& skin);
+  /// The fit's options, with only the parts near `garments` when there are any.
+  engine::Result<fitting::FitOptions> fit_options_for(const tryon::SegmentedSkin& skin,
+                                                      std::span<const geometry::TriMesh> garments);
   /// Writes labels, report and trace, where asked for, and prints the summary or the report.
   engine::Result<void> finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
                               const std::vector<std::string>& written);
