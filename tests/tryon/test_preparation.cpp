@@ -160,8 +160,10 @@ TEST_CASE("cancelled at any moment, a preparation ends with whole proxies and ca
       [&](const auto&, const proxy::BodyProxy& proxy) { seen.push_back(proxy.hash()); });
   REQUIRE(preparation.ok());
   engine::Random random(5);
+  int cancelled = 0;
   for (int round = 0; round < 20; ++round) {
     engine::CancelSource cancel;
+    if (round == 0) cancel.cancel();
     std::thread canceller([&cancel, wait = std::chrono::microseconds(
                                         static_cast<int>(random.uniform() * random.uniform() * 100'000))] {
       std::this_thread::sleep_for(wait);
@@ -171,8 +173,12 @@ TEST_CASE("cancelled at any moment, a preparation ends with whole proxies and ca
                                       synth::BodyOptions{.vertices = 1500});
     canceller.join();
     if (!run) CHECK(run.error().code == engine::ErrorCode::kCancelled);
+    cancelled += !run;
     CHECK((preparation->fit() != nullptr) == run.ok());
   }
+  CHECK(cancelled > 0);
   for (const std::uint64_t hash : seen) CHECK(std::ranges::binary_search(known, hash));
+  const std::size_t before = seen.size();
   CHECK(preparation->run({.executor = executor.get()}, synth::BodyOptions{.vertices = 1500}).ok());
+  CHECK(seen.size() > before);
 }

@@ -6,6 +6,7 @@
 #include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/parallel.hpp>
 
+#include "append.hpp"
 #include "check_garment.hpp"
 #include "load_body.hpp"
 #include "segment_tasks.hpp"
@@ -17,11 +18,6 @@ using geometry::MeshDistance;
 
 void tell(const Progress& progress, std::string_view stage, double fraction) {
   if (progress) progress(stage, fraction);
-}
-
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
 }
 
 engine::Result<SegmentedSkin> segment_source(const engine::Context& context, const BodySource& source,

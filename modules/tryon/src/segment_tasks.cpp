@@ -6,6 +6,7 @@
 
 #include <bodice/engine/stage_timer.hpp>
 
+#include "append.hpp"
 #include "load_body.hpp"
 
 namespace bodice::tryon {
@@ -17,11 +18,6 @@ struct DistanceField {
   std::shared_ptr<const MeshDistance> distance;
   std::vector<engine::StageTime> stages;
 };
-
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-  to.insert(to.end(), from.begin(), from.end());
-}
 
 /// Repair and anatomy both count a body's open edges; a reader wants to hear of holes once.
 void tell_holes_once(std::vector<engine::Warning>& warnings) {

@@ -1,0 +1,13 @@
+// A list of a later stage behind that of an earlier one.
+#pragma once
+
+#include <vector>
+
+namespace bodice::tryon {
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace bodice::tryon
