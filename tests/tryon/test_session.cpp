@@ -78,7 +78,8 @@ TEST_CASE("a newer body takes the place of one still in work") {
   if (!superseded) CHECK(superseded.error().code == engine::ErrorCode::kCancelled);
 }
 
-TEST_CASE("of two bodies that wait for a frame the newer is shown, and the older one's ticket says cancelled") {
+TEST_CASE(
+    "of two bodies that wait for a frame the newer is shown, and the older one's ticket says cancelled") {
   tryon::Session session({}, {.fit = {.tier = proxy::Tier::kSolid}});
   const engine::Ticket older = session.submit(synth::BodyOptions{.stature_m = 1.5, .mass_kg = 50});
   const engine::Ticket newer = session.submit(synth::BodyOptions{.stature_m = 1.9, .mass_kg = 80});
