@@ -54,10 +54,11 @@ Result<void> replace(const fs::path& file, std::span<const std::byte> bytes) {
   fs::path beside;
   std::FILE* const stream = open_beside(file, beside);
   if (!stream) return refused(file, last_error());
-  std::error_code failure = put(stream, bytes, true);
+  std::error_code failure = put(stream, bytes, true), ignored;
+  const fs::file_status old = fs::status(file, ignored);
+  if (fs::exists(old)) fs::permissions(beside, old.permissions(), ignored);  // who may read it stays
   if (!failure) fs::rename(beside, file, failure);
   if (!failure) return {};
-  std::error_code ignored;
   fs::remove(beside, ignored);
   return refused(file, failure);
 }

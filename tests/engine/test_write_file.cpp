@@ -42,6 +42,17 @@ TEST_CASE("write_file replaces a file as a whole and leaves nothing beside it") 
   CHECK(entries(folder.path()) == 1);
 }
 
+TEST_CASE("a file that is replaced keeps its permissions") {
+  const TempFolder folder;
+  const auto file = folder / "private.txt";
+  REQUIRE(write_file(file, "first").ok());
+  const auto only_mine = fs::perms::owner_read | fs::perms::owner_write;
+  fs::permissions(file, only_mine);
+  REQUIRE(write_file(file, "second").ok());
+  CHECK(content(file) == "second");
+  CHECK(fs::status(file).permissions() == only_mine);
+}
+
 TEST_CASE("write_file into a missing folder, over a directory or without a name fails in one sentence") {
   const TempFolder folder;
   for (const auto& file : {folder / "no/such/out.txt", folder.path(), fs::path()}) {
