@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include <bench_references/peers.hpp>
 #include <bench_support/stopwatch.hpp>
 
@@ -11,25 +13,25 @@ namespace bench {
 
 #ifdef BENCH_EMBREE
 
-using bodice::geometry::Vec3;
+using Vec = Eigen::Vector3f;
 
 namespace {
 
-/// The nearest point of a triangle, by regions of its plane.
+/// The nearest point of a triangle, by regions of its plane; in float, as Embree itself reckons.
 /// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.5
-Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a;
-  const double d1 = ab.dot(p - a), d2 = ac.dot(p - a);
+Vec nearest_on_triangle(const Vec& p, const Vec& a, const Vec& b, const Vec& c) {
+  const Vec ab = b - a, ac = c - a;
+  const float d1 = ab.dot(p - a), d2 = ac.dot(p - a);
   if (d1 <= 0 && d2 <= 0) return a;
-  const double d3 = ab.dot(p - b), d4 = ac.dot(p - b);
+  const float d3 = ab.dot(p - b), d4 = ac.dot(p - b);
   if (d3 >= 0 && d4 <= d3) return b;
-  const double vc = d1 * d4 - d3 * d2;
+  const float vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return a + d1 / (d1 - d3) * ab;
-  const double d5 = ab.dot(p - c), d6 = ac.dot(p - c);
+  const float d5 = ab.dot(p - c), d6 = ac.dot(p - c);
   if (d6 >= 0 && d5 <= d6) return c;
-  const double vb = d5 * d2 - d1 * d6;
+  const float vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return a + d2 / (d2 - d6) * ac;
-  const double va = d3 * d6 - d5 * d4;
+  const float va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b);
   return a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
 }
@@ -47,22 +49,20 @@ struct Scene {
     rtcReleaseScene(scene);
     rtcReleaseDevice(device);
   }
-  Vec3 vertex(unsigned i) const {
-    return {double{vertices[3 * i]}, double{vertices[3 * i + 1]}, double{vertices[3 * i + 2]}};
-  }
+  Vec vertex(unsigned i) const { return {vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]}; }
 };
 
 struct Search {
   const Scene* scene;
-  Vec3 p;
+  Vec p;
 };
 
 bool visit(RTCPointQueryFunctionArguments* args) {
   const auto& search = *static_cast<Search*>(args->userPtr);
   const unsigned* t = &search.scene->indices[3 * args->primID];
-  const Vec3 q = nearest_on_triangle(search.p, search.scene->vertex(t[0]), search.scene->vertex(t[1]),
-                                     search.scene->vertex(t[2]));
-  const auto d = static_cast<float>((q - search.p).norm());
+  const Vec q = nearest_on_triangle(search.p, search.scene->vertex(t[0]), search.scene->vertex(t[1]),
+                                    search.scene->vertex(t[2]));
+  const float d = (q - search.p).norm();
   if (d >= args->query->radius) return false;
   args->query->radius = d;
   return true;
@@ -70,7 +70,7 @@ bool visit(RTCPointQueryFunctionArguments* args) {
 
 void query_all(const Scene& scene, float reach_m, const Cloud& cloud, std::span<float> distance_m) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    Search search{&scene, cloud.at(i)};
+    Search search{&scene, {cloud.x[i], cloud.y[i], cloud.z[i]}};
     RTCPointQuery query{cloud.x[i], cloud.y[i], cloud.z[i], 0.0f, reach_m};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);

@@ -25,7 +25,7 @@ Error refused(const fs::path& file, std::error_code why) {
 }
 
 std::error_code last_error() {
-  return {errno, std::generic_category()};
+  return {errno != 0 ? errno : EIO, std::generic_category()};  // a failure whose cause nobody names is one
 }
 
 /// Closes the stream. With `to_disk`, the bytes have left the system's memory, so that a rename cannot come

@@ -287,7 +287,7 @@ TEST_CASE("an error or exception of a job comes out of its ticket, is logged, an
   pipeline.frame([&](const Context&) { CHECK(stream.current() == nullptr); });
 }
 
-TEST_CASE("a ticket may be awaited inside a frame and after its pipeline is gone") {
+TEST_CASE("with one worker a ticket may be awaited inside a frame; with any, once its pipeline is gone") {
   for (const auto& [name, executor] : all_executors()) {
     CAPTURE(name);
     Ticket kept;

@@ -9,6 +9,7 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/log_sinks.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 using namespace bodice::engine;
 
@@ -38,8 +39,8 @@ TEST_CASE("an exception of the host's callback, of any type, does not reach the 
 }
 
 TEST_CASE("a log file holds one line a message; a folder is refused with a sentence") {
-  const auto path = std::filesystem::temp_directory_path() / "bodice_test_log.txt";
-  std::filesystem::remove(path);
+  const bodice_test::TempFolder folder;
+  const auto path = folder / "log.txt";
   {
     auto log = make_file_log(path);
     REQUIRE(log.ok());
@@ -48,9 +49,8 @@ TEST_CASE("a log file holds one line a message; a folder is refused with a sente
   std::ifstream file(path);
   const std::string text(std::istreambuf_iterator<char>(file), {});
   CHECK(text.find("[warning] one\n") != std::string::npos);
-  std::filesystem::remove(path);
 
-  const auto refused = make_file_log(std::filesystem::temp_directory_path());
+  const auto refused = make_file_log(folder.path());
   REQUIRE(!refused.ok());
   CHECK(refused.error().code == ErrorCode::kWriteFailed);
 }

@@ -8,6 +8,7 @@
 
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/engine/trace.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 using namespace bodice::engine;
 
@@ -82,20 +83,18 @@ TEST_CASE("many threads record at once and nothing is lost or torn") {
 }
 
 TEST_CASE("a trace file is whole or not there") {
-  const auto folder = std::filesystem::temp_directory_path() / "bodice_test_trace";
-  std::filesystem::create_directories(folder);
+  const bodice_test::TempFolder folder;
   Trace trace(4);
   Context context{.trace = &trace};
   trace_instant(context, "moment");
   REQUIRE(trace.write(folder / "trace.json").ok());
   std::ifstream file(folder / "trace.json");
   CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == trace.json());
-  CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
-  const auto failed = trace.write(folder / "missing" / "trace.json");
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+  const auto failed = trace.write(folder / "missing/trace.json");
   REQUIRE(!failed.ok());
   CHECK(failed.error().code == ErrorCode::kWriteFailed);
   CHECK(failed.error().message.find("trace.json") != std::string::npos);
-  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("stages are appended when they end, once each") {

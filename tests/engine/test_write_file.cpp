@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -64,7 +66,26 @@ TEST_CASE("write_file into a missing folder, over a directory or without a name 
   }
 }
 
-TEST_CASE("a failed write leaves the old file untouched") {
+TEST_CASE("a write that fails half-way leaves the old file as it was, and nothing beside it") {
+  const TempFolder folder;
+  const auto file = folder / "out.txt";
+  REQUIRE(write_file(file, "the old text").ok());
+  rlimit before{};
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 1 << 16;
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  const auto result = write_file(file, std::string(1 << 20, 'x'));
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &before) == 0);
+  std::signal(SIGXFSZ, old_handler);
+  REQUIRE_FALSE(result.ok());
+  CHECK(result.error().code == ErrorCode::kWriteFailed);
+  CHECK(content(file) == "the old text");
+  CHECK(entries(folder.path()) == 1);
+}
+
+TEST_CASE("a folder is not replaced by a file") {
   const TempFolder folder;
   fs::create_directories(folder / "out/inside");
   CHECK(!write_file(folder / "out", "text").ok());
@@ -105,6 +126,14 @@ TEST_CASE("a symbolic link stays a link, and the file behind it is replaced") {
   REQUIRE(write_file(folder / "link.txt", "new").ok());
   CHECK(fs::is_symlink(folder / "link.txt"));
   CHECK(content(file) == "new");
+}
+
+TEST_CASE("a symbolic link that points nowhere is refused, and stays") {
+  const TempFolder folder;
+  fs::create_symlink("nowhere/out.txt", folder / "link.txt");
+  CHECK_FALSE(write_file(folder / "link.txt", "text").ok());
+  CHECK(fs::is_symlink(folder / "link.txt"));
+  CHECK(entries(folder.path()) == 1);
 }
 
 TEST_CASE("a pipe is written to, not replaced by a file") {

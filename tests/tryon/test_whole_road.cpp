@@ -15,6 +15,7 @@
 #include <bodice/tryon/report.hpp>
 #include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 using namespace bodice;
 
@@ -71,10 +72,10 @@ TEST_CASE("a hole in the skin is told once") {
   std::erase_if(made->mesh.triangles, [&](const geometry::Triangle& t) {
     return (made->mesh.positions[t[0]] - made->mesh.positions[100]).norm() < 0.03;
   });
-  const auto file = std::filesystem::temp_directory_path() / "bodice_test_holed_body.obj";
+  const bodice_test::TempFolder folder;
+  const auto file = folder / "holed_body.obj";
   REQUIRE(io::write_obj(made->mesh, file).ok());
   const auto skin = tryon::segment_file({}, file, {});
-  std::filesystem::remove(file);
   REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
   const auto told = std::ranges::count_if(skin->warnings, [](const engine::Warning& warning) {
     return warning.code == "holes" || warning.code == "open-edges";
