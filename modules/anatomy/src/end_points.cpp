@@ -8,68 +8,17 @@
 
 #include "ball.hpp"
 #include "end_template.hpp"
+#include "farthest_points.hpp"
 
 namespace bodice::anatomy {
 namespace {
 
 using geodesic::Field;
 using geometry::Index;
-using geometry::kNoIndex;
 
 constexpr std::size_t kCandidates = 8;
 /// A candidate may be a heel or a thumb; the true end is within a foot's length of it.
 constexpr float kRefineRadius = 0.2F;  // of the size
-
-Index farthest(const Field& field) {
-  Index best = kNoIndex;
-  for (std::size_t v = 0; v < field.size(); ++v)
-    if (std::isfinite(field[v]) && (best == kNoIndex || field[v] > field[best])) best = static_cast<Index>(v);
-  return best;
-}
-
-/// The vertex of the body's own component that lies farthest from its middle: an end, or near one.
-Index start_vertex(const Skin& skin) {
-  geometry::Vec3 middle = geometry::Vec3::Zero();
-  double area = 0.0;
-  for (std::size_t f = 0; f < skin.mesh.triangles.size(); ++f) {
-    if (skin.component[skin.mesh.triangles[f][0]] != 0) continue;
-    const double a = geometry::area_vector(skin.mesh, f).norm();
-    const auto& corner = skin.mesh.triangles[f];
-    middle += a * (skin.mesh.positions[corner[0]] + skin.mesh.positions[corner[1]] +
-                   skin.mesh.positions[corner[2]]);
-    area += 3.0 * a;
-  }
-  if (area > 0.0) middle /= area;
-  Index best = 0;
-  double most = -1.0;
-  for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v) {
-    const double d = (skin.mesh.positions[v] - middle).squaredNorm();
-    if (skin.component[v] == 0 && d > most) {
-      most = d;
-      best = static_cast<Index>(v);
-    }
-  }
-  return best;
-}
-
-struct Candidates {
-  std::vector<Index> vertex;
-  std::vector<Field> field;
-};
-
-Candidates farthest_points(const Skin& skin) {
-  Candidates c;
-  Field nearest;
-  for (Index v = start_vertex(skin); c.vertex.size() < kCandidates; v = farthest(nearest)) {
-    if (!nearest.empty() && !(v != kNoIndex && nearest[v] > 0.0F)) break;
-    c.vertex.push_back(v);
-    c.field.push_back(geodesic::distances_from(skin.graph, v));
-    const Field& field = c.field.back();
-    if (nearest.empty()) nearest = field;
-    for (std::size_t i = 0; i < field.size(); ++i) nearest[i] = std::min(nearest[i], field[i]);
-  }
-  return c;
-}
 
 constexpr float kHeadBall = 0.30F;  // of the size
 /// What counts as head for its ball, from the crown down, of the size.
@@ -144,7 +93,7 @@ void pair_sides(EndPoints& ends, float size) {
 }  // namespace
 
 std::optional<EndPoints> find_end_points(const engine::Context& context, const Skin& skin) {
-  Candidates c = farthest_points(skin);
+  FarthestPoints c = farthest_points(context, skin, kCandidates);
   const std::size_t n = c.vertex.size();
   if (n < kEndCount) return std::nullopt;
   std::vector<float> apart(n * n);

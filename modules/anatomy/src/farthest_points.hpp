@@ -1,0 +1,18 @@
+// Vertices far from each other: where ends of the body may be.
+#pragma once
+
+#include "skin.hpp"
+
+namespace bodice::anatomy {
+
+struct FarthestPoints {
+  std::vector<geometry::Index> vertex;
+  std::vector<geodesic::Field> field;  ///< distance of every vertex from each, metres
+};
+
+/// Each the farthest from all before it, at most `count`: fewer where nothing farther is left. The first lies
+/// farthest from the middle of the body. The same for any worker count; two workers take little more than
+/// half the time of one. O(count #links).
+FarthestPoints farthest_points(const engine::Context& context, const Skin& skin, std::size_t count);
+
+}  // namespace bodice::anatomy
