@@ -107,6 +107,14 @@ TEST_CASE("cancelled work is kCancelled from every public function, wherever it 
        [&](const Context& c) {
          return outcome(fitting::fit(c, of.skin, {.tier = proxy::Tier::kSolid, .max_ellipsoids = 20}));
        }},
+      {"segment_file", [&](const Context& c) { return outcome(tryon::segment_file(c, of.file, {})); }},
+      {"segment_mesh",
+       [&](const Context& c) { return outcome(tryon::segment_mesh(c, of.worn.skin.input, {})); }},
+      {"fit_proxy",
+       [&](const Context& c) {
+         return outcome(
+             tryon::fit_proxy(c, of.worn.skin, {.tier = proxy::Tier::kSolid, .max_ellipsoids = 20}));
+       }},
       {"reachable_parts",
        [&](const Context& c) {
          return outcome(tryon::reachable_parts(c, of.worn.skin, {&of.body.mesh, 1}, 0.05));

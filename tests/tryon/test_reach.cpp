@@ -4,10 +4,12 @@
 
 #include <doctest/doctest.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include <bodice/engine/random.hpp>
+#include <bodice/geometry/sampling.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 #include <bodice/synth/garment.hpp>
 #include <bodice/tryon/prepare.hpp>
@@ -101,6 +103,22 @@ bool is_far_from_skirts(body::Part part) {
 
 }  // namespace
 
+TEST_CASE(
+    "every part with a place of its skin within the margin is reached, be its triangles ever so large") {
+  const geometry::TriMesh& skin = dressed().skin.input.skin;
+  const Vec3 above(0.0, 1e-3, 0.0);
+  const auto places = geometry::sample_surface(skin, 2000, 3);
+  REQUIRE(places.size() == 2000);
+  for (const geometry::SurfaceSample& place : places) {
+    // A speck of a garment at a place between the vertices.
+    const geometry::TriMesh speck{{place.point, place.point + above, place.point + 2.0 * above}, {{0, 1, 2}}};
+    const std::uint32_t found = tryon::reachable_parts({}, dressed().skin, {&speck, 1}, 1e-4).value();
+    for (const geometry::Index v : skin.triangles[place.triangle])
+      REQUIRE((found & 1u << static_cast<int>(dressed().skin.anatomy.part[v])) != 0);
+    REQUIRE(std::popcount(found) <= 4);  // and none but its neighbours
+  }
+}
+
 TEST_CASE("paper and solid answer to the bit in the region as in the whole body") {
   for (const proxy::Tier tier : {proxy::Tier::kPaper, proxy::Tier::kSolid}) {
     CAPTURE(proxy::name(tier));
@@ -161,6 +179,9 @@ TEST_CASE("what is out of reach altogether, or no margin, is an error with a rem
     const auto result = tryon::within_reach({}, whole, {&dressed().skirt, 1}, margin_m);
     REQUIRE_FALSE(result.ok());
     CHECK(result.error().code == engine::ErrorCode::kInvalidArgument);
+    const auto parts = tryon::reachable_parts({}, dressed().skin, {&dressed().skirt, 1}, margin_m);
+    REQUIRE_FALSE(parts.ok());
+    CHECK(parts.error().code == engine::ErrorCode::kInvalidArgument);
   }
   // Everything is near enough.
   CHECK(tryon::within_reach({}, whole, {&dressed().skirt, 1}, 10.0)->hash() == whole.hash());

@@ -12,6 +12,7 @@
 #include <bodice/io/obj.hpp>
 #include <bodice/synth/body.hpp>
 #include <bodice/synth/garment.hpp>
+#include <bodice/tryon/reach.hpp>
 #include <bodice/tryon/report.hpp>
 #include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <bodice/engine/write_file.hpp>
+#include <bodice/tryon/reach.hpp>
 
 #include "summary.hpp"
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <bodice/fitting/enclose_parts.hpp>
+#include <bodice/tryon/reach.hpp>
 
 #include "load_body.hpp"
 #include "segment_tasks.hpp"

@@ -1,13 +1,8 @@
 #include <bodice/tryon/prepare.hpp>
 
-#include <atomic>
 #include <utility>
 
-#include <bodice/engine/catch_cancelled.hpp>
-#include <bodice/engine/parallel.hpp>
-
 #include "append.hpp"
-#include "check_garment.hpp"
 #include "load_body.hpp"
 #include "segment_tasks.hpp"
 
@@ -80,26 +75,6 @@ engine::Result<PreparedBody> fit_proxy(const engine::Context& context, Segmented
   auto fit = fitting::fit(context, labelled(skin), options);
   if (!fit) return of_body(std::move(fit).error(), skin.input);
   return PreparedBody{.skin = std::move(skin), .fit = std::move(fit).value()};
-}
-
-engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
-                                              std::span<const geometry::TriMesh> garments, double margin_m) {
-  if (auto good = check_triangles(garments); !good) return std::move(good).error();
-  return engine::catch_cancelled("The search for parts within reach", [&]() -> engine::Result<std::uint32_t> {
-    const geometry::TriMesh& mesh = skin.input.skin;
-    std::atomic<std::uint32_t> reached = 0;  // a union of bits: the order of the writers does not matter
-    for (const geometry::TriMesh& garment : garments) {
-      const MeshDistance to_garment(context, garment);
-      engine::parallel_for(context, mesh.positions.size(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t v = begin; v < end; ++v) {
-          const std::uint32_t bit = 1u << static_cast<int>(skin.anatomy.part[v]);
-          if (reached.load(std::memory_order_relaxed) & bit) continue;
-          if (to_garment.nearest_within(mesh.positions[v], margin_m)) reached.fetch_or(bit);
-        }
-      });
-    }
-    return reached.load();
-  });
 }
 
 }  // namespace bodice::tryon

@@ -1,6 +1,7 @@
 #include <bodice/tryon/reach.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -23,17 +24,26 @@ struct Ball {
   double radius_m;
 };
 
+Ball ball_of(const geometry::TriMesh& mesh, std::size_t triangle) {
+  const Vec3 a = mesh.corner(triangle, 0), b = mesh.corner(triangle, 1), c = mesh.corner(triangle, 2);
+  const Vec3 middle = (a + b + c) / 3.0;
+  return {middle, std::sqrt(std::max(
+                      {(a - middle).squaredNorm(), (b - middle).squaredNorm(), (c - middle).squaredNorm()}))};
+}
+
 std::vector<Ball> balls_of(std::span<const geometry::TriMesh> garments) {
   std::vector<Ball> balls;
   for (const geometry::TriMesh& mesh : garments)
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-      const Vec3 middle = (a + b + c) / 3.0;
-      if (!middle.allFinite()) continue;
-      balls.push_back({middle, std::sqrt(std::max({(a - middle).squaredNorm(), (b - middle).squaredNorm(),
-                                                   (c - middle).squaredNorm()}))});
-    }
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (const Ball ball = ball_of(mesh, t); ball.center.allFinite()) balls.push_back(ball);
   return balls;
+}
+
+engine::Result<void> check_reach(std::span<const geometry::TriMesh> garments, double margin_m) {
+  if (!(margin_m >= 0.0) || !std::isfinite(margin_m))
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "The margin of a garment's reach is no length.",
+                         "Give metres, zero or more."};
+  return check_triangles(garments);
 }
 
 /// Conservative: true for some that are a triangle's size too far.
@@ -66,14 +76,40 @@ BodyProxy::Data keep(const BodyProxy& whole, const std::vector<std::uint8_t>& ke
   return data;
 }
 
+/// The parts of the triangle's corners, as bits.
+std::uint32_t parts_of(const SegmentedSkin& skin, std::size_t triangle) {
+  std::uint32_t bits = 0;
+  for (const geometry::Index v : skin.input.skin.triangles[triangle])
+    bits |= 1u << static_cast<int>(skin.anatomy.part[v]);
+  return bits;
+}
+
 }  // namespace
+
+engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
+                                              std::span<const geometry::TriMesh> garments, double margin_m) {
+  if (auto good = check_reach(garments, margin_m); !good) return std::move(good).error();
+  return engine::catch_cancelled("The search for parts within reach", [&]() -> engine::Result<std::uint32_t> {
+    const geometry::TriMesh& mesh = skin.input.skin;
+    std::atomic<std::uint32_t> reached = 0;  // a union of bits: the order of the writers does not matter
+    for (const geometry::TriMesh& garment : garments) {
+      const geometry::MeshDistance to_garment(context, garment);
+      engine::parallel_for(context, mesh.triangles.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t t = begin; t < end; ++t) {
+          const std::uint32_t bits = parts_of(skin, t);
+          if ((reached.load(std::memory_order_relaxed) & bits) == bits) continue;
+          const Ball ball = ball_of(mesh, t);
+          if (to_garment.nearest_within(ball.center, margin_m + ball.radius_m)) reached.fetch_or(bits);
+        }
+      });
+    }
+    return reached.load();
+  });
+}
 
 engine::Result<BodyProxy> within_reach(const engine::Context& context, const BodyProxy& proxy,
                                        std::span<const geometry::TriMesh> garments, double margin_m) {
-  if (!(margin_m >= 0.0) || !std::isfinite(margin_m))
-    return engine::Error{engine::ErrorCode::kInvalidArgument, "The margin of a garment's reach is no length.",
-                         "Give metres, zero or more."};
-  if (auto good = check_triangles(garments); !good) return std::move(good).error();
+  if (auto good = check_reach(garments, margin_m); !good) return std::move(good).error();
   // Beyond its own distance an ellipsoid has a say as long as it is blended with the nearest.
   const double blend_m = proxy.relief().empty() ? 0.0 : proxy::relief_reach(proxy.stature_m()).blend_m;
   const std::vector<Ball> balls = balls_of(garments);

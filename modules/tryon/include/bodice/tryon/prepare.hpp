@@ -64,10 +64,4 @@ fitting::LabelledSkin labelled(const SegmentedSkin& skin);
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress = {});
 
-/// The parts of the skin within `margin_m` of any of the garments, as FitOptions::parts takes them: what a
-/// garment cannot reach need not be fitted. Zero when they reach none. Fails with kInvalidArgument when a
-/// triangle names a vertex that is not there.
-engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
-                                              std::span<const geometry::TriMesh> garments, double margin_m);
-
 }  // namespace bodice::tryon
