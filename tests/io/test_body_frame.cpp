@@ -65,6 +65,19 @@ TEST_CASE("a size that fits no unit is scaled to a person's and said so") {
   }
 }
 
+TEST_CASE("a unit that is told is taken, and doubted where it makes no person") {
+  const auto in_feet = mapped(figure(), [](const Vec3& p) { return Vec3(p / 0.3048); });
+  const auto mesh = import_obj(in_feet, {.unit = io::Unit::kFoot});
+  CHECK(mesh.unit == "ft");
+  CHECK(height(mesh.skin) == doctest::Approx(1.7).epsilon(1e-3));
+  CHECK(mesh.warnings.empty());
+  for (const io::Unit unit : {io::Unit::kMillimetre, io::Unit::kCentimetre}) {
+    const auto tiny = import_obj(figure(), {.unit = unit});
+    CHECK(tiny.frame.metres_per_unit == (unit == io::Unit::kMillimetre ? 0.001 : 0.01));
+    CHECK(warned(tiny, "unit-unlikely"));
+  }
+}
+
 TEST_CASE("a unit that contradicts the shape is not believed") {
   const TempFolder folder;
   const auto result =

@@ -169,6 +169,18 @@ TEST_CASE("every kept frame is a morph target whose weight alone is one at its t
   CHECK(floats(glb, sampler["output"].get<std::size_t>()) == std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1});
 }
 
+TEST_CASE("frames that are all of one moment are no animation; times that go back are refused") {
+  const TempFolder folder;
+  SceneFixture fixture;
+  io::GarmentTrack& track = fixture.scene.garments[0];
+  track.time_s.assign(track.frames.size(), 0.25);
+  const Glb glb = written(fixture.scene, folder);
+  CHECK_FALSE(glb.document.contains("animations"));
+  CHECK(primitive(glb, "cloth")["targets"].size() == track.frames.size());
+  track.time_s[1] = 0.5;  // and back again
+  CHECK_FALSE(io::write_glb(fixture.scene, folder / "again.glb").ok());
+}
+
 TEST_CASE("assimp reads the GLB back with the same counts") {
   const TempFolder folder;
   const SceneFixture fixture;

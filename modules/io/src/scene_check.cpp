@@ -44,12 +44,19 @@ engine::Result<void> check_track(const GarmentTrack& track) {
       return invalid(name + " has a frame that is not finite or not of its " +
                      std::to_string(track.mesh.positions.size()) + " vertices.");
   for (std::size_t i = 0; i < track.time_s.size(); ++i)
-    if (!std::isfinite(track.time_s[i]) || (i > 0 && !(track.time_s[i] > track.time_s[i - 1])))
+    if (!std::isfinite(track.time_s[i]) ||
+        (i > 0 && takes_time(track) && !(track.time_s[i] > track.time_s[i - 1])))
       return invalid(name + " has frame times that do not increase.");
   return {};
 }
 
 }  // namespace
+
+bool takes_time(const GarmentTrack& track) {
+  return track.frames.size() > 1 &&
+         (track.time_s.empty() ||
+          std::ranges::any_of(track.time_s, [&](double time_s) { return time_s != track.time_s.front(); }));
+}
 
 engine::Result<void> check_scene(const Scene& scene) {
   if (!scene.body && !scene.proxy && scene.garments.empty()) return invalid("The scene is empty.");

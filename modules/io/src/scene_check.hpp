@@ -8,6 +8,9 @@ namespace bodice::io {
 /// What no writer could draw: nothing at all, counts that do not match, numbers that are not finite.
 engine::Result<void> check_scene(const Scene& scene);
 
+/// Whether there is anything to play: not where all frames have the same time.
+bool takes_time(const GarmentTrack& track);
+
 /// Of everything in the scene, metres, y up.
 geometry::Box scene_box(const Scene& scene);
 

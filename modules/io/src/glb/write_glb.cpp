@@ -152,7 +152,7 @@ class SceneWriter {
     Json mesh = {{"name", track.name}, {"primitives", {primitive}}};
     if (!track.frames.empty()) mesh["weights"] = std::vector<double>(track.frames.size(), 0.0);
     const std::size_t node = add_root({{"name", track.name}, {"mesh", glb_.add("meshes", std::move(mesh))}});
-    if (track.frames.size() > 1) animate(track, node);
+    if (takes_time(track)) animate(track, node);
   }
 
   /// What to add to the mesh to make it the frame.

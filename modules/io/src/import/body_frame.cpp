@@ -19,7 +19,8 @@ using geometry::Vec3;
 constexpr double kSmallestSkinM2 = 0.42, kLargestSkinM2 = 4.0;
 constexpr double kSmallestAdultM2 = 1.15, kLargestAdultM2 = 2.7;
 constexpr double kTypicalSkinM2 = 1.75;
-// A file's own word on its unit is believed over a wider range: it may hold a stylised figure.
+// A file's own word on its unit, or the user's, is believed over a wider range: it may hold a stylised
+// figure.
 constexpr double kSmallestLengthM = 0.45, kLargestLengthM = 2.8, kLargestStylisedSkinM2 = 15.0;
 /// An axis must be this much longer than y to be taken as up in its stead.
 constexpr double kClearlyLonger = 1.25;
@@ -37,15 +38,16 @@ struct NamedUnit {
   const char* name;
   double metres;
 };
-constexpr std::array<NamedUnit, 5> kUnits = {{{Unit::kMetre, "m", 1.0},
+constexpr std::array<NamedUnit, 6> kUnits = {{{Unit::kMetre, "m", 1.0},
                                               {Unit::kDecimetre, "dm", 0.1},
                                               {Unit::kCentimetre, "cm", 0.01},
                                               {Unit::kMillimetre, "mm", 0.001},
-                                              {Unit::kInch, "inch", 0.0254}}};
+                                              {Unit::kInch, "inch", 0.0254},
+                                              {Unit::kFoot, "ft", 0.3048}}};
 
 std::optional<double> metres_from_area(double area) {
   for (const NamedUnit& unit : kUnits) {
-    if (unit.unit == Unit::kInch) continue;
+    if (unit.unit == Unit::kInch || unit.unit == Unit::kFoot) continue;
     const double skin_m2 = area * unit.metres * unit.metres;
     if (skin_m2 >= kSmallestSkinM2 && skin_m2 <= kLargestSkinM2) return unit.metres;
   }
@@ -57,14 +59,19 @@ std::optional<double> metres_from_area(double area) {
 
 void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, std::optional<double> file_says,
                  DetectedFrame& out) {
+  const double length = geometry::bounding_box(body.positions).size().maxCoeff();
   for (const NamedUnit& unit : kUnits) {
     if (unit.unit != options.unit) continue;
     out.frame.metres_per_unit = unit.metres;
     out.unit = unit.name;
+    if (unit.metres * length < kSmallestLengthM || unit.metres * length > kLargestLengthM)
+      out.warnings.push_back({"unit-unlikely", "",
+                              engine::message("In ", out.unit, ", as was told, the body is ",
+                                              unit.metres * length, " m long, which is no person's size."),
+                              "Leave --unit out to have it found."});
     return;
   }
   const double area = surface_area(body);
-  const double length = geometry::bounding_box(body.positions).size().maxCoeff();
   const bool believable = file_says && *file_says * length >= kSmallestLengthM &&
                           *file_says * length <= kLargestLengthM &&
                           *file_says * *file_says * area <= kLargestStylisedSkinM2;

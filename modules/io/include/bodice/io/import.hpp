@@ -13,10 +13,10 @@
 
 namespace bodice::io {
 
-enum class Unit { kAuto, kMetre, kDecimetre, kCentimetre, kMillimetre, kInch };
+enum class Unit { kAuto, kMetre, kDecimetre, kCentimetre, kMillimetre, kInch, kFoot };
 
 struct ImportOptions {
-  Unit unit = Unit::kAuto;
+  Unit unit = Unit::kAuto;           ///< told: taken, with a warning where it makes no person's size
   std::optional<geometry::Axis> up;  ///< absent: from the file, else from the shape
   std::optional<std::string> mesh;   ///< name of the body's mesh; absent: chosen by shape
 };

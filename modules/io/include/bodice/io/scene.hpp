@@ -19,7 +19,7 @@ struct GarmentTrack {
   std::string name;                                 ///< "cloth", "cloth_2", ...
   geometry::TriMesh mesh;                           ///< topology and first frame, metres, y up
   std::vector<std::vector<geometry::Vec3>> frames;  ///< kept frames, #V each
-  std::vector<double> time_s;                       ///< of each kept frame
+  std::vector<double> time_s;                       ///< of each kept frame: increasing, or all the same
 };
 
 struct Scene {
