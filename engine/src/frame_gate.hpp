@@ -131,14 +131,23 @@ class FrameExecutor final : public Executor {
       // up background work, which would wait for this frame.
       loop.indices.work();
     } else {
+      const Closing closing(gate_);
       const std::size_t runners = std::min(count, static_cast<std::size_t>(gate_.seats()));
       base_.bulk(runners, [&](std::size_t) { loop.work(); });
-      gate_.close();
     }
     loop.indices.rethrow();
   }
 
  private:
+  /// Closes the gate though the base throws: nobody may look for a loop that is gone.
+  struct Closing {
+    explicit Closing(FrameGate& open) : gate(open) {}
+    ~Closing() { gate.close(); }
+    Closing(const Closing&) = delete;
+    Closing& operator=(const Closing&) = delete;
+    FrameGate& gate;
+  };
+
   Executor& base_;
   FrameGate& gate_;
 };

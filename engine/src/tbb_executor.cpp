@@ -52,8 +52,8 @@ class TbbExecutor final : public Executor {
     } else if (place == Place::kArena || attached_) {
       spread_isolated(loop, count);
     } else if (!entered_.exchange(true, std::memory_order_acquire)) {
+      const Leaving leaving(entered_);
       spread_isolated(loop, count);
-      entered_.store(false, std::memory_order_release);
     } else {
       // The arena keeps one slot for a thread from outside. TBB would have a second one wait and run
       // whatever is there meanwhile, for as long as that takes; it does better alone.
@@ -65,27 +65,36 @@ class TbbExecutor final : public Executor {
   bool start(std::shared_ptr<BackgroundTask> task) override {
     // Alone in its arena, the caller would have to wait for a worker that the user did not ask for.
     if (concurrency_ == 1) return false;
-    {
-      const std::lock_guard lock(started_mutex_);
-      ++started_;
-    }
     // TBB calls a const copy, yet the task must be let go before the executor counts it as over.
-    arena_.enqueue([this, held = std::make_shared<std::shared_ptr<BackgroundTask>>(std::move(task))] {
+    auto run = [this, held = std::make_shared<std::shared_ptr<BackgroundTask>>(std::move(task))] {
       {
         const Visit visit(slot(), 0);
         (*held)->run();
       }
       held->reset();
-      const std::lock_guard lock(started_mutex_);
-      --started_;
-      all_ended_.notify_all();
-    });
+      count_started(-1);
+    };
+    count_started(1);
+    try {
+      arena_.enqueue(std::move(run));
+    } catch (...) {  // out of memory: the destructor must not wait for what never began
+      count_started(-1);
+      throw;
+    }
     return true;
   }
 
  private:
   // What the calling thread is doing for this executor.
   enum class Place { kOutside, kArena, kBulk };
+
+  struct Leaving {
+    explicit Leaving(std::atomic<bool>& flag) : entered(flag) {}
+    ~Leaving() { entered.store(false, std::memory_order_release); }
+    Leaving(const Leaving&) = delete;
+    Leaving& operator=(const Leaving&) = delete;
+    std::atomic<bool>& entered;
+  };
 
   // A slot of the arena belongs to one thread at a time; atomic because TBB hands it over in its own way,
   // and because a thread of another arena may look at a slot that is not its own.
@@ -114,6 +123,12 @@ class TbbExecutor final : public Executor {
     std::thread::id owner_before_;
     int bulks_before_;
   };
+
+  void count_started(int by) {
+    const std::lock_guard lock(started_mutex_);
+    started_ += by;
+    if (started_ == 0) all_ended_.notify_all();
+  }
 
   void prepare() {
     concurrency_ = arena_.max_concurrency();
