@@ -147,6 +147,41 @@ TEST_CASE("who sleeps wakes when another body takes the place of the one below")
   for (const Vec3& p : at) CHECK(p.y() < 0.32);
 }
 
+TEST_CASE("who sleeps is not drawn out by pins that begin to move slowly, nor left behind by a push") {
+  cloth::SolverOptions options;
+  options.substeps = 16;
+  const TriMesh mesh = sheet(10, 10, 0.3, 0.3, Vec3(-0.15, 1.0, -0.15));
+  const std::vector<Index> pins = {0, 10};
+  cloth::Solver solver = make_solver(mesh, pins, cotton(), options);
+  const engine::Context context;
+  cloth::FrameReport report;
+  for (int frame = 0; frame < 1200 && report.asleep < solver.particles() - 2; ++frame)
+    report = solver.step(context, kFrame_s);
+  REQUIRE(report.asleep >= solver.particles() - 2);
+  const double stretch_asleep = report.stretch_max;
+  for (int frame = 1; frame <= 120; ++frame) {
+    const Vec3 by(0.03 * kFrame_s * frame, 0.0, 0.0);  // 3 cm/s, slower than what wakes a neighbour
+    const Vec3 targets[] = {mesh.positions[pins[0]] + by, mesh.positions[pins[1]] + by};
+    solver.move_pins(targets);
+    report = solver.step(context, kFrame_s);
+    REQUIRE(report.stretch_max < stretch_asleep + 0.02);
+  }
+  for (int frame = 0; frame < 1200 && report.asleep < solver.particles() - 2; ++frame)
+    report = solver.step(context, kFrame_s);
+  REQUIRE(report.asleep >= solver.particles() - 2);
+  solver.set_velocity({0.0, 0.0, 0.5});
+  report = solver.step(context, kFrame_s);
+  CHECK(report.asleep == 0);
+  CHECK(report.stretch_max < stretch_asleep + 0.1);
+}
+
+TEST_CASE("a first frame of no time reports a garment at rest") {
+  cloth::Solver solver = make_solver(sheet(6, 6, 0.2, 0.2, Vec3(0, 1, 0)), {}, cotton(), {});
+  const cloth::FrameReport report = solver.step({}, 0.0);
+  CHECK(report.stretch_max < 1e-5);
+  CHECK(report.elastic_energy_j < 1e-6);
+}
+
 TEST_CASE("a wind of no gusts carries, and a seed changes gusts only") {
   auto drift = [](double gust, std::uint64_t seed) {
     cloth::SolverOptions options = windy();

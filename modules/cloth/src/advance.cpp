@@ -138,6 +138,7 @@ bool meet_collider(const collision::Collider* collider, State& s) {
   const std::uint64_t proxy_hash = collider != nullptr ? collider->proxy_hash() : 0;
   if (moved || collider != s.last_collider || proxy_hash != s.last_proxy_hash || before != s.particles.origin)
     wake_all(s.sleep);
+  if (collider == nullptr) std::ranges::fill(s.contacts.touching, std::uint8_t{0});
   s.last_collider = collider;
   s.last_proxy_hash = proxy_hash;
   return moved;

@@ -70,6 +70,7 @@ Particles make_particles(const geometry::TriMesh& mesh, double density_kg_m2,
     p.z[i] = p.old_z[i] = static_cast<float>(local[2]);
     p.mass[i] = static_cast<float>(mass[i]);
     p.inverse_mass[i] = pinned[i] ? 0.0f : static_cast<float>(1.0 / mass[i]);
+    p.point[i] = {p.x[i], p.y[i], p.z[i], p.inverse_mass[i]};  // a first frame of no time reports, too
   }
   return p;
 }

@@ -4,11 +4,15 @@
 
 namespace bodice::cloth {
 
-void set_pin_targets(std::span<const Vec3> world_positions, Pins& pins) {
+bool set_pin_targets(std::span<const Vec3> world_positions, Pins& pins) {
   const std::size_t count = std::min(world_positions.size(), pins.to.size());
+  bool moved = false;
   for (std::size_t i = 0; i < count; ++i) {
-    if (world_positions[i].allFinite()) pins.to[i] = world_positions[i];
+    if (!world_positions[i].allFinite() || world_positions[i] == pins.to[i]) continue;
+    pins.to[i] = world_positions[i];
+    moved = true;
   }
+  return moved;
 }
 
 void aim_pins(const Pins& pins, double time_s, Particles& p) {

@@ -13,7 +13,8 @@ struct Pins {
   std::vector<Vec3> to;         ///< world metres, at the end of the frame
 };
 
-void set_pin_targets(std::span<const Vec3> world_positions, Pins& pins);
+/// Whether any target is new.
+bool set_pin_targets(std::span<const Vec3> world_positions, Pins& pins);
 
 /// Gives each pin the velocity that takes it to its target in `time_s`.
 void aim_pins(const Pins& pins, double time_s, Particles& particles);

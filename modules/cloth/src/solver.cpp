@@ -36,7 +36,8 @@ FrameReport Solver::step(const engine::Context& context, double dt_s) {
 }
 
 void Solver::move_pins(std::span<const geometry::Vec3> world_positions) {
-  set_pin_targets(world_positions, impl_->state.pins);
+  // Sleepers weigh nothing and would let their neighbours' edges be drawn out.
+  if (set_pin_targets(world_positions, impl_->state.pins)) wake_all(impl_->state.sleep);
 }
 
 engine::Result<void> Solver::set_environment(const Environment& environment) {
@@ -49,6 +50,7 @@ engine::Result<void> Solver::set_environment(const Environment& environment) {
 void Solver::set_velocity(const geometry::Vec3& velocity_m_s) {
   Particles& p = impl_->state.particles;
   if (!velocity_m_s.allFinite()) return;
+  wake_all(impl_->state.sleep);
   for (std::size_t i = 0; i < p.count(); ++i) {
     if (p.inverse_mass[i] == 0.0f) continue;
     p.vx[i] = static_cast<float>(velocity_m_s[0]);

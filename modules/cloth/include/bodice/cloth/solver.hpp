@@ -90,11 +90,12 @@ class Solver {
   FrameReport step(const engine::Context& context, double dt_s);
 
   /// Where the pinned vertices are to be at the end of the next step, in the order given to make(); they
-  /// move there in a straight line over its substeps. Values that are not finite leave their pin where it is.
+  /// move there in a straight line over its substeps. Values that are not finite leave their pin where it is;
+  /// a new target wakes what sleeps.
   void move_pins(std::span<const geometry::Vec3> world_positions);
   /// Gravity and air from the next step on; wakes what sleeps. kInvalidArgument as in make().
   engine::Result<void> set_environment(const Environment& environment);
-  /// Gives every free particle this velocity.
+  /// Gives every free particle this velocity, and wakes what sleeps.
   void set_velocity(const geometry::Vec3& velocity_m_s);
 
   std::size_t particles() const noexcept;
