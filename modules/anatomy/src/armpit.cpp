@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "nearest_signature.hpp"
 #include "soft_place.hpp"
@@ -19,6 +20,9 @@ constexpr float kNearShoulder = 0.075F, kArmpitDetour = 1.13F;
 /// under the arm: ways over the neck are shorter on heavy bodies.
 constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
 constexpr float kLeastHalfChest = 0.02F;  // of the size
+/// A place this far from the best one is another, of the size: more than a landmark's bar, less than from the
+/// armpit to the top of the shoulder, to the chest or to the back, which are its rivals.
+constexpr double kElsewhere = 0.06;
 
 /// Half the girth of the chest on one side: the shortest way from the midline's front to its back under the
 /// arm, of the size.
@@ -75,7 +79,16 @@ SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const 
   const geometry::Vec3 place =
       soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(coordinates.size_m()),
                  [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
-  return {place, found.vertex, found.misfit};
+  const double elsewhere = kElsewhere * static_cast<double>(coordinates.size_m());
+  const auto may_be_rival = [&](std::size_t v) {
+    const auto& p = skin.mesh.positions;
+    return may_be(v) && (p[v] - p[found.vertex]).squaredNorm() > elsewhere * elsewhere;
+  };
+  const NearestSignature rival =
+      nearest_signature(context, coordinates.from_perineum().size(), may_be_rival, distance2);
+  const float lead =
+      may_be_rival(rival.vertex) ? rival.misfit - found.misfit : std::numeric_limits<float>::infinity();
+  return {place, found.vertex, found.misfit, lead};
 }
 
 }  // namespace bodice::anatomy

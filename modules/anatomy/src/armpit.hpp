@@ -10,6 +10,7 @@ struct SignedPlace {
   geometry::Vec3 position = geometry::Vec3::Zero();
   geometry::Index vertex = geometry::kNoIndex;
   float misfit = 0.0F;  ///< of its coordinates, in deviations among bodies
+  float lead = 0.0F;    ///< how much more the coordinates of the best place elsewhere are off
 };
 
 /// side 0: left, 1: right. O(#V).

@@ -1,5 +1,6 @@
 #include "second_places.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
@@ -14,7 +15,8 @@ using geometry::Index;
 
 /// Where an end's second way looks for it, around the first answer; of the size.
 constexpr float kNearEnd = 0.08F, kNearCrown = 0.20F;
-/// A limb that bends less has no bend to read; its joint is then told by proportion.
+/// A limb that bends less has no bend to read; its joint is then told by proportion. A bend alone contradicts
+/// nothing: on heavy arms it may be flesh at the wrist or a raised shoulder.
 constexpr float kBent_rad = 0.6F;
 /// Where joints may lie: of fingertip to armpit, and of toe to perineum, along the skin.
 constexpr float kElbowFrom = 0.40F, kElbowTo = 0.85F, kKneeFrom = 0.38F, kKneeTo = 0.92F;
@@ -43,8 +45,9 @@ double joint_apart(const Skin& skin, const BodyCoordinates& coordinates, const L
                    const Girth& first) {
   if (first.vertex == geometry::kNoIndex || !(limb.length > 0.0F)) return -1.0;
   const Bend bend = sharpest_bend(skin, limb.from_end, limb.from * limb.length, limb.to * limb.length);
-  const float second = bend.angle_rad > kBent_rad ? bend.level : limb.share * limb.length;
-  return static_cast<double>(std::abs(second - first.level_m) / coordinates.size_m());
+  float apart = std::abs(limb.share * limb.length - first.level_m);
+  if (bend.angle_rad > kBent_rad) apart = std::min(apart, std::abs(bend.level - first.level_m));
+  return static_cast<double>(apart / coordinates.size_m());
 }
 
 }  // namespace

@@ -24,10 +24,10 @@ SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
 double agreed(double confidence, double apart, double most);
 
 /// Apart by this much, of the size, the two ways contradict each other. The neck's two ways mean its joint
-/// and its narrowest place, which lie some 4 % apart. Each bound is passed by one of a hundred places that
-/// are right.
-inline constexpr double kNeckApart = 0.10, kPerineumApart = 0.07, kArmpitApart = 0.08, kCrownApart = 0.06,
-                        kArmpitsDiffer = 0.065, kFingertipApart = 0.02, kToeApart = 0.035, kElbowApart = 0.07,
+/// and its narrowest place, which lie some 4 % apart. Each bound is passed by one of a hundred or fewer
+/// places that are right.
+inline constexpr double kNeckApart = 0.10, kPerineumApart = 0.085, kArmpitApart = 0.08, kCrownApart = 0.06,
+                        kArmpitsDiffer = 0.08, kFingertipApart = 0.02, kToeApart = 0.035, kElbowApart = 0.07,
                         kKneeApart = 0.038;
 /// Below this confidence a place is named in a warning.
 inline constexpr double kUncertain = 0.35;
