@@ -107,6 +107,23 @@ TEST_CASE("dial: more time gives a finer proxy; a budget below the fixed cost of
   }
 }
 
+TEST_CASE("solid: leave to use more ellipsoids than help costs less than a tenth of the gap") {
+  const Skin skin = bent_limbs();
+  const auto gap_m = [&](int most) {
+    const auto result = fitting::fit({}, skin.view(), {.tier = Tier::kSolid, .max_ellipsoids = most});
+    REQUIRE(result.ok());
+    return result->accuracy.gap_m.mean;
+  };
+  const double of_120 = gap_m(120);
+  for (const int most : {200, 400, 4096}) {
+    CAPTURE(most);
+    CHECK(gap_m(most) < 1.1 * of_120);
+  }
+  const auto out_of_reach = fitting::fit({}, skin.view(), {.tier = Tier::kSolid, .target_error_m = 1e-4});
+  REQUIRE(out_of_reach.ok());
+  CHECK(out_of_reach->accuracy.gap_m.mean < 1.1 * of_120);
+}
+
 TEST_CASE("tight: no ellipsoid stands in the air between limbs, however few there are") {
   const Skin skin = bent_limbs();
   for (const int count : {2, 3, 5, 9}) {

@@ -265,6 +265,21 @@ TEST_CASE("fit: no time still gives a valid proxy; only the wanted parts are fit
   CHECK(result->parts.size() == 1);
 }
 
+TEST_CASE("fit: where a region was cut from the body there is no skin to be far from") {
+  // One ellipsoid whose upper half is another part: the fitted half ends inside the body.
+  Skin skin = three_ellipsoids();
+  for (std::size_t v = 0; v < skin.part.size(); ++v)
+    if (skin.part[v] == body::Part::kTorsoUL && skin.mesh.positions[v].y() > 0.5)
+      skin.part[v] = body::Part::kHead;
+  FitOptions options = options_for(Tier::kPaper, 12);
+  options.parts = 1u << static_cast<int>(body::Part::kTorsoUL);
+  const auto region = fitting::fit({}, skin.view(), options);
+  REQUIRE(region.ok());
+  // From the ends of the paper's clusters within the half; those at the cut would make it 16 and 66 mm.
+  CHECK(region->accuracy.gap_m.mean < 0.012);
+  CHECK(region->accuracy.gap_m.max < 0.050);
+}
+
 TEST_CASE("fit: bad input gets one clear sentence") {
   const Skin good = three_ellipsoids();
   const auto code = [](const fitting::LabelledSkin& skin, const FitOptions& options) {

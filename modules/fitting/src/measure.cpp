@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/fitting/enclose_parts.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/geometry/sampling.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
@@ -46,6 +48,33 @@ bool settle(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double toleran
     probe.at.point -= f.distance * f.normal;
   }
   return false;
+}
+
+/// Ellipsoids about the parts that were not asked for.
+std::vector<geometry::Ellipsoid> about_others(const engine::Context& context, const LabelledSkin& skin,
+                                              std::uint32_t parts) {
+  std::vector<geometry::Ellipsoid> shapes;
+  if ((parts & kAllParts) == kAllParts) return shapes;
+  const auto others = enclose_parts(context, skin, kAllParts & ~parts);
+  if (!others) return shapes;  // no skin is theirs
+  for (const proxy::ProxyEllipsoid& e : others->ellipsoids()) shapes.push_back(e.shape);
+  return shapes;
+}
+
+/// Whether the body goes on where the proxy ends, in a part that was not asked for: an end like that stands
+/// for no skin, and its way to the nearest is no gap. It lies inside the body, in that part or beside it with
+/// the skin to its side.
+bool is_cut(const proxy::BodyProxy::Data& proxy, const geometry::SurfacePoint& skin, const Vec3& at,
+            const std::vector<geometry::Ellipsoid>& others) {
+  constexpr double kBeside = 1.5 * 1.5;  // of the radii that hold the part
+  constexpr double kAhead = 0.5;         // cosine: the skin is where the surface looks
+  const Vec3 to_skin = skin.point - at;
+  if (others.empty() || to_skin.dot(skin.normal) <= 0.0) return false;
+  double nearest = kBeside;
+  for (const geometry::Ellipsoid& shape : others) nearest = std::min(nearest, geometry::level(shape, at));
+  if (nearest < 1.0) return true;
+  return nearest < kBeside &&
+         proxy::proxy_distance(proxy, at).normal.dot(to_skin.stableNormalized()) < kAhead;
 }
 
 Spread gaps(const std::vector<GapProbe>& probes, const proxy::BodyProxy::Data& proxy, int part) {
@@ -127,10 +156,12 @@ Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& p
                  const LabelledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts) {
   const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometre: below it is on the surface
   std::vector<GapProbe> probes = gap_probes(proxy);
+  const std::vector<geometry::Ellipsoid> others = about_others(context, skin, parts);
   engine::parallel_for(context, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (settle(proxy, probes[i], tolerance_m))
-        if (const auto hit = distance.nearest_within(probes[i].at.point, 10.0 * skin.stature_m))
+        if (const auto hit = distance.nearest_within(probes[i].at.point, 10.0 * skin.stature_m);
+            hit && !is_cut(proxy, *hit, probes[i].at.point, others))
           probes[i].gap_m = std::abs(hit->signed_distance);
   });
   Measured result;

@@ -14,7 +14,9 @@ using proxy::Tier;
 constexpr int kMostAttempts = 9;
 constexpr double kNearEnough = 1.10;
 constexpr double kFewestToStart = 8.0;  // with fewer than the body has limbs the law does not hold
-constexpr int kFewestInBudget = 16;     // fewer take as long: they are asked a register at a time
+/// Solid: of more, each grows by so much to leave no hole beside the next that the gap gets wider again.
+constexpr int kMostSolid = 200;
+constexpr int kFewestInBudget = 16;  // fewer take as long: they are asked a register at a time
 /// Fractions of stature. Below the first, plain ellipsoids take more work and time a particle than relief.
 constexpr double kFinestPlain = 1.6e-3 / 1.7;
 constexpr double kFinestOf32 = 0.75e-3 / 1.7, kFinestOf55 = 0.40e-3 / 1.7;
@@ -99,6 +101,10 @@ Dial::Dial(const FitOptions& options, double stature_m)
     plan_ = plan_within(*options.budget_us, options.tier, most_, stature_m);
     most_ = plan_.count;
     tier_is_free_ = false;
+  }
+  if (plan_.tier == Tier::kSolid && !options.mu_torso_m) {
+    most_ = std::min(most_, kMostSolid);
+    plan_.count = std::min(plan_.count, most_);
   }
   if (!target_m_) return;
   if (tier_is_free_ && *target_m_ > kFinestPlain * stature_m) plan_.tier = Tier::kTight;
