@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/reach.hpp>
 #include <bodice/tryon/report.hpp>
@@ -98,6 +100,50 @@ TEST_CASE("drape: the fabric that is given is used, whatever it is called") {
   cotton.name.clear(), own.name.clear();
   CHECK(hash(std::nullopt) == hash(cotton));
   CHECK(hash(std::nullopt) != hash(own));
+}
+
+TEST_CASE("drape: a garment that is nowhere near the body, or in other units, is no silent success") {
+  const auto codes = [&](auto&& change) {
+    tryon::WornGarment garment = patch("vest");
+    for (geometry::Vec3& p : garment.mesh.positions) p = change(p);
+    const auto draped = tryon::drape({}, wearer(), {garment}, {.frames = 1});
+    REQUIRE(draped.ok());
+    std::string all;
+    for (const engine::Warning& w : draped->report.warnings) {
+      all += w.code + " ";
+      CHECK(w.part == "vest");
+    }
+    return all;
+  };
+  using geometry::Vec3;
+  CHECK(codes([](const Vec3& p) { return p; }).empty());
+  CHECK(codes([](const Vec3& p) { return Vec3(p + Vec3(3.0, 0.0, 0.0)); }) == "garment-far ");
+  CHECK(codes([](const Vec3& p) { return Vec3(0.01 * p); }) == "garment-size ");  // metres for centimetres
+  CHECK(codes([](const Vec3& p) { return Vec3(100.0 * (p - Vec3(0.0, 1.2, 0.3))); }) == "garment-size ");
+}
+
+TEST_CASE("report: what is needed to repeat it, and what was draped") {
+  tryon::WornGarment vest = patch("vest.obj");
+  vest.held = {1, 2};
+  const auto draped = tryon::drape({}, wearer(), {vest}, {.frames = 2, .dt_s = 0.01});
+  REQUIRE(draped.ok());
+  const tryon::RunInfo run{.threads = 2,
+                           .seed = 5,
+                           .program = "bodice 1",
+                           .command = {"bodice", "drape", "a b.obj"},
+                           .cropped = true};
+  const auto report = nlohmann::json::parse(tryon::report_json(wearer(), &draped->report, run));
+  CHECK(report["program"] == "bodice 1");
+  CHECK(report["command"] == nlohmann::json{"bodice", "drape", "a b.obj"});
+  CHECK(report["accuracy"].contains("of"));
+  CHECK(report["drape"]["garments"] ==
+        nlohmann::json::parse(R"([{"name": "vest.obj", "vertices": 3, "held": 2}])"));
+  CHECK(report["drape"]["fabric"] == "cotton");
+  CHECK(report["drape"]["dt_s"] == 0.01);
+  CHECK(report["drape"]["substeps"] == tryon::DrapeOptions{}.solver.substeps);
+  CHECK(report["stages"].back()["name"] == "drape");
+  const auto plain = nlohmann::json::parse(tryon::report_json(wearer(), nullptr, {}));
+  CHECK_FALSE(plain["accuracy"].contains("of"));
 }
 
 TEST_CASE("report: names that are not UTF-8 are written all the same") {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <bodice/engine/catch_cancelled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
+#include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/tryon/penetration.hpp>
 
@@ -117,6 +119,33 @@ cloth::SolverOptions solver_options(const engine::Context& context, const DrapeO
   return solver;
 }
 
+/// A garment of another body, place or unit simulates just as well, far from the skin, and its report shows
+/// nothing inside: these say so.
+void warn_of_strangers(const std::vector<WornGarment>& garments, const PreparedBody& body,
+                       std::vector<engine::Warning>& warnings) {
+  constexpr double kNearStatures = 0.25;                         // a poncho begins above the head
+  constexpr double kSmallStatures = 0.03, kLargeStatures = 4.0;  // a wristband, a train
+  const double stature_m = body.fit.proxy.stature_m();
+  for (const WornGarment& garment : garments) {
+    geometry::Box box;
+    bool near = false;
+    for (const Vec3& p : garment.mesh.positions) {
+      if (!p.allFinite()) continue;
+      box.extend(p);
+      near = near || body.skin.distance->nearest_within(p, kNearStatures * stature_m);
+    }
+    const double size_m = box.size().norm();
+    if (!(size_m > kSmallStatures * stature_m && size_m < kLargeStatures * stature_m))
+      warnings.push_back({"garment-size", garment.name,
+                          engine::message("The garment is ", size_m,
+                                          " m from corner to corner, beside a body of ", stature_m, " m."),
+                          "Check that both are in the same units."});
+    else if (!near)
+      warnings.push_back({"garment-far", garment.name, "No vertex of the garment is near the body.",
+                          "Check that both are in the same place and units."});
+  }
+}
+
 engine::Result<DrapeResult> simulate(const engine::Context& context, const PreparedBody& body,
                                      const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                      const Progress& progress) {
@@ -142,7 +171,14 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.frames = options.frames;
   report.particles = solver->particles();
   report.thickness_m = solver_settings.thickness_m;
+  report.fabric = fabric->name;
+  report.dt_s = options.dt_s;
+  report.substeps = solver_settings.substeps;
+  for (const WornGarment& garment : garments)
+    report.garments.push_back({garment.name, garment.mesh.positions.size(), garment.held.size()});
+  warn_of_strangers(garments, body, report.warnings);
 
+  std::optional<engine::StageTimer> timer(std::in_place, context, report.stages, "drape");
   solver->positions(positions);
   recorder.keep(positions, 0.0);
   auto next_kept = keep.begin() + 1;
@@ -169,6 +205,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
     if (progress) progress("drape", static_cast<double>(frame) / options.frames);
   }
 
+  timer.reset();
   summarise_times(std::move(frame_ms), report);
   report.pierced_share = pierced_share(context, *body.skin.distance, positions, all.mesh.triangles);
   report.inside_union = count_inside(context, proxy, collider, positions);
@@ -176,7 +213,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.stretch_max = last.stretch_max;
   report.median_speed_m_s = last.median_speed_m_s;
   report.hash = solver->hash();
-  report.warnings.assign(solver->warnings().begin(), solver->warnings().end());
+  report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();
   return result;
 }

@@ -71,8 +71,23 @@ void append_warnings(Json& list, std::span<const engine::Warning> warnings) {
     list.push_back({{"code", w.code}, {"part", w.part}, {"message", w.message}, {"remedy", w.remedy}});
 }
 
+void append_stages(Json& list, std::span<const engine::StageTime> stages) {
+  for (const engine::StageTime& stage : stages) list.push_back({{"name", stage.name}, {"ms", stage.ms}});
+}
+
+Json garments_json(std::span<const DrapedGarment> garments) {
+  Json list = Json::array();
+  for (const DrapedGarment& g : garments)
+    list.push_back({{"name", g.name}, {"vertices", g.vertices}, {"held", g.held}});
+  return list;
+}
+
 Json drape_json(const DrapeReport& d) {
-  return {{"frames", d.frames},
+  return {{"garments", garments_json(d.garments)},
+          {"fabric", d.fabric},
+          {"dt_s", d.dt_s},
+          {"substeps", d.substeps},
+          {"frames", d.frames},
           {"particles", d.particles},
           {"thickness_mm", mm(d.thickness_m)},
           {"frame_ms", {{"median", d.frame_ms_median}, {"p99", d.frame_ms_p99}, {"max", d.frame_ms_max}}},
@@ -97,10 +112,14 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
   append_warnings(warnings, body.all_warnings());
   if (drape) append_warnings(warnings, drape->warnings);
   Json stages = Json::array();
-  for (const engine::StageTime& stage : body.all_stages())
-    stages.push_back({{"name", stage.name}, {"ms", stage.ms}});
+  append_stages(stages, body.all_stages());
+  if (drape) append_stages(stages, drape->stages);
+  Json accuracy = accuracy_json(fit.accuracy);
+  if (run.cropped) accuracy["of"] = "the whole body, before its proxy was cropped";
 
-  Json report = {{"input", input_json(body.skin.input)},
+  Json report = {{"program", run.program},
+                 {"command", run.command},
+                 {"input", input_json(body.skin.input)},
                  {"height_m", body.skin.anatomy.stature_m},
                  {"tier", proxy::name(fit.proxy.tier())},
                  {"threads", run.threads},
@@ -111,7 +130,7 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
                  {"mu_mm", {{"torso", mm(fit.mu_torso_m)}, {"limbs", mm(fit.mu_limbs_m)}}},
                  {"parts", parts_json(fit)},
                  {"landmarks", landmarks_json(body.skin)},
-                 {"accuracy", accuracy_json(fit.accuracy)},
+                 {"accuracy", accuracy},
                  {"warnings", warnings},
                  {"stages", stages}};
   if (drape) report["drape"] = drape_json(*drape);

@@ -23,6 +23,11 @@ struct DrapeOptions {
   std::optional<double> thickness_m;  ///< kept between particles and skin; absent: fitted_thickness_m()
 };
 
+struct DrapedGarment {
+  std::string name;
+  std::size_t vertices = 0, held = 0;
+};
+
 /// Penetration is measured in the skin's exact signed distance, never in the proxy.
 struct DrapeReport {
   int frames = 0;
@@ -39,6 +44,11 @@ struct DrapeReport {
   double median_speed_m_s = 0.0;                ///< at the end
   bool finite = true;                           ///< in every frame
   std::uint64_t hash = 0;                       ///< of the final state: equal for any worker count
+  std::vector<DrapedGarment> garments;
+  std::string fabric;  ///< in force, as dt_s and substeps
+  double dt_s = 0.0;
+  int substeps = 0;
+  std::vector<engine::StageTime> stages;  ///< drape
   std::vector<engine::Warning> warnings;
 };
 
