@@ -9,6 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <bodice/geodesic/distance_by_heap.hpp>
 #include <bodice/geodesic/distance_solver.hpp>
 #include <bodice/synth/body.hpp>
 

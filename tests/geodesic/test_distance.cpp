@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <bodice/engine/random.hpp>
-#include <bodice/geodesic/distance.hpp>
+#include <bodice/geodesic/distance_by_heap.hpp>
 #include <bodice_test/executors.hpp>
 
 #include "shapes.hpp"

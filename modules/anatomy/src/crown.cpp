@@ -75,8 +75,11 @@ Crown find_crown(const Skin& skin, const BodyCoordinates& coordinates, const Gir
     most = s;
     crown.vertex = v;
   }
-  crown.place = soft_place(skin, crown.vertex, static_cast<double>(kDomeRadius * size),
-                           [&](Index v) { return std::max(0.0F, kDome - (most - score(v))); }) +
+  // A hand over the head is nearer than the dome is wide, and farther from the feet.
+  const auto dome = [&](Index v) {
+    return coordinates.on_head(v) ? std::max(0.0F, kDome - (most - score(v))) : 0.0F;
+  };
+  crown.place = soft_place(skin, crown.vertex, static_cast<double>(kDomeRadius * size), dome) +
                 head_shift(coordinates, neck, head);
   crown.vertex = vertex_near(skin, crown.place, crown.vertex);
   return crown;

@@ -93,9 +93,11 @@ body::Landmark at_place(const geometry::Vec3& place, Index v, double confidence)
 /// The front of a foot is blunt: what is nearly as far from the head as its farthest vertex has a share.
 geometry::Vec3 toe_place(const Skin& skin, const BodyEnds& ends, int side) {
   const float blunt = kBlunt * ends.head_to_feet;
+  const geodesic::Field &own = *ends.from_foot[side], &other = *ends.from_foot[1 - side];
   const float tip = (*ends.from_head)[ends.foot[side]];
-  return soft_place(skin, ends.foot[side], static_cast<double>(kToes * ends.head_to_feet),
-                    [&](Index v) { return std::max(0.0F, blunt - std::abs(tip - (*ends.from_head)[v])); });
+  return soft_place(skin, ends.foot[side], static_cast<double>(kToes * ends.head_to_feet), [&](Index v) {
+    return own[v] < other[v] ? std::max(0.0F, blunt - std::abs(tip - (*ends.from_head)[v])) : 0.0F;
+  });
 }
 
 body::Landmark at_joint(const geometry::Vec3& place, const Girth& girth) {

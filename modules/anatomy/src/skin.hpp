@@ -5,7 +5,8 @@
 
 namespace bodice::anatomy {
 
-/// The mesh with what every step needs: built once, read by all.
+/// The mesh with what every step needs: built once, read by all. Keeps a reference to the mesh, which must
+/// outlive it.
 struct Skin {
   const geometry::TriMesh& mesh;
   geodesic::MeshEdges edges;

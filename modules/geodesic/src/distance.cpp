@@ -4,7 +4,6 @@
 // Dijkstra's.
 #include <algorithm>
 #include <cmath>
-#include <queue>
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geodesic/distance.hpp>
@@ -142,29 +141,6 @@ std::vector<Index> descend(const EdgeGraph& graph, const Field& field, Index fro
     at = next;
   }
   return path;
-}
-
-Field distances_by_heap(const EdgeGraph& graph, std::span<const Seed> seeds) {
-  Field field(graph.vertex_count(), kUnreachable);
-  using Entry = std::pair<float, Index>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const Seed& seed : seeds)
-    if (seed.vertex < field.size() && seed.distance < field[seed.vertex]) {
-      field[seed.vertex] = seed.distance;
-      queue.push({seed.distance, seed.vertex});
-    }
-  while (!queue.empty()) {
-    const auto [distance, vertex] = queue.top();
-    queue.pop();
-    if (distance > field[vertex]) continue;
-    for (Index k = graph.offset[vertex]; k < graph.offset[vertex + 1]; ++k) {
-      const float through = distance + graph.links[k].length;
-      if (through >= field[graph.links[k].to]) continue;
-      field[graph.links[k].to] = through;
-      queue.push({through, graph.links[k].to});
-    }
-  }
-  return field;
 }
 
 }  // namespace bodice::geodesic

@@ -38,7 +38,4 @@ std::vector<Field> distances_each(const engine::Context& context, const EdgeGrap
 /// The vertices of a shortest path from `from` down to a source of `field`; empty if unreachable.
 std::vector<geometry::Index> descend(const EdgeGraph& graph, const Field& field, geometry::Index from);
 
-/// The textbook method (binary heap, settled once): the yardstick of tests and benches.
-Field distances_by_heap(const EdgeGraph& graph, std::span<const Seed> seeds);
-
 }  // namespace bodice::geodesic

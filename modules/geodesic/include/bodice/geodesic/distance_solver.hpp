@@ -13,11 +13,15 @@ enum class Method {
   kFastMarching,  ///< a front over the triangles, sources unfolded: about half a percent, either way
 };
 
-/// Prepared for one mesh, which must outlive it; const calls may run at the same time.
+/// Prepared for one mesh and its edges. Keeps references to both, so both must outlive it; temporaries do not
+/// compile. Const calls may run at the same time.
 class DistanceSolver {
  public:
   DistanceSolver(const engine::Context& context, const geometry::TriMesh& mesh, const MeshEdges& edges,
                  Method method);
+  DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const MeshEdges&, Method) = delete;
+  DistanceSolver(const engine::Context&, const geometry::TriMesh&, const MeshEdges&&, Method) = delete;
+  DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const MeshEdges&&, Method) = delete;
 
   /// #V, metres; kUnreachable where no source leads. Sources outside the mesh are ignored.
   Field distances(std::span<const Seed> seeds) const;
