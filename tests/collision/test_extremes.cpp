@@ -53,6 +53,34 @@ TEST_CASE("aspects to 1:1000 and radii from a micrometre to a thousand kilometre
     }
 }
 
+TEST_CASE("relief is certified in proportion to the body, from a millimetre to a kilometre") {
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    auto data = data_of(random_ellipsoids(12, 40, 0.4 * scale, 0.06 * scale, 0.25 * scale));
+    data.stature_m *= scale;
+    const Collider collider(proxy_of(with_relief(data, 16, 0.003 * scale, 5)));
+    engine::Random random(9);
+    Cloud cloud;
+    for (int i = 0; i < 20000; ++i) cloud.add(random_vector(random, 0.7 * scale));
+    const auto thickness_m = static_cast<float>(1e-3 * scale);
+    const ContactReport report = collider.resolve({}, cloud.particles(), {.thickness_m = thickness_m});
+    std::vector<Contact> contacts(cloud.size());
+    collider.query({}, cloud.particles(), contacts);
+    std::size_t short_of = 0;
+    double lowest = 1.0;
+    for (const Contact& c : contacts) {
+      const double distance = double{c.signed_distance} / scale;
+      lowest = std::min(lowest, distance);
+      short_of += distance < 1e-3 - 1e-5;
+    }
+    CAPTURE(scale);
+    CHECK(report.contacts > 1000);
+    CHECK(report.fallbacks + report.judged_exactly > 0);
+    CHECK(report.unresolved == 0);
+    CHECK(lowest > -1e-5);
+    CHECK(short_of <= report.pinched);
+  }
+}
+
 TEST_CASE("four thousand ellipsoids, apart and on one place") {
   const auto one = random_ellipsoids(8, 1, 0.1, 0.1, 0.3)[0];
   for (const auto& shapes : {random_ellipsoids(4, 4096, 1.0, 0.02, 0.1), std::vector<Ellipsoid>(4096, one)}) {

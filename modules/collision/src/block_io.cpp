@@ -132,4 +132,18 @@ void scatter(const Gathered& gathered, int lane, const Particles& particles) {
   particles.vz[i] = block.vz[lane];
 }
 
+void scatter_all(const Gathered& gathered, std::size_t begin, const Particles& particles) {
+  const Gathering& block = gathered.batch;
+  const auto copy = [&](const float* from, float* to) {
+    std::memcpy(to + begin, from, static_cast<std::size_t>(block.count) * sizeof(float));
+  };
+  copy(block.x, particles.x);
+  copy(block.y, particles.y);
+  copy(block.z, particles.z);
+  if (!block.has_velocity) return;
+  copy(block.vx, particles.vx);
+  copy(block.vy, particles.vy);
+  copy(block.vz, particles.vz);
+}
+
 }  // namespace bodice::collision

@@ -27,4 +27,7 @@ void gather(const Particles& particles, const std::uint32_t* index, std::size_t 
 /// Writes the position and velocity of one lane back.
 void scatter(const Gathered& gathered, int lane, const Particles& particles);
 
+/// Those of all lanes, which are the caller's from `begin` on.
+void scatter_all(const Gathered& gathered, std::size_t begin, const Particles& particles);
+
 }  // namespace bodice::collision

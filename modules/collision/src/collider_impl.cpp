@@ -101,6 +101,31 @@ void count(const ParticleReport& particle, body::Part part, ContactReport& repor
   report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
 }
 
+/// Contacts by part. Neighbours are mostly of one part: what is stored at each waits for the one before.
+class PartCount {
+ public:
+  explicit PartCount(ContactReport& report) : report_(report) {}
+  ~PartCount() { store(); }
+  PartCount(const PartCount&) = delete;
+  PartCount& operator=(const PartCount&) = delete;
+
+  void add(body::Part part) {
+    if (part != part_) store();
+    part_ = part;
+    ++run_;
+  }
+
+ private:
+  void store() {
+    report_.contacts_by_part[static_cast<int>(part_)] += run_;
+    run_ = 0;
+  }
+
+  ContactReport& report_;
+  body::Part part_{};
+  std::uint64_t run_ = 0;
+};
+
 template <class Work>
 void for_lanes(const LaneBits& lanes, int count, Work&& work) {
   for (int begin = 0; begin < count; begin += kBlock)
@@ -217,11 +242,14 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   Memory* const memory = sequence.memory;
   for (std::size_t block = 0; memory && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
     memory->order.note_radius(begin / kBlock + block, response.radius_m[block]);
+  PartCount parts(report);
+  const bool whole = sequence.stored() && static_cast<std::size_t>(batch.count) == end - begin;
+  if (whole && !response.contact.none()) scatter_all(gathered, begin, particles);
   for_lanes(response.contact, batch.count, [&](int lane) {
-    scatter(gathered, lane, particles);
-    ++report.contacts_by_part[static_cast<int>(part[response.owner[lane]])];
-    report.deepest_m = std::max(report.deepest_m, response.depth[lane]);
+    if (!whole) scatter(gathered, lane, particles);
+    parts.add(part[response.owner[lane]]);
   });
+  report.deepest_m = std::max(report.deepest_m, response.deepest_m);
   report.contacts += count(response.contact);
   report.pending += count(response.pending);
   report.max_iterations = std::max(report.max_iterations, response.iterations);

@@ -86,13 +86,14 @@ struct LaneBits {
 };
 
 struct alignas(64) BatchResponse {
-  float depth[kBatch];                   ///< metres below the clearance before the response
-  std::uint32_t owner[kBatch];           ///< the deepest ellipsoid
-  LaneBits contact;                      ///< was below the clearance
-  LaneBits pending;                      ///< of those: held back by max_push_m
-  LaneBits hard;                         ///< not settled and left untouched: for the exact side
-  std::uint32_t iterations = 0;          ///< most pushes
-  float radius_m[kBatch / kBlock] = {};  ///< a block: half its box's diagonal
+  std::uint32_t owner[kBatch];   ///< the deepest ellipsoid
+  LaneBits contact;              ///< was below the clearance
+  LaneBits pending;              ///< of those: held back by max_push_m
+  LaneBits hard;                 ///< not settled and left untouched: for the exact side
+  std::uint32_t iterations = 0;  ///< most pushes
+  float deepest_m = 0.0f;        ///< of `contact`: below the clearance before the response
+  /// A block: half its box's diagonal; below zero: not measured.
+  float radius_m[kBatch / kBlock] = {-1.0f, -1.0f, -1.0f, -1.0f};
 };
 
 /// Fills in the contacts of the batch; false, and some left as they were, if too many ellipsoids are near or

@@ -73,7 +73,7 @@ class Resolver {
         near_(field, relief, double{options.blend_m}, clearance_m + 2.0 * slack_m_),
         overshoot_m_(std::max(slack_m_, std::min(kReliefOvershoot * near_.blend_m(),
                                                  relief ? near_.blend_m() : kFilletOvershoot * slack_m_))),
-        certificate_m_(relief ? kReliefCertificate_m : slack_m_) {}
+        certificate_m_(relief ? std::max(slack_m_, kReliefCertificate * near_.blend_m()) : slack_m_) {}
 
   ParticleReport run() {
     near_.expect(p_, 0.0);

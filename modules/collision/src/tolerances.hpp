@@ -7,9 +7,10 @@ namespace bodice::collision {
 /// pushes overshoot: results are stored as floats, whose rounding at that size is 6e-8 of it.
 inline constexpr double kCertificate = 2e-7;
 
-/// How far below the corrected surface a resolved particle may lie, metres: a tenth of what relief promises
-/// and a hundred times what rounding does through tables of usual slope.
-inline constexpr double kReliefCertificate_m = 5e-6;
+/// How far below the corrected surface a resolved particle may lie, share of relief's blending, which goes
+/// with the body's stature: 5 micrometres of 3 mm, a tenth of what relief promises and a hundred times what
+/// rounding does through tables of usual slope.
+inline constexpr double kReliefCertificate = 5e-3 / 3.0;
 
 /// Share of the scene's size by which float bounds are widened, so that culling never drops what exact
 /// arithmetic would keep: a dozen roundings of 6e-8.

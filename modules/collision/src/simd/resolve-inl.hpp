@@ -18,13 +18,17 @@ constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
 // A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
 
+// Rounds lead half a millimetre of a body apart; slacks.
+constexpr float kReachOfCall = static_cast<float>(kLeastReach / (2.0 * kCertificate));
+
 /// A plane of the contact at x, which is there only if x lies on it.
 HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, const float* offset, int i,
                           const std::int32_t* of, V3 x, float within_m, M& there) {
   const Plane plane = {load3(nx + i, ny + i, nz + i), hn::Load(f, offset + i)};
   const M in_force = hn::RebindMask(f, hn::Gt(hn::Load(I(), of + i), hn::Set(I(), -1)));
   there = hn::And(in_force, hn::Ge(plane.missing(x), all(-within_m)));
-  return {plane.n, hn::Zero(f)};
+  const V zero = hn::Zero(f);
+  return {select(in_force, plane.n, {zero, zero, zero}), zero};
 }
 
 /// The nearest velocity into none of the contact's planes at x; those of a bent surface have but one.
@@ -118,7 +122,6 @@ HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float
   }
   hn::Store(distance, f, way.distance + i);
   hn::Store(owner, I(), way.owner + i);
-  hn::Store(owner, I(), way.clear1 + i);
   store3(normal, way.n1x + i, way.n1y + i, way.n1z + i);
   const V target = surface.bent() ? all(surface.target_m()) : plain_target(surface, owner);
   const V short_by = hn::Sub(target, distance);
@@ -127,7 +130,7 @@ HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float
   store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
   hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
   out.contact.add(bits(contact), i);
-  pushed.add(contact, hn::Iota(I(), i));
+  pushed.add(contact, hn::Iota(I(), i), x, owner);
 }
 
 HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
@@ -139,7 +142,7 @@ HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
 
 /// Writes one vector back: place, velocity, and what is told about it.
 HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way, int i, Gathering& batch,
-                       BatchResponse& out) {
+                       V& deepest, BatchResponse& out) {
   M contact = mask_of(out.contact, i);
   if (hn::AllFalse(f, contact)) return;
   const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
@@ -166,7 +169,7 @@ HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way
     const V3 slowed = corrected_velocity(along_surface, clearance.friction, relative) + body;
     store3(select(contact, slowed, v), batch.vx + i, batch.vy + i, batch.vz + i);
   }
-  hn::Store(depth, f, out.depth + i);
+  deepest = hn::Max(deepest, hn::IfThenElseZero(contact, depth));
   hn::Store(owner, I(), reinterpret_cast<std::int32_t*>(out.owner) + i);
   out.pending.add(bits(pending), i);
 }
@@ -180,12 +183,17 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
   Way way;
   Pushed pushed;
   way.clear_others();
+  std::copy_n(out.radius_m, kBlocks, query.radius_m);
   if (!measure_first(surface, query, found)) return false;
+  std::copy_n(query.radius_m, kBlocks, out.radius_m);
   for (int i = 0; i < batch.count; i += kWidth)
     push_first(surface, batch, short_path_m, found, i, way, pushed, out);
   if (out.contact.none()) return true;
   if (!settle(surface, batch, pushed, way)) return false;
-  for (int i = 0; i < batch.count; i += kWidth) finish(surface.clearance, reach_m, way, i, batch, out);
+  V deepest = hn::Zero(f);
+  for (int i = 0; i < batch.count; i += kWidth)
+    finish(surface.clearance, reach_m, way, i, batch, deepest, out);
+  out.deepest_m = hn::GetLane(hn::MaxOfLanes(f, deepest));
   for (int block = 0; block < kBlocks; ++block) out.contact.word[block] &= ~out.hard.word[block];
   out.iterations = std::max(1u, way.rounds);
   return true;
@@ -201,22 +209,52 @@ HWY_INLINE void note_radii(const Gathering& batch, BatchResponse& out) {
   }
 }
 
-HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
+/// The batch against plain ellipsoids or relief.
+HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
                               Gathering& batch, BatchResponse& out) {
+  float shortest_m = 0.0f;
+  // What is kept tells by itself that nothing is near, and nobody asks how long a path may be.
+  if (!batch.keeping.batch || batch.has_safe) {
+    const Extent e = extent_of(batch);
+    const float bulge_m = relief ? relief->highest_m + relief->blend_m : 0.0f;
+    const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
+    shortest_m = shortest_radius(
+        baked, e, clearance.distance_m + bulge_m + travel_m + baked.rounding_m + rounding_over(e));
+    if (shortest_m >= 1e30f) {
+      note_radii(batch, out);
+      return true;
+    }
+  }
+  Scratch scratch;
+  KeptAround of_call;
+  Around around(batch.keeping, kReachOfCall * clearance.slack_m, of_call);
+  const Surface surface{baked, relief, clearance, nullptr, scratch, around};
+  return resolve_on(surface, kShortPath * shortest_m, 1e30f, batch, out);
+}
+
+/// The batch against the smooth union of the ellipsoids.
+HWY_INLINE bool resolve_filleted(const Baked& baked, const Clearance& clearance, Gathering& batch,
+                                 BatchResponse& out) {
   note_radii(batch, out);
   const Extent e = extent_of(batch);
-  const bool filleted = !relief && clearance.blend_m > 0.0f;
-  const float bulge_m = relief ? relief->highest_m + relief->blend_m : 2.0f * clearance.blend_m;
   const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
-  const float window_m = clearance.distance_m + bulge_m + travel_m;
+  const float window_m = clearance.distance_m + 2.0f * clearance.blend_m + travel_m;
   const float shortest_m = shortest_radius(baked, e, window_m + baked.rounding_m + rounding_over(e));
   if (shortest_m >= 1e30f) return true;
   Candidates candidates;
-  if (filleted && !cull_for_response(baked, batch, window_m, candidates)) return false;
-  if (filleted && candidates.count == 0) return true;
+  if (!cull_for_response(baked, batch, window_m, candidates)) return false;
+  if (candidates.count == 0) return true;
   Scratch scratch;
-  const Surface surface{baked, relief, clearance, filleted ? &candidates : nullptr, scratch};
-  return resolve_on(surface, kShortPath * shortest_m, filleted ? candidates.reach_m : 1e30f, batch, out);
+  KeptAround of_call;
+  Around around({}, 0.0f, of_call);
+  const Surface surface{baked, nullptr, clearance, &candidates, scratch, around};
+  return resolve_on(surface, kShortPath * shortest_m, candidates.reach_m, batch, out);
+}
+
+HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
+                              Gathering& batch, BatchResponse& out) {
+  if (!relief && clearance.blend_m > 0.0f) return resolve_filleted(baked, clearance, batch, out);
+  return resolve_sharp(baked, relief, clearance, batch, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -89,35 +89,73 @@ struct alignas(64) Way {
   LaneBits open;                          ///< not settled
   std::uint32_t rounds = 0;
 
+  /// Of the second and third planes the rest means nothing then.
   HWY_INLINE void clear_others() {
-    for (float* values : {n2x, n2y, n2z, offset2, n3x, n3y, n3z, offset3})
-      std::memset(values, 0, sizeof(offset2));
-    for (std::int32_t* values : {clear2, clear3, of2, of3}) std::memset(values, 0xFF, sizeof(of2));
+    for (std::int32_t* values : {of2, of3}) std::memset(values, 0xFF, sizeof(of2));
   }
 };
 
 /// The lanes that were pushed in a round, closed up.
 struct alignas(64) Pushed {
-  float x[kBatch], y[kBatch], z[kBatch];
-  std::int32_t clear1[kBatch], clear2[kBatch], clear3[kBatch];
-  std::int32_t lane[kBatch + 16];
+  static constexpr int kSize = kBatch + 16;
+  float x[kSize], y[kSize], z[kSize];
+  std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];
+  std::int32_t lane[kSize];
   int count = 0;
 
-  HWY_INLINE void add(M which, VI lanes) {
-    hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), which)), I(), lane + count);
+  /// After the first push, out of the ellipsoids `owner`.
+  HWY_INLINE void add(M which, VI lanes, V3 p, VI owner) {
+    const auto chosen = hn::RebindMask(I(), which);
+    hn::StoreU(hn::Compress(p.x, which), f, x + count);
+    hn::StoreU(hn::Compress(p.y, which), f, y + count);
+    hn::StoreU(hn::Compress(p.z, which), f, z + count);
+    hn::StoreU(hn::Compress(owner, chosen), I(), clear1 + count);
+    hn::StoreU(hn::Compress(lanes, chosen), I(), lane + count);
     count += static_cast<int>(hn::CountTrue(f, which));
   }
-  /// Reads the places of the lanes; the last is repeated up to a whole block.
+  /// Once all are added.
+  HWY_INLINE void close() {
+    std::memset(clear2, 0xFF, sizeof(clear2));
+    std::memset(clear3, 0xFF, sizeof(clear3));
+    pad();
+  }
+  /// Reads where the lanes are after another push.
   HWY_INLINE void collect(const Way& way) {
-    const int end = (count + kBlock - 1) / kBlock * kBlock;
-    for (int i = 0; i < end; ++i) {
-      const int from = lane[std::min(i, count - 1)];
+    for (int i = 0; i < count; ++i) {
+      const int from = lane[i];
       x[i] = way.x[from];
       y[i] = way.y[from];
       z[i] = way.z[from];
       clear1[i] = way.clear1[from];
       clear2[i] = way.clear2[from];
       clear3[i] = way.clear3[from];
+    }
+    pad();
+  }
+
+ private:
+  /// Repeats the last up to a whole block.
+  HWY_INLINE void pad() {
+    if (count == 0) return;
+    const int end = (count + kBlock - 1) / kBlock * kBlock;
+    for (float* values : {x, y, z}) std::fill(values + count, values + end, values[count - 1]);
+    for (std::int32_t* values : {clear1, clear2, clear3})
+      std::fill(values + count, values + end, values[count - 1]);
+  }
+};
+
+/// Lanes of `Pushed` that are still below the clearance, closed up: where they are in it, and in the batch.
+struct alignas(64) Below {
+  std::int32_t at[kBatch + 16], lane[kBatch + 16];
+  int count = 0;
+
+  HWY_INLINE Below(const float* distance, float limit_m, const Pushed& pushed) {
+    for (int i = 0; i < pushed.count; i += kWidth) {
+      const M below = hn::And(lanes_below(i, pushed.count), hn::Lt(hn::Load(f, distance + i), all(limit_m)));
+      const auto chosen = hn::RebindMask(I(), below);
+      hn::StoreU(hn::Compress(hn::Iota(I(), i), chosen), I(), at + count);
+      hn::StoreU(hn::Compress(hn::Load(I(), pushed.lane + i), chosen), I(), lane + count);
+      count += static_cast<int>(hn::CountTrue(f, below));
     }
   }
 };
@@ -155,6 +193,7 @@ struct Surface {
   const Clearance& clearance;
   const Candidates* filleted;  ///< of the block; null: creases stay sharp, or relief blends
   Scratch& scratch;
+  Around& around;  ///< where pushes lead to
 
   bool bent() const { return relief != nullptr || filleted != nullptr; }
   /// Where pushes aim at. A bent surface turns between steps; a share of the blending more lets Newton arrive
@@ -193,8 +232,8 @@ HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch
 }
 
 /// Distance, unit gradient, its length and the name of the owner at each place; false if there is no room.
-HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out) {
-  if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out);
+HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out, Around* around = nullptr) {
+  if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out, around);
   measure_filleted(surface, batch, out);
   return true;
 }
@@ -232,15 +271,16 @@ HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Batched
   alignas(64) std::int32_t none[kBatch];
   std::memset(none, 0xFF, sizeof(none));
   const Placed placed{batch, none, none, none};
-  return nearest_others(surface.baked, placed, limit_m, surface.scratch, out);
+  return nearest_others(surface.baked, placed, limit_m, nullptr, surface.scratch, out);
 }
 
 /// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.
 HWY_INLINE bool measure_again(const Surface& surface, const Pushed& pushed, Batched& out) {
   QueryBatch batch = places(pushed.x, pushed.y, pushed.z, pushed.count);
-  if (surface.bent()) return measure(surface, batch, out);
+  if (surface.bent()) return measure(surface, batch, out, &surface.around);
   const Placed placed{batch, pushed.clear1, pushed.clear2, pushed.clear3};
-  return nearest_others(surface.baked, placed, surface.clearance.distance_m, surface.scratch, out);
+  const float limit_m = surface.clearance.distance_m;
+  return nearest_others(surface.baked, placed, limit_m, &surface.around, surface.scratch, out);
 }
 
 /// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
@@ -248,9 +288,9 @@ HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
   return along(x, hn::Div(hn::Sub(target, distance), hn::Max(slope, all(0.5f))), normal);
 }
 
-/// A plane of the lanes `which`, whose indices are `lane` (`at`: the same, zero where there is none), and the
-/// nearest place beyond it and those before; of these the first and the latest stay in force.
-HWY_INLINE void add_plane(const Surface& surface, M which, VI lane, VI at, const Plane& newest, VI whose,
+/// A plane of the lanes `which`, whose indices are `at` (zero elsewhere), and the nearest place beyond it and
+/// those before; of these the first and the latest stay in force.
+HWY_INLINE void add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI whose,
                           const Gathering& batch, Way& way) {
   const V slack = all(surface.clearance.slack_m);
   const VI none = hn::Set(I(), -1);
@@ -264,48 +304,52 @@ HWY_INLINE void add_plane(const Surface& surface, M which, VI lane, VI at, const
   const V3 p = gather3(batch.x, batch.y, batch.z, at);
   const V3 of_two = project({first.n, newest.n, first.offset, newest.offset, hn::FirstN(f, kWidth)}, p);
   const V3 next = select(two, project(first, latest, newest, p, slack), of_two);
-  scatter3(which, lane, next, way.x, way.y, way.z);
+  scatter3(which, at, next, way.x, way.y, way.z);
   const M third = hn::And(two, which);
-  scatter3(which, lane, select(two, latest.n, newest.n), way.n2x, way.n2y, way.n2z);
-  scatter(which, lane, hn::IfThenElse(two, latest.offset, newest.offset), way.offset2);
-  scatter(which, lane, hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose), way.of2);
-  scatter3(third, lane, newest.n, way.n3x, way.n3y, way.n3z);
-  scatter(third, lane, newest.offset, way.offset3);
-  scatter(third, lane, whose, way.of3);
+  scatter3(which, at, select(two, latest.n, newest.n), way.n2x, way.n2y, way.n2z);
+  scatter(which, at, hn::IfThenElse(two, latest.offset, newest.offset), way.offset2);
+  scatter(which, at, hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose), way.of2);
+  scatter3(third, at, newest.n, way.n3x, way.n3y, way.n3z);
+  scatter(third, at, newest.offset, way.offset3);
+  scatter(third, at, whose, way.of3);
   // Planes that are nearly parallel meet far away, if at all: there all are measured again.
   const V behind = hn::Max(hn::Max(first.missing(next), newest.missing(next)),
                            hn::IfThenElse(two, latest.missing(next), all(-1e30f)));
   const auto certain = hn::RebindMask(I(), hn::Le(behind, slack));
-  scatter(which, lane, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
-  scatter(which, lane, hn::IfThenElse(certain, whose, none), way.clear2);
-  scatter(which, lane, hn::IfThenElse(hn::And(certain, hn::RebindMask(I(), two)), of_latest, none),
-          way.clear3);
+  scatter(which, at, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
+  scatter(which, at, hn::IfThenElse(certain, whose, none), way.clear2);
+  scatter(which, at, hn::IfThenElse(hn::And(certain, hn::RebindMask(I(), two)), of_latest, none), way.clear3);
 }
 
-/// What the last query found about some pushed lanes, and another push for those it left below.
-HWY_INLINE M push_again(const Surface& surface, const Gathering& batch, const Batched& found,
-                        const Pushed& pushed, int i, Way& way) {
-  const M valid = hn::FirstN(f, static_cast<std::size_t>(pushed.count - i));
-  const V distance = hn::Load(f, found.distance + i);
-  const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
-  const VI lane = hn::Load(I(), pushed.lane + i);
-  const M below = hn::And(valid, hn::Lt(distance, all(surface.clearance.distance_m)));
-  const V3 x = load3(pushed.x + i, pushed.y + i, pushed.z + i);
+/// Another push for those that the last query found below: a vector of them, from the i-th on.
+HWY_INLINE void push_again(const Surface& surface, const Gathering& batch, const Batched& found,
+                           const Pushed& pushed, const Below& below, int i, Way& way) {
+  const M which = lanes_below(i, below.count);
+  const auto real = hn::RebindMask(I(), which);
+  const VI at = hn::IfThenElseZero(real, hn::Load(I(), below.at + i));
+  const VI lane = hn::IfThenElseZero(real, hn::Load(I(), below.lane + i));
+  const V distance = hn::GatherIndex(f, found.distance, at);
+  const V3 normal = gather3(found.gx, found.gy, found.gz, at);
+  const V3 x = gather3(pushed.x, pushed.y, pushed.z, at);
   if (surface.bent()) {
-    scatter3(valid, lane, normal, way.n1x, way.n1y, way.n1z);
-    if (hn::AllFalse(f, below)) return below;
-    const V target = all(surface.target_m());
-    const V3 next = newton_step(x, distance, normal, hn::Load(f, found.value + i), target);
-    scatter3(below, lane, next, way.x, way.y, way.z);
-    return below;
+    const V slope = hn::GatherIndex(f, found.value, at);
+    const V3 next = newton_step(x, distance, normal, slope, all(surface.target_m()));
+    return scatter3(which, lane, next, way.x, way.y, way.z);
   }
-  if (hn::AllFalse(f, below)) return below;
-  const VI at = hn::IfThenElseZero(hn::RebindMask(I(), valid), lane);
-  const VI name = hn::IfThenElseZero(hn::RebindMask(I(), below), hn::Load(I(), found.name + i));
+  const VI name = hn::GatherIndex(I(), found.name, at);
   const VI newest = hn::GatherIndex(I(), surface.baked.internal.data(), name);
   const V offset = hn::Add(dot(normal, x), hn::Sub(plain_target(surface, newest), distance));
-  add_plane(surface, below, lane, at, {normal, offset}, newest, batch, way);
-  return below;
+  add_plane(surface, which, lane, {normal, offset}, newest, batch, way);
+}
+
+/// The last normals of a bent surface are those that velocities are judged by.
+HWY_INLINE void keep_normals(const Pushed& pushed, const Batched& found, Way& way) {
+  for (int i = 0; i < pushed.count; ++i) {
+    const int lane = pushed.lane[i];
+    way.n1x[lane] = found.gx[i];
+    way.n1y[lane] = found.gy[i];
+    way.n1z[lane] = found.gz[i];
+  }
 }
 
 /// Pushes the lanes of `pushed`, whose first push is done, until all are clear; false if the kernel has no
@@ -313,14 +357,15 @@ HWY_INLINE M push_again(const Surface& surface, const Gathering& batch, const Ba
 HWY_INLINE bool settle(const Surface& surface, const Gathering& batch, Pushed& pushed, Way& way) {
   const auto most = static_cast<std::uint32_t>(surface.bent() ? kReliefRounds : kPlainRounds);
   Batched found;
+  pushed.close();
   for (way.rounds = 0; pushed.count > 0 && way.rounds < most; ++way.rounds) {
-    pushed.collect(way);
     if (!measure_again(surface, pushed, found)) return false;
-    Pushed next;
-    for (int i = 0; i < pushed.count; i += kWidth)
-      next.add(push_again(surface, batch, found, pushed, i, way), hn::Load(I(), pushed.lane + i));
-    pushed.count = next.count;
-    std::memcpy(pushed.lane, next.lane, sizeof(next.lane));
+    if (surface.bent() && batch.has_velocity) keep_normals(pushed, found, way);
+    const Below below(found.distance, surface.clearance.distance_m, pushed);
+    for (int i = 0; i < below.count; i += kWidth) push_again(surface, batch, found, pushed, below, i, way);
+    pushed.count = below.count;
+    std::copy_n(below.lane, below.count, pushed.lane);
+    pushed.collect(way);
   }
   for (int i = 0; i < pushed.count; ++i) way.open.add(1, pushed.lane[i]);
   return true;
