@@ -51,6 +51,41 @@ says "folder"
 expect 1 "a profile that does not exist" "$bodice" fit --profile martians
 says "ansur2"
 
+# refused COMMAND...: bad usage, said before any work is done.
+refused() { expect 2 "bad usage accepted: $*" timeout 5 "$bodice" "$@"; }
+
+# An extension decides, and one that cannot is refused.
+for option in "-o p.glb" "-o p" "--surface s.stl" "--glb g.obj" "--picture p.jpg"; do refused fit $option; says "extension"; one_line; done
+refused drape -o d.obj
+refused make -o b.stl
+refused make --garment-out g.glb
+expect 0 "an extension in capitals" "$bodice" fit --tier paper --vertices 2000 -o P.BODICE
+[ "$(head -c 1 P.BODICE)" != "{" ] || { echo "FAILED: JSON in P.BODICE"; failures=$((failures + 1)); }
+expect 0 "a device has any name" "$bodice" fit --tier paper --vertices 2000 --surface /dev/null --report /dev/null --labels /dev/null
+
+# No output overwrites an input or another output, by whatever name.
+cp triangle.obj kept.obj && ln -s triangle.obj link.obj && ln triangle.obj hard.obj && cp triangle.obj p.json
+for file in triangle.obj ./triangle.obj "$PWD/triangle.obj" "../${PWD##*/}/triangle.obj" link.obj hard.obj; do
+  refused fit triangle.obj --surface "$file"
+  says "overwrite BODY"
+  one_line
+done
+refused fit p.json -o p.json
+refused fit body.obj --region-of triangle.obj --surface triangle.obj
+refused make triangle.obj --garment-out triangle.obj
+refused drape body.obj triangle.obj --labels triangle.obj
+refused fit --profile p.json -o p.json
+refused fit -o same.json --report same.json
+says "overwrite -o"
+refused fit -o ./a.json --trace a.json
+refused make -o b.obj --garment-out b.obj
+refused drape -o d.glb --report d.png
+refused query p.json triangle.obj -o triangle.obj
+refused query p.json triangle.obj -o ./p.json
+cmp -s triangle.obj kept.obj && cmp -s p.json kept.obj || { echo "FAILED: an input was overwritten"; failures=$((failures + 1)); }
+for file in same.json a.json b.obj g.obj d.glb; do absent $file; done
+rm p.json
+
 expect 0 "make a body and a garment" "$bodice" make --vertices 4500 -o body.obj --garment skirt --garment-out skirt.obj
 exists body.obj
 exists skirt.obj

@@ -48,19 +48,13 @@ engine::Result<std::vector<tryon::WornGarment>> dress(const Run& run, const Drap
   return worn;
 }
 
-std::string picture_file(const DrapeCommand& command) {
-  if (command.no_picture) return {};
-  if (!command.common.picture.empty()) return command.common.picture;
-  return std::filesystem::path(command.output).replace_extension(".png").string();
-}
-
 engine::Result<void> write_outputs(const DrapeCommand& command, const tryon::PreparedBody& body,
                                    std::vector<io::GarmentTrack> tracks, std::vector<std::string>& written) {
   io::Scene scene = scene_of(body);
   scene.garments = std::move(tracks);
   if (auto saved = io::write_glb(scene, command.output); !saved) return saved;
   written.push_back(command.output);
-  if (const std::string picture = picture_file(command); !picture.empty()) {
+  if (const std::string& picture = command.common.picture; !picture.empty()) {
     const std::size_t kept = scene.garments.front().frames.size();
     const std::size_t frames[] = {0, (kept - 1) / 2, kept - 1};
     if (auto saved = io::write_picture(scene, frames, picture); !saved) return saved;
@@ -85,8 +79,9 @@ engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, c
 engine::Result<void> drape(const DrapeCommand& command) {
   const CommonOptions& o = command.common;
   Run run(o);
-  if (auto ok = run.check_outputs({command.output, picture_file(command), o.labels, o.report, o.trace}); !ok)
-    return ok;
+  std::vector<FileOption> garments;
+  for (const std::string& file : command.garments) garments.push_back({"GARMENT", file});
+  if (auto ok = run.check_files({{"-o", command.output, {".glb"}}}, std::move(garments)); !ok) return ok;
   auto skin = run.segment();
   if (!skin) return std::move(skin).error();
   auto worn = dress(run, command, *skin);
@@ -166,6 +161,8 @@ void add_drape_command(CLI::App& app, int& exit_code) {
   sub->add_flag("--no-picture", command->no_picture, "write no PNG beside the output")->group("Output");
   sub->footer("Example: bodice drape body.obj dress.obj -o out.glb --frames 120 --wind 0,0,2");
   sub->callback([command, &exit_code] {
+    if (!command->no_picture && command->common.picture.empty())
+      command->common.picture = std::filesystem::path(command->output).replace_extension(".png").string();
     const auto done = drape(*command);
     exit_code = done ? kExitOk : fail(done.error());
   });

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include <bodice/engine/write_file.hpp>
 #include <bodice/io/obj.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
@@ -53,6 +54,12 @@ engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const
   return proxy::proxy_surface(context, proxy, proxy.stature_m() / kCellsAStature);
 }
 
+/// By the extension in any case of letters, as check_files() judged it.
+engine::Result<void> save(const proxy::BodyProxy& proxy, const std::string& file) {
+  if (extension_of(file) == ".bodice") return engine::write_file(file, proxy::to_binary(proxy));
+  return engine::write_file(file, proxy::to_json(proxy));
+}
+
 engine::Result<void> write_outputs(const FitCommand& command, const engine::Context& context,
                                    const tryon::PreparedBody& body, std::vector<std::string>& written) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
@@ -61,7 +68,7 @@ engine::Result<void> write_outputs(const FitCommand& command, const engine::Cont
   io::Scene scene = scene_of(body);
   if (!proxy.relief().empty() && !surface->mesh.empty()) scene.surface = &*surface;
   if (!command.output.empty()) {
-    if (auto saved = proxy::save(proxy, command.output); !saved) return saved;
+    if (auto saved = save(proxy, command.output); !saved) return saved;
     written.push_back(command.output);
   }
   if (!command.common.glb.empty()) {
@@ -83,8 +90,8 @@ engine::Result<void> write_outputs(const FitCommand& command, const engine::Cont
 engine::Result<void> fit(const FitCommand& command) {
   const CommonOptions& o = command.common;
   Run run(o);
-  if (auto ok =
-          run.check_outputs({command.output, command.surface, o.glb, o.picture, o.labels, o.report, o.trace});
+  if (auto ok = run.check_files(
+          {{"-o", command.output, {".json", ".bodice"}}, {"--surface", command.surface, {".obj"}}});
       !ok)
     return ok;
   auto skin = run.segment();

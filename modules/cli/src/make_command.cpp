@@ -16,14 +16,17 @@ struct MakeCommand {
 engine::Result<void> make(const MakeCommand& command) {
   const CommonOptions& o = command.common;
   Run run(o);
-  if (auto ok = run.check_outputs({command.output, command.garment, o.labels}); !ok) return ok;
+  const std::string body_out = o.body.empty() ? command.output : "";
+  if (auto ok = run.check_files({{"-o", body_out, {".obj"}}, {"--garment-out", command.garment, {".obj"}}});
+      !ok)
+    return ok;
   auto skin = run.segment();
   if (!skin) return std::move(skin).error();
   const geometry::Frame& frame = skin->input.frame;
   std::vector<std::string> written;
-  if (o.body.empty()) {
-    if (auto saved = io::write_obj(skin->input.skin, command.output, frame); !saved) return saved;
-    written.push_back(command.output);
+  if (!body_out.empty()) {
+    if (auto saved = io::write_obj(skin->input.skin, body_out, frame); !saved) return saved;
+    written.push_back(body_out);
   }
   if (!command.garment.empty()) {
     auto garment = make_garment_for(run.context(), *skin, command.kind);

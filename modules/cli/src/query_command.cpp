@@ -9,6 +9,7 @@
 #include <bodice/proxy/proxy_file.hpp>
 
 #include "options.hpp"
+#include "outputs.hpp"
 #include "terminal.hpp"
 
 namespace bodice::cli {
@@ -57,6 +58,9 @@ std::string answer(const collision::Collider& collider, const proxy::BodyProxy& 
 }
 
 engine::Result<void> query(const QueryCommand& command) {
+  const FileOption output{"-o", command.output};
+  const FileOption inputs[] = {{"PROXY", command.proxy}, {"POINTS", command.points}};
+  if (auto ok = check_outputs({&output, 1}, inputs); !ok) return ok;
   auto proxy = proxy::load(command.proxy);
   if (!proxy) return std::move(proxy).error();
   auto points = read_points(command.points);

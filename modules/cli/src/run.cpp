@@ -1,9 +1,6 @@
 #include "run.hpp"
 
 #include <cstdio>
-#include <filesystem>
-
-#include <unistd.h>
 
 #include <bodice/engine/write_file.hpp>
 #include <bodice/tryon/reach.hpp>
@@ -19,22 +16,15 @@ Run::Run(const CommonOptions& options)
   context_.trace = trace_.get();
 }
 
-engine::Result<void> Run::check_outputs(const std::vector<std::string>& files) const {
-  for (const std::string& file : files) {
-    if (file.empty()) continue;
-    std::filesystem::path folder = std::filesystem::path(file).parent_path();
-    if (folder.empty()) folder = ".";
-    if (std::filesystem::is_directory(file))
-      return engine::Error{engine::ErrorCode::kWriteFailed, file + " is a folder.", "Name a file in it."};
-    if (!std::filesystem::is_directory(folder))
-      return engine::Error{engine::ErrorCode::kWriteFailed, "The folder of " + file + " does not exist.",
-                           "Make it first."};
-    if (access(folder.c_str(), W_OK) != 0)
-      return engine::Error{engine::ErrorCode::kWriteFailed,
-                           "The folder of " + file + " cannot be written to.",
-                           "Choose another with -o or change its permissions."};
-  }
-  return {};
+engine::Result<void> Run::check_files(std::vector<FileOption> outputs, std::vector<FileOption> inputs) const {
+  const CommonOptions& o = options_;
+  outputs.insert(outputs.end(), {{"--glb", o.glb, {".glb"}},
+                                 {"--picture", o.picture, {".png"}},
+                                 {"--labels", o.labels},
+                                 {"--report", o.report},
+                                 {"--trace", o.trace}});
+  inputs.insert(inputs.end(), {{"BODY", o.body}, {"--region-of", o.region_of}, {"--profile", o.profile}});
+  return check_outputs(outputs, inputs);
 }
 
 engine::Result<tryon::SegmentedSkin> Run::segment() {

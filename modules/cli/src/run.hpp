@@ -14,6 +14,7 @@
 #include <bodice/tryon/report.hpp>
 
 #include "options.hpp"
+#include "outputs.hpp"
 #include "terminal.hpp"
 
 namespace bodice::cli {
@@ -27,8 +28,9 @@ class Run {
   const CommonOptions& options() const { return options_; }
   ProgressLine& progress() { return progress_; }
 
-  /// Fails early when an output could not be written after long work.
-  engine::Result<void> check_outputs(const std::vector<std::string>& files) const;
+  /// check_outputs() of the shared outputs and a command's own, against the shared inputs and its own.
+  engine::Result<void> check_files(std::vector<FileOption> outputs,
+                                   std::vector<FileOption> inputs = {}) const;
   engine::Result<tryon::SegmentedSkin> segment();
   /// The garment of --region-of, where the skin is; empty when none was given.
   engine::Result<std::vector<geometry::TriMesh>> region_garments(const tryon::SegmentedSkin& skin);

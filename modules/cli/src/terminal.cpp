@@ -40,7 +40,7 @@ void ProgressLine::clear() {
 
 int fail(const engine::Error& error) {
   std::fprintf(stderr, "bodice: %s\n", error.sentence().c_str());
-  return kExitFailed;
+  return error.code == engine::ErrorCode::kInvalidArgument ? kExitUsage : kExitFailed;
 }
 
 }  // namespace bodice::cli

@@ -28,7 +28,7 @@ class ProgressLine {
   std::string last_;
 };
 
-/// Prints "bodice: <sentence>" and returns the exit code for a failure.
+/// Prints "bodice: <sentence>" and returns the exit code: bad usage for an argument out of its range.
 int fail(const engine::Error& error);
 
 }  // namespace bodice::cli
