@@ -48,11 +48,49 @@ expect 1 "a triangle is no body" "$bodice" fit triangle.obj
 one_line
 expect 1 "an output folder that does not exist" "$bodice" fit -o no/such/folder/p.json
 says "folder"
-expect 1 "a profile that does not exist" "$bodice" fit --profile martians
+expect 2 "a profile that does not exist" "$bodice" fit --profile martians
 says "ansur2"
 
 # refused COMMAND...: bad usage, said before any work is done.
 refused() { expect 2 "bad usage accepted: $*" timeout 5 "$bodice" "$@"; }
+
+# Numbers that mean nothing.
+for value in nan inf 0 -1 1e999 2x ""; do refused fit --target-error-mm "$value"; says "target-error-mm"; done
+refused fit --target-error-mm 0
+says "above 0"
+for value in nan -1; do refused fit triangle.obj --region-of triangle.obj --region-margin-mm "$value"; done
+says "at least 0"
+for value in -1 18446744073709551616 1.5 0x10; do refused fit --seed "$value"; says "whole number"; done
+refused fit --threads 1.5
+says "whole number from 0 to 1024"
+refused fit --max-ellipsoids 5x
+for value in 0 nan 3; do refused fit --height "$value"; says "0.4 to 2.6"; done
+refused fit --height 1.7 --mass 500
+refused drape --wind 1,2,nan
+says "finite"
+refused drape --fabric wool
+says "silk"
+
+# Names that are empty, as those of unset variables are.
+refused fit ""
+says "built-in"
+for option in --region-of -o --surface --glb --labels --report --picture --trace; do refused fit "$option" ""; says "empty"; done
+refused fit triangle.obj --mesh ""
+refused drape triangle.obj ""
+refused make --garment-out ""
+refused query "" triangle.obj
+
+# What would be ignored.
+for option in "--height 1.7" "--sex male" "--pose t" "--mass 60" "--vertices 5000"; do refused fit triangle.obj $option; says "BODY"; done
+for option in "--unit m" "--up y" "--mesh body"; do refused fit $option; says "BODY"; done
+refused fit --region-margin-mm 20
+refused drape --gust 0.5
+refused drape triangle.obj triangle.obj --garment tunic
+refused drape --picture d.png --no-picture
+refused make --garment tunic
+refused make triangle.obj
+says "garment-out"
+refused make triangle.obj -o b.obj --garment-out g.obj
 
 # An extension decides, and one that cannot is refused.
 for option in "-o p.glb" "-o p" "--surface s.stl" "--glb g.obj" "--picture p.jpg"; do refused fit $option; says "extension"; one_line; done

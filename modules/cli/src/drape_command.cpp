@@ -5,6 +5,7 @@
 
 #include "garment_kinds.hpp"
 #include "run.hpp"
+#include "validators.hpp"
 
 namespace bodice::cli {
 namespace {
@@ -106,34 +107,34 @@ engine::Result<void> drape(const DrapeCommand& command) {
 void add_motion_options(CLI::App& sub, DrapeCommand& c) {
   const auto group = "Motion";
   sub.add_option("--frames", c.drape.frames, "frames to simulate")
-      ->check(CLI::Range(1, 100000))
+      ->check(whole(1, 100000))
       ->group(group)
       ->capture_default_str();
   sub.add_option("--dt", c.drape.dt_s, "seconds a frame")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
       ->group(group)
       ->capture_default_str();
   sub.add_option("--substeps", c.drape.solver.substeps, "solver steps a frame: more is stiffer and slower")
-      ->check(CLI::Range(1, cloth::kMaxSubsteps))
+      ->check(whole(1, cloth::kMaxSubsteps))
       ->group(group)
       ->capture_default_str();
-  sub.add_option("--wind", c.wind_m_s, "x,y,z in the file's axes, metres a second")
-      ->delimiter(',')
-      ->expected(3)
-      ->group(group);
+  auto* wind = sub.add_option("--wind", c.wind_m_s, "x,y,z in the file's axes, metres a second");
+  wind->delimiter(',')->check(finite())->expected(3)->group(group);
   sub.add_option("--gust", c.drape.solver.environment.gust, "share of the wind that fluctuates")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(between(0.0, 1.0))
+      ->needs(wind)
       ->group(group)
       ->capture_default_str();
   sub.add_option("--fabric", c.fabric, "cotton, silk, denim, jersey, leather")
+      ->check(CLI::IsMember(cloth::fabric_names()))
       ->group(group)
       ->capture_default_str();
   sub.add_option("--thickness-mm", c.thickness_mm,
                  "distance that particles keep from the skin (default: so that triangles stay out too)")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(between(0.0, 100.0))
       ->group(group);
   sub.add_option("--keep", c.drape.kept_frames, "frames kept in the GLB")
-      ->check(CLI::Range(2, 10000))
+      ->check(whole(2, 10000))
       ->group(group)
       ->capture_default_str();
 }
@@ -144,10 +145,12 @@ void add_drape_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<DrapeCommand>();
   CLI::App* sub = app.add_subcommand("drape", "Drape garments over a body under gravity and wind");
   add_common_options(*sub, command->common);
-  sub->add_option("GARMENT", command->garments,
-                  "garment meshes in the body's place and units (default: one made to fit)");
+  auto* garments = sub->add_option("GARMENT", command->garments,
+                                   "garment meshes in the body's place and units (default: one made to fit)");
+  garments->check(not_empty());
   sub->add_option("--garment", command->made, "without GARMENT, make this: skirt, tunic, poncho, tube")
       ->check(CLI::IsMember({"skirt", "tunic", "poncho", "tube"}))
+      ->excludes(garments)
       ->group("Garment")
       ->capture_default_str();
   sub->add_option("--hold", command->hold, "auto: waistbands stay with the body; none: everything is free")
@@ -155,10 +158,14 @@ void add_drape_command(CLI::App& app, int& exit_code) {
       ->group("Garment")
       ->capture_default_str();
   add_motion_options(*sub, *command);
-  sub->add_option("-o,--output", command->output, "body, ellipsoids and moving cloth, for any glTF viewer")
+  sub->add_option("-o,--output", command->output,
+                  "body, ellipsoids and moving cloth, .glb for any glTF viewer")
+      ->check(not_empty())
       ->group("Output")
       ->capture_default_str();
-  sub->add_flag("--no-picture", command->no_picture, "write no PNG beside the output")->group("Output");
+  sub->add_flag("--no-picture", command->no_picture, "write no PNG beside the output")
+      ->excludes("--picture")
+      ->group("Output");
   sub->footer("Example: bodice drape body.obj dress.obj -o out.glb --frames 120 --wind 0,0,2");
   sub->callback([command, &exit_code] {
     if (!command->no_picture && command->common.picture.empty())

@@ -10,6 +10,7 @@
 
 #include "query_speed.hpp"
 #include "run.hpp"
+#include "validators.hpp"
 
 namespace bodice::cli {
 namespace {
@@ -117,11 +118,14 @@ void add_fit_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<FitCommand>();
   CLI::App* sub = app.add_subcommand("fit", "Fit a body proxy of ellipsoids to a body mesh");
   sub->add_option("-o,--output", command->output, "the proxy: .json, or .bodice for the compact binary")
+      ->check(not_empty())
       ->group("Output");
   sub->add_option("--glb", command->common.glb, "body by part and ellipsoids, for any glTF viewer")
+      ->check(not_empty())
       ->group("Output");
   sub->add_option("--surface", command->surface,
                   "the proxy's surface as triangles (OBJ), for tools that collide with meshes")
+      ->check(not_empty())
       ->group("Output");
   add_common_options(*sub, command->common);
   sub->add_flag("--region-exact", command->exact_region,

@@ -16,6 +16,11 @@ int main(int argc, char** argv) {
       "      bodice fit body.obj -o p.json    a proxy for your body\n"
       "      bodice fit --help                every option of a command\n"
       "Exit status: 0 ok, 1 failed, 2 bad usage.");
+  app.failure_message([](const CLI::App* parsed, const CLI::Error& error) {
+    std::string program = "bodice";
+    for (const CLI::App* command : parsed->get_subcommands()) program += " " + command->get_name();
+    return std::string("bodice: ") + error.what() + ". See `" + program + " --help`.\n";
+  });
   int exit_code = kExitOk;
   add_fit_command(app, exit_code);
   add_drape_command(app, exit_code);

@@ -4,6 +4,7 @@
 
 #include "garment_kinds.hpp"
 #include "run.hpp"
+#include "validators.hpp"
 
 namespace bodice::cli {
 namespace {
@@ -44,12 +45,17 @@ void add_make_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<MakeCommand>();
   CLI::App* sub =
       app.add_subcommand("make", "Write the built-in body, or a garment made to fit a body, as OBJ");
-  sub->add_option("BODY", command->common.body,
-                  "make the garment for this body (default: the built-in body)");
-  sub->add_option("-o,--output", command->output, "the built-in body")->capture_default_str();
-  sub->add_option("--garment-out", command->garment, "the garment");
+  auto* body = add_body_option(*sub, command->common, "make the garment for this body");
+  sub->add_option("-o,--output", command->output, "where the built-in body goes, .obj")
+      ->check(not_empty())
+      ->excludes(body)
+      ->capture_default_str();
+  auto* garment =
+      sub->add_option("--garment-out", command->garment, "where the garment goes, .obj")->check(not_empty());
+  body->needs(garment);
   sub->add_option("--garment", command->kind, "skirt, tunic, poncho, tube")
       ->check(CLI::IsMember({"skirt", "tunic", "poncho", "tube"}))
+      ->needs(garment)
       ->capture_default_str();
   add_input_options(*sub, command->common);
   add_builtin_options(*sub, command->common);

@@ -1,9 +1,12 @@
 #include "options.hpp"
 
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include <bodice/body/proportions.hpp>
+
+#include "validators.hpp"
 
 namespace bodice::cli {
 namespace {
@@ -44,10 +47,10 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
   auto* error =
       command
           .add_option("--target-error-mm", o.target_error_mm, "mean distance between proxy and skin to reach")
-          ->check(CLI::PositiveNumber)
+          ->check(above_zero())
           ->group(group);
   auto* count = command.add_option("--max-ellipsoids", o.max_ellipsoids, "at most this many ellipsoids")
-                    ->check(CLI::Range(1, 4096))
+                    ->check(whole(1, 4096))
                     ->group(group);
   auto* budget =
       command
@@ -55,7 +58,7 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
               "--budget-us", o.budget_us,
               "time of one query of 10,000 particles near the skin, microseconds, on one thread of a 2.5 GHz "
               "server; measured here afterwards, so that you can scale it")
-          ->check(CLI::PositiveNumber)
+          ->check(above_zero())
           ->group(group);
   error->excludes(count)->excludes(budget);
   count->excludes(budget);
@@ -65,38 +68,46 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
               "--mu-torso-mm", o.mu_torso_mm,
               "the paper's threshold for the torso, with the tiers paper (then the default) and solid "
               "(default: automatic)")
-          ->check(CLI::PositiveNumber)
+          ->check(above_zero())
           ->group(group);
   auto* limbs = command
                     .add_option("--mu-limbs-mm", o.mu_limbs_mm,
                                 "the paper's threshold for head and limbs (default: automatic)")
-                    ->check(CLI::PositiveNumber)
+                    ->check(above_zero())
                     ->group(group);
   torso->needs(limbs)->excludes(error)->excludes(budget);
   limbs->needs(torso)->excludes(error)->excludes(budget);
   command
       .add_option("--time-budget-s", o.time_budget_s,
                   "stop refining after this long (default: when nothing is gained; runs repeat to the bit)")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->group(group);
   command
       .add_option(
           "--region-of", o.region_of,
           "fit only the parts that this garment can touch: paper and solid give them the ellipsoids of the "
           "whole body's fit, tight and relief others that are as accurate")
+      ->check(not_empty())
       ->group(group);
   command.add_option("--region-margin-mm", o.region_margin_mm, "how far that garment can reach")
-      ->check(CLI::NonNegativeNumber)
+      ->check(zero_or_more())
+      ->needs("--region-of")
       ->group(group)
       ->capture_default_str();
 }
 
 void add_output_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Output";
-  command.add_option("--labels", o.labels, "write `x y z part` for each welded vertex")->group(group);
-  command.add_option("--report", o.report, "write the report, one JSON object")->group(group);
-  command.add_option("--picture", o.picture, "write a PNG from two sides")->group(group);
-  command.add_option("--trace", o.trace, "write a Chrome trace (open in Perfetto)")->group(group);
+  command.add_option("--labels", o.labels, "write `x y z part` for each welded vertex")
+      ->check(not_empty())
+      ->group(group);
+  command.add_option("--report", o.report, "write the report, one JSON object")
+      ->check(not_empty())
+      ->group(group);
+  command.add_option("--picture", o.picture, "write a PNG from two sides")->check(not_empty())->group(group);
+  command.add_option("--trace", o.trace, "write a Chrome trace (open in Perfetto)")
+      ->check(not_empty())
+      ->group(group);
   command.add_flag("--json", o.json, "print the report to standard output instead of a summary")
       ->group(group);
 }
@@ -112,15 +123,20 @@ void add_input_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Input";
   command.add_option("--unit", o.unit, "length unit of the file: m, dm, cm, mm, in, auto")
       ->check(CLI::IsMember(keys(kUnits)))
+      ->needs("BODY")
       ->group(group)
       ->capture_default_str();
   command.add_option("--up", o.up, "up axis of the file: x, y, z, auto")
       ->check(CLI::IsMember({"x", "y", "z", "auto"}))
+      ->needs("BODY")
       ->group(group)
       ->capture_default_str();
   command.add_option("--mesh", o.mesh, "take this mesh of the file for the body (default: chosen by shape)")
+      ->check(not_empty())
+      ->needs("BODY")
       ->group(group);
   command.add_option("--profile", o.profile, "body proportions: ansur2, gb10000-88 or a JSON file")
+      ->check(profile())
       ->group(group)
       ->capture_default_str();
 }
@@ -129,30 +145,54 @@ void add_builtin_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Built-in body (without BODY)";
   command.add_option("--sex", o.sex, "female, male")
       ->check(CLI::IsMember({"female", "male"}))
+      ->excludes("BODY")
       ->group(group)
       ->capture_default_str();
-  command.add_option("--height", o.height_m, "stature, metres")->group(group)->capture_default_str();
-  command.add_option("--mass", o.mass_kg, "kilograms")->group(group)->capture_default_str();
+  command.add_option("--height", o.height_m, "stature, metres")
+      ->check(between(0.4, 2.6))
+      ->excludes("BODY")
+      ->group(group)
+      ->capture_default_str();
+  command.add_option("--mass", o.mass_kg, "kilograms")
+      ->check(above_zero())
+      ->excludes("BODY")
+      ->group(group)
+      ->capture_default_str();
   command
       .add_option("--pose", o.pose,
                   "a, t, arms-down, arms-up, stride, sit, squat, run, kick, lying, handstand, random")
       ->check(CLI::IsMember(keys(kPoses)))
+      ->excludes("BODY")
       ->group(group)
       ->capture_default_str();
-  command.add_option("--vertices", o.vertices, "resolution of the skin")->group(group)->capture_default_str();
+  command.add_option("--vertices", o.vertices, "resolution of the skin")
+      ->check(whole(1350, 4'000'000))
+      ->excludes("BODY")
+      ->group(group)
+      ->capture_default_str();
 }
 
 void add_run_options(CLI::App& command, CommonOptions& o) {
   command.add_option("--threads", o.threads, "workers; 0: one a core")
-      ->check(CLI::Range(0, 1024))
+      ->check(whole(0, 1024))
       ->capture_default_str();
-  command.add_option("--seed", o.seed, "seed of everything random")->capture_default_str();
+  command
+      .add_option(
+          "--seed", o.seed,
+          "varies the built-in body (0: the average), its pose `random` and gusts; a fit draws nothing "
+          "from it and repeats to the bit")
+      ->check(whole(0, std::numeric_limits<std::uint64_t>::max()).description(""))
+      ->capture_default_str();
   command.add_flag("-q,--quiet", o.quiet, "print nothing but errors");
 }
 
+CLI::Option* add_body_option(CLI::App& command, CommonOptions& o, const std::string& help) {
+  return command.add_option("BODY", o.body, help + " (default: the built-in body)")
+      ->check(not_empty("leave it out for the built-in body"));
+}
+
 void add_common_options(CLI::App& command, CommonOptions& o) {
-  command.add_option("BODY", o.body,
-                     "body mesh: OBJ, PLY, STL, glTF/GLB, FBX, DAE (default: the built-in body)");
+  add_body_option(command, o, "body mesh: OBJ, PLY, STL, glTF/GLB, FBX, DAE");
   add_fit_options(command, o);
   add_input_options(command, o);
   add_builtin_options(command, o);

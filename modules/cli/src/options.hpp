@@ -40,6 +40,8 @@ struct CommonOptions {
 
 /// Adds the shared options to a subcommand, grouped as its help shows them.
 void add_common_options(CLI::App& command, CommonOptions& options);
+CLI::Option* add_body_option(CLI::App& command, CommonOptions& options, const std::string& help);
+/// These two speak of BODY: it is to be added first.
 void add_input_options(CLI::App& command, CommonOptions& options);
 void add_builtin_options(CLI::App& command, CommonOptions& options);
 void add_run_options(CLI::App& command, CommonOptions& options);

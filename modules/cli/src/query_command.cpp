@@ -11,6 +11,7 @@
 #include "options.hpp"
 #include "outputs.hpp"
 #include "terminal.hpp"
+#include "validators.hpp"
 
 namespace bodice::cli {
 namespace {
@@ -78,10 +79,12 @@ engine::Result<void> query(const QueryCommand& command) {
 void add_query_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<QueryCommand>();
   CLI::App* sub = app.add_subcommand("query", "Ask a proxy for signed distances and nearest points");
-  sub->add_option("PROXY", command->proxy, "a proxy that `bodice fit` wrote")->required();
+  sub->add_option("PROXY", command->proxy, "a proxy that `bodice fit` wrote")->check(not_empty())->required();
   sub->add_option("POINTS", command->points, "text, one point a line: x y z, in the proxy's units and axes")
+      ->check(not_empty())
       ->required();
-  sub->add_option("-o,--output", command->output, "where to write (default: standard output)");
+  sub->add_option("-o,--output", command->output, "where to write (default: standard output)")
+      ->check(not_empty());
   sub->footer(
       "A line a point: signed distance (negative inside), nearest point x y z, normal x y z, ellipsoid.\n"
       "Example: bodice query proxy.json points.txt");

@@ -1,0 +1,25 @@
+// What options take. A refusal reads "--name: VALUE is not WHAT", before any work; help shows WHAT.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+namespace bodice::cli {
+
+/// Numbers: none takes NaN or an infinity.
+CLI::Validator finite();
+CLI::Validator above_zero();
+CLI::Validator zero_or_more();
+CLI::Validator between(double low, double high);
+/// A whole number in decimal digits.
+CLI::Validator whole(std::uint64_t low, std::uint64_t high);
+
+/// Text that is there: what an unset variable of a shell leaves is not taken for an option left out.
+CLI::Validator not_empty(const std::string& remedy = "give it a value or leave it out");
+
+/// The name of a built-in profile of proportions, or a JSON file.
+CLI::Validator profile();
+
+}  // namespace bodice::cli
