@@ -131,6 +131,11 @@ expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --su
 for file in p.json p.glb s.obj l.txt r.json p.png t.json; do exists $file; done
 expect 0 "a budget of time" "$bodice" fit body.obj --budget-us 90 --region-of skirt.obj
 says "10,000 particles near the skin take"
+for budget in 1e-9 50; do
+  expect 0 "a budget that no proxy can be given" "$bodice" fit body.obj --budget-us $budget
+  says "10,000 particles near the skin take"
+  grep -q "asks for as much" out.txt && { echo "FAILED: another budget is advised"; cat out.txt; failures=$((failures + 1)); }
+done
 expect 0 "fit the whole body tightly" "$bodice" fit body.obj --tier tight --max-ellipsoids 30 -o whole.json
 expect 0 "and what a skirt can reach of it" "$bodice" fit body.obj --tier tight --max-ellipsoids 30 --region-of skirt.obj --region-exact -o near.json
 [ "$(wc -c <near.json)" -lt "$(wc -c <whole.json)" ] || { echo "FAILED: nothing is out of a skirt's reach"; failures=$((failures + 1)); }

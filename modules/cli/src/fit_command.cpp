@@ -2,7 +2,9 @@
 #include <cstdio>
 #include <memory>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/engine/write_file.hpp>
+#include <bodice/fitting/budget.hpp>
 #include <bodice/io/obj.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
@@ -33,15 +35,28 @@ engine::Result<void> crop(const CommonOptions& o, const engine::Context& context
   return {};
 }
 
+constexpr double kApart = 1.2;  // as far as bodies are from the law on the machine that it was measured on
+
+/// Where the law had to leave the budget, at the fewest or the most ellipsoids, or would at the budget that
+/// is advised, another budget gives the same proxy.
+bool is_useful(double advised_us, const CommonOptions& o, const proxy::BodyProxy& proxy) {
+  constexpr int kFewest = 16;  // that a budget gives: fewer take as long
+  const double by_law_us =
+      fitting::predicted_frame_us(proxy.tier(), static_cast<int>(proxy.ellipsoids().size()));
+  const proxy::Tier fastest = o.tier.empty() ? proxy::Tier::kTight : proxy.tier();
+  return by_law_us < kApart * *o.budget_us && *o.budget_us < kApart * by_law_us &&
+         advised_us >= fitting::predicted_frame_us(fastest, kFewest);
+}
+
 /// A budget is kept by a law, so that results repeat; what it comes to here is told beside it.
-void tell_speed(double asked_us, const tryon::PreparedBody& body) {
-  constexpr double kApart = 1.2;  // as far as bodies are from the law on the machine that it was measured on
+void tell_speed(const CommonOptions& o, const tryon::PreparedBody& body) {
+  const double asked_us = *o.budget_us;
   const double us = query_us(body.fit.proxy, body.skin.input.skin);
-  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (%.0f asked)", us,
+  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (%.3g asked)", us,
               asked_us);
-  if (us > kApart * asked_us || kApart * us < asked_us)
-    std::printf("; if this machine is idle, --budget-us %.0f asks for as much here",
-                asked_us * asked_us / us);
+  const double advised_us = asked_us * asked_us / us;
+  if ((us > kApart * asked_us || kApart * us < asked_us) && is_useful(advised_us, o, body.fit.proxy))
+    std::printf("; if this machine is idle, --budget-us %.0f asks for as much here", advised_us);
   std::putchar('\n');
 }
 
@@ -108,7 +123,7 @@ engine::Result<void> fit(const FitCommand& command) {
   std::vector<std::string> written;
   if (auto done = write_outputs(command, run.context(), *body, written); !done) return done;
   auto done = run.finish(*body, nullptr, written);
-  if (done && o.budget_us && !o.quiet && !o.json) tell_speed(*o.budget_us, *body);
+  if (done && o.budget_us && !o.quiet && !o.json) tell_speed(o, *body);
   return done;
 }
 
