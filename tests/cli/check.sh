@@ -84,6 +84,7 @@ refused query "" triangle.obj
 for option in "--height 1.7" "--sex male" "--pose t" "--mass 60" "--vertices 5000"; do refused fit triangle.obj $option; says "BODY"; done
 for option in "--unit m" "--up y" "--mesh body"; do refused fit $option; says "BODY"; done
 refused fit --region-margin-mm 20
+refused fit --surface-mm 5
 refused drape --gust 0.5
 refused drape triangle.obj triangle.obj --garment tunic
 refused drape --picture d.png --no-picture
@@ -143,6 +144,10 @@ awk '$1 == "v" && n++ % 20 == 0 { print $2, $3, $4 }' skirt.obj >points.txt
 for proxy in whole near; do "$bodice" query $proxy.json points.txt | cut -d' ' -f1-7 >$proxy.txt; done
 # To a micrometre: single precision counts from a proxy's own origin.
 paste -d' ' whole.txt near.txt | awk '{ d = $1 - $8; if (d > 1e-6 || d < -1e-6) bad = 1 } END { exit bad || NR < 100 }' || { echo "FAILED: an exact region answers otherwise"; failures=$((failures + 1)); }
+expect 0 "a surface in large cells" "$bodice" fit body.obj --tier relief --max-ellipsoids 16 --surface coarse.obj --surface-mm 20 -o r.bodice
+[ "$(($(wc -c <coarse.obj) * 5))" -lt "$(wc -c <s.obj)" ] || { echo "FAILED: the cells are no larger"; failures=$((failures + 1)); }
+for mm in 0.1 500; do expect 2 "a surface in $mm mm" "$bodice" fit body.obj --surface x.obj --surface-mm $mm; says "Give"; done
+absent x.obj
 expect 2 "an exact region of nothing" "$bodice" fit body.obj --region-exact
 expect 0 "fit the built-in body, binary proxy" "$bodice" fit --tier paper --vertices 4500 -o p.bodice --quiet
 exists p.bodice

@@ -20,6 +20,7 @@ namespace {
 struct FitCommand {
   CommonOptions common;
   std::string output, surface;
+  std::optional<double> surface_mm;
   bool exact_region = false;
 };
 
@@ -60,14 +61,28 @@ void tell_speed(const CommonOptions& o, const tryon::PreparedBody& body) {
   std::putchar('\n');
 }
 
+constexpr double kCellsAStature = 300.0, kFewestCells = 10.0;
+constexpr double kMostCells = 2000.0;  // the surface's cells go by the square of this
+
+/// By the stature, so that it bounds the memory: no sooner than the body is known, but before the fit.
+engine::Result<void> check_surface_cell(const FitCommand& command, double stature_m) {
+  const double coarsest_mm = 1e3 * stature_m / kFewestCells, finest_mm = 1e3 * stature_m / kMostCells;
+  if (!command.surface_mm || (*command.surface_mm >= finest_mm && *command.surface_mm <= coarsest_mm))
+    return {};
+  return engine::Error{
+      engine::ErrorCode::kInvalidArgument,
+      engine::message("--surface-mm ", *command.surface_mm, " does not suit a body of ", stature_m, " m."),
+      engine::message("Give ", finest_mm, " to ", coarsest_mm, ".")};
+}
+
 /// The proxy's surface where it is wanted: to be written, or to be seen, since ellipsoids alone do not show
 /// what the tables of relief correct.
 engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const engine::Context& context,
                                                 const proxy::BodyProxy& proxy) {
-  constexpr double kCellsAStature = 300.0;
   const bool seen = !command.common.picture.empty() && !proxy.relief().empty();
   if (command.surface.empty() && !seen) return proxy::ProxySurface{};
-  return proxy::proxy_surface(context, proxy, proxy.stature_m() / kCellsAStature);
+  const double cell_m = command.surface_mm ? 1e-3 * *command.surface_mm : proxy.stature_m() / kCellsAStature;
+  return proxy::proxy_surface(context, proxy, cell_m);
 }
 
 /// By the extension in any case of letters, as check_files() judged it.
@@ -112,6 +127,7 @@ engine::Result<void> fit(const FitCommand& command) {
     return ok;
   auto skin = run.segment();
   if (!skin) return std::move(skin).error();
+  if (auto ok = check_surface_cell(command, skin->anatomy.stature_m); !ok) return ok;
   const auto garments = run.region_garments(*skin);
   if (!garments) return garments.error();
   auto options = command.exact_region ? fit_options(o) : run.fit_options_for(*skin, *garments);
@@ -141,6 +157,12 @@ void add_fit_command(CLI::App& app, int& exit_code) {
   sub->add_option("--surface", command->surface,
                   "the proxy's surface as triangles (OBJ), for tools that collide with meshes")
       ->check(not_empty())
+      ->group("Output");
+  sub->add_option("--surface-mm", command->surface_mm,
+                  "length of that surface's cells: half gives four times the triangles (default: a "
+                  "three-hundredth of the stature)")
+      ->check(above_zero())
+      ->needs("--surface")
       ->group("Output");
   add_common_options(*sub, command->common);
   sub->add_flag("--region-exact", command->exact_region,
