@@ -158,6 +158,11 @@ expect 0 "query the proxy" "$bodice" query p.json points.txt
 [ "$(wc -l <out.txt)" -eq 2 ] || { echo "FAILED: not a line a point"; failures=$((failures + 1)); }
 awk 'NR == 1 && $1 < 3 { bad = 1 } NR == 2 && $1 > 0 { bad = 1 } END { exit bad }' out.txt ||
   { echo "FAILED: a far point is not far, or the hip is not inside"; cat out.txt; failures=$((failures + 1)); }
+printf '1e30 0 0\n' >points.txt
+expect 0 "a point beyond single precision" "$bodice" query r.bodice points.txt
+says "^inf nan nan nan nan nan nan none$"
+expect 1 "a folder of points" "$bodice" query p.json .
+one_line
 printf '0 5\n' >points.txt
 expect 1 "a malformed point" "$bodice" query p.json points.txt
 says "line 1"

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -23,6 +24,9 @@ struct QueryCommand {
 };
 
 engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    return engine::Error{engine::ErrorCode::kUnreadable, file + " is a folder.", "Name a file of points."};
   std::ifstream in(file);
   if (!in)
     return engine::Error{engine::ErrorCode::kNotFound, file + ": cannot be opened.", "Check the path."};
@@ -39,6 +43,9 @@ engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
                            "Write one point a line: x y z."};
     points.push_back(p);
   }
+  if (in.bad())
+    return engine::Error{engine::ErrorCode::kUnreadable, file + ": cannot be read to its end.",
+                         "Check the file."};
   return points;
 }
 
@@ -47,6 +54,7 @@ std::string answer(const collision::Collider& collider, const proxy::BodyProxy& 
   const geometry::Frame& frame = proxy.frame();
   const Eigen::Vector3f local = (frame.to_inside(file_point) - collider.origin()).cast<float>();
   const collision::Contact c = collider.query({local.x(), local.y(), local.z()});
+  if (c.ellipsoid == collision::kNoEllipsoid) return "inf nan nan nan nan nan nan none\n";
   const Vec3 point =
       frame.to_file(collider.origin() + Vec3(double{c.point[0]}, double{c.point[1]}, double{c.point[2]}));
   const Vec3 normal =
@@ -86,7 +94,8 @@ void add_query_command(CLI::App& app, int& exit_code) {
   sub->add_option("-o,--output", command->output, "where to write (default: standard output)")
       ->check(not_empty());
   sub->footer(
-      "A line a point: signed distance (negative inside), nearest point x y z, normal x y z, ellipsoid.\n"
+      "A line a point: signed distance (negative inside), nearest point x y z, normal x y z, ellipsoid (from "
+      "0);\n`inf nan ... none` where single precision does not reach, millions of body lengths away.\n"
       "Example: bodice query proxy.json points.txt");
   sub->callback([command, &exit_code] {
     const auto done = query(*command);
