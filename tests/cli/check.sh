@@ -21,6 +21,7 @@ exists() { [ -s "$1" ] || { echo "FAILED: no $1"; failures=$((failures + 1)); };
 absent() { [ ! -e "$1" ] || { echo "FAILED: $1 was left behind"; failures=$((failures + 1)); }; }
 one_line() { [ "$(wc -l <out.txt)" -eq 1 ] || { echo "FAILED: not one line:"; sed 's/^/    /' out.txt; failures=$((failures + 1)); }; }
 
+cp "$bodice" alone
 expect 0 "help" "$bodice" --help
 says "drape"
 expect 0 "help of fit" "$bodice" fit --help
@@ -178,6 +179,8 @@ says "true skin"
 expect 0 "drape, report to standard output" "$bodice" drape --tier paper --vertices 4500 --frames 3 -o e.glb --no-picture --json
 says '"penetration"'
 absent e.png
+expect 1 "benches that are elsewhere" ./alone bench
+says "BODICE_BUILD_BENCH"
 expect 1 "a garment that does not exist" "$bodice" drape body.obj nowhere.obj -o f.glb
 absent f.glb
 

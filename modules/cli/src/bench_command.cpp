@@ -38,6 +38,10 @@ std::vector<std::string> available(const fs::path& folder) {
 int bench(const BenchCommand& command, const fs::path& folder) {
   const std::vector<std::string> names = available(folder);
   if (command.name.empty()) {
+    if (names.empty())
+      return fail(
+          {engine::ErrorCode::kNotFound, "There are no benches in " + folder.string() + ".",
+           "They stay in the build folder: configure it with BODICE_BUILD_BENCH=ON and run its bodice."});
     for (const std::string& name : names) std::puts(name.c_str());
     return kExitOk;
   }
