@@ -179,6 +179,8 @@ says "true skin"
 expect 0 "drape, report to standard output" "$bodice" drape --tier paper --vertices 4500 --frames 3 -o e.glb --no-picture --json
 says '"penetration"'
 absent e.png
+expect 0 "drape, the waistband free" "$bodice" drape --tier paper --vertices 4500 --frames 3 -o free.glb --no-picture --hold none -q
+cmp -s e.glb free.glb && { echo "FAILED: --hold none is ignored"; failures=$((failures + 1)); }
 expect 1 "benches that are elsewhere" ./alone bench
 says "BODICE_BUILD_BENCH"
 expect 1 "a garment that does not exist" "$bodice" drape body.obj nowhere.obj -o f.glb

@@ -36,8 +36,10 @@ engine::Result<std::vector<tryon::WornGarment>> make_garment(const Run& run, con
                                                              const tryon::SegmentedSkin& skin) {
   auto garment = make_garment_for(run.context(), skin, command.made);
   if (!garment) return std::move(garment).error();
+  std::vector<geometry::Index> held;
+  if (command.hold == "auto") held = std::move(garment->pinned);
   return std::vector<tryon::WornGarment>{
-      {.name = command.made, .mesh = std::move(garment->mesh), .held = std::move(garment->pinned)}};
+      {.name = command.made, .mesh = std::move(garment->mesh), .held = std::move(held)}};
 }
 
 engine::Result<std::vector<tryon::WornGarment>> dress(const Run& run, const DrapeCommand& command,
