@@ -1,0 +1,128 @@
+// Places that the pose or the build of a body once led astray.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "made.hpp"
+
+namespace {
+
+using namespace bodice;
+using body::LandmarkId;
+using body::Sex;
+using synth::Pose;
+
+anatomy::Anatomy understood(const synth::Body& truth) {
+  auto found = anatomy::analyse({}, truth.mesh, {body::find_profile("ansur2").value()});
+  REQUIRE(found.ok());
+  return std::move(*found);
+}
+
+bool warns(const anatomy::Anatomy& found, const std::string& code, const std::string& part) {
+  return std::any_of(found.warnings.begin(), found.warnings.end(),
+                     [&](const engine::Warning& w) { return w.code == code && w.part == part; });
+}
+
+}  // namespace
+
+TEST_CASE("heavy thighs and seats: the perineum is where the floor of the trunk turns up to the front") {
+  const synth::BodyOptions bodies[] = {{.sex = Sex::kFemale,
+                                        .stature_m = 1.538,
+                                        .mass_kg = 79.8,
+                                        .pose = Pose::kA,
+                                        .vertices = 4881,
+                                        .seed = 305},
+                                       {.sex = Sex::kFemale,
+                                        .stature_m = 1.697,
+                                        .mass_kg = 84.5,
+                                        .pose = Pose::kT,
+                                        .vertices = 4780,
+                                        .seed = 392},
+                                       {.sex = Sex::kMale,
+                                        .stature_m = 1.506,
+                                        .mass_kg = 73.5,
+                                        .pose = Pose::kT,
+                                        .vertices = 3930,
+                                        .seed = 7096},
+                                       {.sex = Sex::kMale,
+                                        .stature_m = 1.727,
+                                        .mass_kg = 111.9,
+                                        .pose = Pose::kA,
+                                        .vertices = 4454,
+                                        .seed = 20113},
+                                       {.sex = Sex::kFemale,
+                                        .stature_m = 1.701,
+                                        .mass_kg = 107.5,
+                                        .pose = Pose::kA,
+                                        .vertices = 6237,
+                                        .seed = 20350},
+                                       {.sex = Sex::kFemale,
+                                        .stature_m = 1.657,
+                                        .mass_kg = 89.3,
+                                        .pose = Pose::kT,
+                                        .vertices = 13100,
+                                        .seed = 7099,
+                                        .pregnant = true}};
+  for (const synth::BodyOptions& options : bodies) {
+    CAPTURE(options.seed);
+    const auto truth = synth::make_body({}, options);
+    REQUIRE(truth.ok());
+    CHECK(made::error(*truth, understood(*truth), LandmarkId::kPerineum) < 0.025);
+  }
+}
+
+TEST_CASE("a hand held over the head takes no part in the crown") {
+  for (const synth::BodyOptions& options : {
+           synth::BodyOptions{.sex = Sex::kFemale,
+          .stature_m = 1.8312007934053538,
+          .mass_kg = 96.08109382409441,
+          .pose = Pose::kRandom,
+          .vertices = 3345,
+          .seed = 40237},
+           synth::BodyOptions{.sex = Sex::kFemale,
+           .stature_m = 1.8085147421205749,
+           .mass_kg = 84.7338193872279,
+           .pose = Pose::kRandom,
+           .vertices = 9044,
+           .seed = 40194},
+       }) {
+    CAPTURE(options.seed);
+    const auto truth = synth::make_body({}, options);
+    REQUIRE(truth.ok());
+    CHECK(made::error(*truth, understood(*truth), LandmarkId::kCrown) < 0.025);
+  }
+}
+
+TEST_CASE("an armpit that another place nearly equals is right, or doubted and named") {
+  const auto truth = synth::make_body({}, {.sex = Sex::kFemale,
+                                           .stature_m = 0.87621975075750458,
+                                           .mass_kg = 16.493497289413895,
+                                           .pose = Pose::kRandom,
+                                           .vertices = 6331,
+                                           .seed = 229,
+                                           .childhood = 0.97649311484419643});
+  REQUIRE(truth.ok());
+  const anatomy::Anatomy found = understood(*truth);
+  CHECK((made::error(*truth, found, LandmarkId::kArmpitL) < 0.04 ||
+         warns(found, "armpit-uncertain", "upper_arm_l")));
+  CHECK((made::error(*truth, found, LandmarkId::kArmpitR) < 0.04 ||
+         warns(found, "armpit-uncertain", "upper_arm_r")));
+}
+
+TEST_CASE("arms that hang or rise on a heavy or a small body are no reason to doubt an elbow") {
+  for (const Pose pose : {Pose::kArmsDown, Pose::kArmsUp, Pose::kHandstand}) {
+    CAPTURE(static_cast<int>(pose));
+    for (const std::uint64_t seed : {60U, 181U, 447U, 20367U}) {
+      CAPTURE(seed);
+      const auto truth =
+          synth::make_body({}, {.mass_kg = 36.0 * 1.68 * 1.68, .pose = pose, .vertices = 5000, .seed = seed});
+      REQUIRE(truth.ok());
+      const anatomy::Anatomy found = understood(*truth);
+      for (const auto& [elbow, part] :
+           {std::pair{LandmarkId::kElbowL, "upper_arm_l"}, std::pair{LandmarkId::kElbowR, "upper_arm_r"}}) {
+        CHECK(made::error(*truth, found, elbow) < 0.025);
+        CHECK(!warns(found, "elbow-disagrees", part));
+      }
+    }
+  }
+}
