@@ -156,7 +156,7 @@ TEST_CASE("fit: a target error that cannot be reached is said") {
 
 TEST_CASE("fit: the same bits for 1, 2, 3 and 7 workers, every tier") {
   const Skin skin = three_ellipsoids();
-  for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief}) {
+  for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kRelief}) {  // relief holds tight's ellipsoids
     const auto serial = fitting::fit({}, skin.view(), options_for(tier, 12));
     REQUIRE(serial.ok());
     for (const int workers : {2, 3, 7}) {
@@ -236,7 +236,7 @@ TEST_CASE("fit: a time budget is the whole search's, and what is shown belongs t
   };
   FitOptions options;
   options.tier = Tier::kTight;
-  options.target_error_m = 0.15e-3;  // the law of bodies is far off here
+  options.target_error_m = 2e-3;  // the law of bodies asks for far too many here
   std::vector<std::size_t> shown;
   options.on_improved = [&](const proxy::BodyProxy& proxy) { shown.push_back(proxy.ellipsoids().size()); };
   const auto patient = fitting::fit({}, skin.view(), options);

@@ -6,6 +6,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
+#include "normal_block.hpp"
 #include "tight_loss.hpp"
 
 namespace bodice::fitting {
@@ -19,9 +20,27 @@ struct Neighbourhood {
   double cost = 0.0;  ///< with the ellipsoids that are there
 };
 
-/// A few damped steps of `ellipsoids` in place of those that the neighbourhood is of; returns what the cost
-/// rises by.
-double fit_locally(const Neighbourhood& samples, const TightLoss& loss,
-                   std::vector<geometry::Ellipsoid>& ellipsoids);
+/// Damped steps of some ellipsoids in place of those that the neighbourhood is of, which must outlive it.
+class LocalFit {
+ public:
+  LocalFit(const Neighbourhood& samples, const TightLoss& loss, std::vector<geometry::Ellipsoid> ellipsoids);
+
+  void advance(int steps);
+  /// What the cost rises by if the ellipsoids are put in place.
+  double rise() const { return cost_ - samples_.cost; }
+  const std::vector<geometry::Ellipsoid>& ellipsoids() const { return ellipsoids_; }
+
+ private:
+  double evaluate(const std::vector<geometry::Ellipsoid>& ellipsoids);
+  NormalBlock normal_equations(std::size_t ellipsoid);
+
+  const Neighbourhood& samples_;
+  const TightLoss& loss_;
+  std::vector<geometry::Ellipsoid> ellipsoids_;
+  std::vector<std::vector<float>> distance_;  ///< #ellipsoids x #samples
+  std::vector<std::size_t> owner_;            ///< #samples: #ellipsoids if it is one of the others
+  BlockSamples mine_;
+  double cost_ = 0.0, damping_;
+};
 
 }  // namespace bodice::fitting

@@ -1,7 +1,7 @@
 // Based on: Naonori Ueda, Ryohei Nakano, Zoubin Ghahramani, Geoffrey Hinton. SMEM algorithm for mixture
 // models. 2000 (splits and merges at once, tried with all other components fixed). Differs: least squares;
-// every ellipsoid's split and every pair of neighbours' merge is tried; as many moves are made at once as do
-// not touch each other.
+// every ellipsoid's split and removal and every pair of neighbours' merge is tried; as many moves are made at
+// once as do not touch each other.
 #include "relocation.hpp"
 
 #include <algorithm>
@@ -18,13 +18,15 @@ namespace {
 using geometry::Ellipsoid;
 using Partners = std::vector<std::vector<std::uint32_t>>;
 
-constexpr std::size_t kPartners = 3;
+constexpr std::size_t kPartners = 5;
+constexpr int kFirstSteps = 4, kLastSteps = 6;  // of a trial; the first tell which trials are worth the last
+constexpr double kHopeless = 1.5;  // times the most that any split gains: a merge that costs more is left
 
-/// What has been tried in place of one ellipsoid or of two.
+/// What has been tried in place of one ellipsoid (then it is `second`, too) or of two.
 struct Trial {
   std::uint32_t first = 0, second = 0;
-  double rise = 0.0;  ///< of the cost
-  std::vector<Ellipsoid> found;
+  double rise = 0.0;             ///< of the cost
+  std::vector<Ellipsoid> found;  ///< two of a split, one of a merge, none if one goes without
 };
 
 /// Two ellipsoids over the halves of one along an axis.
@@ -60,26 +62,36 @@ void sort_by_rise(std::vector<Trial>& trials) {
                    [](const Trial& a, const Trial& b) { return a.rise < b.rise; });
 }
 
-std::vector<Trial> try_splits(const engine::Context& context, const TightProblem& problem,
-                              const std::vector<Ellipsoid>& ellipsoids) {
-  std::vector<Trial> splits(ellipsoids.size());
-  engine::parallel_for(context, splits.size(), 1, [&](std::size_t i, std::size_t) {
+/// #E splits and #E removals.
+struct OneByOne {
+  std::vector<Trial> splits, removals;
+};
+
+OneByOne try_each(const engine::Context& context, const TightProblem& problem,
+                  const std::vector<Ellipsoid>& ellipsoids) {
+  const std::size_t count = ellipsoids.size();
+  OneByOne tried{std::vector<Trial>(count), std::vector<Trial>(count)};
+  engine::parallel_for(context, count, 1, [&](std::size_t i, std::size_t) {
     const auto k = static_cast<std::uint32_t>(i);
     const Neighbourhood samples = problem.around({&k, 1});
-    splits[i] = {k, k, 0.0, {}};
+    tried.removals[i] = {k, k, LocalFit(samples, problem.loss(), {}).rise(), {}};
+    std::vector<LocalFit> along;
     for (int axis = 0; axis < 3; ++axis) {
-      std::vector<Ellipsoid> twins = halves(ellipsoids[k], axis);
-      const double rise = fit_locally(samples, problem.loss(), twins);
-      if (rise < splits[i].rise) splits[i] = {k, k, rise, std::move(twins)};
+      along.emplace_back(samples, problem.loss(), halves(ellipsoids[k], axis));
+      along.back().advance(kFirstSteps);
     }
+    LocalFit& best = *std::ranges::min_element(along, {}, &LocalFit::rise);
+    best.advance(kLastSteps);
+    tried.splits[i] = {k, k, best.rise(), best.ellipsoids()};
   });
-  std::erase_if(splits, [](const Trial& split) { return split.found.empty(); });
-  sort_by_rise(splits);
-  return splits;
+  std::erase_if(tried.splits, [](const Trial& split) { return split.rise >= 0.0; });
+  sort_by_rise(tried.splits);
+  return tried;
 }
 
 std::vector<Trial> try_merges(const engine::Context& context, const TightProblem& problem,
-                              const Partners& partners, const std::vector<Ellipsoid>& ellipsoids) {
+                              const Partners& partners, const std::vector<Ellipsoid>& ellipsoids,
+                              double most_rise) {
   std::vector<Trial> merges;
   for (std::uint32_t k = 0; k < partners.size(); ++k)
     for (const std::uint32_t other : partners[k]) {
@@ -89,10 +101,13 @@ std::vector<Trial> try_merges(const engine::Context& context, const TightProblem
   engine::parallel_for(context, merges.size(), 1, [&](std::size_t i, std::size_t) {
     Trial& merge = merges[i];
     const std::uint32_t both[] = {merge.first, merge.second};
-    merge.found = {merged(ellipsoids[merge.first], ellipsoids[merge.second])};
-    merge.rise = fit_locally(problem.around(both), problem.loss(), merge.found);
+    const Neighbourhood samples = problem.around(both);
+    LocalFit fit(samples, problem.loss(), {merged(ellipsoids[merge.first], ellipsoids[merge.second])});
+    fit.advance(kFirstSteps);
+    if (fit.rise() < most_rise) fit.advance(kLastSteps);
+    merge.rise = fit.rise();
+    merge.found = fit.ellipsoids();
   });
-  sort_by_rise(merges);
   return merges;
 }
 
@@ -100,10 +115,13 @@ std::vector<Trial> try_merges(const engine::Context& context, const TightProblem
 
 std::vector<std::size_t> relocate(const engine::Context& context, const TightProblem& problem,
                                   std::vector<Ellipsoid>& ellipsoids) {
-  const std::vector<Trial> splits = try_splits(context, problem, ellipsoids);
+  const auto [splits, removals] = try_each(context, problem, ellipsoids);
   if (splits.empty()) return {};
   const Partners partners = problem.partners(kPartners);
-  const std::vector<Trial> merges = try_merges(context, problem, partners, ellipsoids);
+  std::vector<Trial> merges =
+      try_merges(context, problem, partners, ellipsoids, -kHopeless * splits.front().rise);
+  merges.insert(merges.end(), removals.begin(), removals.end());
+  sort_by_rise(merges);
   std::vector<bool> taken(ellipsoids.size(), false);
   std::vector<std::size_t> changed;
   const auto take = [&](std::uint32_t k) {
@@ -120,7 +138,7 @@ std::vector<std::size_t> relocate(const engine::Context& context, const TightPro
     const auto merge =
         std::ranges::find_if(merges, [&](const Trial& m) { return !meets(m.first) && !meets(m.second); });
     if (merge == merges.end() || split.rise + merge->rise >= 0.0) continue;
-    ellipsoids[merge->first] = merge->found[0];
+    if (!merge->found.empty()) ellipsoids[merge->first] = merge->found[0];
     ellipsoids[split.first] = split.found[0];
     ellipsoids[merge->second] = split.found[1];
     for (const std::uint32_t k : {merge->first, split.first, merge->second}) take(k);

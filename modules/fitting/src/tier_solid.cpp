@@ -16,7 +16,7 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr int kIterations = 11;  // the twelfth would move ellipsoids, too late for that to pay
+constexpr int kIterations = 11;  // too few for a move of ellipsoids elsewhere to pay
 /// Of the scaled body: with so few samples and ellipsoids a region, choosing candidates again costs more than
 /// keeping all that may ever be near.
 constexpr double kMostMotion = 0.3;
@@ -52,7 +52,7 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;
-  descend(context, problem, shapes, {.max_iterations = kIterations});
+  descend(context, problem, shapes, {.iterations = kIterations, .relocate = false});
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = scaling.out(shapes[k]);
   take_parts(problem, ellipsoids);
   return ellipsoids;

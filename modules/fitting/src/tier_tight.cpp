@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <ranges>
 
 #include <bodice/engine/clock.hpp>
 
@@ -88,17 +89,17 @@ class TightRun {
     air_probes_ = samples.size() / kAirProbes;
     for (std::size_t i = 0; i < samples.size(); i += kCoarse) few.push_back(samples[i]);
     descend_on(few, kCoarseMotion, kCoarseIterations, state);
-    DescentReport report = descend_on(samples, kMotion, kIterations, state);
+    std::vector<std::size_t> idle = descend_on(samples, kMotion, kIterations, state);
     if (!descent_.out_of_time()) {
       const std::vector<DistanceSample> more = drawn((kFine - 1) * count, 12);
       samples.insert(samples.end(), more.begin(), more.end());
       air_probes_ = samples.size() / kAirProbes;
       descent_.relocate = false;
-      report = descend_on(samples, kFineMotion, kFineIterations, state);
+      idle = descend_on(samples, kFineMotion, kFineIterations, state);
     }
-    for (auto idle = report.idle.rbegin(); idle != report.idle.rend(); ++idle)
+    for (const std::size_t k : std::views::reverse(idle))
       if (draft_.data.ellipsoids.size() > 1)
-        draft_.data.ellipsoids.erase(draft_.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(*idle));
+        draft_.data.ellipsoids.erase(draft_.data.ellipsoids.begin() + static_cast<std::ptrdiff_t>(k));
   }
 
  private:
@@ -109,16 +110,17 @@ class TightRun {
                             {count, kInward_mm * mm, kOutward_mm * mm, 0.3, 0.15, 200 * mm, seed});
   }
 
-  DescentReport descend_on(std::span<const DistanceSample> samples, double motion, int iterations,
-                           std::vector<geometry::Ellipsoid>& state) {
+  /// Returns the ellipsoids that stand for nothing, ascending.
+  std::vector<std::size_t> descend_on(std::span<const DistanceSample> samples, double motion, int iterations,
+                                      std::vector<geometry::Ellipsoid>& state) {
     TightProblem problem(samples, scaling_, loss_, motion);
-    descent_.max_iterations = iterations;
+    descent_.iterations = iterations;
     if (options_.on_improved)
       descent_.on_improved = [&](std::span<const geometry::Ellipsoid> found) { publish(problem, found); };
-    DescentReport report = descend(context_, problem, state, descent_);
+    std::vector<std::size_t> idle = descend(context_, problem, state, descent_);
     take(state);
     take_parts(problem, draft_.data.ellipsoids);
-    return report;
+    return idle;
   }
 
   void take(std::span<const geometry::Ellipsoid> found) {

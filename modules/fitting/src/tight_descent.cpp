@@ -18,9 +18,8 @@ namespace {
 
 using geometry::Ellipsoid;
 
-constexpr int kRelocateEvery = 12;
-constexpr int kIdleRounds = 3;  // after a search that found no move
-constexpr int kStopWindow = 48;
+constexpr int kRelocateEvery = 8;
+constexpr int kIdleRounds = 3;           // after a search that found no move
 constexpr double kExact = 2e-5;          // root of the mean square residual: nothing is left to gain
 constexpr double kHeldBack = 0.9;        // of what it may move: an ellipsoid waits for other candidates
 constexpr std::uint32_t kLeastSkin = 4;  // samples; with fewer an ellipsoid stands for nothing
@@ -40,27 +39,24 @@ class Descent {
         options_(options),
         state_{ellipsoids, std::vector<double>(ellipsoids.size(), kFirstDamping)},
         moved_(ellipsoids.size(), 0.0) {
+    ask_for_samples();
     refresh();
     best_ = state_;
-    report_.first_cost = report_.last_cost = told_ = window_cost_ = problem_.total();
+    is_best_ = true;
+    best_cost_ = told_ = problem_.total();
   }
 
-  DescentReport run() {
-    if (!options_.relocate) look_around();
-    while (report_.iterations < options_.max_iterations &&
-           !(options_.out_of_time && options_.out_of_time())) {
+  void run() {
+    for (int i = 1; i <= options_.iterations && !is_exact() && !is_out_of_time(); ++i) {
       context_.checkpoint();
-      const int i = ++report_.iterations;
       iterate();
       note_best();
-      if (i % kRelocateEvery == 0 && i < options_.max_iterations) {
+      if (options_.relocate && i % kRelocateEvery == 0 && i < options_.iterations) {
         look_around();
-        if (options_.relocate) make_moves();
+        make_moves();
       }
-      if (is_done(i)) break;
     }
-    problem_.refresh(context_, best_.ellipsoids);
-    return report_;
+    if (!is_best_) problem_.refresh(context_, best_.ellipsoids);
   }
 
   const std::vector<Ellipsoid>& best() const { return best_.ellipsoids; }
@@ -110,24 +106,29 @@ class Descent {
 
   void note_best() {
     const double cost = problem_.total();
-    if (!(cost < report_.last_cost)) return;
-    report_.last_cost = cost;
+    is_best_ = cost < best_cost_;
+    if (!is_best_) return;
+    best_cost_ = cost;
     best_ = state_;
     if (!options_.on_improved || cost >= 0.95 * told_) return;
     told_ = cost;
     options_.on_improved(best_.ellipsoids);
   }
 
+  bool ask_for_samples() {
+    if (!options_.more_samples) return false;
+    const auto more = options_.more_samples(state_.ellipsoids);
+    if (!more.empty()) problem_.add(more);
+    return !more.empty();
+  }
+
   /// More samples change what the cost is: the best so far is then the state that they were asked for.
   void look_around() {
-    if (!options_.more_samples) return;
-    const auto more = options_.more_samples(state_.ellipsoids);
-    if (more.empty()) return;
-    problem_.add(more);
+    if (!ask_for_samples()) return;
     refresh();
     best_ = state_;
-    report_.last_cost = problem_.total();
-    window_cost_ = std::max(window_cost_, report_.last_cost);
+    is_best_ = true;
+    best_cost_ = problem_.total();
   }
 
   /// Moves are tried with the rest fixed: what several do together may still be worse.
@@ -145,36 +146,33 @@ class Descent {
     refresh();
   }
 
-  bool is_done(int iteration) {
-    const double exact = 0.5 * kExact * kExact * static_cast<double>(problem_.sample_count());
-    if (report_.last_cost < exact) return report_.converged = true;
-    if (iteration % kStopWindow != 0) return false;
-    report_.converged = report_.last_cost > (1.0 - options_.least_gain) * window_cost_;
-    window_cost_ = report_.last_cost;
-    return report_.converged;
+  bool is_exact() const {
+    return best_cost_ < 0.5 * kExact * kExact * static_cast<double>(problem_.sample_count());
   }
+  bool is_out_of_time() const { return options_.out_of_time && options_.out_of_time(); }
 
   const engine::Context& context_;
   TightProblem& problem_;
   const DescentOptions& options_;
   State state_, best_;
   std::vector<double> moved_;  ///< #E: motion since the last refresh, at most
+  bool is_best_ = true;        ///< state_ is best_
   int rounds_off_ = 0;
-  DescentReport report_;
-  double told_ = 0.0, window_cost_ = 0.0;
+  double best_cost_ = 0.0, told_ = 0.0;
 };
 
 }  // namespace
 
-DescentReport descend(const engine::Context& context, TightProblem& problem,
-                      std::vector<Ellipsoid>& ellipsoids, const DescentOptions& options) {
+std::vector<std::size_t> descend(const engine::Context& context, TightProblem& problem,
+                                 std::vector<Ellipsoid>& ellipsoids, const DescentOptions& options) {
   Descent descent(context, problem, ellipsoids, options);
-  DescentReport report = descent.run();
+  descent.run();
   ellipsoids = descent.best();
   const auto held = problem.skin_of_each();
+  std::vector<std::size_t> idle;
   for (std::size_t k = 0; k < held.size(); ++k)
-    if (std::accumulate(held[k].begin(), held[k].end(), 0u) < kLeastSkin) report.idle.push_back(k);
-  return report;
+    if (std::accumulate(held[k].begin(), held[k].end(), 0u) < kLeastSkin) idle.push_back(k);
+  return idle;
 }
 
 void take_parts(const TightProblem& problem, std::vector<proxy::ProxyEllipsoid>& ellipsoids) {

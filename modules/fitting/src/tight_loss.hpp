@@ -7,8 +7,8 @@ namespace bodice::fitting {
 
 /// How residuals (union distance - skin distance) are counted. Lengths in units of the scaled problem.
 struct TightLoss {
-  float huber = 0.003f;  ///< squared below, linear above
-  float uncovered_huber = 0.003f;
+  float huber = 0.002f;  ///< squared below, linear above
+  float uncovered_huber = 0.002f;
   float uncovered_weight = 1.0f;  ///< of skin and interior that the union leaves outside
   float ignore_depth = 0.008f;    ///< deeper samples that are inside ask nothing
   float far = 0.030f;             ///< samples farther outside ask only not to be nearer than they are

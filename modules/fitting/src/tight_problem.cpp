@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -13,40 +14,8 @@ namespace {
 
 constexpr std::size_t kGrain = 2048;
 constexpr std::size_t kEllipsoidGrain = 8;
-constexpr std::size_t kBlock = 32;  // samples that are compared with the ellipsoids together
 
 }  // namespace
-
-/// The ellipsoids that can be the nearest of some sample of a block, and how far each sample is from them.
-struct TightProblem::Candidates {
-  std::vector<std::uint32_t> ellipsoid;             ///< #C
-  std::vector<std::array<float, kBlock>> distance;  ///< at least #C
-  std::array<float, kBlock> least;                  ///< over the ellipsoids
-
-  void clear() {
-    ellipsoid.clear();
-    least.fill(std::numeric_limits<float>::infinity());
-  }
-  std::array<float, kBlock>& add(std::uint32_t k) {
-    ellipsoid.push_back(k);
-    if (distance.size() < ellipsoid.size()) distance.emplace_back();
-    return distance[ellipsoid.size() - 1];
-  }
-  /// Those within `reach` of sample i's least, ascending by distance, up to kNear; returns how many.
-  int nearest(std::size_t i, float reach, std::array<std::uint32_t, kNear>& found) const {
-    std::array<float, kNear> at;
-    int count = 0;
-    for (std::size_t c = 0; c < ellipsoid.size(); ++c) {
-      const float d = distance[c][i];
-      if (d > least[i] + reach || (count == kNear && d >= at[kNear - 1])) continue;
-      int slot = count < kNear ? count++ : kNear - 1;
-      for (; slot > 0 && d < at[slot - 1]; --slot) at[slot] = at[slot - 1], found[slot] = found[slot - 1];
-      at[slot] = d;
-      found[slot] = ellipsoid[c];
-    }
-    return count;
-  }
-};
 
 TightProblem::TightProblem(std::span<const DistanceSample> samples, const Scaling& scaling,
                            const TightLoss& loss, double most_motion)
@@ -76,23 +45,29 @@ void TightProblem::add(std::span<const DistanceSample> samples) {
 
 void TightProblem::bound_blocks() {
   for (auto& axis : ball_centre_) axis.clear();
-  ball_radius_.clear();
-  for (std::size_t begin = 0; begin < target_.size(); begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, target_.size());
+  from_centre_.resize(target_.size());
+  for (std::size_t begin = 0; begin < target_.size(); begin += kSampleBlock)
+    bound_block(begin, std::min(begin + kSampleBlock, target_.size()));
+}
+
+void TightProblem::bound_block(std::size_t begin, std::size_t end) {
+  std::array<float, 3> centre;
+  for (int j = 0; j < 3; ++j) {
+    const auto [low, high] = std::minmax_element(&point_[j][begin], &point_[j][begin] + (end - begin));
+    centre[j] = 0.5f * (*low + *high);
+    ball_centre_[j].push_back(centre[j]);
+  }
+  for (std::size_t i = begin; i < end; ++i) {
     float squared = 0.0f;
-    for (int j = 0; j < 3; ++j) {
-      const auto [low, high] = std::minmax_element(&point_[j][begin], &point_[j][begin] + (end - begin));
-      ball_centre_[j].push_back(0.5f * (*low + *high));
-      squared += 0.25f * (*high - *low) * (*high - *low);
-    }
-    ball_radius_.push_back(std::sqrt(squared));
+    for (int j = 0; j < 3; ++j) squared += (point_[j][i] - centre[j]) * (point_[j][i] - centre[j]);
+    from_centre_[i] = std::sqrt(squared);
   }
 }
 
 /// #blocks x #E distances of the blocks' centres.
 std::vector<float> TightProblem::distances_of_blocks(const engine::Context& context,
                                                      std::span<const FootEllipsoid> ellipsoids) const {
-  const std::size_t blocks = ball_radius_.size();
+  const std::size_t blocks = ball_centre_[0].size();
   std::vector<float> distance(blocks * ellipsoids.size());
   engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
     std::vector<float> d(blocks);
@@ -105,60 +80,73 @@ std::vector<float> TightProblem::distances_of_blocks(const engine::Context& cont
   return distance;
 }
 
-/// Signed distances are 1-Lipschitz: an ellipsoid that is farther from the centre of a block's ball than the
-/// nearest one by the ball's diameter and the reach is nobody's nearest in the block.
-void TightProblem::find_candidates(std::span<const FootEllipsoid> ellipsoids, std::size_t block,
-                                   std::span<const float> of_ball, Candidates& found) const {
-  const std::size_t begin = block * kBlock, count = std::min(kBlock, target_.size() - begin);
-  const float enough =
-      *std::min_element(of_ball.begin(), of_ball.end()) + 2.0f * ball_radius_[block] + reach_;
-  found.clear();
-  for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
-    if (of_ball[k] > enough) continue;
-    auto& d = found.add(k);
-    foot_distances(ellipsoids[k], count, &point_[0][begin], &point_[1][begin], &point_[2][begin], d.data());
-    for (std::size_t i = 0; i < count; ++i) found.least[i] = std::min(found.least[i], d[i]);
-  }
-}
-
+/// Into pairs_of_, for now as ellipsoids.
 void TightProblem::choose_candidates(const engine::Context& context,
                                      std::span<const FootEllipsoid> ellipsoids) {
   const std::vector<float> of_balls = distances_of_blocks(context, ellipsoids);
-  engine::parallel_for(context, ball_radius_.size(), 16, [&](std::size_t begin, std::size_t end) {
-    Candidates found;
+  engine::parallel_for(context, ball_centre_[0].size(), 16, [&](std::size_t begin, std::size_t end) {
+    NearestCandidates found;
     for (std::size_t b = begin; b < end; ++b) {
-      find_candidates(ellipsoids, b, std::span(of_balls).subspan(b * ellipsoids.size(), ellipsoids.size()),
-                      found);
-      const std::size_t first = b * kBlock, samples = std::min(kBlock, target_.size() - first);
-      for (std::size_t i = 0; i < samples; ++i)
-        count_of_[first + i] = static_cast<std::uint8_t>(found.nearest(i, reach_, pairs_of_[first + i]));
+      const std::size_t first = b * kSampleBlock, samples = std::min(kSampleBlock, target_.size() - first);
+      found.find(ellipsoids,
+                 {samples, &point_[0][first], &point_[1][first], &point_[2][first], &from_centre_[first],
+                  std::span(of_balls).subspan(b * ellipsoids.size(), ellipsoids.size())},
+                 reach_);
+      for (std::size_t i = 0; i < samples; ++i) {
+        count_of_[first + i] = static_cast<std::uint8_t>(found.count(i));
+        pairs_of_[first + i] = found.of(i);
+      }
     }
+  });
+}
+
+/// Lays the pairs out by ellipsoid, then by sample; returns #chunks x #E where each chunk of samples begins.
+std::vector<std::uint32_t> TightProblem::count_pairs(const engine::Context& context) {
+  const std::size_t chunks = engine::block_count(target_.size(), kGrain);
+  std::vector<std::uint32_t> next(chunks * ellipsoids_, 0);
+  engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t* const of_chunk = &next[begin / kGrain * ellipsoids_];
+    for (std::size_t i = begin; i < end; ++i)
+      for (int s = 0; s < count_of_[i]; ++s) ++of_chunk[pairs_of_[i][s]];
+  });
+  pair_begin_.resize(ellipsoids_ + 1);
+  std::uint32_t pairs = 0;
+  for (std::size_t k = 0; k < ellipsoids_; ++k) {
+    pair_begin_[k] = pairs;
+    for (std::size_t c = 0; c < chunks; ++c) pairs += std::exchange(next[c * ellipsoids_ + k], pairs);
+  }
+  pair_begin_[ellipsoids_] = pairs;
+  return next;
+}
+
+/// Ellipsoids in pairs_of_ become pairs.
+void TightProblem::number_pairs(const engine::Context& context, std::vector<std::uint32_t> next) {
+  const std::size_t pairs = pair_begin_.back();
+  for (auto* list : {&pair_sample_, &ellipsoid_of_pair_}) list->resize(pairs);
+  for (auto* list : {&distance_, &previous_}) list->resize(pairs);
+  for (auto& axis : pair_point_) axis.resize(pairs);
+  engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t* const of_chunk = &next[begin / kGrain * ellipsoids_];
+    for (std::size_t i = begin; i < end; ++i)
+      for (int s = 0; s < count_of_[i]; ++s) {
+        const std::uint32_t p = of_chunk[pairs_of_[i][s]]++;
+        pair_sample_[p] = static_cast<std::uint32_t>(i);
+        pairs_of_[i][s] = p;
+      }
+  });
+  engine::parallel_for(context, ellipsoids_, kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k)
+      for (std::uint32_t p = pair_begin_[k]; p < pair_begin_[k + 1]; ++p) {
+        ellipsoid_of_pair_[p] = static_cast<std::uint32_t>(k);
+        for (int j = 0; j < 3; ++j) pair_point_[j][p] = point_[j][pair_sample_[p]];
+      }
   });
 }
 
 void TightProblem::refresh(const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids) {
   ellipsoids_ = ellipsoids.size();
-  const std::size_t samples = target_.size();
   choose_candidates(context, std::vector<FootEllipsoid>(ellipsoids.begin(), ellipsoids.end()));
-  pair_begin_.assign(ellipsoids_ + 1, 0);
-  for (std::size_t i = 0; i < samples; ++i)
-    for (int s = 0; s < count_of_[i]; ++s) ++pair_begin_[pairs_of_[i][s] + 1];
-  for (std::size_t k = 0; k < ellipsoids_; ++k) pair_begin_[k + 1] += pair_begin_[k];
-  const std::size_t pairs = pair_begin_.back();
-  pair_sample_.resize(pairs);
-  ellipsoid_of_pair_.resize(pairs);
-  distance_.resize(pairs);
-  previous_.resize(pairs);
-  for (auto& axis : pair_point_) axis.resize(pairs);
-  std::vector<std::uint32_t> next(pair_begin_.begin(), pair_begin_.end() - 1);
-  for (std::uint32_t i = 0; i < samples; ++i)
-    for (int s = 0; s < count_of_[i]; ++s) {
-      const std::uint32_t k = pairs_of_[i][s], p = next[k]++;
-      pair_sample_[p] = i;
-      ellipsoid_of_pair_[p] = k;
-      for (int j = 0; j < 3; ++j) pair_point_[j][p] = point_[j][i];
-      pairs_of_[i][s] = p;
-    }
+  number_pairs(context, count_pairs(context));
   evaluate(context, ellipsoids);
   assign(context);
 }

@@ -10,6 +10,7 @@
 #include <bodice/geometry/ellipsoid.hpp>
 
 #include "local_fit.hpp"
+#include "nearest_candidates.hpp"
 #include "normal_block.hpp"
 #include "scaling.hpp"
 #include "skin_samples.hpp"
@@ -21,7 +22,7 @@ namespace bodice::fitting {
 /// most_motion(), up to kNear of them.
 class TightProblem {
  public:
-  static constexpr int kNear = 8;
+  static constexpr int kNear = NearestCandidates::kMost;
 
   TightProblem(std::span<const DistanceSample> samples, const Scaling& scaling, const TightLoss& loss,
                double most_motion);
@@ -57,13 +58,13 @@ class TightProblem {
                                             std::span<const geometry::Ellipsoid> ellipsoids) const;
 
  private:
-  struct Candidates;
   void bound_blocks();
+  void bound_block(std::size_t begin, std::size_t end);
   std::vector<float> distances_of_blocks(const engine::Context& context,
                                          std::span<const FootEllipsoid> ellipsoids) const;
-  void find_candidates(std::span<const FootEllipsoid> ellipsoids, std::size_t block,
-                       std::span<const float> of_ball, Candidates& found) const;
   void choose_candidates(const engine::Context& context, std::span<const FootEllipsoid> ellipsoids);
+  std::vector<std::uint32_t> count_pairs(const engine::Context& context);
+  void number_pairs(const engine::Context& context, std::vector<std::uint32_t> next);
   void gather(std::size_t ellipsoid, BlockSamples& mine) const;
 
   Scaling scaling_;
@@ -75,7 +76,7 @@ class TightProblem {
   std::vector<std::uint8_t> one_sided_;            ///< #S
   std::vector<body::Part> part_;                   ///< #S
   std::array<std::vector<float>, 3> ball_centre_;  ///< #blocks of neighbouring samples
-  std::vector<float> ball_radius_;
+  std::vector<float> from_centre_;                 ///< #S: distance to the centre of the block's ball
   std::size_t ellipsoids_ = 0;
   std::vector<std::uint32_t> pair_begin_;   ///< #E + 1: pairs are grouped by ellipsoid
   std::vector<std::uint32_t> pair_sample_;  ///< #P

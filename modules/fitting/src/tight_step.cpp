@@ -10,7 +10,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kMinRadius = 0.002;
-constexpr double kOverStep = 1.3;  // neighbours give way to each other: what each block asks for is too short
+constexpr double kOverStep = 1.6;  // neighbours give way to each other: what each block asks for is too short
 
 /// Distances to convex bodies differ by no more than their support functions do: a shift by its length, radii
 /// by their largest change, and a turn about an axis by the difference of the two radii that it mixes.

@@ -50,8 +50,8 @@ struct FitOptions {
   /// The paper's thresholds, both or neither (automatic then): they say where splitting stops, so that they
   /// go with the tiers paper (if none is asked for) and solid, and without a target or a budget.
   std::optional<double> mu_torso_m, mu_limbs_m;
-  /// The anytime tiers and the search for a target stop after this long; absent: when they gain no more,
-  /// which makes runs repeatable.
+  /// The anytime tiers and the search for a target stop after this long; absent: after a number of steps and
+  /// of tries that is the same for every body, so that runs repeat.
   std::optional<double> time_budget_s;
   /// Tight: the ellipsoids grow in the end until no skin is outside, at the price of the mean gap.
   bool covering = false;
