@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 namespace fit_bench {
 namespace {
@@ -20,8 +21,25 @@ void text(std::ostream& out, double x, double y, const std::string& words, const
 }
 
 std::string number(double value) {
-  const std::string s = std::to_string(value);
-  return value >= 1.0 ? std::to_string(static_cast<int>(value)) : s.substr(0, 3);
+  std::ostringstream words;
+  words << value;
+  return words.str();
+}
+
+/// Names at the ends of lines that end close together stay a line of text apart.
+struct Label {
+  double y;
+  std::string words;
+};
+
+void names(std::ostream& out, std::vector<Label> labels) {
+  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
+  double least_y = 0.0;
+  for (const Label& label : labels) {
+    const double y = std::max(label.y, least_y);
+    text(out, kWidth - kRight + 8, y + 4, label.words, "start");
+    least_y = y + 15.0;
+  }
 }
 
 void frame(std::ostream& out, const Axis& x, const Axis& y) {
@@ -59,6 +77,7 @@ bool write_front_svg(const std::filesystem::path& file, const std::vector<FrontP
   frame(out, x, y);
   const char* const colours[] = {"#1b7f5c", "#c0392b", "#2c5aa0", "#8e44ad"};
   int colour = 0;
+  std::vector<Label> labels;
   for (const auto& [tier, line] : logs) {
     const char* const stroke = colours[colour++ % 4];
     out << "<polyline fill='none' stroke-width='2' stroke='" << stroke << "' points='";
@@ -68,8 +87,12 @@ bool write_front_svg(const std::filesystem::path& file, const std::vector<FrontP
       out << x.at(count) << ',' << last_y << ' ';
     }
     out << "'/>\n";
-    text(out, kWidth - kRight + 8, last_y + 4, tier, "start");
+    for (const auto& [count, sum] : line)
+      out << "<circle r='3' fill='" << stroke << "' cx='" << x.at(count) << "' cy='"
+          << y.at(std::exp(sum.first / sum.second)) << "'/>\n";
+    labels.push_back({last_y, tier});
   }
+  names(out, std::move(labels));
   out << "</svg>\n";
   return out.good();
 }

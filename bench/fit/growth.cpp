@@ -1,5 +1,6 @@
 #include "growth.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -21,8 +22,9 @@ struct Row {
 
 bool print_growth(const engine::Context& context) {
   std::map<std::string, Row> first, last;
-  std::printf("vertices,tier,total_ms,power_since_row_before,power_since_first\n");
-  for (const int vertices : {8850, 27000, 80000, 240000, 800000}) {
+  double worst = 0.0;
+  std::printf("vertices,tier,bytes,total_ms,power_since_row_before,power_since_first\n");
+  for (const int vertices : {4500, 8850, 27000, 80000, 240000, 800000}) {
     synth::BodyOptions wanted;
     wanted.vertices = vertices;
     const auto body = synth::make_body(context, wanted);
@@ -40,12 +42,15 @@ bool print_growth(const engine::Context& context) {
         return from.ms > 0.0 ? std::log(row.ms / from.ms) / std::log(row.vertices / from.vertices) : 0.0;
       };
       first.emplace(name, row);
-      std::printf("%.0f,%s,%.1f,%.2f,%.2f\n", row.vertices, name, row.ms, power(last[name]),
-                  row.ms == first[name].ms ? 0.0 : power(first[name]));
+      const double since_first = row.vertices > first[name].vertices ? power(first[name]) : 0.0;
+      std::printf("%.0f,%s,%zu,%.1f,%.2f,%.2f\n", row.vertices, name, fitted->proxy.bytes(), row.ms,
+                  power(last[name]), since_first);
+      worst = std::max(worst, since_first);
       std::fflush(stdout);
       last[name] = row;
     }
   }
+  std::printf("# time grows with the vertices to the power %.2f at most (bar: 1)\n", worst);
   return true;
 }
 
