@@ -63,9 +63,19 @@ struct Meeting {
   bool paper() const { return how.response == collision::Response::kPaper; }
 };
 
+// A pin goes where the host wants it, whatever the body says. Its velocity, too: with that of a push, it
+// would go that far in every substep of the frame that is left.
+void put_back(Particles& p, std::size_t i, float inverse_h) {
+  const Point& before = p.point[i];
+  p.x[i] = before.x, p.y[i] = before.y, p.z[i] = before.z;
+  p.vx[i] = (p.x[i] - p.old_x[i]) * inverse_h;
+  p.vy[i] = (p.y[i] - p.old_y[i]) * inverse_h;
+  p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
+}
+
 void respond(Particles& p, ContactState& s, std::size_t i, const Meeting& meeting) {
   const Point& before = p.point[i];
-  if (p.inverse_mass[i] == 0.0f) p.x[i] = before.x, p.y[i] = before.y, p.z[i] = before.z;
+  if (p.inverse_mass[i] == 0.0f) put_back(p, i, meeting.inverse_h);
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
   if (!s.touching[i] || meeting.paper()) return;
   const Float4 carried = (meeting.share.end - meeting.share.begin) * load(s.carry.by[i]);

@@ -13,6 +13,13 @@ namespace {
 constexpr float kSlow_m_s = 0.010f;    // slower than this is resting: a sixth of a millimetre a frame
 constexpr float kWaking_m_s = 0.050f;  // a neighbour faster than this wakes
 constexpr float kQuiet_s = 0.5f;       // longer than the turning point of any swing that one can see
+// Who keeps this near to a place trembles; a drift as slow as resting leaves it in half of the time.
+constexpr float kTremble_m = 0.5f * kSlow_m_s * kQuiet_s;
+
+bool stays(const Particles& p, std::size_t i, const Point& place) {
+  const float dx = p.x[i] - place.x, dy = p.y[i] - place.y, dz = p.z[i] - place.z;
+  return dx * dx + dy * dy + dz * dz < kTremble_m * kTremble_m;
+}
 
 // Speeds of particles [begin, end) over the frame; returns the largest.
 float find_speeds(const Particles& p, std::size_t begin, std::size_t end, float per_s, Sleep& sleep) {
@@ -21,9 +28,15 @@ float find_speeds(const Particles& p, std::size_t begin, std::size_t end, float 
     const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
                 dz = p.z[i] - sleep.start_z[i];
     sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
+    sleep.stays[i] = stays(p, i, sleep.place[i]);
     fastest = std::max(fastest, sleep.speed[i]);
   }
   return fastest;
+}
+
+bool woken(const Ring& ring, std::size_t i, const Sleep& sleep) {
+  return std::ranges::any_of(ring.of(i),
+                             [&](Index j) { return sleep.speed[j] > kWaking_m_s && !sleep.stays[j]; });
 }
 
 }  // namespace
@@ -31,6 +44,7 @@ float find_speeds(const Particles& p, std::size_t begin, std::size_t end, float 
 Sleep make_sleep(std::size_t particles) {
   Sleep s;
   for (auto* a : {&s.start_x, &s.start_y, &s.start_z, &s.speed, &s.quiet_s}) a->assign(particles, 0.0f);
+  s.place.assign(particles, Point{}), s.stays.assign(particles, 0);
   return s;
 }
 
@@ -54,10 +68,9 @@ float end_sleep_frame(const engine::Context& context, const Ring& ring, double f
       [](float a, float b) { return std::max(a, b); });
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      float around = 0.0f;
-      for (const Index j : ring.of(i)) around = std::max(around, sleep.speed[j]);
-      const bool quiet = sleep.speed[i] < kSlow_m_s && around <= kWaking_m_s;
+      const bool quiet = (sleep.speed[i] < kSlow_m_s || sleep.stays[i]) && !woken(ring, i, sleep);
       sleep.quiet_s[i] = quiet ? std::min(kQuiet_s, sleep.quiet_s[i] + static_cast<float>(frame_s)) : 0.0f;
+      if (!quiet || !sleep.stays[i]) sleep.place[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
       if (sleeps(sleep, i)) p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
     }
   });

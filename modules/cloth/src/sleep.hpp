@@ -1,4 +1,5 @@
-// Particles that hardly moved for a while hold still, so that a garment at rest is at rest.
+// Particles that hardly moved for a while hold still, so that a garment at rest is at rest. So do those that
+// only tremble: what a sweep leaves unsolved can swing a fold to and fro for ever where substeps are few.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,9 @@ namespace bodice::cloth {
 struct Sleep {
   std::vector<float> start_x, start_y, start_z;  ///< #P, metres, at the start of the frame
   std::vector<float> speed;                      ///< #P, metres a second, mean over the frame
-  std::vector<float> quiet_s;                    ///< #P, how long the particle has been slow
+  std::vector<Point> place;                      ///< #P, metres, where the particle last was not quiet
+  std::vector<std::uint8_t> stays;               ///< #P, near that place
+  std::vector<float> quiet_s;                    ///< #P, how long the particle has been slow or near it
 };
 
 Sleep make_sleep(std::size_t particles);
