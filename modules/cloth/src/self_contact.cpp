@@ -59,9 +59,10 @@ bool are_joined(const Joined& joined, const Ring& ring, Index i, Index j) {
 
 void offer(SelfContact& s, Index i, Index j) {
   if (s.close_count[i] == kMaxClose) return;
-  const std::size_t at = i * kMaxClose + s.close_count[i]++;
-  s.close[at] = j;
-  s.close_m[at] = std::min(s.radius_m, std::sqrt(distance2(s.rest[i], s.rest[j])));
+  const std::size_t at = s.close_count[i]++;
+  ClosePairs::Four& four = s.close[i].four[at / 4];
+  four.with[at % 4] = j;
+  four.keep_m[at % 4] = std::min(s.radius_m, std::sqrt(distance2(s.rest[i], s.rest[j])));
 }
 
 constexpr std::size_t kMasked = 64;  // points whose nearness is one word
@@ -126,17 +127,15 @@ Float4 part(const Particles& p, const Rub& rub, Index i, Index j, float near_m) 
   return push * normal - held * tangent;
 }
 
-// Of the four pairs from `first` on, a bit each that is too near. Places that are not taken name particles,
-// too, and are left out.
-unsigned too_near(const Particles& p, const SelfContact& s, Index i, std::size_t first) {
+// Of four pairs of which `taken` are, a bit each that is too near.
+unsigned too_near(const Particles& p, const ClosePairs::Four& close, std::size_t taken, Index i) {
   const Float4 at = load(p.point[i]);
   Float4 d[4];
-  for (std::size_t k = 0; k < 4; ++k) d[k] = at - load(p.point[s.close[first + k]]);
+  for (std::size_t k = 0; k < 4; ++k) d[k] = at - load(p.point[close.with[k]]);
   transpose(d[0], d[1], d[2], d[3]);
-  const Float4 near_m = load(&s.close_m[first]);
-  const unsigned near = lanes(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < near_m * near_m);
-  const std::size_t left = i * kMaxClose + s.close_count[i] - first;
-  return left < 4 ? near & ((1u << left) - 1) : near;
+  const Float4 keep_m = load(close.keep_m);
+  const unsigned near = lanes(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < keep_m * keep_m);
+  return taken < 4 ? near & ((1u << taken) - 1) : near;
 }
 
 Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching, const Rub& rub,
@@ -144,12 +143,14 @@ Float4 correction(const Particles& p, const std::vector<std::uint8_t>& touching,
   const float own = yielding(p, touching, i);
   Float4 sum = splat(0.0f);
   float pushes = 0.0f;
-  for (std::size_t first = i * kMaxClose; first < i * kMaxClose + s.close_count[i]; first += 4) {
-    for (unsigned near = too_near(p, s, i, first); near != 0; near &= near - 1) {
-      const std::size_t k = first + static_cast<std::size_t>(std::countr_zero(near));
-      const Index j = s.close[k];
+  const std::size_t count = s.close_count[i];
+  for (std::size_t first = 0; first < count; first += 4) {
+    const ClosePairs::Four& close = s.close[i].four[first / 4];
+    for (unsigned near = too_near(p, close, count - first, i); near != 0; near &= near - 1) {
+      const auto k = static_cast<std::size_t>(std::countr_zero(near));
+      const Index j = close.with[k];
       const float share = own / (own + yielding(p, touching, j) + kTinyWeight);
-      sum += share * part(p, rub, i, j, s.close_m[k]);
+      sum += share * part(p, rub, i, j, close.keep_m[k]);
       pushes += 1.0f;
     }
   }
@@ -190,7 +191,7 @@ SelfContact make_self_contact(const Particles& particles, const Ring& ring, doub
   s.grid = CellGrid(kCell * kSearch * s.radius_m, count);
   s.close_count.assign(count, 0), s.active.assign(count, 0), s.move.assign(count, {});
   s.active_count.assign(engine::block_count(count, kBlock), 0);
-  s.close.assign(count * kMaxClose, 0), s.close_m.assign(count * kMaxClose, 0.0f);
+  s.close.assign(count, {});
   return s;
 }
 

@@ -21,14 +21,22 @@ struct Joined {
   Int4 id[kFirst / 4];
 };
 
+/// The particles near one, four to a load; a line of the cache holds them all.
+struct alignas(64) ClosePairs {
+  struct Four {
+    Index with[4] = {};    ///< places that are not taken name a particle, too
+    float keep_m[4] = {};  ///< distance that each pair must keep
+  };
+  Four four[kMaxClose / 4];
+};
+
 struct SelfContact {
   float radius_m = 0.0f;  ///< particles are kept this far apart, or as far as they were at rest
   double travel_m = std::numeric_limits<double>::infinity();  ///< of the fastest since the pairs were found
   CellGrid grid;
   std::vector<Point> rest;                ///< #P, metres, in the particles' frame of the start
   std::vector<Joined> joined;             ///< #P
-  std::vector<Index> close;               ///< #P * kMaxClose
-  std::vector<float> close_m;             ///< #P * kMaxClose, distance each pair must keep
+  std::vector<ClosePairs> close;          ///< #P
   std::vector<std::uint8_t> close_count;  ///< #P
   std::vector<Index> active;              ///< #P, from each block's first on: its particles with pairs
   std::vector<Index> active_count;        ///< #blocks
