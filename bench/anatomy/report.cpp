@@ -110,6 +110,9 @@ void Report::weigh_warnings(const Case& c, const Score& s, const bodice::anatomy
 
 void Report::print_warnings() const {
   const int wrongly = warned_of_places_.bodies - warned_of_places_.rightly;
+  std::printf("%-22s %9s %9s\n%-22s %9d %9d\n%-22s %9d %9d\n", "", "doubted", "silent", "a bar missed",
+              missed_ - missed_silently_, missed_silently_, "right", wrongly,
+              bodies_ - refused_ - missed_ - wrongly);
   std::printf("bodies with a place in doubt %d, of them rightly %d; false alarms %.1f %% of all (bar %.0f)\n",
               warned_of_places_.bodies, warned_of_places_.rightly,
               100.0 * static_cast<double>(wrongly) / static_cast<double>(bodies_), 100.0 * kFalseAlarms);

@@ -33,7 +33,7 @@ constexpr float kBlunt = 0.010F, kToes = 0.04F;
 constexpr double kHopelessArmpit = 10.0, kHopelessPerineum = 6.4;
 /// An armpit leads its rivals by 2 deviations on nineteen bodies of twenty; all that were found over 6 % of
 /// the stature off led by less than 0.8.
-constexpr double kClearLead = 2.2;
+constexpr double kClearLead = 1.8;
 
 double confidence_of(float misfit, double hopeless) {
   const double m = static_cast<double>(misfit) / hopeless;
