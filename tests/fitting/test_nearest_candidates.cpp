@@ -1,0 +1,100 @@
+// Lists of candidates: those that brute force finds, in its order, however far the block's bound lets it
+// look.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <bodice/engine/random.hpp>
+
+#include "nearest_candidates.hpp"
+
+using namespace bodice;
+using fitting::FootEllipsoid;
+using fitting::NearestCandidates;
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kReach = 0.06;
+constexpr double kFootError = 1e-3;  // deep inside, feet of a fixed cost in floats are a little off
+
+std::vector<geometry::Ellipsoid> scattered(engine::Random& random, int count) {
+  std::vector<geometry::Ellipsoid> ellipsoids;
+  for (int k = 0; k < count; ++k) {
+    const auto in = [&](double low, double high) { return random.uniform(low, high); };
+    const Vec3 axis = Vec3(in(-1, 1), in(-1, 1), in(-1, 1)).stableNormalized();
+    ellipsoids.push_back({Vec3(in(-0.3, 0.3), in(-0.3, 0.3), in(-0.3, 0.3)),
+                          Eigen::AngleAxisd(in(0, 3), axis).toRotationMatrix(),
+                          Vec3(in(0.03, 0.1), in(0.03, 0.1), in(0.03, 0.1))});
+  }
+  return ellipsoids;
+}
+
+/// Samples of one block, `spread` across.
+struct Block {
+  std::vector<float> x, y, z, from_centre, of_ball;
+
+  Block(engine::Random& random, const std::vector<geometry::Ellipsoid>& ellipsoids, std::size_t count,
+        double spread) {
+    const auto in = [&](double half) { return random.uniform(-half, half); };
+    const Vec3 centre(in(0.3), in(0.3), in(0.3));
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 off(in(spread), in(spread), in(spread));
+      x.push_back(static_cast<float>(centre.x() + off.x()));
+      y.push_back(static_cast<float>(centre.y() + off.y()));
+      z.push_back(static_cast<float>(centre.z() + off.z()));
+      from_centre.push_back(static_cast<float>(off.norm()));
+    }
+    for (const auto& e : ellipsoids)
+      of_ball.push_back(static_cast<float>(geometry::nearest_point(e, centre).signed_distance));
+  }
+  Vec3 point(std::size_t i) const { return {double{x[i]}, double{y[i]}, double{z[i]}}; }
+  fitting::SampleBlock view() const {
+    return {x.size(), x.data(), y.data(), z.data(), from_centre.data(), of_ball};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("candidates: brute force finds the same ones in the same order") {
+  engine::Random random(12);
+  NearestCandidates found;
+  std::size_t checked = 0, full = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto ellipsoids = scattered(random, 5 + trial);
+    const std::vector<FootEllipsoid> feet(ellipsoids.begin(), ellipsoids.end());
+    const std::size_t count = trial % 3 == 0 ? 7 : fitting::kSampleBlock;
+    const Block block(random, ellipsoids, count, trial % 2 == 0 ? 0.01 : 0.08);
+    found.find(feet, block.view(), static_cast<float>(kReach));
+    for (std::size_t i = 0; i < count; ++i) {
+      std::vector<double> truth;
+      for (const auto& e : ellipsoids)
+        truth.push_back(geometry::nearest_point(e, block.point(i)).signed_distance);
+      const auto listed = found.of(i);
+      const auto size = static_cast<std::size_t>(found.count(i));
+      std::vector<bool> is_listed(truth.size(), false);
+      for (std::size_t s = 0; s < size; ++s) {
+        is_listed[listed[s]] = true;
+        if (s > 0) CHECK(truth[listed[s]] > truth[listed[s - 1]] - kFootError);
+      }
+      REQUIRE(size > 0);
+      const double least = *std::ranges::min_element(truth);
+      CHECK(truth[listed[0]] < least + kFootError);
+      // Those left out are beyond reach, or no nearer than the last of a full list.
+      const bool is_full = size == static_cast<std::size_t>(NearestCandidates::kMost);
+      const double bound = is_full ? truth[listed[size - 1]] : least + kReach;
+      for (std::size_t k = 0; k < truth.size(); ++k)
+        if (!is_listed[k]) CHECK(truth[k] > bound - kFootError);
+      CHECK(truth[listed[size - 1]] < least + kReach + kFootError);
+      full += is_full;
+      ++checked;
+    }
+  }
+  CHECK(checked > 1000);
+  CHECK(full > 10);
+  CHECK(full < checked / 2);
+}
