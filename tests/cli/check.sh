@@ -129,6 +129,8 @@ rm p.json
 expect 0 "make a body and a garment" "$bodice" make --vertices 4500 -o body.obj --garment skirt --garment-out skirt.obj
 exists body.obj
 exists skirt.obj
+expect 0 "a garment for a body" "$bodice" make body.obj --garment-out poncho.obj --garment poncho --unit m --up y -q
+exists poncho.obj
 expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --surface s.obj --labels l.txt --report r.json --picture p.png --trace t.json
 for file in p.json p.glb s.obj l.txt r.json p.png t.json; do exists $file; done
 expect 0 "a budget of time" "$bodice" fit body.obj --budget-us 90 --region-of skirt.obj
@@ -172,7 +174,7 @@ printf '0 5 0\n' >points.txt
 expect 1 "a truncated proxy" "$bodice" query cut.json points.txt
 says "cut.json"
 
-expect 0 "drape files" "$bodice" drape body.obj skirt.obj --tier paper --frames 5 -o d.glb --report d.json
+expect 0 "drape files" "$bodice" drape body.obj skirt.obj --tier paper --frames 5 --wind -1,0,2 --gust 0.5 -o d.glb --report d.json
 exists d.glb
 exists d.png
 says "true skin"

@@ -31,7 +31,7 @@ engine::Result<void> check_extension(const FileOption& output) {
   const std::vector<std::string>& known = output.extensions;
   if (known.empty() || std::ranges::find(known, extension_of(output.file)) != known.end()) return {};
   std::string names;
-  for (const std::string& name : known) names += (names.empty() ? "" : " or ") + name;
+  for (const std::string& name : known) names += (names.empty() ? "NAME" : " or NAME") + name;
   return Error{ErrorCode::kInvalidArgument, output.option + " writes " + names + ", not " + output.file + ".",
                "Change the extension: it tells the format."};
 }
