@@ -86,6 +86,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.stretch = make_stretch(mesh, topology, fabric, s.particles);
   s.bend = make_bend(mesh, topology, fabric, s.particles);
   s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
+  update_weights({}, s.particles, s.coarse);  // from here on, whenever somebody falls asleep or wakes
   s.air = make_air(mesh);
   s.ring = make_ring(mesh, topology);
   s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
