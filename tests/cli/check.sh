@@ -131,6 +131,9 @@ exists body.obj
 exists skirt.obj
 expect 0 "a garment for a body" "$bodice" make body.obj --garment-out poncho.obj --garment poncho --unit m --up y -q
 exists poncho.obj
+awk '$1 == "v" { print $1, $2 / 0.3048, $3 / 0.3048, $4 / 0.3048; next } { print }' body.obj >feet.obj
+expect 0 "a body in feet" "$bodice" fit feet.obj --unit ft --tier paper
+says "unit ft, 1.6[0-9]* m tall"
 expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --surface s.obj --labels l.txt --report r.json --picture p.png --trace t.json
 for file in p.json p.glb s.obj l.txt r.json p.png t.json; do exists $file; done
 expect 0 "a budget of time" "$bodice" fit body.obj --budget-us 90 --region-of skirt.obj

@@ -13,7 +13,8 @@ namespace {
 
 const std::map<std::string, io::Unit> kUnits = {{"auto", io::Unit::kAuto},     {"m", io::Unit::kMetre},
                                                 {"dm", io::Unit::kDecimetre},  {"cm", io::Unit::kCentimetre},
-                                                {"mm", io::Unit::kMillimetre}, {"in", io::Unit::kInch}};
+                                                {"mm", io::Unit::kMillimetre}, {"in", io::Unit::kInch},
+                                                {"ft", io::Unit::kFoot}};
 
 const std::map<std::string, synth::Pose> kPoses = {{"a", synth::Pose::kA},
                                                    {"t", synth::Pose::kT},
@@ -121,7 +122,7 @@ engine::Result<body::ProportionProfile> proportions(const CommonOptions& o) {
 
 void add_input_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Input";
-  command.add_option("--unit", o.unit, "length unit of the file: m, dm, cm, mm, in, auto")
+  command.add_option("--unit", o.unit, "length unit of the file: m, dm, cm, mm, in, ft, auto")
       ->check(CLI::IsMember(keys(kUnits)))
       ->needs("BODY")
       ->group(group)
