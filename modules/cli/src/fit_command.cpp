@@ -53,7 +53,7 @@ bool is_useful(double advised_us, const CommonOptions& o, const proxy::BodyProxy
 void tell_speed(const CommonOptions& o, const tryon::PreparedBody& body) {
   const double asked_us = *o.budget_us;
   const double us = query_us(body.fit.proxy, body.skin.input.skin);
-  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (%.3g asked)", us,
+  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (%g asked)", us,
               asked_us);
   const double advised_us = asked_us * asked_us / us;
   if ((us > kApart * asked_us || kApart * us < asked_us) && is_useful(advised_us, o, body.fit.proxy))
