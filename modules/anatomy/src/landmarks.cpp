@@ -9,6 +9,7 @@
 #include "crown.hpp"
 #include "curve.hpp"
 #include "joints.hpp"
+#include "neck_place.hpp"
 #include "perineum_place.hpp"
 #include "soft_place.hpp"
 
@@ -140,6 +141,7 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
     marks.knee_place[side] =
         knee_joint(coordinates, marks.knee[side], marks.perineum_place, positions[ends.foot[side]]);
   }
+  marks.neck_place = neck_by_measures(skin, coordinates, marks);
   marks.perineum_place = perineum_by_shape(skin, coordinates, marks);
   return marks;
 }
