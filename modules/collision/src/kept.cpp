@@ -24,7 +24,7 @@ double farthest_travel(std::span<const Ellipsoid> before, std::span<const Ellips
 
 }  // namespace
 
-bool KeptLife::renew(float least_reach_m, float most_reach_m) {
+bool KeptBatch::renew(float least_reach_m, float most_reach_m) {
   if (rest > 0) {
     --rest;
     return false;
@@ -43,7 +43,7 @@ bool KeptLife::renew(float least_reach_m, float most_reach_m) {
 }
 
 void KeptCandidates::forget() {
-  for (KeptBatch& batch : batches_) batch.count = batch.pushed.count = 0;
+  for (KeptBatch& batch : batches_) batch.count = 0;
   travelled_m_ = 0.0;
 }
 

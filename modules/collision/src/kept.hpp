@@ -15,12 +15,19 @@
 
 namespace bodice::collision {
 
-/// How far what is kept reaches, and how long it has held.
-struct KeptLife {
-  static constexpr int kLeastUse = 2;                   ///< calls that pay for finding what is kept
-  static constexpr int kShortLife = 6, kLongLife = 40;  ///< calls: the reach grows or shrinks
-  static constexpr int kRest = 16;                      ///< calls that nothing is kept after a failure
+/// What is kept about a batch.
+struct alignas(64) KeptBatch {
+  static constexpr int kSpan = 32, kSpans = kBatch / kSpan;  ///< lanes that share candidates
+  static constexpr int kMost = 32;                           ///< candidates of all spans
+  static constexpr int kLeastUse = 2;                        ///< calls that pay for finding what is kept
+  static constexpr int kShortLife = 6, kLongLife = 40;       ///< calls: the reach grows or shrinks
+  static constexpr int kRest = 16;                           ///< calls that nothing is kept after a failure
 
+  float x[kBatch], y[kBatch], z[kBatch];  ///< metres: where the particles were
+  float least_m[kSpans];                  ///< no place within reach is nearer to an ellipsoid
+  std::uint32_t near[kSpans];             ///< a bit a candidate
+  std::int32_t candidate[kMost];          ///< ellipsoids, rising
+  int candidates = 0;
   int count = 0;  ///< lanes; zero: nothing is kept
   float reach_m = 0.0f;
   double travelled_m = 0.0;  ///< KeptCandidates::travelled_m() then
@@ -28,37 +35,11 @@ struct KeptLife {
 
   /// Chooses the reach of what is found next; false if nothing should be kept now.
   bool renew(float least_reach_m, float most_reach_m);
-  /// What the proxy's own way since leaves of the reach.
-  float left_m(double travelled_now_m) const {
-    return static_cast<float>(double{reach_m} - (travelled_now_m - travelled_m));
-  }
   /// To be left alone for some calls.
   void give_up() {
     count = 0;
     rest = kRest;
   }
-};
-
-/// The ellipsoids around a box of places.
-struct KeptAround : KeptLife {
-  static constexpr int kMost = 32;
-  float low[3] = {}, high[3] = {};     ///< metres: the box
-  float limit_m = 0.0f;                ///< how near to a place of it they may come
-  std::int32_t candidate[kMost] = {};  ///< ellipsoids, rising
-  int candidates = 0;
-};
-
-/// What is kept about a batch.
-struct alignas(64) KeptBatch : KeptLife {
-  static constexpr int kSpan = 32, kSpans = kBatch / kSpan;  ///< lanes that share candidates
-  static constexpr int kMost = 32;                           ///< candidates of all spans
-
-  alignas(64) float x[kBatch], y[kBatch], z[kBatch];  ///< metres: where the particles were
-  float least_m[kSpans];                              ///< no place within reach is nearer to an ellipsoid
-  std::uint32_t near[kSpans];                         ///< a bit a candidate
-  std::int32_t candidate[kMost];                      ///< ellipsoids, rising
-  int candidates = 0;
-  KeptAround pushed;  ///< where a response puts those that are inside
 };
 
 /// Of all batches of a set of particles, and the pose that the reaches count from.
@@ -69,14 +50,6 @@ class KeptCandidates {
   void begin(std::size_t particles, std::span<const geometry::Ellipsoid> shapes, float beyond_m);
 
   KeptBatch& batch(std::size_t i) { return batches_[i]; }
-  /// Brings what is read first about a batch into the cache; there may be no such batch.
-  void prefetch(std::size_t i) const {
-    constexpr int kLine = 64 / sizeof(float);
-    if (i >= batches_.size()) return;
-    for (const float* places : {batches_[i].x, batches_[i].y, batches_[i].z})
-      for (int lane = 0; lane < kBatch; lane += kLine) __builtin_prefetch(places + lane);
-    __builtin_prefetch(batches_[i].least_m);
-  }
   /// The length of the proxy's way: no material of it moved farther since.
   double travelled_m() const { return travelled_m_; }
 

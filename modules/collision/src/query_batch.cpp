@@ -117,7 +117,6 @@ bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, Memory* 
 Keeping Collider::Impl::keeping_of(const Particles& particles, std::size_t begin, std::size_t end,
                                    Memory* memory) const {
   if (!memory || (end - begin != kBatch && end != particles.count) || begin % kBatch != 0) return {};
-  memory->candidates.prefetch(begin / kBatch + 1);
   const auto share = [&](double of_size) { return static_cast<float>(of_size * field.size_m()); };
   return {&memory->candidates.batch(begin / kBatch), memory->candidates.travelled_m(), share(kLeastReach),
           share(kMostReach)};

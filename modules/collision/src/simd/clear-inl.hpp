@@ -68,9 +68,8 @@ HWY_INLINE bool others_of(const Baked& baked, const Placed& placed, float limit_
 
 /// The nearest of the other ellipsoids at each place where it is nearer than the limit, exactly; elsewhere
 /// some distance beyond the limit. False if a place is too far for floats.
-/// `around`: what is kept about the places, or null.
-inline bool nearest_others(const Baked& baked, const Placed& placed, float limit_m, Around* around,
-                           Scratch& scratch, Batched& out) {
+inline bool nearest_others(const Baked& baked, const Placed& placed, float limit_m, Scratch& scratch,
+                           Batched& out) {
   const QueryBatch& batch = placed.batch;
   const Blocks blocks(batch);
   if (!blocks.near) return false;
@@ -79,10 +78,8 @@ inline bool nearest_others(const Baked& baked, const Placed& placed, float limit
     hn::Store(hn::Zero(I()), I(), out.name + i);
   }
   const float below_m = limit_m + 4.0f * baked.rounding_m;
-  const auto find = [&](const auto& source, const Extent& box, const Piece* pieces, int count, Near* lists,
-                        float farther_m = 0.0f) {
-    return find_below(source, box, pieces, count, below_m + farther_m, lists);
-  };
+  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
+                        Near* lists) { return find_below(source, around, pieces, count, below_m, lists); };
   const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
                         const Near* lists) {
     return others_of<tables()>(baked, placed, limit_m, pieces, count, lists, columns, scratch.open, out);
@@ -90,12 +87,9 @@ inline bool nearest_others(const Baked& baked, const Placed& placed, float limit
   return together_or_apart(
       batch, blocks,
       [&](const Piece* pieces, int count) {
-        if (around)
-          return share_around(baked, nullptr, pieces, count, below_m, scratch.lists, *around, find, work);
         return share(baked, nullptr, pieces, count, scratch.lists, find, work);
       },
       [&](const Piece& piece) {
-        if (around) around->filled = false;
         in_parts(
             baked, piece, scratch.lists,
             [&](const Everything& source, Near* list) {

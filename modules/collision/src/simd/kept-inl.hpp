@@ -20,7 +20,8 @@ static_assert(KeptBatch::kSpan % kStep == 0 && kBlock % KeptBatch::kSpan == 0);
 
 /// Whether no place is farther from where it was than the reach that the proxy's own way leaves.
 HWY_INLINE bool holds(const KeptBatch& kept, const QueryBatch& batch) {
-  const float left_m = kept.left_m(batch.keeping.travelled_m);
+  const auto left_m =
+      static_cast<float>(double{kept.reach_m} - (batch.keeping.travelled_m - kept.travelled_m));
   if (kept.count < batch.count || !(left_m > 0.0f)) return false;
   const V most = all(left_m * left_m);
   M near = hn::FirstN(f, kWidth);

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "simd/around-inl.hpp"
 #include "simd/combine-inl.hpp"
 #include "simd/kept-inl.hpp"
 
@@ -278,14 +277,13 @@ HWY_INLINE bool one_by_one(const QueryBatch& batch, const Piece& piece, Work&& w
 }
 
 /// Distance, unit gradient and owner of every particle; false if a place is too far for floats, or more
-/// ellipsoids with relief are near one than the kernel has room for. `around`: what is kept about places
-/// that have no candidates of their own, or null.
+/// ellipsoids with relief are near one than the kernel has room for.
 inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Scratch& scratch,
-                    Batched& out, Around* around = nullptr) {
+                    Batched& out) {
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
-  const auto find = [&](const auto& source, const Extent& box, const Piece* pieces, int count, Near* lists,
-                        float farther_m = 0.0f) {
-    return find_near<false>(source, box, pieces, count, beyond_m + 2.0f * farther_m, kNoLimit, lists);
+  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
+                        Near* lists) {
+    return find_near<false>(source, around, pieces, count, beyond_m, kNoLimit, lists);
   };
   const auto answer = [&](auto tables, const QueryBatch& of, const Columns& columns, const Piece* pieces,
                           int count, const Near* lists, Batched& to) {
@@ -296,8 +294,6 @@ inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& 
   const auto share_among = [&](const QueryBatch& of, const Piece* pieces, int count, Batched& to) {
     const auto work = [&](auto tables, const Columns& columns, const Piece* some, int number,
                           const Near* lists) { return answer(tables, of, columns, some, number, lists, to); };
-    if (around)
-      return share_around(baked, relief, pieces, count, kNoLimit, scratch.lists, *around, find, work);
     return share(baked, relief, pieces, count, scratch.lists, find, work);
   };
   const auto in_part = [&](auto tables, const Columns& columns, const Piece* pieces, int count,

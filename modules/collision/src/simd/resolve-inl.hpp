@@ -18,9 +18,6 @@ constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
 // A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
 
-// Rounds lead half a millimetre of a body apart; slacks.
-constexpr float kReachOfCall = static_cast<float>(kLeastReach / (2.0 * kCertificate));
-
 /// A plane of the contact at x, which is there only if x lies on it.
 HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, const float* offset, int i,
                           const std::int32_t* of, V3 x, float within_m, M& there) {
@@ -226,9 +223,7 @@ HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief, co
     }
   }
   Scratch scratch;
-  KeptAround of_call;
-  Around around(batch.keeping, kReachOfCall * clearance.slack_m, of_call);
-  const Surface surface{baked, relief, clearance, nullptr, scratch, around};
+  const Surface surface{baked, relief, clearance, nullptr, scratch};
   return resolve_on(surface, kShortPath * shortest_m, 1e30f, batch, out);
 }
 
@@ -245,9 +240,7 @@ HWY_INLINE bool resolve_filleted(const Baked& baked, const Clearance& clearance,
   if (!cull_for_response(baked, batch, window_m, candidates)) return false;
   if (candidates.count == 0) return true;
   Scratch scratch;
-  KeptAround of_call;
-  Around around({}, 0.0f, of_call);
-  const Surface surface{baked, nullptr, clearance, &candidates, scratch, around};
+  const Surface surface{baked, nullptr, clearance, &candidates, scratch};
   return resolve_on(surface, kShortPath * shortest_m, candidates.reach_m, batch, out);
 }
 

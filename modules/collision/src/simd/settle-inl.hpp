@@ -193,7 +193,6 @@ struct Surface {
   const Clearance& clearance;
   const Candidates* filleted;  ///< of the block; null: creases stay sharp, or relief blends
   Scratch& scratch;
-  Around& around;  ///< where pushes lead to
 
   bool bent() const { return relief != nullptr || filleted != nullptr; }
   /// Where pushes aim at. A bent surface turns between steps; a share of the blending more lets Newton arrive
@@ -232,8 +231,8 @@ HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch
 }
 
 /// Distance, unit gradient, its length and the name of the owner at each place; false if there is no room.
-HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out, Around* around = nullptr) {
-  if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out, around);
+HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out) {
+  if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out);
   measure_filleted(surface, batch, out);
   return true;
 }
@@ -271,16 +270,15 @@ HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Batched
   alignas(64) std::int32_t none[kBatch];
   std::memset(none, 0xFF, sizeof(none));
   const Placed placed{batch, none, none, none};
-  return nearest_others(surface.baked, placed, limit_m, nullptr, surface.scratch, out);
+  return nearest_others(surface.baked, placed, limit_m, surface.scratch, out);
 }
 
 /// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.
 HWY_INLINE bool measure_again(const Surface& surface, const Pushed& pushed, Batched& out) {
   QueryBatch batch = places(pushed.x, pushed.y, pushed.z, pushed.count);
-  if (surface.bent()) return measure(surface, batch, out, &surface.around);
+  if (surface.bent()) return measure(surface, batch, out);
   const Placed placed{batch, pushed.clear1, pushed.clear2, pushed.clear3};
-  const float limit_m = surface.clearance.distance_m;
-  return nearest_others(surface.baked, placed, limit_m, &surface.around, surface.scratch, out);
+  return nearest_others(surface.baked, placed, surface.clearance.distance_m, surface.scratch, out);
 }
 
 /// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
