@@ -71,6 +71,18 @@ int differences(const Collider& collider, Cloud& cloud, Workspace& workspace, fl
   return differ;
 }
 
+/// Answers that differ over some calls; `change` (the call's number) is called after each.
+template <class Change>
+int differences_over(int calls, const Collider& collider, Cloud& cloud, Change&& change) {
+  Workspace workspace;
+  int differ = 0;
+  for (int call = 0; call < calls; ++call) {
+    differ += differences(collider, cloud, workspace, kAll);
+    change(call);
+  }
+  return differ;
+}
+
 /// Particles that a response with what is kept leaves other than one without; the cloud stays as it was.
 int response_differences(const Collider& collider, const Cloud& cloud, Workspace& workspace,
                          const bodice::collision::ResolveOptions& options) {
@@ -119,13 +131,10 @@ TEST_CASE("candidates that are kept while all particles drift one way change no 
   // All of a batch come from one ellipsoid's side to the other's at once.
   const Collider collider(crowd(false, 200));
   Cloud cloud = lattice(20);
-  Workspace workspace;
-  int differ = 0;
-  for (int call = 0; call < 60; ++call) {
-    differ += differences(collider, cloud, workspace, kAll);
+  const auto drift = [&](int) {
     for (float& x : cloud.x) x += 7e-4f;
-  }
-  CHECK(differ == 0);
+  };
+  CHECK(differences_over(60, collider, cloud, drift) == 0);
 }
 
 TEST_CASE("candidates that are kept while the proxy moves change no bit") {
@@ -134,14 +143,11 @@ TEST_CASE("candidates that are kept while the proxy moves change no bit") {
     Collider collider(proxy);
     std::vector<Ellipsoid> shapes = shapes_of(proxy);
     Cloud cloud = lattice(20);
-    Workspace workspace;
-    int differ = 0;
-    for (int call = 0; call < 40; ++call) {
-      differ += differences(collider, cloud, workspace, kAll);
+    const auto move = [&](int call) {
       turn(call % 10 == 9 ? 0.3 : 1e-3, shapes);
       collider.move_to(shapes, 0.01);
-    }
-    CHECK(differ == 0);
+    };
+    CHECK(differences_over(40, collider, cloud, move) == 0);
   }
 }
 
@@ -198,11 +204,8 @@ TEST_CASE("a relief blend is summed in the same order, whichever candidate was m
       const double y = random.uniform(-1e-3, 1e-3), z = random.uniform(-1e-3, 1e-3);
       cloud.add(Vec3(0.0, y + equally_near_y(shapes), z) - collider.origin());
     }
-    Workspace workspace;
-    int differ = 0;
-    for (int call = 0; call < 3; ++call) differ += differences(collider, cloud, workspace, kAll);
     CAPTURE(swapped);
-    CHECK(differ == 0);
+    CHECK(differences_over(3, collider, cloud, [](int) {}) == 0);
   }
 }
 
@@ -239,12 +242,7 @@ TEST_CASE("coordinates of any scale keep their candidates") {
     Random random(86);
     Cloud cloud;
     for (int i = 0; i < 2000; ++i) cloud.add(random_vector(random, 0.5 * scale));
-    Workspace workspace;
-    int differ = 0;
-    for (int call = 0; call < 6; ++call) {
-      differ += differences(collider, cloud, workspace, kAll);
-      scatter(random, 1e-3 * scale, cloud);
-    }
-    CHECK(differ == 0);
+    const auto wander = [&](int) { scatter(random, 1e-3 * scale, cloud); };
+    CHECK(differences_over(6, collider, cloud, wander) == 0);
   }
 }
