@@ -151,6 +151,42 @@ TEST_CASE("velocity: the inward part goes, friction slows the rest by at most it
   }
 }
 
+TEST_CASE("in a crease the velocity goes into neither side, and stays along it") {
+  auto shapes = ball(0.5);
+  shapes.push_back(shapes[0]);
+  shapes[0].center.x() = -0.4;
+  shapes[1].center.x() = 0.4;
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  cloud.add(Vec3(0.001, 0.28, 0.0), Vec3(0.1, -1.0, 0.5));
+  const ContactReport report = collider.resolve({}, cloud.particles(), {.friction = 0.0f});
+  CHECK(report.judged_exactly == 0);  // the kernels' own
+  for (const Ellipsoid& e : shapes) {
+    const Vec3 outward = (cloud.position(0) + collider.origin() - e.center).normalized();
+    CHECK(outward.dot(cloud.velocity(0)) > -1e-4);
+  }
+  CHECK(cloud.velocity(0).head<2>().norm() < 1e-3);
+  CHECK(cloud.velocity(0).z() == doctest::Approx(0.5).epsilon(1e-3));
+}
+
+TEST_CASE("a push is bounded beyond taking back the path, in floats and on the exact side") {
+  for (const bool exactly : {false, true}) {
+    auto shapes = ball(0.5);
+    // Next to something as small as this, a path of 5 mm is long enough for the exact side.
+    shapes.push_back(ball(0.005)[0]);
+    shapes[1].center = exactly ? Vec3(0.0045, 0.4825, 0.0045) : Vec3(0.0, -0.47, 0.0);
+    const Collider collider(proxy_of(shapes));
+    Cloud cloud;
+    cloud.add(Vec3(0.0, 0.48, 0.0));
+    cloud.add_safe(Vec3(0.0, 0.485, 0.0));
+    const ContactReport report = collider.resolve({}, cloud.particles(), {.max_push_m = 0.001f});
+    CAPTURE(exactly);
+    CHECK(report.judged_exactly == (exactly ? 1u : 0u));
+    CHECK(report.pending == 1);
+    CHECK(cloud.y[0] == doctest::Approx(0.486).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("a moving body drags what it touches with its own velocity") {
   auto shapes = ball(1.0);
   Collider collider(proxy_of(shapes));
@@ -179,6 +215,20 @@ TEST_CASE("the paper's case 3: a particle leaves on the side where it came in") 
   CHECK(report.wrong_side == 500);
   CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
   for (std::size_t i = 0; i < cloud.size(); ++i) CHECK(cloud.y[i] > 0.03f);
+}
+
+TEST_CASE("what is left of a path through a limb goes along its surface") {
+  const auto shapes = limb();
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  // It meets the limb at about x = 0.01; a third of the shortest radius nearby is 0.0135.
+  cloud.add(Vec3(0.05, -0.03, 0.0));
+  cloud.add_safe(Vec3(0.0, 0.07, 0.0));
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  CHECK(report.wrong_side == 1);
+  CHECK(cloud.x[0] > 0.02f);
+  CHECK(cloud.y[0] > 0.03f);
+  CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
 }
 
 TEST_CASE("nothing tunnels through a limb at speeds up to 1000 m/s") {
