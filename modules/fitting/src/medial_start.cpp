@@ -61,10 +61,6 @@ geometry::Ellipsoid from_spread(const std::vector<Vec3>& points, double min_radi
   return e;
 }
 
-geometry::Ellipsoid ball_of(const InscribedBall& ball, double min_radius_m) {
-  return {ball.centre, geometry::Mat3::Identity(), Vec3::Constant(std::max(ball.radius_m, min_radius_m))};
-}
-
 }  // namespace
 
 double demand(const InscribedBall& ball, double stature_m) {
@@ -82,24 +78,11 @@ std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& conte
   }
   const Clusters found =
       kmeans(context, centres, weights, farthest_seeds(centres, count), {1e-4 * stature_m, 30});
-  struct Touched {
-    std::vector<Vec3> skin;
-    std::size_t largest = 0;  // ball
-  };
-  std::vector<Touched> touched(found.centers.size());
-  for (std::size_t i = 0; i < balls.size(); ++i) {
-    Touched& by = touched[found.of_point[i]];
-    if (by.skin.empty() || balls[i].radius_m > balls[by.largest].radius_m) by.largest = i;
-    by.skin.push_back(balls[i].skin);
-  }
+  std::vector<std::vector<Vec3>> touched(found.centers.size());
+  for (std::size_t i = 0; i < balls.size(); ++i) touched[found.of_point[i]].push_back(balls[i].skin);
   std::vector<proxy::ProxyEllipsoid> ellipsoids;
-  for (const auto& [skin, largest] : touched) {
-    if (skin.empty()) continue;
-    const bool has_spread = skin.size() >= 4;  // fewer points span no ellipsoid
-    ellipsoids.push_back(
-        {has_spread ? from_spread(skin, 1e-3 * stature_m) : ball_of(balls[largest], 1e-3 * stature_m),
-         balls.front().part});
-  }
+  for (const auto& points : touched)
+    if (points.size() >= 4) ellipsoids.push_back({from_spread(points, 1e-3 * stature_m), balls.front().part});
   return ellipsoids;
 }
 
