@@ -16,7 +16,8 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr int kIterations = 11;  // too few for a move of ellipsoids elsewhere to pay
+constexpr double kOverStepOfFew = 1.3;  // so few steps must settle
+constexpr int kIterations = 11;         // too few for a move of ellipsoids elsewhere to pay
 /// Of the scaled body: with so few samples and ellipsoids a region, choosing candidates again costs more than
 /// keeping all that may ever be near.
 constexpr double kMostMotion = 0.3;
@@ -52,7 +53,8 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;
-  descend(context, problem, shapes, {.iterations = kIterations, .relocate = false});
+  descend(context, problem, shapes,
+          {.iterations = kIterations, .relocate = false, .over_step = kOverStepOfFew});
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = scaling.out(shapes[k]);
   take_parts(problem, ellipsoids);
   return ellipsoids;

@@ -11,7 +11,6 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "relocation.hpp"
-#include "tight_step.hpp"
 
 namespace bodice::fitting {
 namespace {
@@ -77,7 +76,7 @@ class Descent {
     engine::parallel_for(context_, steps.size(), 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
         steps[k] = damped_step(state_.ellipsoids[k], blocks[k], state_.damping[k],
-                               problem_.most_motion() - moved_[k]);
+                               problem_.most_motion() - moved_[k], options_.over_step);
     });
     problem_.remember();
     std::vector<Ellipsoid> trial;

@@ -4,12 +4,14 @@
 #include <functional>
 
 #include "tight_problem.hpp"
+#include "tight_step.hpp"
 
 namespace bodice::fitting {
 
 struct DescentOptions {
   int iterations = 48;   ///< unless time is out or nothing is left to gain
   bool relocate = true;  ///< false: no ellipsoid is moved elsewhere, and samples are asked for once, at first
+  double over_step = kOverStep;
   std::function<bool()> out_of_time;  ///< asked once an iteration
   /// Told of the ellipsoids when the cost has fallen by 5 % since the last time.
   std::function<void(std::span<const geometry::Ellipsoid>)> on_improved;

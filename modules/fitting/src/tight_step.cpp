@@ -10,7 +10,6 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kMinRadius = 0.002;
-constexpr double kOverStep = 1.6;  // neighbours give way to each other: what each block asks for is too short
 
 /// Distances to convex bodies differ by no more than their support functions do: a shift by its length, radii
 /// by their largest change, and a turn about an axis by the difference of the two radii that it mixes.
@@ -23,13 +22,13 @@ double motion_of(const geometry::Vec3& radii, const NormalBlock::Vector& step) {
 }  // namespace
 
 TightStep damped_step(const geometry::Ellipsoid& e, const NormalBlock& block, double damping,
-                      double most_motion) {
+                      double most_motion, double over_step) {
   NormalBlock::Matrix a = block.jtj;
   const double typical = a.trace() / 9.0;
   for (int j = 0; j < 9; ++j) a(j, j) += damping * (a(j, j) + 0.005 * typical) + 1e-4 * typical + 1e-12;
   NormalBlock::Vector step = -a.ldlt().solve(block.jtr);
   if (!step.allFinite()) return {e};
-  step *= kOverStep;
+  step *= over_step;
   const double motion = motion_of(e.radii, step);
   if (motion > most_motion) step *= most_motion / motion;
   geometry::Ellipsoid next = e;
