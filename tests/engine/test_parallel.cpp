@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice_test/executors.hpp>
@@ -34,6 +36,18 @@ TEST_CASE("ordered_reduce gives the same bits on every executor, on the stack an
       CAPTURE(name);
       for (int repeat = 0; repeat < 5; ++repeat) CHECK(harmonic(*executor, 100'000, grain) == serial);
     }
+  }
+}
+
+TEST_CASE("ordered_reduce_in takes the caller's room, be it more than is needed and full of something else") {
+  const auto length = [](std::size_t begin, std::size_t end) { return static_cast<int>(end - begin); };
+  for (const auto& [name, executor] : bodice_test::all_executors()) {
+    CAPTURE(name);
+    const Context context{.executor = executor.get()};
+    std::vector<int> room(12, 1000);
+    CHECK(ordered_reduce_in(context, 95, 10, 5, length, std::plus<>(), std::span(room)) == 100);
+    CHECK(room[10] == 1000);
+    CHECK(ordered_reduce_in(context, 0, 10, 5, length, std::plus<>(), std::span(room)) == 5);
   }
 }
 

@@ -35,14 +35,14 @@ void parallel_for(const Context& context, std::size_t count, std::size_t grain, 
   if (blocks > 1) context.executor->bulk(blocks, run_block);
 }
 
-/// The same as below, with room for block_count(count, grain) partial results given by the caller.
+/// The same as below, with room for block_count(count, grain) partial results, or more, given by the caller.
 template <class T, class Map, class Combine>
 T ordered_reduce_in(const Context& context, std::size_t count, std::size_t grain, T identity, Map&& map,
                     Combine&& combine, std::span<T> partial) {
   parallel_for(context, count, grain,
                [&](std::size_t begin, std::size_t end) { partial[begin / grain] = map(begin, end); });
   T total = std::move(identity);
-  for (T& part : partial) total = combine(std::move(total), std::move(part));
+  for (T& part : partial.first(block_count(count, grain))) total = combine(std::move(total), std::move(part));
   return total;
 }
 
