@@ -147,6 +147,22 @@ TEST_CASE("who sleeps wakes when another body takes the place of the one below")
   for (const Vec3& p : at) CHECK(p.y() < 0.32);
 }
 
+TEST_CASE("who sleeps wakes when the body below is put elsewhere in no time") {
+  geometry::Ellipsoid floor{Vec3(0, 0, 0), geometry::Mat3::Identity(), Vec3(3, 0.5, 3)};
+  collision::Collider body = ellipsoid_body(floor.center, floor.radii);
+  cloth::Solver solver = make_solver(sheet(8, 8, 0.2, 0.2, Vec3(-0.1, 0.502, -0.1)), {}, cotton(), {});
+  const engine::Context context;
+  cloth::FrameReport report;
+  for (int frame = 0; frame < 300; ++frame) report = solver.step(context, body, kFrame_s);
+  REQUIRE(report.asleep == solver.particles());
+  floor.center.y() = -0.2;
+  REQUIRE(body.move_to({&floor, 1}, 0.0));
+  for (int frame = 0; frame < 60; ++frame) report = solver.step(context, body, kFrame_s);
+  std::vector<Vec3> at(solver.particles());
+  solver.positions(at);
+  for (const Vec3& p : at) CHECK(p.y() < 0.32);
+}
+
 TEST_CASE("who sleeps is not drawn out by pins that begin to move slowly, nor left behind by a push") {
   cloth::SolverOptions options;
   options.substeps = 16;

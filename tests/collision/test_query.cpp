@@ -350,6 +350,12 @@ TEST_CASE("a pose that is none is refused, and the proxy stays where it was") {
   bad = moved;
   bad[4].radii.z() = 0.0;
   CHECK_FALSE(collider.move_to(bad, 0.01));
+  bad = moved;
+  bad[1].axes *= 2.0;  // a rig's matrix with its scale
+  CHECK_FALSE(collider.move_to(bad, 0.01));
+  bad = moved;
+  bad[0].axes.col(1) *= -1.0;
+  CHECK_FALSE(collider.move_to(bad, 0.01));
   CHECK(answer() == before);
   CHECK(collider.move_to(moved, 0.01));
   CHECK(answer() != before);

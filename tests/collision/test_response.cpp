@@ -200,6 +200,32 @@ TEST_CASE("a moving body drags what it touches with its own velocity") {
   CHECK((cloud.velocity(0) - Vec3(3.0, 0.0, 0.0)).norm() < 1e-3);
 }
 
+TEST_CASE("options that are no lengths do no harm") {
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
+  const auto shapes = ball(1.0);
+  const Collider collider(proxy_of(shapes));
+  const auto moved = [&](const ResolveOptions& options) {
+    Cloud cloud;
+    cloud.add(Vec3(0.0, 0.9, 0.0), Vec3(1.0, -1.0, 0.0));
+    const ContactReport report = collider.resolve({}, cloud.particles(), options);
+    CHECK(report.contacts == 1);
+    CHECK(cloud.position(0).norm() == doctest::Approx(1.0).epsilon(1e-5));
+    return cloud.velocity(0);
+  };
+  const Vec3 slippery = moved({.friction = 0.0f});
+  CHECK(slippery.x() == doctest::Approx(1.0));
+  for (const float friction : {nan, -3.0f, -infinity}) CHECK(moved({.friction = friction}) == slippery);
+  CHECK(moved({.friction = infinity}).norm() < 1e-6);
+  const Vec3 usual = moved({});
+  for (const float length_m : {nan, infinity, -infinity}) {
+    CHECK(moved({.thickness_m = length_m}) == usual);
+    CHECK(moved({.blend_m = length_m}) == usual);
+  }
+  CHECK(moved({.max_push_m = nan}) == usual);
+  CHECK(moved({.blend_m = -1.0f}) == usual);
+}
+
 TEST_CASE("the paper's case 3: a particle leaves on the side where it came in") {
   const auto shapes = limb();
   const Collider collider(proxy_of(shapes));

@@ -136,11 +136,15 @@ bool meet_collider(const collision::Collider* collider, State& s) {
   const bool moved = collider != nullptr && moves(*collider);
   // An address alone does not tell: a better proxy may be put in place of one.
   const std::uint64_t proxy_hash = collider != nullptr ? collider->proxy_hash() : 0;
-  if (moved || collider != s.last_collider || proxy_hash != s.last_proxy_hash || before != s.particles.origin)
+  // Nor do speeds: a pose that was taken in no time has none.
+  const std::uint64_t poses = collider != nullptr ? collider->poses() : 0;
+  if (moved || collider != s.last_collider || proxy_hash != s.last_proxy_hash || poses != s.last_poses ||
+      before != s.particles.origin)
     wake_all(s.sleep);
   if (collider == nullptr) std::ranges::fill(s.contacts.touching, std::uint8_t{0});
   s.last_collider = collider;
   s.last_proxy_hash = proxy_hash;
+  s.last_poses = poses;
   return moved;
 }
 

@@ -35,7 +35,7 @@ struct State {
   Sleep sleep;
   Budget budget;
   const collision::Collider* last_collider = nullptr;  ///< compared, never read
-  std::uint64_t last_proxy_hash = 0;
+  std::uint64_t last_proxy_hash = 0, last_poses = 0;
   std::vector<float> scratch;  ///< #slots of edges, strains
   Selection selection;
   float max_travel_m = 0.0f;  ///< a substep

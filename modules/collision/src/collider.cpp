@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include <Eigen/LU>
+
 #include <bodice/engine/parallel.hpp>
 
 #include "collider_impl.hpp"
@@ -63,6 +65,24 @@ int batch_of(const ResolveOptions& options, bool relief) {
   return !relief && options.blend_m > 0.0f ? kBlock : kBatch;
 }
 
+/// Lengths and coefficients that are none do no harm: NaN says nothing, and less than nothing is nothing.
+ResolveOptions usable(ResolveOptions options) {
+  if (!std::isfinite(options.thickness_m)) options.thickness_m = 0.0f;
+  constexpr float kSticks = 1e6f;  // more is no different, but for infinity times zero
+  options.friction = options.friction > 0.0f ? std::min(options.friction, kSticks) : 0.0f;
+  if (!(options.blend_m > 0.0f && std::isfinite(options.blend_m))) options.blend_m = 0.0f;
+  options.max_push_m = std::isnan(options.max_push_m) ? std::numeric_limits<float>::infinity()
+                                                      : std::max(0.0f, options.max_push_m);
+  return options;
+}
+
+bool is_ellipsoid(const geometry::Ellipsoid& e) {
+  constexpr double kAxesTolerance = 1e-6;  // what a chain of bones in float leaves
+  if (!e.center.allFinite() || !e.axes.allFinite() || !e.radii.allFinite()) return false;
+  const double skew = (e.axes.transpose() * e.axes - geometry::Mat3::Identity()).cwiseAbs().maxCoeff();
+  return e.radii.minCoeff() > 0.0 && skew <= kAxesTolerance && e.axes.determinant() > 0.0;
+}
+
 }  // namespace
 
 void ContactReport::add(const ContactReport& other) {
@@ -96,11 +116,12 @@ std::uint64_t Collider::proxy_hash() const noexcept {
   return impl_->proxy_hash;
 }
 
+std::uint64_t Collider::poses() const noexcept {
+  return impl_->poses;
+}
+
 bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
-  const auto usable = [](const geometry::Ellipsoid& e) {
-    return e.center.allFinite() && e.axes.allFinite() && e.radii.allFinite() && e.radii.minCoeff() > 0.0;
-  };
-  if (shapes.size() != impl_->shapes.size() || !std::ranges::all_of(shapes, usable)) return false;
+  if (shapes.size() != impl_->shapes.size() || !std::ranges::all_of(shapes, is_ellipsoid)) return false;
   double travel_m = 0.0;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     const std::uint32_t at = impl_->internal[k];
@@ -110,6 +131,7 @@ bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
     travel_m = std::max(travel_m, travel_between(impl_->shapes[at], now));
     impl_->shapes[at] = now;
   }
+  impl_->poses += travel_m > 0.0;
   impl_->moving = dt_s > 0.0;
   impl_->moved_dt_s = dt_s;
   impl_->travel_m = static_cast<float>(1.001 * travel_m);
@@ -167,12 +189,12 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options) const {
-  return impl_->resolve(context, particles, options, nullptr);
+  return impl_->resolve(context, particles, usable(options), nullptr);
 }
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options, Workspace& workspace) const {
-  return impl_->resolve(context, particles, options, workspace.memory_.get());
+  return impl_->resolve(context, particles, usable(options), workspace.memory_.get());
 }
 
 void Collider::Impl::query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,

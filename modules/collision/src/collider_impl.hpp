@@ -46,6 +46,7 @@ struct Collider::Impl {
                        std::uint32_t ellipsoid) const;
 
   std::uint64_t proxy_hash;
+  std::uint64_t poses = 0;
   geometry::Vec3 origin;
   /// Ellipsoids are kept in a spatial order, in which everything below and every index inside the module is:
   /// original[k] is the proxy's index of ellipsoid k, internal[] its inverse.

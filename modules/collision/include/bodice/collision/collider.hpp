@@ -45,6 +45,8 @@ enum class Response : std::uint8_t {
   kNearest,  ///< nearest point of the union's surface, certified outside; normal velocity removed, friction
 };
 
+/// Values that are no number, and less than zero where that means nothing, count as zero; a max_push_m that
+/// is no number as no limit.
 struct ResolveOptions {
   Response response = Response::kNearest;
   float thickness_m = 0.0f;  ///< kept between particle and surface
@@ -103,12 +105,14 @@ class Collider {
   const geometry::Vec3& origin() const noexcept;  ///< world position of the local frame's origin
   std::size_t size() const noexcept;              ///< ellipsoids
   std::uint64_t proxy_hash() const noexcept;      ///< of the proxy that it was made from
+  std::uint64_t poses() const noexcept;           ///< how often move_to() took it elsewhere
 
   /// Carries the proxy to another pose: `shapes` are its ellipsoids now, world metres, size() of them; tables
   /// move along. Contacts then know the surface's velocity, (now - before) / dt_s, zero if dt_s is not
   /// positive, and safe positions are carried with the ellipsoid they are nearest to. The origin stays.
-  /// False, and nothing moves, when their number is another or one of them is not finite or has no extent.
-  /// Allocates nothing; must not overlap another call. Cost: about 0.1 microseconds an ellipsoid.
+  /// False, and nothing moves, when their number is another or one of them is not finite, has no extent or
+  /// has axes that are not orthonormal and right-handed (a rig's matrix may carry a scale: it belongs to the
+  /// radii). Allocates nothing; must not overlap another call. Cost: about 0.1 microseconds an ellipsoid.
   bool move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
   /// Velocity of the body's material at a place carried by an ellipsoid; metres a second, local frame.
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
