@@ -263,6 +263,12 @@ TEST_CASE("fit: no time still gives a valid proxy; only the wanted parts are fit
   REQUIRE(result.ok());
   for (const auto& e : result->proxy.ellipsoids()) CHECK(e.part == body::Part::kHead);
   CHECK(result->parts.size() == 1);
+  REQUIRE(result->warnings.size() == 1);
+  CHECK(result->warnings[0].code == "time-budget-spent");
+  if (result->proxy.tier() == Tier::kTight)
+    CHECK(result->warnings[0].message.find("tight in place of relief") != std::string::npos);
+  options.time_budget_s = 1000.0;
+  CHECK(fitting::fit({}, skin.view(), options)->warnings.empty());
 }
 
 TEST_CASE("fit: where a region was cut from the body there is no skin to be far from") {

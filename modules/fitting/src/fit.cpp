@@ -94,7 +94,25 @@ void add_warnings(const FitOptions& options, const Draft& draft, FitResult& resu
 struct Found {
   Draft draft;
   Measured measured;
+  bool out_of_time = false;
 };
+
+proxy::Tier wanted_tier(const FitOptions& options, const Draft& found) {
+  return options.tier.value_or(options.target_error_m || options.budget_us || options.mu_torso_m
+                                   ? found.data.tier
+                                   : proxy::Tier::kRelief);
+}
+
+/// Anytime tiers end with what they have: a reader must not take that for what they can.
+void warn_of_time(const FitOptions& options, const Draft& found, std::vector<engine::Warning>& warnings) {
+  std::string message =
+      engine::message("The fit was ended by its time budget of ", *options.time_budget_s, " s");
+  if (const proxy::Tier wanted = wanted_tier(options, found); wanted != found.data.tier)
+    message +=
+        engine::message(", with tier ", proxy::name(found.data.tier), " in place of ", proxy::name(wanted));
+  warnings.push_back(
+      {"time-budget-spent", "", message + ".", "Allow more time, or ask for fewer ellipsoids."});
+}
 
 /// One that keeps to the target is better than one that does not; then the nearer one.
 bool better(const Measured& a, const Measured& b, double target_m) {
@@ -129,6 +147,7 @@ engine::Result<Found> search(const engine::Context& context, const LabelledSkin&
     if (!best || better(now, best->measured, options.target_error_m.value_or(0.0)))
       best = {std::move(*draft), std::move(now)};
   }
+  best->out_of_time = left_s && *left_s <= 0.0;
   return std::move(*best);
 }
 
@@ -144,7 +163,9 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   }
   auto found = search(context, judged, options, stages);
   if (!found) return found.error();
-  auto& [draft, measured] = *found;
+  auto& [draft, measured, out_of_time] = *found;
+  std::vector<engine::Warning> warnings;
+  if (out_of_time) warn_of_time(options, draft, warnings);
   if (options.target_error_m && draft.data.tier == proxy::Tier::kTight)
     spend_slack(context, judged, draft.parts, *options.target_error_m, draft.data, measured);
   draft.data.source_hash = skin_hash(skin.mesh);
@@ -157,6 +178,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   result.accuracy = measured.accuracy;
   result.parts = part_fits(skin, ellipsoids, measured, draft.parts);
   result.stages = std::move(stages);
+  result.warnings = std::move(warnings);
   add_warnings(options, draft, result);
   return result;
 }
