@@ -7,6 +7,7 @@
 #include <bodice/engine/hash.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice_test/extremes.hpp>
+#include <bodice_test/temp_folder.hpp>
 
 #include "sample_proxy.hpp"
 
@@ -195,17 +196,17 @@ TEST_CASE("a hand-edited JSON is refused while it carries its old hash, and read
 
 TEST_CASE("save and load: both forms by name and content, whole or not at all") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "bodice_test_proxy_file";
-  fs::remove_all(folder);
-  fs::create_directory(folder);
+  const bodice_test::TempFolder temp;
+  const fs::path folder = temp.path();
   const auto proxy = BodyProxy::make(sample_data(7));
-  for (const char* file : {"a.json", "a.bodice"}) {
+  for (const char* file : {"a.json", "a.bodice", "B.BODICE"}) {
     REQUIRE(save(*proxy, folder / file).ok());
     CHECK(load(folder / file)->hash() == proxy->hash());
   }
   CHECK(fs::file_size(folder / "a.bodice") < fs::file_size(folder / "a.json"));
   const auto files = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-  CHECK(files == 2);  // nothing is left beside them
+  CHECK(files == 3);  // nothing is left beside them
+  CHECK(fs::file_size(folder / "B.BODICE") == fs::file_size(folder / "a.bodice"));
   fs::create_directory(folder / "taken.json");
   std::ofstream(folder / "taken.json" / "x") << "x";
   CHECK_FALSE(save(*proxy, folder / "taken.json").ok());
@@ -216,5 +217,4 @@ TEST_CASE("save and load: both forms by name and content, whole or not at all") 
   const auto empty = load(folder / "empty.json");
   REQUIRE_FALSE(empty.ok());
   CHECK(empty.error().message.find("empty.json") != std::string::npos);
-  fs::remove_all(folder);
 }

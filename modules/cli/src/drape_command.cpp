@@ -143,8 +143,9 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
 
 }  // namespace
 
-void add_drape_command(CLI::App& app, int& exit_code) {
+void add_drape_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line) {
   auto command = std::make_shared<DrapeCommand>();
+  command->common.command_line = command_line;
   CLI::App* sub = app.add_subcommand("drape", "Drape garments over a body under gravity and wind");
   add_common_options(*sub, command->common);
   auto* garments = sub->add_option("GARMENT", command->garments,

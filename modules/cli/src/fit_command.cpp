@@ -33,6 +33,7 @@ engine::Result<void> crop(const CommonOptions& o, const engine::Context& context
   for (fitting::PartFit& part : body.fit.parts)
     part.ellipsoids = static_cast<std::size_t>(
         std::ranges::count(body.fit.proxy.ellipsoids(), part.part, &proxy::ProxyEllipsoid::part));
+  std::erase_if(body.fit.parts, [](const fitting::PartFit& part) { return part.ellipsoids == 0; });
   return {};
 }
 
@@ -85,12 +86,6 @@ engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const
   return proxy::proxy_surface(context, proxy, cell_m);
 }
 
-/// By the extension in any case of letters, as check_files() judged it.
-engine::Result<void> save(const proxy::BodyProxy& proxy, const std::string& file) {
-  if (extension_of(file) == ".bodice") return engine::write_file(file, proxy::to_binary(proxy));
-  return engine::write_file(file, proxy::to_json(proxy));
-}
-
 engine::Result<void> write_outputs(const FitCommand& command, const engine::Context& context,
                                    const tryon::PreparedBody& body, std::vector<std::string>& written) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
@@ -99,7 +94,7 @@ engine::Result<void> write_outputs(const FitCommand& command, const engine::Cont
   io::Scene scene = scene_of(body);
   if (!proxy.relief().empty() && !surface->mesh.empty()) scene.surface = &*surface;
   if (!command.output.empty()) {
-    if (auto saved = save(proxy, command.output); !saved) return saved;
+    if (auto saved = proxy::save(proxy, command.output); !saved) return saved;
     written.push_back(command.output);
   }
   if (!command.common.glb.empty()) {
@@ -138,20 +133,24 @@ engine::Result<void> fit(const FitCommand& command) {
     if (auto done = crop(o, run.context(), *garments, *body); !done) return done;
   std::vector<std::string> written;
   if (auto done = write_outputs(command, run.context(), *body, written); !done) return done;
-  auto done = run.finish(*body, nullptr, written);
+  auto done = run.finish(*body, nullptr, written, command.exact_region);
   if (done && o.budget_us && !o.quiet && !o.json) tell_speed(o, *body);
   return done;
 }
 
 }  // namespace
 
-void add_fit_command(CLI::App& app, int& exit_code) {
+void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line) {
   auto command = std::make_shared<FitCommand>();
+  command->common.command_line = command_line;
   CLI::App* sub = app.add_subcommand("fit", "Fit a body proxy of ellipsoids to a body mesh");
   sub->add_option("-o,--output", command->output, "the proxy: .json, or .bodice for the compact binary")
       ->check(not_empty())
       ->group("Output");
-  sub->add_option("--glb", command->common.glb, "body by part and ellipsoids, for any glTF viewer")
+  sub->add_option(
+         "--glb", command->common.glb,
+         "body by part and ellipsoids, those of relief without their tables, for any glTF viewer; in the "
+         "body's own units and axes")
       ->check(not_empty())
       ->group("Output");
   sub->add_option("--surface", command->surface,

@@ -22,8 +22,9 @@ int main(int argc, char** argv) {
     return std::string("bodice: ") + error.what() + ". See `" + program + " --help`.\n";
   });
   int exit_code = kExitOk;
-  add_fit_command(app, exit_code);
-  add_drape_command(app, exit_code);
+  const std::vector<std::string> command_line(argv, argv + argc);
+  add_fit_command(app, exit_code, command_line);
+  add_drape_command(app, exit_code, command_line);
   add_make_command(app, exit_code);
   add_query_command(app, exit_code);
   add_bench_command(app, exit_code, argv[0]);

@@ -79,8 +79,10 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
   torso->needs(limbs)->excludes(error)->excludes(budget);
   limbs->needs(torso)->excludes(error)->excludes(budget);
   command
-      .add_option("--time-budget-s", o.time_budget_s,
-                  "stop refining after this long (default: when nothing is gained; runs repeat to the bit)")
+      .add_option(
+          "--time-budget-s", o.time_budget_s,
+          "stop refining after this long, with a warning (default: after a fixed number of steps; runs "
+          "repeat to the bit)")
       ->check(above_zero())
       ->group(group);
   command

@@ -36,6 +36,7 @@ struct CommonOptions {
 
   std::string labels, glb, report, trace, picture;
   bool json = false, quiet = false;
+  std::vector<std::string> command_line;  ///< for the report
 };
 
 /// Adds the shared options to a subcommand, grouped as its help shows them.
@@ -51,8 +52,8 @@ engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& optio
 engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& options);
 fitting::FitOptions fit_options(const CommonOptions& options);
 
-void add_fit_command(CLI::App& app, int& exit_code);
-void add_drape_command(CLI::App& app, int& exit_code);
+void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line);
+void add_drape_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line);
 void add_make_command(CLI::App& app, int& exit_code);
 void add_query_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code, const std::string& program);

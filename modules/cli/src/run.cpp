@@ -61,11 +61,15 @@ engine::Result<fitting::FitOptions> Run::fit_options_for(const tryon::SegmentedS
 }
 
 engine::Result<void> Run::finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
-                                 const std::vector<std::string>& written) {
+                                 const std::vector<std::string>& written, bool cropped) {
   progress_.clear();
   std::vector<std::string> files = written;
-  const std::string report =
-      tryon::report_json(body, drape, {.threads = context_.executor->concurrency(), .seed = options_.seed});
+  const std::string report = tryon::report_json(body, drape,
+                                                {.threads = context_.executor->concurrency(),
+                                                 .seed = options_.seed,
+                                                 .program = "bodice " BODICE_VERSION,
+                                                 .command = options_.command_line,
+                                                 .cropped = cropped});
   auto write = [&](const std::string& file, const std::string& text) -> engine::Result<void> {
     if (file.empty()) return {};
     files.push_back(file);
@@ -81,7 +85,7 @@ engine::Result<void> Run::finish(const tryon::PreparedBody& body, const tryon::D
   if (options_.json) {
     std::fputs(report.c_str(), stdout);
   } else if (!options_.quiet) {
-    std::fputs(summary_text(body, drape, files).c_str(), stdout);
+    std::fputs(summary_text(body, drape, files, cropped).c_str(), stdout);
   }
   return {};
 }

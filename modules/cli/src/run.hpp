@@ -37,9 +37,10 @@ class Run {
   /// The fit's options, with only the parts near `garments` when there are any.
   engine::Result<fitting::FitOptions> fit_options_for(const tryon::SegmentedSkin& skin,
                                                       std::span<const geometry::TriMesh> garments);
-  /// Writes labels, report and trace, where asked for, and prints the summary or the report.
+  /// Writes labels, report and trace, where asked for, and prints the summary or the report. `cropped`: the
+  /// proxy was cut down after it was measured.
   engine::Result<void> finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
-                              const std::vector<std::string>& written);
+                              const std::vector<std::string>& written, bool cropped = false);
   /// One line a file, unless the user asked for quiet.
   void list_written(const std::vector<std::string>& files);
 

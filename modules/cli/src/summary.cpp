@@ -15,7 +15,7 @@ namespace {
   text.append(line).push_back('\n');
 }
 
-void add_body(std::string& text, const tryon::PreparedBody& body) {
+void add_body(std::string& text, const tryon::PreparedBody& body, bool cropped) {
   const io::ImportedMesh& input = body.skin.input;
   const fitting::FitResult& fit = body.fit;
   add_line(text, "body        %s%s%s: %zu vertices, %zu triangles, unit %s, %.3f m tall", input.file.c_str(),
@@ -23,10 +23,10 @@ void add_body(std::string& text, const tryon::PreparedBody& body) {
            input.skin.triangles.size(), input.unit.c_str(), body.skin.anatomy.stature_m);
   add_line(text, "proxy       tier %s: %zu ellipsoids, %.1f KB", proxy::name(fit.proxy.tier()).data(),
            fit.proxy.ellipsoids().size(), static_cast<double>(fit.proxy.bytes()) / 1024.0);
-  add_line(text, "accuracy    gap to the skin %.2f mm mean, %.2f mm at 95 %%, %.1f mm at most",
-           fit.accuracy.gap_m.mean * 1e3, fit.accuracy.gap_m.p95 * 1e3, fit.accuracy.gap_m.max * 1e3);
-  add_line(text,
-           "            interior covered %.2f %%; skin outside %.2f %% of the area, at most %.2f mm deep",
+  add_line(text, "accuracy    from its surface to the skin %.2f mm mean, %.2f mm at 95 %%, up to %.1f mm%s",
+           fit.accuracy.gap_m.mean * 1e3, fit.accuracy.gap_m.p95 * 1e3, fit.accuracy.gap_m.max * 1e3,
+           cropped ? " (of the whole body, before it was cropped)" : "");
+  add_line(text, "            interior covered %.2f %%; skin outside %.2f %% of the area, up to %.2f mm deep",
            fit.accuracy.interior_covered_percent, fit.accuracy.skin_outside_percent,
            fit.accuracy.skin_outside_depth_m * 1e3);
 }
@@ -54,12 +54,14 @@ void add_warnings(std::string& text, std::span<const engine::Warning> warnings) 
 }  // namespace
 
 std::string summary_text(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
-                         const std::vector<std::string>& files) {
+                         const std::vector<std::string>& files, bool cropped) {
   std::string text;
-  add_body(text, body);
+  add_body(text, body, cropped);
   if (drape) add_drape(text, *drape);
   std::string stages;
-  for (const engine::StageTime& stage : body.all_stages()) {
+  std::vector<engine::StageTime> all_stages = body.all_stages();
+  if (drape) all_stages.insert(all_stages.end(), drape->stages.begin(), drape->stages.end());
+  for (const engine::StageTime& stage : all_stages) {
     char item[64];
     std::snprintf(item, sizeof item, "%s%s %.0f", stages.empty() ? "" : ", ", stage.name.c_str(), stage.ms);
     stages += item;

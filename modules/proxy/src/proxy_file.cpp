@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <string>
 #include <system_error>
 
 #include <bodice/engine/write_file.hpp>
@@ -37,10 +38,17 @@ engine::Result<std::vector<std::byte>> read_file(const fs::path& file) {
   return bytes;
 }
 
+bool is_named_binary(const fs::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension == ".bodice";
+}
+
 }  // namespace
 
 engine::Result<void> save(const BodyProxy& proxy, const fs::path& file) {
-  if (file.extension() == ".bodice") return engine::write_file(file, to_binary(proxy));
+  if (is_named_binary(file)) return engine::write_file(file, to_binary(proxy));
   return engine::write_file(file, to_json(proxy));
 }
 
