@@ -65,7 +65,8 @@ Crown find_crown(const Skin& skin, const BodyCoordinates& coordinates, const Gir
     return 0.5F * (left[v] + right[v]) / size - kShareWeight * off * off;
   };
   Crown crown{skin.mesh.positions[ends.head], ends.head};
-  if (neck.vertex == geometry::kNoIndex) return crown;
+  const bool has_head = head.radius > 0.0;
+  if (neck.vertex == geometry::kNoIndex || !has_head) return crown;
   float most = -1.0F;
   for (Index v = 0; v < skin.mesh.positions.size(); ++v) {
     if ((skin.mesh.positions[v] - head.center).norm() < kOuterHead * head.radius) continue;

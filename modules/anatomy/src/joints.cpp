@@ -50,7 +50,8 @@ Vec3 neck_joint(const Skin& skin, const BodyCoordinates& coordinates, const Land
   const Vec3 up = (loop - skin.mesh.positions[marks.perineum]).normalized();
   const Vec3 through = coordinates.midline().front.position - coordinates.midline().back.position;
   const Vec3 forward = (through - through.dot(up) * up).normalized();
-  if (handles(skin) > 0) return loop + size * (kLoopUp(b) * up + kLoopForward(b) * forward);
+  const bool has_head = head.radius > 0.0;  // not where all of it is taken for something else
+  if (handles(skin) > 0 || !has_head) return loop + size * (kLoopUp(b) * up + kLoopForward(b) * forward);
   const Vec3 armpits = 0.5 * (marks.armpit_place[0] + marks.armpit_place[1]);
   return loop + kToArmpits * (armpits - loop) + kToHead * (head.center - loop) +
          size * (kNeckUp(lengths) * up + kNeckForward(lengths) * forward);
