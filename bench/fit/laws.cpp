@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 namespace fit_bench {
 namespace {
@@ -28,22 +29,20 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y) {
 void print_laws(const std::vector<LawPoint>& points) {
   constexpr double kLeastCount = 16.0;
   struct Columns {
-    std::vector<double> count, log_ratio, log_gap, ns;
+    std::vector<double> log_ratio, log_gap;
   };
   std::map<std::string, Columns> tiers;
   for (const LawPoint& p : points) {
     if (p.ellipsoids < kLeastCount || !(p.gap_of_stature > 0.0)) continue;
     Columns& c = tiers[p.tier];
-    c.count.push_back(p.ellipsoids);
     c.log_ratio.push_back(std::log(89.0 / p.ellipsoids));
     c.log_gap.push_back(std::log(p.gap_of_stature));
-    c.ns.push_back(p.query_ns);
   }
-  std::printf("tier,fits,at_89_of_stature,power,worst_factor,query_ns_fixed,query_ns_each\n");
+  std::printf("tier,fits,at_89_of_stature,power,worst_factor\n");
   for (const auto& [tier, c] : tiers) {
-    const Line gap = line_through(c.log_ratio, c.log_gap), ns = line_through(c.count, c.ns);
-    std::printf("%s,%zu,%.6f,%.2f,%.2f,%.1f,%.3f\n", tier.c_str(), c.count.size(), std::exp(gap.at_zero),
-                gap.slope, std::exp(gap.worst), ns.at_zero, ns.slope);
+    const Line gap = line_through(c.log_ratio, c.log_gap);
+    std::printf("%s,%zu,%.6f,%.2f,%.2f\n", tier.c_str(), c.log_gap.size(), std::exp(gap.at_zero), gap.slope,
+                std::exp(gap.worst));
   }
 }
 

@@ -170,8 +170,7 @@ bool laws(const engine::Context& context, const Arguments& arguments) {
   const auto note = [&](const Subject& subject, int, const fitting::FitResult& result) {
     points.push_back({std::string(proxy::name(result.proxy.tier())),
                       static_cast<double>(result.proxy.ellipsoids().size()),
-                      result.accuracy.gap_m.mean / subject.body.stature_m,
-                      fit_bench::query_ns(result.proxy, subject.body.mesh)});
+                      result.accuracy.gap_m.mean / subject.body.stature_m});
   };
   const bool all = for_each_fit(context, arguments, note);
   fit_bench::print_laws(points);

@@ -7,7 +7,7 @@
 namespace fit_bench {
 
 /// Nanoseconds of processor time a particle, one thread, the least of many runs: particles within 30 mm of
-/// the skin, in the order of its triangles, with nothing kept from an earlier query.
+/// the skin, in Morton order, with nothing kept from an earlier query.
 double query_ns(const bodice::proxy::BodyProxy& proxy, const bodice::geometry::TriMesh& skin);
 
 }  // namespace fit_bench

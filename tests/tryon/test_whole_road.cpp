@@ -49,6 +49,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   const tryon::PreparedBody body = prepare(context, proxy::Tier::kSolid);
   CHECK(body.skin.anatomy.stature_m == doctest::Approx(1.68).epsilon(0.02));
   CHECK(body.fit.accuracy.interior_covered_percent > 99.0);
+  CHECK(body.fit.accuracy.gap_m.mean < 0.009);  // 6 mm; that it leaks nowhere must not cost twice
 
   const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 40});
   REQUIRE_MESSAGE(draped.ok(), draped.error().sentence());

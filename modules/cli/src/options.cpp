@@ -238,7 +238,6 @@ fitting::FitOptions fit_options(const CommonOptions& o) {
   options.mu_torso_m = metres(o.mu_torso_mm);
   options.mu_limbs_m = metres(o.mu_limbs_mm);
   options.time_budget_s = o.time_budget_s;
-  options.seed = o.seed;
   return options;
 }
 

@@ -118,8 +118,7 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
                              {.tier = proxy::Tier::kSolid,
                               .max_ellipsoids = set->fit.max_ellipsoids,
                               .budget_us = set->fit.budget_us,
-                              .measure_accuracy = false,
-                              .seed = set->fit.seed},
+                              .measure_accuracy = false},
                              parts, *handover);
         if (!fit) return std::move(fit).error();
         return {};

@@ -59,7 +59,6 @@ struct FitOptions {
   /// False: FitResult's accuracy and the parts' gaps stay zero, which saves some 20 ms of work where nobody
   /// reads them. A target error is measured all the same.
   bool measure_accuracy = true;
-  std::uint64_t seed = 0;
   /// Bit a part: only regions that have one of these are fitted. Their share of the ellipsoids is the one
   /// they have in a fit of the whole body, and paper and solid give them the same bits as there.
   std::uint32_t parts = kAllParts;
