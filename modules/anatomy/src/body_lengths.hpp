@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "body_coordinates.hpp"
+#include "linear_form.hpp"
 
 namespace bodice::anatomy {
 
@@ -16,14 +17,13 @@ using BodyLengths = std::array<double, 5>;
 /// calibration bodies and to made ones; errors are told with each build left out in turn.
 template <std::size_t N>
 struct Shift {
-  std::array<double, N + 1> weight;
+  LinearForm<N> form;
 
   /// No body needs more; beyond, the lengths are not those of a body.
   static constexpr double kMost = 0.05;
 
   double operator()(const std::array<double, N>& lengths) const {
-    double sum = weight[0];
-    for (std::size_t i = 0; i < N; ++i) sum += weight[i + 1] * lengths[i];
+    const double sum = form(lengths);
     return std::isfinite(sum) ? std::clamp(sum, -kMost, kMost) : 0.0;
   }
 };

@@ -35,14 +35,16 @@ struct Half {
   std::size_t last = 0;  ///< point of the line where it ends
 };
 
-/// Equal steps along the line from one of its points, forwards or (way -1) backwards; empty if an open line
-/// ends before.
+/// Equal steps along the line from one of its points, forwards or (way -1) backwards; empty if the line ends,
+/// or comes round, before.
 std::optional<Half> walk(const Isoline& line, std::size_t from, int way, double step) {
   Half half;
   const auto n = static_cast<std::ptrdiff_t>(line.points.size());
   auto i = static_cast<std::ptrdiff_t>(from);
   double walked = 0.0;
-  for (int taken = 0; taken < CrotchLine::kReach;) {
+  int taken = 0;
+  for (std::ptrdiff_t segments = 0; taken < CrotchLine::kReach; ++segments) {
+    if (segments == n) return std::nullopt;
     const std::ptrdiff_t next = i + way;
     if (!line.closed && (next < 0 || next >= n)) return std::nullopt;
     const Vec3 &p = line.points[static_cast<std::size_t>(i)],

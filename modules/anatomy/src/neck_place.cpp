@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fused.hpp"
+#include "linear_form.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -13,25 +14,14 @@ using geometry::Vec3;
 /// Of the size: the loop's girth, breastbone to back, the loop from breastbone and from back, its level below
 /// the head's end, armpit to armpit, their middle to the first answer, hand to hand, foot to foot.
 using NeckMeasures = std::array<double, 9>;
+using NeckForm = LinearForm<std::tuple_size_v<NeckMeasures>>;
 
-/// How far the joint lies beyond the first answer in one direction, of the size.
-struct NeckShift {
-  double constant;
-  NeckMeasures weight;
-
-  double operator()(const NeckMeasures& x) const {
-    double sum = constant;
-    for (std::size_t i = 0; i < x.size(); ++i) sum += weight[i] * x[i];
-    return sum;
-  }
-};
-
-/// Least squares without outliers over the calibration bodies and 1,000 made ones; with each build left out
-/// in turn, the error falls by a fifth on rig-skinned bodies and by two fifths on made ones.
-constexpr NeckShift kUp{0.1024,
-                        {0.1106, 0.0671, -0.3394, -0.0366, -0.1818, -0.0854, 0.3870, 0.0566, -0.1473}};
-constexpr NeckShift kForward{-0.0493,
-                             {0.0590, 0.0574, -0.0920, 0.0034, -0.0038, -0.0329, -0.0443, 0.0211, 0.0192}};
+/// How far the joint lies beyond the first answer in one direction, of the size. Least squares without
+/// outliers over the calibration bodies and 1,000 made ones; with each build left out in turn, the error
+/// falls by a fifth on rig-skinned bodies and by two fifths on made ones.
+constexpr NeckForm kUp{{0.1024, 0.1106, 0.0671, -0.3394, -0.0366, -0.1818, -0.0854, 0.3870, 0.0566, -0.1473}};
+constexpr NeckForm kForward{
+    {-0.0493, 0.0590, 0.0574, -0.0920, 0.0034, -0.0038, -0.0329, -0.0443, 0.0211, 0.0192}};
 /// Ninety-eight of a hundred bodies measure between these; beyond, nothing more is learned.
 constexpr NeckMeasures kLeast{0.215, 0.050, 0.014, 0.003, 0.149, 0.157, 0.055, 0.851, 0.979};
 constexpr NeckMeasures kMost{0.499, 0.185, 0.136, 0.166, 0.279, 0.334, 0.132, 1.078, 1.148};

@@ -94,23 +94,17 @@ void add_warnings(const FitOptions& options, const Draft& draft, FitResult& resu
 struct Found {
   Draft draft;
   Measured measured;
+  proxy::Tier planned;
   bool out_of_time = false;
 };
 
-proxy::Tier wanted_tier(const FitOptions& options, const Draft& found) {
-  return options.tier.value_or(options.target_error_m || options.budget_us || options.mu_torso_m
-                                   ? found.data.tier
-                                   : proxy::Tier::kRelief);
-}
-
 /// Anytime tiers end with what they have: a reader must not take that for what they can.
-void warn_of_time(const FitOptions& options, const Draft& found, std::vector<engine::Warning>& warnings) {
+void warn_of_time(const FitOptions& options, proxy::Tier planned, FitResult& result) {
   std::string message =
       engine::message("The fit was ended by its time budget of ", *options.time_budget_s, " s");
-  if (const proxy::Tier wanted = wanted_tier(options, found); wanted != found.data.tier)
-    message +=
-        engine::message(", with tier ", proxy::name(found.data.tier), " in place of ", proxy::name(wanted));
-  warnings.push_back(
+  if (const proxy::Tier made = result.proxy.tier(); made != planned)
+    message += engine::message(", with tier ", proxy::name(made), " in place of ", proxy::name(planned));
+  result.warnings.push_back(
       {"time-budget-spent", "", message + ".", "Allow more time, or ask for fewer ellipsoids."});
 }
 
@@ -130,6 +124,7 @@ engine::Result<Found> search(const engine::Context& context, const LabelledSkin&
   std::optional<double> left_s = options.time_budget_s;
   std::optional<Found> best;
   for (bool more = true; more;) {
+    const proxy::Tier planned = dial.plan().tier;
     auto draft = runner.run(dial.plan(), left_s);
     if (!draft) return draft.error();
     if (draft->data.ellipsoids.empty()) return no_skin();
@@ -145,7 +140,7 @@ engine::Result<Found> search(const engine::Context& context, const LabelledSkin&
           0.0, *options.time_budget_s - 1e-9 * static_cast<double>(context.clock->now_ns() - begin_ns));
     more = options.target_error_m && left_s.value_or(1.0) > 0.0 && dial.correct(now.accuracy.gap_m.mean);
     if (!best || better(now, best->measured, options.target_error_m.value_or(0.0)))
-      best = {std::move(*draft), std::move(now)};
+      best = {std::move(*draft), std::move(now), planned};
   }
   best->out_of_time = left_s && *left_s <= 0.0;
   return std::move(*best);
@@ -163,9 +158,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   }
   auto found = search(context, judged, options, stages);
   if (!found) return found.error();
-  auto& [draft, measured, out_of_time] = *found;
-  std::vector<engine::Warning> warnings;
-  if (out_of_time) warn_of_time(options, draft, warnings);
+  auto& [draft, measured, planned, out_of_time] = *found;
   if (options.target_error_m && draft.data.tier == proxy::Tier::kTight)
     spend_slack(context, judged, draft.parts, *options.target_error_m, draft.data, measured);
   draft.data.source_hash = skin_hash(skin.mesh);
@@ -178,7 +171,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   result.accuracy = measured.accuracy;
   result.parts = part_fits(skin, ellipsoids, measured, draft.parts);
   result.stages = std::move(stages);
-  result.warnings = std::move(warnings);
+  if (out_of_time) warn_of_time(options, planned, result);
   add_warnings(options, draft, result);
   return result;
 }
