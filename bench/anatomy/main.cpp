@@ -1,7 +1,8 @@
 // anatomy [--data DIR] [--only TEXT] [--seeds N [--from M]] [--all] [--verbose] [--sheet FILE.png] [--cost]
 // How well is every body understood, and in what time? Rows of the bodies that miss a bar (--all: of every
 // body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
-// bodies in place of files, from seed M on. --sheet: a picture of every body by part.
+// bodies in place of files, from seed M on. --sheet: a picture of every body by part. Fails if a body of a
+// file misses a bar.
 #include <cstdio>
 #include <cstring>
 
@@ -66,5 +67,6 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "could not write %s\n", arguments.picture.c_str());
     return 1;
   }
-  return 0;
+  const bool of_files = arguments.seeds == 0;
+  return of_files && !report.holds_bars() ? 1 : 0;
 }

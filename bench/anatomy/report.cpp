@@ -108,14 +108,19 @@ void Report::weigh_warnings(const Case& c, const Score& s, const bodice::anatomy
   warned_of_places_.rightly += missed;
 }
 
+double Report::false_alarms() const {
+  const int wrongly = warned_of_places_.bodies - warned_of_places_.rightly;
+  return static_cast<double>(wrongly) / static_cast<double>(std::max(bodies_, 1));
+}
+
 void Report::print_warnings() const {
   const int wrongly = warned_of_places_.bodies - warned_of_places_.rightly;
   std::printf("%-22s %9s %9s\n%-22s %9d %9d\n%-22s %9d %9d\n", "", "doubted", "silent", "a bar missed",
               missed_ - missed_silently_, missed_silently_, "right", wrongly,
               bodies_ - refused_ - missed_ - wrongly);
   std::printf("bodies with a place in doubt %d, of them rightly %d; false alarms %.1f %% of all (bar %.0f)\n",
-              warned_of_places_.bodies, warned_of_places_.rightly,
-              100.0 * static_cast<double>(wrongly) / static_cast<double>(bodies_), 100.0 * kFalseAlarms);
+              warned_of_places_.bodies, warned_of_places_.rightly, 100.0 * false_alarms(),
+              100.0 * kFalseAlarms);
   for (const auto& [code, w] : warned_)
     std::printf("  %-24s %4d bodies, %3d of them miss a bar\n", code.c_str(), w.bodies, w.rightly);
 }
@@ -193,6 +198,7 @@ void Report::add(const Case& c, const bodice::anatomy::Anatomy& a) {
 void Report::add_refused(const Case& c, const std::string& sentence) {
   ++bodies_;
   ++refused_;
+  refused_wrongly_ += c.kind != "awkward";
   std::printf("%-42s %s\n", c.name.c_str(), sentence.c_str());
 }
 
@@ -216,6 +222,11 @@ void Report::summary() const {
   print_kinds();
   print_warnings();
   print_claims();
+}
+
+bool Report::holds_bars() const {
+  const bool agree = agreement_.empty() || mean(agreement_) >= kMeanAgreement;
+  return bodies_ > 0 && refused_wrongly_ == 0 && missed_ == 0 && agree && false_alarms() <= kFalseAlarms;
 }
 
 }  // namespace bench

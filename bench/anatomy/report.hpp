@@ -21,6 +21,9 @@ class Report {
   void add_refused(const Case& c, const std::string& sentence);
   /// Measured values beside their bars, per landmark and in all.
   void summary() const;
+  /// True if every body was understood within all bars, and no more of them were doubted wrongly than may be.
+  /// An awkward one may be refused instead.
+  bool holds_bars() const;
 
  private:
   struct Errors {
@@ -36,6 +39,7 @@ class Report {
   void print_claims() const;
   void print_warnings() const;
   void print_kinds() const;
+  double false_alarms() const;  ///< of the bodies
   bool every_row_, every_landmark_;
   std::vector<double> agreement_;
   double worst_swap_ = 0.0;
@@ -49,7 +53,7 @@ class Report {
   };
   std::map<std::string, Warned> warned_;  ///< by code of the warning
   Warned warned_of_places_;               ///< by any warning that doubts a place
-  int bodies_ = 0, refused_ = 0, missed_ = 0, missed_silently_ = 0;
+  int bodies_ = 0, refused_ = 0, refused_wrongly_ = 0, missed_ = 0, missed_silently_ = 0;
 };
 
 }  // namespace bench
