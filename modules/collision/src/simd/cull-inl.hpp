@@ -12,6 +12,7 @@
 
 #include "kernels.hpp"
 #include "simd/foot-inl.hpp"
+#include "simd/pack-inl.hpp"
 #include "tolerances.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -139,11 +140,13 @@ HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Cand
     lowest = hn::Min(lowest, hn::IfThenElse(near, foot.distance, all(1e30f)));
     const VI index = hn::Iota(I(), static_cast<std::int32_t>(k));
     const int at = out.count;
-    (void)hn::CompressStore(foot.distance, near, f, out.distance + at);
-    (void)hn::CompressStore(foot.normal.x, near, f, out.nx + at);
-    (void)hn::CompressStore(foot.normal.y, near, f, out.ny + at);
-    (void)hn::CompressStore(foot.normal.z, near, f, out.nz + at);
-    out.count += static_cast<int>(hn::CompressStore(index, hn::RebindMask(I(), near), I(), out.index + at));
+    const Pack pack(near);
+    pack.store(foot.distance, out.distance + at);
+    pack.store(foot.normal.x, out.nx + at);
+    pack.store(foot.normal.y, out.ny + at);
+    pack.store(foot.normal.z, out.nz + at);
+    pack.store(index, out.index + at);
+    out.count += pack.count();
   }
   least = hn::GetLane(hn::MinOfLanes(f, lowest));
   return true;

@@ -199,8 +199,7 @@ HWY_INLINE V3 last_direction(Search& search) {
 }
 
 /// From the direction to the distance and the normal; `y` is signed.
-HWY_INLINE Foot finished(const Shape& s, V3 y, Search& search) {
-  Foot result;
+HWY_INLINE void finish(const Shape& s, V3 y, Search& search, Foot& result) {
   result.y = y;
   const V3 raw = last_direction(search);
   result.u = search.u;
@@ -216,7 +215,6 @@ HWY_INLINE Foot finished(const Shape& s, V3 y, Search& search) {
   result.normal = {hn::MulAdd(s.row0.x, m.x, hn::MulAdd(s.row1.x, m.y, hn::Mul(s.row2.x, m.z))),
                    hn::MulAdd(s.row0.y, m.x, hn::MulAdd(s.row1.y, m.y, hn::Mul(s.row2.y, m.z))),
                    hn::MulAdd(s.row0.z, m.x, hn::MulAdd(s.row1.z, m.y, hn::Mul(s.row2.z, m.z)))};
-  return result;
 }
 
 template <bool kLast>
@@ -245,7 +243,7 @@ HWY_INLINE void feet_of(const Shape (&s)[kCount], const V3 (&p)[kCount], Foot (&
     const M active = unsettled(search[i].at, search[i].u, search[i].low);
     if (!hn::AllFalse(f, active)) refine(active, s[i], search[i]);
   }
-  for (int i = 0; i < kCount; ++i) out[i] = finished(s[i], y[i], search[i]);
+  for (int i = 0; i < kCount; ++i) finish(s[i], y[i], search[i], out[i]);
 }
 
 HWY_INLINE Foot foot_of(const Shape& s, V3 p) {

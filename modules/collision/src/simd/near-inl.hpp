@@ -15,6 +15,7 @@
 
 #include "simd/cull-inl.hpp"
 #include "simd/lookup-inl.hpp"
+#include "simd/pack-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -260,8 +261,9 @@ HWY_INLINE bool collect_near(const Source& source, const Extent& around, float w
     for (int i = 0; i < count; ++i) {
       Near& to = out[i];
       const M kept = hn::And(real, keep(lanes, planes_at(lanes, broadcast3(pieces[i].box.middle)), i));
-      hn::StoreU(hn::Compress(index, hn::RebindMask(I(), kept)), I(), to.index + to.count);
-      to.count += static_cast<int>(hn::CountTrue(f, kept));
+      const Pack pack(kept);
+      pack.store(index, to.index + to.count);
+      to.count += pack.count();
       // What comes after a list that is full is written over its end.
       fits = fits && to.count <= kMaxCandidates;
       to.count = std::min(to.count, kMaxCandidates);

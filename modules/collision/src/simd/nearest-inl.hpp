@@ -47,10 +47,11 @@ struct Open {
     for (int i = kFirst; i < kKept; ++i)
       pairs.add(hn::AndNot(hn::Gt(lowest.bound[i], limits), of), lanes, lowest.rank(i));
     const M many = hn::AndNot(hn::Gt(lowest.bound[kKept], limits), of);
-    hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), many)), I(), lane + count);
-    hn::StoreU(hn::Compress(lowest.bound[kKept - 1], many), f, kept + count);
-    hn::StoreU(hn::Compress(limits, many), f, limit + count);
-    count += static_cast<int>(hn::CountTrue(f, many));
+    const Pack pack(many);
+    pack.store(lanes, lane + count);
+    pack.store(lowest.bound[kKept - 1], kept + count);
+    pack.store(limits, limit + count);
+    count += pack.count();
   }
 };
 

@@ -10,6 +10,7 @@
 
 #include "kernels.hpp"
 #include "simd/lookup-inl.hpp"
+#include "simd/pack-inl.hpp"
 #include "simd/table-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -69,10 +70,10 @@ struct Pairs {
   bool fit(int vectors) const { return count + vectors * kWidth <= kCapacity; }
   /// The lanes of `mask`, each with its column.
   HWY_INLINE void add(M mask, VI lanes, VI columns) {
-    const auto chosen = hn::RebindMask(I(), mask);
-    hn::StoreU(hn::Compress(lanes, chosen), I(), lane + count);
-    hn::StoreU(hn::Compress(columns, chosen), I(), column + count);
-    count += static_cast<int>(hn::CountTrue(f, mask));
+    const Pack pack(mask);
+    pack.store(lanes, lane + count);
+    pack.store(columns, column + count);
+    count += pack.count();
   }
 };
 

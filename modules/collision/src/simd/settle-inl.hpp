@@ -105,13 +105,13 @@ struct alignas(64) Pushed {
 
   /// After the first push, out of the ellipsoids `owner`.
   HWY_INLINE void add(M which, VI lanes, V3 p, VI owner) {
-    const auto chosen = hn::RebindMask(I(), which);
-    hn::StoreU(hn::Compress(p.x, which), f, x + count);
-    hn::StoreU(hn::Compress(p.y, which), f, y + count);
-    hn::StoreU(hn::Compress(p.z, which), f, z + count);
-    hn::StoreU(hn::Compress(owner, chosen), I(), clear1 + count);
-    hn::StoreU(hn::Compress(lanes, chosen), I(), lane + count);
-    count += static_cast<int>(hn::CountTrue(f, which));
+    const Pack pack(which);
+    pack.store(p.x, x + count);
+    pack.store(p.y, y + count);
+    pack.store(p.z, z + count);
+    pack.store(owner, clear1 + count);
+    pack.store(lanes, lane + count);
+    count += pack.count();
   }
   /// Once all are added.
   HWY_INLINE void close() {
@@ -152,10 +152,10 @@ struct alignas(64) Below {
   HWY_INLINE Below(const float* distance, float limit_m, const Pushed& pushed) {
     for (int i = 0; i < pushed.count; i += kWidth) {
       const M below = hn::And(lanes_below(i, pushed.count), hn::Lt(hn::Load(f, distance + i), all(limit_m)));
-      const auto chosen = hn::RebindMask(I(), below);
-      hn::StoreU(hn::Compress(hn::Iota(I(), i), chosen), I(), at + count);
-      hn::StoreU(hn::Compress(hn::Load(I(), pushed.lane + i), chosen), I(), lane + count);
-      count += static_cast<int>(hn::CountTrue(f, below));
+      const Pack pack(below);
+      pack.store(hn::Iota(I(), i), at + count);
+      pack.store(hn::Load(I(), pushed.lane + i), lane + count);
+      count += pack.count();
     }
   }
 };
@@ -164,27 +164,29 @@ HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
   return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
 }
 
-/// Stores the lanes of `which` at their own indices.
-template <class D, class T = hn::TFromD<D>>
-HWY_INLINE void scatter_as(D d, M which, VI at, hn::Vec<D> value, T* to) {
-  alignas(64) T values[kWidth];
-  alignas(64) std::int32_t index[kWidth];
-  hn::StoreU(hn::Compress(value, hn::RebindMask(d, which)), d, values);
-  hn::StoreU(hn::Compress(at, hn::RebindMask(I(), which)), I(), index);
-  const int count = static_cast<int>(hn::CountTrue(f, which));
-  for (int i = 0; i < count; ++i) to[index[i]] = values[i];
-}
-HWY_INLINE void scatter(M which, VI at, V value, float* to) {
-  scatter_as(f, which, at, value, to);
-}
-HWY_INLINE void scatter(M which, VI at, VI value, std::int32_t* to) {
-  scatter_as(I(), which, at, value, to);
-}
-HWY_INLINE void scatter3(M which, VI at, V3 value, float* x, float* y, float* z) {
-  scatter(which, at, value.x, x);
-  scatter(which, at, value.y, y);
-  scatter(which, at, value.z, z);
-}
+/// Stores the lanes of a mask at their own indices.
+class Scatter {
+ public:
+  HWY_INLINE Scatter(M which, VI at) : pack_(which) { pack_.store(at, at_); }
+  HWY_INLINE void store(V value, float* to) const { store_as(value, to); }
+  HWY_INLINE void store(VI value, std::int32_t* to) const { store_as(value, to); }
+  HWY_INLINE void store(V3 value, float* x, float* y, float* z) const {
+    store(value.x, x);
+    store(value.y, y);
+    store(value.z, z);
+  }
+
+ private:
+  template <class Vector, class T>
+  HWY_INLINE void store_as(Vector value, T* to) const {
+    alignas(64) T values[kWidth];
+    pack_.store(value, values);
+    for (int i = 0; i < pack_.count(); ++i) to[at_[i]] = values[i];
+  }
+
+  Pack pack_;
+  alignas(64) std::int32_t at_[kWidth];
+};
 
 /// What is asked about every place: the proxy's distance, or that of the smooth union.
 struct Surface {
@@ -302,21 +304,21 @@ HWY_INLINE void add_plane(const Surface& surface, M which, VI at, const Plane& n
   const V3 p = gather3(batch.x, batch.y, batch.z, at);
   const V3 of_two = project({first.n, newest.n, first.offset, newest.offset, hn::FirstN(f, kWidth)}, p);
   const V3 next = select(two, project(first, latest, newest, p, slack), of_two);
-  scatter3(which, at, next, way.x, way.y, way.z);
-  const M third = hn::And(two, which);
-  scatter3(which, at, select(two, latest.n, newest.n), way.n2x, way.n2y, way.n2z);
-  scatter(which, at, hn::IfThenElse(two, latest.offset, newest.offset), way.offset2);
-  scatter(which, at, hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose), way.of2);
-  scatter3(third, at, newest.n, way.n3x, way.n3y, way.n3z);
-  scatter(third, at, newest.offset, way.offset3);
-  scatter(third, at, whose, way.of3);
+  const Scatter scatter(which, at), scatter_third(hn::And(two, which), at);
+  scatter.store(next, way.x, way.y, way.z);
+  scatter.store(select(two, latest.n, newest.n), way.n2x, way.n2y, way.n2z);
+  scatter.store(hn::IfThenElse(two, latest.offset, newest.offset), way.offset2);
+  scatter.store(hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose), way.of2);
+  scatter_third.store(newest.n, way.n3x, way.n3y, way.n3z);
+  scatter_third.store(newest.offset, way.offset3);
+  scatter_third.store(whose, way.of3);
   // Planes that are nearly parallel meet far away, if at all: there all are measured again.
   const V behind = hn::Max(hn::Max(first.missing(next), newest.missing(next)),
                            hn::IfThenElse(two, latest.missing(next), all(-1e30f)));
   const auto certain = hn::RebindMask(I(), hn::Le(behind, slack));
-  scatter(which, at, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
-  scatter(which, at, hn::IfThenElse(certain, whose, none), way.clear2);
-  scatter(which, at, hn::IfThenElse(hn::And(certain, hn::RebindMask(I(), two)), of_latest, none), way.clear3);
+  scatter.store(hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
+  scatter.store(hn::IfThenElse(certain, whose, none), way.clear2);
+  scatter.store(hn::IfThenElse(hn::And(certain, hn::RebindMask(I(), two)), of_latest, none), way.clear3);
 }
 
 /// Another push for those that the last query found below: a vector of them, from the i-th on.
@@ -332,7 +334,7 @@ HWY_INLINE void push_again(const Surface& surface, const Gathering& batch, const
   if (surface.bent()) {
     const V slope = hn::GatherIndex(f, found.value, at);
     const V3 next = newton_step(x, distance, normal, slope, all(surface.target_m()));
-    return scatter3(which, lane, next, way.x, way.y, way.z);
+    return Scatter(which, lane).store(next, way.x, way.y, way.z);
   }
   const VI name = hn::GatherIndex(I(), found.name, at);
   const VI newest = hn::GatherIndex(I(), surface.baked.internal.data(), name);

@@ -24,13 +24,13 @@ struct alignas(64) Reached {
 
   template <int kKept>
   HWY_INLINE void add(M which, VI lanes, V3 p, const Lowest<kKept>& lowest) {
-    const auto store = [&](V values, float* to) { hn::StoreU(hn::Compress(values, which), f, to + count); };
-    store(p.x, x);
-    store(p.y, y);
-    store(p.z, z);
-    for (int i = 0; i <= kKept; ++i) store(lowest.bound[i], bound[i]);
-    hn::StoreU(hn::Compress(lanes, hn::RebindMask(I(), which)), I(), lane + count);
-    count += static_cast<int>(hn::CountTrue(f, which));
+    const Pack pack(which);
+    pack.store(p.x, x + count);
+    pack.store(p.y, y + count);
+    pack.store(p.z, z + count);
+    for (int i = 0; i <= kKept; ++i) pack.store(lowest.bound[i], bound[i] + count);
+    pack.store(lanes, lane + count);
+    count += pack.count();
   }
   /// Fills up to a whole step; `from` is where the run starts.
   template <int kKept>
