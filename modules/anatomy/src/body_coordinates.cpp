@@ -18,10 +18,10 @@ using geometry::Index;
 constexpr float kSizeToStature = 2.19F;
 /// The perineum is about half way between the feet.
 constexpr float kPerineumFrom = 0.45F, kPerineumTo = 0.58F;
+/// A place this much nearer to the breastbone along the skin is another, of the size.
+constexpr float kInFront = 0.08F;
 /// Where the legs merge, from breastbone and back, of the size: for legs whose merge is not found.
 constexpr float kUsualMergeFront = 0.34F, kUsualMergeBack = 0.39F;
-/// Beyond this distance from the head's end the sign of the neck's border means nothing; of the size.
-constexpr float kHeadReach = 0.48F;
 /// Where the loop around an arm usually widens, from fingertip to fingertip: for arms on which it does not.
 constexpr float kUsualShoulder = 0.425F;
 
@@ -81,16 +81,16 @@ void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& 
   const float tilt = left_hand[ends_.head] - right_hand[ends_.head];
   const bool merged = merge_.at.found();
   const float half_way = merged ? merge_.distance : 0.5F * ends_.feet_apart;
-  const float merge_front = merged ? value_at(skin, merge_.at, from_front_) : kUsualMergeFront * size_;
-  const float merge_back = merged ? value_at(skin, merge_.at, from_back_) : kUsualMergeBack * size_;
+  merge_front_ = merged ? value_at(skin, merge_.at, from_front_) : kUsualMergeFront * size_;
+  merge_back_ = merged ? value_at(skin, merge_.at, from_back_) : kUsualMergeBack * size_;
   const auto expected = kPerineum.expected(
-      {ends_.feet_apart / size_, ends_.hands_apart / size_, merge_front / size_, merge_back / size_});
+      {ends_.feet_apart / size_, ends_.hands_apart / size_, merge_front_ / size_, merge_back_ / size_});
   const auto distance2 = [&](std::size_t v) {
     return kPerineum.distance2(
         {(left_foot[v] + right_foot[v]) / (2.0F * half_way),
          (left_foot[v] - right_foot[v]) / ends_.feet_apart,
          (left_hand[v] - right_hand[v] - tilt) / ends_.hands_apart, from_front_[v] / size_,
-         from_back_[v] / size_, 0.5F * (merge_back - merge_front - from_back_[v] + from_front_[v]) / size_,
+         from_back_[v] / size_, 0.5F * (merge_back_ - merge_front_ - from_back_[v] + from_front_[v]) / size_,
          0.5F * (left_hand[v] + right_hand[v]) / ends_.hands_apart, head[v] / size_,
          0.5F * ((head[v] + left_foot[v]) / head_to_foot_[0] + (head[v] + right_foot[v]) / head_to_foot_[1])},
         expected);
@@ -99,7 +99,13 @@ void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& 
     const float feet = left_foot[v] + right_foot[v];
     return feet > 2.0F * kPerineumFrom * ends_.feet_apart && feet < 2.0F * kPerineumTo * ends_.feet_apart;
   };
-  const NearestSignature found = nearest_signature(context, left_foot.size(), may_be, distance2);
+  const NearestSignature best = nearest_signature(context, left_foot.size(), may_be, distance2);
+  const auto before_it = [&](std::size_t v) {
+    return may_be(v) && from_front_[v] < from_front_[best.vertex] - kInFront * size_;
+  };
+  const NearestSignature front = nearest_signature(context, left_foot.size(), before_it, distance2);
+  if (before_it(front.vertex)) perineum_lead_ = front.misfit - best.misfit;
+  const NearestSignature found = perineum_lead_ < kFoldLead ? front : best;
   const float least2 = found.misfit * found.misfit;
   perineum_place_ = soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(size_), [&](Index v) {
     return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F;

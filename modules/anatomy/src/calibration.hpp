@@ -42,6 +42,9 @@ struct Border {
   }
 };
 
+/// Beyond this distance from the head's end the sign of the neck's border means nothing; of the size.
+inline constexpr float kHeadReach = 0.48F;
+
 inline constexpr Border kNeck{
     {0.0F, 1.0F, 1.0F, 0.0F, 0.0F, -0.7486F, -0.07611F, 0.6189F, 0.0F, -0.5823F, -0.2196F, 0.0F, -0.5808F}};
 inline constexpr Border kShoulder{{0.0F, -0.3639F, 0.5072F, 0.1697F, 0.0F, 0.09233F, 0.1485F, 0.0295F,

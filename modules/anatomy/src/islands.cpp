@@ -38,6 +38,14 @@ class Patches {
   std::vector<std::size_t> size_;
 };
 
+/// The part that a patch takes that is cut off from the rest of its own. Where the borders of hip and waist
+/// meet at the flank, half a seat is: it is the other half's before it is a thigh's.
+Part taken_by(Part own, const Tally& around) {
+  const Part other_half = body::mirrored(own);
+  if (body::is_torso(own) && around[static_cast<int>(other_half)] > 0) return other_half;
+  return static_cast<Part>(std::max_element(around.begin(), around.end()) - around.begin());
+}
+
 }  // namespace
 
 void absorb_islands(const Skin& skin, std::vector<Part>& part) {
@@ -69,9 +77,7 @@ void absorb_islands(const Skin& skin, std::vector<Part>& part) {
   std::vector<Part> result = part;
   for (std::size_t v = 0; v < part.size(); ++v) {
     const Index s = slot[patches.of(static_cast<Index>(v))];
-    if (s == geometry::kNoIndex) continue;
-    const Tally& tally = around[s].second;
-    result[v] = static_cast<Part>(std::max_element(tally.begin(), tally.end()) - tally.begin());
+    if (s != geometry::kNoIndex) result[v] = taken_by(part[v], around[s].second);
   }
   part = std::move(result);
 }

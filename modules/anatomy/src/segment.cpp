@@ -8,6 +8,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 
+#include "borders_of_build.hpp"
 #include "islands.hpp"
 
 namespace bodice::anatomy {
@@ -18,6 +19,9 @@ using body::Part;
 constexpr std::size_t kGrain = 2048;
 /// Beyond these distances from the limb's end a border's sign means nothing.
 constexpr float kArmReach = 0.60F, kLegReach = 0.66F;
+/// So much nearer to its foot than to the other, of foot to foot, is a thigh: what lies between is the floor
+/// of the trunk. Of 900 bodies none had a vertex of the other thigh nearer by more than .022.
+constexpr float kBetweenThighs = 0.03F;
 /// Where between the borders of waist and neck, by their scores, the chest line lies: about .73 of the
 /// stature.
 constexpr float kChestShare = 0.65F;
@@ -27,17 +31,18 @@ Part on_side(Part left, int side) {
   return static_cast<Part>(static_cast<int>(left) + side);
 }
 
-Part part_of(const BodyCoordinates& coordinates, std::size_t v) {
+Part part_of(const BodyCoordinates& coordinates, const BordersOfBuild& border, std::size_t v) {
   const CoordinateArray x[2] = {coordinates.at(v, 0), coordinates.at(v, 1)};
-  if (coordinates.on_head(v)) return Part::kHead;
-  const float neck = kNeck(x[0]);
+  const float neck = border.neck(x[0]);
+  if (x[0][kFromHead] < kHeadReach && neck > 0.0F) return Part::kHead;
   const int arm = x[1][kOwnHand] < x[0][kOwnHand], leg = x[1][kOwnFoot] < x[0][kOwnFoot];
-  if (x[arm][kOwnHand] < kArmReach && kShoulder(x[arm]) > 0.0F)
+  if (x[arm][kOwnHand] < kArmReach && border.shoulder(x[arm]) > 0.0F)
     return on_side(kElbow(x[arm]) > 0.0F ? Part::kForearmL : Part::kUpperArmL, arm);
-  if (x[leg][kOwnFoot] < kLegReach && kHip(x[leg]) > 0.0F)
-    return on_side(kKnee(x[leg]) > 0.0F ? Part::kCalfL : Part::kThighL, leg);
+  const float nearer = x[leg][kOtherFoot] - x[leg][kOwnFoot];
+  if (x[leg][kOwnFoot] < kLegReach && nearer > kBetweenThighs && border.hip(x[leg]) > 0.0F)
+    return on_side(border.knee(x[leg]) > 0.0F ? Part::kCalfL : Part::kThighL, leg);
   const int side = x[1][kOwnHand] + x[1][kOwnFoot] < x[0][kOwnHand] + x[0][kOwnFoot];
-  const float waist = kWaist(x[0]);
+  const float waist = border.waist(x[0]);
   if (waist <= 0.0F) return on_side(Part::kTorsoLL, side);
   return on_side((1.0F - kChestShare) * waist > kChestShare * -neck ? Part::kTorsoUL : Part::kTorsoML, side);
 }
@@ -64,9 +69,10 @@ void attach_pieces(const engine::Context& context, const Skin& skin, std::vector
 std::vector<Part> segment(const engine::Context& context, const Skin& skin,
                           const BodyCoordinates& coordinates) {
   std::vector<Part> part(skin.mesh.positions.size());
+  const BordersOfBuild border = borders_of_build(coordinates);
   engine::parallel_for(context, part.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
-      if (skin.component[v] == 0) part[v] = part_of(coordinates, v);
+      if (skin.component[v] == 0) part[v] = part_of(coordinates, border, v);
   });
   absorb_islands(skin, part);
   attach_pieces(context, skin, part);
