@@ -21,6 +21,10 @@ constexpr std::size_t kCandidates = 8;
 constexpr float kRefineRadius = 0.2F;  // of the size
 
 constexpr float kHeadBall = 0.30F;  // of the size
+/// What is this much nearer to a hand than the head's candidate, as a part of the candidate's way, is its
+/// arm: the elbow of an arm that is raised beside a heavy neck lies within the head's reach, and farther from
+/// the feet.
+constexpr float kOffArms = 0.7F;
 /// What counts as head for its ball, from the crown down, of the size.
 constexpr float kHeadHeight = 0.15F;
 
@@ -42,10 +46,21 @@ Index refine(const EndPoints& ends, End end, float radius, std::span<const End> 
   return best;
 }
 
+/// What may be of the head, by its distance from the candidate and from the hands.
+auto near_head(const EndPoints& ends, float size) {
+  const auto to_hand = [&ends](std::size_t v) {
+    return std::min(ends.field[kHandA][v], ends.field[kHandB][v]);
+  };
+  const float least = kOffArms * to_hand(ends.vertex[kHead]);
+  return [&ends, size, to_hand, least](std::size_t v) {
+    return ends.field[kHead][v] <= kHeadBall * size && to_hand(v) >= least;
+  };
+}
+
 /// The head as a ball: what lies no nearer to the feet than a head's height below its far end.
 Ball head_ball(const Skin& skin, const EndPoints& ends, float size) {
   const auto reach = [&](std::size_t v) { return 0.5F * (ends.field[kFootA][v] + ends.field[kFootB][v]); };
-  const auto near = [&](std::size_t v) { return ends.field[kHead][v] <= kHeadBall * size; };
+  const auto near = near_head(ends, size);
   float top = 0.0F;
   for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v)
     if (near(v)) top = std::max(top, reach(v));
@@ -57,8 +72,9 @@ void refine_all(const engine::Context& context, const Skin& skin, float size, En
   constexpr std::array<End, 2> feet{kFootA, kFootB};
   constexpr std::array<End, 1> head{kHead};
   const Ball ball = head_ball(skin, ends, size);
+  const auto near = near_head(ends, size);
   const auto outer = [&](std::size_t v) {
-    return (skin.mesh.positions[v] - ball.center).norm() >= kOuterHead * ball.radius;
+    return near(v) && (skin.mesh.positions[v] - ball.center).norm() >= kOuterHead * ball.radius;
   };
   std::array<Index, kEndCount> refined{};
   for (int e = 0; e < kEndCount; ++e)
