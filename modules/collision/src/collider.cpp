@@ -128,6 +128,7 @@ bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
     geometry::Ellipsoid now = shapes[k];
     now.center -= impl_->origin;
     impl_->motion[at] = motion_between(impl_->shapes[at], now, dt_s);
+    impl_->carriers[at] = carrier_between(impl_->shapes[at], now);
     travel_m = std::max(travel_m, travel_between(impl_->shapes[at], now));
     impl_->shapes[at] = now;
   }

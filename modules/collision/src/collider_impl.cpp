@@ -154,6 +154,7 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
   for (std::uint32_t k = 0; k < original.size(); ++k) internal[original[k]] = k;
   for (const std::uint32_t k : original) part.push_back(proxy.ellipsoids()[k].part);
   motion.resize(shapes.size());
+  carriers.resize(shapes.size());
 }
 
 Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec3& normal,
@@ -189,8 +190,7 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
     const Owner carrier = field.owner(state.position, std::numeric_limits<double>::infinity());
     state.surface_velocity = motion[carrier.ellipsoid].at(state.position);
     // Where the safe position is now, had it stuck to the body.
-    state.motion = motion;
-    state.dt_s = moved_dt_s;
+    state.carriers = carriers;
     state.before = state.safe;
     state.safe = state.path_start(carrier.ellipsoid);
   }

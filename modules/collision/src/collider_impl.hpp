@@ -8,6 +8,7 @@
 
 #include "baked.hpp"
 #include "block_io.hpp"
+#include "carrier.hpp"
 #include "memory.hpp"
 #include "relief.hpp"
 #include "response.hpp"
@@ -58,6 +59,7 @@ struct Collider::Impl {
   std::optional<ReliefTables> relief;
   std::vector<body::Part> part;
   std::vector<SurfaceMotion> motion;
+  std::vector<Carrier> carriers;  ///< of the last move
   bool moving = false;
   double moved_dt_s = 0.0;
   float travel_m = 0.0f;  ///< longest way of any of its material in the last move

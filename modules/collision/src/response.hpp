@@ -6,8 +6,8 @@
 
 #include <bodice/collision/collider.hpp>
 
+#include "carrier.hpp"
 #include "relief_field.hpp"
-#include "surface_motion.hpp"
 #include "union_field.hpp"
 
 namespace bodice::collision {
@@ -26,14 +26,11 @@ struct ParticleState {
   geometry::Vec3 surface_velocity = geometry::Vec3::Zero();  ///< of the body where the particle is
   bool has_velocity = false;
   bool has_safe = false;
-  std::span<const SurfaceMotion> motion;           ///< one an ellipsoid; empty: the body rests
-  double dt_s = 0.0;                               ///< that the motion took
-  geometry::Vec3 before = geometry::Vec3::Zero();  ///< the safe position as it was, dt_s ago
+  std::span<const Carrier> carriers;               ///< one an ellipsoid; empty: the body rests
+  geometry::Vec3 before = geometry::Vec3::Zero();  ///< the safe position as it was before the body moved
 
   /// Where the path begins as ellipsoid k sees it.
-  geometry::Vec3 path_start(std::size_t k) const {
-    return motion.empty() ? safe : motion[k].carry(before, dt_s);
-  }
+  geometry::Vec3 path_start(std::size_t k) const { return carriers.empty() ? safe : carriers[k].now(before); }
 };
 
 /// What happened to one particle.
