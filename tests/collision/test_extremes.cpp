@@ -99,6 +99,33 @@ TEST_CASE("four thousand ellipsoids, apart and on one place") {
   }
 }
 
+TEST_CASE("ten million particles are answered as each of them alone") {
+  constexpr std::size_t kCount = 10'000'000, kPeriod = 1000;
+  const auto shapes = random_ellipsoids(7, 10, 0.2, 0.1, 0.2);
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(6);
+  Cloud few;
+  for (std::size_t i = 0; i < kPeriod; ++i) few.add(random_vector(random, 0.6));
+  std::vector<float> x(kCount), y(kCount), z(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::size_t k = i / (kCount / kPeriod);
+    x[i] = few.x[k], y[i] = few.y[k], z[i] = few.z[k];
+  }
+  const Particles all{.count = kCount, .x = x.data(), .y = y.data(), .z = z.data()};
+  const ContactReport one = collider.resolve({}, few.particles(), {}), many = collider.resolve({}, all, {});
+  CHECK(one.contacts > 50);
+  CHECK(many.contacts == one.contacts * (kCount / kPeriod));
+  CHECK(many.unresolved == 0);
+  double farthest_m = 0.0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::size_t k = i / (kCount / kPeriod);
+    farthest_m =
+        std::max({farthest_m, std::abs(double{x[i]} - double{few.x[k]}),
+                  std::abs(double{y[i]} - double{few.y[k]}), std::abs(double{z[i]} - double{few.z[k]})});
+  }
+  CHECK(farthest_m < 1e-6);
+}
+
 TEST_CASE("particles that are not numbers are left alone, counted, and spoil none of their neighbours") {
   const auto shapes = random_ellipsoids(7, 10, 0.2, 0.1, 0.2);
   const Collider collider(proxy_of(shapes));

@@ -95,6 +95,39 @@ TEST_CASE("a hundred thousand shots, up to 1000 m/s: none goes through, with and
   }
 }
 
+TEST_CASE("a second at 1000 m/s: shots of a kilometre do not go through either") {
+  const auto shapes = random_ellipsoids(3, 12, 0.4, 0.05, 0.2);
+  const Collider collider(proxy_of(shapes));
+  Shots shots = shoot(shapes, collider.origin(), 1000.0 / kFrame_s, 5000);
+  const ContactReport report = collider.resolve({}, shots.cloud.particles(), {});
+  CHECK(report.unresolved == 0);
+  int through = 0, inside = 0;
+  for (std::size_t i = 0; i < shots.cloud.size(); ++i) {
+    const Vec3 end = shots.cloud.position(i) + collider.origin();
+    // Where the path began as it was told, in floats of a kilometre.
+    const Vec3 from = Vec3(double{shots.cloud.sx[i]}, double{shots.cloud.sy[i]}, double{shots.cloud.sz[i]}) +
+                      collider.origin();
+    through += pierces_any(shapes, from, end, 0.0);
+    inside += brute_force(shapes, end).signed_distance < -1e-6;
+  }
+  CHECK(report.wrong_side > 3000);
+  CHECK(through == 0);
+  CHECK(inside == 0);
+}
+
+TEST_CASE("four thousand ellipsoids hold what is shot at them") {
+  const auto shapes = random_ellipsoids(4, 4096, 1.0, 0.02, 0.1);
+  const Collider collider(proxy_of(shapes));
+  Shots shots = shoot(shapes, collider.origin(), 300.0, 300);
+  const ContactReport report = collider.resolve({}, shots.cloud.particles(), {});
+  CHECK(report.unresolved == 0);
+  int through = 0;
+  for (std::size_t i = 0; i < shots.cloud.size(); ++i)
+    through += pierces_any(shapes, shots.from[i], shots.cloud.position(i) + collider.origin(), 0.0);
+  CHECK(report.wrong_side > 150);
+  CHECK(through == 0);
+}
+
 TEST_CASE("a limb that sweeps past particles at rest takes them along, at any speed") {
   const auto start = limb();
   const auto data = data_of(start);

@@ -40,13 +40,6 @@ class Halfspaces {
     for (int i = 0; i < size_; ++i) result.items_[i].offset_m -= by_m;
     return result;
   }
-  /// The same normals with every plane through the origin: the cone of velocities that do not go in.
-  Halfspaces cone() const {
-    Halfspaces result = *this;
-    for (int i = 0; i < size_; ++i) result.items_[i].offset_m = 0.0;
-    return result;
-  }
-
   double largest_gap_m(const geometry::Vec3& x) const {
     double largest = 0.0;
     for (int i = 0; i < size_; ++i) largest = std::max(largest, items_[i].gap_m(x));
@@ -70,6 +63,13 @@ class Halfspaces {
       if (const auto x = on_planes<3>(three, p, tolerance_m)) return x;
     }
     return std::nullopt;
+  }
+
+  /// The nearest velocity that goes into none of them: the same in the cone of the planes through the origin.
+  geometry::Vec3 nearest_velocity(const geometry::Vec3& v) const {
+    Halfspaces cone = *this;
+    for (int i = 0; i < size_; ++i) cone.items_[i].offset_m = 0.0;
+    return cone.nearest(v, kVelocityRounding * v.norm()).value_or(geometry::Vec3::Zero());
   }
 
   struct Place {
@@ -98,6 +98,8 @@ class Halfspaces {
 
  private:
   static constexpr int kHalvings = 6;  // a third of kMidway
+  /// Share of a speed by which a projection may miss its plane; with none every third one would be lost.
+  static constexpr double kVelocityRounding = 1e-12;
 
   /// The projection to the planes of `chosen`, if every one of them pushes and it lies in all half-spaces.
   template <int N>

@@ -17,7 +17,7 @@ namespace {
 
 /// Takes the inward part out of the velocity and slows the rest by Coulomb friction, restitution 0.
 void correct_velocity(const Halfspaces& contact, double friction, Vec3& velocity) {
-  const Vec3 along = contact.cone().nearest(velocity, 0.0).value_or(Vec3::Zero());
+  const Vec3 along = contact.nearest_velocity(velocity);
   const double impulse = (along - velocity).norm();
   const double speed = along.norm();
   velocity =
@@ -144,8 +144,7 @@ class Resolver {
     const ReliefSample there = near_.at(q);
     if (there.distance_m >= kept_m) return reached(q) ? q : entry.point;
     const Settled settled = settle(near_, q, there, kept_m, overshoot_m_, longest_m);
-    const bool same_side = settled.contact[0].normal.dot(entry.normal) > kSlidingCosine;
-    return settled.clear && same_side && reached(settled.place) ? settled.place : entry.point;
+    return settled.clear && reached(settled.place) ? settled.place : entry.point;
   }
 
   /// Whether the way from the safe position leads there without passing through anything.
@@ -161,6 +160,9 @@ class Resolver {
     constexpr double kAnywhere = std::numeric_limits<double>::infinity();
     std::optional<Vec3> best;
     double best_m = kAnywhere;
+    // A crease that is far for the depth is nearer than the other side of what faces it.
+    const Settled far = settle(near_, p_, near_.at(p_), clearance_m_, overshoot_m_, kAnywhere);
+    if (far.clear) best = far.place, best_m = (far.place - p_).norm();
     for (int i = 0; i < contact_.size(); ++i) {
       const auto out = exit_along(contact_[i].normal, best_m);
       if (!out || (*out - p_).norm() >= best_m) continue;
@@ -170,7 +172,7 @@ class Resolver {
     if (!best) best = exit_along(Vec3::UnitY(), kAnywhere);
     if (!best) return;
     x_ = *best;
-    contact_ = single((x_ - p_).stableNormalized());
+    contact_ = far.clear && x_ == far.place ? far.contact : single(field_.owner(x_, kAnywhere).at.normal);
   }
 
   /// May give up beyond `longest_m`; not on bent surfaces, which are left before the bulge around them.

@@ -1,0 +1,84 @@
+// The ways out for what iteration does not settle: along a ray, and back along the path.
+#include <doctest/doctest.h>
+
+#include "exits.hpp"
+#include "scenes.hpp"
+#include "tolerances.hpp"
+
+using namespace bodice;
+using namespace bodice::collision;
+using namespace bodice_test;
+
+TEST_CASE("a ray out of a union ends clear of all of it, for certain, wherever it starts") {
+  for (const double clearance_m : {0.0, 0.003})
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+      const auto shapes = random_ellipsoids(seed, 12, 0.2, 0.02, 0.3);
+      const UnionField field(shapes);
+      engine::Random random(seed);
+      int ended = 0, clear = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const Vec3 p = random_vector(random, 0.3);
+        const auto out = exit_along_ray(field, p, random_direction(random), clearance_m,
+                                        std::numeric_limits<double>::infinity());
+        ended += out.has_value();
+        clear += out && brute_force(shapes, *out).signed_distance >= clearance_m;
+      }
+      CAPTURE(clearance_m);
+      CAPTURE(seed);
+      CHECK(ended == 2000);
+      CHECK(clear == 2000);
+    }
+}
+
+TEST_CASE("where the ways along all normals graze another surface, a particle leaves another way") {
+  // A fold between two balls along x; along a needle under it, as far as that is straight, both ways out of
+  // the fold run within the clearance.
+  constexpr double kThickness_m = 0.003;
+  std::vector<Ellipsoid> shapes(3);
+  for (const int k : {0, 1}) {
+    shapes[static_cast<std::size_t>(k)].radii.setConstant(0.1);
+    shapes[static_cast<std::size_t>(k)].center.x() = k == 0 ? -0.099 : 0.099;
+  }
+  shapes[2].radii = Vec3(40.0, 0.05, 0.05);
+  shapes[2].center.z() = -0.05 - kThickness_m + 1e-4;
+  const Collider collider(proxy_of(shapes));
+  Cloud cloud;
+  cloud.add(Vec3(0.0004, 0.0, 0.0) - collider.origin());
+  const ContactReport report =
+      collider.resolve({}, cloud.particles(), {.thickness_m = static_cast<float>(kThickness_m)});
+  CHECK(report.fallbacks == 1);
+  CHECK(report.unresolved == 0);
+  CHECK(report.pinched == 0);
+  CHECK(brute_force(shapes, cloud.position(0) + collider.origin()).signed_distance > kThickness_m - 2e-5);
+  CHECK(std::abs(cloud.x[0]) < 0.01f);
+}
+
+TEST_CASE("a path that begins in contact is followed, on either side of the surface by rounding") {
+  std::vector<Ellipsoid> shapes(1);
+  shapes[0].radii = Vec3(0.1, 0.07, 0.05);
+  shapes[0].center = Vec3(0.3, 0.2, 0.1);
+  shapes.push_back(shapes[0]);  // so that the local frame's origin is elsewhere
+  shapes[1].center = -shapes[0].center;
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(5);
+  Cloud cloud;
+  std::vector<Vec3> begins;
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 unit = random_direction(random);
+    const Vec3 middle = shapes[0].center - collider.origin();
+    cloud.add_safe(middle + shapes[0].radii.cwiseProduct(unit));
+    const Vec3 begin(double{cloud.sx.back()}, double{cloud.sy.back()}, double{cloud.sz.back()});
+    inside += geometry::level(shapes[0], begin + collider.origin()) < 1.0;
+    // Through the middle and out of the other side, by 2 to 100 times the way there.
+    cloud.add(middle - random.uniform(1.0, 100.0) * (begin - middle));
+    begins.push_back(begin - middle);
+  }
+  REQUIRE(inside > 500);
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  CHECK(report.unresolved == 0);
+  int through = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    through += (cloud.position(i) + collider.origin() - shapes[0].center).dot(begins[i]) < 0.0;
+  CHECK(through == 0);
+}
