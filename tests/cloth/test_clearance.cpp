@@ -1,6 +1,7 @@
 // Whoever is said to be clear of the body is: against each particle's own distance in every substep.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -126,4 +127,60 @@ TEST_CASE("a cluster of which one touched is near without asking, and no other f
   cloth::begin_clearance({}, &body, kThickness_m, 1.0, touching, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance) == (c == 1));
+}
+
+TEST_CASE("nor is one missed where relief rises at once") {
+  // A ball in rings half a millimetre apart, in turns flat and 2.5 mm high.
+  constexpr double kRadius_m = 0.05;
+  constexpr int kNodes = 255;
+  proxy::BodyProxy::Data data;
+  data.tier = proxy::Tier::kRelief;
+  data.stature_m = 1.7;
+  data.ellipsoids.resize(1);
+  data.ellipsoids[0].shape.radii.setConstant(kRadius_m);
+  data.relief.resize(1);
+  data.relief[0].nodes_per_side = kNodes;
+  data.relief[0].h_scale_m = 0.0025f;
+  for (int j = 0; j < kNodes; ++j)
+    for (int i = 0; i < kNodes; ++i) {
+      const int ring = std::min({i, j, kNodes - 1 - i, kNodes - 1 - j});  // all of the border is alike
+      data.texels.push_back({static_cast<std::uint8_t>(ring / 2 % 2 == 0 ? 0 : 255), 0});
+    }
+  const auto proxy = proxy::BodyProxy::make(std::move(data));
+  REQUIRE(proxy.ok());
+  const collision::Collider body(*proxy);
+  std::size_t clear = 0, in_reach = 0, missed = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const engine::Random random(seed);
+    cloth::Particles p = scatter(random, body.origin());
+    for (std::size_t i = 0; i < kCount; ++i) {  // a cluster at one place, up to 6 mm out of reach of the ball
+      const std::uint64_t cluster = i / cloth::kCluster;
+      const double height_m = kRadius_m + kThickness_m + 0.006 * random.uniform_at(40000 + cluster);
+      const Vec3 at = height_m * random_place(random, 9000 + cluster, 1.0).normalized() +
+                      random_place(random, 50000 + i, 1e-4);
+      p.x[i] = static_cast<float>(at[0]), p.y[i] = static_cast<float>(at[1]),
+      p.z[i] = static_cast<float>(at[2]);
+    }
+    cloth::Clearance clearance = cloth::make_clearance(kCount);
+    cloth::begin_clearance({}, &body, kThickness_m, 0.01, untouched, p, clearance);
+    p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const Vec3 by = random_place(random, 100000 + i / cloth::kCluster, 5e-4);
+      p.x[i] += static_cast<float>(by[0]), p.y[i] += static_cast<float>(by[1]),
+          p.z[i] += static_cast<float>(by[2]);
+    }
+    for (std::size_t c = 0; c < kClusters; ++c) {
+      const std::size_t begin = c * cloth::kCluster, end = std::min(begin + cloth::kCluster, kCount);
+      bool reached = false;
+      for (std::size_t i = begin; i < end; ++i)
+        reached |= double{body.query({p.x[i], p.y[i], p.z[i]}).signed_distance} < kThickness_m;
+      const bool may = cloth::may_touch(p, begin, end, clearance);
+      clear += !may;
+      in_reach += reached;
+      missed += reached && !may;
+    }
+  }
+  CHECK(clear > 100);
+  CHECK(in_reach > 100);
+  CHECK(missed == 0);
 }

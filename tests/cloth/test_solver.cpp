@@ -269,3 +269,40 @@ TEST_CASE("a budget that cannot be met drops work in the stated order and says s
   CHECK(dropped == std::vector<std::uint32_t>{0, cloth::kNoSelfContact,
                                               cloth::kNoSelfContact | cloth::kBendingHalved, kBits, kBits});
 }
+
+TEST_CASE("layers that meet after the body below is gone share their momentum") {
+  const collision::Collider body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.5, 3));
+  TriMesh mesh = sheet(8, 8, 0.2, 0.2, Vec3(-0.1, 0.502, -0.1));
+  const TriMesh top = sheet(8, 8, 0.2, 0.2, Vec3(-0.09, 0.53, -0.09));
+  const auto first = static_cast<Index>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), top.positions.begin(), top.positions.end());
+  for (const auto& t : top.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  cloth::SolverOptions options = vacuum();
+  options.self_collision = true;
+  cloth::Solver solver = make_solver(mesh, {}, cotton(), options);
+  const engine::Context context;
+  const auto mean_height = [&](Index begin, Index end) {
+    double sum = 0.0;
+    const auto now = positions(solver, mesh.positions.size());
+    for (Index v = begin; v < end; ++v) sum += now[v][1];
+    return sum / (end - begin);
+  };
+  const auto mean_speed = [&](Index begin, Index end) {
+    const double before = mean_height(begin, end);
+    solver.step(context, kFrame_s);
+    return (mean_height(begin, end) - before) / kFrame_s;
+  };
+  const auto last = static_cast<Index>(mesh.positions.size());
+  // The lower one lies on the body when the upper one is about to reach it.
+  while (mean_height(first, last) - mean_height(0, first) > 0.015) {
+    const cloth::FrameReport report = solver.step(context, body, kFrame_s);
+    REQUIRE(report.finite);
+  }
+  // They meet in the first of these frames; were the lower one still held, the upper one would bounce off it.
+  double speed = mean_speed(0, last);
+  for (int frame = 0; frame < 6; ++frame) {
+    const double now = mean_speed(0, last);
+    CHECK(now - speed == doctest::Approx(-9.81 * kFrame_s).epsilon(0.01));
+    speed = now;
+  }
+}

@@ -9,9 +9,12 @@
 namespace bodice::cloth {
 namespace {
 
-// Metres of distance that a metre of travel takes off at most. One for ellipsoids; tables of relief are steep
-// in places.
+// Metres of distance that a metre of travel takes off at most, beyond a rise at once. One and none for
+// ellipsoids; tables of relief are steep in places. On five made bodies (seeds 0, 3, 5, 7 and 11, three
+// poses) 1.4 million ways each of 0.5 to 40 mm towards the surface took at most 2.3 mm more than twice their
+// length.
 constexpr float kSteepest = 2.0f;
+constexpr float kRise_m = 3e-3f;
 // Travel asked for, in that expected: constraints pull some particles faster than gravity does.
 constexpr float kSpare = 2.0f;
 constexpr double kFar_m = 1e6;
@@ -21,8 +24,8 @@ constexpr int kWait = 15;
 
 /// How far from the body it matters how far.
 struct Reach {
-  float thickness_m = 0.0f;
-  float free_m = 0.0f;  // beyond the thickness
+  float touch_m = 0.0f;  // nearer may touch without a way
+  float free_m = 0.0f;   // beyond
 };
 
 // Distances of the particles [begin, end), whole clusters, and what each cluster may travel.
@@ -32,11 +35,11 @@ void ask_run(const collision::Collider& body, const Reach& reach, std::size_t be
   const engine::Context alone{.executor = &engine::inline_executor()};
   const collision::Particles run{.count = end - begin, .x = &p.x[begin], .y = &p.y[begin], .z = &p.z[begin]};
   body.query(alone, run, std::span(c.nearest).subspan(begin, end - begin),
-             {.within_m = reach.thickness_m + reach.free_m});
+             {.within_m = reach.touch_m + reach.free_m});
   for (std::size_t i = begin; i < end; ++i) {
     float& free_m = c.free_m[i / kCluster];
     free_m =
-        std::min(i % kCluster == 0 ? reach.free_m : free_m, c.nearest[i].signed_distance - reach.thickness_m);
+        std::min(i % kCluster == 0 ? reach.free_m : free_m, c.nearest[i].signed_distance - reach.touch_m);
   }
 }
 
@@ -74,7 +77,7 @@ void begin_clearance(const engine::Context& context, const collision::Collider* 
     std::ranges::fill(c.free_m, 0.0f);
     return;
   }
-  const Reach reach = {static_cast<float>(thickness_m),
+  const Reach reach = {static_cast<float>(thickness_m) + kRise_m,
                        kSpare * kSteepest * static_cast<float>(std::min(kFar_m, travel_m))};
   ask(context, *still_body, reach, touching, particles, c);
   const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });
