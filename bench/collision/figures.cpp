@@ -1,8 +1,10 @@
 // The paper's figures 11 and 12: the time a frame against the number of the body's vertices, and against the
-// number of particles, with two trees of triangles beside it. Proxies take turns, the least frame counts.
+// number of particles, with two trees of triangles and FCL beside it. Proxies take turns, the least frame
+// counts.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <vector>
 
 #include <bench_references/frame_cost.hpp>
@@ -56,6 +58,7 @@ bool over_body_vertices(std::size_t largest) {
   std::vector<ProxyFrames> ours;
   std::vector<std::size_t> vertices;
   std::vector<FrameCost> trees;
+  std::vector<std::optional<FrameCost>> fcl;
   for (const std::size_t count : {4500u, 13000u, 54000u, 214000u, 856000u}) {
     if (count > largest) break;
     const auto body = make_subject(static_cast<int>(count));
@@ -63,17 +66,20 @@ bool over_body_vertices(std::size_t largest) {
     ours.emplace_back(proxy, over(proxy, cloud));
     vertices.push_back(body.mesh.positions.size());
     trees.push_back(tree_frame(body.mesh, garment));
+    fcl.push_back(fcl_frame(body.mesh, garment));
   }
   run(ours);
-  std::printf(
+  if (!fcl.front()) std::puts("FCL is not installed here: not measured");
+  std::puts(
       "| body vertices | ellipsoids | proxy, least ms a frame | contacts | judged in double | pair of trees, "
-      "ms "
-      "| contacts of the trees |\n|---|---|---|---|---|---|---|\n");
+      "ms | "
+      "contacts of the trees | FCL, ms | contacts of FCL |\n|---|---|---|---|---|---|---|---|---|");
   double least = 1e30, most = 0.0;
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const double ms = ours[i].sorted_ms().front();
-    std::printf("| %zu | %zu | %.3f | %zu | %zu | %.1f | %zu |\n", vertices[i], ours[i].ellipsoids(), ms,
+    std::printf("| %zu | %zu | %.3f | %zu | %zu | %.1f | %zu |", vertices[i], ours[i].ellipsoids(), ms,
                 ours[i].contacts(), ours[i].judged_exactly(), trees[i].ms, trees[i].contacts);
+    fcl[i] ? std::printf(" %.0f | %zu |\n", fcl[i]->ms, fcl[i]->contacts) : std::printf(" | |\n");
     least = std::min(least, ms);
     most = std::max(most, ms);
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -248,6 +249,42 @@ void add_limits(Limits& limits, std::vector<Row>& rows) {
   rows.push_back({"the copy in every response row", [&limits] { limits.copy = limits.cloud; }, n});
 }
 
+std::vector<std::size_t> one_of(std::size_t every, std::size_t count) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < count; i += every) chosen.push_back(i);
+  return chosen;
+}
+
+bench::Cloud thinned(const bench::Cloud& cloud, std::size_t every) {
+  bench::Cloud result;
+  for (const std::size_t i : one_of(every, cloud.size())) result.add(cloud.at(i));
+  return result;
+}
+
+/// A rival and the particles that it is asked about.
+struct AskedPeer {
+  bench::Peer& peer;
+  bench::Cloud coherent, random;
+
+  AskedPeer(bench::Peer& one, const bench::Cloud& ordered, const bench::Cloud& shuffled)
+      : peer(one), coherent(thinned(ordered, one.one_of)), random(thinned(shuffled, one.one_of)) {}
+};
+
+/// `truth` of all particles in coherent order; `distances` has room for as many.
+void add_peer(AskedPeer& asked, const std::vector<double>& truth, std::vector<float>& distances,
+              std::vector<Row>& rows) {
+  const bench::Peer& peer = asked.peer;
+  std::vector<double> of_asked;
+  for (const std::size_t i : one_of(peer.one_of, truth.size())) of_asked.push_back(truth[i]);
+  peer.query(asked.coherent, distances);
+  std::printf("%s: error %s mm, build %.1f ms, %.0f kB\n", peer.name.c_str(),
+              error_of(distances, of_asked, peer.bytes > 0.0, peer.reach_m).c_str(), peer.build_ms,
+              1e-3 * peer.bytes);
+  const auto n = static_cast<double>(of_asked.size());
+  rows.push_back({peer.name + ", coherent", [&] { peer.query(asked.coherent, distances); }, n});
+  rows.push_back({peer.name + ", random", [&] { peer.query(asked.random, distances); }, n});
+}
+
 const Row& row_of(const std::vector<Row>& rows, const std::string& name) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
   if (row == rows.end()) throw std::logic_error("no row " + name);
@@ -346,21 +383,17 @@ int main(int argc, char** argv) {
   const bool embree = !peers.empty();
   if (!embree) std::printf("Embree is not installed here: not measured\n");
   for (bench::Peer& peer : bench::cgal_peers(body.mesh)) peers.push_back(std::move(peer));
+  const std::size_t without_fcl = peers.size();
+  for (bench::Peer& peer : bench::fcl_peers(body.mesh)) peers.push_back(std::move(peer));
+  if (peers.size() == without_fcl) std::printf("FCL is not installed here: not measured\n");
   for (const double cell_m : {0.010, 0.005}) peers.push_back(bench::grid_peer(body.mesh, skin, cell_m));
-  std::vector<float> distances(count);
   std::vector<Row> rows;
   add_limits(*limits, rows);
   for (auto& contender : contenders) add_rows(*contender, rows);
-  for (bench::Peer& peer : peers) {
-    peer.query(coherent, distances);
-    std::printf("%s: error %s mm, build %.1f ms, %.0f kB\n", peer.name.c_str(),
-                error_of(distances, truth, peer.bytes > 0.0, peer.reach_m).c_str(), peer.build_ms,
-                1e-3 * peer.bytes);
-    rows.push_back(
-        {peer.name + ", coherent", [&] { peer.query(coherent, distances); }, static_cast<double>(count)});
-    rows.push_back(
-        {peer.name + ", random", [&] { peer.query(random, distances); }, static_cast<double>(count)});
-  }
+  std::vector<float> distances(count);
+  std::deque<AskedPeer> asked;
+  for (bench::Peer& peer : peers)
+    add_peer(asked.emplace_back(peer, coherent, random), truth, distances, rows);
   measure(rows, repeats);
   std::printf("\n| question | ns a particle, median | min | bar |\n|---|---|---|---|\n");
   for (const Row& row : rows) {

@@ -18,12 +18,7 @@ using bodice::geometry::Vec3;
 namespace {
 
 constexpr int kProxyFrames = 14, kTreeFrames = 3;
-constexpr double kOver_m = 0.004, kThickness_m = 0.005;
-
-/// A small turn about the vertical, there or back.
-Mat3 turn(int frame) {
-  return Eigen::AngleAxisd(frame % 2 == 0 ? 0.01 : -0.01, Vec3::UnitY()).toRotationMatrix();
-}
+constexpr double kOver_m = 0.004;
 
 void apply(const Mat3& rotation, TriMesh& mesh) {
   for (Vec3& p : mesh.positions) p = rotation * p;
@@ -35,6 +30,10 @@ double median(std::vector<double> values) {
 }
 
 }  // namespace
+
+Mat3 frame_turn(int frame) {
+  return Eigen::AngleAxisd(frame % 2 == 0 ? 0.01 : -0.01, Vec3::UnitY()).toRotationMatrix();
+}
 
 TriMesh garment_over(const TriMesh& skin) {
   TriMesh garment = skin;
@@ -50,13 +49,14 @@ ProxyFrames::ProxyFrames(const bodice::proxy::BodyProxy& proxy, const Cloud& clo
 }
 
 void ProxyFrames::run() {
-  const Mat3 rotation = turn(frame_);
+  const Mat3 rotation = frame_turn(frame_);
   for (auto& e : shapes_) e.center = rotation * e.center, e.axes = rotation * e.axes;
   now_ = start_;
   const Stopwatch watch;
   collider_.move_to(shapes_, 1.0 / 60.0);
   const auto report = collider_.resolve(
-      {}, now_.particles(), {.response = response_, .thickness_m = static_cast<float>(kThickness_m)}, order_);
+      {}, now_.particles(), {.response = response_, .thickness_m = static_cast<float>(kFrameThickness_m)},
+      order_);
   const double ms = watch.cpu_ms();
   if (frame_++ > 1) ms_.push_back(ms);
   contacts_ = report.contacts;
@@ -81,12 +81,12 @@ FrameCost tree_frame(TriMesh body, TriMesh garment) {
   FrameCost cost;
   std::vector<double> ms;
   for (int frame = 0; frame < kTreeFrames; ++frame) {
-    apply(turn(frame), body);
-    apply(turn(frame), garment);
+    apply(frame_turn(frame), body);
+    apply(frame_turn(frame), garment);
     const Stopwatch watch;
     body_tree.refit();
     garment_tree.refit();
-    cost.contacts = garment_tree.count_contacts(body_tree, kThickness_m);
+    cost.contacts = garment_tree.count_contacts(body_tree, kFrameThickness_m);
     ms.push_back(watch.cpu_ms());
   }
   cost.ms = median(std::move(ms));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <bodice/collision/collider.hpp>
@@ -13,6 +14,11 @@
 #include <bench_references/subject.hpp>
 
 namespace bench {
+
+/// Contacts are what is nearer than this.
+inline constexpr double kFrameThickness_m = 0.005;
+/// What everything turns by from frame to frame, there and back.
+bodice::geometry::Mat3 frame_turn(int frame);
 
 struct FrameCost {
   double ms = 0.0;
@@ -54,5 +60,10 @@ FrameCost proxy_frame(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
 
 /// Refits two trees of boxes and finds what lies within 5 mm; responds to nothing.
 FrameCost tree_frame(bodice::geometry::TriMesh body, bodice::geometry::TriMesh garment);
+
+/// One frame of FCL, which knows no thickness of meshes: its tree of oriented boxes over the skin is
+/// refitted, and a ball of 5 mm at each vertex of the garment tested against it. Nothing where FCL is
+/// missing.
+std::optional<FrameCost> fcl_frame(bodice::geometry::TriMesh body, const bodice::geometry::TriMesh& garment);
 
 }  // namespace bench

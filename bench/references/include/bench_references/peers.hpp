@@ -18,6 +18,8 @@ struct Peer {
   double bytes = 0.0;     ///< 0: not known
   /// No distance beyond is looked for.
   double reach_m = std::numeric_limits<double>::infinity();
+  /// One of so many particles is asked about; more would take too long.
+  std::size_t one_of = 1;
   std::function<void(const Cloud&, std::span<float> distance_m)> query;
 };
 
@@ -30,5 +32,8 @@ std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double rea
 
 /// CGAL's tree of boxes over the skin's triangles, exact and unsigned; nothing where it is missing.
 std::vector<Peer> cgal_peers(const bodice::geometry::TriMesh& mesh);
+
+/// FCL's tree of swept spheres over the skin's triangles, exact and unsigned; nothing where it is missing.
+std::vector<Peer> fcl_peers(const bodice::geometry::TriMesh& mesh);
 
 }  // namespace bench
