@@ -1,5 +1,6 @@
 #include "bars.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace fit_bench {
@@ -22,8 +23,9 @@ void Bars::at_most(const std::string& kind, const std::string& measure, double b
 }
 
 void Bars::note(const std::string& body, const std::string& kind, const bodice::fitting::FitResult& result,
-                const bench::NearSkin& near) {
+                const bench::NearSkin& near, double ms, std::size_t vertices) {
   const auto& a = result.accuracy;
+  const double timed_ms = ms * std::min(1.0, kTimedVertices / static_cast<double>(vertices));
   const auto add = [&](const char* measure, double bar, double value) {
     at_most(kind, measure, bar, value, body);
   };
@@ -35,17 +37,17 @@ void Bars::note(const std::string& body, const std::string& kind, const bodice::
     add("false %", 0.2, near.false_percent);
     add("deep leaks", 0, near.deep_leaks);
     add("KB", 128, static_cast<double>(result.proxy.bytes()) / 1024.0);
-    add("ms on top of tight", 1000, stage_ms(result, "relief"));
+    add("ms on top of tight", 1000, timed_ms);
   } else if (kind == "tight") {
     add("near mean mm", 1.3, near.mean_mm);
     add("near p95 mm", 4.0, near.p95_mm);
-    add("ms", 1000, stage_ms(result, "tight"));
+    add("ms", 1000, timed_ms);
   } else if (kind == "covering") {
     add("uncovered %", 0.1, a.skin_outside_percent);
     add("uncovered mm", 0.5, 1e3 * a.skin_outside_depth_m);
     add("gap mean mm", 5.0, 1e3 * a.gap_m.mean);
   } else {
-    add("ms", 15, stage_ms(result, "fit"));
+    add("ms", 15, timed_ms);
     if (kind == "paper") return;
     add("uncovered %", 0.0, a.skin_outside_percent);
     add("interior outside %", 0.0, 100.0 - a.interior_covered_percent);
@@ -58,6 +60,11 @@ void Bars::print() const {
   for (const auto& [key, line] : lines_)
     std::printf("%s,%s,%.3g,%.3f,%.3f,%s,%d,%d\n", key.first.c_str(), key.second.c_str(), line.bar,
                 line.sum / line.bodies, line.worst, line.worst_body.c_str(), line.missed, line.bodies);
+}
+
+int Bars::missed() const {
+  return static_cast<int>(
+      std::ranges::count_if(lines_, [](const auto& entry) { return entry.second.missed > 0; }));
 }
 
 }  // namespace fit_bench
