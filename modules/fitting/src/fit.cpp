@@ -169,7 +169,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   result.mu_torso_m = draft.mu.torso_m;
   result.mu_limbs_m = draft.mu.limbs_m;
   result.accuracy = measured.accuracy;
-  result.parts = part_fits(skin, ellipsoids, measured, draft.parts);
+  result.parts = part_fits(context, skin, ellipsoids, measured, draft.parts);
   result.stages = std::move(stages);
   if (out_of_time) warn_of_time(options, planned, result);
   add_warnings(options, draft, result);

@@ -12,7 +12,7 @@ Clusters of_finite(const engine::Context& context, std::span<const Vec3> points,
   if (points.empty() || centers.empty()) return {std::vector<Index>(points.size()), std::move(centers), 0};
   Lloyd lloyd(points, weights, points.front());
   const int iterations = lloyd.run(context, std::move(centers), options);
-  return {lloyd.take_of_point(), lloyd.take_centers(), iterations};
+  return {lloyd.of_point(), lloyd.take_centers(), iterations};
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
-// K-means that goes on from where it was: what a split costs is what it moves.
+// K-means whose state outlives a call, so that a split of one cluster costs what it changes.
 // Based on: Stuart P. Lloyd. Least squares quantization in PCM. 1982.
-// Differs: a point is compared again only with centres that moved, unless its own centre moved away from it;
-// only clusters whose points changed are averaged again. The results are the bits of the plain iteration.
+// Differs: points are taken in chunks of neighbours, each with a ball that holds it. A chunk looks only at
+// the centres that its ball lets be nearest to a point of it, and at none if neither its own centres moved
+// nor any other came near. It keeps the sums of its points by centre until one of them goes elsewhere.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,34 +23,49 @@ class Lloyd {
   /// number of iterations. `centers` may only grow from call to call.
   int run(const engine::Context& context, std::vector<Vec3> centers, const KMeansOptions& options);
 
-  const std::vector<Index>& of_point() const { return of_point_; }
+  /// #points, the centre of each.
+  std::vector<Index> of_point() const;
   const std::vector<Vec3>& centers() const { return centers_; }
   std::vector<Vec3> take_centers() { return std::move(centers_); }
-  std::vector<Index> take_of_point() { return std::move(of_point_); }
 
  private:
-  using Flags = std::vector<std::uint8_t>;    // #centres
-  using Sums = std::vector<Eigen::Vector4d>;  // #centres: weighted offset from the origin, weight
+  using Sum = Eigen::Vector4d;  // weighted offsets from the origin, weight
+  /// Points of a chunk that have the same centre.
+  struct Share {
+    Index center;
+    Sum sum;
+  };
+  /// Neighbours among the points.
+  struct Chunk {
+    std::array<float, 3> middle;
+    float radius = 0.0f;        ///< of a ball about the middle that holds them
+    float farthest = 0.0f;      ///< from its own centre where it was, at most
+    std::vector<Share> shares;  ///< empty: no centre yet
+  };
+  struct Scratch {
+    std::vector<float> from_middle;
+    std::vector<Index> candidates;
+  };
+  void bound_chunk(std::size_t chunk);
   void mark_moved();
   void assign(const engine::Context& context);
-  void assign_block(std::size_t begin, std::size_t end, Flags& changed);
-  void add_up(const engine::Context& context);
+  bool choose_candidates(const Chunk& chunk, Scratch& scratch) const;
+  void assign_chunk(std::size_t chunk, Scratch& scratch, std::vector<std::uint8_t>& changed);
+  void share_out(std::size_t chunk);
   double move_centers();
 
-  std::span<const Vec3> points_;
-  std::span<const double> weights_;
   Vec3 origin_;
+  std::vector<Index> order_;                 ///< #points: of those that came in
   std::array<std::vector<float>, 3> local_;  ///< #points, relative to the origin
+  std::vector<Sum> weighted_;                ///< #points, each alone
   std::vector<Index> of_point_;
-  std::vector<float> distance_;  ///< #points, squared, to the point's own centre where it was
+  std::vector<Chunk> chunks_;
   std::vector<Vec3> centers_;
-  std::vector<float> placed_;  ///< 3 #centres: where the distances were measured from
-  Flags moved_;                ///< since then
-  std::vector<Index> moved_list_, all_;
-  Flags changed_;  ///< has other points than before
-  Sums sums_;
-  std::vector<Flags> changed_of_block_;
-  std::vector<Sums> sums_of_block_;
+  std::vector<float> placed_;        ///< 3 #centres, relative to the origin
+  std::vector<std::uint8_t> moved_;  ///< #centres: since the points were assigned
+  std::vector<Index> moved_list_;
+  std::vector<std::uint8_t> changed_;  ///< #centres: has other points than before
+  std::vector<std::vector<std::uint8_t>> changed_of_block_;
 };
 
 }  // namespace bodice::fitting

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "dual_levels.hpp"
 #include "mvee_dual.hpp"
 #include "mvee_finish.hpp"
 #include "point_frame.hpp"
@@ -48,25 +50,38 @@ void add_extremes(const PointFrame& frame, ActiveSet<R + 1>& set) {
   for (auto i = chosen.begin(); i != end; ++i) set.add(lifted<R>(frame, *i), 1.0);
 }
 
+/// Of every point, kappa = |map q|^2; `map` is R + 1 square.
+template <int R, class Map>
+void find_kappas(const PointFrame& frame, const Map& map, std::vector<double>& kappa) {
+  LiftedMap lifted;
+  for (int r = 0; r <= R; ++r) {
+    for (int j = 0; j < R; ++j) lifted.row[r][j] = map(r, j);
+    lifted.row[r][3] = map(r, R);
+  }
+  kappa.resize(frame.kept.size());
+  dual_levels(lifted, kappa.size(), frame.y[0].data(), frame.y[1].data(), frame.y[2].data(), kappa.data());
+}
+
 /// Adds the worst violator of each orthant; returns the largest kappa / N - 1 over all points.
 template <int R>
-double scan(const PointFrame& frame, ActiveSet<R + 1>& set, double tolerance) {
+double scan(const PointFrame& frame, ActiveSet<R + 1>& set, double tolerance, std::vector<double>& kappa) {
   using Set = ActiveSet<R + 1>;
   const Eigen::LLT<typename Set::Square> llt(set.moment());
   if (llt.info() != Eigen::Success) return 1e300;
   const typename Set::Square inverse = llt.matrixL().solve(Set::Square::Identity());
+  find_kappas<R>(frame, inverse, kappa);
   std::array<double, 1 << R> worst;
   worst.fill((1.0 + tolerance) * (R + 1));
   std::array<std::size_t, 1 << R> at{};
   std::array<bool, 1 << R> found{};
   double largest = 0.0;
-  for (std::size_t i = 0; i < frame.kept.size(); ++i) {
+  for (std::size_t i = 0; i < kappa.size(); ++i) {
+    largest = std::max(largest, kappa[i]);
+    if (!(kappa[i] > (1.0 + tolerance) * (R + 1))) continue;
     const typename Set::Lifted z = inverse * lifted<R>(frame, i);
-    const double kappa = z.squaredNorm();
-    largest = std::max(largest, kappa);
     int orthant = 0;
     for (int j = 0; j < R; ++j) orthant |= (z[R - 1 - j] > 0.0) << j;
-    if (kappa > worst[orthant]) worst[orthant] = kappa, at[orthant] = i, found[orthant] = true;
+    if (kappa[i] > worst[orthant]) worst[orthant] = kappa[i], at[orthant] = i, found[orthant] = true;
   }
   for (int k = 0; k < (1 << R); ++k)
     if (found[k] && !set.full()) set.add(lifted<R>(frame, at[k]), 0.0);
@@ -82,11 +97,12 @@ Mvee solve(const PointFrame& frame, const MveeOptions& options) {
   add_extremes<R>(frame, set);
   Mvee result;
   double excess_all = 0.0;
+  std::vector<double> kappa;
   while (result.rounds < kMaxRounds) {
     maximise_dual(set, 0.5 * tolerance);
     set.drop_idle();
     ++result.rounds;
-    excess_all = scan<R>(frame, set, 0.5 * tolerance);
+    excess_all = scan<R>(frame, set, 0.5 * tolerance, kappa);
     if (excess_all <= tolerance) break;
   }
   set.drop_idle();

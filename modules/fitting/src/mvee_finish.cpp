@@ -86,15 +86,15 @@ void certify(const PointFrame& frame, const Vec3& centre, const Mat3& half, doub
   result.rank = frame.rank;
   // Growing repeats because the level's own rounding moves with the radii of very thin ellipsoids.
   constexpr int kGrowPasses = 4;
-  for (int pass = 0; pass < kGrowPasses; ++pass) {
-    const double grow = std::sqrt(largest_level(frame, e));
-    if (!(grow > 1.0)) break;
-    e.radii *= grow * (1.0 + 1e-14);
+  double reach = std::sqrt(largest_level(frame, e));
+  for (int pass = 0; pass < kGrowPasses && reach > 1.0; ++pass) {
+    e.radii *= reach * (1.0 + 1e-14);
+    reach = std::sqrt(largest_level(frame, e));
   }
   double log_volume = 0.0;
   for (int j = 0; j < frame.rank; ++j) log_volume += std::log(e.radii[j]);
   result.volume_gap = frame.rank > 0 ? std::max(0.0, log_volume - dual_log_volume) : 0.0;
-  result.violation = std::max(0.0, std::sqrt(largest_level(frame, e)) - 1.0);
+  result.violation = std::max(0.0, reach - 1.0);
 }
 
 Mvee finish_thin(const PointFrame& frame, double min_radius_m) {

@@ -1,39 +1,56 @@
 #include "part_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "refine.hpp"
 
 namespace bodice::fitting {
 namespace {
 
-using geometry::Vec3;
+constexpr std::size_t kGrain = 512;
 
-double radial_distance(const geometry::Ellipsoid& e, const Vec3& p) {
-  return (p - geometry::radial_projection(e, p)).norm();
+/// Of a vertex: the ellipsoid of its part that is nearest along its ray.
+struct Nearest {
+  double distance_m = std::numeric_limits<double>::infinity();
+  std::size_t ellipsoid = 0;
+};
+
+using OfParts = std::array<std::vector<std::size_t>, body::kPartCount>;
+
+std::vector<Nearest> find_nearest(const engine::Context& context, const LabelledSkin& skin,
+                                  std::span<const proxy::ProxyEllipsoid> ellipsoids, const OfParts& of_part) {
+  std::vector<Nearest> nearest(skin.part.size());
+  engine::parallel_for(context, nearest.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      for (const std::size_t k : of_part[static_cast<int>(skin.part[v])]) {
+        const double d = radial_distance(ellipsoids[k].shape, skin.mesh.positions[v]);
+        if (d < nearest[v].distance_m) nearest[v] = {d, k};
+      }
+  });
+  return nearest;
 }
 
 }  // namespace
 
-std::vector<PartFit> part_fits(const LabelledSkin& skin, std::span<const proxy::ProxyEllipsoid> ellipsoids,
-                               const Measured& measured, std::uint32_t parts) {
+std::vector<PartFit> part_fits(const engine::Context& context, const LabelledSkin& skin,
+                               std::span<const proxy::ProxyEllipsoid> ellipsoids, const Measured& measured,
+                               std::uint32_t parts) {
   std::vector<double> sum(ellipsoids.size(), 0.0), count(ellipsoids.size(), 0.0);
   std::array<PartFit, body::kPartCount> all{};
-  std::array<std::vector<std::size_t>, body::kPartCount> of_part;
+  OfParts of_part;
   for (std::size_t k = 0; k < ellipsoids.size(); ++k)
     of_part[static_cast<int>(ellipsoids[k].part)].push_back(k);
+  const std::vector<Nearest> nearest = find_nearest(context, skin, ellipsoids, of_part);
   for (std::size_t v = 0; v < skin.part.size(); ++v) {
-    const int part = static_cast<int>(skin.part[v]);
-    ++all[part].vertices;
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t owner = ellipsoids.size();
-    for (const std::size_t k : of_part[part]) {
-      const double d = radial_distance(ellipsoids[k].shape, skin.mesh.positions[v]);
-      if (d < least) least = d, owner = k;
-    }
-    if (owner == ellipsoids.size()) continue;
-    sum[owner] += least;
-    count[owner] += 1.0;
+    ++all[static_cast<int>(skin.part[v])].vertices;
+    if (std::isinf(nearest[v].distance_m)) continue;
+    sum[nearest[v].ellipsoid] += nearest[v].distance_m;
+    count[nearest[v].ellipsoid] += 1.0;
   }
   std::vector<PartFit> result;
   for (int part = 0; part < body::kPartCount; ++part) {

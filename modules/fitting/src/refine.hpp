@@ -1,6 +1,7 @@
 // Bisecting refinement of one region: the paper's steps a to e.
 // Based on: the paper, section 3.3. Differs: ends at a count as well as at a threshold; only clusters whose
-// members changed are fitted again; a cluster too small to split is left alone, so refinement always ends.
+// members changed are fitted again, and that only when they are next to be split or at the end; a cluster too
+// small to split is left alone, so refinement always ends.
 #pragma once
 
 #include <array>
@@ -59,10 +60,14 @@ struct Cluster {
   geometry::Ellipsoid ellipsoid;
   double error_m = 0.0;  ///< E_j, eq. (6), over its points
   body::Part part = body::Part::kHead;
+  bool fitted = false;  ///< false: ellipsoid and error are those of the points it had before
 };
 
 /// The points that these items' ellipsoid must hold, each once.
 std::vector<Vec3> enclosed_points(const Items& items, std::span<const Index> members);
+
+/// Along the ray from the centre, between a point and the ellipsoid.
+double radial_distance(const geometry::Ellipsoid& ellipsoid, const Vec3& point);
 
 /// Eq. (6): mean distance along the ray from the centre between the points and the ellipsoid.
 double radial_error(const geometry::Ellipsoid& ellipsoid, std::span<const Vec3> points);
@@ -75,17 +80,17 @@ class Refinement {
   Refinement(const Refinement&) = delete;
   Refinement& operator=(const Refinement&) = delete;
 
+  /// All fitted once the refinement has run.
   const std::vector<Cluster>& clusters() const { return clusters_; }
-  /// E of the worst cluster that can still be split, or 0 when none can.
-  double worst_error() const;
-  /// Steps b to d. Does nothing when no cluster can be split.
-  void split_worst();
-  /// Step e: splits until every error is at most `mu_m` or there are `most` clusters.
+  /// Steps b to e: splits until every error is at most `mu_m` or there are `most` clusters.
   void run(double mu_m, std::size_t most);
 
  private:
+  std::size_t find_worst();
+  void split(std::size_t worst);
   void recluster(std::vector<Vec3> centers);
-  void fit(Cluster& cluster) const;
+  void fit(std::span<const std::size_t> which);
+  void fit_rest();
   void reclassify();
   void set_members(std::vector<std::vector<Index>> members);
   Lloyd fresh_lloyd() const;

@@ -12,7 +12,7 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kMostPoints = 4096;
+constexpr std::size_t kMostPoints = 2048;
 constexpr std::size_t kLeastPoints = 4;  // of a cluster that is still split
 
 /// Points with the ellipsoid of their covariance, scaled to hold them all, in place of the enclosing one.

@@ -10,7 +10,7 @@
 namespace bodice::fitting {
 
 /// Shares `count` ellipsoids out (at least its seeds to a region): a rehearsal of the bisecting refinement on
-/// at most 4096 points, with the principal axes of each cluster instead of its enclosing ellipsoid and
+/// at most 2048 points, with the principal axes of each cluster instead of its enclosing ellipsoid and
 /// without K-means, in which the worst ellipsoid of all regions is split again and again. Well under a
 /// millisecond.
 std::vector<int> share_counts(const engine::Context& context, const Items& items,
