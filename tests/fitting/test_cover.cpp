@@ -84,6 +84,41 @@ TEST_CASE("solid: no skin and no inside is left out at any count, so more ellips
   }
 }
 
+TEST_CASE("solid: a cavity that no column passes through is found and filled") {
+  const geometry::Mat3 upright = geometry::Mat3::Identity();
+  Skin skin;
+  fitting_test::add_ellipsoid(skin, {Vec3::Zero(), upright, Vec3::Constant(0.1)}, body::Part::kTorsoUL);
+  // Four balls hold all of it but a cavity of a few millimetres about the middle.
+  std::vector<geometry::Ellipsoid> balls;
+  for (const Vec3& corner : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
+    balls.push_back({0.3 * corner.normalized(), upright, Vec3::Constant(0.298)});
+  const auto held = [&](const Vec3& p) {
+    return std::ranges::any_of(balls, [&](const auto& e) { return geometry::level(e, p) <= 1.0; });
+  };
+  const auto outside = [&] {
+    engine::Random random(3);
+    int count = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 u(random.uniform(), random.uniform(), random.uniform());
+      const Vec3 p = 0.19 * u - Vec3::Constant(0.095);
+      count += p.norm() < 0.095 && !held(p);
+    }
+    for (int i = 0; i < 20000; ++i) {
+      const Vec3 u(random.uniform(), random.uniform(), random.uniform());
+      count += !held(0.014 * u - Vec3::Constant(0.007));
+    }
+    return count;
+  };
+  REQUIRE(outside() > 500);
+  const auto columns = fitting::interior_columns(skin.mesh, 0.05);
+  for (int k = 0; k < columns.nz; ++k)
+    for (int i = 0; i < columns.nx; ++i)
+      REQUIRE(std::hypot(columns.x(i), columns.z(k)) > 0.0063);  // past the cavity
+  const geometry::MeshDistance distance({}, skin.mesh);
+  CHECK(fitting::cover_interior({}, columns, distance, balls) == 0.0);  // no column saw it
+  CHECK(outside() == 0);
+}
+
 TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering one does not") {
   const Skin skin = bent_body();
   fitting::FitOptions options;

@@ -6,6 +6,7 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 #include "interior_grid.hpp"
@@ -36,9 +37,10 @@ void relax_cover(const engine::Context& context, const geometry::TriMesh& mesh,
                  std::span<const Index> triangles, std::span<const geometry::Ellipsoid> anchors,
                  std::vector<geometry::Ellipsoid>& ellipsoids);
 
-/// Stretches the ellipsoids until the union holds every column of the inside along its whole length. Returns
-/// the length that had to be covered, metres.
+/// Stretches the ellipsoids until the union holds every column of the inside along its whole length, and what
+/// lies between columns down to an eighth of their spacing (unsure_between()). Returns the length of columns
+/// that had to be covered, metres.
 double cover_interior(const engine::Context& context, const InteriorColumns& columns,
-                      std::vector<geometry::Ellipsoid>& ellipsoids);
+                      const geometry::MeshDistance& distance, std::vector<geometry::Ellipsoid>& ellipsoids);
 
 }  // namespace bodice::fitting

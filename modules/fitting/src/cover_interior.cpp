@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include <bodice/engine/parallel.hpp>
 
+#include "column_lines.hpp"
 #include "cover.hpp"
+#include "cover_between.hpp"
 #include "interior_grid.hpp"
 
 namespace bodice::fitting {
@@ -14,96 +17,41 @@ namespace {
 using geometry::Ellipsoid;
 using Stretch = InteriorColumns::Stretch;
 
-/// An ellipsoid made ready for lines along y.
-struct Line {
-  geometry::Box box;
-  geometry::Mat3 whiten;
-  Vec3 center;
-
-  explicit Line(const Ellipsoid& e)
-      : box(geometry::bounding_box(e)),
-        whiten(e.radii.cwiseInverse().asDiagonal() * e.axes.transpose()),
-        center(e.center) {}
-
-  /// The stretch of the line through (x, z) inside the ellipsoid; empty (first > second) if there is none.
-  Stretch inside(double x, double z) const {
-    constexpr Stretch kNone{1.0, 0.0};
-    const Vec3 along = whiten.col(1), from = whiten * Vec3(x - center.x(), 0.0, z - center.z());
-    const double a = along.squaredNorm(), b = from.dot(along), c = from.squaredNorm() - 1.0;
-    const double root = b * b - a * c;
-    if (!(root > 0.0)) return kNone;
-    const double half = std::sqrt(root);
-    return {center.y() + (-b - half) / a, center.y() + (-b + half) / a};
-  }
-};
-
 struct Hole {
   Vec3 low, high;  // ends of a stretch that no ellipsoid covers
 };
 
-/// A covered stretch of one column of a row.
-struct Covered {
-  int column;
-  Stretch stretch;
-};
-
-/// Every stretch of row k that an ellipsoid covers where the body is, by column and begin.
-void cover_row(const InteriorColumns& columns, int k, std::span<const Line> lines,
-               std::vector<Covered>& covered) {
-  covered.clear();
-  const double z = columns.z(k);
-  for (const Line& line : lines) {
-    if (z < line.box.low.z() || z > line.box.high.z()) continue;
-    const auto [first, last] =
-        cells_within(line.box.low.x(), line.box.high.x(), columns.low.x(), columns.spacing_m, columns.nx);
-    for (int i = first; i <= last; ++i) {
-      if (columns.at(i, k).empty()) continue;
-      const Stretch s = line.inside(columns.x(i), z);
-      if (s.first < s.second) covered.push_back({i, s});
-    }
+/// What no ellipsoid covers of the columns of row k.
+std::vector<Hole> holes_of_row(const InteriorColumns& columns, int k, const RowCover& row, double shortest) {
+  std::vector<Hole> holes;
+  std::vector<Stretch> covered, left;
+  for (int i = 0; i < columns.nx; ++i) {
+    if (columns.at(i, k).empty()) continue;
+    covered.clear();
+    for (const RowCover::Part& part : row.at(i)) covered.push_back(part.stretch);
+    std::sort(covered.begin(), covered.end());
+    left.clear();
+    for (const Stretch& wanted : columns.at(i, k)) subtract(wanted, covered, shortest, left);
+    for (const auto& [low, high] : left)
+      holes.push_back({Vec3(columns.x(i), low, columns.z(k)), Vec3(columns.x(i), high, columns.z(k))});
   }
-  std::sort(covered.begin(), covered.end(), [](const Covered& a, const Covered& b) {
-    return a.column != b.column ? a.column < b.column : a.stretch < b.stretch;
-  });
+  return holes;
 }
 
-/// What `wanted` has that none of the `covered` stretches (sorted by their begin) has.
-void subtract(const Stretch& wanted, std::span<const Covered> covered, double x, double z, double shortest,
-              std::vector<Hole>& holes) {
-  double from = wanted.first;
-  const auto note = [&](double to) {
-    if (to - from > shortest) holes.push_back({Vec3(x, from, z), Vec3(x, to, z)});
-  };
-  for (const Covered& c : covered) {
-    const auto& [begin, end] = c.stretch;
-    if (end <= from) continue;
-    if (begin >= wanted.second) break;
-    note(begin);
-    from = end;
-    if (from >= wanted.second) return;
-  }
-  note(wanted.second);
-}
-
+/// Fills in what covers each row.
 std::vector<Hole> find_holes(const engine::Context& context, const InteriorColumns& columns,
-                             const std::vector<Ellipsoid>& ellipsoids, double shortest) {
-  const std::vector<Line> lines(ellipsoids.begin(), ellipsoids.end());
+                             const std::vector<Ellipsoid>& ellipsoids, double shortest,
+                             std::vector<RowCover>& cover) {
+  const std::vector<ColumnLine> lines(ellipsoids.begin(), ellipsoids.end());
   const auto rows = static_cast<std::size_t>(columns.nz);
+  cover.resize(rows);
   std::vector<std::vector<Hole>> of_row(rows);
-  constexpr std::size_t kGrain = 8;
+  constexpr std::size_t kGrain = 4;
   engine::parallel_for(context, rows, kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<Covered> covered;
     for (std::size_t row = begin; row < end; ++row) {
       const int k = static_cast<int>(row);
-      cover_row(columns, k, lines, covered);
-      std::span<const Covered> rest = covered;
-      for (int i = 0; i < columns.nx; ++i) {
-        std::size_t own = 0;
-        while (own < rest.size() && rest[own].column == i) ++own;
-        for (const Stretch& wanted : columns.at(i, k))
-          subtract(wanted, rest.first(own), columns.x(i), columns.z(k), shortest, of_row[row]);
-        rest = rest.subspan(own);
-      }
+      cover[row] = cover_row(columns, k, lines);
+      of_row[row] = holes_of_row(columns, k, cover[row], shortest);
     }
   });
   std::vector<Hole> holes;
@@ -117,33 +65,61 @@ double ray_outside(const Ellipsoid& e, const Vec3& p) {
   return level > 1.0 ? (p - e.center).norm() * (1.0 - 1.0 / std::sqrt(level)) : 0.0;
 }
 
-/// Stretches the ellipsoid that has to grow least over the hole's piece.
-void fill(const Vec3& low, const Vec3& high, std::vector<Ellipsoid>& ellipsoids) {
+/// Stretches the ellipsoid that has to grow least over all of the points.
+void fill(std::span<const Vec3> points, std::vector<Ellipsoid>& ellipsoids) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t e = 0; e < ellipsoids.size(); ++e) {
-    const double outside = std::max(ray_outside(ellipsoids[e], low), ray_outside(ellipsoids[e], high));
+    double outside = 0.0;
+    for (const Vec3& p : points) outside = std::max(outside, ray_outside(ellipsoids[e], p));
     if (outside < least) least = outside, best = e;
   }
-  ellipsoids[best] = stretched(stretched(ellipsoids[best], low), high);
+  for (const Vec3& p : points) ellipsoids[best] = stretched(ellipsoids[best], p);
+}
+
+/// Calls f(low, high) for pieces of a line that are not much longer than `length`.
+template <class F>
+void for_each_piece(const Vec3& low, const Vec3& high, double length, F&& f) {
+  const int pieces = std::clamp(static_cast<int>((high - low).norm() / length), 1, 1000);
+  const auto at = [&](int k) { return Vec3(low + (high - low) * k / pieces); };
+  for (int i = 0; i < pieces; ++i) f(at(i), at(i + 1));
+}
+
+std::array<Vec3, 8> corners_of(const geometry::Box& box) {
+  std::array<Vec3, 8> corners;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    for (int j = 0; j < 3; ++j) corners[c][j] = (c >> j) & 1 ? box.high[j] : box.low[j];
+  return corners;
 }
 
 }  // namespace
 
 double cover_interior(const engine::Context& context, const InteriorColumns& columns,
-                      std::vector<Ellipsoid>& ellipsoids) {
+                      const geometry::MeshDistance& distance, std::vector<Ellipsoid>& ellipsoids) {
   const double spacing_m = columns.spacing_m;
   double length_m = 0.0;
   if (ellipsoids.empty()) return length_m;
-  for (const Hole& hole : find_holes(context, columns, ellipsoids, 1e-3 * spacing_m)) {
+  std::vector<RowCover> cover;
+  for (const Hole& hole : find_holes(context, columns, ellipsoids, 1e-3 * spacing_m, cover)) {
     context.checkpoint();
-    const double height = hole.high.y() - hole.low.y();
-    length_m += height;
-    const int pieces = std::clamp(static_cast<int>(height / spacing_m), 1, 1000);
-    for (int i = 0; i < pieces; ++i) {
-      const auto at = [&](int k) { return Vec3(hole.low + (hole.high - hole.low) * k / pieces); };
-      fill(at(i), at(i + 1), ellipsoids);
-    }
+    length_m += hole.high.y() - hole.low.y();
+    for_each_piece(hole.low, hole.high, spacing_m, [&](const Vec3& low, const Vec3& high) {
+      fill(std::array{low, high}, ellipsoids);
+    });
+  }
+  // What covered a row covers it still: stretching lets go of nothing.
+  for (const geometry::Box& box : unsure_between(context, columns, cover, ellipsoids)) {
+    context.checkpoint();
+    const Vec3 middle = box.center(), up = 0.5 * box.size().y() * Vec3::UnitY(),
+               aside = middle + up - box.high;
+    for_each_piece(middle - up, middle + up, spacing_m, [&](const Vec3& low, const Vec3& high) {
+      // Columns on either side of a narrow gap, as between fingers, do not see it.
+      if (!distance.inside(0.5 * (low + high))) return;
+      geometry::Box piece;
+      piece.extend(low + aside);
+      piece.extend(high - aside);
+      fill(corners_of(piece), ellipsoids);
+    });
   }
   return length_m;
 }

@@ -5,6 +5,8 @@
 #include <bit>
 #include <utility>
 
+#include <bodice/engine/parallel.hpp>
+
 namespace bodice::fitting {
 namespace {
 
@@ -64,25 +66,31 @@ std::vector<Vec3> part_means(const Items& items, const Region& region) {
 
 Items vertex_items(const LabelledSkin& skin) {
   Items items;
-  for (Index v = 0; v < skin.part.size(); ++v) {
-    items.where.push_back(skin.mesh.positions[v]);
-    items.weight.push_back(1.0);
-    items.part.push_back(skin.part[v]);
-  }
+  items.where = skin.mesh.positions;
+  items.weight.assign(skin.part.size(), 1.0);
+  items.part.assign(skin.part.begin(), skin.part.end());
   return items;
 }
 
-Items triangle_items(const LabelledSkin& skin) {
+Items triangle_items(const engine::Context& context, const LabelledSkin& skin) {
+  constexpr std::size_t kGrain = 2048;
   Items items;
   const geometry::TriMesh& m = skin.mesh;
+  const std::size_t count = m.triangles.size();
   items.points = m.positions;
-  for (std::size_t t = 0; t < m.triangles.size(); ++t) {
-    items.where.push_back((m.corner(t, 0) + m.corner(t, 1) + m.corner(t, 2)) / 3.0);
-    items.weight.push_back(geometry::area_vector(m, t).norm());
-    items.encloses.push_back(m.triangles[t]);
-    items.triangle.push_back(static_cast<Index>(t));
-    items.part.push_back(part_of(skin, m.triangles[t]));
-  }
+  items.encloses = m.triangles;
+  items.where.resize(count);
+  items.weight.resize(count);
+  items.triangle.resize(count);
+  items.part.resize(count);
+  engine::parallel_for(context, count, kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      items.where[t] = (m.corner(t, 0) + m.corner(t, 1) + m.corner(t, 2)) / 3.0;
+      items.weight[t] = geometry::area_vector(m, t).norm();
+      items.triangle[t] = static_cast<Index>(t);
+      items.part[t] = part_of(skin, m.triangles[t]);
+    }
+  });
   return items;
 }
 

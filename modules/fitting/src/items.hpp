@@ -11,7 +11,7 @@ namespace bodice::fitting {
 Items vertex_items(const LabelledSkin& skin);
 
 /// The solid tier's: every triangle whole, where it belongs by most of its corners.
-Items triangle_items(const LabelledSkin& skin);
+Items triangle_items(const engine::Context& context, const LabelledSkin& skin);
 
 /// One region a limb part (k = 1) and one for the torso, seeded by the means of its six parts. If that would
 /// be more than `most`, limbs join their neighbours, outer ones first.

@@ -40,13 +40,13 @@ double LocalFit::evaluate(const std::vector<Ellipsoid>& ellipsoids) {
 }
 
 NormalBlock LocalFit::normal_equations(std::size_t e) {
-  mine_.clear();
+  mine_.start(owner_.size());
   for (std::size_t i = 0; i < owner_.size(); ++i) {
     const float target = samples_.target[i], d = distance_[e][i];
     if (owner_[i] == e && loss_.cost(target, samples_.one_sided[i], d) > 0.0f)
       mine_.add(samples_.x[i], samples_.y[i], samples_.z[i], d - target, loss_.weight(target, d));
   }
-  return mine_.x.size() < kLeastSamples ? NormalBlock{} : normal_block(ellipsoids_[e], mine_);
+  return mine_.count < kLeastSamples ? NormalBlock{} : normal_block(ellipsoids_[e], mine_);
 }
 
 void LocalFit::advance(int steps) {

@@ -63,27 +63,19 @@ double total(const float (&lanes)[kLanes]) {
 
 }  // namespace
 
-void BlockSamples::clear() {
-  for (auto* v : {&x, &y, &z, &residual, &weight}) v->clear();
-}
-
-void BlockSamples::add(float px, float py, float pz, float r, float w) {
-  x.push_back(px);
-  y.push_back(py);
-  z.push_back(pz);
-  residual.push_back(r);
-  weight.push_back(w);
+void BlockSamples::start(std::size_t most) {
+  count = 0;
+  const std::size_t room = most + kLanes;
+  if (x.size() >= room) return;
+  for (auto* v : {&x, &y, &z, &residual, &weight, &d, &wx, &wy, &wz}) v->resize(room);
 }
 
 NormalBlock normal_block(const geometry::Ellipsoid& ellipsoid, BlockSamples& samples) {
   NormalBlock block;
-  if (samples.x.empty()) return block;
-  while (samples.x.size() % kLanes != 0) {
-    const float x = samples.x.front(), y = samples.y.front(), z = samples.z.front();
-    samples.add(x, y, z, 0.0f, 0.0f);
-  }
-  const std::size_t n = samples.x.size();
-  for (auto* v : {&samples.d, &samples.wx, &samples.wy, &samples.wz}) v->resize(n);
+  if (samples.count == 0) return block;
+  while (samples.count % kLanes != 0)
+    samples.add(samples.x.front(), samples.y.front(), samples.z.front(), 0.0f, 0.0f);
+  const std::size_t n = samples.count;
   const FootEllipsoid e(ellipsoid);
   foot_details(e, n, samples.x.data(), samples.y.data(), samples.z.data(), samples.d.data(),
                samples.wx.data(), samples.wy.data(), samples.wz.data());

@@ -21,6 +21,7 @@ constexpr int kIterations = 11;         // too few for a move of ellipsoids else
 /// Of the scaled body: with so few samples and ellipsoids a region, choosing candidates again costs more than
 /// keeping all that may ever be near.
 constexpr double kMostMotion = 0.3;
+constexpr int kCandidates = 6;            // of a sample: more change nothing but the time
 constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
 constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
 constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
@@ -49,7 +50,7 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
   const Scaling scaling(skin);
   const TightLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
   const std::vector<DistanceSample> samples = part_samples(skins, r, skin.stature_m);
-  TightProblem problem(samples, scaling, loss, kMostMotion);
+  TightProblem problem(samples, scaling, loss, kMostMotion, kCandidates);
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;
@@ -136,11 +137,11 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
   return run_region_tasks(context, regions, tasks);
 }
 
-void close_inside(const engine::Context& context, const InteriorColumns& columns,
+void close_inside(const engine::Context& context, const LabelledSkin& skin, const InteriorColumns& columns,
                   std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(e.shape);
-  cover_interior(context, columns, shapes);
+  cover_interior(context, columns, *skin.distance, shapes);
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
 }
 
@@ -148,7 +149,7 @@ void close_inside(const engine::Context& context, const InteriorColumns& columns
 
 engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSkin& skin,
                                 const FitOptions& options, int count) {
-  const Items items = triangle_items(skin);
+  const Items items = triangle_items(context, skin);
   const std::vector<Region> regions = make_regions(items, count);
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
   Draft draft;
@@ -165,7 +166,7 @@ engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSk
   if (mu.given()) report_thresholds(regions, *fitted, mu, draft);
   for (const FittedRegion& f : *fitted)
     draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());
-  if (whole) close_inside(context, columns, draft.data.ellipsoids);
+  if (whole) close_inside(context, skin, columns, draft.data.ellipsoids);
   return draft;
 }
 

@@ -18,10 +18,11 @@ constexpr std::size_t kEllipsoidGrain = 8;
 }  // namespace
 
 TightProblem::TightProblem(std::span<const DistanceSample> samples, const Scaling& scaling,
-                           const TightLoss& loss, double most_motion)
+                           const TightLoss& loss, double most_motion, int candidates)
     : scaling_(scaling),
       loss_(loss),
       most_motion_(most_motion),
+      candidates_(candidates),
       reach_(2.0f * static_cast<float>(most_motion)) {
   add(samples);
 }
@@ -93,7 +94,7 @@ void TightProblem::choose_candidates(const engine::Context& context,
                   std::span(of_balls).subspan(b * ellipsoids.size(), ellipsoids.size())},
                  reach_);
       for (std::size_t i = 0; i < samples; ++i) {
-        count_of_[first + i] = static_cast<std::uint8_t>(found.count(i));
+        count_of_[first + i] = static_cast<std::uint8_t>(std::min(found.count(i), candidates_));
         pairs_of_[first + i] = found.of(i);
       }
     }
@@ -268,7 +269,7 @@ std::vector<double> TightProblem::gains() const {
 
 /// The samples that ellipsoid k is answerable for.
 void TightProblem::gather(std::size_t k, BlockSamples& mine) const {
-  mine.clear();
+  mine.start(pair_begin_[k + 1] - pair_begin_[k]);
   for (std::uint32_t pair = pair_begin_[k]; pair < pair_begin_[k + 1]; ++pair) {
     const std::uint32_t i = pair_sample_[pair];
     if (owner_[i] != pair || cost_[i] == 0.0f) continue;

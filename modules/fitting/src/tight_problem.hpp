@@ -19,13 +19,13 @@
 namespace bodice::fitting {
 
 /// Samples in spatial order; each keeps the ellipsoids that can be its nearest until they have moved by
-/// most_motion(), up to kNear of them.
+/// most_motion(), up to `candidates` of them.
 class TightProblem {
  public:
   static constexpr int kNear = NearestCandidates::kMost;
 
   TightProblem(std::span<const DistanceSample> samples, const Scaling& scaling, const TightLoss& loss,
-               double most_motion);
+               double most_motion, int candidates = kNear);
 
   /// After refresh() no ellipsoid may move any point of its surface farther without another refresh().
   double most_motion() const { return most_motion_; }
@@ -70,6 +70,7 @@ class TightProblem {
   Scaling scaling_;
   TightLoss loss_;
   double most_motion_;
+  int candidates_;
   float reach_;  ///< two ellipsoids that move so far in all change places only within this
   std::array<std::vector<float>, 3> point_;        ///< #S
   std::vector<float> target_;                      ///< #S
