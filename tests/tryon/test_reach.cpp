@@ -154,7 +154,10 @@ TEST_CASE("leaving out what is beyond reach changes no answer within it, in any 
     REQUIRE(near.ok());
     CHECK(near->ellipsoids().size() < whole.ellipsoids().size());
     CHECK(near->bytes() < whole.bytes());
-    for (const proxy::ProxyEllipsoid& e : near->ellipsoids()) CHECK_FALSE(is_far_from_skirts(e.part));
+    // Those of tight and relief lie where they cover best: one that bounds the neck may fill the chest.
+    const bool within_parts = tier == proxy::Tier::kPaper || tier == proxy::Tier::kSolid;
+    for (const proxy::ProxyEllipsoid& e : near->ellipsoids())
+      CHECK_FALSE((within_parts && is_far_from_skirts(e.part)));
     CHECK(compare(whole, *near).other_bits == 0);
     const auto threads = bodice_test::make_threads(3);
     const auto again =

@@ -103,15 +103,24 @@ Index furthest(const Posed& b, Region region, const Vec3& direction) {
   return best;
 }
 
-/// How much less far than its farthest vertex the front of a foot reaches, and how far to the sides; a heavy
-/// thigh may reach as far.
+/// How much less far than its farthest vertex the front of a foot reaches, and how far to the sides.
 constexpr double kBluntFront = 0.016, kFootWidth = 0.06;  // of stature
+
+/// The vertex below the knee that reaches furthest; a heavy thigh may reach further.
+Index front_of_foot(const Posed& b, int side) {
+  const Region region = region_of_side(Region::kLegL, side);
+  const double knee = b.figure.joint[index(of_side(Bone::kCalfL, side))].y();
+  Index best = furthest(b, region, -Vec3::UnitY());
+  for (Index v = 0; v < b.rest.size(); ++v)
+    if (b.mesh.region[v] == region && b.rest[v].y() < knee && b.rest[v].z() > b.rest[best].z()) best = v;
+  return best;
+}
 
 /// The tip of a foot, a little within. Its front is blunt, so that the farthest vertex lies anywhere on it:
 /// the middle of what reaches nearly as far, the more the farther.
 Vec3 tip_of_foot(const Posed& b, int side) {
   const Region region = region_of_side(Region::kLegL, side);
-  const Index farthest = furthest(b, region, Vec3::UnitZ());
+  const Index farthest = front_of_foot(b, side);
   Vec3 moment = Vec3::Zero();
   double all = 0.0;
   for (const geometry::Triangle& t : b.triangles) {
