@@ -2,6 +2,7 @@
 // of.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <doctest/doctest.h>
 #include <bodice/anatomy/anatomy.hpp>
@@ -83,6 +84,22 @@ TEST_CASE("every garment fits real bodies at rest") {
     CAPTURE(name);
     if (const auto file = bodice_test::data_file(name)) check_wardrobe(bodice_test::read_mesh(*file));
   }
+}
+
+TEST_CASE("a neck's border that runs over the shoulders does not keep a poncho from fitting") {
+  auto body = synth::make_body({}, {.pose = synth::Pose::kT, .vertices = 3000}).value();
+  const geometry::MeshDistance skin({}, body.mesh);
+  const Vec3 neck = body.landmarks[static_cast<std::size_t>(body::LandmarkId::kNeck)].position;
+  std::size_t on_shoulders = 0;
+  for (std::size_t v = 0; v < body.part.size(); ++v) {
+    const Vec3 from_neck = body.mesh.positions[v] - neck;
+    const bool on_shoulder = std::hypot(from_neck.x(), from_neck.z()) < 0.13 && from_neck.y() > -0.03;
+    if (!on_shoulder || body.part[v] == body::Part::kHead) continue;
+    body.part[v] = body::Part::kHead;
+    ++on_shoulders;
+  }
+  REQUIRE(on_shoulders > 10);
+  check_worn(skin, {body.mesh, body.part, body.landmarks, body.stature_m}, GarmentKind::kPoncho);
 }
 
 // A found armpit is a place on a fold some centimetres tall, and a border between parts a matter of taste.
