@@ -1,7 +1,5 @@
 #include "surface_motion.hpp"
 
-#include <Eigen/LU>
-
 namespace bodice::collision {
 
 using geometry::Mat3;
@@ -13,17 +11,6 @@ Vec3 SurfaceMotion::at(const Vec3& x) const {
     velocity[row] = double{turn[3 * row]} * x[0] + double{turn[3 * row + 1]} * x[1] +
                     double{turn[3 * row + 2]} * x[2] + double{shift[row]};
   return velocity;
-}
-
-Vec3 SurfaceMotion::carry(const Vec3& before, double dt_s) const {
-  // x - (turn x + shift) dt = before
-  Mat3 back = Mat3::Identity();
-  Vec3 moved = before;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) back(row, column) -= double{turn[3 * row + column]} * dt_s;
-    moved[row] += double{shift[row]} * dt_s;
-  }
-  return back.inverse() * moved;  // a rotation and a change of radii: regular
 }
 
 double travel_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now) {

@@ -13,8 +13,6 @@ struct SurfaceMotion {
   float shift[3] = {};
 
   geometry::Vec3 at(const geometry::Vec3& x) const;
-  /// Where the material is now that was at `before` dt_s ago.
-  geometry::Vec3 carry(const geometry::Vec3& before, double dt_s) const;
 };
 
 /// A material point keeps its place in the ellipsoid's frame, in shares of the radii.

@@ -18,21 +18,28 @@ constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
 // A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
 
-/// A plane of the contact at x, which is there only if x lies on it.
+/// A plane of the contact at x, which is there only if x lies on it; elsewhere its normal is zero, and it
+/// holds no velocity back.
+HWY_INLINE Plane touching(const Plane& plane, M in_force, V3 x, float within_m, M& there) {
+  there = hn::And(in_force, hn::Ge(plane.missing(x), all(-within_m)));
+  const V zero = hn::Zero(f);
+  return {select(there, plane.n, {zero, zero, zero}), zero};
+}
+
 HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, const float* offset, int i,
                           const std::int32_t* of, V3 x, float within_m, M& there) {
   const Plane plane = {load3(nx + i, ny + i, nz + i), hn::Load(f, offset + i)};
   const M in_force = hn::RebindMask(f, hn::Gt(hn::Load(I(), of + i), hn::Set(I(), -1)));
-  there = hn::And(in_force, hn::Ge(plane.missing(x), all(-within_m)));
-  const V zero = hn::Zero(f);
-  return {select(in_force, plane.n, {zero, zero, zero}), zero};
+  return touching(plane, in_force, x, within_m, there);
 }
 
-/// The nearest velocity into none of the contact's planes at x; those of a bent surface have but one.
-HWY_INLINE V3 along_contact(const Way& way, int i, V3 x, float slack_m, V3 v) {
-  M two, three;
-  const float within_m = 4.0f * slack_m;
-  const Plane first = {load3(way.n1x + i, way.n1y + i, way.n1z + i), hn::Zero(f)};
+/// The nearest velocity into none of the contact's planes at x. The first may have been left behind, too, but
+/// on a bent surface, which has but one: its normal at x.
+HWY_INLINE V3 along_contact(const Way& way, int i, V3 x, bool bent, float slack_m, V3 v) {
+  M one, two, three;
+  const float within_m = bent ? 1e30f : 4.0f * slack_m;
+  const Plane pushed_first = {load3(way.n1x + i, way.n1y + i, way.n1z + i), hn::Load(f, way.offset1 + i)};
+  const Plane first = touching(pushed_first, hn::FirstN(f, kWidth), x, within_m, one);
   const Plane second = touching(way.n2x, way.n2y, way.n2z, way.offset2, i, way.of2, x, within_m, two);
   const Plane third = touching(way.n3x, way.n3y, way.n3z, way.offset3, i, way.of3, x, within_m, three);
   const V3 of_two = project({first.n, second.n, first.offset, second.offset, two}, v);
@@ -138,8 +145,8 @@ HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
 }
 
 /// Writes one vector back: place, velocity, and what is told about it.
-HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way, int i, Gathering& batch,
-                       V& deepest, BatchResponse& out) {
+HWY_INLINE void finish(const Clearance& clearance, bool bent, float reach_m, const Way& way, int i,
+                       Gathering& batch, V& deepest, BatchResponse& out) {
   M contact = mask_of(out.contact, i);
   if (hn::AllFalse(f, contact)) return;
   const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
@@ -162,7 +169,7 @@ HWY_INLINE void finish(const Clearance& clearance, float reach_m, const Way& way
     V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
     if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
     const V3 relative = v - body;
-    const V3 along_surface = along_contact(way, i, position, clearance.slack_m, relative);
+    const V3 along_surface = along_contact(way, i, position, bent, clearance.slack_m, relative);
     const V3 slowed = corrected_velocity(along_surface, clearance.friction, relative) + body;
     store3(select(contact, slowed, v), batch.vx + i, batch.vy + i, batch.vz + i);
   }
@@ -189,7 +196,7 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
   if (!settle(surface, batch, pushed, way)) return false;
   V deepest = hn::Zero(f);
   for (int i = 0; i < batch.count; i += kWidth)
-    finish(surface.clearance, reach_m, way, i, batch, deepest, out);
+    finish(surface.clearance, surface.bent(), reach_m, way, i, batch, deepest, out);
   out.deepest_m = hn::GetLane(hn::MaxOfLanes(f, deepest));
   for (int block = 0; block < kBlocks; ++block) out.contact.word[block] &= ~out.hard.word[block];
   out.iterations = std::max(1u, way.rounds);
