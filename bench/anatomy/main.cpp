@@ -5,6 +5,7 @@
 // file misses a bar.
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "cost.hpp"
 #include "report.hpp"
@@ -60,6 +61,11 @@ int main(int argc, char** argv) {
   report.header();
   for (std::uint64_t i = 0; i < arguments.seeds; ++i)
     run(bench::synth_case(arguments.from + i), report, sheet);
+  if (arguments.seeds == 0 && !std::filesystem::is_directory(arguments.data)) {
+    std::fprintf(stderr, "%s is no folder of bodies: tell one with --data, or made bodies with --seeds\n",
+                 arguments.data.c_str());
+    return 2;
+  }
   if (arguments.seeds == 0)
     for (const bench::Case& c : bench::file_cases(arguments.data, arguments.only)) run(c, report, sheet);
   report.summary();
