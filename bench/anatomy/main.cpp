@@ -56,23 +56,23 @@ int main(int argc, char** argv) {
     bench::print_cost();
     return 0;
   }
+  const bool of_files = arguments.seeds == 0;
+  if (of_files && !std::filesystem::is_directory(arguments.data)) {
+    std::fprintf(stderr, "%s is no folder of bodies: tell one with --data, or made bodies with --seeds\n",
+                 arguments.data.c_str());
+    return 2;
+  }
   bench::Report report(arguments.all || arguments.verbose, arguments.verbose);
   bench::Sheet sheet;
   report.header();
   for (std::uint64_t i = 0; i < arguments.seeds; ++i)
     run(bench::synth_case(arguments.from + i), report, sheet);
-  if (arguments.seeds == 0 && !std::filesystem::is_directory(arguments.data)) {
-    std::fprintf(stderr, "%s is no folder of bodies: tell one with --data, or made bodies with --seeds\n",
-                 arguments.data.c_str());
-    return 2;
-  }
-  if (arguments.seeds == 0)
+  if (of_files)
     for (const bench::Case& c : bench::file_cases(arguments.data, arguments.only)) run(c, report, sheet);
   report.summary();
   if (!arguments.picture.empty() && !sheet.write(arguments.picture)) {
     std::fprintf(stderr, "could not write %s\n", arguments.picture.c_str());
     return 1;
   }
-  const bool of_files = arguments.seeds == 0;
   return of_files && !report.holds_bars() ? 1 : 0;
 }

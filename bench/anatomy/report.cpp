@@ -109,12 +109,11 @@ void Report::weigh_warnings(const Case& c, const Score& s, const bodice::anatomy
 }
 
 double Report::false_alarms() const {
-  const int wrongly = warned_of_places_.bodies - warned_of_places_.rightly;
-  return static_cast<double>(wrongly) / static_cast<double>(std::max(bodies_, 1));
+  return static_cast<double>(warned_of_places_.wrongly()) / static_cast<double>(std::max(bodies_, 1));
 }
 
 void Report::print_warnings() const {
-  const int wrongly = warned_of_places_.bodies - warned_of_places_.rightly;
+  const int wrongly = warned_of_places_.wrongly();
   std::printf("%-22s %9s %9s\n%-22s %9d %9d\n%-22s %9d %9d\n", "", "doubted", "silent", "a bar missed",
               missed_ - missed_silently_, missed_silently_, "right", wrongly,
               bodies_ - refused_ - missed_ - wrongly);

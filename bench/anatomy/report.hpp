@@ -50,6 +50,7 @@ class Report {
   /// Bodies that were warned of, and those of them that do miss a bar.
   struct Warned {
     int bodies = 0, rightly = 0;
+    int wrongly() const { return bodies - rightly; }
   };
   std::map<std::string, Warned> warned_;  ///< by code of the warning
   Warned warned_of_places_;               ///< by any warning that doubts a place

@@ -4,12 +4,10 @@
 //        collision figures [largest body]
 //        collision counts [particles [repeats]]
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -20,37 +18,29 @@
 #include <Eigen/Geometry>
 
 #include <bench_support/origin.hpp>
-#include <bench_support/stopwatch.hpp>
 
 #include <bench_references/peers.hpp>
 #include <bench_references/subject.hpp>
 #include "counts.hpp"
 #include "figures.hpp"
 #include "frames.hpp"
+#include "peer_rows.hpp"
+#include "rows.hpp"
 #include "targets.hpp"
 
 namespace {
 
+using bench::error_of;
 using bench::Frames;
+using bench::kBand_m;
+using bench::Row;
+using bench::row_of;
 using bodice::collision::Collider;
 using bodice::collision::Contact;
 using bodice::collision::Workspace;
 using bodice::proxy::Tier;
 
-constexpr double kBand_m = 0.03;
 constexpr int kEllipsoids = 89;
-
-struct Row {
-  std::string name;
-  std::function<void()> work;
-  double particles;
-  double bar = 0.0;                       ///< what it must not exceed, ns; zero: none of its own
-  std::function<void()> prepare = [] {};  ///< before each, not timed
-  std::vector<double> ns = {};            ///< a particle, one a repeat
-
-  double median() const { return ns[ns.size() / 2]; }
-  double least() const { return ns.front(); }
-};
 
 /// What is asked.
 struct Question {
@@ -68,38 +58,6 @@ constexpr Question kQuestions[] = {{"all distances", std::numeric_limits<float>:
 /// Embree's distance has no sign: who is inside, and how deep, only the nearest triangle tells, however far
 /// it is. With the short reach it says nothing of particles that are deeper.
 constexpr double kFarReach_m = kBand_m + 0.001, kShortReach_m = 0.010;
-
-void measure(std::vector<Row>& rows, int repeats) {
-  for (Row& row : rows) row.work();
-  for (int r = 0; r < repeats; ++r)
-    for (Row& row : rows) {
-      row.prepare();
-      row.work();  // what came before has filled the caches with its own data
-      row.prepare();
-      const bench::Stopwatch watch;
-      row.work();
-      row.ns.push_back(1e6 * watch.cpu_ms() / row.particles);
-    }
-  for (Row& row : rows) std::sort(row.ns.begin(), row.ns.end());
-}
-
-/// Mean and 95th percentile of | |found| - |truth| |, mm, where the truth is within reach.
-std::string error_of(const std::vector<float>& found, const std::vector<double>& truth, bool with_sign,
-                     double reach_m = kBand_m) {
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double value = static_cast<double>(found[i]);
-    if (std::abs(truth[i]) > reach_m) continue;
-    errors.push_back(1e3 * std::abs(with_sign ? value - truth[i] : std::abs(value) - std::abs(truth[i])));
-  }
-  std::sort(errors.begin(), errors.end());
-  double sum = 0.0;
-  for (const double e : errors) sum += e;
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.2f / %.2f", sum / static_cast<double>(errors.size()),
-                errors[errors.size() * 95 / 100]);
-  return text;
-}
 
 /// One proxy: its particles in both orders, and room for the answers.
 struct Contender {
@@ -249,48 +207,6 @@ void add_limits(Limits& limits, std::vector<Row>& rows) {
   rows.push_back({"the copy in every response row", [&limits] { limits.copy = limits.cloud; }, n});
 }
 
-std::vector<std::size_t> one_of(std::size_t every, std::size_t count) {
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < count; i += every) chosen.push_back(i);
-  return chosen;
-}
-
-bench::Cloud thinned(const bench::Cloud& cloud, std::size_t every) {
-  bench::Cloud result;
-  for (const std::size_t i : one_of(every, cloud.size())) result.add(cloud.at(i));
-  return result;
-}
-
-/// A rival and the particles that it is asked about.
-struct AskedPeer {
-  bench::Peer& peer;
-  bench::Cloud coherent, random;
-
-  AskedPeer(bench::Peer& one, const bench::Cloud& ordered, const bench::Cloud& shuffled)
-      : peer(one), coherent(thinned(ordered, one.one_of)), random(thinned(shuffled, one.one_of)) {}
-};
-
-/// `truth` of all particles in coherent order; `distances` has room for as many.
-void add_peer(AskedPeer& asked, const std::vector<double>& truth, std::vector<float>& distances,
-              std::vector<Row>& rows) {
-  const bench::Peer& peer = asked.peer;
-  std::vector<double> of_asked;
-  for (const std::size_t i : one_of(peer.one_of, truth.size())) of_asked.push_back(truth[i]);
-  peer.query(asked.coherent, distances);
-  std::printf("%s: error %s mm, build %.1f ms, %.0f kB\n", peer.name.c_str(),
-              error_of(distances, of_asked, peer.bytes > 0.0, peer.reach_m).c_str(), peer.build_ms,
-              1e-3 * peer.bytes);
-  const auto n = static_cast<double>(of_asked.size());
-  rows.push_back({peer.name + ", coherent", [&] { peer.query(asked.coherent, distances); }, n});
-  rows.push_back({peer.name + ", random", [&] { peer.query(asked.random, distances); }, n});
-}
-
-const Row& row_of(const std::vector<Row>& rows, const std::string& name) {
-  const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == name; });
-  if (row == rows.end()) throw std::logic_error("no row " + name);
-  return *row;
-}
-
 void print_ratio(const std::string& what, const Row& over, const Row& under, const std::string& bar) {
   std::printf("| %s | %.2f | %.2f | %s |\n", what.c_str(), over.median() / under.median(),
               over.least() / under.least(), bar.c_str());
@@ -391,10 +307,10 @@ int main(int argc, char** argv) {
   add_limits(*limits, rows);
   for (auto& contender : contenders) add_rows(*contender, rows);
   std::vector<float> distances(count);
-  std::deque<AskedPeer> asked;
+  std::deque<bench::AskedPeer> asked;
   for (bench::Peer& peer : peers)
-    add_peer(asked.emplace_back(peer, coherent, random), truth, distances, rows);
-  measure(rows, repeats);
+    bench::add_peer(asked.emplace_back(peer, coherent, random), truth, distances, rows);
+  bench::measure(rows, repeats);
   std::printf("\n| question | ns a particle, median | min | bar |\n|---|---|---|---|\n");
   for (const Row& row : rows) {
     std::printf("| %s | %.1f | %.1f |", row.name.c_str(), row.median(), row.least());

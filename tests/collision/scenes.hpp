@@ -150,4 +150,11 @@ inline bodice::geometry::NearestPoint brute_force(const std::vector<Ellipsoid>& 
   return best;
 }
 
+/// One ball around the origin.
+inline std::vector<Ellipsoid> ball(double radius_m) {
+  std::vector<Ellipsoid> shapes(1);
+  shapes[0].radii.setConstant(radius_m);
+  return shapes;
+}
+
 }  // namespace bodice_test

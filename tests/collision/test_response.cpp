@@ -44,50 +44,6 @@ std::size_t below(const std::vector<Ellipsoid>& shapes, const Collider& collider
   return count;
 }
 
-std::vector<Ellipsoid> ball(double radius_m) {
-  std::vector<Ellipsoid> shapes(1);
-  shapes[0].radii.setConstant(radius_m);
-  return shapes;
-}
-
-// Tangent planes that a particle was put on leave it a little off the curved surface.
-constexpr double kSurelyOn_m = 2e-5, kSurelyOff_m = 2e-4;
-
-/// Half-metre balls that meet around the origin, which is up to a millimetre inside of each.
-std::vector<Ellipsoid> corner(engine::Random& random, int count) {
-  std::vector<Ellipsoid> shapes = std::vector<Ellipsoid>(static_cast<std::size_t>(count), ball(0.5)[0]);
-  const Vec3 outward = random_direction(random);
-  for (Ellipsoid& e : shapes)
-    e.center = (random.uniform(1e-4, 1e-3) - 0.5) * (outward + 0.9 * random_direction(random)).normalized();
-  return shapes;
-}
-
-/// The nearest velocity that goes into none of the surfaces, by Dykstra's projections.
-Vec3 nearest_velocity(const std::vector<Vec3>& normals, Vec3 v) {
-  std::vector<double> pushed(normals.size(), 0.0);
-  for (int round = 0; round < 500; ++round)
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      const double along = normals[i].dot(v) - pushed[i];
-      const double push = std::max(0.0, -along);
-      v += (push - pushed[i]) * normals[i];
-      pushed[i] = push;
-    }
-  return v;
-}
-
-/// How far `after` is from what some of the touched surfaces make of `before`: one that a particle came to
-/// lie on by chance, pushed out of another, is no contact yet.
-double velocity_error(const std::vector<Vec3>& touched, const Vec3& before, const Vec3& after) {
-  double least = std::numeric_limits<double>::infinity();
-  for (unsigned some = 1; some < 1u << touched.size(); ++some) {
-    std::vector<Vec3> normals;
-    for (std::size_t i = 0; i < touched.size(); ++i)
-      if (some >> i & 1u) normals.push_back(touched[i]);
-    least = std::min(least, (nearest_velocity(normals, before) - after).norm());
-  }
-  return least;
-}
-
 }  // namespace
 
 TEST_CASE("after the nearest response no particle is inside, whatever the union looks like") {
@@ -173,98 +129,6 @@ TEST_CASE("a particle in a crease goes to the crease, which no single push finds
   CHECK(cloud.position(0).y() == doctest::Approx(0.3).epsilon(1e-3));
 }
 
-TEST_CASE("velocity: the inward part goes, friction slows the rest by at most its share") {
-  const Collider collider(proxy_of(ball(1.0)));
-  for (const float friction : {0.0f, 0.3f, 2.0f}) {
-    Cloud cloud;
-    cloud.add(Vec3(0, 0.999, 0), Vec3(1.0, -2.0, 0.0));
-    cloud.add(Vec3(0, 0.999, 0), Vec3(1.0, 2.0, 0.0));
-    collider.resolve({}, cloud.particles(), {.friction = friction});
-    const double along = std::max(0.0, 1.0 - 2.0 * double{friction});
-    CHECK(cloud.velocity(0).x() == doctest::Approx(along).epsilon(1e-5).scale(1.0));
-    CHECK(cloud.velocity(0).y() == doctest::Approx(0.0).epsilon(1e-5).scale(1.0));
-    // Already on its way out: nothing to remove.
-    CHECK(cloud.velocity(1).y() == doctest::Approx(2.0).epsilon(1e-5));
-    CHECK(cloud.velocity(1).x() == doctest::Approx(1.0).epsilon(1e-5));
-  }
-}
-
-TEST_CASE("in a crease the velocity goes into neither side, and stays along it") {
-  auto shapes = ball(0.5);
-  shapes.push_back(shapes[0]);
-  shapes[0].center.x() = -0.4;
-  shapes[1].center.x() = 0.4;
-  const Collider collider(proxy_of(shapes));
-  Cloud cloud;
-  cloud.add(Vec3(0.001, 0.28, 0.0), Vec3(0.1, -1.0, 0.5));
-  const ContactReport report = collider.resolve({}, cloud.particles(), {.friction = 0.0f});
-  CHECK(report.judged_exactly == 0);  // the kernels' own
-  for (const Ellipsoid& e : shapes) {
-    const Vec3 outward = (cloud.position(0) + collider.origin() - e.center).normalized();
-    CHECK(outward.dot(cloud.velocity(0)) > -1e-4);
-  }
-  CHECK(cloud.velocity(0).head<2>().norm() < 1e-3);
-  CHECK(cloud.velocity(0).z() == doctest::Approx(0.5).epsilon(1e-3));
-}
-
-TEST_CASE("velocities go into no surface that a particle ends on, and mind no other") {
-  for (const bool exactly : {false, true}) {
-    CAPTURE(exactly);
-    engine::Random random(23);
-    int judged = 0, left_behind = 0, wrong = 0;
-    for (int i = 0; i < 3000; ++i) {
-      const auto shapes = corner(random, 3 + i % 3);
-      const Collider collider(proxy_of(shapes));
-      const Vec3 velocity = random_vector(random, 1.0);
-      Cloud cloud;
-      cloud.add(-collider.origin(), velocity);
-      // A path this long is for the exact side; it begins inside of a ball and says nothing.
-      if (exactly) cloud.add_safe(shapes[0].center - collider.origin());
-      const ContactReport report = collider.resolve({}, cloud.particles(), {.friction = 0.0f});
-      if ((report.judged_exactly == 1) != exactly) continue;
-      std::vector<Vec3> touched;
-      bool unclear = false;
-      for (const Ellipsoid& e : shapes) {
-        const auto at = geometry::nearest_point(e, cloud.position(0) + collider.origin());
-        if (at.signed_distance < kSurelyOn_m) touched.push_back(at.normal);
-        unclear |= at.signed_distance >= kSurelyOn_m && at.signed_distance < kSurelyOff_m;
-      }
-      if (unclear || touched.empty()) continue;
-      ++judged;
-      left_behind += touched.size() < shapes.size();
-      wrong += velocity_error(touched, velocity, cloud.velocity(0)) > 0.05;
-    }
-    CHECK(judged > 1000);
-    CHECK(left_behind > 500);
-    CHECK(wrong == 0);
-  }
-}
-
-TEST_CASE("a surface that the last push went clear of takes no velocity") {
-  // As good as planes: out of the first a particle meets the second, out of both the third, and where first
-  // and third meet, the second is left 0.7 mm behind.
-  const Vec3 normal[] = {Vec3(0.754781, -0.65547, -0.0257928), Vec3(0.906131, 0.119704, 0.405707),
-                         Vec3(0.998862, 0.00784065, 0.0470552)};
-  const double depth_m[] = {0.0480944, 0.0393062, 0.0463850};
-  std::vector<Ellipsoid> shapes(3, ball(50.0)[0]);
-  for (std::size_t k = 0; k < 3; ++k) shapes[k].center = (depth_m[k] - 50.0) * normal[k].normalized();
-  Vec3 along = normal[0].cross(normal[2]).normalized();
-  if (along.dot(normal[1]) > 0.0) along = -along;
-  const Collider collider(proxy_of(shapes));
-  for (const bool exactly : {false, true}) {
-    Cloud cloud;
-    cloud.add(-collider.origin(), along);
-    if (exactly) cloud.add_safe(shapes[0].center - collider.origin());  // far, inside: says nothing
-    const ContactReport report = collider.resolve({}, cloud.particles(), {.friction = 0.0f});
-    CAPTURE(exactly);
-    CHECK(report.judged_exactly == (exactly ? 1u : 0u));
-    CHECK(report.max_iterations >= 3);
-    const Vec3 at = cloud.position(0) + collider.origin();
-    CHECK(geometry::nearest_point(shapes[1], at).signed_distance > 5e-4);
-    CHECK((cloud.velocity(0) - along).norm() < 0.01);
-  }
-}
-
 TEST_CASE("a push is bounded beyond taking back the path, in floats and on the exact side") {
   for (const bool exactly : {false, true}) {
     auto shapes = ball(0.5);
@@ -281,19 +145,6 @@ TEST_CASE("a push is bounded beyond taking back the path, in floats and on the e
     CHECK(report.pending == 1);
     CHECK(cloud.y[0] == doctest::Approx(0.486).epsilon(1e-5));
   }
-}
-
-TEST_CASE("a moving body drags what it touches with its own velocity") {
-  auto shapes = ball(1.0);
-  Collider collider(proxy_of(shapes));
-  shapes[0].center.x() = 0.03;
-  collider.move_to(shapes, 0.01);
-  const Vec3 velocity = collider.surface_velocity(0, Vec3(0.0, 1.0, 0.0));
-  CHECK((velocity - Vec3(3.0, 0.0, 0.0)).norm() < 1e-5);
-  Cloud cloud;
-  cloud.add(Vec3(0.03, 0.999, 0.0), Vec3(0.0, -10.0, 0.0));
-  collider.resolve({}, cloud.particles(), {.friction = 5.0f});
-  CHECK((cloud.velocity(0) - Vec3(3.0, 0.0, 0.0)).norm() < 1e-3);
 }
 
 TEST_CASE("options that are no lengths do no harm") {
