@@ -97,6 +97,19 @@ TEST_CASE("what no source reaches is unreachable, and sources outside the mesh a
   for (geometry::Index v = 0; v < 2 * offset; ++v) CHECK(nearest.source[v] == (v < offset ? 0u : 1u));
 }
 
+TEST_CASE("within a distance every bit is as without the limit, and beyond it nothing is reached") {
+  const auto mesh = shapes::sphere(4);
+  const auto graph = graph_of(mesh, Metric::kUnfolded);
+  // The second seed starts long after all that the first reaches within the lesser limits.
+  const std::array<geodesic::Seed, 3> seeds{{{5, 0.0F}, {600, 0.9F}, {601, 33.0F}}};
+  const auto all = geodesic::distances(graph, seeds);
+  for (const float most : {0.0F, 0.05F, 0.5F, 0.95F, 1.6F, 40.0F}) {
+    const auto field = geodesic::distances_within(graph, seeds, most);
+    for (std::size_t v = 0; v < all.size(); ++v)
+      REQUIRE(field[v] == (all[v] <= most ? all[v] : geodesic::kUnreachable));
+  }
+}
+
 TEST_CASE("the multi-source run is the least of single runs, ties to the first") {
   const auto mesh = shapes::grid(10);
   const auto graph = graph_of(mesh, Metric::kUnfolded);

@@ -22,6 +22,11 @@ class BodyCoordinates {
 
   /// side 0: seen from the body's left, 1: from its right.
   CoordinateArray at(std::size_t vertex, int side) const;
+  /// Metres that count as one in the distance from an end.
+  float unit_of(Coordinate end) const {
+    if (end == kFromHead) return size_;
+    return end == kOwnHand || end == kOtherHand ? ends_.hands_apart : ends_.feet_apart;
+  }
   geometry::Index perineum() const { return perineum_; }
   const geometry::Vec3& perineum_place() const { return perineum_place_; }
   float perineum_misfit() const { return perineum_misfit_; }

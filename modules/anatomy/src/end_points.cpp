@@ -95,6 +95,16 @@ void refine_all(const engine::Context& context, const Skin& skin, float size, En
   }
 }
 
+/// n x n, row-major, metres.
+std::vector<float> distances_between(const FarthestPoints& points) {
+  const std::size_t n = points.vertex.size();
+  std::vector<float> apart(n * n, 0.0F);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      apart[i * n + j] = apart[j * n + i] = points.field[j][points.vertex[i]];
+  return apart;
+}
+
 /// An arm's way to the leg of its own side is shorter. Sums over both sides cancel what a pose does to one
 /// limb.
 void pair_sides(EndPoints& ends, float size) {
@@ -112,15 +122,13 @@ std::optional<EndPoints> find_end_points(const engine::Context& context, const S
   FarthestPoints c = farthest_points(context, skin, kCandidates);
   const std::size_t n = c.vertex.size();
   if (n < kEndCount) return std::nullopt;
-  std::vector<float> apart(n * n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) apart[i * n + j] = c.field[i][c.vertex[j]];
-  const std::optional<EndMatch> match = match_ends(apart, n);
+  const std::optional<EndMatch> match = match_ends(distances_between(c), n);
   if (!match) return std::nullopt;
   EndPoints ends;
   for (int e = 0; e < kEndCount; ++e) {
     ends.vertex[e] = c.vertex[match->candidate[e]];
     ends.field[e] = std::move(c.field[match->candidate[e]]);
+    if (ends.field[e].empty()) ends.field[e] = geodesic::distances_from(skin.graph, ends.vertex[e]);
   }
   ends.misfit = match->misfit;
   const auto size = static_cast<float>(match->size_m);

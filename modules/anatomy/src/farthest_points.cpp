@@ -78,15 +78,21 @@ FarthestPoints farthest_points(const engine::Context& context, const Skin& skin,
   FarthestPoints points;
   Field nearest, ahead;
   Index next = kNoIndex;  // where `ahead` is measured from
+  const bool alone = context.executor->concurrency() < 2;
   for (Index now = start_vertex(skin); points.vertex.size() < count; now = farthest(nearest)) {
     if (!nearest.empty() && !(now != kNoIndex && nearest[now] > 0.0F)) break;
     Field field;
+    if (points.vertex.size() + 1 == count) {
+      points.vertex.push_back(now);
+      points.field.emplace_back();
+      break;
+    }
     if (now == next) {
       field = std::move(ahead);
       next = kNoIndex;
     } else {
-      const bool last = nearest.empty() || points.vertex.size() + 1 == count;
-      next = last ? kNoIndex : probably_next(skin, nearest, now);
+      const bool last = nearest.empty() || points.vertex.size() + 2 == count;
+      next = last || alone ? kNoIndex : probably_next(skin, nearest, now);
       engine::parallel_for(context, next == kNoIndex ? 1 : 2, 1, [&](std::size_t i, std::size_t) {
         (i == 0 ? field : ahead) = geodesic::distances_from(skin.graph, i == 0 ? now : next);
       });

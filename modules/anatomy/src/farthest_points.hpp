@@ -7,7 +7,9 @@ namespace bodice::anatomy {
 
 struct FarthestPoints {
   std::vector<geometry::Index> vertex;
-  std::vector<geodesic::Field> field;  ///< distance of every vertex from each, metres
+  /// Distance of every vertex from each, metres. Empty for the last of as many as were asked for: how far it
+  /// lies from the others, their fields tell.
+  std::vector<geodesic::Field> field;
 };
 
 /// Each the farthest from all before it, at most `count`: fewer where nothing farther is left. The first lies

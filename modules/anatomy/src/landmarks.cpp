@@ -67,11 +67,15 @@ const Field& from_end(const BodyEnds& ends, Coordinate end, int side) {
 /// The border's loop: the longest closed zero line near the limb's end.
 Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Border& border, float beyond,
                   int side, Coordinate end, float reach) {
-  Field score(skin.mesh.positions.size());
+  constexpr float kOutside = -1e-6F;
+  const Field& from = from_end(coordinates.ends(), end, side);
+  const float no_neighbour = reach * coordinates.unit_of(end) + 2.0F * skin.graph.longest;
+  Field score(skin.mesh.positions.size(), kOutside);
   for (std::size_t v = 0; v < score.size(); ++v) {
+    if (!(from[v] < no_neighbour)) continue;
     const CoordinateArray x = coordinates.at(v, side);
     const float s = border(x) + beyond;
-    score[v] = x[end] < reach ? s : std::min(s, -1e-6F);
+    score[v] = x[end] < reach ? s : std::min(s, kOutside);
   }
   const float zero = 0.0F;
   const auto lines = geodesic::isolines(skin.mesh, skin.edges, score, {&zero, 1})[0];
@@ -80,7 +84,7 @@ Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Bo
     if (best == nullptr || line.girth_m > best->girth_m) best = &line;
   if (best == nullptr) return {};
   Girth girth{best->centroid, skin.edges.ends[best->edges[0]][0], best->girth_m, best->closed ? 1.0 : 0.5};
-  girth.level_m = mean_on(skin, *best, from_end(coordinates.ends(), end, side));
+  girth.level_m = mean_on(skin, *best, from);
   girth.from_front = least_on(skin, *best, coordinates.from_front());
   girth.from_back = least_on(skin, *best, coordinates.from_back());
   return girth;

@@ -23,23 +23,29 @@ constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as part
 /// 2 that of an obese runner's.
 constexpr float kThroughSpace = 4.0F;
 
+/// No way along the skin is longer than over the toe: nothing that is asked for lies farther than the sum of
+/// two distances from the toe, and what an edge adds at either end.
+float over_the_toe(const Skin& skin, float first, float second) {
+  return first + second + 2.0F * skin.graph.longest;
+}
+
 /// Distances from the loop around the calf at a level of the distance from the toe, which only the foot
 /// needs.
-Field distances_from_calf(const Skin& skin, const Field& from_toe, float level) {
+Field distances_from_calf(const Skin& skin, const Field& from_toe, float level, float foot) {
   std::vector<geodesic::Seed> seeds;
   for (const auto& [a, b] : skin.edges.ends) {
     if ((from_toe[a] < level) == (from_toe[b] < level)) continue;
     const Index above = from_toe[a] < level ? b : a;
     seeds.push_back({above, from_toe[above] - level});
   }
-  return geodesic::distances(skin.graph, seeds);
+  return geodesic::distances_within(skin.graph, seeds, over_the_toe(skin, level, foot));
 }
 
 /// The heel is the dead end of the foot: the ways toe - heel - head and, twice, toe - heel - calf are long. A
 /// bent knee shortens the first over the back of the leg, a pointed foot the second; on a foot that is not
 /// pointed, the heel also lies farther from the toe through space than the front of the ankle does.
 Index find_heel(const Skin& skin, const EndPoints& ends, End foot, float leg) {
-  const Field from_calf = distances_from_calf(skin, ends.field[foot], kCalf * leg);
+  const Field from_calf = distances_from_calf(skin, ends.field[foot], kCalf * leg, kHeelTo * leg);
   const Vec3& toe = skin.mesh.positions[ends.vertex[foot]];
   Index heel = ends.vertex[foot];
   float most = -1.0F;
@@ -97,7 +103,9 @@ double mean_over_loops(const Skin& skin, const Field& field, const std::array<fl
 /// the back from the heel, on loops at equal distance from the toe.
 double leftness(const Skin& skin, const EndPoints& ends, End foot, End other) {
   const float leg = 0.5F * ends.feet_apart();
-  const Field heel = geodesic::distances_from(skin.graph, find_heel(skin, ends, foot, leg));
+  const geodesic::Seed from{find_heel(skin, ends, foot, leg), 0.0F};
+  const Field heel = geodesic::distances_within(skin.graph, {&from, 1},
+                                                over_the_toe(skin, kHeelTo * leg, kReadAt.back() * leg));
   std::array<float, kReadAt.size()> levels{};
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = kReadAt[i] * leg;
   return mean_over_loops(skin, ends.field[foot], levels, [&](const Isoline& loop) {

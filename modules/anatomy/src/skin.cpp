@@ -1,13 +1,17 @@
 #include "skin.hpp"
 
+#include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
 namespace bodice::anatomy {
 
 Skin make_skin(const engine::Context& context, const geometry::TriMesh& mesh) {
   Skin skin{mesh, geodesic::mesh_edges(mesh), {}, {}, 0, 0, 0};
-  skin.graph = geodesic::edge_graph(context, mesh, skin.edges, geodesic::Metric::kUnfolded);
-  geometry::Components pieces = geometry::connected_components(mesh);
+  geometry::Components pieces;
+  engine::parallel_for(context, 2, 1, [&](std::size_t task, std::size_t) {
+    if (task == 0) skin.graph = geodesic::edge_graph(context, mesh, skin.edges, geodesic::Metric::kUnfolded);
+    if (task == 1) pieces = geometry::connected_components(mesh);
+  });
   skin.component = std::move(pieces.of_vertex);
   skin.components = pieces.area.size();
   for (const double area : pieces.area) skin.pieces += area > 0.0;

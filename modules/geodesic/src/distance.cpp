@@ -3,7 +3,10 @@
 // link. Rounded addition is monotone, so the least fixed point, and with it every bit of the result, is
 // Dijkstra's.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geodesic/distance.hpp>
@@ -16,7 +19,7 @@ using geometry::kNoIndex;
 
 /// Bucket width in mean link lengths: wide enough to visit few empty buckets, narrow enough to settle few
 /// vertices twice.
-constexpr float kBucketWidth = 0.75F;
+constexpr float kBucketWidth = 0.35F;
 /// Meshes whose longest link is thousands of times the mean get wider buckets instead of more.
 constexpr std::size_t kMostBuckets = 1 << 12;
 
@@ -24,63 +27,105 @@ class Buckets {
  public:
   explicit Buckets(const EdgeGraph& graph) {
     const float wanted = kBucketWidth * graph.mean;
-    const float least = graph.longest / static_cast<float>(kMostBuckets - 2);
+    const float least = graph.longest / static_cast<float>(kMostBuckets - 3);
     const float width = std::max({wanted, least, std::numeric_limits<float>::min()});
     scale_ = 1.0F / width;
-    ring_.resize(static_cast<std::size_t>(graph.longest * scale_) + 3);
+    ring_.resize(std::bit_ceil(static_cast<std::size_t>(graph.longest * scale_) + 3));
+    mask_ = ring_.size() - 1;
   }
-  void push(Index vertex, float distance) {
-    ring_[slot(distance) % ring_.size()].push_back({vertex, distance});
+  void push(const Seed& entry) {
+    ring_[slot(entry.distance) & mask_].push_back(entry);
     ++size_;
   }
+  /// Takes out the nearest bucket; what is pushed into it later comes with the next call.
   /// Precondition: not empty.
-  Seed pop() {
-    while (ring_[current_ % ring_.size()].empty()) ++current_;
-    auto& bucket = ring_[current_ % ring_.size()];
-    const Seed entry = bucket.back();
-    bucket.pop_back();
-    --size_;
-    return entry;
+  void pop(std::vector<Seed>& bucket) {
+    while (ring_[current_ & mask_].empty()) ++current_;
+    bucket.clear();
+    bucket.swap(ring_[current_ & mask_]);
+    size_ -= bucket.size();
   }
   bool empty() const { return size_ == 0; }
 
  private:
   std::size_t slot(float distance) const {
-    return std::max(current_, static_cast<std::size_t>(distance * scale_));
+    return std::max(current_, static_cast<std::size_t>(static_cast<std::int64_t>(distance * scale_)));
   }
-  std::vector<std::vector<Seed>> ring_;
+  std::vector<std::vector<Seed>> ring_;  ///< a power of two, so that a slot is found without a division
+  std::size_t mask_ = 0;
   float scale_ = 1.0F;
   std::size_t current_ = 0;
   std::size_t size_ = 0;
 };
 
+// Whether a link shortens a way, and whether an entry has been overtaken, is as good as chance to a processor
+// that guesses: both loops below first gather, without a jump, what there is to do.
+
+void drop_overtaken(std::vector<Seed>& entries, const Field& field) {
+  std::size_t count = 0;
+  for (const Seed& entry : entries) {
+    const bool live = entry.distance <= field[entry.vertex];
+    entries[count] = entry;
+    count += live;
+  }
+  entries.resize(count);
+}
+
+/// Follows the links of a vertex that shorten a way, or make another as short.
+template <class Reached>
+void relax(const EdgeGraph& graph, const Seed& at, Field& field, Buckets& buckets, Reached reached) {
+  constexpr Index kBlock = 32;
+  std::array<Seed, kBlock> nearer;
+  const Index end = graph.offset[at.vertex + 1];
+  for (Index begin = graph.offset[at.vertex]; begin < end; begin += std::min(kBlock, end - begin)) {
+    const Index stop = begin + std::min(kBlock, end - begin);
+    std::size_t count = 0;
+    for (Index k = begin; k < stop; ++k) {
+      const Link& link = graph.links[k];
+      const float distance = at.distance + link.length;
+      nearer[count] = {link.to, distance};
+      count += distance <= field[link.to];
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Seed& to = nearer[i];
+      if (to.distance > field[to.vertex]) continue;  // a shorter link of the same row leads there
+      if (!reached(at.vertex, to.vertex, to.distance < field[to.vertex])) continue;
+      field[to.vertex] = to.distance;
+      buckets.push(to);
+    }
+  }
+}
+
+float nearest_of(const std::vector<Seed>& entries) {
+  float least = kUnreachable;
+  for (const Seed& entry : entries) least = std::min(least, entry.distance);
+  return least;
+}
+
+/// Settles every vertex that is no farther than `most`; others keep what they were offered, if anything.
 /// Seeds that start later than one ring ahead would alias an earlier bucket, so they wait, sorted, outside.
 template <class Reached>
-void run(const EdgeGraph& graph, std::vector<Seed> seeds, Field& field, Reached reached) {
+void run(const EdgeGraph& graph, std::vector<Seed> seeds, float most, Field& field, Reached reached) {
   Buckets buckets(graph);
   std::stable_sort(seeds.begin(), seeds.end(),
                    [](const Seed& a, const Seed& b) { return a.distance < b.distance; });
   std::size_t waiting = 0;
   float horizon = 0.0F;
+  std::vector<Seed> front;
   while (waiting < seeds.size() || !buckets.empty()) {
     if (buckets.empty()) horizon = seeds[waiting].distance;
     for (; waiting < seeds.size() && seeds[waiting].distance <= horizon; ++waiting)
       if (seeds[waiting].distance < field[seeds[waiting].vertex] || seeds[waiting].distance == 0.0F) {
         field[seeds[waiting].vertex] = seeds[waiting].distance;
-        buckets.push(seeds[waiting].vertex, seeds[waiting].distance);
+        buckets.push(seeds[waiting]);
       }
     if (buckets.empty()) continue;
-    const Seed at = buckets.pop();
-    if (at.distance > field[at.vertex]) continue;
-    horizon = std::max(horizon, at.distance);
-    for (Index k = graph.offset[at.vertex]; k < graph.offset[at.vertex + 1]; ++k) {
-      const Link& link = graph.links[k];
-      const float distance = at.distance + link.length;
-      if (distance > field[link.to]) continue;
-      if (reached(at.vertex, link.to, distance < field[link.to])) {
-        field[link.to] = distance;
-        buckets.push(link.to, distance);
-      }
+    buckets.pop(front);
+    drop_overtaken(front, field);
+    if (most < kUnreachable && nearest_of(front) > most) front.clear();
+    for (const Seed& at : front) {
+      horizon = std::max(horizon, at.distance);
+      relax(graph, at, field, buckets, reached);
     }
   }
 }
@@ -88,11 +133,16 @@ void run(const EdgeGraph& graph, std::vector<Seed> seeds, Field& field, Reached 
 }  // namespace
 
 Field distances(const EdgeGraph& graph, std::span<const Seed> seeds) {
+  return distances_within(graph, seeds, kUnreachable);
+}
+
+Field distances_within(const EdgeGraph& graph, std::span<const Seed> seeds, float most) {
   Field field(graph.vertex_count(), kUnreachable);
   std::vector<Seed> valid;
   for (const Seed& seed : seeds)
     if (seed.vertex < field.size() && seed.distance >= 0.0F) valid.push_back(seed);
-  run(graph, std::move(valid), field, [](Index, Index, bool shorter) { return shorter; });
+  run(graph, std::move(valid), most, field, [](Index, Index, bool shorter) { return shorter; });
+  for (float& distance : field) distance = distance <= most ? distance : kUnreachable;
   return field;
 }
 
@@ -110,7 +160,7 @@ NearestSource nearest_sources(const EdgeGraph& graph, std::span<const Index> sou
     if (result.source[sources[i]] == kNoIndex) seeds.push_back({sources[i], 0.0F});
     result.source[sources[i]] = static_cast<Index>(i);
   }
-  run(graph, std::move(seeds), result.distance, [&](Index from, Index to, bool shorter) {
+  run(graph, std::move(seeds), kUnreachable, result.distance, [&](Index from, Index to, bool shorter) {
     const bool better = shorter || result.source[from] < result.source[to];
     if (better) result.source[to] = result.source[from];
     return better;

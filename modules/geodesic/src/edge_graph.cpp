@@ -49,7 +49,8 @@ std::optional<Bridge> across(const geometry::TriMesh& mesh, const MeshEdges& edg
   if (!(u.y + w.y > 0.0)) return std::nullopt;
   const double crossing = (u.x * w.y + w.x * u.y) / (u.y + w.y);
   if (crossing <= 0.0 || crossing >= length) return std::nullopt;
-  return Bridge{p, q, static_cast<float>(std::hypot(u.x - w.x, u.y + w.y))};
+  const double along = u.x - w.x, away = u.y + w.y;
+  return Bridge{p, q, static_cast<float>(std::sqrt(along * along + away * away))};
 }
 
 std::vector<Bridge> two_way_links(const engine::Context& context, const geometry::TriMesh& mesh,

@@ -16,32 +16,39 @@ struct Crossed {
   std::vector<Index> triangles;
 };
 
-/// Levels must be sorted. first = first level above the triangle's minimum, last = one past those at or below
-/// its maximum.
-template <class Visit>
-void for_crossed_levels(const geometry::TriMesh& mesh, std::span<const float> field,
-                        std::span<const float> levels, Visit visit) {
+struct Crossing {
+  std::size_t level;
+  Index triangle;
+};
+
+/// A level crosses a triangle if it lies above its least corner, and not above its greatest.
+/// Levels must be sorted.
+std::vector<Crossing> find_crossings(const geometry::TriMesh& mesh, std::span<const float> field,
+                                     std::span<const float> levels) {
+  std::vector<Crossing> found;
+  const float lowest = levels.front(), highest = levels.back();
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     const auto& t = mesh.triangles[f];
-    const auto [low, high] = std::minmax({field[t[0]], field[t[1]], field[t[2]]});
-    if (!std::isfinite(high) || !std::isfinite(low) || high < levels.front() || low >= levels.back())
-      continue;
+    const float a = field[t[0]], b = field[t[1]], c = field[t[2]];
+    const float low = std::min(std::min(a, b), c), high = std::max(std::max(a, b), c);
+    if (high < lowest || low >= highest || !std::isfinite(a + b + c)) continue;
     const auto first = std::upper_bound(levels.begin(), levels.end(), low);
     for (auto it = first; it != levels.end() && *it <= high; ++it)
-      visit(static_cast<std::size_t>(it - levels.begin()), static_cast<Index>(f));
+      found.push_back({static_cast<std::size_t>(it - levels.begin()), static_cast<Index>(f)});
   }
+  return found;
 }
 
 Crossed crossed_triangles(const geometry::TriMesh& mesh, std::span<const float> field,
                           std::span<const float> levels) {
+  const std::vector<Crossing> found = find_crossings(mesh, field, levels);
   Crossed crossed;
   crossed.offset.assign(levels.size() + 1, 0);
-  for_crossed_levels(mesh, field, levels, [&](std::size_t level, Index) { ++crossed.offset[level + 1]; });
+  for (const Crossing& crossing : found) ++crossed.offset[crossing.level + 1];
   for (std::size_t i = 1; i <= levels.size(); ++i) crossed.offset[i] += crossed.offset[i - 1];
-  crossed.triangles.resize(crossed.offset.back());
+  crossed.triangles.resize(found.size());
   std::vector<std::size_t> next(crossed.offset.begin(), crossed.offset.end() - 1);
-  for_crossed_levels(mesh, field, levels,
-                     [&](std::size_t level, Index f) { crossed.triangles[next[level]++] = f; });
+  for (const Crossing& crossing : found) crossed.triangles[next[crossing.level]++] = crossing.triangle;
   return crossed;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include <bodice/geodesic/mesh_edges.hpp>
 
@@ -36,15 +37,16 @@ Sides sides_by_lower_end(const geometry::TriMesh& mesh) {
   return sides;
 }
 
-void add_side(MeshEdges& edges, Index low, const Side& side) {
-  const bool same = !edges.ends.empty() && edges.ends.back() == MeshEdges::Ends{low, side.high};
-  if (!same) {
-    edges.ends.push_back({low, side.high});
-    edges.triangles.push_back({side.triangle, kNoIndex});
-  } else if (edges.triangles.back()[1] == kNoIndex) {
-    edges.triangles.back()[1] = side.triangle;
-  }
-  edges.of_triangle[side.triangle][side.corner] = static_cast<Index>(edges.ends.size() - 1);
+using Run = std::span<const Side>;
+
+/// The sides of one edge, in the order of their triangles.
+void add_edge(MeshEdges& edges, Index low, Run sides) {
+  const auto e = static_cast<Index>(edges.ends.size());
+  edges.ends.push_back({low, sides[0].high});
+  edges.triangles.push_back({sides[0].triangle, sides.size() > 1 ? sides[1].triangle : kNoIndex});
+  for (const Side& side : sides) edges.of_triangle[side.triangle][side.corner] = e;
+  edges.boundary += sides.size() == 1;
+  edges.non_manifold += sides.size() > 2;
 }
 
 }  // namespace
@@ -62,10 +64,8 @@ MeshEdges mesh_edges(const geometry::TriMesh& mesh) {
       return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
     });
     for (auto run = begin; run != end;) {
-      auto stop = run;
-      for (; stop != end && stop->high == run->high; ++stop) add_side(edges, static_cast<Index>(low), *stop);
-      edges.boundary += stop - run == 1;
-      edges.non_manifold += stop - run > 2;
+      const auto stop = std::find_if(run, end, [&](const Side& side) { return side.high != run->high; });
+      add_edge(edges, static_cast<Index>(low), Run(run, stop));
       run = stop;
     }
   }

@@ -28,6 +28,8 @@ struct NearestSource {
 /// edges are of similar length, O(#links log #V) at worst is not exceeded by more than the spread of lengths.
 Field distances(const EdgeGraph& graph, std::span<const Seed> seeds);
 Field distances_from(const EdgeGraph& graph, geometry::Index source);
+/// The same where that is at most `most` metres; kUnreachable farther off. Costs what lies within.
+Field distances_within(const EdgeGraph& graph, std::span<const Seed> seeds, float most);
 /// The same, and which source is nearest; the first in the list among equals.
 NearestSource nearest_sources(const EdgeGraph& graph, std::span<const geometry::Index> sources);
 
