@@ -32,6 +32,10 @@ std::vector<int> read_labels(const fs::path& file) {
   return labels;
 }
 
+std::vector<int> coarse_of_fine(const fs::path& data) {
+  return read_json(data / "labels" / "classes.json")["fine_to_coarse"].get<std::vector<int>>();
+}
+
 /// Where the labels of a mesh lie: the data's README tells.
 fs::path labels_of(const fs::path& data, const fs::path& mesh) {
   const std::string stem = mesh.stem().string(), folder = mesh.parent_path().filename().string();
@@ -123,9 +127,15 @@ Case load(const fs::path& data, const fs::path& file, const std::vector<int>& co
 
 }  // namespace
 
+std::vector<int> body_labels(const fs::path& data) {
+  const std::vector<int> coarse = coarse_of_fine(data);
+  std::vector<int> labels = read_labels(data / "labels" / "makehuman13380.labels.txt");
+  for (int& label : labels) label = coarse[label];
+  return labels;
+}
+
 std::vector<Case> file_cases(const fs::path& data, const std::string& only) {
-  const json classes = read_json(data / "labels" / "classes.json");
-  const auto coarse = classes["fine_to_coarse"].get<std::vector<int>>();
+  const std::vector<int> coarse = coarse_of_fine(data);
   std::vector<fs::path> files;
   for (const char* folder : {"bodies", "counts", "big", "awkward"})
     for (const auto& entry : fs::directory_iterator(data / folder)) {

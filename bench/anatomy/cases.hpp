@@ -26,6 +26,13 @@ struct Case {
 /// Every body of the data folder that has labels. Sorted by name.
 std::vector<Case> file_cases(const std::filesystem::path& data, const std::string& only);
 
+/// The real bodies at rest, skinned to the skeletons of data/rigs and each brought into a random pose, with
+/// the truth that its weights and bones give: seeds `from`, `from` + 1, ...
+std::vector<Case> rig_cases(const std::filesystem::path& data, std::uint64_t from, std::uint64_t count);
+
+/// Coarse class of each vertex of the bodies in data/bodies and data/rigs.
+std::vector<int> body_labels(const std::filesystem::path& data);
+
 /// A made body of random build (thin to obese; a child, pregnant), pose, resolution, turn, place and unit.
 Case synth_case(std::uint64_t seed);
 

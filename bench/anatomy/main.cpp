@@ -1,8 +1,9 @@
-// anatomy [--data DIR] [--only TEXT] [--seeds N [--from M]] [--all] [--verbose] [--sheet FILE.png] [--cost]
+// anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N [--from M]] [--all] [--verbose] [--sheet FILE.png]
+//         [--cost]
 // How well is every body understood, and in what time? Rows of the bodies that miss a bar (--all: of every
 // body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
-// bodies in place of files, from seed M on. --sheet: a picture of every body by part. Fails if a body of a
-// file misses a bar.
+// bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --sheet: a picture
+// of every body by part. Fails if a body of a file misses a bar.
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace {
 
 struct Arguments {
   std::string data = "../shared/data", only, picture;
-  std::uint64_t seeds = 0, from = 0;
+  std::uint64_t seeds = 0, rigs = 0, from = 0;
   bool all = false, verbose = false, cost = false;
 };
 
@@ -33,6 +34,8 @@ Arguments parse(int argc, char** argv) {
       a.only = argv[++i];
     else if (is("--seeds"))
       a.seeds = std::stoull(argv[++i]);
+    else if (is("--rigs"))
+      a.rigs = std::stoull(argv[++i]);
     else if (is("--from"))
       a.from = std::stoull(argv[++i]);
     else if (is("--sheet"))
@@ -56,10 +59,11 @@ int main(int argc, char** argv) {
     bench::print_cost();
     return 0;
   }
-  const bool of_files = arguments.seeds == 0;
-  if (of_files && !std::filesystem::is_directory(arguments.data)) {
+  const bool of_rigs = arguments.rigs > 0, of_files = arguments.seeds == 0 && !of_rigs;
+  const std::string needed = of_rigs ? arguments.data + "/rigs" : arguments.data;
+  if ((of_rigs || of_files) && !std::filesystem::is_directory(needed)) {
     std::fprintf(stderr, "%s is no folder of bodies: tell one with --data, or made bodies with --seeds\n",
-                 arguments.data.c_str());
+                 needed.c_str());
     return 2;
   }
   bench::Report report(arguments.all || arguments.verbose, arguments.verbose);
@@ -67,6 +71,9 @@ int main(int argc, char** argv) {
   report.header();
   for (std::uint64_t i = 0; i < arguments.seeds; ++i)
     run(bench::synth_case(arguments.from + i), report, sheet);
+  if (of_rigs)
+    for (const bench::Case& c : bench::rig_cases(arguments.data, arguments.from, arguments.rigs))
+      run(c, report, sheet);
   if (of_files)
     for (const bench::Case& c : bench::file_cases(arguments.data, arguments.only)) run(c, report, sheet);
   report.summary();
