@@ -129,6 +129,22 @@ HWY_INLINE V next_root(const Secular& g, V u, V low) {
                         low);  // low where the step is NaN: sums have overflowed
 }
 
+/// Halley's step with all denominators in one: (|w|^2 - 1) N S_1 / (q S_1^2 - 3/2 (|w|^2 - 1) (N S_2 -
+/// S_1^2)), q = |w| + 1. Products of sums overflow earlier than those of next_root(), which then takes over.
+HWY_INLINE V usual_root(const Secular& g, V u, V low) {
+  const V one = all(1.0f);
+  const V excess = hn::Sub(g.norm2, one);
+  const V norm_and_one = hn::MulAdd(g.norm2, estimated_inverse_sqrt(g.norm2), one);
+  const V first2 = hn::Mul(g.first, g.first);
+  const V bend = hn::MulSub(g.norm2, g.second, first2);
+  const V newton = hn::Mul(norm_and_one, first2);
+  const V halley = hn::NegMulAdd(hn::Mul(all(1.5f), excess), bend, newton);
+  const V below = hn::Max(halley, hn::Mul(all(kLeastHalley), newton));
+  const V above = hn::Mul(hn::Mul(g.norm2, g.first), excess);
+  const V next = hn::MulAdd(above, estimated_reciprocal(below), u);
+  return hn::IfThenElse(hn::Gt(next, low), next, low);
+}
+
 /// Lanes that need another step; a lane judges by itself, so that its result does not depend on its
 /// neighbours.
 HWY_INLINE M unsettled(const Secular& g, V u, V low) {
@@ -188,7 +204,8 @@ HWY_INLINE V3 last_direction(Search& search) {
   const M medial = hn::And(hn::Le(search.u, all(kLeastRoot)), hn::Lt(g.norm2, one));
   // The last step, to first order: |w|^2 falls by twice the first sum.
   const V excess = hn::Mul(all(0.5f), hn::Sub(g.norm2, one));
-  const V last = hn::IfThenZeroElse(medial, hn::Mul(excess, reciprocal(hn::Max(g.first, all(kLeastNorm2)))));
+  const V last =
+      hn::IfThenZeroElse(medial, hn::Mul(excess, estimated_reciprocal(hn::Max(g.first, all(kLeastNorm2)))));
   V3 w = along(g.w, hn::Neg(last), g.slope);
   search.u = hn::Add(search.u, last);
   if (hn::AllFalse(f, medial)) return w;
@@ -205,7 +222,7 @@ HWY_INLINE void finish(const Shape& s, V3 y, Search& search, Foot& result) {
   result.u = search.u;
   const V3 g = {raw.x, hn::Mul(raw.y, s.inverse1), hn::Mul(raw.z, s.inverse2)};
   // Of w and of w / r side by side: the normal does not care how long w is.
-  const V inverse_norm = inverse_sqrt(dot(raw, raw));
+  const V inverse_norm = hn::NegMulAdd(all(0.5f), dot(raw, raw), all(1.5f));
   const V3 w = result.w = scaled(raw, inverse_norm);
   const V3 n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));  // unit normal times r0, first octant
   const V3 off = {hn::NegMulAdd(raw.x, inverse_norm, search.y.x), hn::NegMulAdd(s.radius1, w.y, search.y.y),
@@ -219,30 +236,63 @@ HWY_INLINE void finish(const Shape& s, V3 y, Search& search, Foot& result) {
 
 template <bool kLast>
 HWY_INLINE void usual_step(const Shape& s, Search& search) {
-  search.u = next_root<true>(search.at, search.u, search.low);
+  search.u = usual_root(search.at, search.u, search.low);
   search.at = evaluate<kLast>(search.a, s.gap0, s.gap1, search.u);
 }
 
 /// Vectors of problems that are worked on in step.
 constexpr int kTogether = 2;
 
+/// Some vectors of problems, of which some lanes need more steps.
+template <int kCount>
+struct Unsettled {
+  Shape shape[kCount];
+  Search search[kCount];
+  M active[kCount];
+};
+
+/// Not in line: what it works on must lie in memory, while that of all others can stay in registers.
+template <int kCount>
+HWY_NOINLINE void refine_each(Unsettled<kCount>& some) {
+  for (int i = 0; i < kCount; ++i)
+    if (!hn::AllFalse(f, some.active[i])) refine(some.active[i], some.shape[i], some.search[i]);
+}
+
 /// Several vectors of problems in step, since each waits for its own results most of the time.
 template <int kCount>
 HWY_INLINE void feet_of(const Shape (&s)[kCount], const V3 (&p)[kCount], Foot (&out)[kCount]) {
   V3 y[kCount];
   Search search[kCount];
+#pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
     const V3 q = p[i] - s[i].center;
     y[i] = {dot(s[i].row0, q), dot(s[i].row1, q), dot(s[i].row2, q)};
     search[i] = start_from_surface(y[i], s[i]);
   }
   static_assert(kUsualSteps == 2);
+#pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) usual_step<false>(s[i], search[i]);
+#pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) usual_step<true>(s[i], search[i]);
+  M active[kCount], any = hn::FirstN(f, 0);
+#pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    const M active = unsettled(search[i].at, search[i].u, search[i].low);
-    if (!hn::AllFalse(f, active)) refine(active, s[i], search[i]);
+    active[i] = unsettled(search[i].at, search[i].u, search[i].low);
+    any = hn::Or(any, active[i]);
   }
+  if (!hn::AllFalse(f, any)) {
+    Unsettled<kCount> some;
+#pragma GCC unroll 4
+    for (int i = 0; i < kCount; ++i) {
+      some.shape[i] = s[i];
+      some.search[i] = search[i];
+      some.active[i] = active[i];
+    }
+    refine_each(some);
+#pragma GCC unroll 4
+    for (int i = 0; i < kCount; ++i) search[i] = some.search[i];
+  }
+#pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) finish(s[i], y[i], search[i], out[i]);
 }
 

@@ -45,15 +45,17 @@ HWY_INLINE int slot_of(KeptBatch& kept, std::int32_t ellipsoid) {
 /// By rising index, as all lists are: blended answers are summed in that order.
 HWY_INLINE void sort_candidates(KeptBatch& kept) {
   std::int32_t sorted[KeptBatch::kMost];
-  std::copy_n(kept.candidate, kept.candidates, sorted);
-  std::sort(sorted, sorted + kept.candidates);
+  std::uint32_t moved[KeptBatch::kMost];  // a candidate's bit among the sorted
+  for (int i = 0; i < kept.candidates; ++i) {
+    int place = 0;
+    for (int k = 0; k < kept.candidates; ++k) place += kept.candidate[k] < kept.candidate[i];
+    moved[i] = 1u << place;
+    sorted[place] = kept.candidate[i];
+  }
   for (std::uint32_t& near : kept.near) {
-    std::uint32_t moved = 0;
-    for (std::uint32_t left = near; left != 0; left &= left - 1) {
-      const std::int32_t ellipsoid = kept.candidate[std::countr_zero(left)];
-      moved |= 1u << (std::lower_bound(sorted, sorted + kept.candidates, ellipsoid) - sorted);
-    }
-    near = moved;
+    std::uint32_t after = 0;
+    for (std::uint32_t left = near; left != 0; left &= left - 1) after |= moved[std::countr_zero(left)];
+    near = after;
   }
   std::copy_n(sorted, kept.candidates, kept.candidate);
 }

@@ -25,7 +25,8 @@ struct Particles {
 /// QueryOptions::within_m. The distance is then +infinity.
 inline constexpr std::uint32_t kNoEllipsoid = ~std::uint32_t{0};
 
-struct Contact {
+/// Aligned to its size, so that none is stored across two lines of the cache.
+struct alignas(32) Contact {
   float signed_distance = 0.0f;  ///< metres to the proxy's surface (margin included), negative inside
   float point[3] = {0, 0, 0};    ///< nearest surface point, local frame
   float normal[3] = {0, 1, 0};   ///< outward unit normal there
