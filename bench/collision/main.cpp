@@ -123,7 +123,7 @@ void add_queries(Contender& c, std::vector<Row>& rows) {
                       [&c, &frames, options] {
                         c.collider.query({}, frames.now().particles(), c.contacts, frames.workspace, options);
                       },
-                      n, q.bar ? bars[order] : 0.0, [&frames] { frames.step(); }});
+                      n, q.bar ? bars[order] : 0.0, [&frames] { frames.step(); }, bench::kFrameCalls});
     }
   }
 }
@@ -143,7 +143,7 @@ void add_responses(Contender& c, std::vector<Row>& rows) {
                       c.moved = frames.now();
                       c.collider.resolve({}, c.moved.particles(), {}, frames.workspace);
                     },
-                    n, 0.0, [&frames] { frames.step(); }});
+                    n, 0.0, [&frames] { frames.step(); }, bench::kFrameCalls});
   }
 }
 
@@ -159,7 +159,8 @@ void add_rows(Contender& c, std::vector<Row>& rows) {
                   [&c] {
                     c.beside_moving.step();
                     c.move_rigidly(2e-3);
-                  }});
+                  },
+                  bench::kFrameCalls});
   rows.push_back({c.name + ": query, random, all found anew",
                   [&c] {
                     Workspace fresh;
@@ -276,10 +277,11 @@ int main(int argc, char** argv) {
       "repeats. A query answers signed distance, nearest point, normal and ellipsoid; peers the distance "
       "alone, without sign but for grids. The bars of 7.5 and 15 ns (30 and 60 with relief) come from a "
       "prototype that answered 'inside only'; they are held against all distances, too. 'Frames': particles "
-      "drift by a millimetre a call and a workspace keeps what it can; 'nothing kept': without one. A peer "
+      "drift by a millimetre a call and a workspace keeps what it can, the mean of %d calls; 'nothing kept': "
+      "without one. A peer "
       "without sign must look as far for that as for all distances.\n\n",
       bench::title(origin).c_str(), origin.flags.c_str(), count, 1e3 * kBand_m, body.mesh.positions.size(),
-      repeats);
+      repeats, bench::kFrameCalls);
 
   std::vector<std::unique_ptr<Contender>> contenders;
   std::unique_ptr<Limits> limits;

@@ -14,12 +14,16 @@ struct Row {
   std::function<void()> work;
   double particles;
   double bar = 0.0;                       ///< what it must not exceed, ns; zero: none of its own
-  std::function<void()> prepare = [] {};  ///< before each, not timed
+  std::function<void()> prepare = [] {};  ///< before each call, not timed
+  int calls = 1;                          ///< a repeat, which counts their mean
   std::vector<double> ns = {};            ///< a particle, one a repeat
 
   double median() const { return ns[ns.size() / 2]; }
   double least() const { return ns.front(); }
 };
+
+/// What a workspace keeps serves about ten calls: a repeat has so many that finding it anew counts, too.
+inline constexpr int kFrameCalls = 20;
 
 /// Times every row `repeats` times, in turns; each row's times come out sorted.
 void measure(std::vector<Row>& rows, int repeats);
