@@ -12,6 +12,7 @@
 #include "curve.hpp"
 #include "joints.hpp"
 #include "neck_place.hpp"
+#include "perineum_by_legs.hpp"
 #include "perineum_place.hpp"
 #include "soft_place.hpp"
 
@@ -155,6 +156,7 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
   marks.neck_place = neck_by_measures(skin, coordinates, marks);
   marks.perineum_place = perineum_by_shape(skin, coordinates, marks);
   marks.armpit_place = armpits_by_arms(skin, coordinates, marks);
+  marks.perineum_place = perineum_by_legs(skin, coordinates, marks);
   return marks;
 }
 
