@@ -112,6 +112,10 @@ std::size_t Collider::size() const noexcept {
   return impl_->field.size();
 }
 
+bool Collider::has_relief() const noexcept {
+  return impl_->tables() != nullptr;
+}
+
 std::uint64_t Collider::proxy_hash() const noexcept {
   return impl_->proxy_hash;
 }

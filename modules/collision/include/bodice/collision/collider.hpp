@@ -106,7 +106,9 @@ class Collider {
   const geometry::Vec3& origin() const noexcept;  ///< world position of the local frame's origin
   std::size_t size() const noexcept;              ///< ellipsoids
   std::uint64_t proxy_hash() const noexcept;      ///< of the proxy that it was made from
-  std::uint64_t poses() const noexcept;           ///< how often move_to() took it elsewhere
+  /// Whether tables correct the distance; without, it changes by no more than a place moves.
+  bool has_relief() const noexcept;
+  std::uint64_t poses() const noexcept;  ///< how often move_to() took it elsewhere
 
   /// Carries the proxy to another pose: `shapes` are its ellipsoids now, world metres, size() of them; tables
   /// move along. Contacts then know the surface's velocity, (now - before) / dt_s, zero if dt_s is not
