@@ -1,4 +1,5 @@
-// The proxy grows from 89 to 4,096 ellipsoids, the particles stay: along a curve through space, in no order
+// The proxy grows from 89 to 4,096 ellipsoids (the paper's tier, which takes as many as it is allowed; then
+// balls), the particles stay: along a curve through space, in no order
 // with a workspace that keeps one, and in no order as they are stored.
 #include <algorithm>
 #include <cmath>
@@ -90,7 +91,7 @@ void grow_counts(std::size_t particles, int repeats) {
       "| random |\n|---|---|---|---|---|---|---|");
   for (const std::size_t count : {89u, 240u, 400u, 1000u, 4096u})
     print_row(count <= kFitted
-                  ? fit_subject(body, skin, bodice::proxy::Tier::kSolid, static_cast<int>(count), 2.0)
+                  ? fit_subject(body, skin, bodice::proxy::Tier::kPaper, static_cast<int>(count), 2.0)
                   : balls(body.mesh, body.stature_m, count),
               ordered, shuffled, repeats);
 }
