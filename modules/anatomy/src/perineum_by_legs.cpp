@@ -144,16 +144,18 @@ OddMeasures odd_measures(const BodyCoordinates& coordinates, const Trunk& trunk,
 
 }  // namespace
 
-Vec3 perineum_by_legs(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
-  if (handles(skin) > 0 || !coordinates.leg_merge().at.found()) return marks.perineum_place;
+MovedPerineum perineum_by_legs(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
+  const MovedPerineum first{marks.perineum_place};
+  if (handles(skin) > 0 || !coordinates.leg_merge().at.found()) return first;
   const Trunk trunk = trunk_of(coordinates, marks);
   const Thighs thighs = thighs_of(trunk, marks);
   const EvenMeasures even = even_measures(coordinates, trunk, thighs);
   const Vec3 shift(kLeftward(odd_measures(coordinates, trunk, thighs)), kUpward(even), kForward(even));
-  if (!shift.allFinite()) return marks.perineum_place;
+  if (!shift.allFinite()) return first;
   const Vec3 limited = shift.cwiseMax(-kFarthest).cwiseMin(kFarthest);
-  return marks.perineum_place +
-         trunk.size * (limited.x() * trunk.left + limited.y() * trunk.up + limited.z() * trunk.forward);
+  const Vec3 place = marks.perineum_place + trunk.size * (limited.x() * trunk.left + limited.y() * trunk.up +
+                                                          limited.z() * trunk.forward);
+  return {place, shift.norm()};
 }
 
 }  // namespace bodice::anatomy
