@@ -7,19 +7,18 @@
 
 namespace bodice::fitting {
 
-/// An ellipsoid in floats: y = R^T (x - c).
+/// An ellipsoid in floats: y = R^T (x - c); once more in units of its largest radius, so that products of
+/// three squared radii stay far from what floats cannot hold.
 struct FootEllipsoid {
   float c[3];
   float rt[3][3];  ///< rows of R^T
   float r[3];
+  float largest;                 ///< of r
+  float to_unit[3][3], unit[3];  ///< rt, r over `largest`
+  float squared[3], inverse[3];  ///< unit^2, 1 / unit
+  float most_squared, least_squared;
 
-  explicit FootEllipsoid(const geometry::Ellipsoid& e) {
-    for (int j = 0; j < 3; ++j) {
-      c[j] = static_cast<float>(e.center[j]);
-      r[j] = static_cast<float>(e.radii[j]);
-      for (int i = 0; i < 3; ++i) rt[j][i] = static_cast<float>(e.axes(i, j));
-    }
-  }
+  explicit FootEllipsoid(const geometry::Ellipsoid& e);
 };
 
 /// d[i] = signed distance of point i, i < n. Within 1e-5 of the largest radius near the surface; deep inside

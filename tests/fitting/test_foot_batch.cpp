@@ -1,0 +1,84 @@
+// Feet at a fixed cost: as exact as they promise near the surface, and numbers everywhere.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <bodice/engine/random.hpp>
+
+#include "foot_batch.hpp"
+
+using namespace bodice;
+using fitting::FootEllipsoid;
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kNearSurface = 1e-5;  // of the largest radius
+
+struct Points {
+  std::vector<float> x, y, z, d;
+
+  void add(const Vec3& p) {
+    x.push_back(static_cast<float>(p.x()));
+    y.push_back(static_cast<float>(p.y()));
+    z.push_back(static_cast<float>(p.z()));
+  }
+  Vec3 at(std::size_t i) const { return {double{x[i]}, double{y[i]}, double{z[i]}}; }
+  void measure(const geometry::Ellipsoid& e) {
+    d.resize(x.size());
+    fitting::foot_distances(FootEllipsoid(e), x.size(), x.data(), y.data(), z.data(), d.data());
+  }
+};
+
+geometry::Ellipsoid turned(engine::Random& random, const Vec3& radii) {
+  const auto in = [&](double half) { return random.uniform(-half, half); };
+  const Vec3 axis = Vec3(in(1), in(1), in(1)).stableNormalized();
+  return {Vec3(in(0.5), in(0.5), in(0.5)), Eigen::AngleAxisd(in(3), axis).toRotationMatrix(), radii};
+}
+
+}  // namespace
+
+TEST_CASE("foot: near the surface it is the nearest point's distance") {
+  engine::Random random(31);
+  double worst = 0.0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto radius = [&] { return random.uniform(0.05, 0.1); };
+    const geometry::Ellipsoid e = turned(random, Vec3(radius(), radius(), radius()));
+    Points points;
+    for (int i = 0; i < 37; ++i) {
+      const auto in = [&] { return random.uniform(-1.0, 1.0); };
+      const Vec3 u = Vec3(in(), in(), in()).stableNormalized();
+      points.add(e.center + e.axes * e.radii.cwiseProduct(random.uniform(0.9, 1.2) * u));
+    }
+    points.measure(e);
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+      const double truth = geometry::nearest_point(e, points.at(i)).signed_distance;
+      worst = std::max(worst, std::abs(double{points.d[i]} - truth) / e.radii.maxCoeff());
+    }
+  }
+  CHECK(worst < kNearSurface);
+}
+
+TEST_CASE("foot: thin, flat and round ellipsoids answer with numbers, near and far and from their centres") {
+  engine::Random random(32);
+  for (const Vec3& radii : {Vec3(0.1, 0.1, 0.1), Vec3(1e-3, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1.0),
+                            Vec3(1e-3, 1.0, 1.0), Vec3(0.5, 0.01, 0.1)}) {
+    const geometry::Ellipsoid e = turned(random, radii);
+    Points points;
+    points.add(e.center);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double times : {1e-6, 0.5, 1.0, 2.0, 100.0})
+        points.add(e.center + times * e.radii[axis] * e.axes.col(axis));
+    points.measure(e);
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+      CAPTURE(radii.transpose());
+      CAPTURE(i);
+      CHECK(std::isfinite(points.d[i]));
+    }
+    CHECK(points.d[0] <= 0.0f);
+  }
+}
