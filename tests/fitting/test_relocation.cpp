@@ -101,7 +101,7 @@ TEST_CASE("local fit: what it says the cost rises by is what it rises by") {
   setting.problem.refresh({}, ellipsoids);
   const double before = setting.cost(ellipsoids);
   const std::uint32_t both[] = {1, 2};
-  const fitting::Neighbourhood samples = setting.problem.around(both);
+  const fitting::Neighbourhood samples = setting.problem.around(both, setting.problem.rank({}));
   CHECK(samples.x.size() == 800);
   CHECK(samples.cost == doctest::Approx(before).epsilon(0.01));
   fitting::LocalFit fit(samples, setting.loss, {ellipsoids[1], ellipsoids[2]});

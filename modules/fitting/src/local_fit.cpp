@@ -1,6 +1,12 @@
 #include "local_fit.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
 #include "tight_step.hpp"
+#include "vector_clones.hpp"
 
 namespace bodice::fitting {
 namespace {
@@ -11,40 +17,69 @@ constexpr std::size_t kLeastSamples =
     18;                               // two an unknown: with fewer an ellipsoid stays, it might go anywhere
 constexpr double kMostMotion = 0.03;  // a step, of the scaled body
 
+constexpr std::size_t kLanes = 16;  // sums are kept apart by lane, so that they are vectors in a fixed order
+
 }  // namespace
 
+BODICE_CLONES static void lower(std::size_t n, std::uint32_t ellipsoid, const float* __restrict d,
+                                float* __restrict least, std::uint32_t* __restrict owner) {
+  for (std::size_t i = 0; i < n; ++i) {
+    owner[i] = d[i] < least[i] ? ellipsoid : owner[i];
+    least[i] = d[i] < least[i] ? d[i] : least[i];
+  }
+}
+
+BODICE_CLONES static void count_costs(const TightLoss& counted, std::size_t n, const float* __restrict target,
+                                      const std::uint8_t* __restrict one_sided, const float* __restrict d,
+                                      float* __restrict cost) {
+  const TightLoss loss = counted;
+  for (std::size_t i = 0; i < n; ++i) cost[i] = loss.cost(target[i], one_sided[i] != 0, d[i]);
+}
+
+BODICE_CLONES static void add_up(std::size_t n, const float* __restrict cost, double* __restrict lanes) {
+  for (std::size_t first = 0; first + kLanes <= n; first += kLanes)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += static_cast<double>(cost[first + lane]);
+}
+
+void Neighbourhood::reserve(std::size_t count) {
+  for (auto* v : {&x, &y, &z, &target, &others}) v->reserve(count);
+  one_sided.reserve(count);
+}
+
 LocalFit::LocalFit(const Neighbourhood& samples, const TightLoss& loss, std::vector<Ellipsoid> ellipsoids)
-    : samples_(samples),
-      loss_(loss),
-      ellipsoids_(std::move(ellipsoids)),
-      distance_(ellipsoids_.size(), std::vector<float>(samples.x.size())),
-      owner_(samples.x.size()),
-      damping_(kFirstDamping) {
+    : samples_(samples), loss_(loss), ellipsoids_(std::move(ellipsoids)), damping_(kFirstDamping) {
+  const std::size_t n = samples.x.size();
+  for (Assignment* made : {&now_, &before_}) {
+    made->least.resize(n), made->owner.resize(n), made->cost.resize(n);
+  }
+  distance_.resize(n);
   cost_ = evaluate(ellipsoids_);
 }
 
 double LocalFit::evaluate(const std::vector<Ellipsoid>& ellipsoids) {
   const std::size_t n = samples_.x.size();
-  for (std::size_t e = 0; e < ellipsoids.size(); ++e)
+  std::ranges::copy(samples_.others, now_.least.begin());
+  std::ranges::fill(now_.owner, static_cast<std::uint32_t>(ellipsoids.size()));
+  for (std::uint32_t e = 0; e < ellipsoids.size(); ++e) {
     foot_distances(FootEllipsoid(ellipsoids[e]), n, samples_.x.data(), samples_.y.data(), samples_.z.data(),
-                   distance_[e].data());
-  double cost = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    float least = samples_.others[i];
-    owner_[i] = ellipsoids.size();
-    for (std::size_t e = 0; e < ellipsoids.size(); ++e)
-      if (distance_[e][i] < least) least = distance_[e][i], owner_[i] = e;
-    cost += static_cast<double>(loss_.cost(samples_.target[i], samples_.one_sided[i], least));
+                   distance_.data());
+    lower(n, e, distance_.data(), now_.least.data(), now_.owner.data());
   }
+  count_costs(loss_, n, samples_.target.data(), samples_.one_sided.data(), now_.least.data(),
+              now_.cost.data());
+  double lanes[kLanes] = {};
+  add_up(n, now_.cost.data(), lanes);
+  double cost = std::accumulate(std::begin(lanes), std::end(lanes), 0.0);
+  for (std::size_t i = n - n % kLanes; i < n; ++i) cost += static_cast<double>(now_.cost[i]);
   return cost;
 }
 
 NormalBlock LocalFit::normal_equations(std::size_t e) {
-  mine_.start(owner_.size());
-  for (std::size_t i = 0; i < owner_.size(); ++i) {
-    const float target = samples_.target[i], d = distance_[e][i];
-    if (owner_[i] == e && loss_.cost(target, samples_.one_sided[i], d) > 0.0f)
-      mine_.add(samples_.x[i], samples_.y[i], samples_.z[i], d - target, loss_.weight(target, d));
+  mine_.start(now_.owner.size());
+  for (std::size_t i = 0; i < now_.owner.size(); ++i) {
+    if (now_.owner[i] != e || now_.cost[i] == 0.0f) continue;
+    const float target = samples_.target[i], d = now_.least[i];
+    mine_.add(samples_.x[i], samples_.y[i], samples_.z[i], d - target, loss_.weight(target, d));
   }
   return mine_.count < kLeastSamples ? NormalBlock{} : normal_block(ellipsoids_[e], mine_);
 }
@@ -54,13 +89,14 @@ void LocalFit::advance(int steps) {
     std::vector<Ellipsoid> next;
     for (std::size_t e = 0; e < ellipsoids_.size(); ++e)
       next.push_back(damped_step(ellipsoids_[e], normal_equations(e), damping_, kMostMotion).ellipsoid);
-    const double now = evaluate(next);
-    if (now < cost_) {
-      cost_ = now;
+    std::swap(now_, before_);
+    const double cost = evaluate(next);
+    if (cost < cost_) {
+      cost_ = cost;
       ellipsoids_ = std::move(next);
       damping_ *= 0.4;
     } else {
-      evaluate(ellipsoids_);
+      std::swap(now_, before_);
       damping_ *= 4.0;
     }
   }

@@ -18,6 +18,8 @@ struct Neighbourhood {
   std::vector<float> others;  ///< distance to the nearest of the other ellipsoids
   std::vector<std::uint8_t> one_sided;
   double cost = 0.0;  ///< with the ellipsoids that are there
+
+  void reserve(std::size_t count);
 };
 
 /// Damped steps of some ellipsoids in place of those that the neighbourhood is of, which must outlive it.
@@ -31,14 +33,21 @@ class LocalFit {
   const std::vector<geometry::Ellipsoid>& ellipsoids() const { return ellipsoids_; }
 
  private:
+  /// Distances, owners and costs of the samples; returns the sum of the costs.
   double evaluate(const std::vector<geometry::Ellipsoid>& ellipsoids);
   NormalBlock normal_equations(std::size_t ellipsoid);
 
   const Neighbourhood& samples_;
   const TightLoss& loss_;
   std::vector<geometry::Ellipsoid> ellipsoids_;
-  std::vector<std::vector<float>> distance_;  ///< #ellipsoids x #samples
-  std::vector<std::size_t> owner_;            ///< #samples: #ellipsoids if it is one of the others
+  /// What evaluate() finds.
+  struct Assignment {
+    std::vector<float> least;          ///< #samples: distance to the union
+    std::vector<std::uint32_t> owner;  ///< #samples: #ellipsoids if it is one of the others
+    std::vector<float> cost;           ///< #samples
+  };
+  Assignment now_, before_;
+  std::vector<float> distance_;  ///< #samples, scratch
   BlockSamples mine_;
   double cost_ = 0.0, damping_;
 };

@@ -32,33 +32,47 @@ BODICE_CLONES static std::uint32_t at_most(const float* __restrict d, const floa
 }
 
 /// Signed distances are 1-Lipschitz: one whose distance from the ball's centre is above this is within reach
-/// of no sample's nearest, since that is no farther than the centre's nearest.
-float NearestCandidates::enough(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block,
-                                float reach) {
-  const auto nearest = std::min_element(block.of_ball.begin(), block.of_ball.end());
-  Lanes d;
-  foot_distances(ellipsoids[static_cast<std::size_t>(nearest - block.of_ball.begin())], block.count, block.x,
-                 block.y, block.z, d.data());
-  float most = *nearest;
-  for (std::size_t i = 0; i < block.count; ++i) most = std::max(most, d[i] + block.from_centre[i]);
+/// of no sample's nearest.
+static float enough(const SampleBlock& block, const float* nearest, float reach) {
+  float most = -std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < block.count; ++i) most = std::max(most, nearest[i] + block.from_centre[i]);
   return most + reach;
 }
 
-void NearestCandidates::find(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block,
-                             float reach) {
-  const float most = enough(ellipsoids, block, reach);
-  Lanes limit;
-  limit.fill(std::numeric_limits<float>::infinity());
+/// By their distance to the ball's centre, those that may be near enough.
+void NearestCandidates::sort_by_ball(const SampleBlock& block, float reach) {
+  const float nearest = *std::ranges::min_element(block.of_ball);
+  const float radius = *std::max_element(block.from_centre, block.from_centre + block.count);
+  order_.clear();
+  for (std::uint32_t k = 0; k < block.of_ball.size(); ++k)
+    if (block.of_ball[k] <= nearest + 2.0f * radius + reach) order_.push_back({block.of_ball[k], k});
+  std::ranges::sort(order_);
+}
+
+/// Distances of all samples to the ellipsoids that may be within reach of one; returns each sample's least.
+NearestCandidates::Lanes NearestCandidates::measure(std::span<const FootEllipsoid> ellipsoids,
+                                                    const SampleBlock& block, float reach) {
+  Lanes least;
+  least.fill(std::numeric_limits<float>::infinity());
   ellipsoid_.clear();
-  for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
-    if (block.of_ball[k] > most) continue;
+  float most = std::numeric_limits<float>::infinity();
+  for (const auto& [of_ball, k] : order_) {
+    if (of_ball > most) break;
     if (distance_.size() == ellipsoid_.size()) distance_.emplace_back();
     Lanes& d = distance_[ellipsoid_.size()];
     ellipsoid_.push_back(k);
     foot_distances(ellipsoids[k], block.count, block.x, block.y, block.z, d.data());
     std::fill(d.begin() + static_cast<std::ptrdiff_t>(block.count), d.end(), 0.0f);
-    lower(d.data(), limit.data());
+    lower(d.data(), least.data());
+    most = enough(block, least.data(), reach);
   }
+  return least;
+}
+
+void NearestCandidates::find(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block,
+                             float reach) {
+  sort_by_ball(block, reach);
+  Lanes limit = measure(ellipsoids, block, reach);
   for (float& l : limit) l += reach;
   count_.fill(0);
   const std::uint32_t samples = ~0u >> (kLanes - block.count);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "foot_batch.hpp"
@@ -32,13 +33,16 @@ class NearestCandidates {
 
   int count(std::size_t sample) const { return count_[sample]; }
   const std::array<std::uint32_t, kMost>& of(std::size_t sample) const { return found_[sample]; }
+  const std::array<float, kMost>& distances(std::size_t sample) const { return at_[sample]; }
 
  private:
   using Lanes = std::array<float, kSampleBlock>;
 
-  float enough(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block, float reach);
+  void sort_by_ball(const SampleBlock& block, float reach);
+  Lanes measure(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block, float reach);
   void insert(std::size_t sample, std::uint32_t ellipsoid, float distance);
 
+  std::vector<std::pair<float, std::uint32_t>> order_;
   std::vector<std::uint32_t> ellipsoid_;  ///< #C that may be within reach somewhere in the block
   std::vector<Lanes> distance_;           ///< at least #C
   std::array<std::array<std::uint32_t, kMost>, kSampleBlock> found_;

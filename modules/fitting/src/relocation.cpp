@@ -18,9 +18,26 @@ namespace {
 using geometry::Ellipsoid;
 using Partners = std::vector<std::vector<std::uint32_t>>;
 
-constexpr std::size_t kPartners = 5;
+constexpr std::size_t kPartners = 3;
 constexpr int kFirstSteps = 4, kLastSteps = 6;  // of a trial; the first tell which trials are worth the last
-constexpr double kHopeless = 1.5;  // times the most that any split gains: a merge that costs more is left
+constexpr double kHopeless = 1.0;  // times the most that any split gains: a merge that costs more is left
+
+/// #E x up to kPartners: who is second nearest to an ellipsoid's samples, the most frequent first.
+Partners partners_of(std::span<const Nearest3> ranked, std::size_t count) {
+  std::vector<std::uint32_t> votes(count * count, 0);
+  for (const auto& [k, at] : ranked)
+    if (k[1] < count) ++votes[k[0] * count + k[1]];
+  Partners found(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto mine = std::span(votes).subspan(k * count, count);
+    for (std::uint32_t other = 0; other < count; ++other)
+      if (mine[other] > 0) found[k].push_back(other);
+    std::ranges::stable_sort(found[k], std::ranges::greater{},
+                             [&](std::uint32_t other) { return mine[other]; });
+    if (found[k].size() > kPartners) found[k].resize(kPartners);
+  }
+  return found;
+}
 
 /// What has been tried in place of one ellipsoid (then it is `second`, too) or of two.
 struct Trial {
@@ -68,14 +85,15 @@ struct OneByOne {
 };
 
 OneByOne try_each(const engine::Context& context, const TightProblem& problem,
-                  const std::vector<Ellipsoid>& ellipsoids) {
+                  std::span<const Nearest3> ranked, const std::vector<Ellipsoid>& ellipsoids) {
   const std::size_t count = ellipsoids.size();
   OneByOne tried{std::vector<Trial>(count), std::vector<Trial>(count)};
   engine::parallel_for(context, count, 1, [&](std::size_t i, std::size_t) {
     const auto k = static_cast<std::uint32_t>(i);
-    const Neighbourhood samples = problem.around({&k, 1});
+    const Neighbourhood samples = problem.around({&k, 1}, ranked);
     tried.removals[i] = {k, k, LocalFit(samples, problem.loss(), {}).rise(), {}};
     std::vector<LocalFit> along;
+    along.reserve(3);
     for (int axis = 0; axis < 3; ++axis) {
       along.emplace_back(samples, problem.loss(), halves(ellipsoids[k], axis));
       along.back().advance(kFirstSteps);
@@ -90,18 +108,18 @@ OneByOne try_each(const engine::Context& context, const TightProblem& problem,
 }
 
 std::vector<Trial> try_merges(const engine::Context& context, const TightProblem& problem,
-                              const Partners& partners, const std::vector<Ellipsoid>& ellipsoids,
-                              double most_rise) {
+                              std::span<const Nearest3> ranked, const Partners& partners,
+                              const std::vector<Ellipsoid>& ellipsoids, double most_rise) {
   std::vector<Trial> merges;
   for (std::uint32_t k = 0; k < partners.size(); ++k)
     for (const std::uint32_t other : partners[k]) {
       const bool told_twice = std::ranges::find(partners[other], k) != partners[other].end();
-      if (k < other || !told_twice) merges.push_back({k, other, 0.0, {}});
+      if (k < other || !told_twice) merges.push_back({std::min(k, other), std::max(k, other), 0.0, {}});
     }
   engine::parallel_for(context, merges.size(), 1, [&](std::size_t i, std::size_t) {
     Trial& merge = merges[i];
     const std::uint32_t both[] = {merge.first, merge.second};
-    const Neighbourhood samples = problem.around(both);
+    const Neighbourhood samples = problem.around(both, ranked);
     LocalFit fit(samples, problem.loss(), {merged(ellipsoids[merge.first], ellipsoids[merge.second])});
     fit.advance(kFirstSteps);
     if (fit.rise() < most_rise) fit.advance(kLastSteps);
@@ -115,11 +133,12 @@ std::vector<Trial> try_merges(const engine::Context& context, const TightProblem
 
 std::vector<std::size_t> relocate(const engine::Context& context, const TightProblem& problem,
                                   std::vector<Ellipsoid>& ellipsoids) {
-  const auto [splits, removals] = try_each(context, problem, ellipsoids);
+  const std::vector<Nearest3> ranked = problem.rank(context);
+  const auto [splits, removals] = try_each(context, problem, ranked, ellipsoids);
   if (splits.empty()) return {};
-  const Partners partners = problem.partners(kPartners);
+  const Partners partners = partners_of(ranked, ellipsoids.size());
   std::vector<Trial> merges =
-      try_merges(context, problem, partners, ellipsoids, -kHopeless * splits.front().rise);
+      try_merges(context, problem, ranked, partners, ellipsoids, -kHopeless * splits.front().rise);
   merges.insert(merges.end(), removals.begin(), removals.end());
   sort_by_rise(merges);
   std::vector<bool> taken(ellipsoids.size(), false);

@@ -18,7 +18,7 @@ namespace {
 /// The first steps are taken on one sample in so many, and may be long: where ellipsoids are needed can be
 /// found on few.
 constexpr std::size_t kCoarse = 3;
-constexpr int kCoarseIterations = 96, kIterations = 48;
+constexpr int kCoarseIterations = 64, kIterations = 48;
 constexpr double kCoarseMotion = 0.03, kMotion = 0.012;  // of the scaled body
 /// What those samples find fits them better than the skin between them, by a twentieth: the last steps are
 /// taken on so many times the samples, without a search for other places.

@@ -138,11 +138,14 @@ class Descent {
     for (const std::size_t k : changed) moved.damping[k] = kFirstDamping;
     if (changed.empty()) return void(rounds_off_ = kIdleRounds);
     const double cost = problem_.total();
+    TightProblem kept = problem_;
+    const std::vector<double> kept_motion = moved_;
     std::swap(state_, moved);
     refresh();
     if (problem_.total() < cost) return note_best();
     state_ = std::move(moved);
-    refresh();
+    problem_ = std::move(kept);
+    moved_ = kept_motion;
   }
 
   bool is_exact() const {

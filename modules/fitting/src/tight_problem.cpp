@@ -38,6 +38,7 @@ void TightProblem::add(std::span<const DistanceSample> samples) {
     part_.push_back(samples[i].part);
   }
   pairs_of_.resize(target_.size());
+  found_at_.resize(target_.size());
   count_of_.resize(target_.size());
   owner_.resize(target_.size());
   cost_.resize(target_.size());
@@ -96,6 +97,7 @@ void TightProblem::choose_candidates(const engine::Context& context,
       for (std::size_t i = 0; i < samples; ++i) {
         count_of_[first + i] = static_cast<std::uint8_t>(std::min(found.count(i), candidates_));
         pairs_of_[first + i] = found.of(i);
+        found_at_[first + i] = found.distances(i);
       }
     }
   });
@@ -132,6 +134,7 @@ void TightProblem::number_pairs(const engine::Context& context, std::vector<std:
       for (int s = 0; s < count_of_[i]; ++s) {
         const std::uint32_t p = of_chunk[pairs_of_[i][s]]++;
         pair_sample_[p] = static_cast<std::uint32_t>(i);
+        distance_[p] = found_at_[i][s];
         pairs_of_[i][s] = p;
       }
   });
@@ -148,7 +151,6 @@ void TightProblem::refresh(const engine::Context& context, std::span<const geome
   ellipsoids_ = ellipsoids.size();
   choose_candidates(context, std::vector<FootEllipsoid>(ellipsoids.begin(), ellipsoids.end()));
   number_pairs(context, count_pairs(context));
-  evaluate(context, ellipsoids);
   assign(context);
 }
 
@@ -196,53 +198,53 @@ double TightProblem::total() const {
   return sum;
 }
 
-Neighbourhood TightProblem::around(std::span<const std::uint32_t> ellipsoids) const {
-  Neighbourhood found;
-  for (const std::uint32_t k : ellipsoids)
-    for (std::uint32_t pair = pair_begin_[k]; pair < pair_begin_[k + 1]; ++pair) {
-      const std::uint32_t i = pair_sample_[pair];
-      float others = std::numeric_limits<float>::infinity();
-      bool is_first = true;  // a sample of several of the ellipsoids is taken with the lowest of them
+std::vector<Nearest3> TightProblem::rank(const engine::Context& context) const {
+  constexpr float kNone = std::numeric_limits<float>::infinity();
+  std::vector<Nearest3> ranked(target_.size());
+  engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Nearest3 nearest{{~0u, ~0u, ~0u}, {kNone, kNone, kNone}};
       for (int s = 0; s < count_of_[i]; ++s) {
-        const std::uint32_t p = pairs_of_[i][s], other = ellipsoid_of_pair_[p];
-        if (std::ranges::find(ellipsoids, other) == ellipsoids.end())
-          others = std::min(others, distance_[p]);
-        else
-          is_first = is_first && other >= k;
+        std::uint32_t k = ellipsoid_of_pair_[pairs_of_[i][s]];
+        float d = distance_[pairs_of_[i][s]];
+        for (std::size_t place = 0; place < nearest.distance.size(); ++place)
+          if (d < nearest.distance[place]) {
+            std::swap(d, nearest.distance[place]);
+            std::swap(k, nearest.ellipsoid[place]);
+          }
       }
-      if (!is_first) continue;
-      found.x.push_back(point_[0][i]);
-      found.y.push_back(point_[1][i]);
-      found.z.push_back(point_[2][i]);
-      found.target.push_back(target_[i]);
-      found.others.push_back(others);
-      found.one_sided.push_back(one_sided_[i]);
-      found.cost += static_cast<double>(cost_[i]);
+      ranked[i] = nearest;
     }
-  return found;
+  });
+  return ranked;
 }
 
-std::vector<std::vector<std::uint32_t>> TightProblem::partners(std::size_t most) const {
-  std::vector<std::array<std::uint32_t, 2>> met;  // owner and second of each sample that has one
-  for (std::size_t i = 0; i < owner_.size(); ++i) {
-    std::uint32_t second = owner_[i];
-    for (int s = 0; s < count_of_[i]; ++s) {
-      const std::uint32_t p = pairs_of_[i][s];
-      if (p != owner_[i] && (second == owner_[i] || distance_[p] < distance_[second])) second = p;
-    }
-    if (second != owner_[i]) met.push_back({ellipsoid_of_pair_[owner_[i]], ellipsoid_of_pair_[second]});
-  }
-  std::ranges::sort(met);
-  std::vector<std::vector<std::array<std::size_t, 2>>> votes(ellipsoids_);  // how many, for whom
-  for (std::size_t begin = 0, end = 0; begin < met.size(); begin = end) {
-    while (end < met.size() && met[end] == met[begin]) ++end;
-    votes[met[begin][0]].push_back({end - begin, met[begin][1]});
-  }
-  std::vector<std::vector<std::uint32_t>> found(ellipsoids_);
-  for (std::size_t k = 0; k < ellipsoids_; ++k) {
-    std::ranges::stable_sort(votes[k], [](const auto& a, const auto& b) { return a[0] > b[0]; });
-    for (std::size_t n = 0; n < std::min(most, votes[k].size()); ++n)
-      found[k].push_back(static_cast<std::uint32_t>(votes[k][n][1]));
+Neighbourhood TightProblem::around(std::span<const std::uint32_t> ellipsoids,
+                                   std::span<const Nearest3> ranked) const {
+  const std::uint32_t first = ellipsoids.front(), last = ellipsoids.back();
+  Neighbourhood found;
+  found.reserve(pair_begin_[first + 1] - pair_begin_[first] + pair_begin_[last + 1] - pair_begin_[last]);
+  const auto add = [&](std::uint32_t i) {
+    const Nearest3& nearest = ranked[i];
+    std::size_t place = 0;
+    while (place < 2 && (nearest.ellipsoid[place] == first || nearest.ellipsoid[place] == last)) ++place;
+    found.x.push_back(point_[0][i]);
+    found.y.push_back(point_[1][i]);
+    found.z.push_back(point_[2][i]);
+    found.target.push_back(target_[i]);
+    found.others.push_back(nearest.distance[place]);
+    found.one_sided.push_back(one_sided_[i]);
+    found.cost += static_cast<double>(cost_[i]);
+  };
+  const auto sample = pair_sample_.begin();
+  const auto firsts = std::span(sample + pair_begin_[first], sample + pair_begin_[first + 1]);
+  for (const std::uint32_t i : firsts) add(i);
+  if (last == first) return found;
+  auto next = firsts.begin();  // both lists ascend: a sample of both was taken with the first
+  for (std::uint32_t pair = pair_begin_[last]; pair < pair_begin_[last + 1]; ++pair) {
+    const std::uint32_t i = pair_sample_[pair];
+    while (next != firsts.end() && *next < i) ++next;
+    if (next == firsts.end() || *next != i) add(i);
   }
   return found;
 }

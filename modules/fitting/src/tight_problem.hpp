@@ -18,6 +18,12 @@
 
 namespace bodice::fitting {
 
+/// A sample's nearest ellipsoids, ascending; infinitely far where it has fewer.
+struct Nearest3 {
+  std::array<std::uint32_t, 3> ellipsoid;
+  std::array<float, 3> distance;
+};
+
 /// Samples in spatial order; each keeps the ellipsoids that can be its nearest until they have moved by
 /// most_motion(), up to `candidates` of them.
 class TightProblem {
@@ -46,10 +52,10 @@ class TightProblem {
   void remember();
 
   double total() const;
-  /// The samples that one of `ellipsoids` may be the nearest of, with the distance to the others.
-  Neighbourhood around(std::span<const std::uint32_t> ellipsoids) const;
-  /// #E x up to `most`: who is second nearest to an ellipsoid's samples, the most frequent first.
-  std::vector<std::vector<std::uint32_t>> partners(std::size_t most) const;
+  std::vector<Nearest3> rank(const engine::Context& context) const;  ///< #S
+  /// The samples that one of `ellipsoids` (one or two, ascending) may be the nearest of, with the distance to
+  /// the others.
+  Neighbourhood around(std::span<const std::uint32_t> ellipsoids, std::span<const Nearest3> ranked) const;
   /// Samples on or just off the skin, within 5 mm, by the ellipsoid that owns them and by part.
   std::vector<std::array<std::uint32_t, body::kPartCount>> skin_of_each() const;
   /// Fall of the cost since remember(), by ellipsoid (owner before or after).
@@ -84,6 +90,7 @@ class TightProblem {
   std::array<std::vector<float>, 3> pair_point_;
   std::vector<float> distance_, previous_;                  ///< #P
   std::vector<std::array<std::uint32_t, kNear>> pairs_of_;  ///< #S
+  std::vector<std::array<float, kNear>> found_at_;          ///< #S: distances as the pairs were chosen
   std::vector<std::uint8_t> count_of_;                      ///< #S: used slots of pairs_of_
   std::vector<std::uint32_t> ellipsoid_of_pair_;
   std::vector<std::uint32_t> owner_, remembered_owner_;  ///< #S: pairs
