@@ -325,3 +325,19 @@ TEST_CASE("fit: cancelled work says so") {
   REQUIRE_FALSE(result.ok());
   CHECK(result.error().code == engine::ErrorCode::kCancelled);
 }
+
+TEST_CASE("fit: distances to the skin are prepared for those tiers and judges that ask for them") {
+  const Skin skin = three_ellipsoids();
+  const auto prepared = [&](Tier tier, bool measured) {
+    FitOptions options = options_for(tier, 3);
+    options.measure_accuracy = measured;
+    const auto result = fitting::fit({}, skin.view(), options);
+    REQUIRE(result.ok());
+    REQUIRE(result->proxy.ellipsoids().size() == 3);
+    return std::ranges::count_if(result->stages, [](const auto& stage) { return stage.name == "distance"; });
+  };
+  CHECK(prepared(Tier::kPaper, false) == 0);
+  CHECK(prepared(Tier::kPaper, true) == 1);
+  CHECK(prepared(Tier::kSolid, false) == 1);
+  CHECK(prepared(Tier::kTight, false) == 1);
+}

@@ -146,12 +146,18 @@ engine::Result<Found> search(const engine::Context& context, const LabelledSkin&
   return std::move(*best);
 }
 
+/// The paper's tier works on vertices alone: only its judge asks for distances.
+bool asks_distances(const LabelledSkin& skin, const FitOptions& options) {
+  return options.measure_accuracy || options.target_error_m ||
+         Dial(options, skin.stature_m).plan().tier != proxy::Tier::kPaper;
+}
+
 engine::Result<FitResult> fit_checked(const engine::Context& context, const LabelledSkin& skin,
                                       const FitOptions& options) {
   std::vector<engine::StageTime> stages;
   std::unique_ptr<geometry::MeshDistance> own;
   LabelledSkin judged = skin;
-  if (!skin.distance) {
+  if (!skin.distance && asks_distances(skin, options)) {
     engine::StageTimer timer(context, stages, "distance");
     own = std::make_unique<geometry::MeshDistance>(context, skin.mesh);
     judged.distance = own.get();
