@@ -50,7 +50,9 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
           .add_option("--target-error-mm", o.target_error_mm, "mean distance between proxy and skin to reach")
           ->check(above_zero())
           ->group(group);
-  auto* count = command.add_option("--max-ellipsoids", o.max_ellipsoids, "at most this many ellipsoids")
+  auto* count = command
+                    .add_option("--max-ellipsoids", o.max_ellipsoids,
+                                "at most this many ellipsoids (solid: never more than 200)")
                     ->check(whole(1, 4096))
                     ->group(group);
   auto* budget =

@@ -17,7 +17,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kOverStepOfFew = 1.3;  // so few steps must settle
-constexpr int kIterations = 11;         // too few for a move of ellipsoids elsewhere to pay
+constexpr int kIterations = 9;          // too few for a move of ellipsoids elsewhere to pay
 /// Of the scaled body: with so few samples and ellipsoids a region, choosing candidates again costs more than
 /// keeping all that may ever be near.
 constexpr double kMostMotion = 0.3;

@@ -41,7 +41,9 @@ struct FitOptions {
   /// Mean gap wanted: gives tier, count, size of tables and thresholds. The search aims within a tenth of it;
   /// a gap above it by more than a fifth is the warning target-error-not-reached.
   std::optional<double> target_error_m;
-  std::optional<int> max_ellipsoids;  ///< of the whole body, whatever `parts` says
+  /// Of the whole body, whatever `parts` says. Solid without thresholds uses 200 at most, with more of which
+  /// its gap would widen; tight may end with some fewer.
+  std::optional<int> max_ellipsoids;
   /// Time of one query of 10,000 particles near the skin, microseconds: gives tier and count, kept within a
   /// fifth (more is the warning budget-not-reached). Judged by a law (predicted_frame_us) and no clock, so
   /// that results repeat: one thread of a 2.5 GHz server with AVX-512, nothing kept from an earlier query.
