@@ -111,7 +111,7 @@ void read_skin(const Glb& glb, const json& primitive, Rig& rig) {
     rig.rest.triangles.push_back({at(i), at(i + 1), at(i + 2)});
 }
 
-/// How much of a vertex follows the bone or what hangs on it directly.
+/// How much of a vertex follows the bone.
 double share_of(const Influence& influence, std::size_t bone) {
   double share = 0.0;
   for (std::size_t k = 0; k < 4; ++k) share += influence.bone[k] == bone ? influence.weight[k] : 0.0;

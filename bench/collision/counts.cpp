@@ -1,6 +1,6 @@
-// The proxy grows from 89 to 4,096 ellipsoids (the paper's tier, which takes as many as it is allowed; then
-// balls), the particles stay: along a curve through space, in no order
-// with a workspace that keeps one, and in no order as they are stored.
+// The proxy grows from 89 to 4,096 ellipsoids (the paper's tier, which uses more than the others would; then
+// balls), the particles stay: along a curve through space, in no order with a workspace that keeps one, and
+// in no order as they are stored.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -278,8 +278,7 @@ int main(int argc, char** argv) {
       "alone, without sign but for grids. The bars of 7.5 and 15 ns (30 and 60 with relief) come from a "
       "prototype that answered 'inside only'; they are held against all distances, too. 'Frames': particles "
       "drift by a millimetre a call and a workspace keeps what it can, the mean of %d calls; 'nothing kept': "
-      "without one. A peer "
-      "without sign must look as far for that as for all distances.\n\n",
+      "without one. A peer without sign must look as far for that as for all distances.\n\n",
       bench::title(origin).c_str(), origin.flags.c_str(), count, 1e3 * kBand_m, body.mesh.positions.size(),
       repeats, bench::kFrameCalls);
 

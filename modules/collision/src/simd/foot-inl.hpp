@@ -221,7 +221,8 @@ HWY_INLINE void finish(const Shape& s, V3 y, Search& search, Foot& result) {
   const V3 raw = last_direction(search);
   result.u = search.u;
   const V3 g = {raw.x, hn::Mul(raw.y, s.inverse1), hn::Mul(raw.z, s.inverse2)};
-  // Of w and of w / r side by side: the normal does not care how long w is.
+  // Of w and of w / r side by side: the normal does not care how long w is. The last step has left of |w|^2 -
+  // 1 about kSettled squared, of which the expansion of 1 / |w| about 1 drops the square.
   const V inverse_norm = hn::NegMulAdd(all(0.5f), dot(raw, raw), all(1.5f));
   const V3 w = result.w = scaled(raw, inverse_norm);
   const V3 n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));  // unit normal times r0, first octant
