@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr int kBins = 16;
 constexpr std::uint32_t kBesideEachOther = 2048;  // triangles of a node whose children are worth a task each
+constexpr std::size_t kLeafGrain = 512;
 constexpr int kSahLevels = 40;  // binary levels by surface area; below them halves, which bounds the depth
 
 struct FloatBox {
@@ -101,19 +103,33 @@ struct BinSweep {
 
 class Builder {
  public:
-  explicit Builder(const std::vector<BvhTriangle>& triangles) : order_(triangles.size()) {
+  explicit Builder(const std::vector<BvhTriangle>& triangles)
+      : order_(triangles.size()), leaf_size_(triangles.size(), 0) {
     primitives_.reserve(triangles.size());
     for (const BvhTriangle& t : triangles) primitives_.push_back(make_primitive(t));
     std::iota(order_.begin(), order_.end(), 0u);
   }
 
-  void build(const engine::Context& context, std::vector<BvhNode>& nodes) {
+  void build(const engine::Context& context, std::vector<BvhNode>& nodes,
+             std::vector<LeafTriangles>& leaves) {
     nodes.emplace_back();
     fill(context, nodes, 0, {0, static_cast<std::uint32_t>(order_.size())}, 0);
+    number_leaves(nodes, leaves);
   }
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
+  /// Leaves are known by their first triangle until all nodes are there.
+  void number_leaves(std::vector<BvhNode>& nodes, std::vector<LeafTriangles>& leaves) const {
+    for (BvhNode& node : nodes)
+      for (std::uint32_t& child : node.child) {
+        if (child == BvhChild::kNone || !BvhChild::is_leaf(child)) continue;
+        const std::uint32_t first = BvhChild::leaf_index(child);
+        child = BvhChild::leaf(static_cast<std::uint32_t>(leaves.size()));
+        leaves.push_back({.first = first, .count = leaf_size_[first]});
+      }
+  }
+
   /// Fills nodes[index] with the children of a range.
   void fill(const engine::Context& context, std::vector<BvhNode>& nodes, std::uint32_t index, Range range,
             int level) {
@@ -138,7 +154,10 @@ class Builder {
 
   std::uint32_t place(const engine::Context& context, std::vector<BvhNode>& nodes, Range part, int level) {
     if (part.size() == 0) return BvhChild::kNone;
-    if (part.size() <= Bvh::kLeafSize) return BvhChild::leaf(part.begin, part.size());
+    if (part.size() <= Bvh::kLeafSize) {
+      leaf_size_[part.begin] = static_cast<std::uint8_t>(part.size());
+      return BvhChild::leaf(part.begin);
+    }
     const auto child = static_cast<std::uint32_t>(nodes.size());
     nodes.emplace_back();
     fill(context, nodes, child, part, level);
@@ -225,6 +244,7 @@ class Builder {
 
   std::vector<Primitive> primitives_;
   std::vector<std::uint32_t> order_;
+  std::vector<std::uint8_t> leaf_size_;  // of the leaf that begins there
 };
 
 bool finite_corners(const TriMesh& mesh, std::size_t t) {
@@ -256,13 +276,18 @@ Bvh build_bvh(const engine::Context& context, const TriMesh& mesh) {
     unordered[i] = {a, bvh.to_local(mesh.corner(t, 1)) - a, bvh.to_local(mesh.corner(t, 2)) - a};
   }
   Builder builder(unordered);
-  builder.build(context, bvh.nodes);
+  builder.build(context, bvh.nodes, bvh.leaves);
   const std::vector<Index> source = bvh.triangle_of_leaf;
   bvh.triangles.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     bvh.triangles[i] = unordered[builder.order()[i]];
     bvh.triangle_of_leaf[i] = source[builder.order()[i]];
   }
+  engine::parallel_for(context, bvh.leaves.size(), kLeafGrain, [&](std::size_t begin, std::size_t end) {
+    for (LeafTriangles& leaf : std::span(bvh.leaves).subspan(begin, end - begin))
+      for (std::uint32_t k = 0; k < leaf.count; ++k)
+        leaf.set(static_cast<int>(k), bvh.triangles[leaf.first + k]);
+  });
   return bvh;
 }
 

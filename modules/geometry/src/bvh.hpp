@@ -8,49 +8,43 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
+#include "leaf_triangles.hpp"
+
 namespace bodice::geometry {
 
 /// Four children side by side, so that one pass of vector instructions tests them all. Boxes are floats in
 /// the local frame, rounded outward; a missing child has an empty box.
 struct BvhNode {
   static constexpr int kWidth = 4;
-  float low[3][kWidth];
-  float high[3][kWidth];
+  Float4 low[3];
+  Float4 high[3];
   std::uint32_t child[kWidth];
 };
 
-/// Reads BvhNode::child: either a node or a run of triangles in leaf order.
+/// Reads BvhNode::child: either a node or a leaf.
 struct BvhChild {
   static constexpr std::uint32_t kLeafBit = 1u << 31;
-  static constexpr std::uint32_t kCountShift = 28;
-  static constexpr std::uint32_t kFirstMask = (1u << kCountShift) - 1;
   static constexpr std::uint32_t kNone = ~0u;
 
-  static std::uint32_t leaf(std::uint32_t first, std::uint32_t count) {
-    return kLeafBit | (count - 1) << kCountShift | first;
-  }
+  static std::uint32_t leaf(std::uint32_t index) { return kLeafBit | index; }
   static bool is_leaf(std::uint32_t child) { return (child & kLeafBit) != 0; }
-  static std::uint32_t first(std::uint32_t child) { return child & kFirstMask; }
-  static std::uint32_t count(std::uint32_t child) { return ((child >> kCountShift) & 7u) + 1; }
-};
-
-/// A triangle as the traversal wants it: a corner and two edges, local frame.
-struct BvhTriangle {
-  Vec3 a, ab, ac;
+  static std::uint32_t leaf_index(std::uint32_t child) { return child & ~kLeafBit; }
 };
 
 struct Bvh {
-  static constexpr std::uint32_t kLeafSize = 4;
+  static constexpr std::uint32_t kLeafSize = LeafTriangles::kWidth;
   /// Levels: at most 20 by surface area, then halves of at most 2^28 triangles, two halvings a level.
   static constexpr int kStackSize = 128;
 
   Vec3 origin = Vec3::Zero();
   double scale = 1.0;                   ///< metres a local unit: a power of two, so that scaling is exact
   std::vector<BvhNode> nodes;           ///< nodes[0] is the root; parents precede children
+  std::vector<LeafTriangles> leaves;    ///< in the order of the nodes that hold them
   std::vector<BvhTriangle> triangles;   ///< leaf order; only those with finite corners
   std::vector<Index> triangle_of_leaf;  ///< leaf order -> the mesh's triangle
 
   Vec3 to_local(const Vec3& p) const { return (p - origin) / scale; }
+  const LeafTriangles& leaf(std::uint32_t child) const { return leaves[BvhChild::leaf_index(child)]; }
 };
 
 /// O(n log n); deterministic. At most 2^28 triangles.

@@ -1,10 +1,11 @@
 // Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.5 (Voronoi regions).
-// Based on: Adriaan van Oosterom, Jan Strackee. The Solid Angle of a Plane Triangle. 1983. - eq. (8)
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <bodice/geometry/triangle.hpp>
+
+#include "solid_angle.hpp"
 
 namespace bodice::geometry {
 namespace {
@@ -73,15 +74,8 @@ TrianglePoint closest_point(const Vec3& a, const Vec3& b, const Vec3& c, const V
 }
 
 double solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& apex) {
-  const Vec3 u = a - apex;
-  const Vec3 v = b - apex;
-  const Vec3 w = c - apex;
-  const double lu = u.norm();
-  const double lv = v.norm();
-  const double lw = w.norm();
-  const double numerator = u.dot(v.cross(w));
-  const double denominator = lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv;
-  return numerator == 0.0 ? 0.0 : 2.0 * std::atan2(numerator, denominator);
+  const HalfAngle half = half_solid_angle(a, b, c, apex);
+  return half.sine == 0.0 ? 0.0 : 2.0 * std::atan2(half.sine, half.cosine);
 }
 
 }  // namespace bodice::geometry

@@ -8,7 +8,7 @@
 #include <array>
 #include <numbers>
 
-#include <bodice/geometry/triangle.hpp>
+#include "solid_angle.hpp"
 
 namespace bodice::geometry {
 namespace {
@@ -42,8 +42,8 @@ struct Moments {
 
 Moments leaf_moments(const Bvh& bvh, std::uint32_t child) {
   Moments m;
-  const std::uint32_t first = BvhChild::first(child);
-  for (std::uint32_t i = first, end = first + BvhChild::count(child); i < end; ++i) {
+  const LeafTriangles& leaf = bvh.leaf(child);
+  for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
     const BvhTriangle& t = bvh.triangles[i];
     const Vec3 area_vector = 0.5 * t.ab.cross(t.ac);
     const double area = area_vector.norm();
@@ -64,28 +64,25 @@ void set_child(DipoleNode& node, int slot, const Moments& m) {
   node.radius2[slot] = static_cast<float>(m.radius2());
 }
 
-double leaf_solid_angle(const Bvh& bvh, std::uint32_t child, const Vec3& query) {
-  double angle = 0.0;
-  const std::uint32_t first = BvhChild::first(child);
-  for (std::uint32_t i = first, end = first + BvhChild::count(child); i < end; ++i) {
+void add_leaf(const Bvh& bvh, const LeafTriangles& leaf, const Vec3& query, SolidAngleSum& sum) {
+  for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
     const BvhTriangle& t = bvh.triangles[i];
-    angle += solid_angle(t.a, t.a + t.ab, t.a + t.ac, query);
+    sum.add(half_solid_angle(t.a, t.a + t.ab, t.a + t.ac, query));
   }
-  return angle;
 }
 
-/// Solid angles of the children's dipoles, and which children are far enough for them.
-void far_fields(const DipoleNode& node, const std::array<float, 3>& q, float far_ratio2, float* angle,
-                float* excess) {
-  for (int i = 0; i < BvhNode::kWidth; ++i) {
-    const float x = node.center[0][i] - q[0];
-    const float y = node.center[1][i] - q[1];
-    const float z = node.center[2][i] - q[2];
-    const float distance2 = x * x + y * y + z * z;
-    const float flux = x * node.area[0][i] + y * node.area[1][i] + z * node.area[2][i];
-    angle[i] = flux / (distance2 * std::sqrt(distance2));
-    excess[i] = distance2 - far_ratio2 * node.radius2[i];
-  }
+/// Solid angles of the children's dipoles, and which children are too near for them.
+struct FarFields {
+  Float4 angle;
+  unsigned near;
+};
+
+FarFields far_fields(const DipoleNode& node, const std::array<float, 3>& q, float far_ratio2) {
+  const Float4 x = node.center[0] - q[0], y = node.center[1] - q[1], z = node.center[2] - q[2];
+  const Float4 distance2 = x * x + y * y + z * z;
+  const Float4 flux = x * node.area[0] + y * node.area[1] + z * node.area[2];
+  const Float4 excess = distance2 - far_ratio2 * node.radius2;
+  return {flux / (distance2 * square_root(distance2)), 15u & ~bits(excess > 0.0f)};
 }
 
 }  // namespace
@@ -111,26 +108,26 @@ double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, co
   std::array<float, 3> q;  // clamped so that squares stay finite; so far away the number is 0 anyway
   for (int k = 0; k < 3; ++k) q[k] = static_cast<float>(std::clamp(query[k], -1e12, 1e12));
   const auto far_ratio2 = static_cast<float>(std::min(far_ratio * far_ratio, 3e38));
-  double total = 0.0;
+  SolidAngleSum near;
+  double far = 0.0;
   std::array<std::uint32_t, Bvh::kStackSize> stack;
   int depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const std::uint32_t n = stack[--depth];
-    float angle[BvhNode::kWidth], excess[BvhNode::kWidth];
-    far_fields(dipoles[n], q, far_ratio2, angle, excess);
-    for (int i = 0; i < BvhNode::kWidth; ++i) {
+    const auto [angle, too_near] = far_fields(dipoles[n], q, far_ratio2);
+    for (unsigned i = 0; i < BvhNode::kWidth; ++i) {
       const std::uint32_t child = bvh.nodes[n].child[i];
       if (child == BvhChild::kNone) continue;
-      if (excess[i] > 0.0f)
-        total += static_cast<double>(angle[i]);
+      if ((too_near >> i & 1u) == 0)
+        far += static_cast<double>(angle[i]);
       else if (BvhChild::is_leaf(child))
-        total += leaf_solid_angle(bvh, child, query);
+        add_leaf(bvh, bvh.leaf(child), query, near);
       else
         stack[depth++] = child;
     }
   }
-  return total / (4.0 * std::numbers::pi);
+  return (near.total() + far) / (4.0 * std::numbers::pi);
 }
 
 }  // namespace bodice::geometry

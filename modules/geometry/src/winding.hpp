@@ -7,9 +7,9 @@ namespace bodice::geometry {
 
 /// Far fields of a Bvh's children, side by side as the boxes are.
 struct DipoleNode {
-  float center[3][BvhNode::kWidth];  ///< area-weighted centroid
-  float area[3][BvhNode::kWidth];    ///< sum of area vectors
-  float radius2[BvhNode::kWidth];    ///< squared reach of the triangles around the centroid
+  Float4 center[3];  ///< area-weighted centroid
+  Float4 area[3];    ///< sum of area vectors
+  Float4 radius2;    ///< squared reach of the triangles around the centroid
 };
 
 /// Parallel to bvh.nodes. O(n).
