@@ -7,14 +7,14 @@
 
 namespace bench {
 
-/// Particles as a solver has them: from call to call all drift by a millimetre, 10 mm to and fro, each with a
+/// Particles as a solver has them: from call to call all drift by a millimetre, 30 mm to and fro, each with a
 /// tremble of its own. A garment that slides over a body at 60 mm a second has that at 60 calls a second.
 class Frames {
  public:
   explicit Frames(const Cloud& start) : start_(start), now_(start) {}
 
   void step() {
-    constexpr int kHalf = 20;
+    constexpr int kHalf = 60;
     constexpr float kStep_m = 1e-3f, kTremble_m = 1e-4f;
     const int phase = ++frame_ % (2 * kHalf);
     const float way_m = kStep_m * static_cast<float>(std::abs(phase - kHalf) - kHalf / 2);

@@ -1,8 +1,9 @@
 // Candidates kept from call to call: which ellipsoids can be the nearest of some neighbouring particles. A
 // distance changes by no more than its place moves, and by no more than the ellipsoid's material does. Hence
-// an ellipsoid that was farther than the nearest by more than twice the reach is not the nearest while place
-// and material together have come no farther than the reach: answers among those that are kept have the same
-// bits as among all.
+// an ellipsoid that was farther than the nearest by some slack is not the nearest while place and material
+// together have come less far than half of that: answers among the others have the same bits as among all.
+// Kept is what has less slack than twice the reach; asked is what has less than twice the way so far, which
+// is little at first.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +23,26 @@ struct alignas(64) KeptBatch {
   static constexpr int kLeastUse = 2;                        ///< calls that pay for finding what is kept
   static constexpr int kShortLife = 6, kLongLife = 40;       ///< calls: the reach grows or shrinks
   static constexpr int kRest = 16;                           ///< calls that nothing is kept after a failure
+  static constexpr float kFar = 1e30f;                       ///< metres
 
   float x[kBatch], y[kBatch], z[kBatch];  ///< metres: where the particles were
-  float least_m[kSpans];                  ///< no place within reach is nearer to an ellipsoid
-  std::uint32_t near[kSpans];             ///< a bit a candidate
-  std::int32_t candidate[kMost];          ///< ellipsoids, rising
+  float least_m[kSpans];                  ///< no place was nearer to an ellipsoid
+  /// By how much a candidate was farther than the nearest, at least; kFar: it is not near the span.
+  alignas(64) float slack_m[kSpans][kMost];
+  std::int32_t candidate[kMost];  ///< ellipsoids, rising
   int candidates = 0;
   int count = 0;  ///< lanes; zero: nothing is kept
   float reach_m = 0.0f;
+  float moved_m = 0.0f;      ///< how far place and material have come together, at most
   double travelled_m = 0.0;  ///< KeptCandidates::travelled_m() then
   int used = 0, rest = 0;    ///< calls
 
   /// Chooses the reach of what is found next; false if nothing should be kept now.
   bool renew(float least_reach_m, float most_reach_m);
-  /// To be left alone for some calls.
+  /// What was found does not fit: to be left alone for some calls, then tried with less.
   void give_up() {
     count = 0;
+    reach_m *= 0.5f;
     rest = kRest;
   }
 };

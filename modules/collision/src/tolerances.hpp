@@ -85,8 +85,8 @@ inline constexpr double kScattered = 0.6;
 inline constexpr double kStoredWell = 1.2;
 
 /// Least and longest way, share of the union's size, that places and material may come before the ellipsoids
-/// near them are found anew: 2 and 8 mm of a body. Each millimetre brings more ellipsoids near.
-inline constexpr double kLeastReach = 1e-3, kMostReach = 5e-3;
+/// near them are found anew: 1 and 10 mm of a body. Each millimetre brings more ellipsoids near.
+inline constexpr double kLeastReach = 1e-3, kMostReach = 12e-3;
 
 /// Growth of the blocks' summed radii that makes a new spatial sort worth its 10 ns a particle.
 inline constexpr double kSortAgain = 1.3;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "kept.hpp"
 #include "simd/lowest-inl.hpp"
@@ -18,18 +19,23 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 static_assert(KeptBatch::kSpan % kStep == 0 && kBlock % KeptBatch::kSpan == 0);
 
-/// Whether no place is farther from where it was than the reach that the proxy's own way leaves.
-HWY_INLINE bool holds(const KeptBatch& kept, const QueryBatch& batch) {
-  const auto left_m =
-      static_cast<float>(double{kept.reach_m} - (batch.keeping.travelled_m - kept.travelled_m));
+/// Whether no place is farther from where it was than the reach that the proxy's own way leaves; takes note
+/// of the farthest.
+HWY_INLINE bool holds(KeptBatch& kept, const QueryBatch& batch) {
+  const auto travelled_m = static_cast<float>(batch.keeping.travelled_m - kept.travelled_m);
+  const float left_m = kept.reach_m - travelled_m;
   if (kept.count < batch.count || !(left_m > 0.0f)) return false;
-  const V most = all(left_m * left_m);
+  const V limit = all(left_m * left_m);
+  V most = hn::Zero(f);
   M near = hn::FirstN(f, kWidth);
   for (int i = 0; i < batch.count; i += kWidth) {
     const V3 p = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
     const V3 way = p - load3(kept.x + i, kept.y + i, kept.z + i);
-    near = hn::And(near, hn::Lt(dot(way, way), most));
+    const V way2 = dot(way, way);
+    near = hn::And(near, hn::Lt(way2, limit));
+    most = hn::Max(most, way2);
   }
+  kept.moved_m = travelled_m + 1.001f * std::sqrt(hn::GetLane(hn::MaxOfLanes(f, most)));
   return hn::AllTrue(f, near);
 }
 
@@ -44,18 +50,17 @@ HWY_INLINE int slot_of(KeptBatch& kept, std::int32_t ellipsoid) {
 
 /// By rising index, as all lists are: blended answers are summed in that order.
 HWY_INLINE void sort_candidates(KeptBatch& kept) {
-  std::int32_t sorted[KeptBatch::kMost];
-  std::uint32_t moved[KeptBatch::kMost];  // a candidate's bit among the sorted
+  std::int32_t sorted[KeptBatch::kMost], from[KeptBatch::kMost];
   for (int i = 0; i < kept.candidates; ++i) {
     int place = 0;
     for (int k = 0; k < kept.candidates; ++k) place += kept.candidate[k] < kept.candidate[i];
-    moved[i] = 1u << place;
     sorted[place] = kept.candidate[i];
+    from[place] = i;
   }
-  for (std::uint32_t& near : kept.near) {
-    std::uint32_t after = 0;
-    for (std::uint32_t left = near; left != 0; left &= left - 1) after |= moved[std::countr_zero(left)];
-    near = after;
+  for (float(&slack_m)[KeptBatch::kMost] : kept.slack_m) {
+    float before_m[KeptBatch::kMost];
+    std::copy_n(slack_m, KeptBatch::kMost, before_m);
+    for (int i = 0; i < kept.candidates; ++i) slack_m[i] = before_m[from[i]];
   }
   std::copy_n(sorted, kept.candidates, kept.candidate);
 }
@@ -93,8 +98,8 @@ HWY_INLINE void measure_step(const Baked& baked, const QueryBatch& batch, int fr
   out.least_m = hn::GetLane(hn::MinOfLanes(f, least));
 }
 
-/// Keeps what may be the nearest of some place of the step, or farther by less than `beyond_m`; false if
-/// there is no room. `slot`: where a column's ellipsoid is kept, or -1.
+/// Keeps what is farther than the nearest of some place of the step by less than `beyond_m` and twice the
+/// reach; false if there is no room. `slot`: where a column's ellipsoid is kept, or -1.
 template <int kTables>
 HWY_INLINE bool keep_step(const Baked& baked, const QueryBatch& batch, int from, const Near& near,
                           const Columns& columns, float beyond_m, std::int32_t* slot, KeptBatch& kept) {
@@ -102,17 +107,21 @@ HWY_INLINE bool keep_step(const Baked& baked, const QueryBatch& batch, int from,
   measure_step<kTables>(baked, batch, from, near, columns, beyond_m, step);
   const int span = from / KeptBatch::kSpan;
   kept.least_m[span] = std::min(kept.least_m[span], step.least_m);
+  const float widest_m = 2.0f * kept.reach_m;
   for (int i = 0; i < near.count; ++i) {
-    M below = hn::FirstN(f, 0);
+    V slack = all(KeptBatch::kFar);
     for (int v = 0; v < kTogether; ++v) {
       const V bound = hn::Load(f, step.bound + i * kStep + v * kWidth);
-      below = hn::Or(below, hn::Not(hn::Gt(bound, step.limit[v])));
+      const V beyond = hn::IfThenElseZero(hn::Gt(bound, step.limit[v]), hn::Sub(bound, step.limit[v]));
+      slack = hn::Min(slack, beyond);
     }
-    if (hn::AllFalse(f, below)) continue;
+    const float slack_m = hn::GetLane(hn::MinOfLanes(f, slack));
+    if (slack_m > widest_m) continue;
     const std::int32_t column = near.index[i];
     if (slot[column] < 0) slot[column] = slot_of(kept, static_cast<std::int32_t>(columns.ellipsoid(column)));
     if (slot[column] < 0) return false;
-    kept.near[span] |= 1u << slot[column];
+    float& least_m = kept.slack_m[span][slot[column]];
+    least_m = std::min(least_m, slack_m);
   }
   return true;
 }
@@ -124,6 +133,7 @@ HWY_INLINE void keep_places(const QueryBatch& batch, KeptBatch& kept) {
     hn::Store(hn::LoadU(f, batch.z + i), f, kept.z + i);
   }
   kept.travelled_m = batch.keeping.travelled_m;
+  kept.moved_m = 0.0f;
   kept.count = batch.count;
 }
 
@@ -136,7 +146,7 @@ inline bool keep(const Baked& baked, const ReliefTables* relief, float beyond_m,
   for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
   const float widest_m = beyond_m + 2.0f * kept.reach_m;
   kept.candidates = 0;
-  std::fill_n(kept.near, KeptBatch::kSpans, 0u);
+  std::fill_n(kept.slack_m[0], KeptBatch::kSpans * KeptBatch::kMost, KeptBatch::kFar);
   std::fill_n(kept.least_m, KeptBatch::kSpans, kNoLimit);
   const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
                         Near* found) {
@@ -148,7 +158,7 @@ inline bool keep(const Baked& baked, const ReliefTables* relief, float beyond_m,
     std::fill_n(slot, columns.count(), -1);
     for (int i = 0; i < count; ++i)
       for (int from = pieces[i].begin; from < end_of(pieces[i]); from += kStep)
-        if (!keep_step<tables()>(baked, batch, from, found[i], columns, widest_m, slot, kept)) return false;
+        if (!keep_step<tables()>(baked, batch, from, found[i], columns, beyond_m, slot, kept)) return false;
     return true;
   };
   if (!share(baked, relief, blocks.pieces, blocks.count, lists, find, work)) return false;
@@ -176,6 +186,16 @@ HWY_INLINE bool is_kept(const Baked& baked, const ReliefTables* relief, float be
   return false;
 }
 
+/// The candidates of a span that may be the nearest by now.
+HWY_INLINE void list_span(const KeptBatch& kept, int span, Near& out) {
+  const V most = all(2.0f * kept.moved_m);
+  for (int first = 0; first < kept.candidates; first += kWidth) {
+    const M near = hn::Le(hn::Load(f, kept.slack_m[span] + first), most);
+    for (std::uint64_t left = bits(near); left != 0; left &= left - 1)
+      out.index[out.count++] = first + std::countr_zero(left);
+  }
+}
+
 /// Calls work as share() does, for the spans that may come within `limit_m` of an ellipsoid; others have
 /// no candidates.
 template <class Work>
@@ -188,11 +208,8 @@ HWY_INLINE bool share_kept(const Baked& baked, const ReliefTables* relief, const
   for (int begin = 0; begin < batch.count; begin += KeptBatch::kSpan, ++count) {
     pieces[count].begin = begin;
     pieces[count].end = std::min(begin + KeptBatch::kSpan, batch.count);
-    Near& near = lists.of_span[count];
-    near.count = 0;
-    if (kept.least_m[count] - kept.reach_m > limit_m) continue;
-    for (std::uint32_t left = kept.near[count]; left != 0; left &= left - 1)
-      near.index[near.count++] = std::countr_zero(left);
+    lists.of_span[count].count = 0;
+    if (kept.least_m[count] - kept.moved_m <= limit_m) list_span(kept, count, lists.of_span[count]);
   }
   bool fits = false;
   with_tables(lists.columns,
