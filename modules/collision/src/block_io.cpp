@@ -120,30 +120,20 @@ void gather(const Particles& particles, const std::uint32_t* index, std::size_t 
   if (block.count > 0) pad(block);
 }
 
-void scatter(const Gathered& gathered, int lane, const Particles& particles) {
-  const Gathering& block = gathered.batch;
-  const std::uint32_t i = gathered.index[lane];
-  particles.x[i] = block.x[lane];
-  particles.y[i] = block.y[lane];
-  particles.z[i] = block.z[lane];
-  if (!block.has_velocity) return;
-  particles.vx[i] = block.vx[lane];
-  particles.vy[i] = block.vy[lane];
-  particles.vz[i] = block.vz[lane];
-}
-
-void scatter_all(const Gathered& gathered, std::size_t begin, const Particles& particles) {
-  const Gathering& block = gathered.batch;
-  const auto copy = [&](const float* from, float* to) {
-    std::memcpy(to + begin, from, static_cast<std::size_t>(block.count) * sizeof(float));
-  };
-  copy(block.x, particles.x);
-  copy(block.y, particles.y);
-  copy(block.z, particles.z);
-  if (!block.has_velocity) return;
-  copy(block.vx, particles.vx);
-  copy(block.vy, particles.vy);
-  copy(block.vz, particles.vz);
+void scatter(const Gathered& gathered, const BatchResponse& response, const Particles& particles) {
+  for (int k = 0; k < response.count; ++k) {
+    const std::uint32_t i = gathered.index[response.lane[k]];
+    particles.x[i] = response.x[k];
+    particles.y[i] = response.y[k];
+    particles.z[i] = response.z[k];
+  }
+  if (!gathered.batch.has_velocity) return;
+  for (int k = 0; k < response.count; ++k) {
+    const std::uint32_t i = gathered.index[response.lane[k]];
+    particles.vx[i] = response.vx[k];
+    particles.vy[i] = response.vy[k];
+    particles.vz[i] = response.vz[k];
+  }
 }
 
 }  // namespace bodice::collision

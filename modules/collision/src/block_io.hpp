@@ -24,10 +24,7 @@ struct Gathered {
 void gather(const Particles& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
             Gathered& out);
 
-/// Writes the position and velocity of one lane back.
-void scatter(const Gathered& gathered, int lane, const Particles& particles);
-
-/// Those of all lanes, which are the caller's from `begin` on.
-void scatter_all(const Gathered& gathered, std::size_t begin, const Particles& particles);
+/// Writes the positions and velocities of a response back.
+void scatter(const Gathered& gathered, const BatchResponse& response, const Particles& particles);
 
 }  // namespace bodice::collision

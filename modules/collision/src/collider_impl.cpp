@@ -133,12 +133,6 @@ void for_lanes(const LaneBits& lanes, int count, Work&& work) {
       work(begin + std::countr_zero(left));
 }
 
-std::uint64_t count(const LaneBits& lanes) {
-  int result = 0;
-  for (const std::uint64_t word : lanes.word) result += std::popcount(word);
-  return static_cast<std::uint64_t>(result);
-}
-
 }  // namespace
 
 Collider::Impl::Impl(const proxy::BodyProxy& proxy)
@@ -242,16 +236,12 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   Memory* const memory = sequence.memory;
   for (std::size_t block = 0; memory && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
     memory->order.note_radius(begin / kBlock + block, response.radius_m[block]);
+  scatter(gathered, response, particles);
   PartCount parts(report);
-  const bool whole = sequence.stored() && static_cast<std::size_t>(batch.count) == end - begin;
-  if (whole && !response.contact.none()) scatter_all(gathered, begin, particles);
-  for_lanes(response.contact, batch.count, [&](int lane) {
-    if (!whole) scatter(gathered, lane, particles);
-    parts.add(part[response.owner[lane]]);
-  });
+  for (int k = 0; k < response.count; ++k) parts.add(part[static_cast<std::size_t>(response.owner[k])]);
   report.deepest_m = std::max(report.deepest_m, response.deepest_m);
-  report.contacts += count(response.contact);
-  report.pending += count(response.pending);
+  report.contacts += static_cast<std::uint64_t>(response.count);
+  report.pending += static_cast<std::uint64_t>(response.pending);
   report.max_iterations = std::max(report.max_iterations, response.iterations);
   for_lanes(response.hard, batch.count,
             [&](int lane) { resolve_exactly(particles, gathered.index[lane], options, report); });

@@ -31,8 +31,8 @@ bool query_within(const Baked& baked, const ReliefTables* relief, QueryBatch& ba
   return query_within_lanes(baked, relief, batch);
 }
 
-bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance, Gathering& batch,
-             BatchResponse& out) {
+bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
+             const Gathering& batch, BatchResponse& out) {
   return resolve_lanes(baked, relief, clearance, batch, out);
 }
 
@@ -58,7 +58,7 @@ bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& bat
 }
 
 bool resolve_batch(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                   Gathering& batch, BatchResponse& out) {
+                   const Gathering& batch, BatchResponse& out) {
   return HWY_DYNAMIC_DISPATCH(resolve)(baked, relief, clearance, batch, out);
 }
 

@@ -83,15 +83,25 @@ struct LaneBits {
   /// Lanes [lane, lane + 64 - lane % 64).
   std::uint64_t from(int lane) const { return word[lane / kBlock] >> lane % kBlock; }
   void add(std::uint64_t bits, int lane) { word[lane / kBlock] |= bits << lane % kBlock; }
+  void set(int lane, bool to) {
+    const std::uint64_t bit = std::uint64_t{1} << lane % kBlock;
+    word[lane / kBlock] = to ? word[lane / kBlock] | bit : word[lane / kBlock] & ~bit;
+  }
 };
 
+/// What a response makes of a batch.
 struct alignas(64) BatchResponse {
-  std::uint32_t owner[kBatch];   ///< the deepest ellipsoid
-  LaneBits contact;              ///< was below the clearance
-  LaneBits pending;              ///< of those: held back by max_push_m
-  LaneBits hard;                 ///< not settled and left untouched: for the exact side
+  static constexpr int kSize = kBatch + 16;  ///< whole vectors are written
+  /// Particles that were below the clearance, and where they are now: `count` of them, by rising lane.
+  std::int32_t lane[kSize];
+  std::int32_t owner[kSize];              ///< the deepest ellipsoid
+  float x[kSize], y[kSize], z[kSize];     ///< metres, local frame
+  float vx[kSize], vy[kSize], vz[kSize];  ///< metres a second, if has_velocity
+  int count = 0;
+  int pending = 0;               ///< of those: held back by max_push_m
+  LaneBits hard;                 ///< not settled and not among them: for the exact side
   std::uint32_t iterations = 0;  ///< most pushes
-  float deepest_m = 0.0f;        ///< of `contact`: below the clearance before the response
+  float deepest_m = 0.0f;        ///< below the clearance before the response
   /// A block: half its box's diagonal; below zero: not measured.
   float radius_m[kBatch / kBlock] = {-1.0f, -1.0f, -1.0f, -1.0f};
 };
@@ -100,9 +110,9 @@ struct alignas(64) BatchResponse {
 /// a place is not within kFarthest.
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 
-/// The nearest response in place; false if too many ellipsoids are near for the kernel.
+/// The nearest response; false if too many ellipsoids are near for the kernel.
 bool resolve_batch(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                   Gathering& batch, BatchResponse& out);
+                   const Gathering& batch, BatchResponse& out);
 
 /// The name of the instruction set in use.
 const char* kernel_target();

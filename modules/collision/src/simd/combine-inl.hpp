@@ -71,11 +71,12 @@ HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, 
     out.gz[lane] += a.gz[i];
   }
   for (int i = begin; i < end; i += kWidth) {
-    hn::Store(hn::Div(hn::Load(f, out.value + i), hn::Load(f, weight + i)), f, out.distance + i);
-    const V inverse = hn::Div(all(1.0f), hn::Load(f, weight + i));
-    const V3 gradient = scaled(load3(out.gx + i, out.gy + i, out.gz + i), inverse);
-    store3(unit(gradient), out.gx + i, out.gy + i, out.gz + i);
-    hn::Store(hn::Sqrt(dot(gradient, gradient)), f, out.value + i);
+    const V per_weight = reciprocal(hn::Load(f, weight + i));
+    hn::Store(hn::Mul(hn::Load(f, out.value + i), per_weight), f, out.distance + i);
+    const V3 sum = load3(out.gx + i, out.gy + i, out.gz + i);
+    const V norm2 = dot(sum, sum), per_norm = inverse_sqrt(hn::Max(norm2, all(kLeastNorm2)));
+    store3(scaled(sum, per_norm), out.gx + i, out.gy + i, out.gz + i);
+    hn::Store(hn::Mul(hn::Mul(norm2, per_norm), per_weight), f, out.value + i);
   }
 }
 

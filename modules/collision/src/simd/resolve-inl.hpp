@@ -36,9 +36,11 @@ HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, con
 /// The nearest velocity into none of the contact's planes at x. The first may have been left behind, too, but
 /// on a bent surface, which has but one: its normal at x.
 HWY_INLINE V3 along_contact(const Way& way, int i, V3 x, bool bent, float slack_m, V3 v) {
+  const V3 n = load3(way.n1x + i, way.n1y + i, way.n1z + i);
+  if (bent) return along(v, hn::Max(hn::Neg(dot(n, v)), hn::Zero(f)), n);
   M one, two, three;
-  const float within_m = bent ? 1e30f : 4.0f * slack_m;
-  const Plane pushed_first = {load3(way.n1x + i, way.n1y + i, way.n1z + i), hn::Load(f, way.offset1 + i)};
+  const float within_m = 4.0f * slack_m;
+  const Plane pushed_first = {n, hn::Load(f, way.offset1 + i)};
   const Plane first = touching(pushed_first, hn::FirstN(f, kWidth), x, within_m, one);
   const Plane second = touching(way.n2x, way.n2y, way.n2z, way.offset2, i, way.of2, x, within_m, two);
   const Plane third = touching(way.n3x, way.n3y, way.n3z, way.offset3, i, way.of3, x, within_m, three);
@@ -77,9 +79,7 @@ HWY_INLINE V3 surface_velocity(const SurfaceMotion* motion, VI owner, V3 x) {
 
 /// Paths, relative to the ellipsoid that owns the place, longer than the limit. Without an owner any
 /// ellipsoid may have come past.
-HWY_INLINE M moved_far(const Gathering& batch, const Clearance& clearance, int i, V3 p, VI owner,
-                       float limit_m) {
-  V3 path = p - load3(batch.sx + i, batch.sy + i, batch.sz + i);
+HWY_INLINE M is_long(V3 path, const Clearance& clearance, V3 p, VI owner, float limit_m) {
   V limit = all(limit_m);
   if (clearance.motion) {
     const V3 carried = scaled(surface_velocity(clearance.motion, owner, p), all(clearance.dt_s));
@@ -90,11 +90,31 @@ HWY_INLINE M moved_far(const Gathering& batch, const Clearance& clearance, int i
   return hn::Ge(dot(path, path), hn::Mul(limit, limit));
 }
 
-/// Undoing a particle's own path is not a push.
-HWY_INLINE V own_path(const Gathering& batch, int i, V3 p) {
-  if (!batch.has_safe) return hn::Zero(f);
-  const V3 path = p - load3(batch.sx + i, batch.sy + i, batch.sz + i);
-  return hn::Sqrt(dot(path, path));
+/// The particles that came far, as if without an owner.
+HWY_INLINE void find_far(const Gathering& batch, const Clearance& clearance, float short_path_m,
+                         LaneBits& out) {
+  const VI none = hn::Set(I(), -1);
+  for (int i = 0; i < batch.count; i += kWidth) {
+    const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
+    const V3 path = p - load3(batch.sx + i, batch.sy + i, batch.sz + i);
+    const M far = is_long(path, clearance, p, none, short_path_m);
+    out.add(bits(hn::And(far, lanes_below(i, batch.count))), i);
+  }
+}
+
+/// Of particles with these lanes, -1: none; undoing a particle's own path is not a push.
+HWY_INLINE V3 safe_of(const Gathering& batch, VI lanes) {
+  return gather3(batch.sx, batch.sy, batch.sz, hn::Max(lanes, hn::Zero(I())));
+}
+
+/// Calls work with each lane of the mask that is a particle's, and whether it is in `which`.
+template <class Work>
+HWY_INLINE void for_particles(M mask, M which, const std::int32_t* lane, Work&& work) {
+  const std::uint64_t chosen = bits(which);
+  for (std::uint64_t left = bits(mask); left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    work(lane[k], (chosen >> k & 1) != 0);
+  }
 }
 
 /// Least radius of the ellipsoids whose boxes are within `window` of the block's box, which includes the
@@ -108,23 +128,26 @@ HWY_INLINE float shortest_radius(const Baked& baked, const Extent& e, float wind
   return hn::GetLane(hn::MinOfLanes(f, least));
 }
 
-/// The first push of the lanes that are below the clearance and have not come far.
+/// The first push of those particles that are below the clearance and have not come far; `contact` (a bit
+/// each) becomes which they are.
 HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float short_path_m,
-                           const Batched& found, int i, Way& way, Pushed& pushed, BatchResponse& out) {
+                           const Reached& reached, const Batched& found, int i, Way& way, Pushed& pushed,
+                           LaneBits& contacts, BatchResponse& out) {
   const Clearance& clearance = surface.clearance;
-  const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
+  const V3 p = load3(reached.x + i, reached.y + i, reached.z + i);
   const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
   const V distance = hn::Load(f, found.distance + i);
-  const M valid = hn::FirstN(f, static_cast<std::size_t>(batch.count - i));
-  M contact = hn::And(valid, hn::Lt(distance, all(clearance.distance_m)));
-  const VI nearest_one = hn::GatherIndex(I(), surface.baked.internal.data(), hn::Load(I(), found.name + i));
+  const VI lanes = hn::Load(I(), reached.lane + i);
+  M contact = hn::And(hn::RebindMask(f, hn::Gt(lanes, hn::Set(I(), -1))),
+                      hn::Lt(distance, all(clearance.distance_m)));
+  const VI name = hn::IfThenElseZero(hn::RebindMask(I(), contact), hn::Load(I(), found.name + i));
+  const VI nearest_one = hn::GatherIndex(I(), surface.baked.internal.data(), name);
   const VI owner = hn::IfThenElse(hn::RebindMask(I(), contact), nearest_one, hn::Set(I(), -1));
   if (batch.has_safe) {
-    const M far = hn::And(valid, moved_far(batch, clearance, i, p, owner, short_path_m));
+    const M far = is_long(p - safe_of(batch, lanes), clearance, p, owner, short_path_m);
+    for_particles(contact, far, reached.lane + i, [&](int lane, bool is) { out.hard.set(lane, is); });
     contact = hn::AndNot(far, contact);
-    out.hard.add(bits(far), i);
   }
-  hn::Store(distance, f, way.distance + i);
   hn::Store(owner, I(), way.owner + i);
   store3(normal, way.n1x + i, way.n1y + i, way.n1z + i);
   const V target = surface.bent() ? all(surface.target_m()) : plain_target(surface, owner);
@@ -133,7 +156,7 @@ HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float
                               : along(p, short_by, normal);
   store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
   hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
-  out.contact.add(bits(contact), i);
+  contacts.add(bits(contact), i);
   pushed.add(contact, hn::Iota(I(), i), x, owner);
 }
 
@@ -144,61 +167,87 @@ HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
   return hn::LoadMaskBits(f, bytes);
 }
 
-/// Writes one vector back: place, velocity, and what is told about it.
-HWY_INLINE void finish(const Clearance& clearance, bool bent, float reach_m, const Way& way, int i,
-                       Gathering& batch, V& deepest, BatchResponse& out) {
-  M contact = mask_of(out.contact, i);
-  if (hn::AllFalse(f, contact)) return;
-  const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
-  const V3 position = load3(way.x + i, way.y + i, way.z + i);
-  const V3 push = position - p;
+/// The velocity that a contact leaves.
+HWY_INLINE V3 velocity_after(const Surface& surface, const Gathering& batch, const Way& way, int i, VI lanes,
+                             VI owner, V3 p, V3 position) {
+  const Clearance& clearance = surface.clearance;
+  const V3 v = gather3(batch.vx, batch.vy, batch.vz, hn::Max(lanes, hn::Zero(I())));
+  V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
+  if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
+  const V3 relative = v - body;
+  const V3 along_surface = along_contact(way, i, position, surface.bent(), clearance.slack_m, relative);
+  return corrected_velocity(along_surface, clearance.friction, relative) + body;
+}
+
+/// Writes one vector of contacts: place, velocity, and what is told about it.
+HWY_INLINE void finish(const Surface& surface, float reach_m, const Reached& reached, const Batched& found,
+                       const Way& way, M contact, int i, const Gathering& batch, V& deepest,
+                       BatchResponse& out) {
+  const Clearance& clearance = surface.clearance;
+  const VI lanes = hn::Load(I(), reached.lane + i);
+  const V3 p = load3(reached.x + i, reached.y + i, reached.z + i);
+  const V3 settled = load3(way.x + i, way.y + i, way.z + i);
+  const V3 push = settled - p;
   const V length2 = dot(push, push);
-  const V depth = hn::Sub(all(clearance.distance_m), hn::Load(f, way.distance + i));
+  const V depth = hn::Sub(all(clearance.distance_m), hn::Load(f, found.distance + i));
   const VI owner = hn::Load(I(), way.owner + i);
   const V longest = hn::Min(all(reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
-  const M beyond = hn::And(contact, hn::Gt(length2, hn::Mul(longest, longest)));
-  out.hard.add(bits(hn::Or(beyond, hn::And(contact, mask_of(way.open, i)))), i);
-  contact = hn::AndNot(mask_of(out.hard, i), contact);
-  const V limit = hn::Add(all(clearance.max_push_m), own_path(batch, i, p));
-  const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
-  const V share = hn::Div(limit, hn::Sqrt(hn::Max(length2, all(1e-30f))));
-  store3(select(contact, select(pending, along(p, share, push), position), p), batch.x + i, batch.y + i,
-         batch.z + i);
-  if (batch.has_velocity) {
-    const V3 v = load3(batch.vx + i, batch.vy + i, batch.vz + i);
-    V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
-    if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
-    const V3 relative = v - body;
-    const V3 along_surface = along_contact(way, i, position, bent, clearance.slack_m, relative);
-    const V3 slowed = corrected_velocity(along_surface, clearance.friction, relative) + body;
-    store3(select(contact, slowed, v), batch.vx + i, batch.vy + i, batch.vz + i);
+  const M hard = hn::And(contact, hn::Or(hn::Gt(length2, hn::Mul(longest, longest)), mask_of(way.open, i)));
+  for_particles(hard, hard, reached.lane + i, [&](int lane, bool) { out.hard.set(lane, true); });
+  contact = hn::AndNot(hard, contact);
+  V limit = all(clearance.max_push_m);
+  if (batch.has_safe) {
+    const V3 path = p - safe_of(batch, lanes);
+    limit = hn::Add(limit, hn::Sqrt(dot(path, path)));
   }
+  const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
+  V3 position = settled;
+  if (!hn::AllFalse(f, pending)) {
+    const V share = hn::Div(limit, hn::Sqrt(hn::Max(length2, all(1e-30f))));
+    position = select(pending, along(p, share, push), settled);
+  }
+  const Pack pack(contact);
+  const auto store = [&](V3 v, float* x, float* y, float* z) {
+    pack.store(v.x, x + out.count);
+    pack.store(v.y, y + out.count);
+    pack.store(v.z, z + out.count);
+  };
+  store(position, out.x, out.y, out.z);
+  if (batch.has_velocity)
+    store(velocity_after(surface, batch, way, i, lanes, owner, p, settled), out.vx, out.vy, out.vz);
+  pack.store(lanes, out.lane + out.count);
+  pack.store(owner, out.owner + out.count);
+  out.count += pack.count();
+  out.pending += static_cast<int>(hn::CountTrue(f, pending));
   deepest = hn::Max(deepest, hn::IfThenElseZero(contact, depth));
-  hn::Store(owner, I(), reinterpret_cast<std::int32_t*>(out.owner) + i);
-  out.pending.add(bits(pending), i);
 }
 
 /// The batch against one surface; pushes longer than `reach_m` are for the exact side.
-HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m, Gathering& batch,
+HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m, const Gathering& batch,
                            BatchResponse& out) {
+  Reached reached;
   Batched found;
   QueryBatch query = places(batch.x, batch.y, batch.z, batch.count);
   query.keeping = batch.keeping;
   Way way;
   Pushed pushed;
+  LaneBits contacts;
   way.clear_others();
   std::copy_n(out.radius_m, kBlocks, query.radius_m);
-  if (!measure_first(surface, query, found)) return false;
+  if (!measure_first(surface, query, reached, found)) return false;
   std::copy_n(query.radius_m, kBlocks, out.radius_m);
-  for (int i = 0; i < batch.count; i += kWidth)
-    push_first(surface, batch, short_path_m, found, i, way, pushed, out);
-  if (out.contact.none()) return true;
-  if (!settle(surface, batch, pushed, way)) return false;
+  if (batch.has_safe) find_far(batch, surface.clearance, short_path_m, out.hard);
+  for (int i = 0; i < reached.count; i += kWidth)
+    push_first(surface, batch, short_path_m, reached, found, i, way, pushed, contacts, out);
+  if (contacts.none()) return true;
+  if (!settle(surface, reached, batch.has_velocity, pushed, way)) return false;
   V deepest = hn::Zero(f);
-  for (int i = 0; i < batch.count; i += kWidth)
-    finish(surface.clearance, surface.bent(), reach_m, way, i, batch, deepest, out);
+  for (int i = 0; i < reached.count; i += kWidth) {
+    const M contact = mask_of(contacts, i);
+    if (hn::AllFalse(f, contact)) continue;
+    finish(surface, reach_m, reached, found, way, contact, i, batch, deepest, out);
+  }
   out.deepest_m = hn::GetLane(hn::MaxOfLanes(f, deepest));
-  for (int block = 0; block < kBlocks; ++block) out.contact.word[block] &= ~out.hard.word[block];
   out.iterations = std::max(1u, way.rounds);
   return true;
 }
@@ -215,7 +264,7 @@ HWY_INLINE void note_radii(const Gathering& batch, BatchResponse& out) {
 
 /// The batch against plain ellipsoids or relief.
 HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                              Gathering& batch, BatchResponse& out) {
+                              const Gathering& batch, BatchResponse& out) {
   float shortest_m = 0.0f;
   // What is kept tells by itself that nothing is near, and nobody asks how long a path may be.
   if (!batch.keeping.batch || batch.has_safe) {
@@ -235,7 +284,7 @@ HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief, co
 }
 
 /// The batch against the smooth union of the ellipsoids.
-HWY_INLINE bool resolve_filleted(const Baked& baked, const Clearance& clearance, Gathering& batch,
+HWY_INLINE bool resolve_filleted(const Baked& baked, const Clearance& clearance, const Gathering& batch,
                                  BatchResponse& out) {
   note_radii(batch, out);
   const Extent e = extent_of(batch);
@@ -252,7 +301,7 @@ HWY_INLINE bool resolve_filleted(const Baked& baked, const Clearance& clearance,
 }
 
 HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                              Gathering& batch, BatchResponse& out) {
+                              const Gathering& batch, BatchResponse& out) {
   if (!relief && clearance.blend_m > 0.0f) return resolve_filleted(baked, clearance, batch, out);
   return resolve_sharp(baked, relief, clearance, batch, out);
 }

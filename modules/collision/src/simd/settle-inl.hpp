@@ -74,10 +74,9 @@ HWY_INLINE V3 project(const Plane& a, const Plane& b, const Plane& c, V3 p, V sl
   return select(hn::Le(b.missing(ac), slack), ac, select(hn::Le(a.missing(bc), slack), bc, corner));
 }
 
-/// A batch on its way out, an array a number, by lane.
+/// The particles that were reached on their way out, an array a number.
 struct alignas(64) Way {
-  float distance[kBatch];      ///< where it began, metres
-  std::int32_t owner[kBatch];  ///< there; internal index, -1: nothing is near
+  std::int32_t owner[kBatch];  ///< where it began; internal index, -1: no contact
   /// Plain ellipsoids that it has been put clear of; -1: none, or not for certain.
   std::int32_t clear1[kBatch], clear2[kBatch], clear3[kBatch];
   float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
@@ -100,7 +99,7 @@ struct alignas(64) Pushed {
   static constexpr int kSize = kBatch + 16;
   float x[kSize], y[kSize], z[kSize];
   std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];
-  std::int32_t lane[kSize];
+  std::int32_t lane[kSize];  ///< among those that were reached
   int count = 0;
 
   /// After the first push, out of the ellipsoids `owner`.
@@ -144,7 +143,8 @@ struct alignas(64) Pushed {
   }
 };
 
-/// Lanes of `Pushed` that are still below the clearance, closed up: where they are in it, and in the batch.
+/// Lanes of `Pushed` that are still below the clearance, closed up: where they are in it, and among those
+/// that were reached.
 struct alignas(64) Below {
   std::int32_t at[kBatch + 16], lane[kBatch + 16];
   int count = 0;
@@ -239,34 +239,24 @@ HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out)
   return true;
 }
 
-/// Answers back to the lanes of the batch; those that were not reached are far.
-HWY_INLINE void spread(const Reached& reached, const Batched& answers, int count, Batched& out) {
-  for (int i = 0; i < count; i += kWidth) {
-    hn::Store(all(1e30f), f, out.distance + i);
-    hn::Store(hn::Zero(I()), I(), out.name + i);
-  }
-  for (int i = 0; i < reached.count; ++i) {
-    const int lane = reached.lane[i];
-    if (lane < 0) continue;
-    out.distance[lane] = answers.distance[i];
-    out.value[lane] = answers.value[i];
-    out.gx[lane] = answers.gx[i];
-    out.gy[lane] = answers.gy[i];
-    out.gz[lane] = answers.gz[i];
-    out.name[lane] = answers.name[i];
+/// Every particle of the batch.
+HWY_INLINE void reach_all(const QueryBatch& batch, Reached& out) {
+  out.count = (batch.count + kStep - 1) / kStep * kStep;
+  for (int i = 0; i < out.count; i += kWidth) {
+    const auto there = hn::RebindMask(I(), lanes_below(i, batch.count));
+    store3({hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)}, out.x + i,
+           out.y + i, out.z + i);
+    hn::Store(hn::IfThenElse(there, hn::Iota(I(), i), hn::Set(I(), -1)), I(), out.lane + i);
   }
 }
 
-/// The same where the lanes begin; only where one is below the clearance.
-HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Batched& out) {
-  if (surface.filleted) return measure(surface, batch, out);
-  Reached reached;
-  Batched answers;
+/// The same where the particles begin, of those that may be below the clearance at least.
+HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Reached& reached, Batched& out) {
   const float limit_m = surface.clearance.distance_m;
-  if (nearest_within(surface.baked, surface.relief, batch, limit_m, surface.scratch, reached, answers)) {
-    spread(reached, answers, batch.count, out);
+  if (!surface.filleted &&
+      nearest_within(surface.baked, surface.relief, batch, limit_m, surface.scratch, reached, out))
     return true;
-  }
+  reach_all(batch, reached);
   if (surface.bent()) return measure(surface, batch, out);
   // More ellipsoids are near than there is room for at once.
   alignas(64) std::int32_t none[kBatch];
@@ -285,13 +275,13 @@ HWY_INLINE bool measure_again(const Surface& surface, const Pushed& pushed, Batc
 
 /// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
 HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
-  return along(x, hn::Div(hn::Sub(target, distance), hn::Max(slope, all(0.5f))), normal);
+  return along(x, hn::Mul(hn::Sub(target, distance), reciprocal(hn::Max(slope, all(0.5f)))), normal);
 }
 
 /// A plane of the lanes `which`, whose indices are `at` (zero elsewhere), and the nearest place beyond it and
 /// those before; of these the first and the latest stay in force.
 HWY_INLINE void add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI whose,
-                          const Gathering& batch, Way& way) {
+                          const Reached& reached, Way& way) {
   const V slack = all(surface.clearance.slack_m);
   const VI none = hn::Set(I(), -1);
   const VI of2 = hn::GatherIndex(I(), way.of2, at), of3 = hn::GatherIndex(I(), way.of3, at);
@@ -301,7 +291,7 @@ HWY_INLINE void add_plane(const Surface& surface, M which, VI at, const Plane& n
       select(three, gather3(way.n3x, way.n3y, way.n3z, at), gather3(way.n2x, way.n2y, way.n2z, at)),
       hn::IfThenElse(three, hn::GatherIndex(f, way.offset3, at), hn::GatherIndex(f, way.offset2, at))};
   const VI of_latest = hn::IfThenElse(hn::RebindMask(I(), three), of3, of2);
-  const V3 p = gather3(batch.x, batch.y, batch.z, at);
+  const V3 p = gather3(reached.x, reached.y, reached.z, at);
   const V3 of_two = project({first.n, newest.n, first.offset, newest.offset, hn::FirstN(f, kWidth)}, p);
   const V3 next = select(two, project(first, latest, newest, p, slack), of_two);
   const Scatter scatter(which, at), scatter_third(hn::And(two, which), at);
@@ -322,7 +312,7 @@ HWY_INLINE void add_plane(const Surface& surface, M which, VI at, const Plane& n
 }
 
 /// Another push for those that the last query found below: a vector of them, from the i-th on.
-HWY_INLINE void push_again(const Surface& surface, const Gathering& batch, const Batched& found,
+HWY_INLINE void push_again(const Surface& surface, const Reached& reached, const Batched& found,
                            const Pushed& pushed, const Below& below, int i, Way& way) {
   const M which = lanes_below(i, below.count);
   const auto real = hn::RebindMask(I(), which);
@@ -339,7 +329,7 @@ HWY_INLINE void push_again(const Surface& surface, const Gathering& batch, const
   const VI name = hn::GatherIndex(I(), found.name, at);
   const VI newest = hn::GatherIndex(I(), surface.baked.internal.data(), name);
   const V offset = hn::Add(dot(normal, x), hn::Sub(plain_target(surface, newest), distance));
-  add_plane(surface, which, lane, {normal, offset}, newest, batch, way);
+  add_plane(surface, which, lane, {normal, offset}, newest, reached, way);
 }
 
 /// The last normals of a bent surface are those that velocities are judged by.
@@ -354,15 +344,16 @@ HWY_INLINE void keep_normals(const Pushed& pushed, const Batched& found, Way& wa
 
 /// Pushes the lanes of `pushed`, whose first push is done, until all are clear; false if the kernel has no
 /// room.
-HWY_INLINE bool settle(const Surface& surface, const Gathering& batch, Pushed& pushed, Way& way) {
+HWY_INLINE bool settle(const Surface& surface, const Reached& reached, bool has_velocity, Pushed& pushed,
+                       Way& way) {
   const auto most = static_cast<std::uint32_t>(surface.bent() ? kReliefRounds : kPlainRounds);
   Batched found;
   pushed.close();
   for (way.rounds = 0; pushed.count > 0 && way.rounds < most; ++way.rounds) {
     if (!measure_again(surface, pushed, found)) return false;
-    if (surface.bent() && batch.has_velocity) keep_normals(pushed, found, way);
+    if (surface.bent() && has_velocity) keep_normals(pushed, found, way);
     const Below below(found.distance, surface.clearance.distance_m, pushed);
-    for (int i = 0; i < below.count; i += kWidth) push_again(surface, batch, found, pushed, below, i, way);
+    for (int i = 0; i < below.count; i += kWidth) push_again(surface, reached, found, pushed, below, i, way);
     pushed.count = below.count;
     std::copy_n(below.lane, below.count, pushed.lane);
     pushed.collect(way);
