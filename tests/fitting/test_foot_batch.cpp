@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -80,5 +81,33 @@ TEST_CASE("foot: thin, flat and round ellipsoids answer with numbers, near and f
       CHECK(std::isfinite(points.d[i]));
     }
     CHECK(points.d[0] <= 0.0f);
+  }
+}
+
+TEST_CASE("foot: the tangent at a point lies below the distance everywhere") {
+  engine::Random random(33);
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto radius = [&] { return random.uniform(0.02, 0.2); };
+    const geometry::Ellipsoid e = turned(random, Vec3(radius(), radius(), radius()));
+    const auto anywhere = [&] {
+      const auto in = [&] { return random.uniform(-0.4, 0.4); };
+      return Vec3(e.center + Vec3(in(), in(), in()));
+    };
+    Points points;
+    for (int i = 0; i < 37; ++i) points.add(anywhere());
+    std::array<std::vector<float>, 4> found;
+    for (auto& values : found) values.resize(points.x.size());
+    fitting::foot_normals(FootEllipsoid(e), points.x.size(), points.x.data(), points.y.data(),
+                          points.z.data(), found[0].data(), found[1].data(), found[2].data(),
+                          found[3].data());
+    points.measure(e);
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+      CHECK(double{found[0][i]} == doctest::Approx(double{points.d[i]}).epsilon(1e-5));
+      const Vec3 normal(double{found[1][i]}, double{found[2][i]}, double{found[3][i]});
+      CHECK(normal.norm() == doctest::Approx(1.0).epsilon(1e-5));
+      const Vec3 other = anywhere();
+      const double tangent = double{found[0][i]} + normal.dot(other - points.at(i));
+      CHECK(tangent <= geometry::nearest_point(e, other).signed_distance + 1e-5);
+    }
   }
 }

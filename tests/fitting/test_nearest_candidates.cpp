@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -36,25 +37,35 @@ std::vector<geometry::Ellipsoid> scattered(engine::Random& random, int count) {
 
 /// Samples of one block, `spread` across.
 struct Block {
-  std::vector<float> x, y, z, from_centre, of_ball;
+  std::vector<float> x, y, z, from_centre;
+  std::array<float, 3> centre;
+  std::array<std::vector<float>, 4> feet;  // of the centre: distance and normal
 
   Block(engine::Random& random, const std::vector<geometry::Ellipsoid>& ellipsoids, std::size_t count,
         double spread) {
     const auto in = [&](double half) { return random.uniform(-half, half); };
-    const Vec3 centre(in(0.3), in(0.3), in(0.3));
+    for (float& c : centre) c = static_cast<float>(in(0.3));
+    const Vec3 middle(double{centre[0]}, double{centre[1]}, double{centre[2]});
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 off(in(spread), in(spread), in(spread));
-      x.push_back(static_cast<float>(centre.x() + off.x()));
-      y.push_back(static_cast<float>(centre.y() + off.y()));
-      z.push_back(static_cast<float>(centre.z() + off.z()));
+      x.push_back(static_cast<float>(middle.x() + off.x()));
+      y.push_back(static_cast<float>(middle.y() + off.y()));
+      z.push_back(static_cast<float>(middle.z() + off.z()));
       from_centre.push_back(static_cast<float>(off.norm()));
     }
-    for (const auto& e : ellipsoids)
-      of_ball.push_back(static_cast<float>(geometry::nearest_point(e, centre).signed_distance));
+    for (const auto& e : ellipsoids) {
+      const auto foot = geometry::nearest_point(e, middle);
+      feet[0].push_back(static_cast<float>(foot.signed_distance));
+      for (int j = 0; j < 3; ++j) feet[1 + j].push_back(static_cast<float>(foot.normal[j]));
+    }
   }
   Vec3 point(std::size_t i) const { return {double{x[i]}, double{y[i]}, double{z[i]}}; }
   fitting::SampleBlock view() const {
-    return {x.size(), x.data(), y.data(), z.data(), from_centre.data(), of_ball};
+    return {.count = x.size(),
+            .at = {x.data(), y.data(), z.data()},
+            .from_centre = from_centre.data(),
+            .centre = centre,
+            .feet = {feet[0].data(), {feet[1].data(), feet[2].data(), feet[3].data()}, 1}};
   }
 };
 

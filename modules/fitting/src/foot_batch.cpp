@@ -26,6 +26,8 @@ namespace {
 
 struct Foot {
   float d, wx, wy, wz;
+  float nx, ny, nz;  // outward, of the length 1 / per_length, in the ellipsoid's frame
+  float per_length;
 };
 
 [[gnu::always_inline]] inline Foot foot(const FootEllipsoid& e, float px, float py, float pz) {
@@ -54,7 +56,8 @@ struct Foot {
   w0 *= scale, w1 *= scale, w2 *= scale;
   const float n0 = w0 * e.inverse[0], n1 = w1 * e.inverse[1], n2 = w2 * e.inverse[2];
   const float along = n0 * (y0 - e.unit[0] * w0) + n1 * (y1 - e.unit[1] * w1) + n2 * (y2 - e.unit[2] * w2);
-  return {e.largest * along / root(n0 * n0 + n1 * n1 + n2 * n2 + kTiny), w0, w1, w2};
+  const float length = root(n0 * n0 + n1 * n1 + n2 * n2 + kTiny);
+  return {e.largest * along / length, w0, w1, w2, n0, n1, n2, 1.0f / length};
 }
 
 }  // namespace
@@ -79,6 +82,19 @@ BODICE_CLONES void foot_distances(const FootEllipsoid& ellipsoid, std::size_t n,
                                   const float* __restrict y, const float* __restrict z, float* __restrict d) {
   const FootEllipsoid e = ellipsoid;
   for (std::size_t i = 0; i < n; ++i) d[i] = foot(e, x[i], y[i], z[i]).d;
+}
+
+BODICE_CLONES void foot_normals(const FootEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
+                                const float* __restrict y, const float* __restrict z, float* __restrict d,
+                                float* __restrict nx, float* __restrict ny, float* __restrict nz) {
+  const FootEllipsoid e = ellipsoid;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Foot f = foot(e, x[i], y[i], z[i]);
+    d[i] = f.d;
+    nx[i] = f.per_length * (e.rt[0][0] * f.nx + e.rt[1][0] * f.ny + e.rt[2][0] * f.nz);
+    ny[i] = f.per_length * (e.rt[0][1] * f.nx + e.rt[1][1] * f.ny + e.rt[2][1] * f.nz);
+    nz[i] = f.per_length * (e.rt[0][2] * f.nx + e.rt[1][2] * f.ny + e.rt[2][2] * f.nz);
+  }
 }
 
 BODICE_CLONES void foot_details(const FootEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,

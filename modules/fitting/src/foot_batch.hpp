@@ -26,6 +26,10 @@ struct FootEllipsoid {
 void foot_distances(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
                     float* d);
 
+/// As foot_distances, and the outward unit normal there.
+void foot_normals(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
+                  float* d, float* nx, float* ny, float* nz);
+
 /// As foot_distances, and the foot's unit direction w on the sphere in the ellipsoid's frame.
 void foot_details(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
                   float* d, float* wx, float* wy, float* wz);

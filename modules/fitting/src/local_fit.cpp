@@ -29,21 +29,14 @@ BODICE_CLONES static void lower(std::size_t n, std::uint32_t ellipsoid, const fl
   }
 }
 
-BODICE_CLONES static void count_costs(const TightLoss& counted, std::size_t n, const float* __restrict target,
-                                      const std::uint8_t* __restrict one_sided, const float* __restrict d,
-                                      float* __restrict cost) {
-  const TightLoss loss = counted;
-  for (std::size_t i = 0; i < n; ++i) cost[i] = loss.cost(target[i], one_sided[i] != 0, d[i]);
-}
-
 BODICE_CLONES static void add_up(std::size_t n, const float* __restrict cost, double* __restrict lanes) {
   for (std::size_t first = 0; first + kLanes <= n; first += kLanes)
     for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += static_cast<double>(cost[first + lane]);
 }
 
-void Neighbourhood::reserve(std::size_t count) {
-  for (auto* v : {&x, &y, &z, &target, &others}) v->reserve(count);
-  one_sided.reserve(count);
+void Neighbourhood::resize(std::size_t count) {
+  for (auto* v : {&x, &y, &z, &target, &others}) v->resize(count);
+  one_sided.resize(count);
 }
 
 LocalFit::LocalFit(const Neighbourhood& samples, const TightLoss& loss, std::vector<Ellipsoid> ellipsoids)
@@ -75,13 +68,17 @@ double LocalFit::evaluate(const std::vector<Ellipsoid>& ellipsoids) {
 }
 
 NormalBlock LocalFit::normal_equations(std::size_t e) {
-  mine_.start(now_.owner.size());
-  for (std::size_t i = 0; i < now_.owner.size(); ++i) {
-    if (now_.owner[i] != e || now_.cost[i] == 0.0f) continue;
-    const float target = samples_.target[i], d = now_.least[i];
-    mine_.add(samples_.x[i], samples_.y[i], samples_.z[i], d - target, loss_.weight(target, d));
-  }
-  return mine_.count < kLeastSamples ? NormalBlock{} : normal_block(ellipsoids_[e], mine_);
+  const std::size_t n = now_.owner.size();
+  const std::uint32_t* const owner = now_.owner.data();
+  const float* const cost = now_.cost.data();
+  const auto picked =
+      pick(n, mine_.picked, [=](std::size_t i) { return (owner[i] == e) & (cost[i] > 0.0f); });
+  if (picked.size() < kLeastSamples) return {};
+  mine_.start(picked.size());
+  for (const std::uint32_t i : picked)
+    mine_.add(samples_.x[i], samples_.y[i], samples_.z[i], samples_.target[i], now_.least[i]);
+  mine_.weigh(loss_);
+  return normal_block(ellipsoids_[e], mine_);
 }
 
 void LocalFit::advance(int steps) {

@@ -19,7 +19,7 @@ struct Neighbourhood {
   std::vector<std::uint8_t> one_sided;
   double cost = 0.0;  ///< with the ellipsoids that are there
 
-  void reserve(std::size_t count);
+  void resize(std::size_t count);
 };
 
 /// Damped steps of some ellipsoids in place of those that the neighbourhood is of, which must outlive it.

@@ -14,12 +14,20 @@ namespace bodice::fitting {
 /// Samples of a block: neighbours in space, whose lists are found together.
 inline constexpr std::size_t kSampleBlock = 32;
 
+/// Feet of one point on all ellipsoids; ellipsoid k's are at k * stride.
+struct CentreFeet {
+  const float* d = nullptr;                 ///< signed distances
+  std::array<const float*, 3> normal = {};  ///< outward, unit
+  std::size_t stride = 1;
+};
+
 /// A block's samples and the ball that holds them.
 struct SampleBlock {
-  std::size_t count = 0;  ///< of samples, at most kSampleBlock
-  const float *x = nullptr, *y = nullptr, *z = nullptr;
-  const float* from_centre = nullptr;  ///< distance of each sample to the ball's centre
-  std::span<const float> of_ball;      ///< #E distances of the ball's centre to the ellipsoids
+  std::size_t count = 0;                ///< of samples, at most kSampleBlock
+  std::array<const float*, 3> at = {};  ///< x, y, z
+  const float* from_centre = nullptr;   ///< distance of each sample to the ball's centre
+  std::array<float, 3> centre = {};     ///< of the ball
+  CentreFeet feet;                      ///< of the centre
 };
 
 /// Works on one block at a time; kept between blocks for its memory.
@@ -38,10 +46,15 @@ class NearestCandidates {
  private:
   using Lanes = std::array<float, kSampleBlock>;
 
-  void sort_by_ball(const SampleBlock& block, float reach);
+  void load(const SampleBlock& block);
+  /// Whether ellipsoid k, at distance d from the ball's centre, can be within reach of some sample's nearest.
+  /// Signed distances to convex bodies are convex: none lies below its tangent at the centre.
+  bool may_reach(const SampleBlock& block, std::uint32_t k, float d, const Lanes& least, float reach) const;
+  void sort_by_ball(std::size_t ellipsoids, const SampleBlock& block, float reach);
   Lanes measure(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block, float reach);
   void insert(std::size_t sample, std::uint32_t ellipsoid, float distance);
 
+  std::array<Lanes, 3> from_;  ///< the samples less the ball's centre
   std::vector<std::pair<float, std::uint32_t>> order_;
   std::vector<std::uint32_t> ellipsoid_;  ///< #C that may be within reach somewhere in the block
   std::vector<Lanes> distance_;           ///< at least #C

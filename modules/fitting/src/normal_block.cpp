@@ -67,14 +67,16 @@ void BlockSamples::start(std::size_t most) {
   count = 0;
   const std::size_t room = most + kLanes;
   if (x.size() >= room) return;
-  for (auto* v : {&x, &y, &z, &residual, &weight, &d, &wx, &wy, &wz}) v->resize(room);
+  for (auto* v : {&x, &y, &z, &target, &d, &residual, &weight, &wx, &wy, &wz}) v->resize(room);
 }
 
 NormalBlock normal_block(const geometry::Ellipsoid& ellipsoid, BlockSamples& samples) {
   NormalBlock block;
   if (samples.count == 0) return block;
-  while (samples.count % kLanes != 0)
+  while (samples.count % kLanes != 0) {
+    samples.residual[samples.count] = samples.weight[samples.count] = 0.0f;
     samples.add(samples.x.front(), samples.y.front(), samples.z.front(), 0.0f, 0.0f);
+  }
   const std::size_t n = samples.count;
   const FootEllipsoid e(ellipsoid);
   foot_details(e, n, samples.x.data(), samples.y.data(), samples.z.data(), samples.d.data(),

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 namespace bodice::fitting {
 
 /// How residuals (union distance - skin distance) are counted. Lengths in units of the scaled problem.
@@ -37,5 +40,13 @@ struct TightLoss {
     return is_uncovered(target, d) ? uncovered_weight : 1.0f;
   }
 };
+
+/// Of n samples at `target` from the skin and `d` from the union. No aliasing.
+void count_costs(const TightLoss& loss, std::size_t n, const float* target, const std::uint8_t* one_sided,
+                 const float* d, float* cost);
+
+/// Residuals, and their weights in the normal equations.
+void weigh(const TightLoss& loss, std::size_t n, const float* target, const float* d, float* residual,
+           float* weight);
 
 }  // namespace bodice::fitting

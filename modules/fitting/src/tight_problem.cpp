@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include <bodice/engine/parallel.hpp>
@@ -66,33 +67,39 @@ void TightProblem::bound_block(std::size_t begin, std::size_t end) {
   }
 }
 
-/// #blocks x #E distances of the blocks' centres.
-std::vector<float> TightProblem::distances_of_blocks(const engine::Context& context,
-                                                     std::span<const FootEllipsoid> ellipsoids) const {
+/// Of the blocks' centres, #E x #blocks: distances, and the ellipsoids' outward unit normals there.
+struct TightProblem::BlockFeet {
+  std::array<std::unique_ptr<float[]>, 4> of;
+};
+
+void TightProblem::find_feet(const engine::Context& context, std::span<const FootEllipsoid> ellipsoids,
+                             BlockFeet& feet) const {
   const std::size_t blocks = ball_centre_[0].size();
-  std::vector<float> distance(blocks * ellipsoids.size());
+  for (auto& values : feet.of) values = std::make_unique_for_overwrite<float[]>(ellipsoids.size() * blocks);
   engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> d(blocks);
-    for (std::size_t k = begin; k < end; ++k) {
-      foot_distances(ellipsoids[k], blocks, ball_centre_[0].data(), ball_centre_[1].data(),
-                     ball_centre_[2].data(), d.data());
-      for (std::size_t b = 0; b < blocks; ++b) distance[b * ellipsoids.size() + k] = d[b];
-    }
+    for (std::size_t k = begin, at = begin * blocks; k < end; ++k, at += blocks)
+      foot_normals(ellipsoids[k], blocks, ball_centre_[0].data(), ball_centre_[1].data(),
+                   ball_centre_[2].data(), &feet.of[0][at], &feet.of[1][at], &feet.of[2][at],
+                   &feet.of[3][at]);
   });
-  return distance;
 }
 
 /// Into pairs_of_, for now as ellipsoids.
 void TightProblem::choose_candidates(const engine::Context& context,
                                      std::span<const FootEllipsoid> ellipsoids) {
-  const std::vector<float> of_balls = distances_of_blocks(context, ellipsoids);
-  engine::parallel_for(context, ball_centre_[0].size(), 16, [&](std::size_t begin, std::size_t end) {
+  BlockFeet feet;
+  find_feet(context, ellipsoids, feet);
+  const std::size_t blocks = ball_centre_[0].size();
+  engine::parallel_for(context, blocks, 16, [&](std::size_t begin, std::size_t end) {
     NearestCandidates found;
     for (std::size_t b = begin; b < end; ++b) {
       const std::size_t first = b * kSampleBlock, samples = std::min(kSampleBlock, target_.size() - first);
       found.find(ellipsoids,
-                 {samples, &point_[0][first], &point_[1][first], &point_[2][first], &from_centre_[first],
-                  std::span(of_balls).subspan(b * ellipsoids.size(), ellipsoids.size())},
+                 {.count = samples,
+                  .at = {&point_[0][first], &point_[1][first], &point_[2][first]},
+                  .from_centre = &from_centre_[first],
+                  .centre = {ball_centre_[0][b], ball_centre_[1][b], ball_centre_[2][b]},
+                  .feet = {&feet.of[0][b], {&feet.of[1][b], &feet.of[2][b], &feet.of[3][b]}, blocks}},
                  reach_);
       for (std::size_t i = 0; i < samples; ++i) {
         count_of_[first + i] = static_cast<std::uint8_t>(std::min(found.count(i), candidates_));
@@ -172,6 +179,7 @@ void TightProblem::restore(std::size_t k) {
 
 void TightProblem::assign(const engine::Context& context) {
   engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::array<float, kGrain> nearest;
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t best = pairs_of_[i][0];
       float least = distance_[best];
@@ -182,8 +190,9 @@ void TightProblem::assign(const engine::Context& context) {
         least = d < least ? d : least;
       }
       owner_[i] = best;
-      cost_[i] = loss_.cost(target_[i], one_sided_[i] != 0, least);
+      nearest[i - begin] = least;
     }
+    count_costs(loss_, end - begin, &target_[begin], &one_sided_[begin], nearest.data(), &cost_[begin]);
   });
 }
 
@@ -223,29 +232,29 @@ Neighbourhood TightProblem::around(std::span<const std::uint32_t> ellipsoids,
                                    std::span<const Nearest3> ranked) const {
   const std::uint32_t first = ellipsoids.front(), last = ellipsoids.back();
   Neighbourhood found;
-  found.reserve(pair_begin_[first + 1] - pair_begin_[first] + pair_begin_[last + 1] - pair_begin_[last]);
+  found.resize(pair_begin_[first + 1] - pair_begin_[first] + pair_begin_[last + 1] - pair_begin_[last]);
+  std::size_t count = 0;
   const auto add = [&](std::uint32_t i) {
     const Nearest3& nearest = ranked[i];
     std::size_t place = 0;
     while (place < 2 && (nearest.ellipsoid[place] == first || nearest.ellipsoid[place] == last)) ++place;
-    found.x.push_back(point_[0][i]);
-    found.y.push_back(point_[1][i]);
-    found.z.push_back(point_[2][i]);
-    found.target.push_back(target_[i]);
-    found.others.push_back(nearest.distance[place]);
-    found.one_sided.push_back(one_sided_[i]);
+    found.x[count] = point_[0][i], found.y[count] = point_[1][i], found.z[count] = point_[2][i];
+    found.target[count] = target_[i];
+    found.others[count] = nearest.distance[place];
+    found.one_sided[count] = one_sided_[i];
     found.cost += static_cast<double>(cost_[i]);
+    ++count;
   };
   const auto sample = pair_sample_.begin();
   const auto firsts = std::span(sample + pair_begin_[first], sample + pair_begin_[first + 1]);
   for (const std::uint32_t i : firsts) add(i);
-  if (last == first) return found;
   auto next = firsts.begin();  // both lists ascend: a sample of both was taken with the first
-  for (std::uint32_t pair = pair_begin_[last]; pair < pair_begin_[last + 1]; ++pair) {
+  for (std::uint32_t pair = pair_begin_[last]; last != first && pair < pair_begin_[last + 1]; ++pair) {
     const std::uint32_t i = pair_sample_[pair];
     while (next != firsts.end() && *next < i) ++next;
     if (next == firsts.end() || *next != i) add(i);
   }
+  found.resize(count);
   return found;
 }
 
@@ -259,26 +268,37 @@ std::vector<std::array<std::uint32_t, body::kPartCount>> TightProblem::skin_of_e
 
 std::vector<double> TightProblem::gains() const {
   std::vector<double> gain(ellipsoids_, 0.0);
+  if (owner_.empty()) return gain;
+  std::uint32_t last = 0;  // neighbours have the same owner: its sum stays in a register
+  double of_last = 0.0;
   for (std::size_t i = 0; i < owner_.size(); ++i) {
     const double fall = static_cast<double>(remembered_cost_[i] - cost_[i]);
     const std::uint32_t before = ellipsoid_of_pair_[remembered_owner_[i]],
                         now = ellipsoid_of_pair_[owner_[i]];
-    gain[before] += fall;
+    if (before != last) {
+      gain[last] = of_last;
+      of_last = gain[last = before];
+    }
+    of_last += fall;
     if (now != before) gain[now] += fall;
   }
+  gain[last] = of_last;
   return gain;
 }
 
 /// The samples that ellipsoid k is answerable for.
 void TightProblem::gather(std::size_t k, BlockSamples& mine) const {
-  mine.start(pair_begin_[k + 1] - pair_begin_[k]);
-  for (std::uint32_t pair = pair_begin_[k]; pair < pair_begin_[k + 1]; ++pair) {
-    const std::uint32_t i = pair_sample_[pair];
-    if (owner_[i] != pair || cost_[i] == 0.0f) continue;
-    const float d = distance_[pair], target = target_[i];
-    mine.add(pair_point_[0][pair], pair_point_[1][pair], pair_point_[2][pair], d - target,
-             loss_.weight(target, d));
+  const std::uint32_t first = pair_begin_[k], *const sample = pair_sample_.data() + first;
+  const auto picked = pick(pair_begin_[k + 1] - first, mine.picked, [&](std::size_t p) {
+    return (owner_[sample[p]] == first + p) & (cost_[sample[p]] > 0.0f);
+  });
+  mine.start(picked.size());
+  for (const std::uint32_t p : picked) {
+    const std::uint32_t pair = first + p;
+    mine.add(pair_point_[0][pair], pair_point_[1][pair], pair_point_[2][pair], target_[sample[p]],
+             distance_[pair]);
   }
+  mine.weigh(loss_);
 }
 
 std::vector<NormalBlock> TightProblem::normal_equations(

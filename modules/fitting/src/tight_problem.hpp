@@ -66,8 +66,9 @@ class TightProblem {
  private:
   void bound_blocks();
   void bound_block(std::size_t begin, std::size_t end);
-  std::vector<float> distances_of_blocks(const engine::Context& context,
-                                         std::span<const FootEllipsoid> ellipsoids) const;
+  struct BlockFeet;
+  void find_feet(const engine::Context& context, std::span<const FootEllipsoid> ellipsoids,
+                 BlockFeet& feet) const;
   void choose_candidates(const engine::Context& context, std::span<const FootEllipsoid> ellipsoids);
   std::vector<std::uint32_t> count_pairs(const engine::Context& context);
   void number_pairs(const engine::Context& context, std::vector<std::uint32_t> next);
