@@ -51,6 +51,10 @@ inline constexpr double kMidway = 0.05;
 /// from below: 6 micrometres of 3 mm.
 inline constexpr double kReliefOvershoot = 2e-3;
 
+/// Share of its length by which the first push out of relief goes further: what Newton's step is off by grows
+/// with it, and one that falls short costs another query.
+inline constexpr double kStepOvershoot = 5e-3;
+
 /// The same for fillets, which are smooth: in certificates, so that what rests in one does not chatter.
 inline constexpr double kFilletOvershoot = 20.0;
 

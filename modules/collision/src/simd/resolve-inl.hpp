@@ -17,6 +17,7 @@ namespace bodice::collision::HWY_NAMESPACE {
 constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
 // A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
+constexpr float kOvershootOfStep = static_cast<float>(kStepOvershoot);
 
 /// A plane of the contact at x, which is there only if x lies on it; elsewhere its normal is zero, and it
 /// holds no velocity back.
@@ -152,7 +153,9 @@ HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float
   store3(normal, way.n1x + i, way.n1y + i, way.n1z + i);
   const V target = surface.bent() ? all(surface.target_m()) : plain_target(surface, owner);
   const V short_by = hn::Sub(target, distance);
-  const V3 x = surface.bent() ? newton_step(p, distance, normal, hn::Load(f, found.value + i), target)
+  const V over = all(surface.relief ? kOvershootOfStep : 0.0f);
+  const V beyond = hn::MulAdd(over, hn::Max(short_by, hn::Zero(f)), target);
+  const V3 x = surface.bent() ? newton_step(p, distance, normal, hn::Load(f, found.value + i), beyond)
                               : along(p, short_by, normal);
   store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
   hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
