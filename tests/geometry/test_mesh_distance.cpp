@@ -107,8 +107,10 @@ void check_against_brute_force(const TriMesh& mesh, int count) {
     REQUIRE(got.triangle < mesh.triangles.size());
     const double winding = brute_winding(mesh, query);
     CHECK(std::abs(distance.winding_number(query) - winding) < 0.01);
-    if (std::abs(winding - 0.5) > 0.02 && truth > noise)
+    if (std::abs(winding - 0.5) > 0.02 && truth > noise) {
       CHECK((got.signed_distance < 0.0) == (winding > 0.5));
+      CHECK(distance.inside(query) == (winding > 0.5));
+    }
     const auto within = distance.nearest_within(query, truth * (1.0 + 1e-12) + 2.0 * noise);
     REQUIRE(within);
     CHECK(std::abs(within->signed_distance - truth) <= noise + 1e-13 * truth);

@@ -69,6 +69,10 @@ std::optional<SurfacePoint> MeshDistance::nearest_within(const Vec3& query, doub
   return impl_->surface_point(hit);
 }
 
+bool MeshDistance::inside(const Vec3& query) const {
+  return impl_->inside(impl_->bvh.to_local(query));
+}
+
 double MeshDistance::winding_number(const Vec3& query) const {
   return geometry::winding_number(impl_->bvh, impl_->dipoles, impl_->bvh.to_local(query), kFineFar);
 }
