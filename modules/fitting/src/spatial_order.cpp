@@ -1,6 +1,7 @@
 #include "spatial_order.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace bodice::fitting {
@@ -15,13 +16,29 @@ std::uint32_t spread_bits(std::uint32_t v) {
   return (v | v << 2) & 0x09249249;
 }
 
+using Coded = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // code, index
+
+/// By codes of 30 bits, ten at a time; those alike stay in their order.
+void sort_by_digits(Coded& coded) {
+  constexpr int kBits = 10;
+  Coded sorted(coded.size());
+  for (int shift = 0; shift < 3 * kBits; shift += kBits) {
+    std::array<std::uint32_t, (1u << kBits) + 1> next{};
+    const auto digit = [&](const Coded::value_type& c) { return c.first >> shift & ((1u << kBits) - 1); };
+    for (const auto& c : coded) ++next[digit(c) + 1];
+    for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
+    for (const auto& c : coded) sorted[next[digit(c)]++] = c;
+    std::swap(coded, sorted);
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> spatial_order(std::span<const geometry::Vec3> points) {
   geometry::Box box;
   for (const auto& p : points) box.extend(p);
   const geometry::Vec3 scale = 1023.0 * box.size().cwiseMax(1e-300).cwiseInverse();
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> code_of;
+  Coded code_of;
   code_of.reserve(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     std::uint32_t code = 0;
@@ -31,7 +48,7 @@ std::vector<std::uint32_t> spatial_order(std::span<const geometry::Vec3> points)
     }
     code_of.emplace_back(code, i);
   }
-  std::sort(code_of.begin(), code_of.end());
+  sort_by_digits(code_of);
   std::vector<std::uint32_t> order;
   order.reserve(points.size());
   for (const auto& [code, i] : code_of) order.push_back(i);
