@@ -4,6 +4,7 @@
 //        collision figures [largest body]
 //        collision counts [particles [repeats]]
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <deque>
@@ -24,6 +25,7 @@
 #include "counts.hpp"
 #include "figures.hpp"
 #include "frames.hpp"
+#include "limits.hpp"
 #include "peer_rows.hpp"
 #include "rows.hpp"
 #include "targets.hpp"
@@ -58,6 +60,9 @@ constexpr Question kQuestions[] = {{"all distances", std::numeric_limits<float>:
 /// Embree's distance has no sign: who is inside, and how deep, only the nearest triangle tells, however far
 /// it is. With the short reach it says nothing of particles that are deeper.
 constexpr double kFarReach_m = kBand_m + 0.001, kShortReach_m = 0.010;
+/// What is not told how far the particles are must look as far as it takes, as a query of all distances does.
+constexpr double kAnyReach_m = std::numeric_limits<double>::infinity();
+constexpr double kEmbreeReaches_m[] = {kAnyReach_m, kFarReach_m, kShortReach_m};
 
 /// One proxy: its particles in both orders, and room for the answers.
 struct Contender {
@@ -172,49 +177,9 @@ void add_rows(Contender& c, std::vector<Row>& rows) {
                   [&c] { c.move_rigidly(0.01); }, 1.0, 20e3});
 }
 
-/// What no query can be faster than: its bytes, and one nearest point a particle with nothing to choose.
-struct Limits {
-  Collider one;
-  bench::Cloud cloud, copy;
-  std::vector<Contact> contacts;
-
-  Limits(const bodice::proxy::BodyProxy& proxy, const bench::Cloud& coherent)
-      : one(proxy), cloud(bench::local(coherent, one)), copy(cloud), contacts(cloud.size()) {}
-
-  void move_bytes() {
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      Contact& c = contacts[i];
-      c.signed_distance = c.normal[0] = cloud.x[i];
-      c.point[0] = c.normal[1] = cloud.y[i];
-      c.point[1] = c.normal[2] = cloud.z[i];
-      c.point[2] = 0.0f;
-      c.ellipsoid = static_cast<std::uint32_t>(i);
-    }
-  }
-};
-
-bodice::proxy::BodyProxy single(const bodice::proxy::BodyProxy& proxy) {
-  auto one = bodice::proxy::BodyProxy::make(
-      {.tier = Tier::kSolid, .stature_m = proxy.stature_m(), .ellipsoids = {proxy.ellipsoids().front()}});
-  if (!one.ok()) throw std::runtime_error(one.error().sentence());
-  return *one;
-}
-
-void add_limits(Limits& limits, std::vector<Row>& rows) {
-  const auto n = static_cast<double>(limits.cloud.size());
-  rows.push_back({"limit: places read, contacts written", [&limits] { limits.move_bytes(); }, n});
-  rows.push_back({"limit: one ellipsoid, a nearest point a particle",
-                  [&limits] { limits.one.query({}, limits.cloud.particles(), limits.contacts); }, n});
-  rows.push_back({"the copy in every response row", [&limits] { limits.copy = limits.cloud; }, n});
-}
-
 void print_ratio(const std::string& what, const Row& over, const Row& under, const std::string& bar) {
   std::printf("| %s | %.2f | %.2f | %s |\n", what.c_str(), over.median() / under.median(),
               over.least() / under.least(), bar.c_str());
-}
-
-std::string embree_name(double reach_m) {
-  return "Embree 3 point query, skin, within " + std::to_string(static_cast<int>(1e3 * reach_m)) + " mm";
 }
 
 /// What is promised as a ratio: the response to the query, Embree to the query that asks the same of it.
@@ -230,13 +195,14 @@ void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, con
     }
   for (const auto& c : contenders)
     for (const Question& q : kQuestions)
-      for (const double reach_m : {kFarReach_m, kShortReach_m}) {
+      for (const double reach_m : kEmbreeReaches_m) {
         const bool deep_missed = reach_m == kShortReach_m;
         if (!embree || (deep_missed && q.within_m != kShort_m)) continue;
+        if (std::isinf(reach_m) && !std::isinf(q.within_m)) continue;
         for (const std::string how : {", coherent, nothing kept", kFrames[0]})
-          print_ratio(c->name + how + ": " + embree_name(reach_m) +
+          print_ratio(c->name + how + ": " + bench::embree_name(reach_m) +
                           (deep_missed ? " (silent on deeper ones)" : "") + ", to query, " + q.name,
-                      row_of(rows, embree_name(reach_m) + ", coherent"),
+                      row_of(rows, bench::embree_name(reach_m) + ", coherent"),
                       row_of(rows, c->name + ": query, " + q.name + how),
                       c->relief ? "at least 30" : "at least 100");
       }
@@ -283,19 +249,19 @@ int main(int argc, char** argv) {
       repeats, bench::kFrameCalls);
 
   std::vector<std::unique_ptr<Contender>> contenders;
-  std::unique_ptr<Limits> limits;
+  std::unique_ptr<bench::Limits> limits;
   for (const Tier tier : {Tier::kTight, Tier::kRelief}) {
     const auto proxy = bench::fit_subject(body, skin, tier, kEllipsoids, fit_s);
     const std::string label = std::string(bodice::proxy::name(tier)) + ", " +
                               std::to_string(proxy.ellipsoids().size()) + " ellipsoids";
     contenders.push_back(std::make_unique<Contender>(label, proxy, coherent, random));
-    if (!limits) limits = std::make_unique<Limits>(single(proxy), coherent);
+    if (!limits) limits = std::make_unique<bench::Limits>(proxy, count, kBand_m);
     std::printf("%s: error %s mm, %.0f kB\n", label.c_str(),
                 error_of(contenders.back()->distances(), truth, true).c_str(),
                 1e-3 * static_cast<double>(proxy.bytes()));
   }
   std::vector<bench::Peer> peers;
-  for (const double reach_m : {kFarReach_m, kShortReach_m})
+  for (const double reach_m : kEmbreeReaches_m)
     for (bench::Peer& peer : bench::embree_peers(body.mesh, reach_m)) peers.push_back(std::move(peer));
   const bool embree = !peers.empty();
   if (!embree) std::printf("Embree is not installed here: not measured\n");
@@ -305,7 +271,7 @@ int main(int argc, char** argv) {
   if (peers.size() == without_fcl) std::printf("FCL is not installed here: not measured\n");
   for (const double cell_m : {0.010, 0.005}) peers.push_back(bench::grid_peer(body.mesh, skin, cell_m));
   std::vector<Row> rows;
-  add_limits(*limits, rows);
+  limits->add_to(rows);
   for (auto& contender : contenders) add_rows(*contender, rows);
   std::vector<float> distances(count);
   std::deque<bench::AskedPeer> asked;

@@ -98,7 +98,7 @@ std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double rea
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene->scene);
   Peer peer;
-  peer.name = "Embree 3 point query, skin, within " + std::to_string(static_cast<int>(1e3 * reach_m)) + " mm";
+  peer.name = embree_name(reach_m);
   peer.build_ms = watch.cpu_ms();
   peer.reach_m = reach_m;
   peer.query = [scene, reach_m](const Cloud& cloud, std::span<float> distance_m) {
@@ -114,5 +114,12 @@ std::vector<Peer> embree_peers(const bodice::geometry::TriMesh&, double) {
 }
 
 #endif
+
+std::string embree_name(double reach_m) {
+  const std::string reach = std::isinf(reach_m)
+                                ? "any distance"
+                                : "within " + std::to_string(static_cast<int>(1e3 * reach_m)) + " mm";
+  return "Embree 3 point query, skin, " + reach;
+}
 
 }  // namespace bench

@@ -29,6 +29,7 @@ Peer grid_peer(const bodice::geometry::TriMesh& mesh, const bodice::geometry::Me
 
 /// Embree's point query over the skin's triangles, within `reach_m`, unsigned; nothing where it is missing.
 std::vector<Peer> embree_peers(const bodice::geometry::TriMesh& mesh, double reach_m);
+std::string embree_name(double reach_m);
 
 /// CGAL's tree of boxes over the skin's triangles, exact and unsigned; nothing where it is missing.
 std::vector<Peer> cgal_peers(const bodice::geometry::TriMesh& mesh);
