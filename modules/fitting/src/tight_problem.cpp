@@ -290,7 +290,8 @@ std::vector<double> TightProblem::gains() const {
 void TightProblem::gather(std::size_t k, BlockSamples& mine) const {
   const std::uint32_t first = pair_begin_[k], *const sample = pair_sample_.data() + first;
   const auto picked = pick(pair_begin_[k + 1] - first, mine.picked, [&](std::size_t p) {
-    return (owner_[sample[p]] == first + p) & (cost_[sample[p]] > 0.0f);
+    const bool owned = owner_[sample[p]] == first + p, costs = cost_[sample[p]] > 0.0f;
+    return owned & costs;
   });
   mine.start(picked.size());
   for (const std::uint32_t p : picked) {
