@@ -94,11 +94,12 @@ HWY_INLINE M is_long(V3 path, const Clearance& clearance, V3 p, VI owner, float 
 /// The particles that came far, as if without an owner.
 HWY_INLINE void find_far(const Gathering& batch, const Clearance& clearance, float short_path_m,
                          LaneBits& out) {
-  const VI none = hn::Set(I(), -1);
+  const float travel_m = clearance.motion ? clearance.travel_m : 0.0f;
+  const V limit = all(std::max(0.0f, short_path_m - travel_m));
   for (int i = 0; i < batch.count; i += kWidth) {
-    const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
-    const V3 path = p - load3(batch.sx + i, batch.sy + i, batch.sz + i);
-    const M far = is_long(path, clearance, p, none, short_path_m);
+    const V3 path =
+        load3(batch.x + i, batch.y + i, batch.z + i) - load3(batch.sx + i, batch.sy + i, batch.sz + i);
+    const M far = hn::Ge(dot(path, path), hn::Mul(limit, limit));
     out.add(bits(hn::And(far, lanes_below(i, batch.count))), i);
   }
 }
@@ -129,8 +130,8 @@ HWY_INLINE float shortest_radius(const Baked& baked, const Extent& e, float wind
   return hn::GetLane(hn::MinOfLanes(f, least));
 }
 
-/// The first push of those particles that are below the clearance and have not come far; `contact` (a bit
-/// each) becomes which they are.
+/// The first push of those particles that are below the clearance and have not come far; `contacts` gets a
+/// bit for each.
 HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float short_path_m,
                            const Reached& reached, const Batched& found, int i, Way& way, Pushed& pushed,
                            LaneBits& contacts, BatchResponse& out) {
