@@ -125,6 +125,8 @@ TEST_CASE("warm queries and responses allocate nothing") {
       for (float& y : cloud.y) y -= 0.001f;
       collider.query({}, cloud.particles(), contacts);
       collider.query({}, cloud.particles(), contacts, workspace);
+      collider.query({}, cloud.particles(), contacts, {.accuracy = Accuracy::kFirstOrder});
+      collider.query({}, cloud.particles(), contacts, workspace, {.accuracy = Accuracy::kFirstOrder});
       collider.resolve({}, cloud.particles(), {}, workspace);
       collider.resolve({}, cloud.particles(), {});
     };

@@ -188,6 +188,32 @@ std::string check_query(const Union& u) {
   return check_within(collider, cloud, contacts);
 }
 
+/// Off by more than rounding, but on the right side, and of plain ellipsoids not beyond the one it names.
+std::string check_first_order(const Union& u) {
+  const auto proxy = proxy_of(u);
+  const collision::Collider collider(proxy);
+  Cloud cloud(u, collider.origin());
+  std::vector<collision::Contact> contacts(cloud.x.size());
+  collider.query({}, cloud.particles(), contacts, {.accuracy = collision::Accuracy::kFirstOrder});
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const collision::Contact& c = contacts[i];
+    const bool nothing = u.shapes.empty() || i == 2 || i == 3;
+    if ((c.ellipsoid == collision::kNoEllipsoid) != nothing) return "an ellipsoid where none is";
+    if (nothing) continue;
+    const Vec3 normal(double{c.normal[0]}, double{c.normal[1]}, double{c.normal[2]});
+    if (!std::isfinite(c.signed_distance + c.point[0] + c.point[1] + c.point[2])) return "not finite";
+    if (!(std::abs(normal.norm() - 1.0) < 1e-5)) return "a normal that is not unit";
+    if (u.relief) continue;
+    const Vec3 p = cloud.at(i, collider.origin());
+    const double truth = proxy::proxy_distance(proxy, p).distance, told = double{c.signed_distance};
+    if (std::abs(truth) > tolerance_m(u) && (told < 0.0) != (truth < 0.0)) return "the wrong side";
+    const double of_named = geometry::nearest_point(proxy.ellipsoids()[c.ellipsoid].shape, p).signed_distance;
+    if (!(told <= of_named + tolerance_m(u)))
+      return "beyond its ellipsoid by " + std::to_string((told - of_named) / u.size_m) + " sizes";
+  }
+  return {};
+}
+
 std::string check_resolve(const Union& u, collision::Response response, double dt_s) {
   const auto proxy = proxy_of(u);
   collision::Collider collider(proxy);
@@ -229,6 +255,7 @@ std::vector<Row> scene_rows() {
   std::vector<Row> rows;
   for (const Union& u : unions()) {
     rows.push_back({"Collider::query", u.name, [&u] { return check_query(u); }});
+    rows.push_back({"Collider::query, to first order", u.name, [&u] { return check_first_order(u); }});
     rows.push_back({"Collider, 0 and 1 particle", u.name, [&u] { return check_one(u); }});
     rows.push_back(
         {"Collider::resolve, nearest", u.name, [&u] { return check_resolve(u, Response::kNearest, -1.0); }});

@@ -2,8 +2,8 @@
 // distance changes by no more than its place moves, and by no more than the ellipsoid's material does. Hence
 // an ellipsoid that was farther than the nearest by some slack is not the nearest while place and material
 // together have come less far than half of that: answers among the others have the same bits as among all.
-// Kept is what has less slack than twice the reach; asked is what has less than twice the way so far, which
-// is little at first.
+// Kept is what has less slack than twice the reach (and relief's blending); asked is what has less than twice
+// the way so far, which is little at first.
 #pragma once
 
 #include <cstdint>

@@ -17,6 +17,7 @@
 // foreach_target must come first.
 #include <hwy/highway.h>
 
+#include "simd/first_order-inl.hpp"
 #include "simd/query-inl.hpp"
 #include "simd/resolve-inl.hpp"
 
@@ -29,6 +30,10 @@ bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
 
 bool query_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
   return query_within_lanes(baked, relief, batch);
+}
+
+bool query_first_order(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  return query_first_order_lanes(baked, relief, batch);
 }
 
 bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
@@ -48,10 +53,15 @@ namespace bodice::collision {
 
 HWY_EXPORT(query);
 HWY_EXPORT(query_within);
+HWY_EXPORT(query_first_order);
 HWY_EXPORT(resolve);
 HWY_EXPORT(target);
 
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  // Where too many ellipsoids are near for the lists, exact queries have a way out.
+  if (batch.accuracy == Accuracy::kFirstOrder &&
+      HWY_DYNAMIC_DISPATCH(query_first_order)(baked, relief, batch))
+    return true;
   if (batch.within_m != std::numeric_limits<float>::infinity())
     return HWY_DYNAMIC_DISPATCH(query_within)(baked, relief, batch);
   return HWY_DYNAMIC_DISPATCH(query)(baked, relief, batch);

@@ -37,7 +37,8 @@ struct QueryBatch {
   const std::uint32_t* index;  ///< into contacts, a particle; null: in order
   int count;                   ///< at most kBatch
   float margin_m;
-  float within_m;                   ///< particles farther from the surface are told nothing
+  float within_m;  ///< particles farther from the surface are told nothing
+  Accuracy accuracy;
   Contact* contacts;                ///< of the whole call
   float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal; below zero: not measured
   Keeping keeping = {};

@@ -134,6 +134,7 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
                    .count = all,
                    .margin_m = static_cast<float>(margin_m),
                    .within_m = options.within_m,
+                   .accuracy = options.accuracy,
                    .contacts = contacts.data() + begin,
                    .radius_m = {},
                    .keeping = keeping_of(particles, begin, end, sequence.memory)};

@@ -7,7 +7,6 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "kept.hpp"
@@ -65,7 +64,8 @@ HWY_INLINE void sort_candidates(KeptBatch& kept) {
   std::copy_n(sorted, kept.candidates, kept.candidate);
 }
 
-/// Some vectors of places, every candidate's bound there, and those above which ellipsoids are not kept.
+/// Some vectors of places, every candidate's bound there, and those above which ellipsoids are farther than
+/// the nearest.
 struct Wanted {
   alignas(64) float bound[kMaxCandidates * kStep];  ///< a step a candidate
   V limit[kTogether];
@@ -74,7 +74,7 @@ struct Wanted {
 
 template <int kTables>
 HWY_INLINE void measure_step(const Baked& baked, const QueryBatch& batch, int from, const Near& near,
-                             const Columns& columns, float beyond_m, Wanted& out) {
+                             const Columns& columns, Wanted& out) {
   V3 p[kTogether];
   Lowest<1> lowest[kTogether];
   for (int v = 0; v < kTogether; ++v) {
@@ -92,7 +92,7 @@ HWY_INLINE void measure_step(const Baked& baked, const QueryBatch& batch, int fr
   Foot feet[kTogether];
   for (int v = 0; v < kTogether; ++v) shapes[v] = shape_of<kTables>(columns, lowest[v].rank(0));
   feet_of(shapes, p, feet);
-  for (int v = 0; v < kTogether; ++v) out.limit[v] = bound_limit(baked, feet[v].distance, beyond_m);
+  for (int v = 0; v < kTogether; ++v) out.limit[v] = bound_limit(baked, feet[v].distance, 0.0f);
   V least = lowest[0].bound[0];
   for (int v = 1; v < kTogether; ++v) least = hn::Min(least, lowest[v].bound[0]);
   out.least_m = hn::GetLane(hn::MinOfLanes(f, least));
@@ -104,10 +104,10 @@ template <int kTables>
 HWY_INLINE bool keep_step(const Baked& baked, const QueryBatch& batch, int from, const Near& near,
                           const Columns& columns, float beyond_m, std::int32_t* slot, KeptBatch& kept) {
   Wanted step;
-  measure_step<kTables>(baked, batch, from, near, columns, beyond_m, step);
+  measure_step<kTables>(baked, batch, from, near, columns, step);
   const int span = from / KeptBatch::kSpan;
   kept.least_m[span] = std::min(kept.least_m[span], step.least_m);
-  const float widest_m = 2.0f * kept.reach_m;
+  const float widest_m = beyond_m + 2.0f * kept.reach_m;
   for (int i = 0; i < near.count; ++i) {
     V slack = all(KeptBatch::kFar);
     for (int v = 0; v < kTogether; ++v) {
@@ -186,13 +186,14 @@ HWY_INLINE bool is_kept(const Baked& baked, const ReliefTables* relief, float be
   return false;
 }
 
-/// The candidates of a span that may be the nearest by now.
-HWY_INLINE void list_span(const KeptBatch& kept, int span, Near& out) {
-  const V most = all(2.0f * kept.moved_m);
+/// The candidates of a span that may be the nearest by now, or farther than it by `beyond_m`.
+HWY_INLINE void list_span(const KeptBatch& kept, int span, float beyond_m, Near& out) {
+  const V most = all(beyond_m + 2.0f * kept.moved_m);
+  out.count = 0;
   for (int first = 0; first < kept.candidates; first += kWidth) {
-    const M near = hn::Le(hn::Load(f, kept.slack_m[span] + first), most);
-    for (std::uint64_t left = bits(near); left != 0; left &= left - 1)
-      out.index[out.count++] = first + std::countr_zero(left);
+    const Pack near(hn::Le(hn::Load(f, kept.slack_m[span] + first), most));
+    near.store(hn::Iota(I(), first), out.index + out.count);
+    out.count += near.count();
   }
 }
 
@@ -200,16 +201,16 @@ HWY_INLINE void list_span(const KeptBatch& kept, int span, Near& out) {
 /// no candidates.
 template <class Work>
 HWY_INLINE bool share_kept(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                           float limit_m, Lists& lists, Work&& work) {
+                           float beyond_m, float limit_m, Columns::Rows rows, Lists& lists, Work&& work) {
   const KeptBatch& kept = *batch.keeping.batch;
-  lists.columns.fill(baked, relief, kept.candidate, kept.candidates, false);
+  lists.columns.fill(baked, relief, kept.candidate, kept.candidates, rows);
   Piece pieces[KeptBatch::kSpans];
   int count = 0;
   for (int begin = 0; begin < batch.count; begin += KeptBatch::kSpan, ++count) {
     pieces[count].begin = begin;
     pieces[count].end = std::min(begin + KeptBatch::kSpan, batch.count);
     lists.of_span[count].count = 0;
-    if (kept.least_m[count] - kept.moved_m <= limit_m) list_span(kept, count, lists.of_span[count]);
+    if (kept.least_m[count] - kept.moved_m <= limit_m) list_span(kept, count, beyond_m, lists.of_span[count]);
   }
   bool fits = false;
   with_tables(lists.columns,

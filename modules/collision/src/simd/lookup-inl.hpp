@@ -24,17 +24,19 @@ class Columns {
   static constexpr int kTable = kBakedFloats, kName = kTable + kTableFloats, kBound = kName + 1,
                        kRows = kBound + kBoundFloats;
 
-  /// `bounds`: whether candidates will be looked for among the columns.
+  /// Which rows are filled beside those of tables and names.
+  enum class Rows { kAll, kFeet, kBounds };
+
   HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
-                       int count, bool bounds = true) {
+                       int count, Rows rows = Rows::kAll) {
     count_ = count;
     ellipsoids_ = ellipsoids;
     if (count <= kPad)
-      fill_by<kPad>(baked, relief, ellipsoids, bounds);
+      fill_by<kPad>(baked, relief, ellipsoids, rows);
     else if (count <= 2 * kPad)
-      fill_by<2 * kPad>(baked, relief, ellipsoids, bounds);
+      fill_by<2 * kPad>(baked, relief, ellipsoids, rows);
     else
-      fill_by<kWidest>(baked, relief, ellipsoids, bounds);
+      fill_by<kWidest>(baked, relief, ellipsoids, rows);
   }
   int count() const { return count_; }
   /// Of the proxy's, which column i holds.
@@ -50,14 +52,14 @@ class Columns {
   // The stride is a constant, so that the copies become plain moves.
   template <int kStride>
   HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
-                          bool bounds) {
+                          Rows rows) {
     stride_ = kStride;
     for (int c = 0; c < count_; ++c) {
       const auto k = static_cast<std::size_t>(ellipsoids[c]);
-      put<kStride>(baked.ellipsoids[k], values_ + c);
+      if (rows != Rows::kBounds) put<kStride>(baked.ellipsoids[k], values_ + c);
       if (relief) put<kStride>(relief->tables[k], values_ + kTable * kStride + c);
       put<kStride>(baked.names[k], values_ + kName * kStride + c);
-      if (bounds) put<kStride, kBoundFloats>(baked.bounds[k], values_ + kBound * kStride + c);
+      if (rows != Rows::kFeet) put<kStride, kBoundFloats>(baked.bounds[k], values_ + kBound * kStride + c);
     }
   }
   template <int kStride, int kFloats = 0, class Member>

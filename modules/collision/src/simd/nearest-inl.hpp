@@ -301,7 +301,7 @@ inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& 
                            const Near* lists,
                            Batched& to) { return answer(tables, batch, columns, pieces, count, lists, to); };
   if (is_kept(baked, relief, beyond_m, batch, scratch.lists) &&
-      share_kept(baked, relief, batch, kNoLimit, scratch.lists,
+      share_kept(baked, relief, batch, beyond_m, kNoLimit, Columns::Rows::kFeet, scratch.lists,
                  [&](auto tables, const Columns& columns, const Piece* pieces, int count, const Near* lists) {
                    return answer(tables, batch, columns, pieces, count, lists, out);
                  }))

@@ -102,6 +102,7 @@ HWY_INLINE QueryBatch places(const float* x, const float* y, const float* z, int
           .count = count,
           .margin_m = 0.0f,
           .within_m = kNoLimit,
+          .accuracy = Accuracy::kExact,
           .contacts = nullptr,
           .radius_m = {},
           .keeping = {}};

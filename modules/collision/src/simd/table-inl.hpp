@@ -128,6 +128,37 @@ HWY_INLINE Bilinear bilinear(VI upper, VI lower, int byte, V u, V v, V scale, V 
           hn::Mul(scale, hn::MulAdd(v, hn::Sub(along1, along0), along0)), hn::Mul(scale, down)};
 }
 
+/// What a table takes off the distance at a direction.
+struct Correction {
+  V value;         ///< h + a d, metres
+  V3 slope;        ///< its slope over the direction, axes of the proxy, metres
+  V along_normal;  ///< 1 less its slope over the distance
+};
+
+/// `w`: axes of the proxy, unit.
+HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& table, V3 w, V distance) {
+  const Octahedral o = to_square(w);
+  const V nodes = hn::ConvertTo(f, table.nodes);
+  const V half = hn::MulSub(all(0.5f), nodes, all(0.5f)), last = hn::Sub(nodes, all(2.0f));
+  const V column = hn::MulAdd(o.x, half, half), row = hn::MulAdd(o.y, half, half);
+  const V i = hn::Max(hn::Zero(f), hn::Min(hn::Floor(column), last));
+  const V j = hn::Max(hn::Zero(f), hn::Min(hn::Floor(row), last));
+  const VI texel = hn::ConvertTo(I(), hn::MulAdd(j, nodes, i));  // exact: below 2^24
+  const VI at = hn::Add(hn::Add(texel, texel), table.first_byte);
+  const auto* base = reinterpret_cast<const std::int32_t*>(relief.texels.data());
+  const VI upper = hn::GatherOffset(I(), base, at);
+  const VI lower = hn::GatherOffset(I(), base, hn::Add(at, hn::Add(table.nodes, table.nodes)));
+  const V u = hn::Sub(column, i), v = hn::Sub(row, j);
+  const Bilinear h = bilinear(upper, lower, 0, u, v, table.h_scale, table.h_offset);
+  const Bilinear a = bilinear(upper, lower, 1, u, v, table.a_scale, table.a_offset);
+  const V clamped = hn::Min(hn::Max(distance, all(-relief.in_m)), all(relief.out_m));
+  const M moving = hn::Eq(clamped, distance);
+  const V gx = hn::Mul(half, hn::MulAdd(a.gx, clamped, h.gx));
+  const V gy = hn::Mul(half, hn::MulAdd(a.gy, clamped, h.gy));
+  return {hn::MulAdd(a.value, clamped, h.value), from_square(o, gx, gy),
+          hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f))};
+}
+
 struct Corrected {
   V value;      ///< F_k, metres
   V3 gradient;  ///< of F_k, local frame of the collider
@@ -155,29 +186,9 @@ HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& tab
   const AxisOrder axes(table);
   const V3 w = {hn::CopySign(foot.w.x, foot.y.x), hn::CopySign(foot.w.y, foot.y.y),
                 hn::CopySign(foot.w.z, foot.y.z)};
-  const Octahedral o = to_square(axes.to_proxy(w));
-  const V nodes = hn::ConvertTo(f, table.nodes);
-  const V half = hn::MulSub(all(0.5f), nodes, all(0.5f)), last = hn::Sub(nodes, all(2.0f));
-  const V column = hn::MulAdd(o.x, half, half), row = hn::MulAdd(o.y, half, half);
-  const V i = hn::Max(hn::Zero(f), hn::Min(hn::Floor(column), last));
-  const V j = hn::Max(hn::Zero(f), hn::Min(hn::Floor(row), last));
-  const VI texel = hn::ConvertTo(I(), hn::MulAdd(j, nodes, i));  // exact: below 2^24
-  const VI at = hn::Add(hn::Add(texel, texel), table.first_byte);
-  const auto* base = reinterpret_cast<const std::int32_t*>(relief.texels.data());
-  const VI upper = hn::GatherOffset(I(), base, at);
-  const VI lower = hn::GatherOffset(I(), base, hn::Add(at, hn::Add(table.nodes, table.nodes)));
-  const V u = hn::Sub(column, i), v = hn::Sub(row, j);
-  const Bilinear h = bilinear(upper, lower, 0, u, v, table.h_scale, table.h_offset);
-  const Bilinear a = bilinear(upper, lower, 1, u, v, table.a_scale, table.a_offset);
-  const V clamped = hn::Min(hn::Max(foot.distance, all(-relief.in_m)), all(relief.out_m));
-  const M moving = hn::Eq(clamped, foot.distance);
-  const V gx = hn::Mul(half, hn::MulAdd(a.gx, clamped, h.gx));
-  const V gy = hn::Mul(half, hn::MulAdd(a.gy, clamped, h.gy));
-  const V3 slope = from_square(o, gx, gy);
-  const V3 side = tangential(s, foot, w, axes.to_sorted(slope));
-  const V along_normal = hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f));
-  return {hn::Sub(foot.distance, hn::MulAdd(a.value, clamped, h.value)),
-          scaled(foot.normal, along_normal) - side};
+  const Correction by = correction(relief, table, axes.to_proxy(w), foot.distance);
+  const V3 side = tangential(s, foot, w, axes.to_sorted(by.slope));
+  return {hn::Sub(foot.distance, by.value), scaled(foot.normal, by.along_normal) - side};
 }
 
 /// An ellipsoid's share where several blend: (max(0, 1 - (d - least) / blend))^2

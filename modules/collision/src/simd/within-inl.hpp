@@ -8,6 +8,7 @@
 #define BODICE_COLLISION_WITHIN_INL_
 #endif
 
+#include "simd/limits-inl.hpp"
 #include "simd/nearest-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -50,20 +51,6 @@ struct alignas(64) Reached {
     return result;
   }
 };
-
-/// The largest d_k at which the corrected distance F_k may be within the limit, of ellipsoids k: where
-/// d - top - steep |clamp(d, -in, out)|, which F_k is not below, comes to the limit.
-HWY_INLINE V reach_over(const ReliefTables& relief, float limit_m, VI k) {
-  const V one = all(1.0f), in = all(relief.in_m), out = all(relief.out_m);
-  const V steep = hn::GatherIndex(f, relief.steep.data(), k);
-  const V least = hn::Add(all(limit_m), hn::GatherIndex(f, relief.top_m.data(), k));
-  const V outside =
-      hn::MulAdd(steep, hn::Min(out, hn::Div(least, hn::Max(hn::Sub(one, steep), all(1e-6f)))), least);
-  const V inside = hn::MulAdd(steep, hn::Min(in, hn::Div(hn::Neg(least), hn::Add(one, steep))), least);
-  const V farthest = hn::MulAdd(steep, hn::Max(in, out), least);
-  const V reach = hn::IfThenElse(hn::Lt(least, hn::Zero(f)), inside, outside);
-  return hn::IfThenElse(hn::Lt(steep, one), reach, farthest);
-}
 
 /// The bounds of the columns' ellipsoids above which they leave no particle within the limit.
 struct Reaches {
@@ -153,11 +140,6 @@ HWY_INLINE bool answer_reached(const Baked& baked, const ReliefTables* relief, f
   return true;
 }
 
-/// How far is asked for: from the surface, and what that is over the ellipsoids at most.
-struct Limits {
-  float surface_m, plain_m;
-};
-
 /// Some pieces of the batch whose candidates are the columns.
 template <int kKept, int kTables>
 HWY_INLINE bool within_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
@@ -192,11 +174,7 @@ HWY_INLINE bool within_of(const Baked& baked, const ReliefTables* relief, const 
 /// floats.
 inline bool nearest_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, float limit_m,
                            Scratch& scratch, Reached& reached, Batched& out) {
-  Limits limits{limit_m + 4.0f * baked.rounding_m, limit_m + 4.0f * baked.rounding_m};
-  if (relief) {
-    const VI of_all = hn::Set(I(), static_cast<std::int32_t>(relief->tables.size()));
-    limits.plain_m = hn::GetLane(reach_over(*relief, limits.surface_m, of_all));
-  }
+  const Limits limits(baked, relief, limit_m);
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
   const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
                         const Near* lists) {
@@ -209,23 +187,12 @@ inline bool nearest_within(const Baked& baked, const ReliefTables* relief, Query
   };
   reached.count = 0;
   if (is_kept(baked, relief, beyond_m, batch, scratch.lists)) {
-    const float least_m = hn::GetLane(bound_limit(baked, all(limits.plain_m), 0.0f));
-    if (share_kept(baked, relief, batch, least_m, scratch.lists, work)) return true;
+    if (share_kept(baked, relief, batch, beyond_m, limits.of_bounds(baked), Columns::Rows::kFeet,
+                   scratch.lists, work))
+      return true;
     reached.count = 0;
   }
-  const Blocks blocks(batch);
-  if (!blocks.near) return false;
-  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
-  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen feet a
-  // block.
-  const bool close = limits.surface_m <= 2.0f * blocks.pieces[0].box.radius;
-  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
-                        Near* lists) {
-    const float below_m = limits.plain_m + beyond_m;
-    if (close) return find_below(source, around, pieces, count, below_m, lists);
-    return find_near<true>(source, around, pieces, count, beyond_m, below_m, lists);
-  };
-  return share(baked, relief, blocks.pieces, blocks.count, scratch.lists, find, work);
+  return share_within(baked, relief, batch, beyond_m, limits, scratch.lists, work);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

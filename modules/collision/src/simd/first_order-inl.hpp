@@ -1,0 +1,192 @@
+// The proxy's distance at every particle of a batch, to first order: the ellipsoid whose first-order distance
+// is the least, and the plane that touches it where one step of Newton's leads from there. A foot takes three
+// times as long, and finding out which of two ellipsoids is the nearer as long again.
+// Based on: Gabriel Taubin. Distance Approximations for Rasterizing Implicit Curves. ACM TOG 13(1), 1994, for
+// the first-order distance (|u|^2 - 1) / |grad |u|^2|, u the place where the ellipsoid is the unit ball.
+#if defined(BODICE_COLLISION_FIRST_ORDER_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_FIRST_ORDER_INL_
+#undef BODICE_COLLISION_FIRST_ORDER_INL_
+#else
+#define BODICE_COLLISION_FIRST_ORDER_INL_
+#endif
+
+#include "simd/contacts-inl.hpp"
+#include "simd/kept-inl.hpp"
+#include "simd/limits-inl.hpp"
+#include "simd/table-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+constexpr float kMostSlope2 = 1e37f;
+
+HWY_INLINE V within_range(V slope2) {
+  return hn::Min(hn::Max(slope2, all(kLeastSlope2)), all(kMostSlope2));
+}
+
+/// Twice the first-order distance of one ellipsoid, metres, to the share kEstimate of itself. Not above
+/// lower_bound(), an estimate of a root cheaper, and a little better at telling the nearest.
+HWY_INLINE V twice_first_order(const BoundEllipsoid& e, V3 p) {
+  const auto row = [&](const float* a, float offset) {
+    return hn::MulAdd(all(a[0]), p.x, hn::MulAdd(all(a[1]), p.y, hn::MulAdd(all(a[2]), p.z, all(offset))));
+  };
+  const V3 u = {row(e.to_ball, e.offset[0]), row(e.to_ball + 3, e.offset[1]),
+                row(e.to_ball + 6, e.offset[2])};
+  const V3 v = {hn::Mul(u.x, all(e.inverse_radius[0])), hn::Mul(u.y, all(e.inverse_radius[1])),
+                hn::Mul(u.z, all(e.inverse_radius[2]))};
+  const V excess = hn::MulAdd(u.x, u.x, hn::MulAdd(u.y, u.y, hn::MulSub(u.z, u.z, all(1.0f))));
+  return hn::Mul(excess, estimated_inverse_sqrt(within_range(dot(v, v))));
+}
+
+/// A plane that touches an ellipsoid, one problem a lane.
+struct Tangent {
+  V distance;  ///< of the particle, metres: not above that to the ellipsoid, but for rounding
+  V3 normal;   ///< outward, unit, local frame
+  V3 w;        ///< where it touches: direction on the unit sphere, axes of the proxy
+  V3 shrink;   ///< r_j^2 / (t + r_j^2), t as one step has it
+};
+
+/// In the direction w = diag(r / (t + r^2)) y of the foot, t by one step on |w|^2 from the surface, t = 0,
+/// and each quotient to first order. Any unit w has the distance (w . u - 1) / |grad| to its plane, so that
+/// what w is off by counts by its square.
+HWY_INLINE Tangent tangent_of(const BoundLanes& e, V3 p) {
+  const V one = all(1.0f);
+  const V3 u = {hn::MulAdd(e.a0.x, p.x, hn::MulAdd(e.a0.y, p.y, hn::MulAdd(e.a0.z, p.z, e.offset.x))),
+                hn::MulAdd(e.a1.x, p.x, hn::MulAdd(e.a1.y, p.y, hn::MulAdd(e.a1.z, p.z, e.offset.y))),
+                hn::MulAdd(e.a2.x, p.x, hn::MulAdd(e.a2.y, p.y, hn::MulAdd(e.a2.z, p.z, e.offset.z)))};
+  const V3 i = e.inverse_radius;
+  const V3 v = {hn::Mul(u.x, i.x), hn::Mul(u.y, i.y), hn::Mul(u.z, i.z)};
+  const V square = dot(u, u);
+  const V excess = hn::Mul(all(0.5f), hn::Sub(square, one));
+  const V t = hn::Mul(excess, estimated_reciprocal(within_range(dot(v, v))));
+  const auto shrink = [&](V inverse) {
+    return hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Mul(t, inverse), inverse, one));
+  };
+  Tangent result;
+  result.shrink = {shrink(i.x), shrink(i.y), shrink(i.z)};
+  V3 w = {hn::Mul(u.x, result.shrink.x), hn::Mul(u.y, result.shrink.y), hn::Mul(u.z, result.shrink.z)};
+  const M center = hn::Lt(square, all(kLeastSquare));
+  if (HWY_UNLIKELY(!hn::AllFalse(f, center))) {
+    // Along the shortest axis, the last of equals.
+    const M z = hn::Ge(i.z, hn::Max(i.x, i.y)), y = hn::AndNot(z, hn::Ge(i.y, i.x));
+    const V3 axis = {hn::IfThenElseZero(hn::Not(hn::Or(z, y)), one), hn::IfThenElseZero(y, one),
+                     hn::IfThenElseZero(z, one)};
+    w = select(center, axis, w);
+  }
+  w = result.w = scaled(w, inverse_sqrt(dot(w, w)));
+  const V3 slope = along(along(scaled(e.a0, w.x), w.y, e.a1), w.z, e.a2);
+  const V per_slope = inverse_sqrt(dot(slope, slope));
+  result.distance = hn::Mul(hn::Sub(dot(w, u), one), per_slope);
+  result.normal = scaled(slope, per_slope);
+  return result;
+}
+
+/// The ellipsoid's own table on top, unblended: as corrected(), with t and quotients as the tangent has them.
+HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BoundLanes& e,
+                        Tangent& at) {
+  constexpr float kMostShrink = 1e6f;  // next to the centre
+  const Correction by = correction(relief, table, at.w, at.distance);
+  const auto limited = [](V shrink) { return hn::Min(shrink, all(kMostShrink)); };
+  const V3 shrink = {limited(at.shrink.x), limited(at.shrink.y), limited(at.shrink.z)};
+  const V3 i = e.inverse_radius, w = at.w;
+  const V3 we = {hn::Mul(w.x, hn::Mul(hn::Mul(i.x, i.x), shrink.x)),
+                 hn::Mul(w.y, hn::Mul(hn::Mul(i.y, i.y), shrink.y)),
+                 hn::Mul(w.z, hn::Mul(hn::Mul(i.z, i.z), shrink.z))};
+  const V ratio = hn::Mul(dot(by.slope, we), reciprocal(within_range(dot(w, we))));
+  const V3 side = {hn::Mul(shrink.x, hn::NegMulAdd(w.x, ratio, by.slope.x)),
+                   hn::Mul(shrink.y, hn::NegMulAdd(w.y, ratio, by.slope.y)),
+                   hn::Mul(shrink.z, hn::NegMulAdd(w.z, ratio, by.slope.z))};
+  const V3 gradient =
+      scaled(at.normal, by.along_normal) - along(along(scaled(e.a0, side.x), side.y, e.a1), side.z, e.a2);
+  at.distance = hn::Sub(at.distance, by.value);
+  at.normal = scaled(gradient, inverse_sqrt(within_range(dot(gradient, gradient))));
+}
+
+template <int kTables>
+HWY_INLINE BoundLanes bounds_of(const Columns& columns, VI column) {
+  const Lookup<kTables> at(column);
+  return bound_lanes([&](int i) { return at(columns.row(Columns::kBound + i)); });
+}
+
+HWY_INLINE bool is_limited(const QueryBatch& batch) {
+  return batch.within_m != std::numeric_limits<float>::infinity();
+}
+
+/// What is farther than was asked for is told nothing.
+HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
+  const Contact none = no_contact();
+  const M told = hn::Le(c.distance, all(within_m));
+  c.distance = hn::IfThenElse(told, c.distance, all(none.signed_distance));
+  c.point = select(told, c.point, broadcast3(none.point));
+  c.normal = select(told, c.normal, broadcast3(none.normal));
+  c.name = hn::IfThenElse(hn::RebindMask(I(), told), c.name,
+                          hn::Set(I(), static_cast<std::int32_t>(none.ellipsoid)));
+}
+
+/// The contacts of one piece.
+template <int kTables>
+HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                           const Piece& piece, const Near& near, const Columns& columns) {
+  const V margin = all(batch.margin_m);
+  const bool limited = is_limited(batch);
+  for (int from = piece.begin; from < end_of(piece); from += kStep) {
+    V3 p[kTogether];
+    V least[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const int i = from + v * kWidth;
+      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
+      least[v] = all(kNoLimit);
+    }
+    for (int i = 0; i < near.count; ++i) {
+      const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(near.index[i])];
+      const VI rank = hn::Set(I(), near.index[i]);
+      for (int v = 0; v < kTogether; ++v)
+        least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
+    }
+    VI column[kTogether];
+    Tangent at[kTogether];
+#pragma GCC unroll 4
+    for (int v = 0; v < kTogether; ++v) {
+      column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
+      const BoundLanes e = bounds_of<kTables>(columns, column[v]);
+      at[v] = tangent_of(e, p[v]);
+      if (relief) correct(*relief, table_of<kTables>(columns, column[v]), e, at[v]);
+    }
+    for (int v = 0; v < kTogether; ++v) {
+      const V d = hn::Sub(at[v].distance, margin);
+      ContactLanes c = {d, along(p[v], hn::Neg(d), at[v].normal), at[v].normal,
+                        names_of<kTables>(columns, column[v])};
+      if (limited) hide_beyond(batch.within_m, c);
+      write_contacts(c, batch, from + v * kWidth, piece.end);
+    }
+  }
+}
+
+/// False, and contacts are as they were or done, if a place is too far for floats or too many ellipsoids are
+/// near.
+inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  Lists lists;
+  const Limits limits(baked, relief, std::min(batch.within_m + batch.margin_m, kNoLimit));
+  const float rounding_m = 4.0f * baked.rounding_m;
+  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
+                        const Near* near) {
+    for (int i = 0; i < count; ++i)
+      if (near[i].count == 0)
+        write_none(batch, pieces[i].begin, pieces[i].end);
+      else
+        tell_piece<tables()>(baked, relief, batch, pieces[i], near[i], columns);
+    return true;
+  };
+  // What is kept serves exact queries, too, which blend.
+  const float blend_m = relief ? relief->blend_m : 0.0f;
+  if (is_kept(baked, relief, blend_m + rounding_m, batch, lists))
+    return share_kept(baked, relief, batch, rounding_m, limits.of_bounds(baked), Columns::Rows::kBounds,
+                      lists, work);
+  if (is_limited(batch)) write_none(batch, 0, batch.count);  // what has no candidates is not come back to
+  return share_within(baked, relief, batch, rounding_m, limits, lists, work);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

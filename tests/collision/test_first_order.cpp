@@ -1,0 +1,305 @@
+// Accuracy::kFirstOrder: what its answers may be off by, and what not.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include <bodice_test/executors.hpp>
+#include "scenes.hpp"
+#include "targets.hpp"
+
+using namespace bodice;
+using namespace bodice::collision;
+using namespace bodice_test;
+
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr QueryOptions kFirst{.accuracy = Accuracy::kFirstOrder};
+
+Vec3 vec(const float (&v)[3]) {
+  return {double{v[0]}, double{v[1]}, double{v[2]}};
+}
+
+/// Of unit ellipsoids turned anyhow: a ball, limbs, plates and a needle.
+std::vector<Ellipsoid> shapes_alone() {
+  engine::Random random(11);
+  std::vector<Ellipsoid> result;
+  for (const Vec3& radii : {Vec3(0.1, 0.1, 0.1), Vec3(0.05, 0.06, 0.2), Vec3(0.2, 0.05, 0.15),
+                            Vec3(0.02, 0.2, 0.2), Vec3(0.3, 0.01, 0.02)}) {
+    Ellipsoid e;
+    e.center = random_vector(random, 0.2);
+    e.axes = random_rotation(random);
+    e.radii = radii;
+    result.push_back(e);
+  }
+  return result;
+}
+
+/// Off the surface by `height_m` along the normal.
+Vec3 above(const Ellipsoid& e, const Vec3& direction, double height_m) {
+  const Vec3 normal = direction.cwiseQuotient(e.radii).normalized();
+  return e.center + e.axes * (direction.cwiseProduct(e.radii) + height_m * normal);
+}
+
+/// How far the plane that touches the ellipsoid with this outward normal is below the place.
+double over_tangent_plane(const Ellipsoid& e, const Vec3& p, const Vec3& normal) {
+  const Vec3 n = e.axes.transpose() * normal;
+  return normal.dot(p - e.center) - n.cwiseProduct(e.radii).norm();
+}
+
+/// Of a union of limbs, as a body has them.
+proxy::BodyProxy body_like(bool relief, double margin_m = 0.0) {
+  auto data = data_of(random_ellipsoids(31, 60, 0.5, 0.05, 0.15));
+  data.margin_m = margin_m;
+  return proxy_of(relief ? with_relief(data, 16, 0.004, 3) : data);
+}
+
+/// Within `band_m` of the surface.
+Cloud near_surface(const Collider& collider, int count, float band_m) {
+  engine::Random random(5);
+  Cloud cloud;
+  while (cloud.size() < static_cast<std::size_t>(count)) {
+    const Vec3 p = random_vector(random, 0.7);
+    const float at[3] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+    if (std::abs(collider.query(at).signed_distance) < band_m) cloud.add(p);
+  }
+  return cloud;
+}
+
+std::vector<Contact> ask(const Collider& collider, Cloud& cloud, const QueryOptions& options) {
+  std::vector<Contact> contacts(cloud.size());
+  collider.query({}, cloud.particles(), contacts, options);
+  return contacts;
+}
+
+/// Root of the mean square of what is missing to the distance, at heights in shares of the shortest radius.
+double missing(const Ellipsoid& e, double height) {
+  const Collider collider(proxy_of({e}));
+  engine::Random random(3);
+  Cloud cloud;
+  constexpr int kPlaces = 512;
+  for (int i = 0; i < kPlaces; ++i) {
+    // In float, so that what is measured is not where the place was rounded to.
+    const Vec3 p = above(e, random_direction(random), height * e.radii.minCoeff());
+    cloud.add(p - collider.origin());
+  }
+  const auto contacts = ask(collider, cloud, kFirst);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const auto truth = geometry::nearest_point(e, cloud.position(i) + collider.origin()).signed_distance;
+    const double off = truth - double{contacts[i].signed_distance};
+    sum += off * off;
+  }
+  return std::sqrt(sum / kPlaces);
+}
+
+}  // namespace
+
+TEST_CASE("to first order the distance is that to a plane which touches the ellipsoid, on every target") {
+  for (const Ellipsoid& e : shapes_alone()) {
+    const Collider collider(proxy_of({e}));
+    engine::Random random(7);
+    Cloud cloud;
+    std::vector<double> heights;
+    for (int i = 0; i < 1000; ++i) {
+      heights.push_back(random.uniform(-0.9, 3.0) * e.radii.minCoeff());
+      cloud.add(above(e, random_direction(random), heights.back()) - collider.origin());
+    }
+    const double tolerance_m = 2e-6 * (e.radii.maxCoeff() + 0.2);
+    on_every_target([&](const char* name) {
+      CAPTURE(name);
+      const auto contacts = ask(collider, cloud, kFirst);
+      double off_plane_m = 0.0, above_truth_m = -1.0, off_point_m = 0.0, off_unit = 0.0;
+      int wrong_sides = 0;
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Vec3 p = cloud.position(i) + collider.origin(), n = vec(contacts[i].normal);
+        const double told = double{contacts[i].signed_distance};
+        const double truth = geometry::nearest_point(e, p).signed_distance;
+        off_plane_m = std::max(off_plane_m, std::abs(told - over_tangent_plane(e, p, n.normalized())));
+        above_truth_m = std::max(above_truth_m, told - truth);
+        wrong_sides += std::abs(truth) > tolerance_m && (told < 0.0) != (truth < 0.0);
+        off_point_m = std::max(off_point_m, (cloud.position(i) - told * n - vec(contacts[i].point)).norm());
+        off_unit = std::max(off_unit, std::abs(n.norm() - 1.0));
+      }
+      CHECK(off_plane_m < tolerance_m);
+      CHECK(above_truth_m < tolerance_m);
+      CHECK(wrong_sides == 0);
+      CHECK(off_point_m < tolerance_m);
+      CHECK(off_unit < 1e-6);
+    });
+  }
+}
+
+TEST_CASE("what is missing to the distance goes with the fourth power of the height") {
+  for (const Ellipsoid& e : shapes_alone()) {
+    if (e.radii.maxCoeff() == e.radii.minCoeff()) {
+      CHECK(missing(e, 0.5) < 1e-6 * e.radii.maxCoeff());  // of a ball, nothing
+      continue;
+    }
+    // Of longer ones the tips are sharper than such heights, and floats end before.
+    if (e.radii.maxCoeff() > 4.0 * e.radii.minCoeff()) continue;
+    CAPTURE(e.radii.transpose());
+    CHECK(missing(e, 0.2) > 10.0 * missing(e, 0.1));
+    CHECK(missing(e, -0.2) > 10.0 * missing(e, -0.1));
+  }
+}
+
+TEST_CASE("at a centre the way out is along the shortest axis") {
+  for (const Ellipsoid& e : shapes_alone()) {
+    const Collider collider(proxy_of({e}));
+    const Vec3 center = e.center - collider.origin();
+    const Contact contact = collider.query(
+        {static_cast<float>(center.x()), static_cast<float>(center.y()), static_cast<float>(center.z())},
+        kFirst);
+    int shortest = 0;
+    e.radii.minCoeff(&shortest);
+    // The centre may not be a float: the way out of next to it is as long.
+    CHECK(double{contact.signed_distance} == doctest::Approx(-e.radii.minCoeff()).epsilon(1e-3));
+    if (e.radii[(shortest + 1) % 3] > e.radii[shortest] && e.radii[(shortest + 2) % 3] > e.radii[shortest])
+      CHECK(std::abs(vec(contact.normal).dot(e.axes.col(shortest))) == doctest::Approx(1.0).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("of a union: sides are exact, and few take a wrong neighbour") {
+  const auto proxy = body_like(false);
+  std::vector<Ellipsoid> shapes;
+  for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
+  const Collider collider(proxy);
+  Cloud cloud = near_surface(collider, 6000, 0.01f);
+  on_every_target([&](const char* name) {
+    CAPTURE(name);
+    const auto contacts = ask(collider, cloud, kFirst);
+    int wrong_sides = 0, wrong_owners = 0, above_owner = 0;
+    double sum_m = 0.0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      std::uint32_t owner = 0;
+      const Vec3 p = cloud.position(i) + collider.origin();
+      const double truth = brute_force(shapes, p, &owner).signed_distance;
+      const double told = double{contacts[i].signed_distance};
+      wrong_sides += std::abs(truth) > 1e-6 && (told < 0.0) != (truth < 0.0);
+      wrong_owners += contacts[i].ellipsoid != owner;
+      above_owner += told > geometry::nearest_point(shapes[contacts[i].ellipsoid], p).signed_distance + 1e-6;
+      sum_m += std::abs(told - truth);
+    }
+    CHECK(wrong_sides == 0);
+    CHECK(above_owner == 0);
+    CHECK(wrong_owners < 60);
+    CHECK(sum_m / static_cast<double>(cloud.size()) < 5e-5);
+  });
+}
+
+TEST_CASE("relief to first order: on balls that are alone as exactly, near other shapes nearly") {
+  for (const Ellipsoid& e : shapes_alone()) {
+    const bool round = e.radii.maxCoeff() == e.radii.minCoeff();
+    const double height = round ? 0.05 : 0.02;
+    const Collider collider(proxy_of(with_relief(data_of({e}), 12, 0.003, 9)));
+    REQUIRE(collider.has_relief());
+    engine::Random random(13);
+    Cloud cloud;
+    for (int i = 0; i < 2000; ++i)
+      cloud.add(above(e, random_direction(random), random.uniform(-height, height) * e.radii.minCoeff()) -
+                collider.origin());
+    const auto exact = ask(collider, cloud, {}), first = ask(collider, cloud, kFirst);
+    double worst_m = 0.0;
+    std::vector<double> cosines;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      worst_m = std::max(worst_m, double{std::abs(exact[i].signed_distance - first[i].signed_distance)});
+      cosines.push_back(vec(exact[i].normal).dot(vec(first[i].normal)));
+    }
+    std::sort(cosines.begin(), cosines.end());
+    CAPTURE(e.radii.transpose());
+    CHECK(worst_m < (round ? 2e-6 : 1e-4));
+    // The gradient jumps where a table's cell ends: a few places lie on the other side of that.
+    CHECK(cosines[cosines.size() / 50] > (round ? 0.999999 : 0.999));
+  }
+}
+
+TEST_CASE("to first order within a contact distance") {
+  for (const bool relief : {false, true})
+    for (const double margin_m : {0.0, 0.003}) {
+      const Collider collider(body_like(relief, margin_m));
+      Cloud cloud = near_surface(collider, 4000, 0.03f);
+      const auto unlimited = ask(collider, cloud, kFirst);
+      for (const float within_m : {-0.01f, 0.0f, 0.01f, -kInf}) {
+        const auto limited = ask(collider, cloud, {.within_m = within_m, .accuracy = Accuracy::kFirstOrder});
+        int too_far = 0, told = 0, differ = 0;
+        for (std::size_t i = 0; i < cloud.size(); ++i) {
+          const bool none = limited[i].ellipsoid == kNoEllipsoid;
+          told += !none;
+          too_far += !none && !(limited[i].signed_distance <= within_m);
+          differ += none == (unlimited[i].signed_distance <= within_m);
+          if (none) CHECK(limited[i].signed_distance == kInf);
+        }
+        CHECK(too_far == 0);
+        CHECK((told > 100 || within_m == -kInf));
+        // Fewer neighbours may be asked, so that another owner is told of.
+        CHECK(differ <= (within_m == 0.0f && !relief ? 0 : 8));
+      }
+    }
+}
+
+TEST_CASE("to first order the same bits for any number of workers, with a workspace and without") {
+  for (const bool relief : {false, true}) {
+    const Collider collider(body_like(relief));
+    Cloud cloud = near_surface(collider, 7001, 0.03f);
+    cloud.x[17] = std::numeric_limits<float>::quiet_NaN();
+    cloud.y[4000] = 1e20f;
+    const auto executor = bodice_test::make_threads(3);
+    std::vector<Contact> alone(cloud.size()), shared(cloud.size());
+    Workspace of_one, of_three;
+    for (int call = 0; call < 12; ++call) {
+      for (float& x : cloud.x) x += 7e-4f;
+      collider.query({}, cloud.particles(), alone, of_one, kFirst);
+      collider.query({.executor = executor.get()}, cloud.particles(), shared, of_three, kFirst);
+      CHECK(std::memcmp(alone.data(), shared.data(), alone.size() * sizeof(Contact)) == 0);
+      collider.query({}, cloud.particles(), alone, kFirst);
+      collider.query({.executor = executor.get()}, cloud.particles(), shared, kFirst);
+      CHECK(std::memcmp(alone.data(), shared.data(), alone.size() * sizeof(Contact)) == 0);
+      CHECK(alone[17].ellipsoid == kNoEllipsoid);
+      CHECK(alone[4000].signed_distance > 1e19f);
+    }
+  }
+}
+
+TEST_CASE("to first order with a workspace sides stay exact while particles and body move") {
+  auto shapes = random_ellipsoids(31, 60, 0.5, 0.05, 0.15);
+  Collider collider(proxy_of(shapes));
+  Cloud cloud = near_surface(collider, 3000, 0.01f);
+  Workspace workspace;
+  std::vector<Contact> kept(cloud.size());
+  for (int call = 0; call < 30; ++call) {
+    for (float& y : cloud.y) y += 5e-4f;
+    for (Ellipsoid& e : shapes) e.center.x() += 3e-4;
+    REQUIRE(collider.move_to(shapes, 1.0 / 60.0));
+    collider.query({}, cloud.particles(), kept, workspace, kFirst);
+    const auto exact = ask(collider, cloud, {});
+    int wrong_sides = 0, wrong_owners = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      wrong_sides += std::abs(exact[i].signed_distance) > 1e-6f &&
+                     (exact[i].signed_distance < 0.0f) != (kept[i].signed_distance < 0.0f);
+      wrong_owners += exact[i].ellipsoid != kept[i].ellipsoid;
+    }
+    CHECK(wrong_sides == 0);
+    CHECK(wrong_owners < 90);
+  }
+}
+
+TEST_CASE("to first order where more ellipsoids are near than the kernels hold, and where none are") {
+  const Collider none(proxy_of(std::vector<Ellipsoid>{}));
+  CHECK(none.query({0.0f, 0.0f, 0.0f}, kFirst).ellipsoid == kNoEllipsoid);
+  const auto shapes = random_ellipsoids(5, 700, 0.05, 0.08, 0.1);
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(3);
+  Cloud cloud;
+  for (int i = 0; i < 600; ++i) cloud.add(random_vector(random, 0.2));
+  const auto contacts = ask(collider, cloud, kFirst), exact = ask(collider, cloud, {});
+  int wrong_sides = 0;
+  double worst_m = 0.0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    wrong_sides += (contacts[i].signed_distance < 0.0f) != (exact[i].signed_distance < 0.0f);
+    worst_m = std::max(worst_m, double{std::abs(contacts[i].signed_distance - exact[i].signed_distance)});
+  }
+  CHECK(wrong_sides == 0);
+  CHECK(worst_m < 0.02);
+}
