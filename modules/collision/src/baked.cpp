@@ -87,8 +87,9 @@ void Baked::update(const std::vector<Ellipsoid>& shapes) {
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     ellipsoids[k] = bake(shapes[k]);
     const auto values = std::bit_cast<std::array<float, kBakedFloats>>(ellipsoids[k]);
-    for (std::size_t i = 0; i < values.size(); ++i) cull.baked[i][k] = values[i];
+    for (std::size_t i = 0; i < kShapeFloats; ++i) cull.baked[i][k] = values[i];
     bounds[k] = bake_bound(shapes[k]);
+    ellipsoids[k].name = bounds[k].name = names[k];
     const float* const bound = bounds[k].to_ball;  // the members follow each other without padding
     for (std::size_t i = 0; i < kBoundFloats; ++i) cull.bound[i][k] = bound[i];
     longest_m = std::max(longest_m, static_cast<float>(shapes[k].radii.maxCoeff()));

@@ -17,21 +17,24 @@ struct BakedEllipsoid {
   float gap0, gap1;          ///< 1 - radius2^2 and radius1^2 - radius2^2: how far from being a sphere
   float inverse1, inverse2;  ///< 1 / radius1, 1 / radius2
   float longest_m;           ///< r0
+  std::int32_t name;         ///< the proxy's index
 };
 inline constexpr int kBakedFloats = sizeof(BakedEllipsoid) / sizeof(float);
+inline constexpr int kShapeFloats = kBakedFloats - 1;  ///< without the name
 
 /// One ellipsoid for the bound: u = to_ball p + offset is p where the ellipsoid is the unit ball.
 struct alignas(64) BoundEllipsoid {
   float to_ball[9];         ///< diag(1 / r) R^T, 1/metres
   float offset[3];          ///< - to_ball c
   float inverse_radius[3];  ///< 1/metres
+  std::int32_t name;        ///< the proxy's index
 };
-inline constexpr int kBoundFloats = 15, kBoundOffset = 9, kBoundInverse = 12;
+inline constexpr int kBoundFloats = 15, kBoundOffset = 9, kBoundInverse = 12;  ///< without the name
 
 /// The same, and boxes and inner balls, one array a number, for sixteen ellipsoids at a time; padded to kPad
 /// with boxes infinitely far away. Neighbours in space should be neighbours here.
 struct CullArrays {
-  std::vector<float> baked[kBakedFloats];  ///< the members of BakedEllipsoid, in order
+  std::vector<float> baked[kShapeFloats];  ///< the members of BakedEllipsoid, in order
   std::vector<float> bound[kBoundFloats];  ///< the members of BoundEllipsoid, in order
   std::vector<float> low[3], high[3];      ///< metres
   std::vector<float> shortest;             ///< r2, metres: radius of the ball inside

@@ -18,7 +18,7 @@
 namespace bodice::collision {
 
 /// One ellipsoid's table; bytes already scaled to metres (h) and to per metre of distance (a / out).
-struct BakedTable {
+struct alignas(16) BakedTable {
   std::int32_t first_byte = 0;
   std::int32_t nodes = 2;  ///< per side
   float h_scale_m = 0.0f, h_offset_m = 0.0f;

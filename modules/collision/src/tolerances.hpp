@@ -53,7 +53,7 @@ inline constexpr double kReliefOvershoot = 2e-3;
 
 /// Share of its length by which the first push out of relief goes further: what Newton's step is off by grows
 /// with it, and one that falls short costs another query.
-inline constexpr double kStepOvershoot = 5e-3;
+inline constexpr double kStepOvershoot = 1e-2;
 
 /// The same for fillets, which are smooth: in certificates, so that what rests in one does not chatter.
 inline constexpr double kFilletOvershoot = 20.0;

@@ -154,8 +154,8 @@ HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const
     }
     for (int v = 0; v < kTogether; ++v) {
       const V d = hn::Sub(at[v].distance, margin);
-      ContactLanes c = {d, along(p[v], hn::Neg(d), at[v].normal), at[v].normal,
-                        names_of<kTables>(columns, column[v])};
+      const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBoundName));
+      ContactLanes c = {d, along(p[v], hn::Neg(d), at[v].normal), at[v].normal, hn::BitCast(I(), name)};
       if (limited) hide_beyond(batch.within_m, c);
       write_contacts(c, batch, from + v * kWidth, piece.end);
     }

@@ -76,7 +76,7 @@ template <int kTables>
 HWY_INLINE void measure_step(const Baked& baked, const QueryBatch& batch, int from, const Near& near,
                              const Columns& columns, Wanted& out) {
   V3 p[kTogether];
-  Lowest<1> lowest[kTogether];
+  Lowest<0> lowest[kTogether];
   for (int v = 0; v < kTogether; ++v) {
     const int i = from + v * kWidth;
     p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
@@ -112,11 +112,10 @@ HWY_INLINE bool keep_step(const Baked& baked, const QueryBatch& batch, int from,
     V slack = all(KeptBatch::kFar);
     for (int v = 0; v < kTogether; ++v) {
       const V bound = hn::Load(f, step.bound + i * kStep + v * kWidth);
-      const V beyond = hn::IfThenElseZero(hn::Gt(bound, step.limit[v]), hn::Sub(bound, step.limit[v]));
-      slack = hn::Min(slack, beyond);
+      slack = hn::Min(slack, hn::Max(hn::Sub(bound, step.limit[v]), hn::Zero(f)));
     }
+    if (hn::AllTrue(f, hn::Gt(slack, all(widest_m)))) continue;
     const float slack_m = hn::GetLane(hn::MinOfLanes(f, slack));
-    if (slack_m > widest_m) continue;
     const std::int32_t column = near.index[i];
     if (slot[column] < 0) slot[column] = slot_of(kept, static_cast<std::int32_t>(columns.ellipsoid(column)));
     if (slot[column] < 0) return false;

@@ -7,8 +7,9 @@
 #define BODICE_COLLISION_LOOKUP_INL_
 #endif
 
-#include <cstring>
-#include <utility>
+#include <algorithm>
+#include <type_traits>
+#include <vector>
 
 #include "kernels.hpp"
 #include "simd/foot-inl.hpp"
@@ -16,15 +17,40 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
+#if HWY_TARGET == HWY_SCALAR
+/// Copies kFloats numbers of each of four structures into a column each.
+template <int kFloats, int kStride>
+HWY_INLINE void put_four(const float* const (&from)[4], float* to) {
+  for (int i = 0; i < kFloats; ++i)
+    for (int c = 0; c < 4; ++c) to[i * kStride + c] = from[c][i];
+}
+#else
+template <int kFloats, int kStride>
+HWY_INLINE void put_four(const float* const (&from)[4], float* to) {
+  constexpr hn::FixedTag<float, 4> four;
+  static_assert(kFloats % 4 == 0);
+  for (int i = 0; i < kFloats; i += 4) {
+    const auto a = hn::LoadU(four, from[0] + i), b = hn::LoadU(four, from[1] + i);
+    const auto c = hn::LoadU(four, from[2] + i), d = hn::LoadU(four, from[3] + i);
+    const auto ac = hn::InterleaveLower(four, a, c), bd = hn::InterleaveLower(four, b, d);
+    const auto ac2 = hn::InterleaveUpper(four, a, c), bd2 = hn::InterleaveUpper(four, b, d);
+    float* const row = to + i * kStride;
+    hn::StoreU(hn::InterleaveLower(four, ac, bd), four, row);
+    hn::StoreU(hn::InterleaveUpper(four, ac, bd), four, row + kStride);
+    hn::StoreU(hn::InterleaveLower(four, ac2, bd2), four, row + 2 * kStride);
+    hn::StoreU(hn::InterleaveUpper(four, ac2, bd2), four, row + 3 * kStride);
+  }
+}
+#endif
+
 /// The candidates of some blocks, a column each; rows are the members of BakedEllipsoid, of BakedTable
-/// (relief only), the proxy's index, and the members of BoundEllipsoid, all as floats or the bits of
-/// integers.
+/// (relief only) and of BoundEllipsoid, all as floats or the bits of integers.
 class Columns {
  public:
-  static constexpr int kTable = kBakedFloats, kName = kTable + kTableFloats, kBound = kName + 1,
-                       kRows = kBound + kBoundFloats;
-
-  /// Which rows are filled beside those of tables and names.
+  static constexpr int kBoundRows = sizeof(BoundEllipsoid) / sizeof(float);
+  static constexpr int kTable = kBakedFloats, kBound = kTable + kTableFloats, kRows = kBound + kBoundRows;
+  static constexpr int kName = kBakedFloats - 1, kBoundName = kBound + kBoundRows - 1;
+  /// Which rows are filled beside those of tables.
   enum class Rows { kAll, kFeet, kBounds };
 
   HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
@@ -32,11 +58,11 @@ class Columns {
     count_ = count;
     ellipsoids_ = ellipsoids;
     if (count <= kPad)
-      fill_by<kPad>(baked, relief, ellipsoids, rows);
+      fill_by<kPad>(baked, relief, rows);
     else if (count <= 2 * kPad)
-      fill_by<2 * kPad>(baked, relief, ellipsoids, rows);
+      fill_by<2 * kPad>(baked, relief, rows);
     else
-      fill_by<kWidest>(baked, relief, ellipsoids, rows);
+      fill_by<kWidest>(baked, relief, rows);
   }
   int count() const { return count_; }
   /// Of the proxy's, which column i holds.
@@ -51,25 +77,22 @@ class Columns {
 
   // The stride is a constant, so that the copies become plain moves.
   template <int kStride>
-  HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
-                          Rows rows) {
+  HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, Rows rows) {
     stride_ = kStride;
-    for (int c = 0; c < count_; ++c) {
-      const auto k = static_cast<std::size_t>(ellipsoids[c]);
-      if (rows != Rows::kBounds) put<kStride>(baked.ellipsoids[k], values_ + c);
-      if (relief) put<kStride>(relief->tables[k], values_ + kTable * kStride + c);
-      put<kStride>(baked.names[k], values_ + kName * kStride + c);
-      if (rows != Rows::kFeet) put<kStride, kBoundFloats>(baked.bounds[k], values_ + kBound * kStride + c);
+    for (int c = 0; c < count_; c += 4) {
+      if (rows != Rows::kBounds) put<kStride>(baked.ellipsoids, c, values_);
+      if (relief) put<kStride>(relief->tables, c, values_ + kTable * kStride);
+      if (rows != Rows::kFeet) put<kStride>(baked.bounds, c, values_ + kBound * kStride);
     }
   }
-  template <int kStride, int kFloats = 0, class Member>
-  static HWY_INLINE void put(const Member& member, float* to) {
-    constexpr std::size_t kSize = sizeof(Member) / sizeof(float), kUsed = kFloats == 0 ? kSize : kFloats;
-    const auto* const from = reinterpret_cast<const unsigned char*>(&member);
-    [&]<std::size_t... i>(std::index_sequence<i...>) {
-      (std::memcpy(to + i * kStride, from + i * sizeof(float), sizeof(float)), ...);
-    }
-    (std::make_index_sequence<kUsed>());
+  /// Columns [c, c + 4), those beyond the last as the last.
+  template <int kStride, class Member>
+  HWY_INLINE void put(const std::vector<Member>& members, int c, float* to) {
+    const auto numbers = [&](int i) {
+      return reinterpret_cast<const float*>(&members[ellipsoid(std::min(c + i, count_ - 1))]);
+    };
+    put_four<sizeof(Member) / sizeof(float), kStride>({numbers(0), numbers(1), numbers(2), numbers(3)},
+                                                      to + c);
   }
 
   alignas(64) float values_[kRows * kWidest];
@@ -96,6 +119,11 @@ class Lookup {
         second_(hn::RebindMask(f, hn::Gt(column, hn::Set(I(), kWidth - 1)))) {}
   HWY_INLINE V operator()(const float* row) const {
     if constexpr (kTables == 0) return hn::GatherIndex(f, row, column_);
+#if HWY_TARGET == HWY_AVX3
+    // One instruction, which Highway 1.0 has no name for.
+    if constexpr (kTables == 2)
+      return V{_mm512_permutex2var_ps(hn::Load(f, row).raw, column_.raw, hn::Load(f, row + kWidth).raw)};
+#endif
     const V first = hn::TableLookupLanes(hn::Load(f, row), index_);
     if constexpr (kTables == 1) return first;
     return hn::IfThenElse(second_, hn::TableLookupLanes(hn::Load(f, row + kWidth), index_), first);
