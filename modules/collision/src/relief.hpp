@@ -27,6 +27,15 @@ struct alignas(16) BakedTable {
 };
 inline constexpr int kTableFloats = sizeof(BakedTable) / sizeof(float);
 
+/// How far from an ellipsoid a corrected distance F_k of m can be found: where F_k <= m and the nearest point
+/// is in an octant of the proxy's axes (bits 0, 1, 2: negative along x, y, z),
+///   d_k <= at_zero_m[octant] + m (m > 0 ? rise : fall).
+struct alignas(64) OctantReach {
+  float at_zero_m[8] = {};
+  float rise = 1.0f, fall = 1.0f;
+  float shift_m(float m) const { return m * (m > 0.0f ? rise : fall); }
+};
+
 struct ReliefTables {
   /// `proxy` must have tables, one an ellipsoid; tables[k] becomes that of ellipsoid order[k].
   ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order);
@@ -34,9 +43,9 @@ struct ReliefTables {
   std::vector<BakedTable> tables;
   std::vector<std::uint8_t> texels;  ///< pairs h, a; padded, since kernels read two texels at a time
   float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
-  float highest_m = 0.0f;  ///< F_k >= d_k - highest_m
-  /// F_k >= d_k - top_m[k] - steep[k] |clamp(d_k, -in, out)|, and the same of all: the last entry.
-  std::vector<float> top_m, steep;
+  float highest_m = 0.0f;            ///< F_k >= d_k - highest_m
+  std::vector<OctantReach> reaches;  ///< of each
+  OctantReach farthest;              ///< not below any of them
 };
 
 }  // namespace bodice::collision

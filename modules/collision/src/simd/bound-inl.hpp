@@ -21,19 +21,30 @@ namespace bodice::collision::HWY_NAMESPACE {
 // So close to the centre, in radii, the bound is only made to stay finite and low enough.
 constexpr float kLeastSquare = 1e-20f, kLeastSlope2 = 1e-37f;
 
-/// L of one ellipsoid at a vector of points, metres, to the share kEstimate of |L| + the longest radius.
-/// Never NaN or infinite.
-HWY_INLINE V lower_bound(const BoundEllipsoid& e, V3 p) {
+/// Where a vector of points is when the ellipsoid is the unit ball.
+HWY_INLINE V3 in_ball(const BoundEllipsoid& e, V3 p) {
   const auto row = [&](const float* a, float offset) {
     return hn::MulAdd(all(a[0]), p.x, hn::MulAdd(all(a[1]), p.y, hn::MulAdd(all(a[2]), p.z, all(offset))));
   };
-  const V3 u = {row(e.to_ball, e.offset[0]), row(e.to_ball + 3, e.offset[1]),
-                row(e.to_ball + 6, e.offset[2])};
+  return {row(e.to_ball, e.offset[0]), row(e.to_ball + 3, e.offset[1]), row(e.to_ball + 6, e.offset[2])};
+}
+
+/// The square of k1 at such a place.
+HWY_INLINE V slope_square(const BoundEllipsoid& e, V3 u) {
   const V3 v = {hn::Mul(u.x, all(e.inverse_radius[0])), hn::Mul(u.y, all(e.inverse_radius[1])),
                 hn::Mul(u.z, all(e.inverse_radius[2]))};
+  return dot(v, v);
+}
+
+/// L there, metres, to the share kEstimate of |L| + the longest radius. Never NaN or infinite.
+HWY_INLINE V bound_in_ball(const BoundEllipsoid& e, V3 u) {
   const V square = hn::Max(dot(u, u), all(kLeastSquare));
   const V excess = hn::NegMulAdd(square, estimated_inverse_sqrt(square), square);
-  return hn::Mul(excess, estimated_inverse_sqrt(hn::Max(dot(v, v), all(kLeastSlope2))));
+  return hn::Mul(excess, estimated_inverse_sqrt(hn::Max(slope_square(e, u), all(kLeastSlope2))));
+}
+
+HWY_INLINE V lower_bound(const BoundEllipsoid& e, V3 p) {
+  return bound_in_ball(e, in_ball(e, p));
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -6,9 +6,11 @@
 #define BODICE_COLLISION_COMBINE_INL_
 #endif
 
+#include <bit>
 #include <cstring>
 
 #include "simd/pairs-inl.hpp"
+#include "simd/share-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -31,49 +33,71 @@ HWY_INLINE void combine_nearest(const Pairs& pairs, Batched& out) {
   }
 }
 
-HWY_INLINE void multiply(float* values, V by) {
-  hn::StoreU(hn::Mul(hn::LoadU(f, values), by), f, values);
+/// Of each lane that one of its pairs is nearer to: that distance, and the name of the nearest.
+HWY_INLINE void find_nearer(const Pairs& pairs, float* least, Batched& out) {
+  const auto& a = pairs.answers;
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    const V first = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
+    const M maybe = hn::And(hn::Le(hn::Load(f, a.distance + i), first), lanes_below(i, pairs.count));
+    // Few, as bounds tell the nearest nearly always; a lane may be among them more than once.
+    for (std::uint64_t left = bits(maybe); left != 0; left &= left - 1) {
+      const int k = i + std::countr_zero(left), lane = pairs.lane[k];
+      if (a.distance[k] == least[lane] && a.name[k] > out.name[lane]) continue;
+      if (a.distance[k] > least[lane]) continue;
+      least[lane] = a.distance[k];
+      out.name[lane] = a.name[k];
+    }
+  }
 }
 
+/// Weighted numbers, the four of a lane side by side, so that adding those of a pair takes one instruction.
+struct alignas(64) WeightedRows {
+  static constexpr int kNumbers = 4;  // value and gradient
+  float row[Pairs::kSize * kNumbers];
+  float weight[Pairs::kSize];
+
+  template <int kSize>
+  HWY_INLINE void put(const Answers<kSize>& of, V weights, int i) {
+    const auto weighted = [&](const float* values) { return hn::Mul(hn::Load(f, values + i), weights); };
+    hn::Store(weights, f, weight + i);
+    hn::StoreInterleaved4(weighted(of.value), weighted(of.gx), weighted(of.gy), weighted(of.gz), f,
+                          row + kNumbers * i);
+  }
+  HWY_INLINE void add(int lane, const WeightedRows& other, int i) {
+    weight[lane] += other.weight[i];
+    float* const to = row + kNumbers * lane;
+    const float* const from = other.row + kNumbers * i;
+#if HWY_TARGET == HWY_SCALAR
+    for (int k = 0; k < kNumbers; ++k) to[k] += from[k];
+#else
+    constexpr hn::FixedTag<float, kNumbers> four;
+    hn::Store(hn::Add(hn::Load(four, to), hn::Load(four, from)), four, to);
+#endif
+  }
+};
+
 /// Relief, for the lanes [begin, end): all within the blending of the nearest, weighted; distance and
-/// unit gradient of the blend, the name of the nearest; `value` becomes the gradient's length. The answers of
-/// the pairs are overwritten.
-HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, Pairs& pairs, Batched& out) {
-  auto& a = pairs.answers;
-  alignas(64) float least[kBatch], weight[kBatch];
-  alignas(64) float pair_weight[Pairs::kSize];
+/// unit gradient of the blend, the name of the nearest; `value` becomes the gradient's length.
+HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, const Pairs& pairs,
+                                Batched& out) {
+  alignas(64) float least[kBatch];
+  WeightedRows sums, of_pairs;
   const V per_blend = all(1.0f / relief.blend_m);
   std::memcpy(least + begin, out.distance + begin, static_cast<std::size_t>(end - begin) * sizeof(float));
-  for (int i = 0; i < pairs.count; ++i) {
-    const int lane = pairs.lane[i];
-    const bool nearer =
-        a.distance[i] < least[lane] || (a.distance[i] == least[lane] && a.name[i] < out.name[lane]);
-    least[lane] = nearer ? a.distance[i] : least[lane];
-    out.name[lane] = nearer ? a.name[i] : out.name[lane];
-  }
-  for (int i = begin; i < end; i += kWidth) {
-    const V w = blend_weight(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend);
-    hn::Store(w, f, weight + i);
-    for (float* values : {out.value, out.gx, out.gy, out.gz}) multiply(values + i, w);
-  }
+  find_nearer(pairs, least, out);
+  for (int i = begin; i < end; i += kWidth)
+    sums.put(out, blend_weight(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend), i);
   for (int i = 0; i < pairs.count; i += kWidth) {
     const V near = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
-    const V w = blend_weight(hn::Load(f, a.distance + i), near, per_blend);
-    hn::Store(w, f, pair_weight + i);
-    for (float* values : {a.value, a.gx, a.gy, a.gz}) multiply(values + i, w);
+    of_pairs.put(pairs.answers, blend_weight(hn::Load(f, pairs.answers.distance + i), near, per_blend), i);
   }
-  for (int i = 0; i < pairs.count; ++i) {
-    const int lane = pairs.lane[i];
-    weight[lane] += pair_weight[i];
-    out.value[lane] += a.value[i];
-    out.gx[lane] += a.gx[i];
-    out.gy[lane] += a.gy[i];
-    out.gz[lane] += a.gz[i];
-  }
+  for (int i = 0; i < pairs.count; ++i) sums.add(pairs.lane[i], of_pairs, i);
   for (int i = begin; i < end; i += kWidth) {
-    const V per_weight = reciprocal(hn::Load(f, weight + i));
-    hn::Store(hn::Mul(hn::Load(f, out.value + i), per_weight), f, out.distance + i);
-    const V3 sum = load3(out.gx + i, out.gy + i, out.gz + i);
+    V value;
+    V3 sum;
+    hn::LoadInterleaved4(f, sums.row + WeightedRows::kNumbers * i, value, sum.x, sum.y, sum.z);
+    const V per_weight = reciprocal(hn::Load(f, sums.weight + i));
+    hn::Store(hn::Mul(value, per_weight), f, out.distance + i);
     const V norm2 = dot(sum, sum), per_norm = inverse_sqrt(hn::Max(norm2, all(kLeastNorm2)));
     store3(scaled(sum, per_norm), out.gx + i, out.gy + i, out.gz + i);
     hn::Store(hn::Mul(hn::Mul(norm2, per_norm), per_weight), f, out.value + i);

@@ -27,15 +27,9 @@ HWY_INLINE V within_range(V slope2) {
 /// Twice the first-order distance of one ellipsoid, metres, to the share kEstimate of itself. Not above
 /// lower_bound(), an estimate of a root cheaper, and a little better at telling the nearest.
 HWY_INLINE V twice_first_order(const BoundEllipsoid& e, V3 p) {
-  const auto row = [&](const float* a, float offset) {
-    return hn::MulAdd(all(a[0]), p.x, hn::MulAdd(all(a[1]), p.y, hn::MulAdd(all(a[2]), p.z, all(offset))));
-  };
-  const V3 u = {row(e.to_ball, e.offset[0]), row(e.to_ball + 3, e.offset[1]),
-                row(e.to_ball + 6, e.offset[2])};
-  const V3 v = {hn::Mul(u.x, all(e.inverse_radius[0])), hn::Mul(u.y, all(e.inverse_radius[1])),
-                hn::Mul(u.z, all(e.inverse_radius[2]))};
+  const V3 u = in_ball(e, p);
   const V excess = hn::MulAdd(u.x, u.x, hn::MulAdd(u.y, u.y, hn::MulSub(u.z, u.z, all(1.0f))));
-  return hn::Mul(excess, estimated_inverse_sqrt(within_range(dot(v, v))));
+  return hn::Mul(excess, estimated_inverse_sqrt(within_range(slope_square(e, u))));
 }
 
 /// A plane that touches an ellipsoid, one problem a lane.

@@ -12,20 +12,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The largest d_k at which the corrected distance F_k may be within the limit, of ellipsoids k: where
-/// d - top - steep |clamp(d, -in, out)|, which F_k is not below, comes to the limit.
-HWY_INLINE V reach_over(const ReliefTables& relief, float limit_m, VI k) {
-  const V one = all(1.0f), in = all(relief.in_m), out = all(relief.out_m);
-  const V steep = hn::GatherIndex(f, relief.steep.data(), k);
-  const V least = hn::Add(all(limit_m), hn::GatherIndex(f, relief.top_m.data(), k));
-  const V outside =
-      hn::MulAdd(steep, hn::Min(out, hn::Div(least, hn::Max(hn::Sub(one, steep), all(1e-6f)))), least);
-  const V inside = hn::MulAdd(steep, hn::Min(in, hn::Div(hn::Neg(least), hn::Add(one, steep))), least);
-  const V farthest = hn::MulAdd(steep, hn::Max(in, out), least);
-  const V reach = hn::IfThenElse(hn::Lt(least, hn::Zero(f)), inside, outside);
-  return hn::IfThenElse(hn::Lt(steep, one), reach, farthest);
-}
-
 /// How far is asked for: from the surface, and what that is over the ellipsoids at most.
 struct Limits {
   float surface_m, plain_m;
@@ -33,8 +19,7 @@ struct Limits {
   HWY_INLINE Limits(const Baked& baked, const ReliefTables* relief, float limit_m)
       : surface_m(limit_m + 4.0f * baked.rounding_m), plain_m(surface_m) {
     if (!relief) return;
-    const VI of_all = hn::Set(I(), static_cast<std::int32_t>(relief->tables.size()));
-    plain_m = hn::GetLane(reach_over(*relief, surface_m, of_all));
+    plain_m = relief->farthest.at_zero_m[0] + relief->farthest.shift_m(surface_m);
   }
   /// The same of bounds.
   HWY_INLINE float of_bounds(const Baked& baked) const {

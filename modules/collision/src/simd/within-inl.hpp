@@ -52,17 +52,54 @@ struct alignas(64) Reached {
   }
 };
 
-/// The bounds of the columns' ellipsoids above which they leave no particle within the limit.
-struct Reaches {
-  alignas(64) float limit[kMaxCandidates + 16];
+/// Three signs, as OctantReach numbers them.
+HWY_INLINE VI octant_of(V3 u) {
+  const auto bit = [](V v, std::int32_t value) {
+    return hn::And(hn::ShiftRight<31>(hn::BitCast(I(), v)), hn::Set(I(), value));
+  };
+  return hn::Or(bit(u.x, 1), hn::Or(bit(u.y, 2), bit(u.z, 4)));
+}
 
+/// The bounds of the columns' ellipsoids above which they leave no particle within the limit, by octants.
+class Reaches {
+ public:
   HWY_INLINE Reaches(const Baked& baked, const ReliefTables& relief, float limit_m, const Columns& columns) {
-    for (int i = 0; i < columns.count(); i += kWidth) {
-      const M valid = lanes_below(i, columns.count());
-      const VI k = hn::IfThenElseZero(hn::RebindMask(I(), valid), hn::LoadU(I(), columns.ellipsoids() + i));
-      hn::Store(bound_limit(baked, reach_over(relief, limit_m, k), 0.0f), f, limit + i);
+    for (int i = 0; i < columns.count(); ++i) {
+      const OctantReach& reach = relief.reaches[columns.ellipsoid(i)];
+      const BakedEllipsoid& e = baked.ellipsoids[columns.ellipsoid(i)];
+      // Only deeper than the least radius of curvature can rounding take the nearest point to another octant.
+      const V least = all(-0.99f * e.longest_m * e.radius2 * e.radius2);
+      const V shift = all(reach.shift_m(limit_m));
+      for (int k = 0; k < kOctants; k += kWidth) {
+        const V at_zero = hn::MaskedLoad(lanes_below(k, kOctants), f, reach.at_zero_m + k);
+        const V limit = bound_limit(baked, hn::Max(hn::Add(at_zero, shift), least), 0.0f);
+        hn::StoreU(limit, f, limit_ + i * kOctants + k);
+      }
     }
   }
+  /// Of one column, and the octants of the lanes.
+  HWY_INLINE V operator()(std::int32_t column, VI octant) const {
+    const float* const limits = limit_ + column * kOctants;
+    if constexpr (kWidth >= kOctants)
+      return hn::TableLookupLanes(hn::LoadU(f, limits), hn::IndicesFromVec(f, octant));
+    else
+      return gathered(limits, octant);
+  }
+
+ private:
+  static constexpr int kOctants = 8;
+
+#if HWY_TARGET == HWY_SCALAR
+  static HWY_INLINE V gathered(const float* limits, VI octant) {
+    return all(limits[hn::GetLane(octant)]);
+  }
+#else
+  static HWY_INLINE V gathered(const float* limits, VI octant) {
+    return hn::GatherIndex(f, limits, octant);
+  }
+#endif
+
+  float limit_[kMaxCandidates * kOctants + 16];  // whole vectors are written
 };
 
 /// Bounds as bound_vectors() has them; `within` becomes those particles that an ellipsoid leaves within.
@@ -75,11 +112,11 @@ HWY_INLINE void bound_reached(const Baked& baked, const Columns& columns, const 
     const std::int32_t column = near.index[i];
     const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(column)];
     const VI rank = hn::Set(I(), column);
-    const V limit = all(reaches.limit[column]);
     for (int v = 0; v < kTogether; ++v) {
-      const V bound = lower_bound(e, p[v]);
+      const V3 u = in_ball(e, p[v]);
+      const V bound = bound_in_ball(e, u);
       out[v].add(bound, rank);
-      within[v] = hn::Or(within[v], hn::Le(bound, limit));
+      within[v] = hn::Or(within[v], hn::Le(bound, reaches(column, octant_of(u))));
     }
   }
 }
