@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -76,11 +78,11 @@ inline bodice::proxy::BodyProxy proxy_of(const std::vector<Ellipsoid>& shapes) {
   return proxy_of(data_of(shapes));
 }
 
-/// Random tables of height +-h_m, and of as much slope, on every ellipsoid, of the tier that has them. Border
-/// nodes are tied as the octahedral map asks.
-inline bodice::proxy::BodyProxy::Data with_relief(bodice::proxy::BodyProxy::Data data, int nodes, double h_m,
-                                                  std::uint64_t seed) {
-  bodice::engine::Random random(seed);
+/// Tables of height +-h_m, and of as much slope, on every ellipsoid, of the tier that has them: `make`
+/// (ellipsoid, column, row) gives the texels. Border nodes are tied as the octahedral map asks.
+template <class Make>
+bodice::proxy::BodyProxy::Data with_tables(bodice::proxy::BodyProxy::Data data, int nodes, double h_m,
+                                           Make&& make) {
   data.tier = bodice::proxy::Tier::kRelief;
   for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) {
     bodice::proxy::ReliefTable table;
@@ -95,9 +97,8 @@ inline bodice::proxy::BodyProxy::Data with_relief(bodice::proxy::BodyProxy::Data
     const auto texel = [&](int i, int j) -> bodice::proxy::ReliefTexel& {
       return data.texels[first + static_cast<std::size_t>(j * nodes + i)];
     };
-    for (int i = 0; i < nodes * nodes; ++i)
-      data.texels.push_back(
-          {static_cast<std::uint8_t>(random.below(256)), static_cast<std::uint8_t>(random.below(256))});
+    for (int j = 0; j < nodes; ++j)
+      for (int i = 0; i < nodes; ++i) data.texels.push_back(make(k, i, j));
     for (int i = 0; i < nodes; ++i) {
       texel(nodes - 1 - i, 0) = texel(i, 0);
       texel(nodes - 1 - i, nodes - 1) = texel(i, nodes - 1);
@@ -107,6 +108,27 @@ inline bodice::proxy::BodyProxy::Data with_relief(bodice::proxy::BodyProxy::Data
     texel(nodes - 1, 0) = texel(0, nodes - 1) = texel(nodes - 1, nodes - 1) = texel(0, 0);
   }
   return data;
+}
+
+/// The same, at random.
+inline bodice::proxy::BodyProxy::Data with_relief(bodice::proxy::BodyProxy::Data data, int nodes, double h_m,
+                                                  std::uint64_t seed) {
+  bodice::engine::Random random(seed);
+  return with_tables(std::move(data), nodes, h_m, [&](std::size_t, int, int) {
+    const auto h = static_cast<std::uint8_t>(random.below(256));
+    return bodice::proxy::ReliefTexel{h, static_cast<std::uint8_t>(random.below(256))};
+  });
+}
+
+/// One octant of each ellipsoid is high and the others are low.
+inline bodice::proxy::BodyProxy::Data with_lopsided_relief(bodice::proxy::BodyProxy::Data data, int nodes,
+                                                           double h_m) {
+  return with_tables(std::move(data), nodes, h_m, [&](std::size_t k, int i, int j) {
+    const int x = 2 * i - (nodes - 1), y = 2 * j - (nodes - 1);
+    const int octant = (x < 0) | (y < 0) << 1 | (std::abs(x) + std::abs(y) > nodes - 1) << 2;
+    const bool high = octant == static_cast<int>(k % 8);
+    return bodice::proxy::ReliefTexel{static_cast<std::uint8_t>(high ? 255 : 0), 128};
+  });
 }
 
 /// Particles with their storage.

@@ -95,6 +95,25 @@ TEST_CASE("within a contact distance the answers are those of all distances, fil
     }
 }
 
+TEST_CASE("within a contact distance where the octants of an ellipsoid differ in height") {
+  // Larger than the places between them, so that many a particle has one ellipsoid only.
+  const auto data = data_of(random_ellipsoids(8, 24, 0.7, 0.06, 0.12));
+  for (const int nodes : {2, 5, 16}) {
+    const Collider collider(proxy_of(with_lopsided_relief(data, nodes, 0.02)));
+    Cloud cloud = in_order(random_cloud(20011));
+    std::vector<Contact> unlimited(cloud.size()), limited(cloud.size());
+    on_every_target([&](const char* name) {
+      CAPTURE(name);
+      CAPTURE(nodes);
+      collider.query({}, cloud.particles(), unlimited);
+      for (const float within_m : {-0.01f, 0.0f, 0.01f}) {
+        collider.query({}, cloud.particles(), limited, {.within_m = within_m});
+        CHECK(differing(limited, unlimited, within_m) == 0);
+      }
+    });
+  }
+}
+
 TEST_CASE("a contact distance says the same of one particle as of many, and for any number of workers") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief, 0.001));
