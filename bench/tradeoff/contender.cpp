@@ -22,17 +22,19 @@ struct Queries {
   std::vector<geometry::Ellipsoid> shapes;
   bench::Cloud start, moved;
   std::vector<collision::Contact> contacts;
+  collision::QueryOptions options;
 
-  Queries(const proxy::BodyProxy& proxy, const bench::Cloud& particles)
+  Queries(const proxy::BodyProxy& proxy, const bench::Cloud& particles, collision::Accuracy accuracy)
       : collider(proxy),
         moving(proxy),
         start(bench::local(particles, collider)),
         moved(start),
-        contacts(start.size()) {
+        contacts(start.size()),
+        options{.accuracy = accuracy} {
     for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
   }
 
-  void query() { collider.query({}, start.particles(), contacts); }
+  void query() { collider.query({}, start.particles(), contacts, options); }
   void respond() {
     moved = start;
     collider.resolve({}, moved.particles(), {});
@@ -64,10 +66,12 @@ double fit_ms(const fitting::FitResult& fit) {
   return ms;
 }
 
-Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::string dial) {
-  const auto queries = std::make_shared<Queries>(fit.proxy, subject.particles);
+Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::string dial,
+                   collision::Accuracy accuracy) {
+  const bool exact = accuracy == collision::Accuracy::kExact;
+  const auto queries = std::make_shared<Queries>(fit.proxy, subject.particles, accuracy);
   Contender c;
-  c.kind = proxy::name(fit.proxy.tier());
+  c.kind = std::string(proxy::name(fit.proxy.tier())) + (exact ? "" : ", first order");
   c.dial = std::move(dial);
   c.ours = true;
   c.size = static_cast<double>(fit.proxy.ellipsoids().size());
@@ -76,7 +80,7 @@ Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::s
   c.update_us = least_us([&] { queries->turn(); });
   c.particles = subject.particles.size();
   c.query = [queries] { queries->query(); };
-  c.respond = [queries] { queries->respond(); };
+  if (exact) c.respond = [queries] { queries->respond(); };
   c.distances_m = [queries] {
     queries->query();
     std::vector<float> found;

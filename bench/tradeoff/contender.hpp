@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <bodice/collision/collider.hpp>
 #include <bodice/fitting/fit.hpp>
 
 #include "bodies.hpp"
@@ -26,8 +27,10 @@ struct Contender {
   std::function<std::vector<float>()> distances_m;
 };
 
-/// Our proxy, answering through the collider that the frame path uses.
-Contender of_proxy(const Subject& subject, const bodice::fitting::FitResult& fit, std::string dial);
+/// Our proxy, answering through the collider that the frame path uses. Responses are always exact: to first
+/// order it has none.
+Contender of_proxy(const Subject& subject, const bodice::fitting::FitResult& fit, std::string dial,
+                   bodice::collision::Accuracy accuracy = bodice::collision::Accuracy::kExact);
 
 /// Embree where it is installed, distance grids, a capsule a part.
 std::vector<Contender> rivals(const Subject& subject, const std::vector<double>& grid_cells_m);

@@ -67,6 +67,8 @@ std::vector<Contender> contenders_of(const Setting& setting, const Subject& subj
     progress("front", subject.name + ", " + std::string(proxy::name(dial.tier)) + " " + dial.label());
     const auto fit = must(fitting::fit(setting.context, tryon::labelled(subject.skin), dial.options()));
     all.push_back(of_proxy(subject, fit, dial.label()));
+    if (dial.tier == Tier::kTight || dial.tier == Tier::kRelief)
+      all.push_back(of_proxy(subject, fit, dial.label(), collision::Accuracy::kFirstOrder));
   }
   progress("front", subject.name + ", rivals");
   const auto cells = setting.by_effort<std::vector<double>>({0.04}, {0.04, 0.02}, {0.04, 0.02, 0.01, 0.005});
@@ -166,7 +168,8 @@ Findings sweep_front(const Setting& setting) {
   found.text =
       "Particles spread evenly over depths up to 30 mm on either side of the skin, in Morton order, one "
       "thread; errors are against the exact signed distance (Embree has no sign: distances alone). Rivals "
-      "answer with a distance, ours with the nearest point, the normal and the ellipsoid as well. "
+      "answer with a distance, ours with the nearest point, the normal and the ellipsoid as well; 'first "
+      "order' is the same proxy asked with Accuracy::kFirstOrder. "
       "`prepare` starts from the segmented skin; `update` is what a moved body pays a frame: ours and the "
       "capsules are carried rigidly by part, Embree and the grids are built anew and stay as exact (a refit "
       "would cost Embree about a tenth of that). A row "

@@ -1,6 +1,6 @@
 // The proxy's distance at every particle of a batch, to first order: the ellipsoid whose first-order distance
-// is the least, and the plane that touches it where one step of Newton's leads from there. A foot takes three
-// times as long, and finding out which of two ellipsoids is the nearer as long again.
+// is the least, and the plane that touches it where one step of Newton's leads from there. A foot takes twice
+// as long, and telling for certain which of two ellipsoids is the nearer as long again.
 // Based on: Gabriel Taubin. Distance Approximations for Rasterizing Implicit Curves. ACM TOG 13(1), 1994, for
 // the first-order distance (|u|^2 - 1) / |grad |u|^2|, u the place where the ellipsoid is the unit ball.
 #if defined(BODICE_COLLISION_FIRST_ORDER_INL_) == defined(HWY_TARGET_TOGGLE)
