@@ -71,7 +71,7 @@ Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::s
   const bool exact = accuracy == collision::Accuracy::kExact;
   const auto queries = std::make_shared<Queries>(fit.proxy, subject.particles, accuracy);
   Contender c;
-  c.kind = std::string(proxy::name(fit.proxy.tier())) + (exact ? "" : ", first order");
+  c.kind = std::string(proxy::name(fit.proxy.tier())) + (exact ? "" : " to first order");
   c.dial = std::move(dial);
   c.ours = true;
   c.size = static_cast<double>(fit.proxy.ellipsoids().size());

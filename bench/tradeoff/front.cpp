@@ -168,7 +168,7 @@ Findings sweep_front(const Setting& setting) {
   found.text =
       "Particles spread evenly over depths up to 30 mm on either side of the skin, in Morton order, one "
       "thread; errors are against the exact signed distance (Embree has no sign: distances alone). Rivals "
-      "answer with a distance, ours with the nearest point, the normal and the ellipsoid as well; 'first "
+      "answer with a distance, ours with the nearest point, the normal and the ellipsoid as well; 'to first "
       "order' is the same proxy asked with Accuracy::kFirstOrder. "
       "`prepare` starts from the segmented skin; `update` is what a moved body pays a frame: ours and the "
       "capsules are carried rigidly by part, Embree and the grids are built anew and stay as exact (a refit "
