@@ -262,6 +262,22 @@ TEST_CASE("to first order the same bits for any number of workers, with a worksp
   }
 }
 
+TEST_CASE("to first order a speck whose numbers leave the range of floats is not taken for near") {
+  // Inside the ball, so that it is never the nearest; seen from all around, so that no box rules it out.
+  std::vector<Ellipsoid> shapes{ball(1.0)[0], ball(1e-8)[0]};
+  shapes[1].center.x() = 0.5;
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(19);
+  Cloud cloud;
+  for (int i = 0; i < 256; ++i) cloud.add(1e4 * random_direction(random));
+  on_every_target([&](const char* name) {
+    CAPTURE(name);
+    int wrong_owners = 0;
+    for (const Contact& contact : ask(collider, cloud, kFirst)) wrong_owners += contact.ellipsoid != 0;
+    CHECK(wrong_owners == 0);
+  });
+}
+
 TEST_CASE("to first order with a workspace sides stay exact while particles and body move") {
   auto shapes = random_ellipsoids(31, 60, 0.5, 0.05, 0.15);
   Collider collider(proxy_of(shapes));

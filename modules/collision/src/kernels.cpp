@@ -62,8 +62,7 @@ bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& bat
   if (batch.accuracy == Accuracy::kFirstOrder &&
       HWY_DYNAMIC_DISPATCH(query_first_order)(baked, relief, batch))
     return true;
-  if (batch.within_m != std::numeric_limits<float>::infinity())
-    return HWY_DYNAMIC_DISPATCH(query_within)(baked, relief, batch);
+  if (batch.limited()) return HWY_DYNAMIC_DISPATCH(query_within)(baked, relief, batch);
   return HWY_DYNAMIC_DISPATCH(query)(baked, relief, batch);
 }
 

@@ -38,10 +38,12 @@ struct QueryBatch {
   int count;                   ///< at most kBatch
   float margin_m;
   float within_m;  ///< particles farther from the surface are told nothing
-  Accuracy accuracy;
+  Accuracy accuracy = Accuracy::kExact;
   Contact* contacts;                ///< of the whole call
   float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal; below zero: not measured
   Keeping keeping = {};
+
+  bool limited() const { return within_m != std::numeric_limits<float>::infinity(); }
 };
 
 /// What is told about a particle that is not finite, or is farther than was asked for.

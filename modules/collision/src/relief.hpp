@@ -30,6 +30,7 @@ inline constexpr int kTableFloats = sizeof(BakedTable) / sizeof(float);
 /// How far from an ellipsoid a corrected distance F_k of m can be found: where F_k <= m and the nearest point
 /// is in an octant of the proxy's axes (bits 0, 1, 2: negative along x, y, z),
 ///   d_k <= at_zero_m[octant] + m (m > 0 ? rise : fall).
+/// Aligned for masked loads, which read whole vectors.
 struct alignas(64) OctantReach {
   float at_zero_m[8] = {};
   float rise = 1.0f, fall = 1.0f;

@@ -42,8 +42,8 @@ HWY_INLINE void find_nearer(const Pairs& pairs, float* least, Batched& out) {
     // Few, as bounds tell the nearest nearly always; a lane may be among them more than once.
     for (std::uint64_t left = bits(maybe); left != 0; left &= left - 1) {
       const int k = i + std::countr_zero(left), lane = pairs.lane[k];
-      if (a.distance[k] == least[lane] && a.name[k] > out.name[lane]) continue;
-      if (a.distance[k] > least[lane]) continue;
+      const bool farther = a.distance[k] > least[lane];
+      if (farther || (a.distance[k] == least[lane] && a.name[k] > out.name[lane])) continue;
       least[lane] = a.distance[k];
       out.name[lane] = a.name[k];
     }

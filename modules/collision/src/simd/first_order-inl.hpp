@@ -102,10 +102,6 @@ HWY_INLINE BoundLanes bounds_of(const Columns& columns, VI column) {
   return bound_lanes([&](int i) { return at(columns.row(Columns::kBound + i)); });
 }
 
-HWY_INLINE bool is_limited(const QueryBatch& batch) {
-  return batch.within_m != std::numeric_limits<float>::infinity();
-}
-
 /// What is farther than was asked for is told nothing.
 HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
   const Contact none = no_contact();
@@ -122,15 +118,12 @@ template <int kTables>
 HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                            const Piece& piece, const Near& near, const Columns& columns) {
   const V margin = all(batch.margin_m);
-  const bool limited = is_limited(batch);
+  const bool limited = batch.limited();
   for (int from = piece.begin; from < end_of(piece); from += kStep) {
     V3 p[kTogether];
     V least[kTogether];
-    for (int v = 0; v < kTogether; ++v) {
-      const int i = from + v * kWidth;
-      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
-      least[v] = all(kNoLimit);
-    }
+    load_step(batch, from, p);
+    for (V& l : least) l = all(kNoLimit);
     for (int i = 0; i < near.count; ++i) {
       const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(near.index[i])];
       const VI rank = hn::Set(I(), near.index[i]);
@@ -176,7 +169,7 @@ inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* reli
   if (is_kept(baked, relief, blend_m + rounding_m, batch, lists))
     return share_kept(baked, relief, batch, rounding_m, limits.of_bounds(baked), Columns::Rows::kBounds,
                       lists, work);
-  if (is_limited(batch)) write_none(batch, 0, batch.count);  // what has no candidates is not come back to
+  if (batch.limited()) write_none(batch, 0, batch.count);  // what has no candidates is not come back to
   return share_within(baked, relief, batch, rounding_m, limits, lists, work);
 }
 

@@ -77,11 +77,8 @@ HWY_INLINE void measure_step(const Baked& baked, const QueryBatch& batch, int fr
                              const Columns& columns, Wanted& out) {
   V3 p[kTogether];
   Lowest<0> lowest[kTogether];
-  for (int v = 0; v < kTogether; ++v) {
-    const int i = from + v * kWidth;
-    p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
-    lowest[v].clear();
-  }
+  load_step(batch, from, p);
+  for (Lowest<0>& l : lowest) l.clear();
   for (int i = 0; i < near.count; ++i)
     for (int v = 0; v < kTogether; ++v) {
       const V bound = lower_bound(baked.bounds[columns.ellipsoid(near.index[i])], p[v]);

@@ -152,10 +152,7 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
     Lowest<kKept> lowest[kTogether];
     VI first[kTogether];
     Answer answers[kTogether];
-    for (int v = 0; v < kTogether; ++v) {
-      const int i = from + v * kWidth;
-      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
-    }
+    load_step(batch, from, p);
     bound_vectors(baked, columns, near, p, lowest);
     for (int v = 0; v < kTogether; ++v) first[v] = lowest[v].rank(0);
     answer_each<kTables>(relief, columns, first, p, answers);
@@ -180,10 +177,7 @@ inline void answer_alone(const Baked& baked, const ReliefTables* relief, const Q
   for (int from = piece.begin; from < end_of(piece); from += kStep) {
     V3 p[kTogether];
     Foot feet[kTogether];
-    for (int v = 0; v < kTogether; ++v) {
-      const int i = from + v * kWidth;
-      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
-    }
+    load_step(batch, from, p);
     feet_of(shapes, p, feet);
     for (int v = 0; v < kTogether; ++v) {
       Answer answer = {feet[v].distance, feet[v].distance, feet[v].normal, name};

@@ -17,6 +17,14 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kStep = kTogether * kWidth;  // lanes that are worked on together
 
+/// The places of the step that begins at lane `from`.
+HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kTogether]) {
+  for (int v = 0; v < kTogether; ++v) {
+    const int i = from + v * kWidth;
+    p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
+  }
+}
+
 /// Of its lanes, in whole steps.
 HWY_INLINE int end_of(const Piece& piece) {
   return piece.begin + (piece.end - piece.begin + kStep - 1) / kStep * kStep;
@@ -102,7 +110,6 @@ HWY_INLINE QueryBatch places(const float* x, const float* y, const float* z, int
           .count = count,
           .margin_m = 0.0f,
           .within_m = kNoLimit,
-          .accuracy = Accuracy::kExact,
           .contacts = nullptr,
           .radius_m = {},
           .keeping = {}};

@@ -130,10 +130,7 @@ HWY_INLINE void reach(const Baked& baked, const QueryBatch& batch, float limit_m
     V3 p[kTogether];
     Lowest<kKept> lowest[kTogether];
     M within[kTogether];
-    for (int v = 0; v < kTogether; ++v) {
-      const int i = from + v * kWidth;
-      p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
-    }
+    load_step(batch, from, p);
     if (reaches) {
       bound_reached(baked, columns, near, *reaches, p, lowest, within);
     } else {

@@ -38,9 +38,10 @@ enum class Accuracy : std::uint8_t {
   kExact,  ///< the nearest point of all ellipsoids; relief blends where they meet
   /// Half the time. The ellipsoid that is nearest to first order, and there the plane that touches it where
   /// one step of Newton's leads. Plain ellipsoids: the sign is exact, and errors grow with the fourth power
-  /// of the distance; a wrong neighbour is taken in one of 25 particles within 30 mm of a body, one of 200
-  /// within 10 mm. Relief is not blended and jumps between ellipsoids. Other particles, and what a workspace
-  /// keeps, may decide which of two ellipsoids a particle is told of; the number of workers does not.
+  /// of the distance, but for few particles to which a neighbour looks nearer than it is, the fewer the
+  /// closer they are to the surface. Relief is not blended and jumps between ellipsoids. What both come to:
+  /// `bench/collision`. Other particles, and what a workspace keeps, may decide which of two ellipsoids a
+  /// particle is told of; the number of workers does not.
   kFirstOrder,
 };
 
