@@ -76,9 +76,7 @@ HWY_INLINE V3 project(const Plane& a, const Plane& b, const Plane& c, V3 p, V sl
 
 /// The particles that were reached on their way out, an array a number.
 struct alignas(64) Way {
-  std::int32_t owner[kBatch];  ///< where it began; internal index, -1: no contact
-  /// Plain ellipsoids that it has been put clear of; -1: none, or not for certain.
-  std::int32_t clear1[kBatch], clear2[kBatch], clear3[kBatch];
+  std::int32_t owner[kBatch];                   ///< where it began; internal index, -1: no contact
   float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
   float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< contact planes
   float n2x[kBatch], n2y[kBatch], n2z[kBatch];
@@ -94,11 +92,19 @@ struct alignas(64) Way {
   }
 };
 
+struct Below;
+
+/// Where a push leads, and the plain ellipsoids that it puts clear of; -1: none, or not for certain.
+struct Push {
+  V3 to;
+  VI clear1, clear2, clear3;
+};
+
 /// The lanes that were pushed in a round, closed up.
 struct alignas(64) Pushed {
   static constexpr int kSize = kBatch + 16;
   float x[kSize], y[kSize], z[kSize];
-  std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];
+  std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];  ///< as a Push has them
   std::int32_t lane[kSize];  ///< among those that were reached
   int count = 0;
 
@@ -118,19 +124,15 @@ struct alignas(64) Pushed {
     std::memset(clear3, 0xFF, sizeof(clear3));
     pad();
   }
-  /// Reads where the lanes are after another push.
-  HWY_INLINE void collect(const Way& way) {
-    for (int i = 0; i < count; ++i) {
-      const int from = lane[i];
-      x[i] = way.x[from];
-      y[i] = way.y[from];
-      z[i] = way.z[from];
-      clear1[i] = way.clear1[from];
-      clear2[i] = way.clear2[from];
-      clear3[i] = way.clear3[from];
-    }
-    pad();
+  /// Lanes [i, i + kWidth) of those that are pushed once more: what they were is overwritten.
+  HWY_INLINE void put(const Push& push, int i) {
+    store3(push.to, x + i, y + i, z + i);
+    hn::Store(push.clear1, I(), clear1 + i);
+    hn::Store(push.clear2, I(), clear2 + i);
+    hn::Store(push.clear3, I(), clear3 + i);
   }
+  /// Once all are put.
+  HWY_INLINE void close(const Below& below);
 
  private:
   /// Repeats the last up to a whole block.
@@ -159,6 +161,12 @@ struct alignas(64) Below {
     }
   }
 };
+
+HWY_INLINE void Pushed::close(const Below& below) {
+  count = below.count;
+  std::copy_n(below.lane, below.count, lane);
+  pad();
+}
 
 HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
   return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
@@ -278,42 +286,72 @@ HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
   return along(x, hn::Mul(hn::Sub(target, distance), reciprocal(hn::Max(slope, all(0.5f)))), normal);
 }
 
-/// A plane of the lanes `which`, whose indices are `at` (zero elsewhere), and the nearest place beyond it and
-/// those before; of these the first and the latest stay in force.
-HWY_INLINE void add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI whose,
-                          const Reached& reached, Way& way) {
-  const V slack = all(surface.clearance.slack_m);
+/// The first and the latest plane in force of the lanes `at`; the latest only where `two`.
+struct InForce {
+  Plane first, latest;
+  VI of_latest;
+  M two;
+};
+
+/// Most are pushed into a second ellipsoid, few into a third: without lanes that have two planes the second
+/// and third are not read.
+HWY_INLINE InForce in_force(const Way& way, VI at) {
   const VI none = hn::Set(I(), -1);
-  const VI of2 = hn::GatherIndex(I(), way.of2, at), of3 = hn::GatherIndex(I(), way.of3, at);
-  const M two = hn::RebindMask(f, hn::Gt(of2, none)), three = hn::RebindMask(f, hn::Gt(of3, none));
   const Plane first = {gather3(way.n1x, way.n1y, way.n1z, at), hn::GatherIndex(f, way.offset1, at)};
+  const VI of2 = hn::GatherIndex(I(), way.of2, at);
+  const M two = hn::RebindMask(f, hn::Gt(of2, none));
+  if (hn::AllFalse(f, two)) return {first, first, none, two};
+  const VI of3 = hn::GatherIndex(I(), way.of3, at);
+  const M three = hn::RebindMask(f, hn::Gt(of3, none));
   const Plane latest = {
       select(three, gather3(way.n3x, way.n3y, way.n3z, at), gather3(way.n2x, way.n2y, way.n2z, at)),
       hn::IfThenElse(three, hn::GatherIndex(f, way.offset3, at), hn::GatherIndex(f, way.offset2, at))};
-  const VI of_latest = hn::IfThenElse(hn::RebindMask(I(), three), of3, of2);
-  const V3 p = gather3(reached.x, reached.y, reached.z, at);
-  const V3 of_two = project({first.n, newest.n, first.offset, newest.offset, hn::FirstN(f, kWidth)}, p);
-  const V3 next = select(two, project(first, latest, newest, p, slack), of_two);
-  const Scatter scatter(which, at), scatter_third(hn::And(two, which), at);
-  scatter.store(next, way.x, way.y, way.z);
-  scatter.store(select(two, latest.n, newest.n), way.n2x, way.n2y, way.n2z);
-  scatter.store(hn::IfThenElse(two, latest.offset, newest.offset), way.offset2);
-  scatter.store(hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose), way.of2);
-  scatter_third.store(newest.n, way.n3x, way.n3y, way.n3z);
-  scatter_third.store(newest.offset, way.offset3);
-  scatter_third.store(whose, way.of3);
-  // Planes that are nearly parallel meet far away, if at all: there all are measured again.
-  const V behind = hn::Max(hn::Max(first.missing(next), newest.missing(next)),
-                           hn::IfThenElse(two, latest.missing(next), all(-1e30f)));
-  const auto certain = hn::RebindMask(I(), hn::Le(behind, slack));
-  scatter.store(hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none), way.clear1);
-  scatter.store(hn::IfThenElse(certain, whose, none), way.clear2);
-  scatter.store(hn::IfThenElse(hn::And(certain, hn::RebindMask(I(), two)), of_latest, none), way.clear3);
+  return {first, latest, hn::IfThenElse(hn::RebindMask(I(), three), of3, of2), two};
 }
 
-/// Another push for those that the last query found below: a vector of them, from the i-th on.
+/// A plane of the lanes `which`, whose indices are `at` (zero elsewhere), and the nearest place beyond it and
+/// those before; of these the first and the latest stay in force.
+HWY_INLINE Push add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI whose,
+                          const Reached& reached, Way& way) {
+  const V slack = all(surface.clearance.slack_m);
+  const VI none = hn::Set(I(), -1);
+  const auto [first, latest, of_latest, two] = in_force(way, at);
+  const M third = hn::And(two, which);
+  const V3 p = gather3(reached.x, reached.y, reached.z, at);
+  V3 next = project({first.n, newest.n, first.offset, newest.offset, hn::FirstN(f, kWidth)}, p);
+  V behind = hn::Max(first.missing(next), newest.missing(next));
+  const Scatter scatter(which, at);
+  const auto put_second = [&](const Plane& plane, VI of) {
+    scatter.store(plane.n, way.n2x, way.n2y, way.n2z);
+    scatter.store(plane.offset, way.offset2);
+    scatter.store(of, way.of2);
+  };
+  VI clear3 = none;
+  if (hn::AllFalse(f, third)) {
+    put_second(newest, whose);
+  } else {
+    next = select(two, project(first, latest, newest, p, slack), next);
+    put_second({select(two, latest.n, newest.n), hn::IfThenElse(two, latest.offset, newest.offset)},
+               hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose));
+    const Scatter scatter_third(third, at);
+    scatter_third.store(newest.n, way.n3x, way.n3y, way.n3z);
+    scatter_third.store(newest.offset, way.offset3);
+    scatter_third.store(whose, way.of3);
+    behind = hn::Max(hn::Max(first.missing(next), newest.missing(next)),
+                     hn::IfThenElse(two, latest.missing(next), all(-1e30f)));
+    clear3 = hn::IfThenElse(hn::RebindMask(I(), two), of_latest, none);
+  }
+  scatter.store(next, way.x, way.y, way.z);
+  // Planes that are nearly parallel meet far away, if at all: there all are measured again.
+  const auto certain = hn::RebindMask(I(), hn::Le(behind, slack));
+  return {next, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none),
+          hn::IfThenElse(certain, whose, none), hn::IfThenElse(certain, clear3, none)};
+}
+
+/// Another push for those that the last query found below: a vector of them, from the i-th on. They close up:
+/// each was in `pushed` at or behind where it is put.
 HWY_INLINE void push_again(const Surface& surface, const Reached& reached, const Batched& found,
-                           const Pushed& pushed, const Below& below, int i, Way& way) {
+                           const Below& below, int i, Pushed& pushed, Way& way) {
   const M which = lanes_below(i, below.count);
   const auto real = hn::RebindMask(I(), which);
   const VI at = hn::IfThenElseZero(real, hn::Load(I(), below.at + i));
@@ -324,12 +362,14 @@ HWY_INLINE void push_again(const Surface& surface, const Reached& reached, const
   if (surface.bent()) {
     const V slope = hn::GatherIndex(f, found.value, at);
     const V3 next = newton_step(x, distance, normal, slope, all(surface.target_m()));
-    return Scatter(which, lane).store(next, way.x, way.y, way.z);
+    Scatter(which, lane).store(next, way.x, way.y, way.z);
+    const VI none = hn::Set(I(), -1);
+    return pushed.put({next, none, none, none}, i);
   }
   const VI name = hn::GatherIndex(I(), found.name, at);
   const VI newest = hn::GatherIndex(I(), surface.baked.internal.data(), name);
   const V offset = hn::Add(dot(normal, x), hn::Sub(plain_target(surface, newest), distance));
-  add_plane(surface, which, lane, {normal, offset}, newest, reached, way);
+  pushed.put(add_plane(surface, which, lane, {normal, offset}, newest, reached, way), i);
 }
 
 /// The last normals of a bent surface are those that velocities are judged by.
@@ -353,10 +393,8 @@ HWY_INLINE bool settle(const Surface& surface, const Reached& reached, bool has_
     if (!measure_again(surface, pushed, found)) return false;
     if (surface.bent() && has_velocity) keep_normals(pushed, found, way);
     const Below below(found.distance, surface.clearance.distance_m, pushed);
-    for (int i = 0; i < below.count; i += kWidth) push_again(surface, reached, found, pushed, below, i, way);
-    pushed.count = below.count;
-    std::copy_n(below.lane, below.count, pushed.lane);
-    pushed.collect(way);
+    for (int i = 0; i < below.count; i += kWidth) push_again(surface, reached, found, below, i, pushed, way);
+    pushed.close(below);
   }
   for (int i = 0; i < pushed.count; ++i) way.open.add(1, pushed.lane[i]);
   return true;
