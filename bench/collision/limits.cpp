@@ -49,7 +49,6 @@ Cloud around(const Ellipsoid& e, std::size_t count, double band_m) {
 Limits::Limits(const bodice::proxy::BodyProxy& proxy, std::size_t particles, double band_m)
     : one_(alone(proxy)),
       frames_(local(around(largest(proxy).shape, particles, band_m), one_)),
-      copy_(frames_.now()),
       contacts_(particles) {}
 
 void Limits::move_bytes() {
@@ -72,7 +71,6 @@ void Limits::add_to(std::vector<Row>& rows) {
   add("limit: places read, contacts written", [this] { move_bytes(); });
   add("limit: one ellipsoid, a nearest point a particle, frames",
       [this] { one_.query({}, frames_.now().particles(), contacts_, frames_.workspace); });
-  add("the copy in every response row", [this] { copy_ = frames_.now(); });
 }
 
 }  // namespace bench

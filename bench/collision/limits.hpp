@@ -24,7 +24,6 @@ class Limits {
 
   bodice::collision::Collider one_;
   Frames frames_;
-  Cloud copy_;
   std::vector<bodice::collision::Contact> contacts_;
 };
 

@@ -71,6 +71,24 @@ HWY_INLINE Extent united(const Extent& a, const Extent& b) {
   return e;
 }
 
+HWY_INLINE Extent grown(Extent e, float by_m) {
+  float sum = 0.0f;
+  for (float& half : e.half) {
+    half += by_m;
+    sum += half * half;
+  }
+  e.radius = std::sqrt(sum);
+  return e;
+}
+
+/// Whether the second lies in the first.
+HWY_INLINE bool holds(const Extent& a, const Extent& b) {
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis)
+    inside = inside && std::abs(b.middle[axis] - a.middle[axis]) + b.half[axis] <= a.half[axis];
+  return inside;
+}
+
 /// The box of places; `near` tells whether all are within kFarthest, which NaN is not.
 HWY_INLINE Extent extent_of_lanes(const float* x, const float* y, const float* z, int count, bool& near) {
   const auto load = [&](int i) { return V3{hn::LoadU(f, x + i), hn::LoadU(f, y + i), hn::LoadU(f, z + i)}; };

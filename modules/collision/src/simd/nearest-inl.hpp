@@ -303,6 +303,12 @@ inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& 
   const Blocks blocks(batch);
   if (!blocks.near) return false;
   for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
+  if (share_again(
+          blocks.pieces, blocks.count, scratch.lists,
+          [&](auto tables, const Columns& columns, const Piece* pieces, int count, const Near* lists) {
+            return answer(tables, batch, columns, pieces, count, lists, out);
+          }))
+    return true;
   return together_or_apart(
       batch, blocks, [&](const Piece* pieces, int count) { return share_among(batch, pieces, count, out); },
       [&](const Piece& piece) {

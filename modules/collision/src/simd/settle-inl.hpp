@@ -105,7 +105,7 @@ struct alignas(64) Pushed {
   static constexpr int kSize = kBatch + 16;
   float x[kSize], y[kSize], z[kSize];
   std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];  ///< as a Push has them
-  std::int32_t lane[kSize];  ///< among those that were reached
+  std::int32_t lane[kSize];                                  ///< among those that were reached
   int count = 0;
 
   /// After the first push, out of the ellipsoids `owner`.
@@ -389,6 +389,10 @@ HWY_INLINE bool settle(const Surface& surface, const Reached& reached, bool has_
   const auto most = static_cast<std::uint32_t>(surface.bent() ? kReliefRounds : kPlainRounds);
   Batched found;
   pushed.close();
+  Lists& lists = surface.scratch.lists;
+  lists.covers = false;
+  // On relief the first push leads to the surface, and the next are a correction.
+  lists.room_m = surface.relief ? surface.relief->blend_m : 0.0f;
   for (way.rounds = 0; pushed.count > 0 && way.rounds < most; ++way.rounds) {
     if (!measure_again(surface, pushed, found)) return false;
     if (surface.bent() && has_velocity) keep_normals(pushed, found, way);

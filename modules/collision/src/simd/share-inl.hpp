@@ -35,9 +35,16 @@ HWY_INLINE M lanes_below(int i, int end) {
   return hn::FirstN(f, static_cast<std::size_t>(std::max(0, end - i)));
 }
 
+/// Candidates that all blocks of a batch bound rather than tell which of them may be theirs.
+constexpr int kFew = kWidth / 2;
+
 struct Lists {
   Columns columns, alone;
   Near near, of_piece[kBlocks], of_alone, of_span[KeptBatch::kSpans];
+  /// Metres around the places of a call within which the next may ask again; share() alone reads it.
+  float room_m = 0.0f;
+  Extent covered;       ///< the columns hold all candidates of places in it,
+  bool covers = false;  ///< if so
 };
 
 /// Every column, for a block that does not share them.
@@ -64,14 +71,21 @@ HWY_INLINE bool share(const Baked& baked, const ReliefTables* relief, const Piec
                       Lists& s, Find&& find, Work&& work) {
   Piece around = pieces[0];
   for (int i = 1; i < count; ++i) around.box = united(around.box, pieces[i].box);
+  s.covers = false;
+  if (s.room_m > 0.0f) around.box = grown(around.box, s.room_m);
   if (!find(Everything(baked), around.box, &around, 1, &s.near)) return false;
   if (s.near.count == 0) return true;
   s.columns.fill(baked, relief, s.near.index, s.near.count);
+  s.covered = around.box;
+  s.covers = s.room_m > 0.0f && s.near.count <= 2 * kWidth;
   if (count == 1) return work_alone(pieces[0], s.columns, s.of_piece[0], work);
   bool fits = false;
   if (s.near.count <= 2 * kWidth) {
     with_tables(s.columns, [&](auto tables) {
-      (void)find(AmongColumns<tables()>{s.columns}, around.box, pieces, count, s.of_piece);
+      if (s.near.count <= kFew)
+        for (int i = 0; i < count; ++i) choose_all(s.columns, s.of_piece[i]);
+      else
+        (void)find(AmongColumns<tables()>{s.columns}, around.box, pieces, count, s.of_piece);
       fits = work(tables, s.columns, pieces, count, s.of_piece);
     });
     return fits;
@@ -85,6 +99,17 @@ HWY_INLINE bool share(const Baked& baked, const ReliefTables* relief, const Piec
     if (!work_alone(pieces[i], s.alone, s.of_alone, work)) return false;
   }
   return true;
+}
+
+/// The same among the candidates of the call before, if they are those of a box that holds the pieces.
+template <class Work>
+HWY_INLINE bool share_again(const Piece* pieces, int count, Lists& s, Work&& work) {
+  if (!s.covers) return false;
+  for (int i = 0; i < count; ++i)
+    if (!holds(s.covered, pieces[i].box)) return false;
+  Piece all = pieces[0];
+  all.end = pieces[count - 1].end;
+  return work_alone(all, s.columns, s.of_alone, work);
 }
 
 /// One piece and any number of plain ellipsoids, as many at a time as there is room for: `find` (a source,
