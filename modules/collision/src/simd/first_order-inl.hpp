@@ -40,39 +40,52 @@ struct Tangent {
   V3 shrink;   ///< r_j^2 / (t + r_j^2), t as one step has it
 };
 
-/// In the direction w = diag(r / (t + r^2)) y of the foot, t by one step on |w|^2 from the surface, t = 0,
-/// and each quotient to first order. Any unit w has the distance (w . u - 1) / |grad| to its plane, so that
-/// what w is off by counts by its square.
-HWY_INLINE Tangent tangent_of(const BoundLanes& e, V3 p) {
+/// Along the shortest axis, the last of equals.
+HWY_INLINE V3 shortest_axis(const BoundLanes& e) {
+  const V3 i = e.inverse_radius;
   const V one = all(1.0f);
-  const V3 u = {hn::MulAdd(e.a0.x, p.x, hn::MulAdd(e.a0.y, p.y, hn::MulAdd(e.a0.z, p.z, e.offset.x))),
-                hn::MulAdd(e.a1.x, p.x, hn::MulAdd(e.a1.y, p.y, hn::MulAdd(e.a1.z, p.z, e.offset.y))),
-                hn::MulAdd(e.a2.x, p.x, hn::MulAdd(e.a2.y, p.y, hn::MulAdd(e.a2.z, p.z, e.offset.z)))};
+  const M z = hn::Ge(i.z, hn::Max(i.x, i.y)), y = hn::AndNot(z, hn::Ge(i.y, i.x));
+  return {hn::IfThenElseZero(hn::Not(hn::Or(z, y)), one), hn::IfThenElseZero(y, one),
+          hn::IfThenElseZero(z, one)};
+}
+
+/// The quotients r_j^2 / (t + r_j^2) to first order, t by one step on |w|^2 from the surface, t = 0.
+HWY_INLINE V3 shrink_of(const BoundLanes& e, V3 u, V square) {
   const V3 i = e.inverse_radius;
   const V3 v = {hn::Mul(u.x, i.x), hn::Mul(u.y, i.y), hn::Mul(u.z, i.z)};
-  const V square = dot(u, u);
-  const V excess = hn::Mul(all(0.5f), hn::Sub(square, one));
+  const V excess = hn::Mul(all(0.5f), hn::Sub(square, all(1.0f)));
   const V t = hn::Mul(excess, estimated_reciprocal(within_range(dot(v, v))));
-  const auto shrink = [&](V inverse) {
-    return hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Mul(t, inverse), inverse, one));
+  const auto quotient = [&](V inverse) {
+    return hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Mul(t, inverse), inverse, all(1.0f)));
   };
-  Tangent result;
-  result.shrink = {shrink(i.x), shrink(i.y), shrink(i.z)};
-  V3 w = {hn::Mul(u.x, result.shrink.x), hn::Mul(u.y, result.shrink.y), hn::Mul(u.z, result.shrink.z)};
-  const M center = hn::Lt(square, all(kLeastSquare));
-  if (HWY_UNLIKELY(!hn::AllFalse(f, center))) {
-    // Along the shortest axis, the last of equals.
-    const M z = hn::Ge(i.z, hn::Max(i.x, i.y)), y = hn::AndNot(z, hn::Ge(i.y, i.x));
-    const V3 axis = {hn::IfThenElseZero(hn::Not(hn::Or(z, y)), one), hn::IfThenElseZero(y, one),
-                     hn::IfThenElseZero(z, one)};
-    w = select(center, axis, w);
+  return {quotient(i.x), quotient(i.y), quotient(i.z)};
+}
+
+/// In the direction w = diag(r / (t + r^2)) y of the foot. Any unit w has the distance (w . u - 1) / |grad|
+/// to its plane, so that what w is off by counts by its square. Several vectors in step, as feet_of().
+template <int kCount>
+HWY_INLINE void tangents_of(const BoundLanes (&e)[kCount], const V3 (&p)[kCount], Tangent (&out)[kCount]) {
+  V3 u[kCount];
+  M center[kCount], any = hn::FirstN(f, 0);
+#pragma GCC unroll 4
+  for (int k = 0; k < kCount; ++k) {
+    u[k] = in_ball(e[k], p[k]);
+    const V square = dot(u[k], u[k]);
+    const V3 shrink = out[k].shrink = shrink_of(e[k], u[k], square);
+    out[k].w = {hn::Mul(u[k].x, shrink.x), hn::Mul(u[k].y, shrink.y), hn::Mul(u[k].z, shrink.z)};
+    center[k] = hn::Lt(square, all(kLeastSquare));
+    any = hn::Or(any, center[k]);
   }
-  w = result.w = scaled(w, inverse_sqrt(dot(w, w)));
-  const V3 slope = along(along(scaled(e.a0, w.x), w.y, e.a1), w.z, e.a2);
-  const V per_slope = inverse_sqrt(dot(slope, slope));
-  result.distance = hn::Mul(hn::Sub(dot(w, u), one), per_slope);
-  result.normal = scaled(slope, per_slope);
-  return result;
+  if (HWY_UNLIKELY(!hn::AllFalse(f, any)))
+    for (int k = 0; k < kCount; ++k) out[k].w = select(center[k], shortest_axis(e[k]), out[k].w);
+#pragma GCC unroll 4
+  for (int k = 0; k < kCount; ++k) {
+    const V3 w = out[k].w = scaled(out[k].w, inverse_sqrt(dot(out[k].w, out[k].w)));
+    const V3 slope = along(along(scaled(e[k].a0, w.x), w.y, e[k].a1), w.z, e[k].a2);
+    const V per_slope = inverse_sqrt(dot(slope, slope));
+    out[k].distance = hn::Mul(hn::Sub(dot(w, u[k]), all(1.0f)), per_slope);
+    out[k].normal = scaled(slope, per_slope);
+  }
 }
 
 /// The ellipsoid's own table on top, unblended: as corrected(), with t and quotients as the tangent has them.
@@ -114,7 +127,7 @@ HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
 }
 
 /// The contacts of one piece.
-template <int kTables>
+template <int kTables, bool kRelief>
 HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                            const Piece& piece, const Near& near, const Columns& columns) {
   const V margin = all(batch.margin_m);
@@ -131,14 +144,17 @@ HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const
         least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
     }
     VI column[kTogether];
+    BoundLanes e[kTogether];
     Tangent at[kTogether];
 #pragma GCC unroll 4
     for (int v = 0; v < kTogether; ++v) {
       column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
-      const BoundLanes e = bounds_of<kTables>(columns, column[v]);
-      at[v] = tangent_of(e, p[v]);
-      if (relief) correct(*relief, table_of<kTables>(columns, column[v]), e, at[v]);
+      e[v] = bounds_of<kTables>(columns, column[v]);
     }
+    tangents_of(e, p, at);
+#pragma GCC unroll 4
+    for (int v = 0; v < kTogether; ++v)
+      if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v]), e[v], at[v]);
     for (int v = 0; v < kTogether; ++v) {
       const V d = hn::Sub(at[v].distance, margin);
       const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBoundName));
@@ -160,8 +176,10 @@ inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* reli
     for (int i = 0; i < count; ++i)
       if (near[i].count == 0)
         write_none(batch, pieces[i].begin, pieces[i].end);
+      else if (relief)
+        tell_piece<tables(), true>(baked, relief, batch, pieces[i], near[i], columns);
       else
-        tell_piece<tables()>(baked, relief, batch, pieces[i], near[i], columns);
+        tell_piece<tables(), false>(baked, relief, batch, pieces[i], near[i], columns);
     return true;
   };
   // What is kept serves exact queries, too, which blend.

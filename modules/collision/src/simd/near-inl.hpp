@@ -49,6 +49,14 @@ HWY_INLINE BoundLanes bound_lanes(Row&& row) {
   return {row3(0), row3(3), row3(6), row3(kBoundOffset), row3(kBoundInverse)};
 }
 
+/// Where points are when the ellipsoids are unit balls.
+HWY_INLINE V3 in_ball(const BoundLanes& e, V3 p) {
+  const auto row = [&](V3 a, V offset) {
+    return hn::MulAdd(a.x, p.x, hn::MulAdd(a.y, p.y, hn::MulAdd(a.z, p.z, offset)));
+  };
+  return {row(e.a0, e.offset.x), row(e.a1, e.offset.y), row(e.a2, e.offset.z)};
+}
+
 /// rounding_over() each piece.
 struct PieceRounding {
   float m[kBlocks];
@@ -133,7 +141,7 @@ struct Planes {
 };
 
 HWY_INLINE Planes planes_at(const BoundLanes& e, V3 middle) {
-  const V3 u = V3{dot(e.a0, middle), dot(e.a1, middle), dot(e.a2, middle)} + e.offset;
+  const V3 u = in_ball(e, middle);
   const V3 v = {hn::Mul(u.x, e.inverse_radius.x), hn::Mul(u.y, e.inverse_radius.y),
                 hn::Mul(u.z, e.inverse_radius.z)};
   const V square = dot(u, u), scale = inverse_sqrt(dot(v, v));

@@ -389,10 +389,8 @@ HWY_INLINE bool settle(const Surface& surface, const Reached& reached, bool has_
   const auto most = static_cast<std::uint32_t>(surface.bent() ? kReliefRounds : kPlainRounds);
   Batched found;
   pushed.close();
-  Lists& lists = surface.scratch.lists;
-  lists.covers = false;
   // On relief the first push leads to the surface, and the next are a correction.
-  lists.room_m = surface.relief ? surface.relief->blend_m : 0.0f;
+  surface.scratch.lists.room_m = surface.relief ? surface.relief->blend_m : 0.0f;
   for (way.rounds = 0; pushed.count > 0 && way.rounds < most; ++way.rounds) {
     if (!measure_again(surface, pushed, found)) return false;
     if (surface.bent() && has_velocity) keep_normals(pushed, found, way);
