@@ -295,6 +295,27 @@ TEST_CASE("relief: after the response no particle is below the corrected surface
   CHECK(report.pinched < report.contacts / 20);
 }
 
+TEST_CASE("relief: a push that leads from body to body asks anew about those that were not near before") {
+  // Out of the first ball 40 mm deep into the second, and out of that into the third, which is neither near
+  // the start nor near where the first push ends.
+  std::vector<Ellipsoid> shapes = ball(0.1);
+  shapes.resize(3, shapes[0]);
+  shapes[0].center = Vec3(-0.06, 0.0, 0.0);
+  shapes[1].center = Vec3(0.05, -0.06, 0.0);
+  shapes[2] = ball(0.02)[0];
+  shapes[2].center = Vec3(0.0335, 0.0307, 0.0);
+  const auto proxy = proxy_of(with_relief(data_of(shapes), 8, 1e-6, 5));
+  const Collider collider(proxy);
+  Cloud cloud;
+  engine::Random random(6);
+  for (int i = 0; i < 40; ++i) cloud.add(random_vector(random, 1e-4) - collider.origin());
+  const ContactReport report = collider.resolve({}, cloud.particles(), {});
+  CHECK(report.contacts == 40);
+  CHECK(report.max_iterations >= 3);
+  CHECK(report.judged_exactly == 0);
+  CHECK(lowest_m(shapes, collider, cloud) > -1e-5);
+}
+
 TEST_CASE("the paper's response leaves particles inside where ellipsoids meet, and says how many") {
   const auto shapes = random_ellipsoids(7, 40, 0.4, 0.05, 0.3);
   const Collider collider(proxy_of(shapes));
