@@ -36,7 +36,7 @@ HWY_INLINE bool share_within(const Baked& baked, const ReliefTables* relief, Que
   for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
   // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen feet a
   // block.
-  const bool close = limits.surface_m <= 2.0f * blocks.pieces[0].box.radius;
+  const bool close = limits.plain_m <= blocks.pieces[0].box.radius;
   const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
                         Near* found) {
     const float below_m = limits.plain_m + beyond_m;
