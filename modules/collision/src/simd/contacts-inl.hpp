@@ -69,6 +69,17 @@ HWY_INLINE void store_contacts(const ContactLanes& c, To&& to) {
 #endif
 }
 
+/// What is farther than was asked for is told nothing.
+HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
+  const Contact none = no_contact();
+  const M told = hn::Le(c.distance, all(within_m));
+  c.distance = hn::IfThenElse(told, c.distance, all(none.signed_distance));
+  c.point = select(told, c.point, broadcast3(none.point));
+  c.normal = select(told, c.normal, broadcast3(none.normal));
+  c.name = hn::IfThenElse(hn::RebindMask(I(), told), c.name,
+                          hn::Set(I(), static_cast<std::int32_t>(none.ellipsoid)));
+}
+
 HWY_INLINE Contact& contact_of(const QueryBatch& batch, int lane) {
   return batch.contacts[batch.index ? batch.index[lane] : static_cast<std::uint32_t>(lane)];
 }

@@ -115,17 +115,6 @@ HWY_INLINE BoundLanes bounds_of(const Columns& columns, VI column) {
   return bound_lanes([&](int i) { return at(columns.row(Columns::kBound + i)); });
 }
 
-/// What is farther than was asked for is told nothing.
-HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
-  const Contact none = no_contact();
-  const M told = hn::Le(c.distance, all(within_m));
-  c.distance = hn::IfThenElse(told, c.distance, all(none.signed_distance));
-  c.point = select(told, c.point, broadcast3(none.point));
-  c.normal = select(told, c.normal, broadcast3(none.normal));
-  c.name = hn::IfThenElse(hn::RebindMask(I(), told), c.name,
-                          hn::Set(I(), static_cast<std::int32_t>(none.ellipsoid)));
-}
-
 /// The contacts of one piece.
 template <int kTables, bool kRelief>
 HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,

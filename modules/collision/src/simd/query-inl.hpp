@@ -31,22 +31,37 @@ HWY_INLINE void keep_within(const QueryBatch& batch) {
 }
 
 HWY_INLINE void write_reached(const Reached& reached, const Batched& found, const QueryBatch& batch) {
-  write_none(batch, 0, batch.count);
-  const V margin = all(batch.margin_m), within = all(batch.within_m);
+  const V margin = all(batch.margin_m);
   for (int i = 0; i < reached.count; i += kWidth) {
     const V d = hn::Sub(hn::Load(f, found.distance + i), margin);
-    const VI lanes = hn::Load(I(), reached.lane + i);
-    const M told = hn::And(hn::Le(d, within), hn::RebindMask(f, hn::Gt(lanes, hn::Set(I(), -1))));
-    if (hn::AllFalse(f, told)) continue;
     const V3 n = load3(found.gx + i, found.gy + i, found.gz + i);
-    const V3 point = along(load3(reached.x + i, reached.y + i, reached.z + i), hn::Neg(d), n);
+    const V3 p = load3(reached.x + i, reached.y + i, reached.z + i);
+    ContactLanes c = {d, along(p, hn::Neg(d), n), n, hn::Load(I(), found.name + i)};
+    hide_beyond(batch.within_m, c);
+    const M real = hn::RebindMask(f, hn::Gt(hn::Load(I(), reached.lane + i), hn::Set(I(), -1)));
+    const auto to = [&](int k) -> Contact& { return contact_of(batch, reached.lane[i + k]); };
+    if (hn::AllTrue(f, real)) {
+      store_contacts(c, [&](int k) { return &to(k); });
+      continue;
+    }
     alignas(64) Contact contacts[kWidth];
-    store_contacts({d, point, n, hn::Load(I(), found.name + i)}, [&](int lane) { return contacts + lane; });
-    for (std::uint64_t left = bits(told); left != 0; left &= left - 1) {
+    store_contacts(c, [&](int k) { return contacts + k; });
+    for (std::uint64_t left = bits(real); left != 0; left &= left - 1) {
       const int k = std::countr_zero(left);
-      contact_of(batch, reached.lane[i + k]) = contacts[k];
+      to(k) = contacts[k];
     }
   }
+}
+
+/// For the lanes that were not reached.
+HWY_INLINE void write_none_but(const Reached& reached, const QueryBatch& batch) {
+  const Contact none = no_contact();
+  for (int begin = 0; begin < batch.count; begin += kBlock)
+    for (std::uint64_t left = ~reached.which.from(begin); left != 0; left &= left - 1) {
+      const int lane = begin + std::countr_zero(left);
+      if (lane >= batch.count) break;
+      contact_of(batch, lane) = none;
+    }
 }
 
 HWY_INLINE bool query_within_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
@@ -55,6 +70,7 @@ HWY_INLINE bool query_within_lanes(const Baked& baked, const ReliefTables* relie
   Reached reached;
   const float limit_m = batch.within_m + batch.margin_m;
   if (limit_m < kFarthest && nearest_within(baked, relief, batch, limit_m, scratch, reached, found)) {
+    write_none_but(reached, batch);
     write_reached(reached, found, batch);
     return true;
   }

@@ -22,15 +22,22 @@ struct alignas(64) Reached {
   float bound[kMostKept + 1][kSize];  ///< as Lowest has them
   std::int32_t lane[kSize];           ///< in the batch; -1: a repetition
   int count = 0;
+  LaneBits which;  ///< of the batch
 
+  void clear() {
+    count = 0;
+    which = {};
+  }
+  /// Of the batch's lanes [first, first + kWidth).
   template <int kKept>
-  HWY_INLINE void add(M which, VI lanes, V3 p, const Lowest<kKept>& lowest) {
-    const Pack pack(which);
+  HWY_INLINE void add(M mask, int first, V3 p, const Lowest<kKept>& lowest) {
+    const Pack pack(mask);
+    which.add(bits(mask), first);
     pack.store(p.x, x + count);
     pack.store(p.y, y + count);
     pack.store(p.z, z + count);
     for (int i = 0; i <= kKept; ++i) pack.store(lowest.bound[i], bound[i] + count);
-    pack.store(lanes, lane + count);
+    pack.store(hn::Iota(I(), first), lane + count);
     count += pack.count();
   }
   /// Fills up to a whole step; `from` is where the run starts.
@@ -139,7 +146,7 @@ HWY_INLINE void reach(const Baked& baked, const QueryBatch& batch, float limit_m
     }
     for (int v = 0; v < kTogether; ++v) {
       const int i = from + v * kWidth;
-      out.add(hn::And(within[v], lanes_below(i, piece.end)), hn::Iota(I(), i), p[v], lowest[v]);
+      out.add(hn::And(within[v], lanes_below(i, piece.end)), i, p[v], lowest[v]);
     }
   }
 }
@@ -219,12 +226,12 @@ inline bool nearest_within(const Baked& baked, const ReliefTables* relief, Query
     return within_of<2, tables()>(baked, nullptr, batch, limits, pieces, count, lists, columns, reached, open,
                                   out);
   };
-  reached.count = 0;
+  reached.clear();
   if (is_kept(baked, relief, beyond_m, batch, scratch.lists)) {
     if (share_kept(baked, relief, batch, beyond_m, limits.of_bounds(baked), Columns::Rows::kFeet,
                    scratch.lists, work))
       return true;
-    reached.count = 0;
+    reached.clear();
   }
   return share_within(baked, relief, batch, beyond_m, limits, scratch.lists, work);
 }
