@@ -158,8 +158,8 @@ inline bool keep(const Baked& baked, const ReliefTables* relief, float beyond_m,
     return true;
   };
   if (!share(baked, relief, blocks.pieces, blocks.count, lists, find, work)) return false;
-  // More than two vectors of columns are read by gathers, which cost more than finding anew.
-  if (kept.candidates > 2 * kWidth) return false;
+  // Gathers cost more than finding anew.
+  if (kept.candidates > kPermuted) return false;
   sort_candidates(kept);
   keep_places(batch, kept);
   return true;

@@ -100,7 +100,12 @@ class Columns {
   int stride_ = 0, count_ = 0;
 };
 
-/// Reads the columns' rows by lane. kTables: vectors that a row takes, 1 or 2; 0: more, and gathers.
+/// Vectors of columns that permutations read, and so many columns; more are read by gathers, which a single
+/// lane does not need.
+constexpr int kMostTables = kWidth < 16 ? 4 : 2;
+constexpr int kPermuted = kWidth == 1 ? kMaxCandidates : kMostTables * kWidth;
+
+/// Reads the columns' rows by lane. kTables: vectors that a row takes, 1, 2 or kMostTables; 0: more.
 template <int kTables>
 class Lookup {
  public:
@@ -114,9 +119,10 @@ class Lookup {
   std::int32_t column_;
 #else
   explicit HWY_INLINE Lookup(VI column)
-      : column_(column),
-        index_(hn::IndicesFromVec(f, hn::And(column, hn::Set(I(), kWidth - 1)))),
-        second_(hn::RebindMask(f, hn::Gt(column, hn::Set(I(), kWidth - 1)))) {}
+      : column_(column), index_(hn::IndicesFromVec(f, hn::And(column, hn::Set(I(), kWidth - 1)))) {
+    for (int t = 1; t < kTables; ++t)
+      beyond_[t - 1] = hn::RebindMask(f, hn::Gt(column, hn::Set(I(), t * kWidth - 1)));
+  }
   HWY_INLINE V operator()(const float* row) const {
     if constexpr (kTables == 0) return hn::GatherIndex(f, row, column_);
 #if HWY_TARGET == HWY_AVX3
@@ -124,15 +130,17 @@ class Lookup {
     if constexpr (kTables == 2)
       return V{_mm512_permutex2var_ps(hn::Load(f, row).raw, column_.raw, hn::Load(f, row + kWidth).raw)};
 #endif
-    const V first = hn::TableLookupLanes(hn::Load(f, row), index_);
-    if constexpr (kTables == 1) return first;
-    return hn::IfThenElse(second_, hn::TableLookupLanes(hn::Load(f, row + kWidth), index_), first);
+    V value = hn::TableLookupLanes(hn::Load(f, row), index_);
+    for (int t = 1; t < kTables; ++t)
+      value =
+          hn::IfThenElse(beyond_[t - 1], hn::TableLookupLanes(hn::Load(f, row + t * kWidth), index_), value);
+    return value;
   }
 
  private:
   VI column_;
   decltype(hn::IndicesFromVec(f, VI())) index_;
-  M second_;
+  M beyond_[kTables > 1 ? kTables - 1 : 1];
 #endif
 };
 
@@ -152,10 +160,13 @@ HWY_INLINE VI names_of(const Columns& columns, VI column) {
 /// Calls work with the number of tables as a constant.
 template <class Work>
 HWY_INLINE void with_tables(const Columns& columns, Work&& work) {
+  if constexpr (kWidth == 1) return work(std::integral_constant<int, 0>());
   if (columns.count() <= kWidth)
     work(std::integral_constant<int, 1>());
   else if (columns.count() <= 2 * kWidth)
     work(std::integral_constant<int, 2>());
+  else if (kMostTables > 2 && columns.count() <= kPermuted)
+    work(std::integral_constant<int, kMostTables>());
   else
     work(std::integral_constant<int, 0>());
 }
