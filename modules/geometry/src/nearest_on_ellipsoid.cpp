@@ -31,9 +31,7 @@ struct Secular {
   double surface;  // r_min^2: the root of points on the surface
 
   /// 1 / (u + d); where a is zero the quotient means nothing, and is only kept finite.
-  Vec3 inverse(double u) const {
-    return (d.array() + u).max(std::numeric_limits<double>::min()).inverse();
-  }
+  Vec3 inverse(double u) const { return (d.array() + u).max(std::numeric_limits<double>::min()).inverse(); }
   Vec3 w(double u) const { return a.cwiseProduct(inverse(u)); }
 };
 
