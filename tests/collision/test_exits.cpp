@@ -30,6 +30,78 @@ TEST_CASE("a ray out of a union ends clear of all of it, for certain, wherever i
     }
 }
 
+namespace {
+
+/// Where p + t direction has left all shapes by the clearance, by halving: the distance to a convex shape is
+/// convex along the ray.
+double first_exit_m(const std::vector<Ellipsoid>& shapes, const Vec3& p, const Vec3& direction,
+                    double clearance_m) {
+  const auto below = [&](const Ellipsoid& e, double t) {
+    return geometry::nearest_point(e, p + t * direction).signed_distance < clearance_m;
+  };
+  double t = 0.0;
+  for (bool left = true; left;) {
+    left = false;
+    for (const Ellipsoid& e : shapes) {
+      if (!below(e, t)) continue;
+      left = true;
+      double in = t, out = t + 10.0;
+      for (int i = 0; i < 60; ++i) (below(e, 0.5 * (in + out)) ? in : out) = 0.5 * (in + out);
+      t = out;
+    }
+  }
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("a ray ends where it first can, however flat it leaves an ellipsoid") {
+  for (const double clearance_m : {0.0, 0.003}) {
+    const auto shapes = random_ellipsoids(9, 12, 0.2, 0.02, 0.3);
+    const UnionField field(shapes);
+    engine::Random random(9);
+    double farthest_m = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 p = random_vector(random, 0.3), direction = random_direction(random);
+      const auto out =
+          exit_along_ray(field, p, direction, clearance_m, std::numeric_limits<double>::infinity());
+      REQUIRE(out);
+      farthest_m = std::max(farthest_m, (*out - p).norm() - first_exit_m(shapes, p, direction, clearance_m));
+    }
+    CAPTURE(clearance_m);
+    CHECK(farthest_m < 1e-3);
+  }
+}
+
+TEST_CASE("what planes do not settle is not thrown: a push is a few times the shortest ray out at most") {
+  const auto shapes = random_ellipsoids(12, 40, 0.4, 0.06, 0.25);
+  const UnionField field(shapes);
+  for (const double h_m : {0.0, 0.003}) {
+    const Collider collider(proxy_of(h_m > 0.0 ? with_relief(data_of(shapes), 16, h_m, 5) : data_of(shapes)));
+    engine::Random random(3);
+    Cloud cloud;
+    for (int i = 0; i < 20000; ++i) cloud.add(random_vector(random, 0.5) - collider.origin());
+    const Cloud before = cloud;
+    const ContactReport report = collider.resolve({}, cloud.particles(), {});
+    double worst = 0.0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      const Vec3 p = before.position(i) + collider.origin();
+      const double push_m = (cloud.position(i) - before.position(i)).norm();
+      if (!(push_m > 0.01)) continue;
+      double ray_m = std::numeric_limits<double>::infinity();
+      for (int k = 0; k < 100; ++k) {
+        const auto out = exit_along_ray(field, p, random_direction(random), 2.0 * h_m, ray_m);
+        if (out) ray_m = std::min(ray_m, (*out - p).norm());
+      }
+      worst = std::max(worst, push_m / ray_m);
+    }
+    CAPTURE(h_m);
+    CHECK(report.fallbacks >= 50);
+    CHECK(report.unresolved == 0);
+    CHECK(worst < kLongestPush);
+  }
+}
+
 TEST_CASE("where the ways along all normals graze another surface, a particle leaves another way") {
   // A fold between two balls along x; along a needle under it, as far as that is straight, both ways out of
   // the fold run within the clearance.

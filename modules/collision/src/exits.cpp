@@ -1,6 +1,8 @@
 #include "exits.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tolerances.hpp"
 
@@ -34,17 +36,37 @@ std::optional<Interval> inside_ball(const Vec3& a, const Vec3& b) {
   return Interval{middle - half, middle + half};
 }
 
+constexpr int kLeaveSteps = 4;  // Newton from outside: each halves the rest at least, most square it
+
+/// Where the ray leaves the ellipsoid that is so much larger in proportion that it holds all places nearer
+/// than the clearance.
+std::optional<double> leave_enlarged(const Ellipsoid& e, const Vec3& x, const Vec3& direction,
+                                     double clearance_m) {
+  const double share = 1.0 / (1.0 + std::max(0.0, clearance_m) / e.radii.minCoeff());
+  const Vec3 b = (e.axes.transpose() * direction).cwiseQuotient(e.radii);
+  const auto inside = inside_ball(share * to_unit_ball(e, x), share * b);
+  if (!inside || !(inside->end > 0.0)) return std::nullopt;
+  return inside->end;
+}
+
 /// The ray parameter where a particle at x, inside ellipsoid k or too near it, has left it and its clearance.
 double leave(const UnionField& field, const Owner& owner, const Vec3& x, const Vec3& direction,
              double clearance_m, double nudge_m) {
   const double gap = clearance_m - owner.at.signed_distance;
   const double slope = owner.at.normal.dot(direction);
-  // Convexity: the tangent's root lies at or beyond the distance's root, hence outside.
-  if (slope > kFlatSlope) return gap / slope + nudge_m;
   const Ellipsoid& e = field.shape(owner.ellipsoid);
-  const Vec3 b = (e.axes.transpose() * direction).cwiseQuotient(e.radii);
-  const auto inside = inside_ball(to_unit_ball(e, x), b);
-  return inside && inside->end > 0.0 ? inside->end + nudge_m : gap + nudge_m;
+  // Convexity: the tangent's root lies at or beyond the distance's root, hence outside.
+  double t = slope > kFlatSlope ? gap / slope : std::numeric_limits<double>::infinity();
+  t = std::min(t, leave_enlarged(e, x, direction, clearance_m).value_or(t));
+  if (!std::isfinite(t)) return gap + nudge_m;
+  // From outside, convexity again: a tangent's root lies before the place and not before the distance's root.
+  for (int step = 0; step < kLeaveSteps; ++step) {
+    const NearestPoint at = geometry::nearest_point(e, x + t * direction);
+    const double beyond = at.signed_distance - clearance_m, rise = at.normal.dot(direction);
+    if (!(beyond > nudge_m) || !(rise > kFlatSlope)) break;
+    t -= beyond / rise;
+  }
+  return t + nudge_m;
 }
 
 }  // namespace
@@ -75,7 +97,7 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
   for (int step = 0; step < kEntrySteps; ++step) {
     double advance = length - t;
     entry.ellipsoid = kNoEllipsoid;
-    const auto meet = [&](std::size_t k) {
+    const auto meet = [&](std::size_t k, double) {
       const NearestPoint at = geometry::nearest_point(field.shape(k), entry.point);
       const double slope = at.normal.dot(direction);
       // Convexity again: before the tangent's root the distance is above the clearance.

@@ -23,7 +23,7 @@ void NearField::expect(const Vec3& center, double radius_m) {
   const double within_m = window_m() + radius_m;
   field_.visit_near(
       center, [&] { return within_m; },
-      [&](std::size_t k) {
+      [&](std::size_t k, double) {
         if (crowded_) return;
         shortest_m_ = std::min(shortest_m_, field_.shape(k).radii.minCoeff());
         crowded_ = candidate_count_ == kMost;
@@ -61,7 +61,8 @@ void NearField::collect_near(const Vec3& x) {
 
 void NearField::collect_all(const Vec3& x) {
   field_.visit_near(
-      x, [&] { return least_m_ + blend_m_; }, [&](std::size_t k) { meet(static_cast<std::uint32_t>(k), x); });
+      x, [&] { return least_m_ + blend_m_; },
+      [&](std::size_t k, double) { meet(static_cast<std::uint32_t>(k), x); });
 }
 
 /// Newton on a convex function of the root, from above.

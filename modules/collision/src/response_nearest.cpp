@@ -77,16 +77,16 @@ class Resolver {
 
   ParticleReport run() {
     near_.expect(p_, 0.0);
-    const ReliefSample start = near_.at(p_);
-    const bool inside = start.distance_m < clearance_m_;
+    start_ = near_.at(p_);
+    const bool inside = start_.distance_m < clearance_m_;
     if (!inside && !passed_through_something()) return report_;
-    report_.ellipsoid = start.owner;
+    report_.ellipsoid = start_.owner;
     x_ = p_;
-    if (inside) settle_from(start);
+    if (inside) settle_from_start();
     const bool stuck = inside && !outside(x_);
     if (particle_.has_safe && (!inside || stuck || long_path())) return_to_entry(inside, stuck);
     if (!inside && report_.ellipsoid == kNoEllipsoid) return report_;  // the path met nothing
-    if (inside && !outside(x_)) leave_along_normal();
+    if (inside && (chance_ || !outside(x_))) leave_certainly();
     judge();
     move(x_, contact_, options_, report_, particle_);
     return report_;
@@ -102,17 +102,24 @@ class Resolver {
     return true;
   }
 
-  double stored_distance(const Vec3& x) { return near_.at(stored(x)).distance_m; }
+  double stored_distance(const Vec3& x) {
+    if (x != judged_) {
+      judged_ = x;
+      judged_m_ = near_.at(stored(x)).distance_m;
+    }
+    return judged_m_;
+  }
   bool outside(const Vec3& x) { return stored_distance(x) >= surface_m_ - certificate_m_; }
   bool long_path() const { return (p_ - particle_.safe).norm() > kLongPath * near_.shortest_radius_m(); }
 
-  void settle_from(const ReliefSample& start) {
-    report_.depth_m = clearance_m_ - start.distance_m;
+  void settle_from_start() {
+    report_.depth_m = clearance_m_ - start_.distance_m;
     const double longest_m = kLongestPush * report_.depth_m + overshoot_m_;
-    const Settled settled = settle(near_, p_, start, clearance_m_, overshoot_m_, longest_m);
+    const Settled settled = settle(near_, p_, start_, clearance_m_, overshoot_m_, longest_m);
     report_.iterations = settled.rounds;
     x_ = settled.place;
     contact_ = settled.contact;
+    chance_ = settled.clear && settled.set_back;
   }
 
   /// Back to where the path met the union, if leaving at x would be on another side, or inside.
@@ -126,6 +133,7 @@ class Resolver {
     const bool other_side = !inside || entry->normal.dot(contact_[0].normal) < kSlidingCosine || !reached(x_);
     if (!other_side && !stuck) return;
     x_ = slide(*entry, kept_m);
+    chance_ = false;
     contact_ = single(entry->normal);
     report_.wrong_side = other_side;
     report_.fallback = stuck;
@@ -150,43 +158,93 @@ class Resolver {
   /// Whether the way from the safe position leads there without passing through anything.
   bool reached(const Vec3& x) const { return passed_through(field_, particle_, x) == kNoEllipsoid; }
 
-  /// What planes do not settle: a fold with no room in it, where a push that is bounded rests midway, or a
-  /// place deep between ellipsoids, from where the ray along a normal leads out for certain.
-  void leave_along_normal() {
-    const double size_m = field_.size_m();
-    const bool fold = stored_distance(x_) > surface_m_ - kFoldDepth * size_m;
-    if (fold && std::isfinite(options_.max_push_m)) return;
-    report_.fallback = true;
-    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
-    std::optional<Vec3> best;
-    double best_m = kAnywhere;
-    // A crease that is far for the depth is nearer than the other side of what faces it.
-    const Settled far = settle(near_, p_, near_.at(p_), clearance_m_, overshoot_m_, kAnywhere);
-    if (far.clear) best = far.place, best_m = (far.place - p_).norm();
-    for (int i = 0; i < contact_.size(); ++i) {
-      const auto out = exit_along(contact_[i].normal, best_m);
-      if (!out || (*out - p_).norm() >= best_m) continue;
-      best = out;
-      best_m = (*out - p_).norm();
-    }
-    if (!best) best = exit_along(Vec3::UnitY(), kAnywhere);
-    if (!best) return;
-    x_ = *best;
-    contact_ = far.clear && x_ == far.place ? far.contact : single(field_.owner(x_, kAnywhere).at.normal);
+  /// The shortest way out that was found.
+  struct Way {
+    Vec3 x = Vec3::Zero();
+    double length_m = std::numeric_limits<double>::infinity();
+    const Halfspaces* contact = nullptr;  ///< if it is known
+  };
+
+  /// A way through a limb counts as longer, by the size of all.
+  void take_shorter(Way& way, const Vec3& x, const Halfspaces* contact = nullptr) const {
+    double length_m = (x - p_).norm();
+    if (particle_.has_safe && length_m < way.length_m && !reached(x)) length_m += field_.size_m();
+    if (length_m < way.length_m) way = {x, length_m, contact};
   }
 
-  /// May give up beyond `longest_m`; not on bent surfaces, which are left before the bulge around them.
+  /// What planes do not settle: a fold with no room in it, where a push that is bounded rests midway, or a
+  /// place deep between ellipsoids, which several ways lead out of for certain: the shortest.
+  void leave_certainly() {
+    const bool fold = stored_distance(x_) > surface_m_ - kFoldDepth * field_.size_m();
+    if (!chance_ && fold && std::isfinite(options_.max_push_m)) return;
+    report_.fallback = true;
+    Way way;
+    const Halfspaces by_chance = contact_;
+    if (chance_) take_shorter(way, x_, &by_chance);
+    // A crease that is far for the depth is nearer than the other side of what faces it.
+    constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+    const Settled far = settle(near_, p_, start_, clearance_m_, overshoot_m_, kAnywhere);
+    if (far.clear) take_shorter(way, far.place, &far.contact);
+    if (near_.bent()) leave_before_bulge(way);
+    leave_along_rays(way);
+    if (!std::isfinite(way.length_m)) return;
+    x_ = way.x;
+    contact_ = way.contact ? *way.contact : touching(x_);
+  }
+
+  /// The surfaces that hold a particle at x, which is clear.
+  Halfspaces touching(const Vec3& x) {
+    if (near_.bent()) return single(near_.at(x).gradient.stableNormalized());
+    Halfspaces result;
+    const double within_m = clearance_m_ + 2.0 * overshoot_m_;
+    field_.visit_near(
+        x, [&] { return within_m; },
+        [&](std::size_t k, double) {
+          const geometry::NearestPoint at = geometry::nearest_point(field_.shape(k), x);
+          if (at.signed_distance <= within_m) result.add({at.normal, 0.0});
+        });
+    return result.size() > 0 ? result : single(near_.at(x).gradient);
+  }
+
+  /// Along normals, and along the axes: in a fold a ray along a normal may graze another surface for metres.
+  /// What was settled is where surfaces meet, and stays if it is about as near.
+  void leave_along_rays(Way& way) {
+    const auto follow = [&](const Vec3& direction) {
+      if (const auto x = exit_along(direction, kMuchShorter * way.length_m)) take_shorter(way, *x);
+    };
+    for (int i = 0; i < contact_.size(); ++i) follow(contact_[i].normal);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {-1.0, 1.0}) follow(sign * Vec3::Unit(axis));
+  }
+
+  /// Towards where the plain ellipsoids are as far as the surface can bulge. They are convex, and planes
+  /// settle what a bent surface does not.
+  void leave_before_bulge(Way& way) {
+    const double plain_m = clearance_m_ + near_.bulge_m();
+    NearField plain(field_, nullptr, 0.0, plain_m + 2.0 * slack_m_);
+    plain.expect(p_, 0.0);
+    const ReliefSample start = plain.at(p_);
+    if (start.owner == kNoEllipsoid) return;
+    const Settled far = settle(plain, p_, start, plain_m, slack_m_, std::numeric_limits<double>::infinity());
+    if (far.clear) take_shorter(way, first_clear(far.place));
+  }
+
+  /// May give up beyond `longest_m`. A bent surface is left before the bulge around it.
   std::optional<Vec3> exit_along(const Vec3& direction, double longest_m) {
-    const double within_m = near_.bent() ? std::numeric_limits<double>::infinity() : longest_m;
     const auto far =
-        exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + near_.bulge_m(), within_m);
-    if (!far || !near_.bent()) return far ? std::optional<Vec3>(*far + slack_m_ * direction) : far;
-    Vec3 in = p_, out = *far;
-    for (int i = 0; i < kExitHalvings; ++i) {
+        exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + near_.bulge_m(), longest_m);
+    if (!far) return std::nullopt;
+    return near_.bent() ? first_clear(*far) : Vec3(*far + slack_m_ * direction);
+  }
+
+  /// On the way to a place that is clear, where a bent surface is left, by halving.
+  Vec3 first_clear(const Vec3& far) {
+    Vec3 in = p_, out = far;
+    for (int i = 0; i < kExitHalvings && (out - in).norm() > overshoot_m_; ++i) {
       const Vec3 middle = 0.5 * (in + out);
       (near_.at(middle).distance_m >= clearance_m_ + overshoot_m_ ? out : in) = middle;
     }
-    return Vec3(out + kBesideJump * field_.size_m() * direction);
+    return out + kBesideJump * field_.size_m() * (far - p_).stableNormalized();
   }
 
   /// What counts is the place that is stored.
@@ -205,8 +263,12 @@ class Resolver {
   const double clearance_m_, surface_m_, slack_m_;
   NearField near_;
   const double overshoot_m_, certificate_m_;
+  ReliefSample start_;
   Vec3 x_ = Vec3::Zero();
+  Vec3 judged_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< of the last stored_distance()
+  double judged_m_ = 0.0;
   Halfspaces contact_;
+  bool chance_ = false;  ///< x_ is clear, but not the nearest place that is
   ParticleReport report_;
 };
 

@@ -80,7 +80,7 @@ Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double
   Settled best{p, start, {}, 0, start.distance_m >= clearance_m};
   // Most pushes are about as long as the depth; a longer one costs another search.
   near.expect(p, std::min(longest_m, kUsualPush * (target_m - start.distance_m)));
-  ReliefSample here = near.at(p);
+  ReliefSample here = near.bent() ? near.at(p) : start;
   Vec3 x = p;
   while (best.rounds < kSettleRounds && !best.clear) {
     ++best.rounds;
@@ -92,7 +92,7 @@ Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double
     x = next.x;
     here = near.at(x);
     const bool better = here.distance_m > best.at.distance_m;
-    if (better) best.place = x, best.at = here;
+    if (better) best.place = x, best.at = here, best.set_back = next.short_by_m > 0.0;
     best.clear = here.distance_m >= clearance_m;
     const double planned_m = target_m - next.short_by_m;
     if (next.short_by_m > 0.0 && std::abs(here.distance_m - planned_m) < kMidway * next.short_by_m) break;

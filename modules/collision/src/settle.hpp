@@ -11,7 +11,8 @@ struct Settled {
   ReliefSample at;     ///< there
   Halfspaces contact;  ///< the surfaces that hold it
   int rounds = 0;
-  bool clear = false;  ///< at.distance_m >= the clearance
+  bool clear = false;     ///< at.distance_m >= the clearance
+  bool set_back = false;  ///< a place between planes that are set back: if it is clear, by chance
 };
 
 /// `start` is near.at(p). `overshoot_m` beyond the clearance is aimed at; no place farther than `longest_m`

@@ -73,6 +73,9 @@ inline constexpr double kBesideJump = 1e-6;
 /// where limbs overlap: a centimetre of a body.
 inline constexpr double kFoldDepth = 1e-2;
 
+/// Share of another way's length from which on a ray out is worth following.
+inline constexpr double kMuchShorter = 0.75;
+
 /// Halvings of a ray between a particle and a clear place: of a metre, to a micrometre.
 inline constexpr int kExitHalvings = 20;
 

@@ -43,16 +43,34 @@ UnionField::Plane UnionField::plane(std::size_t k, const Vec3& p) const {
 }
 
 Owner UnionField::owner(const Vec3& p, double below_m) const {
+  struct Bound {
+    std::size_t k;
+    double m;
+  };
+  constexpr int kMost = 64;
+  Bound bounds[kMost];
+  int count = 0, first = 0;
   Owner best;
   double least = below_m;
+  const auto meet = [&](std::size_t k) {
+    const geometry::NearestPoint at = geometry::nearest_point(shapes_[k], p);
+    const bool tie = at.signed_distance == least && best.ellipsoid != kNoEllipsoid && k < best.ellipsoid;
+    if (!(at.signed_distance < least || tie)) return;
+    least = at.signed_distance;
+    best = {static_cast<std::uint32_t>(k), at};
+  };
   visit_near(
       p, [&] { return least; },
-      [&](std::size_t k) {
-        const geometry::NearestPoint at = geometry::nearest_point(shapes_[k], p);
-        if (at.signed_distance >= least) return;
-        least = at.signed_distance;
-        best = {static_cast<std::uint32_t>(k), at};
+      [&](std::size_t k, double bound) {
+        if (count == kMost) return meet(k);
+        bounds[count] = {k, bound};
+        if (bound < bounds[first].m) first = count;
+        ++count;
       });
+  // That of the least bound leaves few others.
+  if (count > 0) meet(bounds[first].k);
+  for (int i = 0; i < count; ++i)
+    if (i != first && bounds[i].m <= least) meet(bounds[i].k);
   return best;
 }
 

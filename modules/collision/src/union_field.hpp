@@ -40,15 +40,18 @@ class UnionField {
   };
   Plane plane(std::size_t k, const geometry::Vec3& p) const;
 
-  /// Calls visit(k), by rising k, for each ellipsoid that bounds do not tell to be farther from p than
-  /// limit(), which may shrink meanwhile.
+  /// Calls visit(k, its plane's distance), by rising k, for each ellipsoid that bounds do not tell to be
+  /// farther from p than limit(), which may shrink meanwhile.
   template <class Limit, class Visit>
   void visit_near(const geometry::Vec3& p, Limit&& limit, Visit&& visit) const {
     for (std::size_t group = 0; group < group_boxes_.size(); ++group) {
       if (lower_bound(group_boxes_[group], p) > limit()) continue;
       const std::size_t end = std::min((group + 1) * kGroup, shapes_.size());
-      for (std::size_t k = group * kGroup; k < end; ++k)
-        if (!(lower_bound(boxes_[k], p) > limit()) && !(plane(k, p).distance_m > limit())) visit(k);
+      for (std::size_t k = group * kGroup; k < end; ++k) {
+        if (lower_bound(boxes_[k], p) > limit()) continue;
+        const double bound = plane(k, p).distance_m;
+        if (!(bound > limit())) visit(k, bound);
+      }
     }
   }
 
