@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tolerances.hpp"
 
@@ -82,6 +83,7 @@ Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double
   near.expect(p, std::min(longest_m, kUsualPush * (target_m - start.distance_m)));
   ReliefSample here = near.bent() ? near.at(p) : start;
   Vec3 x = p;
+  double last_set_back_m = -std::numeric_limits<double>::infinity();
   while (best.rounds < kSettleRounds && !best.clear) {
     ++best.rounds;
     planes.put(x, here, near.shares());
@@ -94,8 +96,12 @@ Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double
     const bool better = here.distance_m > best.at.distance_m;
     if (better) best.place = x, best.at = here, best.set_back = next.short_by_m > 0.0;
     best.clear = here.distance_m >= clearance_m;
-    const double planned_m = target_m - next.short_by_m;
-    if (next.short_by_m > 0.0 && std::abs(here.distance_m - planned_m) < kMidway * next.short_by_m) break;
+    if (!(next.short_by_m > 0.0)) continue;
+    // As good as planned, or no better than the one before, because it may not be farther.
+    const double enough_m = kMidway * next.short_by_m, planned_m = target_m - next.short_by_m;
+    if (std::abs(here.distance_m - planned_m) < enough_m) break;
+    if (std::abs(here.distance_m - last_set_back_m) < enough_m) break;
+    last_set_back_m = here.distance_m;
   }
   // Between two surfaces a particle that is as good as midway stays, so that it does not creep.
   const double missing_m = clearance_m - start.distance_m;
