@@ -97,7 +97,7 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
   for (int step = 0; step < kEntrySteps; ++step) {
     double advance = length - t;
     entry.ellipsoid = kNoEllipsoid;
-    const auto meet = [&](std::size_t k, double) {
+    const auto meet = [&](std::size_t k, const UnionField::Plane&) {
       const NearestPoint at = geometry::nearest_point(field.shape(k), entry.point);
       const double slope = at.normal.dot(direction);
       // Convexity again: before the tangent's root the distance is above the clearance.

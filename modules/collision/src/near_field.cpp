@@ -23,12 +23,11 @@ void NearField::expect(const Vec3& center, double radius_m) {
   const double within_m = window_m() + radius_m;
   field_.visit_near(
       center, [&] { return within_m; },
-      [&](std::size_t k, double) {
+      [&](std::size_t k, const UnionField::Plane& plane) {
         if (crowded_) return;
         shortest_m_ = std::min(shortest_m_, field_.shape(k).radii.minCoeff());
         crowded_ = candidate_count_ == kMost;
-        if (!crowded_)
-          candidates_[candidate_count_++] = {static_cast<std::uint32_t>(k), field_.plane(k, center)};
+        if (!crowded_) candidates_[candidate_count_++] = {static_cast<std::uint32_t>(k), plane};
       });
 }
 
@@ -38,11 +37,11 @@ void NearField::meet(std::uint32_t k, const Vec3& x) {
   // What lies beyond the blending is dropped when room is needed; the window only shrinks.
   if (foot_count_ == kMost) {
     const double last_m = least_m_ + blend_m_;
-    const auto kept = std::remove_if(feet_, feet_ + foot_count_,
-                                     [&](const Foot& f) { return f.at.signed_distance > last_m; });
+    const auto kept =
+        std::remove_if(feet_, feet_ + foot_count_, [&](const Foot& f) { return f.distance_m > last_m; });
     foot_count_ = static_cast<int>(kept - feet_);
   }
-  if (foot_count_ < kMost) feet_[foot_count_++] = {k, at};
+  if (foot_count_ < kMost) feet_[foot_count_++] = {k, at.signed_distance, at.point, at.normal};
 }
 
 void NearField::collect_near(const Vec3& x) {
@@ -62,7 +61,7 @@ void NearField::collect_near(const Vec3& x) {
 void NearField::collect_all(const Vec3& x) {
   field_.visit_near(
       x, [&] { return least_m_ + blend_m_; },
-      [&](std::size_t k, double) { meet(static_cast<std::uint32_t>(k), x); });
+      [&](std::size_t k, const UnionField::Plane&) { meet(static_cast<std::uint32_t>(k), x); });
 }
 
 /// Newton on a convex function of the root, from above.
@@ -71,7 +70,7 @@ double NearField::smooth_root_m() const {
   for (int step = 0; step < kRootSteps; ++step) {
     double sum = -1.0, slope = 0.0;
     for (int i = 0; i < foot_count_; ++i) {
-      const double u = std::max(0.0, 1.0 - (feet_[i].at.signed_distance - root) / blend_m_);
+      const double u = std::max(0.0, 1.0 - (feet_[i].distance_m - root) / blend_m_);
       sum += u * u;
       slope += u;
     }
@@ -88,8 +87,8 @@ double NearField::weight_root(double distance_m, double root_m) const {
 }
 
 ReliefSample NearField::share_of(const Foot& foot) const {
-  if (relief_) return correct(field_, *relief_, foot.ellipsoid, foot.at);
-  return {foot.at.signed_distance, foot.at.normal, foot.ellipsoid};
+  if (relief_) return correct(field_, *relief_, foot.ellipsoid, {foot.point, foot.normal, foot.distance_m});
+  return {foot.distance_m, foot.normal, foot.ellipsoid};
 }
 
 /// Relief averages the corrected distances of those that are nearest; a smooth union takes its root.
@@ -100,9 +99,9 @@ ReliefSample NearField::blend() {
   double weights = 0.0, distance = 0.0;
   for (int i = 0; i < foot_count_; ++i) {
     const Foot& foot = feet_[i];
-    const double root = weight_root(foot.at.signed_distance, root_m);
+    const double root = weight_root(foot.distance_m, root_m);
     if (!(root > 0.0)) continue;
-    const bool owns = foot.at.signed_distance == least_m_ && result.owner == kNoEllipsoid;
+    const bool owns = foot.distance_m == least_m_ && result.owner == kNoEllipsoid;
     if (!bent() && !owns) continue;
     const double weight = smooth ? root : root * root;
     const ReliefSample one = share_of(foot);
@@ -132,7 +131,7 @@ ReliefSample NearField::at(const Vec3& x) {
     collect_all(x);
     if (foot_count_ == 0) return {below_m_, Vec3::Zero(), kNoEllipsoid};
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < foot_count_; ++i) least = std::min(least, feet_[i].at.signed_distance);
+    for (int i = 0; i < foot_count_; ++i) least = std::min(least, feet_[i].distance_m);
     least_m_ = least;
   } else {
     collect_near(x);

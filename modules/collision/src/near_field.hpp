@@ -56,9 +56,10 @@ class NearField {
     std::uint32_t ellipsoid;
     UnionField::Plane plane;  ///< at the centre
   };
-  struct Foot {
+  struct Foot {  // without initialisers: most of so many are never met
     std::uint32_t ellipsoid;
-    geometry::NearestPoint at;
+    double distance_m;
+    geometry::Vec3 point, normal;
   };
 
   double window_m() const;

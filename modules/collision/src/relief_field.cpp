@@ -99,7 +99,7 @@ ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, 
   const double least = owner.at.signed_distance, blend = double{relief.blend_m};
   double weights = 0.0, distance = 0.0;
   Vec3 gradient = Vec3::Zero();
-  const auto add = [&](std::size_t k, double) {
+  const auto add = [&](std::size_t k, const UnionField::Plane&) {
     const geometry::NearestPoint at = geometry::nearest_point(field.shape(k), p);
     const double root = 1.0 - (at.signed_distance - least) / blend;
     if (!(root > 0.0)) return;

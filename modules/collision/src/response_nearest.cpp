@@ -199,7 +199,7 @@ class Resolver {
     const double within_m = clearance_m_ + 2.0 * overshoot_m_;
     field_.visit_near(
         x, [&] { return within_m; },
-        [&](std::size_t k, double) {
+        [&](std::size_t k, const UnionField::Plane&) {
           const geometry::NearestPoint at = geometry::nearest_point(field_.shape(k), x);
           if (at.signed_distance <= within_m) result.add({at.normal, 0.0});
         });

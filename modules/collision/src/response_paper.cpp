@@ -13,7 +13,7 @@ ParticleReport resolve_paper(const UnionField& field, double clearance_m, Partic
   ParticleReport report;
   const Vec3 p0 = particle.position;
   double least = std::numeric_limits<double>::infinity();
-  const auto push = [&](std::size_t k, double) {
+  const auto push = [&](std::size_t k, const UnionField::Plane&) {
     const geometry::Ellipsoid& shape = field.shape(k);
     const Vec3 surface = geometry::radial_projection(shape, p0);
     const Vec3 ray = (surface - shape.center).normalized();

@@ -11,6 +11,7 @@ using geometry::Vec3;
 
 UnionField::UnionField(std::vector<geometry::Ellipsoid> shapes)
     : shapes_(std::move(shapes)),
+      to_unit_(shapes_.size()),
       boxes_(shapes_.size()),
       group_boxes_((shapes_.size() + kGroup - 1) / kGroup) {
   bound();
@@ -24,6 +25,7 @@ void UnionField::update(const std::vector<geometry::Ellipsoid>& shapes) {
 void UnionField::bound() {
   size_m_ = 0.0;
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    to_unit_[k] = shapes_[k].radii.cwiseInverse().asDiagonal() * shapes_[k].axes.transpose();
     const Box box = boxes_[k] = geometry::bounding_box(shapes_[k]);
     Box& group = group_boxes_[k / kGroup];
     if (k % kGroup == 0) group = box;
@@ -34,12 +36,17 @@ void UnionField::bound() {
 }
 
 UnionField::Plane UnionField::plane(std::size_t k, const Vec3& p) const {
-  const geometry::Ellipsoid& e = shapes_[k];
-  const Vec3 u = (e.axes.transpose() * (p - e.center)).cwiseQuotient(e.radii);
-  const Vec3 v = u.cwiseQuotient(e.radii);
-  const double level = u.norm(), slope = v.norm();
+  const Vec3 u = to_unit_[k] * (p - shapes_[k].center);
+  const Vec3 gradient = to_unit_[k].transpose() * u;
+  const double level = u.norm(), slope = gradient.norm();
   if (!(slope > 0.0)) return {-std::numeric_limits<double>::infinity(), Vec3::Zero()};
-  return {level * (level - 1.0) / slope - kBoundRounding * size_m_, e.axes * (v / slope)};
+  return {level * (level - 1.0) / slope - kBoundRounding * size_m_, gradient / slope};
+}
+
+/// To the ball that the ellipsoid holds.
+double UnionField::upper_bound(std::size_t k, const Vec3& p) const {
+  const geometry::Ellipsoid& e = shapes_[k];
+  return (p - e.center).norm() - e.radii.minCoeff() + kBoundRounding * size_m_;
 }
 
 Owner UnionField::owner(const Vec3& p, double below_m) const {
@@ -51,20 +58,22 @@ Owner UnionField::owner(const Vec3& p, double below_m) const {
   Bound bounds[kMost];
   int count = 0, first = 0;
   Owner best;
-  double least = below_m;
+  double least = below_m, within = below_m;
   const auto meet = [&](std::size_t k) {
     const geometry::NearestPoint at = geometry::nearest_point(shapes_[k], p);
     const bool tie = at.signed_distance == least && best.ellipsoid != kNoEllipsoid && k < best.ellipsoid;
     if (!(at.signed_distance < least || tie)) return;
     least = at.signed_distance;
+    within = std::min(within, least);
     best = {static_cast<std::uint32_t>(k), at};
   };
   visit_near(
-      p, [&] { return least; },
-      [&](std::size_t k, double bound) {
+      p, [&] { return within; },
+      [&](std::size_t k, const Plane& bound) {
         if (count == kMost) return meet(k);
-        bounds[count] = {k, bound};
-        if (bound < bounds[first].m) first = count;
+        within = std::min(within, upper_bound(k, p));
+        bounds[count] = {k, bound.distance_m};
+        if (bound.distance_m < bounds[first].m) first = count;
         ++count;
       });
   // That of the least bound leaves few others.

@@ -40,17 +40,17 @@ class UnionField {
   };
   Plane plane(std::size_t k, const geometry::Vec3& p) const;
 
-  /// Calls visit(k, its plane's distance), by rising k, for each ellipsoid that bounds do not tell to be
-  /// farther from p than limit(), which may shrink meanwhile.
+  /// Calls visit(k, plane(k, p)), by rising k, for each ellipsoid that bounds do not tell to be farther from
+  /// p than limit(), which may shrink meanwhile.
   template <class Limit, class Visit>
   void visit_near(const geometry::Vec3& p, Limit&& limit, Visit&& visit) const {
     for (std::size_t group = 0; group < group_boxes_.size(); ++group) {
-      if (lower_bound(group_boxes_[group], p) > limit()) continue;
+      if (beyond(group_boxes_[group], p, limit())) continue;
       const std::size_t end = std::min((group + 1) * kGroup, shapes_.size());
       for (std::size_t k = group * kGroup; k < end; ++k) {
-        if (lower_bound(boxes_[k], p) > limit()) continue;
-        const double bound = plane(k, p).distance_m;
-        if (!(bound > limit())) visit(k, bound);
+        if (beyond(boxes_[k], p, limit())) continue;
+        const Plane bound = plane(k, p);
+        if (!(bound.distance_m > limit())) visit(k, bound);
       }
     }
   }
@@ -63,15 +63,16 @@ class UnionField {
   static constexpr std::size_t kGroup = 16;  ///< neighbours in space, as the shapes are ordered
   static constexpr double kBoundRounding = 1e-12;
 
-  /// Never above the signed distance to anything in the box; minus infinity inside.
-  static double lower_bound(const geometry::Box& box, const geometry::Vec3& p) {
-    const geometry::Vec3 outside = (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0);
-    const double distance = outside.norm();
-    return distance > 0.0 ? distance : -std::numeric_limits<double>::infinity();
+  /// Whether p is outside of the box and farther from it than the limit, which may be negative.
+  static bool beyond(const geometry::Box& box, const geometry::Vec3& p, double limit_m) {
+    const double squared = (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
+    return squared > 0.0 && (limit_m < 0.0 || squared > limit_m * limit_m);
   }
+  double upper_bound(std::size_t k, const geometry::Vec3& p) const;
   void bound();
 
   std::vector<geometry::Ellipsoid> shapes_;
+  std::vector<geometry::Mat3> to_unit_;  ///< shapes to the unit ball
   std::vector<geometry::Box> boxes_, group_boxes_;
   double size_m_ = 0.0;
 };
