@@ -58,7 +58,7 @@ HWY_INLINE bool others_of(const Baked& baked, const Placed& placed, float limit_
       (void)make_room<kTables>(kTogether, nullptr, columns, batch, open.pairs, out);
       for (int v = 0; v < kTogether; ++v) {
         const int i = from + v * kWidth;
-        open.add<1, 0>(lanes_below(i, pieces[piece].end), lowest[v], limit, hn::Iota(I(), i));
+        open.add<1, 0>(lanes_below(i, pieces[piece].end), lowest[v], limit, lanes_from(i));
       }
     }
   (void)collect_rest<kTables>(baked, nullptr, columns, batch, open, out);

@@ -156,7 +156,7 @@ HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Cand
     if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
     const Foot foot = foot_of(consecutive(baked.cull, k), middle);
     lowest = hn::Min(lowest, hn::IfThenElse(near, foot.distance, all(1e30f)));
-    const VI index = hn::Iota(I(), static_cast<std::int32_t>(k));
+    const VI index = lanes_from(static_cast<int>(k));
     const int at = out.count;
     const Pack pack(near);
     pack.store(foot.distance, out.distance + at);

@@ -188,7 +188,7 @@ HWY_INLINE void list_span(const KeptBatch& kept, int span, float beyond_m, Near&
   out.count = 0;
   for (int first = 0; first < kept.candidates; first += kWidth) {
     const Pack near(hn::Le(hn::Load(f, kept.slack_m[span] + first), most));
-    near.store(hn::Iota(I(), first), out.index + out.count);
+    near.store(lanes_from(first), out.index + out.count);
     out.count += near.count();
   }
 }

@@ -186,7 +186,7 @@ HWY_INLINE void find_rivals(const Source& source, const Extent& around, const Pi
   const VI end = hn::Set(I(), source.end);
   source.for_vectors(around, source.least_gap(around), [&](int k) {
     const BoundLanes lanes = source.bounds(k);
-    const VI index = hn::Iota(I(), k);
+    const VI index = lanes_from(k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int i = 0; i < count; ++i) {
       const V distance = planes_at(lanes, broadcast3(pieces[i].box.middle)).base;
@@ -264,7 +264,7 @@ HWY_INLINE bool collect_near(const Source& source, const Extent& around, float w
   bool fits = true;
   source.for_vectors(around, within_m, [&](int k) {
     const BoundLanes lanes = source.bounds(k);
-    const VI index = hn::Iota(I(), k);
+    const VI index = lanes_from(k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int i = 0; i < count; ++i) {
       Near& to = out[i];

@@ -161,7 +161,7 @@ HWY_INLINE bool answer_first(const Baked& baked, const ReliefTables* relief, con
       const int i = from + v * kWidth;
       put(answers[v], relief != nullptr, out, i);
       open.add<kKept, 1>(lanes_below(i, piece.end), lowest[v],
-                         bound_limit(baked, answers[v].distance, beyond_m), hn::Iota(I(), i));
+                         bound_limit(baked, answers[v].distance, beyond_m), lanes_from(i));
     }
   }
   return true;

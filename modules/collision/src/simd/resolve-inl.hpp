@@ -161,7 +161,7 @@ HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float
   store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
   hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
   contacts.add(bits(contact), i);
-  pushed.add(contact, hn::Iota(I(), i), x, owner);
+  pushed.add(contact, lanes_from(i), x, owner);
 }
 
 HWY_INLINE M mask_of(const LaneBits& lanes, int i) {

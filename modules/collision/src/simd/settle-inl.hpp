@@ -155,7 +155,7 @@ struct alignas(64) Below {
     for (int i = 0; i < pushed.count; i += kWidth) {
       const M below = hn::And(lanes_below(i, pushed.count), hn::Lt(hn::Load(f, distance + i), all(limit_m)));
       const Pack pack(below);
-      pack.store(hn::Iota(I(), i), at + count);
+      pack.store(lanes_from(i), at + count);
       pack.store(hn::Load(I(), pushed.lane + i), lane + count);
       count += pack.count();
     }
@@ -254,7 +254,7 @@ HWY_INLINE void reach_all(const QueryBatch& batch, Reached& out) {
     const auto there = hn::RebindMask(I(), lanes_below(i, batch.count));
     store3({hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)}, out.x + i,
            out.y + i, out.z + i);
-    hn::Store(hn::IfThenElse(there, hn::Iota(I(), i), hn::Set(I(), -1)), I(), out.lane + i);
+    hn::Store(hn::IfThenElse(there, lanes_from(i), hn::Set(I(), -1)), I(), out.lane + i);
   }
 }
 

@@ -50,7 +50,7 @@ struct Lists {
 /// Every column, for a block that does not share them.
 HWY_INLINE void choose_all(const Columns& columns, Near& out) {
   out.count = columns.count();
-  for (int i = 0; i < out.count; i += kWidth) hn::Store(hn::Iota(I(), i), I(), out.index + i);
+  for (int i = 0; i < out.count; i += kWidth) hn::Store(lanes_from(i), I(), out.index + i);
 }
 
 /// All columns for one piece.

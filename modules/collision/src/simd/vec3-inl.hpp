@@ -104,6 +104,12 @@ HWY_INLINE V3 load3(const float* x, const float* y, const float* z) {
 HWY_INLINE V3 broadcast3(const float* xyz) {
   return {all(xyz[0]), all(xyz[1]), all(xyz[2])};
 }
+/// first, first + 1, ...; hn::Iota stores them lane by lane and waits for that.
+HWY_INLINE VI lanes_from(int first) {
+  alignas(64) static constexpr std::int32_t kLanes[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                          8, 9, 10, 11, 12, 13, 14, 15};
+  return hn::Add(hn::Load(I(), kLanes), hn::Set(I(), first));
+}
 /// A bit a lane.
 HWY_INLINE std::uint64_t bits(M m) {
   std::uint8_t bytes[8] = {};

@@ -37,7 +37,7 @@ struct alignas(64) Reached {
     pack.store(p.y, y + count);
     pack.store(p.z, z + count);
     for (int i = 0; i <= kKept; ++i) pack.store(lowest.bound[i], bound[i] + count);
-    pack.store(hn::Iota(I(), first), lane + count);
+    pack.store(lanes_from(first), lane + count);
     count += pack.count();
   }
   /// Fills up to a whole step; `from` is where the run starts.
@@ -174,8 +174,7 @@ HWY_INLINE bool answer_reached(const Baked& baked, const ReliefTables* relief, f
       put(answers[v], relief != nullptr, out, i);
       const V least = hn::Min(answers[v].distance, all(limit_m));
       const auto real = hn::RebindMask(f, hn::Gt(hn::Load(I(), reached.lane + i), hn::Set(I(), -1)));
-      open.add<kKept, 1>(real, reached.lowest<kKept>(i), bound_limit(baked, least, beyond_m),
-                         hn::Iota(I(), i));
+      open.add<kKept, 1>(real, reached.lowest<kKept>(i), bound_limit(baked, least, beyond_m), lanes_from(i));
     }
   }
   return true;
