@@ -209,6 +209,7 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   }
   Gathering& batch = gathered.batch;
   batch.keeping = keeping_of(particles, begin, end, sequence.memory);
+  batch.ahead = ahead_of(particles, end, sequence, nullptr);
   const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
                             static_cast<float>(kCertificate * field.size_m()),
                             options.friction,

@@ -37,6 +37,9 @@ struct Collider::Impl {
   }
   /// What is remembered of a whole batch, or of the last.
   Keeping keeping_of(const Particles& particles, std::size_t begin, std::size_t end, Memory* memory) const;
+  /// Of the batch that begins at particle `begin`; contacts may be null.
+  static Ahead ahead_of(const Particles& particles, std::size_t begin, const Sequence& sequence,
+                        Contact* contacts);
   void resolve_some(const Particles& particles, std::size_t begin, std::size_t end, const Sequence& sequence,
                     const ResolveOptions& options, ContactReport& report) const;
   /// One particle on the exact side, from the arrays and back.

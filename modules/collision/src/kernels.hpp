@@ -31,6 +31,14 @@ struct Keeping {
   float least_reach_m = 0.0f, most_reach_m = 0.0f;
 };
 
+/// What the next batch will read and write, so that it is in the cache by then.
+struct Ahead {
+  const float *x = nullptr, *y = nullptr, *z = nullptr;
+  Contact* contacts = nullptr;
+  int count = 0;  ///< of these; zero: they do not lie in a row
+  const KeptBatch* kept = nullptr;
+};
+
 /// What a query reads and writes.
 struct QueryBatch {
   const float *x, *y, *z;      ///< metres, local frame; repeated up to a whole block
@@ -42,6 +50,7 @@ struct QueryBatch {
   Contact* contacts;                ///< of the whole call
   float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal; below zero: not measured
   Keeping keeping = {};
+  Ahead ahead = {};
 
   bool limited() const { return within_m != std::numeric_limits<float>::infinity(); }
 };
@@ -63,6 +72,7 @@ struct alignas(64) Gathering {
   bool has_velocity = false;
   bool has_safe = false;
   Keeping keeping = {};
+  Ahead ahead = {};
 };
 
 /// What a response asks of the kernel.

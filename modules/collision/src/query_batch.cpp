@@ -79,32 +79,6 @@ void take(const Places& places, int i, Places& out) {
   pad(out);
 }
 
-constexpr int kLine = 64 / sizeof(float);
-
-/// What the batch after this one reads and writes, so that it is in the cache by then. The processor foresees
-/// rows of numbers, but not where they are stored in the caller's order.
-void prefetch(const Particles& particles, const Sequence& sequence, std::size_t begin,
-              std::span<Contact> contacts) {
-  const std::size_t last = sequence.stored() ? particles.count : sequence.first + sequence.order.size();
-  const std::size_t end = std::min(begin + kBatch, last);
-  if (sequence.stored()) {
-    for (std::size_t i = begin; i < end; i += 2) __builtin_prefetch(&contacts[i], 1);
-    for (std::size_t i = begin; i < end; i += kLine) {
-      __builtin_prefetch(particles.x + i);
-      __builtin_prefetch(particles.y + i);
-      __builtin_prefetch(particles.z + i);
-    }
-    return;
-  }
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::size_t at = sequence[i];
-    __builtin_prefetch(&contacts[at], 1);
-    __builtin_prefetch(particles.x + at);
-    __builtin_prefetch(particles.y + at);
-    __builtin_prefetch(particles.z + at);
-  }
-}
-
 }  // namespace
 
 bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, Memory* memory) const {
@@ -122,10 +96,23 @@ Keeping Collider::Impl::keeping_of(const Particles& particles, std::size_t begin
           share(kMostReach)};
 }
 
+Ahead Collider::Impl::ahead_of(const Particles& particles, std::size_t begin, const Sequence& sequence,
+                               Contact* contacts) {
+  Ahead next;
+  if (begin >= particles.count) return next;
+  if (sequence.memory && begin % kBatch == 0) next.kept = &sequence.memory->candidates.batch(begin / kBatch);
+  if (!sequence.stored()) return next;
+  next.x = particles.x + begin;
+  next.y = particles.y + begin;
+  next.z = particles.z + begin;
+  if (contacts) next.contacts = contacts + begin;
+  next.count = static_cast<int>(std::min<std::size_t>(kBatch, particles.count - begin));
+  return next;
+}
+
 void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
                                 const Sequence& sequence, const QueryOptions& options,
                                 std::span<Contact> contacts) const {
-  prefetch(particles, sequence, end, contacts);
   const int all = static_cast<int>(end - begin);
   QueryBatch batch{.x = particles.x + begin,
                    .y = particles.y + begin,
@@ -138,6 +125,7 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
                    .contacts = contacts.data() + begin,
                    .radius_m = {},
                    .keeping = keeping_of(particles, begin, end, sequence.memory)};
+  batch.ahead = ahead_of(particles, end, sequence, contacts.data());
   const bool in_place = sequence.stored() && all == kBatch;
   if (in_place && field.size() > 0 && query_kernel(batch, begin / kBlock, sequence.memory)) return;
   Places places;
@@ -160,6 +148,7 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
   pad(places);
   if (!in_place && kernel(0, places.count)) return;
   batch.keeping = {};
+  batch.ahead = {};
   // Too many ellipsoids near for a batch may do for its blocks; or some places are too far for floats.
   keep_near(places, exactly);
   if (places.count == 0) return;

@@ -233,6 +233,7 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
   Batched found;
   QueryBatch query = places(batch.x, batch.y, batch.z, batch.count);
   query.keeping = batch.keeping;
+  query.ahead = batch.ahead;
   Way way;
   Pushed pushed;
   LaneBits contacts;

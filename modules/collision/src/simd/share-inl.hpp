@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+#include <hwy/cache_control.h>
+
 #include "kept.hpp"
 #include "simd/near-inl.hpp"
 
@@ -17,8 +19,29 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kStep = kTogether * kWidth;  // lanes that are worked on together
 
+/// The same step of the next batch, a step at a time: asked for all at once, it would hold up what this batch
+/// reads. Inlined, since g++ takes a call of what only prefetches for one without effect.
+HWY_INLINE void prefetch_step(const Ahead& next, int from, bool contacts) {
+  constexpr int kLine = 64 / sizeof(float);
+  for (int i = from; next.kept && i < from + kStep; i += kLine) {
+    hwy::Prefetch(next.kept->x + i);
+    hwy::Prefetch(next.kept->y + i);
+    hwy::Prefetch(next.kept->z + i);
+    hwy::Prefetch(next.kept->slack_m[0] + i);
+  }
+  if (from + kStep > next.count) return;
+  for (int i = from; i < from + kStep; i += kLine) {
+    hwy::Prefetch(next.x + i);
+    hwy::Prefetch(next.y + i);
+    hwy::Prefetch(next.z + i);
+  }
+  for (int i = from; contacts && i < from + kStep; i += 2) __builtin_prefetch(next.contacts + i, 1);
+}
+
 /// The places of the step that begins at lane `from`.
 HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kTogether]) {
+  // To first order the steps store contacts themselves, and would wait for others.
+  prefetch_step(batch.ahead, from, batch.ahead.contacts && batch.accuracy == Accuracy::kExact);
   for (int v = 0; v < kTogether; ++v) {
     const int i = from + v * kWidth;
     p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
