@@ -40,13 +40,13 @@ struct ParticleReport {
   double depth_m = 0.0;                    ///< below the clearance, before the response
   int iterations = 0;
   bool wrong_side = false;  ///< put back on the side where it came from
-  bool fallback = false;    ///< resolved by a ray or by the path, not by iteration
+  bool fallback = false;    ///< not by iteration: by the path, or by the shortest of several certain ways out
   bool pinched = false;     ///< outside, but surfaces that face each other leave less room than the clearance
 };
 
 /// The nearest point of the union's surface, corrected by `relief` unless that is null, raised by
 /// `clearance_m` (which includes options.thickness_m); inward velocity removed, friction. Cost: 2 to 10
-/// distances, at most some two hundred where the path from a safe position has to be followed.
+/// distances, some hundreds where the path from a safe position has to be followed or a fallback is needed.
 ParticleReport resolve_nearest(const UnionField& field, const ReliefTables* relief, double clearance_m,
                                const ResolveOptions& options, ParticleState& particle);
 
