@@ -33,9 +33,10 @@ struct Keeping {
 
 /// What the next batch will read and write, so that it is in the cache by then.
 struct Ahead {
-  const float *x = nullptr, *y = nullptr, *z = nullptr;
-  Contact* contacts = nullptr;
-  int count = 0;  ///< of these; zero: they do not lie in a row
+  const float *x = nullptr, *y = nullptr, *z = nullptr;  ///< of places that lie in a row; else null
+  Contact* contacts = nullptr;                           ///< null: none are written
+  const std::uint32_t* index = nullptr;                  ///< into contacts; null: in a row as well
+  int count = 0;
   const KeptBatch* kept = nullptr;
 };
 

@@ -99,14 +99,16 @@ Keeping Collider::Impl::keeping_of(const Particles& particles, std::size_t begin
 Ahead Collider::Impl::ahead_of(const Particles& particles, std::size_t begin, const Sequence& sequence,
                                Contact* contacts) {
   Ahead next;
-  if (begin >= particles.count) return next;
+  const std::size_t last = sequence.stored() ? particles.count : sequence.first + sequence.order.size();
+  if (begin >= last) return next;
+  next.count = static_cast<int>(std::min<std::size_t>(kBatch, last - begin));
   if (sequence.memory && begin % kBatch == 0) next.kept = &sequence.memory->candidates.batch(begin / kBatch);
+  next.index = sequence.from(begin);
+  next.contacts = contacts && sequence.stored() ? contacts + begin : contacts;
   if (!sequence.stored()) return next;
   next.x = particles.x + begin;
   next.y = particles.y + begin;
   next.z = particles.z + begin;
-  if (contacts) next.contacts = contacts + begin;
-  next.count = static_cast<int>(std::min<std::size_t>(kBatch, particles.count - begin));
   return next;
 }
 

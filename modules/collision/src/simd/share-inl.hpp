@@ -30,12 +30,16 @@ HWY_INLINE void prefetch_step(const Ahead& next, int from, bool contacts) {
     hwy::Prefetch(next.kept->slack_m[0] + i);
   }
   if (from + kStep > next.count) return;
-  for (int i = from; i < from + kStep; i += kLine) {
+  for (int i = from; next.x && i < from + kStep; i += kLine) {
     hwy::Prefetch(next.x + i);
     hwy::Prefetch(next.y + i);
     hwy::Prefetch(next.z + i);
   }
-  for (int i = from; contacts && i < from + kStep; i += 2) __builtin_prefetch(next.contacts + i, 1);
+  if (!contacts) return;
+  if (next.index)
+    for (int i = from; i < from + kStep; ++i) __builtin_prefetch(next.contacts + next.index[i], 1);
+  else
+    for (int i = from; i < from + kStep; i += 2) __builtin_prefetch(next.contacts + i, 1);
 }
 
 /// The places of the step that begins at lane `from`.
