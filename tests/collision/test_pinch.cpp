@@ -4,6 +4,8 @@
 #include <bodice/proxy/proxy_distance.hpp>
 
 #include "scenes.hpp"
+#include "settle.hpp"
+#include "tolerances.hpp"
 
 using namespace bodice;
 using namespace bodice::collision;
@@ -181,6 +183,22 @@ TEST_CASE("in a fold whose crease is far a bounded particle goes midway at once,
     // As soon as a place is as good as midway, no better one is looked for.
     CHECK(report.max_iterations <= 3);
   }
+}
+
+TEST_CASE(
+    "where the clearance is farther than a push may be, the search ends when places no longer improve") {
+  constexpr double kClearance_m = 0.005, kDepth_m = 0.001;
+  const UnionField field(two_balls(0.1, 0.003));
+  // Out of the wedge the distance rises by a fifth of the way: four depths are too few.
+  const double near_m = 0.1 + kClearance_m - kDepth_m;
+  const Vec3 p(1e-5, std::sqrt(near_m * near_m - 0.1015 * 0.1015), 0.0);
+  NearField near(field, nullptr, 0.0, kClearance_m + 1e-6);
+  near.expect(p, 0.0);
+  const Settled settled = settle(near, p, near.at(p), kClearance_m, 1e-7, kLongestPush * kDepth_m);
+  CHECK_FALSE(settled.clear);
+  CHECK(settled.set_back);
+  CHECK(settled.at.distance_m > kClearance_m - 0.3 * kDepth_m);
+  CHECK(settled.rounds <= 4);
 }
 
 TEST_CASE("without a bound the same particle leaves the fold for certain") {

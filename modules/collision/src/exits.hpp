@@ -10,10 +10,10 @@
 
 namespace bodice::collision {
 
-/// The first place along p + t direction, t >= 0, that is at least `clearance_m` from every ellipsoid, to a
-/// share of the clearance. `direction` is a unit vector. A line leaves a convex body for good, so at most
-/// size() bodies are left and the walk ends; nothing if the place is farther than `longest_m`, or if rounding
-/// makes it stand still.
+/// The first place along p + t direction, t >= 0, that is at least `clearance_m` from every ellipsoid, or
+/// just behind it: each body is left by a few of Newton's steps. `direction` is a unit vector. A line leaves
+/// a convex body for good, so at most size() bodies are left and the walk ends; nothing if the place is
+/// farther than `longest_m`, or if rounding makes it stand still.
 std::optional<geometry::Vec3> exit_along_ray(const UnionField& field, const geometry::Vec3& p,
                                              const geometry::Vec3& direction, double clearance_m,
                                              double longest_m);
