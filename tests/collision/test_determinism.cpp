@@ -87,7 +87,7 @@ TEST_CASE("every instruction set gives the same answers to two micrometres") {
     std::vector<Contact> best(cloud.size()), other(cloud.size());
     collider.query({}, cloud.particles(), best);
     int targets = 0;
-    on_every_target([&](const char* name) {
+    on_every_target([&](const std::string& name) {
       CAPTURE(name);
       ++targets;
       collider.query({}, cloud.particles(), other);
@@ -104,7 +104,7 @@ TEST_CASE("every instruction set gives the same answers to two micrometres") {
 TEST_CASE("every instruction set resolves every particle") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
-    on_every_target([&](const char* name) {
+    on_every_target([&](const std::string& name) {
       CAPTURE(name);
       Cloud cloud = random_cloud();
       CHECK(collider.resolve({}, cloud.particles(), {}).unresolved == 0);

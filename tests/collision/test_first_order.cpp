@@ -107,7 +107,7 @@ TEST_CASE("to first order the distance is that to a plane which touches the elli
       cloud.add(above(e, random_direction(random), heights.back()) - collider.origin());
     }
     const double tolerance_m = 2e-6 * (e.radii.maxCoeff() + 0.2);
-    on_every_target([&](const char* name) {
+    on_every_target([&](const std::string& name) {
       CAPTURE(name);
       const auto contacts = ask(collider, cloud, kFirst);
       double off_plane_m = 0.0, above_truth_m = -1.0, off_point_m = 0.0, off_unit = 0.0;
@@ -167,7 +167,7 @@ TEST_CASE("of a union: sides are exact, and few take a wrong neighbour") {
   for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
   const Collider collider(proxy);
   Cloud cloud = near_surface(collider, 6000, 0.01f);
-  on_every_target([&](const char* name) {
+  on_every_target([&](const std::string& name) {
     CAPTURE(name);
     const auto contacts = ask(collider, cloud, kFirst);
     int wrong_sides = 0, wrong_owners = 0, above_owner = 0;
@@ -270,7 +270,7 @@ TEST_CASE("to first order a speck whose numbers leave the range of floats is not
   engine::Random random(19);
   Cloud cloud;
   for (int i = 0; i < 256; ++i) cloud.add(1e4 * random_direction(random));
-  on_every_target([&](const char* name) {
+  on_every_target([&](const std::string& name) {
     CAPTURE(name);
     int wrong_owners = 0;
     for (const Contact& contact : ask(collider, cloud, kFirst)) wrong_owners += contact.ellipsoid != 0;

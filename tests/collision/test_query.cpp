@@ -8,6 +8,7 @@
 #include <bodice/proxy/proxy_distance.hpp>
 
 #include "scenes.hpp"
+#include "targets.hpp"
 
 using namespace bodice;
 using namespace bodice::collision;
@@ -56,6 +57,32 @@ std::vector<Vec3> places_around(std::uint64_t seed, int count, double half_side)
   return places;
 }
 
+/// A place on the union's surface where its owner changes, and a random direction.
+struct Crease {
+  Vec3 place, direction;
+};
+
+std::vector<Crease> find_creases(const std::vector<Ellipsoid>& shapes, std::uint64_t seed, std::size_t most) {
+  engine::Random random(seed);
+  const auto on_surface = [&](const Vec3& p, std::uint32_t& owner) {
+    return brute_force(shapes, p, &owner).point;
+  };
+  std::vector<Crease> creases;
+  for (std::size_t tried = 0; tried < 20 * most && creases.size() < most; ++tried) {
+    const Ellipsoid& e = shapes[random.below(shapes.size())];
+    std::uint32_t first = 0, second = 0, owner = 0;
+    Vec3 a = on_surface(geometry::radial_projection(e, e.center + random_direction(random)), first);
+    Vec3 b = on_surface(a + random_vector(random, 0.1), second);
+    if (first == second) continue;
+    for (int halving = 0; halving < 40; ++halving) {
+      const Vec3 middle = on_surface(0.5 * (a + b), owner);
+      (owner == first ? a : b) = middle;
+    }
+    if ((b - a).norm() < 1e-6) creases.push_back({a, random_direction(random)});
+  }
+  return creases;
+}
+
 }  // namespace
 
 TEST_CASE("a batch query agrees with brute force in double over random unions") {
@@ -83,6 +110,23 @@ TEST_CASE("neighbouring particles near the surface, as cloth has them, agree wit
   CHECK(errors.distance < 1e-6);
   CHECK(errors.point < 1e-6);
   CHECK(errors.wrong_owner == 0);
+}
+
+TEST_CASE("next to a crease the nearer of two ellipsoids is told, however rough a target's estimates are") {
+  const auto shapes = random_ellipsoids(21, 40, 0.4, 0.05, 0.4);
+  const auto creases = find_creases(shapes, 4, 300);
+  REQUIRE(creases.size() == 300);
+  std::vector<Vec3> places;
+  engine::Random random(5);
+  for (const Crease& crease : creases)
+    for (int i = 0; i < 16; ++i)
+      places.push_back(crease.place + random.uniform(-2e-4, 2e-4) * crease.direction);
+  on_every_target([&](const std::string& target) {
+    const Errors errors = compare(shapes, places, 1.0);
+    CAPTURE(target);
+    CHECK(errors.distance < 1e-6);
+    CHECK(errors.wrong_owner == 0);
+  });
 }
 
 TEST_CASE("needles, discs and spheres of any size, at centres and on symmetry planes") {

@@ -102,7 +102,7 @@ TEST_CASE("within a contact distance where the octants of an ellipsoid differ in
     const Collider collider(proxy_of(with_lopsided_relief(data, nodes, 0.02)));
     Cloud cloud = in_order(random_cloud(20011));
     std::vector<Contact> unlimited(cloud.size()), limited(cloud.size());
-    on_every_target([&](const char* name) {
+    on_every_target([&](const std::string& name) {
       CAPTURE(name);
       CAPTURE(nodes);
       collider.query({}, cloud.particles(), unlimited);
@@ -138,7 +138,7 @@ TEST_CASE("a contact distance on every instruction set") {
     const Collider collider(scene(relief, 0.0));
     Cloud cloud = random_cloud(5000);
     std::vector<Contact> unlimited(cloud.size()), limited(cloud.size());
-    on_every_target([&](const char* name) {
+    on_every_target([&](const std::string& name) {
       CAPTURE(name);
       collider.query({}, cloud.particles(), unlimited);
       for (const float within_m : {-0.01f, 0.0f, 0.02f}) {

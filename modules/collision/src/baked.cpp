@@ -37,10 +37,10 @@ BakedEllipsoid bake(const Ellipsoid& shape) {
   return result;
 }
 
-BoundEllipsoid bake_bound(const Ellipsoid& shape) {
+BallMap bake_ball(const Ellipsoid& shape) {
   const geometry::Mat3 to_ball = shape.radii.cwiseInverse().asDiagonal() * shape.axes.transpose();
   const Vec3 offset = -(to_ball * shape.center);
-  BoundEllipsoid result;
+  BallMap result;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
       result.to_ball[3 * row + column] = static_cast<float>(to_ball(row, column));
@@ -48,6 +48,16 @@ BoundEllipsoid bake_bound(const Ellipsoid& shape) {
     result.inverse_radius[row] = static_cast<float>(1.0 / shape.radii[row]);
   }
   return result;
+}
+
+BallMap grown(BallMap ball) {
+  const auto shrink = [](auto& numbers) {
+    for (float& number : numbers) number *= 1.0f / (1.0f + kBoundGrowth);
+  };
+  shrink(ball.to_ball);
+  shrink(ball.offset);
+  shrink(ball.inverse_radius);
+  return ball;
 }
 
 }  // namespace
@@ -61,11 +71,12 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32
   // The padding is beyond every window.
   const float nowhere = std::numeric_limits<float>::max();
   ellipsoids.resize(shapes.size());
+  balls.resize(shapes.size());
   bounds.resize(shapes.size());
-  for (std::vector<float>& values : cull.bound) values.assign(padded, 0.0f);
+  for (std::vector<float>& values : cull.ball) values.assign(padded, 0.0f);
   for (int axis = 0; axis < 3; ++axis) {
-    cull.bound[kBoundOffset + axis].assign(padded, 1e18f);
-    cull.bound[kBoundInverse + axis].assign(padded, 1.0f);
+    cull.ball[kBallOffset + axis].assign(padded, 1e18f);
+    cull.ball[kBallInverse + axis].assign(padded, 1.0f);
   }
   for (int axis = 0; axis < 3; ++axis) {
     cull.low[axis].assign(padded, nowhere);
@@ -83,16 +94,15 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32
 
 void Baked::update(const std::vector<Ellipsoid>& shapes) {
   double size_m = 0.0;
-  longest_m = 0.0f;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     ellipsoids[k] = bake(shapes[k]);
     const auto values = std::bit_cast<std::array<float, kBakedFloats>>(ellipsoids[k]);
     for (std::size_t i = 0; i < kShapeFloats; ++i) cull.baked[i][k] = values[i];
-    bounds[k] = bake_bound(shapes[k]);
-    ellipsoids[k].name = bounds[k].name = names[k];
-    const float* const bound = bounds[k].to_ball;  // the members follow each other without padding
-    for (std::size_t i = 0; i < kBoundFloats; ++i) cull.bound[i][k] = bound[i];
-    longest_m = std::max(longest_m, static_cast<float>(shapes[k].radii.maxCoeff()));
+    balls[k] = bake_ball(shapes[k]);
+    ellipsoids[k].name = balls[k].name = names[k];
+    bounds[k] = grown(balls[k]);
+    const float* const ball = balls[k].to_ball;  // the members follow each other without padding
+    for (std::size_t i = 0; i < kBallFloats; ++i) cull.ball[i][k] = ball[i];
     const geometry::Box box = geometry::bounding_box(shapes[k]);
     for (int axis = 0; axis < 3; ++axis) {
       cull.low[axis][k] = static_cast<float>(box.low[axis]);

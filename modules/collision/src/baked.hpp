@@ -22,20 +22,24 @@ struct BakedEllipsoid {
 inline constexpr int kBakedFloats = sizeof(BakedEllipsoid) / sizeof(float);
 inline constexpr int kShapeFloats = kBakedFloats - 1;  ///< without the name
 
-/// One ellipsoid for the bound: u = to_ball p + offset is p where the ellipsoid is the unit ball.
-struct alignas(64) BoundEllipsoid {
+/// One ellipsoid as the unit ball: u = to_ball p + offset is where p is then.
+struct alignas(64) BallMap {
   float to_ball[9];         ///< diag(1 / r) R^T, 1/metres
   float offset[3];          ///< - to_ball c
   float inverse_radius[3];  ///< 1/metres
   std::int32_t name;        ///< the proxy's index
 };
-inline constexpr int kBoundFloats = 15, kBoundOffset = 9, kBoundInverse = 12;  ///< without the name
+inline constexpr int kBallFloats = 15, kBallOffset = 9, kBallInverse = 12;  ///< without the name
+
+/// What bounds are taken from is larger than the ellipsoids by this share, so that estimates of roots as
+/// rough as a processor's own do not lift a bound above the distance: less for thin ones, as it should be.
+inline constexpr float kBoundGrowth = 5.5e-4f;
 
 /// The same, and boxes and inner balls, one array a number, for sixteen ellipsoids at a time; padded to kPad
 /// with boxes infinitely far away. Neighbours in space should be neighbours here.
 struct CullArrays {
   std::vector<float> baked[kShapeFloats];  ///< the members of BakedEllipsoid, in order
-  std::vector<float> bound[kBoundFloats];  ///< the members of BoundEllipsoid, in order
+  std::vector<float> ball[kBallFloats];    ///< the members of BallMap, in order
   std::vector<float> low[3], high[3];      ///< metres
   std::vector<float> shortest;             ///< r2, metres: radius of the ball inside
   /// Boxes of the groups of kGroup consecutive ellipsoids, metres; padded likewise.
@@ -55,11 +59,11 @@ struct Baked {
   std::size_t size() const { return ellipsoids.size(); }
 
   std::vector<BakedEllipsoid> ellipsoids;
-  std::vector<BoundEllipsoid> bounds;
+  std::vector<BallMap> balls;
+  std::vector<BallMap> bounds;         ///< of the ellipsoids grown by kBoundGrowth
   std::vector<std::int32_t> names;     ///< the proxy's index of each
   std::vector<std::int32_t> internal;  ///< the inverse: where an index of the proxy is kept
   CullArrays cull;
-  float longest_m = 0.0f;   ///< the longest radius of all
   float rounding_m = 0.0f;  ///< what float arithmetic can be off by at the union's size
 };
 

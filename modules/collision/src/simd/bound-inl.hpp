@@ -22,7 +22,7 @@ namespace bodice::collision::HWY_NAMESPACE {
 constexpr float kLeastSquare = 1e-20f, kLeastSlope2 = 1e-37f;
 
 /// Where a vector of points is when the ellipsoid is the unit ball.
-HWY_INLINE V3 in_ball(const BoundEllipsoid& e, V3 p) {
+HWY_INLINE V3 in_ball(const BallMap& e, V3 p) {
   const auto row = [&](const float* a, float offset) {
     return hn::MulAdd(all(a[0]), p.x, hn::MulAdd(all(a[1]), p.y, hn::MulAdd(all(a[2]), p.z, all(offset))));
   };
@@ -30,20 +30,24 @@ HWY_INLINE V3 in_ball(const BoundEllipsoid& e, V3 p) {
 }
 
 /// The square of k1 at such a place.
-HWY_INLINE V slope_square(const BoundEllipsoid& e, V3 u) {
+HWY_INLINE V slope_square(const BallMap& e, V3 u) {
   const V3 v = {hn::Mul(u.x, all(e.inverse_radius[0])), hn::Mul(u.y, all(e.inverse_radius[1])),
                 hn::Mul(u.z, all(e.inverse_radius[2]))};
   return dot(v, v);
 }
 
-/// L there, metres, to the share kEstimate of |L| + the longest radius. Never NaN or infinite.
-HWY_INLINE V bound_in_ball(const BoundEllipsoid& e, V3 u) {
+// The estimate of 1 / k0 is off by a share of it, as if the ellipsoid were larger by that.
+static_assert(kBoundGrowth > kEstimate);
+
+/// L there, metres: of Baked::bounds not above that of the ellipsoid itself by more than twice the share
+/// kEstimate of it. Never NaN or infinite.
+HWY_INLINE V bound_in_ball(const BallMap& e, V3 u) {
   const V square = hn::Max(dot(u, u), all(kLeastSquare));
   const V excess = hn::NegMulAdd(square, estimated_inverse_sqrt(square), square);
   return hn::Mul(excess, estimated_inverse_sqrt(hn::Max(slope_square(e, u), all(kLeastSlope2))));
 }
 
-HWY_INLINE V lower_bound(const BoundEllipsoid& e, V3 p) {
+HWY_INLINE V lower_bound(const BallMap& e, V3 p) {
   return bound_in_ball(e, in_ball(e, p));
 }
 

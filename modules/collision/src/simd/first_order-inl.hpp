@@ -26,7 +26,7 @@ HWY_INLINE V within_range(V slope2) {
 
 /// Twice the first-order distance of one ellipsoid, metres, to the share kEstimate of itself. Not above
 /// lower_bound(), an estimate of a root cheaper, and a little better at telling the nearest.
-HWY_INLINE V twice_first_order(const BoundEllipsoid& e, V3 p) {
+HWY_INLINE V twice_first_order(const BallMap& e, V3 p) {
   const V3 u = in_ball(e, p);
   const V excess = hn::MulAdd(u.x, u.x, hn::MulAdd(u.y, u.y, hn::MulSub(u.z, u.z, all(1.0f))));
   return hn::Mul(excess, estimated_inverse_sqrt(within_range(slope_square(e, u))));
@@ -41,7 +41,7 @@ struct Tangent {
 };
 
 /// Along the shortest axis, the last of equals.
-HWY_INLINE V3 shortest_axis(const BoundLanes& e) {
+HWY_INLINE V3 shortest_axis(const BallLanes& e) {
   const V3 i = e.inverse_radius;
   const V one = all(1.0f);
   const M z = hn::Ge(i.z, hn::Max(i.x, i.y)), y = hn::AndNot(z, hn::Ge(i.y, i.x));
@@ -50,7 +50,7 @@ HWY_INLINE V3 shortest_axis(const BoundLanes& e) {
 }
 
 /// The quotients r_j^2 / (t + r_j^2) to first order, t by one step on |w|^2 from the surface, t = 0.
-HWY_INLINE V3 shrink_of(const BoundLanes& e, V3 u, V square) {
+HWY_INLINE V3 shrink_of(const BallLanes& e, V3 u, V square) {
   const V3 i = e.inverse_radius;
   const V3 v = {hn::Mul(u.x, i.x), hn::Mul(u.y, i.y), hn::Mul(u.z, i.z)};
   const V excess = hn::Mul(all(0.5f), hn::Sub(square, all(1.0f)));
@@ -64,7 +64,7 @@ HWY_INLINE V3 shrink_of(const BoundLanes& e, V3 u, V square) {
 /// In the direction w = diag(r / (t + r^2)) y of the foot. Any unit w has the distance (w . u - 1) / |grad|
 /// to its plane, so that what w is off by counts by its square. Several vectors in step, as feet_of().
 template <int kCount>
-HWY_INLINE void tangents_of(const BoundLanes (&e)[kCount], const V3 (&p)[kCount], Tangent (&out)[kCount]) {
+HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount], Tangent (&out)[kCount]) {
   V3 u[kCount];
   M center[kCount], any = hn::FirstN(f, 0);
 #pragma GCC unroll 4
@@ -89,7 +89,7 @@ HWY_INLINE void tangents_of(const BoundLanes (&e)[kCount], const V3 (&p)[kCount]
 }
 
 /// The ellipsoid's own table on top, unblended: as corrected(), with t and quotients as the tangent has them.
-HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BoundLanes& e,
+HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BallLanes& e,
                         Tangent& at) {
   constexpr float kMostShrink = 1e6f;  // next to the centre
   const Correction by = correction(relief, table, at.w, at.distance);
@@ -110,9 +110,9 @@ HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, con
 }
 
 template <int kTables>
-HWY_INLINE BoundLanes bounds_of(const Columns& columns, VI column) {
+HWY_INLINE BallLanes balls_of(const Columns& columns, VI column) {
   const Lookup<kTables> at(column);
-  return bound_lanes([&](int i) { return at(columns.row(Columns::kBound + i)); });
+  return ball_lanes([&](int i) { return at(columns.row(Columns::kBall + i)); });
 }
 
 /// The contacts of one piece.
@@ -127,18 +127,18 @@ HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const
     load_step(batch, from, p);
     for (V& l : least) l = all(kNoLimit);
     for (int i = 0; i < near.count; ++i) {
-      const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(near.index[i])];
+      const BallMap& e = baked.balls[columns.ellipsoid(near.index[i])];
       const VI rank = hn::Set(I(), near.index[i]);
       for (int v = 0; v < kTogether; ++v)
         least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
     }
     VI column[kTogether];
-    BoundLanes e[kTogether];
+    BallLanes e[kTogether];
     Tangent at[kTogether];
 #pragma GCC unroll 4
     for (int v = 0; v < kTogether; ++v) {
       column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
-      e[v] = bounds_of<kTables>(columns, column[v]);
+      e[v] = balls_of<kTables>(columns, column[v]);
     }
     tangents_of(e, p, at);
 #pragma GCC unroll 4
@@ -146,7 +146,7 @@ HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const
       if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v]), e[v], at[v]);
     for (int v = 0; v < kTogether; ++v) {
       const V d = hn::Sub(at[v].distance, margin);
-      const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBoundName));
+      const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBallName));
       ContactLanes c = {d, along(p[v], hn::Neg(d), at[v].normal), at[v].normal, hn::BitCast(I(), name)};
       if (limited) hide_beyond(batch.within_m, c);
       write_contacts(c, batch, from + v * kWidth, piece.end);
@@ -174,8 +174,8 @@ inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* reli
   // What is kept serves exact queries, too, which blend.
   const float blend_m = relief ? relief->blend_m : 0.0f;
   if (is_kept(baked, relief, blend_m + rounding_m, batch, lists))
-    return share_kept(baked, relief, batch, rounding_m, limits.of_bounds(baked), Columns::Rows::kBounds,
-                      lists, work);
+    return share_kept(baked, relief, batch, rounding_m, limits.of_bounds(baked), Columns::Rows::kBalls, lists,
+                      work);
   if (batch.limited()) write_none(batch, 0, batch.count);  // what has no candidates is not come back to
   return share_within(baked, relief, batch, rounding_m, limits, lists, work);
 }

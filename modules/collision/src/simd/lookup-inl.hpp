@@ -44,14 +44,14 @@ HWY_INLINE void put_four(const float* const (&from)[4], float* to) {
 #endif
 
 /// The candidates of some blocks, a column each; rows are the members of BakedEllipsoid, of BakedTable
-/// (relief only) and of BoundEllipsoid, all as floats or the bits of integers.
+/// (relief only) and of BallMap, all as floats or the bits of integers.
 class Columns {
  public:
-  static constexpr int kBoundRows = sizeof(BoundEllipsoid) / sizeof(float);
-  static constexpr int kTable = kBakedFloats, kBound = kTable + kTableFloats, kRows = kBound + kBoundRows;
-  static constexpr int kName = kBakedFloats - 1, kBoundName = kBound + kBoundRows - 1;
+  static constexpr int kBallRows = sizeof(BallMap) / sizeof(float);
+  static constexpr int kTable = kBakedFloats, kBall = kTable + kTableFloats, kRows = kBall + kBallRows;
+  static constexpr int kName = kBakedFloats - 1, kBallName = kBall + kBallRows - 1;
   /// Which rows are filled beside those of tables.
-  enum class Rows { kAll, kFeet, kBounds };
+  enum class Rows { kAll, kFeet, kBalls };
 
   HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
                        int count, Rows rows = Rows::kAll) {
@@ -80,9 +80,9 @@ class Columns {
   HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, Rows rows) {
     stride_ = kStride;
     for (int c = 0; c < count_; c += 4) {
-      if (rows != Rows::kBounds) put<kStride>(baked.ellipsoids, c, values_);
+      if (rows != Rows::kBalls) put<kStride>(baked.ellipsoids, c, values_);
       if (relief) put<kStride>(relief->tables, c, values_ + kTable * kStride);
-      if (rows != Rows::kFeet) put<kStride>(baked.bounds, c, values_ + kBound * kStride);
+      if (rows != Rows::kFeet) put<kStride>(baked.balls, c, values_ + kBall * kStride);
     }
   }
   /// Columns [c, c + 4), those beyond the last as the last.

@@ -43,10 +43,10 @@ struct Lowest {
   HWY_INLINE VI rank(int i) const { return hn::And(hn::BitCast(I(), bound[i]), hn::Set(I(), kRankMask)); }
 };
 
-/// The bound above which an ellipsoid is farther than `distance` by more than `beyond_m`: a bound is off by
-/// kEstimate of itself and of the longest radius, a distance by the rounding.
+/// The bound above which an ellipsoid is farther than `distance` by more than `beyond_m`: a bound is too high
+/// by a share of itself, a distance by the rounding.
 HWY_INLINE V bound_limit(const Baked& baked, V distance, float beyond_m) {
-  const V slack = all(2.0f * kEstimate * baked.longest_m + 4.0f * baked.rounding_m + beyond_m);
+  const V slack = all(4.0f * baked.rounding_m + beyond_m);
   return hn::Add(hn::MulAdd(all(2.0f * kEstimate), hn::Abs(distance), distance), slack);
 }
 

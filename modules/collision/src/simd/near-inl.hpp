@@ -38,19 +38,19 @@ struct Near {
 };
 
 /// The numbers of some ellipsoids, one a lane.
-struct BoundLanes {
+struct BallLanes {
   V3 a0, a1, a2, offset, inverse_radius;
 };
 
-/// `row` reads the members of BoundEllipsoid by their number.
+/// `row` reads the members of BallMap by their number.
 template <class Row>
-HWY_INLINE BoundLanes bound_lanes(Row&& row) {
+HWY_INLINE BallLanes ball_lanes(Row&& row) {
   const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
-  return {row3(0), row3(3), row3(6), row3(kBoundOffset), row3(kBoundInverse)};
+  return {row3(0), row3(3), row3(6), row3(kBallOffset), row3(kBallInverse)};
 }
 
 /// Where points are when the ellipsoids are unit balls.
-HWY_INLINE V3 in_ball(const BoundLanes& e, V3 p) {
+HWY_INLINE V3 in_ball(const BallLanes& e, V3 p) {
   const auto row = [&](V3 a, V offset) {
     return hn::MulAdd(a.x, p.x, hn::MulAdd(a.y, p.y, hn::MulAdd(a.z, p.z, offset)));
   };
@@ -93,8 +93,8 @@ struct Everything {
       }
     });
   }
-  HWY_INLINE BoundLanes bounds(int k) const {
-    return bound_lanes([&](int i) { return hn::LoadU(f, baked.cull.bound[i].data() + k); });
+  HWY_INLINE BallLanes balls(int k) const {
+    return ball_lanes([&](int i) { return hn::LoadU(f, baked.cull.ball[i].data() + k); });
   }
   /// The first in the lower half of a vector wider than a box has corners, the second in the upper.
   HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
@@ -124,8 +124,8 @@ struct AmongColumns {
   HWY_INLINE void for_vectors(const Extent&, float, Work&& work) const {
     for (int k = 0; k < end; k += kWidth) work(k);
   }
-  HWY_INLINE BoundLanes bounds(int k) const {
-    return bound_lanes([&](int i) { return hn::LoadU(f, columns.row(Columns::kBound + i) + k); });
+  HWY_INLINE BallLanes balls(int k) const {
+    return ball_lanes([&](int i) { return hn::LoadU(f, columns.row(Columns::kBall + i) + k); });
   }
   HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
     const VI lower = hn::Set(I(), first), upper = hn::Set(I(), second);
@@ -140,7 +140,7 @@ struct Planes {
   V3 u;
 };
 
-HWY_INLINE Planes planes_at(const BoundLanes& e, V3 middle) {
+HWY_INLINE Planes planes_at(const BallLanes& e, V3 middle) {
   const V3 u = in_ball(e, middle);
   const V3 v = {hn::Mul(u.x, e.inverse_radius.x), hn::Mul(u.y, e.inverse_radius.y),
                 hn::Mul(u.z, e.inverse_radius.z)};
@@ -148,7 +148,7 @@ HWY_INLINE Planes planes_at(const BoundLanes& e, V3 middle) {
   return {hn::Mul(hn::NegMulAdd(square, inverse_sqrt(square), square), scale), scale, u};
 }
 
-HWY_INLINE V3 slope_of(const BoundLanes& e, const Planes& at) {
+HWY_INLINE V3 slope_of(const BallLanes& e, const Planes& at) {
   return scaled(along(along(scaled(e.a0, at.u.x), at.u.y, e.a1), at.u.z, e.a2), at.scale);
 }
 
@@ -185,7 +185,7 @@ HWY_INLINE void find_rivals(const Source& source, const Extent& around, const Pi
   for (LaneLeast& l : least) l = {all(1e30f), hn::Zero(I())};
   const VI end = hn::Set(I(), source.end);
   source.for_vectors(around, source.least_gap(around), [&](int k) {
-    const BoundLanes lanes = source.bounds(k);
+    const BallLanes lanes = source.balls(k);
     const VI index = lanes_from(k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int i = 0; i < count; ++i) {
@@ -263,7 +263,7 @@ HWY_INLINE bool collect_near(const Source& source, const Extent& around, float w
   const VI end = hn::Set(I(), source.end);
   bool fits = true;
   source.for_vectors(around, within_m, [&](int k) {
-    const BoundLanes lanes = source.bounds(k);
+    const BallLanes lanes = source.balls(k);
     const VI index = lanes_from(k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int i = 0; i < count; ++i) {
@@ -293,7 +293,7 @@ template <bool kLimited, class Source>
 HWY_INLINE bool collect_unbeaten(const Source& source, const Extent& around, const Piece* pieces, int count,
                                  const Rivals* rivals, float beyond_m, float limit_m, Near* out) {
   const PieceRounding rounding(pieces, count);
-  const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
+  const auto keep = [&](const BallLanes& lanes, const Planes& at, int i) {
     const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // a plane's and a rival's
     const V3 slope = slope_of(lanes, at), half = broadcast3(pieces[i].box.half);
     const M kept = unbeaten(at, slope, half, rivals[i], beyond);
@@ -320,7 +320,7 @@ template <class Source>
 HWY_INLINE bool find_below(const Source& source, const Extent& around, const Piece* pieces, int count,
                            float limit_m, Near* out) {
   const PieceRounding rounding(pieces, count);
-  const auto keep = [&](const BoundLanes& lanes, const Planes& at, int i) {
+  const auto keep = [&](const BallLanes& lanes, const Planes& at, int i) {
     return not_beyond(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), all(limit_m + rounding.m[i]));
   };
   return collect_near(source, around, limit_m, pieces, count, out, keep);

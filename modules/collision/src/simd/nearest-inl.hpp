@@ -26,7 +26,7 @@ HWY_INLINE void bound_vectors(const Baked& baked, const Columns& columns, const 
                               const V3 (&p)[kTogether], Lowest<kKept> (&out)[kTogether]) {
   for (Lowest<kKept>& lowest : out) lowest.clear();
   for (int i = 0; i < near.count; ++i) {
-    const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(near.index[i])];
+    const BallMap& e = baked.bounds[columns.ellipsoid(near.index[i])];
     const VI rank = hn::Set(I(), near.index[i]);
     for (int v = 0; v < kTogether; ++v) out[v].add(lower_bound(e, p[v]), rank);
   }

@@ -117,7 +117,7 @@ HWY_INLINE void bound_reached(const Baked& baked, const Columns& columns, const 
   for (int v = 0; v < kTogether; ++v) out[v].clear(), within[v] = hn::FirstN(f, 0);
   for (int i = 0; i < near.count; ++i) {
     const std::int32_t column = near.index[i];
-    const BoundEllipsoid& e = baked.bounds[columns.ellipsoid(column)];
+    const BallMap& e = baked.bounds[columns.ellipsoid(column)];
     const VI rank = hn::Set(I(), column);
     for (int v = 0; v < kTogether; ++v) {
       const V3 u = in_ball(e, p[v]);
