@@ -129,6 +129,7 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
       reaches.emplace_back();
       continue;
     }
+    for (int axis = 0; axis < 3; ++axis) sorted_axes = sorted_axes && table.sorted_axis[axis] == axis;
     table.first_byte = static_cast<std::int32_t>(2 * from.first_texel);
     table.nodes = from.nodes_per_side;
     table.h_scale_m = from.h_scale_m / 255.0f;

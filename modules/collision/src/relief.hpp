@@ -43,6 +43,7 @@ struct ReliefTables {
 
   std::vector<BakedTable> tables;
   std::vector<std::uint8_t> texels;  ///< pairs h, a; padded, since kernels read two texels at a time
+  bool sorted_axes = true;           ///< every table's are by falling radius, as BakedEllipsoid has them
   float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
   float highest_m = 0.0f;            ///< F_k >= d_k - highest_m
   std::vector<OctantReach> reaches;  ///< of each

@@ -154,15 +154,17 @@ HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Cand
     const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
     if (hn::AllFalse(f, near)) continue;
     if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
-    const Foot foot = foot_of(consecutive(baked.cull, k), middle);
+    const Shape shape = consecutive(baked.cull, k);
+    const Foot foot = foot_of(shape, middle);
+    const V3 normal = normal_of(shape, foot);
     lowest = hn::Min(lowest, hn::IfThenElse(near, foot.distance, all(1e30f)));
     const VI index = lanes_from(static_cast<int>(k));
     const int at = out.count;
     const Pack pack(near);
     pack.store(foot.distance, out.distance + at);
-    pack.store(foot.normal.x, out.nx + at);
-    pack.store(foot.normal.y, out.ny + at);
-    pack.store(foot.normal.z, out.nz + at);
+    pack.store(normal.x, out.nx + at);
+    pack.store(normal.y, out.ny + at);
+    pack.store(normal.z, out.nz + at);
     pack.store(index, out.index + at);
     out.count += pack.count();
   }

@@ -92,17 +92,18 @@ HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount],
 HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BallLanes& e,
                         Tangent& at) {
   constexpr float kMostShrink = 1e6f;  // next to the centre
-  const Correction by = correction(relief, table, at.w, at.distance);
+  const V3 i = e.inverse_radius, w = absolute(at.w), signs = signs_of(at.w);
+  const Correction by = correction(relief, table, {w, signs}, at.distance);
   const auto limited = [](V shrink) { return hn::Min(shrink, all(kMostShrink)); };
   const V3 shrink = {limited(at.shrink.x), limited(at.shrink.y), limited(at.shrink.z)};
-  const V3 i = e.inverse_radius, w = at.w;
   const V3 we = {hn::Mul(w.x, hn::Mul(hn::Mul(i.x, i.x), shrink.x)),
                  hn::Mul(w.y, hn::Mul(hn::Mul(i.y, i.y), shrink.y)),
                  hn::Mul(w.z, hn::Mul(hn::Mul(i.z, i.z), shrink.z))};
   const V ratio = hn::Mul(dot(by.slope, we), reciprocal(within_range(dot(w, we))));
-  const V3 side = {hn::Mul(shrink.x, hn::NegMulAdd(w.x, ratio, by.slope.x)),
-                   hn::Mul(shrink.y, hn::NegMulAdd(w.y, ratio, by.slope.y)),
-                   hn::Mul(shrink.z, hn::NegMulAdd(w.z, ratio, by.slope.z))};
+  const V3 octant = {hn::Mul(shrink.x, hn::NegMulAdd(w.x, ratio, by.slope.x)),
+                     hn::Mul(shrink.y, hn::NegMulAdd(w.y, ratio, by.slope.y)),
+                     hn::Mul(shrink.z, hn::NegMulAdd(w.z, ratio, by.slope.z))};
+  const V3 side = with_signs(octant, signs);
   const V3 gradient =
       scaled(at.normal, by.along_normal) - along(along(scaled(e.a0, side.x), side.y, e.a1), side.z, e.a2);
   at.distance = hn::Sub(at.distance, by.value);
@@ -115,36 +116,41 @@ HWY_INLINE BallLanes balls_of(const Columns& columns, VI column) {
   return ball_lanes([&](int i) { return at(columns.row(Columns::kBall + i)); });
 }
 
+/// Vectors of particles in step. What a vector needs beside its ellipsoid is little, so that narrow ones
+/// share the reading of each by more.
+constexpr int kAtOnce = kWidth < 16 ? 4 : 2;
+static_assert(KeptBatch::kSpan % (kAtOnce * kWidth) == 0);
+
 /// The contacts of one piece.
 template <int kTables, bool kRelief>
 HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                            const Piece& piece, const Near& near, const Columns& columns) {
   const V margin = all(batch.margin_m);
   const bool limited = batch.limited();
-  for (int from = piece.begin; from < end_of(piece); from += kStep) {
-    V3 p[kTogether];
-    V least[kTogether];
+  for (int from = piece.begin; from < piece.end; from += kAtOnce * kWidth) {
+    V3 p[kAtOnce];
+    V least[kAtOnce];
     load_step(batch, from, p);
     for (V& l : least) l = all(kNoLimit);
     for (int i = 0; i < near.count; ++i) {
       const BallMap& e = baked.balls[columns.ellipsoid(near.index[i])];
       const VI rank = hn::Set(I(), near.index[i]);
-      for (int v = 0; v < kTogether; ++v)
+      for (int v = 0; v < kAtOnce; ++v)
         least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
     }
-    VI column[kTogether];
-    BallLanes e[kTogether];
-    Tangent at[kTogether];
+    VI column[kAtOnce];
+    BallLanes e[kAtOnce];
+    Tangent at[kAtOnce];
 #pragma GCC unroll 4
-    for (int v = 0; v < kTogether; ++v) {
+    for (int v = 0; v < kAtOnce; ++v) {
       column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
       e[v] = balls_of<kTables>(columns, column[v]);
     }
     tangents_of(e, p, at);
 #pragma GCC unroll 4
-    for (int v = 0; v < kTogether; ++v)
-      if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v]), e[v], at[v]);
-    for (int v = 0; v < kTogether; ++v) {
+    for (int v = 0; v < kAtOnce; ++v)
+      if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v], true), e[v], at[v]);
+    for (int v = 0; v < kAtOnce; ++v) {
       const V d = hn::Sub(at[v].distance, margin);
       const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBallName));
       ContactLanes c = {d, along(p[v], hn::Neg(d), at[v].normal), at[v].normal, hn::BitCast(I(), name)};

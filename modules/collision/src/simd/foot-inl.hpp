@@ -66,7 +66,7 @@ HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
 
 struct Foot {
   V distance;  ///< metres, negative inside
-  V3 normal;   ///< outward, unit, local frame of the collider
+  V3 n;        ///< outward normal, as long as the longest radius, in the octant and axes of w
   V3 w;        ///< direction of the foot on the unit sphere, first octant, axes by
                ///< falling radius
   V3 y;        ///< the point in the ellipsoid's frame, in units of its longest radius,
@@ -225,14 +225,23 @@ HWY_INLINE void finish(const Shape& s, V3 y, Search& search, Foot& result) {
   // 1 about kSettled squared, of which the expansion of 1 / |w| about 1 drops the square.
   const V inverse_norm = hn::NegMulAdd(all(0.5f), dot(raw, raw), all(1.5f));
   const V3 w = result.w = scaled(raw, inverse_norm);
-  const V3 n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));  // unit normal times r0, first octant
+  const V3 n = result.n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));
   const V3 off = {hn::NegMulAdd(raw.x, inverse_norm, search.y.x), hn::NegMulAdd(s.radius1, w.y, search.y.y),
                   hn::NegMulAdd(s.radius2, w.z, search.y.z)};
   result.distance = dot(n, off);
-  const V3 m = {hn::CopySign(n.x, y.x), hn::CopySign(n.y, y.y), hn::CopySign(n.z, y.z)};
-  result.normal = {hn::MulAdd(s.row0.x, m.x, hn::MulAdd(s.row1.x, m.y, hn::Mul(s.row2.x, m.z))),
-                   hn::MulAdd(s.row0.y, m.x, hn::MulAdd(s.row1.y, m.y, hn::Mul(s.row2.y, m.z))),
-                   hn::MulAdd(s.row0.z, m.x, hn::MulAdd(s.row1.z, m.y, hn::Mul(s.row2.z, m.z)))};
+}
+
+/// From the ellipsoid's frame, axes by falling radius, to the local frame of the collider; shorter by the
+/// longest radius.
+HWY_INLINE V3 out_of(const Shape& s, V3 v) {
+  return {hn::MulAdd(s.row0.x, v.x, hn::MulAdd(s.row1.x, v.y, hn::Mul(s.row2.x, v.z))),
+          hn::MulAdd(s.row0.y, v.x, hn::MulAdd(s.row1.y, v.y, hn::Mul(s.row2.y, v.z))),
+          hn::MulAdd(s.row0.z, v.x, hn::MulAdd(s.row1.z, v.y, hn::Mul(s.row2.z, v.z)))};
+}
+
+/// Outward, unit, local frame of the collider.
+HWY_INLINE V3 normal_of(const Shape& s, const Foot& foot) {
+  return out_of(s, with_signs(foot.n, signs_of(foot.y)));
 }
 
 template <bool kLast>

@@ -180,11 +180,13 @@ inline void answer_alone(const Baked& baked, const ReliefTables* relief, const Q
     load_step(batch, from, p);
     feet_of(shapes, p, feet);
     for (int v = 0; v < kTogether; ++v) {
-      Answer answer = {feet[v].distance, feet[v].distance, feet[v].normal, name};
+      Answer answer = {feet[v].distance, feet[v].distance, {}, name};
       if (relief) {
         const Corrected one = corrected(*relief, broadcast(relief->tables[ellipsoid]), shape, feet[v]);
         answer.value = one.value;
         answer.gradient = one.gradient;
+      } else {
+        answer.gradient = normal_of(shape, feet[v]);
       }
       put(answer, relief != nullptr, out, from + v * kWidth);
     }

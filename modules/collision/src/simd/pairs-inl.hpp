@@ -42,11 +42,14 @@ HWY_INLINE void answer_each(const ReliefTables* relief, const Columns& columns, 
   for (int i = 0; i < kCount; ++i) shape[i] = shape_of<kTables>(columns, column[i]);
   feet_of(shape, p, foot);
   for (int i = 0; i < kCount; ++i) {
-    out[i] = {foot[i].distance, foot[i].distance, foot[i].normal, names_of<kTables>(columns, column[i])};
-    if (!relief) continue;
-    const Corrected one = corrected(*relief, table_of<kTables>(columns, column[i]), shape[i], foot[i]);
-    out[i].value = one.value;
-    out[i].gradient = one.gradient;
+    const VI name = names_of<kTables>(columns, column[i]);
+    if (relief) {
+      const TableLanes table = table_of<kTables>(columns, column[i], relief->sorted_axes);
+      const Corrected one = corrected(*relief, table, shape[i], foot[i]);
+      out[i] = {foot[i].distance, one.value, one.gradient, name};
+    } else {
+      out[i] = {foot[i].distance, foot[i].distance, normal_of(shape[i], foot[i]), name};
+    }
   }
 }
 

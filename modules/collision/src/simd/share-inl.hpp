@@ -19,34 +19,37 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kStep = kTogether * kWidth;  // lanes that are worked on together
 
-/// The same step of the next batch, a step at a time: asked for all at once, it would hold up what this batch
+/// The same lanes of the next batch, a few at a time: asked for all at once, it would hold up what this batch
 /// reads. Inlined, since g++ takes a call of what only prefetches for one without effect.
+template <int kLanes>
 HWY_INLINE void prefetch_step(const Ahead& next, int from, bool contacts) {
   constexpr int kLine = 64 / sizeof(float);
-  for (int i = from; next.kept && i < from + kStep; i += kLine) {
+  for (int i = from; next.kept && i < from + kLanes; i += kLine) {
     hwy::Prefetch(next.kept->x + i);
     hwy::Prefetch(next.kept->y + i);
     hwy::Prefetch(next.kept->z + i);
     hwy::Prefetch(next.kept->slack_m[0] + i);
   }
-  if (from + kStep > next.count) return;
-  for (int i = from; next.x && i < from + kStep; i += kLine) {
+  if (from + kLanes > next.count) return;
+  for (int i = from; next.x && i < from + kLanes; i += kLine) {
     hwy::Prefetch(next.x + i);
     hwy::Prefetch(next.y + i);
     hwy::Prefetch(next.z + i);
   }
   if (!contacts) return;
   if (next.index)
-    for (int i = from; i < from + kStep; ++i) __builtin_prefetch(next.contacts + next.index[i], 1);
+    for (int i = from; i < from + kLanes; ++i) __builtin_prefetch(next.contacts + next.index[i], 1);
   else
-    for (int i = from; i < from + kStep; i += 2) __builtin_prefetch(next.contacts + i, 1);
+    for (int i = from; i < from + kLanes; i += 2) __builtin_prefetch(next.contacts + i, 1);
 }
 
-/// The places of the step that begins at lane `from`.
-HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kTogether]) {
+/// The places of kCount vectors from lane `from` on.
+template <int kCount>
+HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kCount]) {
   // To first order the steps store contacts themselves, and would wait for others.
-  prefetch_step(batch.ahead, from, batch.ahead.contacts && batch.accuracy == Accuracy::kExact);
-  for (int v = 0; v < kTogether; ++v) {
+  prefetch_step<kCount * kWidth>(batch.ahead, from,
+                                 batch.ahead.contacts && batch.accuracy == Accuracy::kExact);
+  for (int v = 0; v < kCount; ++v) {
     const int i = from + v * kWidth;
     p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
   }

@@ -63,9 +63,9 @@ HWY_INLINE Sample smooth_distance(const Baked& baked, float blend_m, const Candi
     const V over = hn::Sub(hn::Load(f, near.distance[i]), root);
     const V u = hn::Max(hn::Zero(f), hn::NegMulAdd(over, per_blend, all(1.0f)));
     if (hn::AllTrue(f, hn::Eq(u, hn::Zero(f)))) continue;
-    const Foot foot = foot_of(broadcast(baked.ellipsoids[static_cast<std::size_t>(near.of[i])]), p);
+    const Shape shape = broadcast(baked.ellipsoids[static_cast<std::size_t>(near.of[i])]);
     weights = hn::Add(weights, u);
-    gradient = along(gradient, u, foot.normal);
+    gradient = along(gradient, u, normal_of(shape, foot_of(shape, p)));
   }
   const V inverse = hn::Div(all(1.0f), hn::Max(weights, all(1e-3f)));
   best.distance = hn::IfThenElse(owned, root, below);

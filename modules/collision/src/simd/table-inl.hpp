@@ -14,27 +14,32 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 /// The table of each lane's ellipsoid: the members of BakedTable.
 struct TableLanes {
-  VI first_byte, nodes, axis0, axis1;
+  VI first_byte, nodes;
   V h_scale, h_offset, a_scale, a_offset;
+  VI axis0, axis1;  ///< read only where axes are not sorted
 };
 
 HWY_INLINE TableLanes broadcast(const BakedTable& t) {
   return {hn::Set(I(), t.first_byte),
           hn::Set(I(), t.nodes),
-          hn::Set(I(), t.sorted_axis[0]),
-          hn::Set(I(), t.sorted_axis[1]),
           all(t.h_scale_m),
           all(t.h_offset_m),
           all(t.a_scale),
-          all(t.a_offset)};
+          all(t.a_offset),
+          hn::Set(I(), t.sorted_axis[0]),
+          hn::Set(I(), t.sorted_axis[1])};
 }
 
 template <int kTables>
-HWY_INLINE TableLanes table_of(const Columns& columns, VI column) {
+HWY_INLINE TableLanes table_of(const Columns& columns, VI column, bool sorted_axes) {
   const Lookup<kTables> at(column);
   const auto number = [&](int i) { return at(columns.row(Columns::kTable + i)); };
-  const auto integer = [&](int i) { return hn::BitCast(I(), at(columns.row(Columns::kTable + i))); };
-  return {integer(0), integer(1), integer(6), integer(7), number(2), number(3), number(4), number(5)};
+  const auto integer = [&](int i) { return hn::BitCast(I(), number(i)); };
+  TableLanes table = {integer(0), integer(1), number(2), number(3), number(4), number(5), {}, {}};
+  if (sorted_axes) return table;
+  table.axis0 = integer(6);
+  table.axis1 = integer(7);
+  return table;
 }
 
 /// Between the axes of the proxy, which the table is over, and those by falling radius.
@@ -71,42 +76,37 @@ class AxisOrder {
   M first0_, first1_, first2_, second0_, second1_, second2_;
 };
 
-/// sign(v) with sign(0) = +1.
-HWY_INLINE V sign_of(V v) {
-  return hn::CopySign(all(1.0f), v);
-}
-
-/// A direction on the octahedral square, with what the chain rule needs to come back.
-struct Octahedral {
-  V x, y;            ///< in [-1, 1]
-  V flat_x, flat_y;  ///< w.x / s, w.y / s
-  V inverse;         ///< 1 / s
-  V3 sign;
-  M below;  ///< w.z < 0: folded outward
+/// A unit direction: where it would be in the first octant, and the signs (sign bits alone). The map is the
+/// same in all octants but for signs, and so is an ellipsoid.
+struct Direction {
+  V3 w, sign;
 };
 
-HWY_INLINE Octahedral to_square(V3 w) {
-  const V one = all(1.0f);
+/// Its magnitudes on the octahedral square, with what the chain rule needs to come back.
+struct Octahedral {
+  V x, y;            ///< in [0, 1]
+  V flat_x, flat_y;  ///< w.x / s, w.y / s
+  V inverse;         ///< 1 / s
+};
+
+/// Below the equator the square is folded outward.
+HWY_INLINE Octahedral to_square(const Direction& d) {
+  const V one = all(1.0f), below = d.sign.z;
   Octahedral o;
-  o.sign = {sign_of(w.x), sign_of(w.y), sign_of(w.z)};
-  o.inverse = reciprocal(hn::Add(hn::Abs(w.x), hn::Add(hn::Abs(w.y), hn::Abs(w.z))));
-  o.flat_x = hn::Mul(w.x, o.inverse);
-  o.flat_y = hn::Mul(w.y, o.inverse);
-  o.below = hn::Lt(w.z, hn::Zero(f));
-  o.x = hn::IfThenElse(o.below, hn::Mul(hn::Sub(one, hn::Abs(o.flat_y)), o.sign.x), o.flat_x);
-  o.y = hn::IfThenElse(o.below, hn::Mul(hn::Sub(one, hn::Abs(o.flat_x)), o.sign.y), o.flat_y);
+  o.inverse = reciprocal(hn::Add(d.w.x, hn::Add(d.w.y, d.w.z)));
+  o.flat_x = hn::Mul(d.w.x, o.inverse);
+  o.flat_y = hn::Mul(d.w.y, o.inverse);
+  o.x = if_signed(below, hn::Sub(one, o.flat_y), o.flat_x);
+  o.y = if_signed(below, hn::Sub(one, o.flat_x), o.flat_y);
   return o;
 }
 
-/// d/dw of a function whose slopes on the square are (gx, gy).
-HWY_INLINE V3 from_square(const Octahedral& o, V gx, V gy) {
-  const V fold = hn::Neg(hn::Mul(o.sign.x, o.sign.y));
-  const V sx = hn::IfThenElse(o.below, hn::Mul(fold, gy), gx);
-  const V sy = hn::IfThenElse(o.below, hn::Mul(fold, gx), gy);
+/// d/dw of a function whose slopes over the magnitudes on the square are (gx, gy).
+HWY_INLINE V3 from_square(const Octahedral& o, V below, V gx, V gy) {
+  const V sx = if_signed(below, hn::Neg(gy), gx);
+  const V sy = if_signed(below, hn::Neg(gx), gy);
   const V radial = hn::MulAdd(sx, o.flat_x, hn::Mul(sy, o.flat_y));
-  return {hn::Mul(o.inverse, hn::NegMulAdd(radial, o.sign.x, sx)),
-          hn::Mul(o.inverse, hn::NegMulAdd(radial, o.sign.y, sy)),
-          hn::Mul(o.inverse, hn::NegMulAdd(radial, o.sign.z, hn::Zero(f)))};
+  return scaled({hn::Sub(sx, radial), hn::Sub(sy, radial), hn::Neg(radial)}, o.inverse);
 }
 
 /// A bilinear value and its slopes on the square.
@@ -114,13 +114,26 @@ struct Bilinear {
   V value, gx, gy;
 };
 
-HWY_INLINE V byte_of(VI word, int which) {
-  return hn::ConvertTo(f, hn::And(hn::ShiftRightSame(word, 8 * which), hn::Set(I(), 255)));
+/// Byte kByte of each word.
+template <int kByte>
+HWY_INLINE V byte_of(VI word) {
+  constexpr hn::RebindToUnsigned<I> unsigned_words;
+  const auto shifted = hn::ShiftRight<8 * kByte>(hn::BitCast(unsigned_words, word));
+  const auto byte = kByte == 3 ? shifted : hn::And(shifted, hn::Set(unsigned_words, 255));
+  return hn::ConvertTo(f, hn::BitCast(I(), byte));
 }
 
-HWY_INLINE Bilinear bilinear(VI upper, VI lower, int byte, V u, V v, V scale, V offset) {
-  const V p00 = byte_of(upper, byte), p10 = byte_of(upper, byte + 2);
-  const V p01 = byte_of(lower, byte), p11 = byte_of(lower, byte + 2);
+/// Twice a whole number below 2^22.
+HWY_INLINE VI twice(V whole) {
+  // The last bits of the sum are the number; a conversion would guard against others.
+  const VI sum = hn::BitCast(I(), hn::Add(whole, all(0x1p23f)));
+  return hn::ShiftLeft<1>(hn::And(sum, hn::Set(I(), 0x7fffff)));
+}
+
+template <int kByte>
+HWY_INLINE Bilinear bilinear(VI upper, VI lower, V u, V v, V scale, V offset) {
+  const V p00 = byte_of<kByte>(upper), p10 = byte_of<kByte + 2>(upper);
+  const V p01 = byte_of<kByte>(lower), p11 = byte_of<kByte + 2>(lower);
   const V along0 = hn::Sub(p10, p00), along1 = hn::Sub(p11, p01);
   const V row0 = hn::MulAdd(u, along0, p00), row1 = hn::MulAdd(u, along1, p01);
   const V down = hn::Sub(row1, row0);
@@ -131,31 +144,33 @@ HWY_INLINE Bilinear bilinear(VI upper, VI lower, int byte, V u, V v, V scale, V 
 /// What a table takes off the distance at a direction.
 struct Correction {
   V value;         ///< h + a d, metres
-  V3 slope;        ///< its slope over the direction, axes of the proxy, metres
+  V3 slope;        ///< its slope over the direction in the first octant, metres
   V along_normal;  ///< 1 less its slope over the distance
 };
 
-/// `w`: axes of the proxy, unit.
-HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& table, V3 w, V distance) {
-  const Octahedral o = to_square(w);
+/// `at`: axes of the proxy.
+HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& table, const Direction& at,
+                                 V distance) {
+  const Octahedral o = to_square(at);
   const V nodes = hn::ConvertTo(f, table.nodes);
   const V half = hn::MulSub(all(0.5f), nodes, all(0.5f)), last = hn::Sub(nodes, all(2.0f));
-  const V column = hn::MulAdd(o.x, half, half), row = hn::MulAdd(o.y, half, half);
+  const V column = hn::MulAdd(hn::Xor(o.x, at.sign.x), half, half);
+  const V row = hn::MulAdd(hn::Xor(o.y, at.sign.y), half, half);
   const V i = hn::Max(hn::Zero(f), hn::Min(hn::Floor(column), last));
   const V j = hn::Max(hn::Zero(f), hn::Min(hn::Floor(row), last));
-  const VI texel = hn::ConvertTo(I(), hn::MulAdd(j, nodes, i));  // exact: below 2^24
-  const VI at = hn::Add(hn::Add(texel, texel), table.first_byte);
+  const VI first = hn::Add(twice(hn::MulAdd(j, nodes, i)), table.first_byte);
   const auto* base = reinterpret_cast<const std::int32_t*>(relief.texels.data());
-  const VI upper = hn::GatherOffset(I(), base, at);
-  const VI lower = hn::GatherOffset(I(), base, hn::Add(at, hn::Add(table.nodes, table.nodes)));
+  const VI upper = hn::GatherOffset(I(), base, first);
+  const VI lower = hn::GatherOffset(I(), base, hn::Add(first, hn::Add(table.nodes, table.nodes)));
   const V u = hn::Sub(column, i), v = hn::Sub(row, j);
-  const Bilinear h = bilinear(upper, lower, 0, u, v, table.h_scale, table.h_offset);
-  const Bilinear a = bilinear(upper, lower, 1, u, v, table.a_scale, table.a_offset);
+  const Bilinear h = bilinear<0>(upper, lower, u, v, table.h_scale, table.h_offset);
+  const Bilinear a = bilinear<1>(upper, lower, u, v, table.a_scale, table.a_offset);
   const V clamped = hn::Min(hn::Max(distance, all(-relief.in_m)), all(relief.out_m));
   const M moving = hn::Eq(clamped, distance);
   const V gx = hn::Mul(half, hn::MulAdd(a.gx, clamped, h.gx));
   const V gy = hn::Mul(half, hn::MulAdd(a.gy, clamped, h.gy));
-  return {hn::MulAdd(a.value, clamped, h.value), from_square(o, gx, gy),
+  return {hn::MulAdd(a.value, clamped, h.value),
+          from_square(o, at.sign.z, hn::Xor(gx, at.sign.x), hn::Xor(gy, at.sign.y)),
           hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f))};
 }
 
@@ -164,31 +179,34 @@ struct Corrected {
   V3 gradient;  ///< of F_k, local frame of the collider
 };
 
-/// The part of grad F_k that comes from h and a varying over the sphere: G is d(h + a d) / dw.
-HWY_INLINE V3 tangential(const Shape& s, const Foot& foot, V3 w, V3 slope) {
+/// The part of grad F_k that comes from h and a varying over the sphere, first octant: `slope` is d(h + a d)
+/// / dw.
+HWY_INLINE V3 tangential(const Shape& s, const Foot& foot, V3 slope) {
+  const V3 w = foot.w;
   const V3 inverse = {reciprocal(hn::Add(foot.u, s.gap0)), reciprocal(hn::Add(foot.u, s.gap1)),
                       reciprocal(foot.u)};
   const V3 we = {hn::Mul(w.x, inverse.x), hn::Mul(w.y, inverse.y), hn::Mul(w.z, inverse.z)};
   const V ratio = hn::Mul(dot(slope, we), reciprocal(dot(w, we)));
   const V3 rest = {hn::NegMulAdd(w.x, ratio, slope.x), hn::NegMulAdd(w.y, ratio, slope.y),
                    hn::NegMulAdd(w.z, ratio, slope.z)};
-  const V x = hn::Mul(inverse.x, rest.x);
-  const V y = hn::Mul(hn::Mul(s.radius1, inverse.y), rest.y);
-  const V z = hn::Mul(hn::Mul(s.radius2, inverse.z), rest.z);
-  // The rows of to_unit are axes / r0, which is the 1 / r0 that the chain rule asks for.
-  return {hn::MulAdd(s.row0.x, x, hn::MulAdd(s.row1.x, y, hn::Mul(s.row2.x, z))),
-          hn::MulAdd(s.row0.y, x, hn::MulAdd(s.row1.y, y, hn::Mul(s.row2.y, z))),
-          hn::MulAdd(s.row0.z, x, hn::MulAdd(s.row1.z, y, hn::Mul(s.row2.z, z)))};
+  return {hn::Mul(inverse.x, rest.x), hn::Mul(hn::Mul(s.radius1, inverse.y), rest.y),
+          hn::Mul(hn::Mul(s.radius2, inverse.z), rest.z)};
 }
 
 HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& table, const Shape& s,
                                const Foot& foot) {
-  const AxisOrder axes(table);
-  const V3 w = {hn::CopySign(foot.w.x, foot.y.x), hn::CopySign(foot.w.y, foot.y.y),
-                hn::CopySign(foot.w.z, foot.y.z)};
-  const Correction by = correction(relief, table, axes.to_proxy(w), foot.distance);
-  const V3 side = tangential(s, foot, w, axes.to_sorted(by.slope));
-  return {hn::Sub(foot.distance, by.value), scaled(foot.normal, by.along_normal) - side};
+  const Direction at = {foot.w, signs_of(foot.y)};
+  Correction by;
+  if (relief.sorted_axes) {
+    by = correction(relief, table, at, foot.distance);
+  } else {
+    const AxisOrder axes(table);
+    by = correction(relief, table, {axes.to_proxy(at.w), axes.to_proxy(at.sign)}, foot.distance);
+    by.slope = axes.to_sorted(by.slope);
+  }
+  // The chain rule asks for the same 1 / r0 that the normal does.
+  const V3 gradient = scaled(foot.n, by.along_normal) - tangential(s, foot, by.slope);
+  return {hn::Sub(foot.distance, by.value), out_of(s, with_signs(gradient, at.sign))};
 }
 
 /// An ellipsoid's share where several blend: (max(0, 1 - (d - least) / blend))^2
