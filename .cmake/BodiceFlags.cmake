@@ -43,7 +43,8 @@ function(bodice_define_build_flags)
   endif()
   if(BODICE_SANITIZE)
     target_compile_options(bodice_build_flags INTERFACE
-      -fsanitize=${BODICE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+      -fsanitize=${BODICE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+      -g1)  # lines for the reports; tracking variables through the kernels takes g++ a quarter of an hour
     target_link_options(bodice_build_flags INTERFACE -fsanitize=${BODICE_SANITIZE})
   endif()
 endfunction()

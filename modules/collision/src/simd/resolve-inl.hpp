@@ -45,10 +45,10 @@ HWY_INLINE V3 along_contact(const Way& way, int i, V3 x, bool bent, float slack_
   const Plane first = touching(pushed_first, hn::FirstN(f, kWidth), x, within_m, one);
   const Plane second = touching(way.n2x, way.n2y, way.n2z, way.offset2, i, way.of2, x, within_m, two);
   const Plane third = touching(way.n3x, way.n3y, way.n3z, way.offset3, i, way.of3, x, within_m, three);
-  const V3 of_two = project({first.n, second.n, first.offset, second.offset, two}, v);
+  const V3 of_two = project(first, second, two, v);
   if (hn::AllFalse(f, three)) return of_two;
   const V zero = hn::Zero(f);
-  const V3 of_other = project({first.n, third.n, first.offset, third.offset, three}, v);
+  const V3 of_other = project(first, third, three, v);
   const V3 of_three =
       select(hn::Le(third.missing(of_two), zero), of_two, project(first, second, third, v, zero));
   return select(three, select(two, of_three, of_other), of_two);

@@ -9,6 +9,8 @@
 #endif
 
 #include "simd/clear-inl.hpp"
+#include "simd/planes-inl.hpp"
+#include "simd/pushed-inl.hpp"
 #include "simd/smooth-inl.hpp"
 #include "simd/within-inl.hpp"
 #include "tolerances.hpp"
@@ -17,184 +19,9 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kPlainRounds = 6;
-constexpr float kLeastVolume = 1e-3f;  // of three unit normals: less, and their planes meet far away
 constexpr int kReliefRounds = 6;
 constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
 constexpr float kFoot = static_cast<float>(kFootError);
-
-/// The half-spaces { x : n . x >= offset } in force; the second only where `two`.
-struct Pair {
-  V3 n1, n2;
-  V offset1, offset2;
-  M two;
-};
-
-/// The nearest point to p of both half-spaces: the four cases of the optimality conditions.
-HWY_INLINE V3 project(const Pair& h, V3 p) {
-  const V zero = hn::Zero(f);
-  const V g1 = hn::Sub(h.offset1, dot(h.n1, p));
-  const V g2 = hn::IfThenElse(h.two, hn::Sub(h.offset2, dot(h.n2, p)), all(-1e30f));
-  const V cosine = hn::IfThenElse(h.two, dot(h.n1, h.n2), zero);
-  const V sine2 = hn::Max(hn::NegMulAdd(cosine, cosine, all(1.0f)), all(1e-6f));
-  const V rest1 = hn::NegMulAdd(cosine, g2, g1), rest2 = hn::NegMulAdd(cosine, g1, g2);
-  const M both = hn::And(hn::Gt(rest1, zero), hn::Gt(rest2, zero));
-  const M first = hn::And(hn::Gt(g1, zero), hn::Le(rest2, zero));
-  const V alone1 = hn::IfThenElseZero(first, g1);
-  const V alone2 = hn::IfThenElse(first, zero, hn::Max(g2, zero));
-  const V push1 = hn::IfThenElse(both, hn::Div(rest1, sine2), alone1);
-  const V push2 = hn::IfThenElse(both, hn::Div(rest2, sine2), alone2);
-  return along(along(p, push1, h.n1), push2, h.n2);
-}
-
-/// The half-space { x : n . x >= offset }.
-struct Plane {
-  V3 n;
-  V offset;
-
-  HWY_INLINE V missing(V3 x) const { return hn::Sub(offset, dot(n, x)); }
-};
-
-HWY_INLINE V3 cross(V3 a, V3 b) {
-  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-
-/// The nearest point to p of three half-spaces, of which the first two do not do: that of the third and one
-/// of them if it is in the other, or else where all planes meet.
-HWY_INLINE V3 project(const Plane& a, const Plane& b, const Plane& c, V3 p, V slack) {
-  const M all_lanes = hn::FirstN(f, kWidth);
-  const V3 ac = project({a.n, c.n, a.offset, c.offset, all_lanes}, p);
-  const V3 bc = project({b.n, c.n, b.offset, c.offset, all_lanes}, p);
-  const V3 bxc = cross(b.n, c.n), cxa = cross(c.n, a.n), axb = cross(a.n, b.n);
-  const V volume = dot(a.n, bxc);
-  const M flat = hn::Lt(hn::Abs(volume), all(kLeastVolume));
-  const V inverse = hn::Div(all(1.0f), hn::IfThenElse(flat, all(kLeastVolume), volume));
-  const V3 sum = along(along(scaled(bxc, a.missing(p)), b.missing(p), cxa), c.missing(p), axb);
-  const V3 corner = along(p, inverse, sum);
-  return select(hn::Le(b.missing(ac), slack), ac, select(hn::Le(a.missing(bc), slack), bc, corner));
-}
-
-/// The particles that were reached on their way out, an array a number.
-struct alignas(64) Way {
-  std::int32_t owner[kBatch];                   ///< where it began; internal index, -1: no contact
-  float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
-  float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< contact planes
-  float n2x[kBatch], n2y[kBatch], n2z[kBatch];
-  float n3x[kBatch], n3y[kBatch], n3z[kBatch];
-  float offset1[kBatch], offset2[kBatch], offset3[kBatch];
-  std::int32_t of2[kBatch], of3[kBatch];  ///< whose planes the second and third are; -1: not in force
-  LaneBits open;                          ///< not settled
-  std::uint32_t rounds = 0;
-
-  /// Of the second and third planes the rest means nothing then.
-  HWY_INLINE void clear_others() {
-    for (std::int32_t* values : {of2, of3}) std::memset(values, 0xFF, sizeof(of2));
-  }
-};
-
-struct Below;
-
-/// Where a push leads, and the plain ellipsoids that it puts clear of; -1: none, or not for certain.
-struct Push {
-  V3 to;
-  VI clear1, clear2, clear3;
-};
-
-/// The lanes that were pushed in a round, closed up.
-struct alignas(64) Pushed {
-  static constexpr int kSize = kBatch + 16;
-  float x[kSize], y[kSize], z[kSize];
-  std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];  ///< as a Push has them
-  std::int32_t lane[kSize];                                  ///< among those that were reached
-  int count = 0;
-
-  /// After the first push, out of the ellipsoids `owner`.
-  HWY_INLINE void add(M which, VI lanes, V3 p, VI owner) {
-    const Pack pack(which);
-    pack.store(p.x, x + count);
-    pack.store(p.y, y + count);
-    pack.store(p.z, z + count);
-    pack.store(owner, clear1 + count);
-    pack.store(lanes, lane + count);
-    count += pack.count();
-  }
-  /// Once all are added.
-  HWY_INLINE void close() {
-    std::memset(clear2, 0xFF, sizeof(clear2));
-    std::memset(clear3, 0xFF, sizeof(clear3));
-    pad();
-  }
-  /// Lanes [i, i + kWidth) of those that are pushed once more: what they were is overwritten.
-  HWY_INLINE void put(const Push& push, int i) {
-    store3(push.to, x + i, y + i, z + i);
-    hn::Store(push.clear1, I(), clear1 + i);
-    hn::Store(push.clear2, I(), clear2 + i);
-    hn::Store(push.clear3, I(), clear3 + i);
-  }
-  /// Once all are put.
-  HWY_INLINE void close(const Below& below);
-
- private:
-  /// Repeats the last up to a whole block.
-  HWY_INLINE void pad() {
-    if (count == 0) return;
-    const int end = (count + kBlock - 1) / kBlock * kBlock;
-    for (float* values : {x, y, z}) std::fill(values + count, values + end, values[count - 1]);
-    for (std::int32_t* values : {clear1, clear2, clear3})
-      std::fill(values + count, values + end, values[count - 1]);
-  }
-};
-
-/// Lanes of `Pushed` that are still below the clearance, closed up: where they are in it, and among those
-/// that were reached.
-struct alignas(64) Below {
-  std::int32_t at[kBatch + 16], lane[kBatch + 16];
-  int count = 0;
-
-  HWY_INLINE Below(const float* distance, float limit_m, const Pushed& pushed) {
-    for (int i = 0; i < pushed.count; i += kWidth) {
-      const M below = hn::And(lanes_below(i, pushed.count), hn::Lt(hn::Load(f, distance + i), all(limit_m)));
-      const Pack pack(below);
-      pack.store(lanes_from(i), at + count);
-      pack.store(hn::Load(I(), pushed.lane + i), lane + count);
-      count += pack.count();
-    }
-  }
-};
-
-HWY_INLINE void Pushed::close(const Below& below) {
-  count = below.count;
-  std::copy_n(below.lane, below.count, lane);
-  pad();
-}
-
-HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
-  return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
-}
-
-/// Stores the lanes of a mask at their own indices.
-class Scatter {
- public:
-  HWY_INLINE Scatter(M which, VI at) : pack_(which) { pack_.store(at, at_); }
-  HWY_INLINE void store(V value, float* to) const { store_as(value, to); }
-  HWY_INLINE void store(VI value, std::int32_t* to) const { store_as(value, to); }
-  HWY_INLINE void store(V3 value, float* x, float* y, float* z) const {
-    store(value.x, x);
-    store(value.y, y);
-    store(value.z, z);
-  }
-
- private:
-  template <class Vector, class T>
-  HWY_INLINE void store_as(Vector value, T* to) const {
-    alignas(64) T values[kWidth];
-    pack_.store(value, values);
-    for (int i = 0; i < pack_.count(); ++i) to[at_[i]] = values[i];
-  }
-
-  Pack pack_;
-  alignas(64) std::int32_t at_[kWidth];
-};
 
 /// What is asked about every place: the proxy's distance, or that of the smooth union.
 struct Surface {
@@ -318,7 +145,7 @@ HWY_INLINE Push add_plane(const Surface& surface, M which, VI at, const Plane& n
   const auto [first, latest, of_latest, two] = in_force(way, at);
   const M third = hn::And(two, which);
   const V3 p = gather3(reached.x, reached.y, reached.z, at);
-  V3 next = project({first.n, newest.n, first.offset, newest.offset, hn::FirstN(f, kWidth)}, p);
+  V3 next = project(first, newest, hn::FirstN(f, kWidth), p);
   V behind = hn::Max(first.missing(next), newest.missing(next));
   const Scatter scatter(which, at);
   const auto put_second = [&](const Plane& plane, VI of) {
