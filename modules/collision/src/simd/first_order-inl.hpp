@@ -149,7 +149,7 @@ HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const
     tangents_of(e, p, at);
 #pragma GCC unroll 4
     for (int v = 0; v < kAtOnce; ++v)
-      if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v], true), e[v], at[v]);
+      if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v]), e[v], at[v]);
     for (int v = 0; v < kAtOnce; ++v) {
       const V d = hn::Sub(at[v].distance, margin);
       const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBallName));

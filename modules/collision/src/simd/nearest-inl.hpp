@@ -182,7 +182,9 @@ inline void answer_alone(const Baked& baked, const ReliefTables* relief, const Q
     for (int v = 0; v < kTogether; ++v) {
       Answer answer = {feet[v].distance, feet[v].distance, {}, name};
       if (relief) {
-        const Corrected one = corrected(*relief, broadcast(relief->tables[ellipsoid]), shape, feet[v]);
+        const BakedTable& table = relief->tables[ellipsoid];
+        const Corrected one =
+            corrected(*relief, broadcast(table), shape, feet[v], [&] { return axes_of(table); });
         answer.value = one.value;
         answer.gradient = one.gradient;
       } else {

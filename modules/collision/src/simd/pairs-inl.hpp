@@ -44,8 +44,9 @@ HWY_INLINE void answer_each(const ReliefTables* relief, const Columns& columns, 
   for (int i = 0; i < kCount; ++i) {
     const VI name = names_of<kTables>(columns, column[i]);
     if (relief) {
-      const TableLanes table = table_of<kTables>(columns, column[i], relief->sorted_axes);
-      const Corrected one = corrected(*relief, table, shape[i], foot[i]);
+      const TableLanes table = table_of<kTables>(columns, column[i]);
+      const Corrected one =
+          corrected(*relief, table, shape[i], foot[i], [&] { return axes_of<kTables>(columns, column[i]); });
       out[i] = {foot[i].distance, one.value, one.gradient, name};
     } else {
       out[i] = {foot[i].distance, foot[i].distance, normal_of(shape[i], foot[i]), name};

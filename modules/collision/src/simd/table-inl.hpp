@@ -12,46 +12,36 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The table of each lane's ellipsoid: the members of BakedTable.
+/// The table of each lane's ellipsoid: the members of BakedTable but its axes.
 struct TableLanes {
   VI first_byte, nodes;
   V h_scale, h_offset, a_scale, a_offset;
-  VI axis0, axis1;  ///< read only where axes are not sorted
 };
 
 HWY_INLINE TableLanes broadcast(const BakedTable& t) {
-  return {hn::Set(I(), t.first_byte),
-          hn::Set(I(), t.nodes),
-          all(t.h_scale_m),
-          all(t.h_offset_m),
-          all(t.a_scale),
-          all(t.a_offset),
-          hn::Set(I(), t.sorted_axis[0]),
-          hn::Set(I(), t.sorted_axis[1])};
+  return {hn::Set(I(), t.first_byte), hn::Set(I(), t.nodes), all(t.h_scale_m),
+          all(t.h_offset_m),          all(t.a_scale),        all(t.a_offset)};
 }
 
 template <int kTables>
-HWY_INLINE TableLanes table_of(const Columns& columns, VI column, bool sorted_axes) {
+HWY_INLINE TableLanes table_of(const Columns& columns, VI column) {
   const Lookup<kTables> at(column);
   const auto number = [&](int i) { return at(columns.row(Columns::kTable + i)); };
   const auto integer = [&](int i) { return hn::BitCast(I(), number(i)); };
-  TableLanes table = {integer(0), integer(1), number(2), number(3), number(4), number(5), {}, {}};
-  if (sorted_axes) return table;
-  table.axis0 = integer(6);
-  table.axis1 = integer(7);
-  return table;
+  return {integer(0), integer(1), number(2), number(3), number(4), number(5)};
 }
 
 /// Between the axes of the proxy, which the table is over, and those by falling radius.
 class AxisOrder {
  public:
-  explicit HWY_INLINE AxisOrder(const TableLanes& t)
-      : first0_(is(t.axis0, 0)),
-        first1_(is(t.axis0, 1)),
-        first2_(is(t.axis0, 2)),
-        second0_(is(t.axis1, 0)),
-        second1_(is(t.axis1, 1)),
-        second2_(is(t.axis1, 2)) {}
+  /// Where the proxy's first two axes are among the sorted ones.
+  HWY_INLINE AxisOrder(VI axis0, VI axis1)
+      : first0_(is(axis0, 0)),
+        first1_(is(axis0, 1)),
+        first2_(is(axis0, 2)),
+        second0_(is(axis1, 0)),
+        second1_(is(axis1, 1)),
+        second2_(is(axis1, 2)) {}
 
   HWY_INLINE V3 to_proxy(V3 sorted) const {
     return {choose(first0_, first1_, sorted.x, sorted.y, sorted.z),
@@ -193,14 +183,27 @@ HWY_INLINE V3 tangential(const Shape& s, const Foot& foot, V3 slope) {
           hn::Mul(hn::Mul(s.radius2, inverse.z), rest.z)};
 }
 
+HWY_INLINE AxisOrder axes_of(const BakedTable& t) {
+  return {hn::Set(I(), t.sorted_axis[0]), hn::Set(I(), t.sorted_axis[1])};
+}
+
+template <int kTables>
+HWY_INLINE AxisOrder axes_of(const Columns& columns, VI column) {
+  const Lookup<kTables> at(column);
+  return {hn::BitCast(I(), at(columns.row(Columns::kTable + 6))),
+          hn::BitCast(I(), at(columns.row(Columns::kTable + 7)))};
+}
+
+/// `read_axes` tells the order of the axes; called only if they are not sorted.
+template <class ReadAxes>
 HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& table, const Shape& s,
-                               const Foot& foot) {
+                               const Foot& foot, ReadAxes&& read_axes) {
   const Direction at = {foot.w, signs_of(foot.y)};
   Correction by;
   if (relief.sorted_axes) {
     by = correction(relief, table, at, foot.distance);
   } else {
-    const AxisOrder axes(table);
+    const AxisOrder axes = read_axes();
     by = correction(relief, table, {axes.to_proxy(at.w), axes.to_proxy(at.sign)}, foot.distance);
     by.slope = axes.to_sorted(by.slope);
   }
