@@ -16,16 +16,15 @@ using geometry::Vec3;
 namespace {
 
 BakedEllipsoid bake(const Ellipsoid& shape) {
-  int order[3] = {0, 1, 2};
-  std::sort(order, order + 3, [&](int a, int b) { return shape.radii[a] > shape.radii[b]; });
-  const double r0 = shape.radii[order[0]];
-  const double r1 = shape.radii[order[1]] / r0;
-  const double r2 = shape.radii[order[2]] / r0;
+  const std::array<int, 3> axes = geometry::axes_by_radius(shape.radii);
+  const double r0 = shape.radii[axes[0]];
+  const double r1 = shape.radii[axes[1]] / r0;
+  const double r2 = shape.radii[axes[2]] / r0;
   BakedEllipsoid result;
   for (int row = 0; row < 3; ++row) {
     result.center[row] = static_cast<float>(shape.center[row]);
     for (int column = 0; column < 3; ++column)
-      result.to_unit[3 * row + column] = static_cast<float>(shape.axes(column, order[row]) / r0);
+      result.to_unit[3 * row + column] = static_cast<float>(shape.axes(column, axes[row]) / r0);
   }
   result.radius1 = static_cast<float>(r1);
   result.radius2 = static_cast<float>(r2);

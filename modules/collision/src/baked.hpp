@@ -31,10 +31,6 @@ struct alignas(64) BallMap {
 };
 inline constexpr int kBallFloats = 15, kBallOffset = 9, kBallInverse = 12;  ///< without the name
 
-/// What bounds are taken from is larger than the ellipsoids by this share, so that estimates of roots as
-/// rough as a processor's own do not lift a bound above the distance: less for thin ones, as it should be.
-inline constexpr float kBoundGrowth = 5.5e-4f;
-
 /// The same, and boxes and inner balls, one array a number, for sixteen ellipsoids at a time; padded to kPad
 /// with boxes infinitely far away. Neighbours in space should be neighbours here.
 struct CullArrays {

@@ -1,6 +1,7 @@
 #include "relief.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -14,9 +15,8 @@ namespace {
 
 /// The order in which BakedEllipsoid stores the axes, inverted.
 void find_sorted_axes(const geometry::Vec3& radii, std::int32_t (&sorted_axis)[3]) {
-  int order[3] = {0, 1, 2};
-  std::sort(order, order + 3, [&](int a, int b) { return radii[a] > radii[b]; });
-  for (int i = 0; i < 3; ++i) sorted_axis[order[i]] = i;
+  const std::array<int, 3> axes = geometry::axes_by_radius(radii);
+  for (int i = 0; i < 3; ++i) sorted_axis[axes[i]] = i;
 }
 
 /// The texels of a table, scaled.

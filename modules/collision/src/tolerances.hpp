@@ -16,6 +16,11 @@ inline constexpr double kReliefCertificate = 5e-3 / 3.0;
 /// arithmetic would keep: a dozen roundings of 6e-8.
 inline constexpr double kFloatRounding = 1e-6;
 
+/// Share by which what bounds are taken from is larger than the ellipsoids, so that a processor's own
+/// estimates of roots (off by up to 3.7e-4) do not lift a bound above the distance: as much as each ellipsoid
+/// needs.
+inline constexpr float kBoundGrowth = 5.5e-4f;
+
 /// What the float solver's nearest point and distance may be off by, share of the longest radius (or of the
 /// distance from the centre): nearly twice the worst of 120 million random cases (`response nearest`).
 inline constexpr double kFootError = 1e-6;

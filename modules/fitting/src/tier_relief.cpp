@@ -1,6 +1,7 @@
 #include "tier_relief.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <bodice/engine/clock.hpp>
 #include <bodice/engine/stage_timer.hpp>
@@ -27,13 +28,10 @@ constexpr double kHoleDepth = 7e-3 / 1.7, kHoleMargin = 2e-3 / 1.7;
 
 /// The same ellipsoid, its axes by falling radius: tables over those are read the fastest.
 geometry::Ellipsoid with_sorted_axes(const geometry::Ellipsoid& e) {
-  int order[3] = {0, 1, 2};
-  std::stable_sort(order, order + 3, [&](int a, int b) { return e.radii[a] > e.radii[b]; });
+  const std::array<int, 3> order = geometry::axes_by_radius(e.radii);
   geometry::Ellipsoid sorted = e;
-  for (int axis = 0; axis < 3; ++axis) {
-    sorted.radii[axis] = e.radii[order[axis]];
-    sorted.axes.col(axis) = e.axes.col(order[axis]);
-  }
+  sorted.radii = e.radii(order);
+  sorted.axes = e.axes(Eigen::all, order);
   if (sorted.axes.determinant() < 0.0) sorted.axes.col(2) = -sorted.axes.col(2);
   return sorted;
 }

@@ -1,5 +1,6 @@
 #include <bodice/geometry/ellipsoid.hpp>
 
+#include <algorithm>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -12,6 +13,12 @@ Vec3 to_local(const Ellipsoid& ellipsoid, const Vec3& point) {
 }
 
 }  // namespace
+
+std::array<int, 3> axes_by_radius(const Vec3& radii) {
+  std::array<int, 3> axes = {0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return radii[a] > radii[b]; });
+  return axes;
+}
 
 double level(const Ellipsoid& ellipsoid, const Vec3& point) {
   return to_local(ellipsoid, point).cwiseQuotient(ellipsoid.radii).squaredNorm();

@@ -14,6 +14,7 @@
 
 #include "baked.hpp"
 #include "simd/vec3-inl.hpp"
+#include "tolerances.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {

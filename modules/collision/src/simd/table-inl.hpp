@@ -113,7 +113,7 @@ HWY_INLINE V byte_of(VI word) {
   return hn::ConvertTo(f, hn::BitCast(I(), byte));
 }
 
-/// Twice a whole number below 2^22.
+/// Twice a whole number below 2^23.
 HWY_INLINE VI twice(V whole) {
   // The last bits of the sum are the number; a conversion would guard against others.
   const VI sum = hn::BitCast(I(), hn::Add(whole, all(0x1p23f)));

@@ -82,19 +82,19 @@ HWY_INLINE V dot(V3 a, V3 b) {
 HWY_INLINE V3 scaled(V3 a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
-/// Sign bits alone,
+/// The sign bits alone: zeros of either sign.
 HWY_INLINE V3 signs_of(V3 a) {
   const V bit = hn::SignBit(f);
   return {hn::And(a.x, bit), hn::And(a.y, bit), hn::And(a.z, bit)};
 }
-/// a choice by one, which as a number would be zero,
+/// `a` negated where `signs`, as signs_of() has them, are negative.
+HWY_INLINE V3 with_signs(V3 a, V3 signs) {
+  return {hn::Xor(a.x, signs.x), hn::Xor(a.y, signs.y), hn::Xor(a.z, signs.z)};
+}
+/// By the sign bit, in which zeros differ.
 HWY_INLINE V if_signed(V sign, V yes, V no) {
   const auto word = [](V v) { return hn::BitCast(I(), v); };
   return hn::BitCast(f, hn::IfNegativeThenElse(word(sign), word(yes), word(no)));
-}
-/// and numbers that change sign by them.
-HWY_INLINE V3 with_signs(V3 a, V3 signs) {
-  return {hn::Xor(a.x, signs.x), hn::Xor(a.y, signs.y), hn::Xor(a.z, signs.z)};
 }
 /// a + s b
 HWY_INLINE V3 along(V3 a, V s, V3 b) {

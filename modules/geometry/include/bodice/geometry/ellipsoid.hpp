@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include <bodice/geometry/types.hpp>
 
 namespace bodice::geometry {
@@ -10,6 +12,9 @@ struct Ellipsoid {
   Mat3 axes = Mat3::Identity();  ///< R, columns are the unit semi-axis directions, right-handed
   Vec3 radii = Vec3::Ones();     ///< r, semi-axis lengths, metres, > 0
 };
+
+/// The axes by falling radius; equal ones in their own order.
+std::array<int, 3> axes_by_radius(const Vec3& radii);
 
 /// zeta = (p - c)^T Q (p - c), the paper's eq. (9): below 1 inside, 1 on the surface, above 1 outside.
 double level(const Ellipsoid& ellipsoid, const Vec3& point);
