@@ -33,7 +33,7 @@ function(bodice_define_build_flags)
   endif()
   target_compile_options(bodice_build_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
-    -Wno-missing-field-initializers  # designated initialisers leave the rest at their defaults on purpose
+    -Wno-missing-field-initializers  # designated initializers leave the rest at their defaults on purpose
     # g++ 12 sees overlapping copies in `"text" + std::string` that are not there (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
     # clang takes `double{f}` for a promotion that nobody asked for.

@@ -31,7 +31,7 @@ Cost fastest(const engine::Context& context, const TriMesh& mesh, int runs) {
   Cost best;
   for (int run = 0; run < runs; ++run) {
     const auto start = context.clock->now_ns();
-    const auto found = bodice::anatomy::analyse(context, mesh, options);
+    const auto found = bodice::anatomy::analyze(context, mesh, options);
     const double ms = 1e-6 * static_cast<double>(context.clock->now_ns() - start);
     if (!found || ms >= best.total_ms) continue;
     best.total_ms = ms;

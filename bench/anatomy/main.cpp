@@ -45,7 +45,7 @@ Arguments parse(int argc, char** argv) {
 }
 
 void run(const bench::Case& c, bench::Report& report, bench::Sheet& sheet) {
-  const auto anatomy = bodice::anatomy::analyse({}, c.mesh, {bodice::body::find_profile("ansur2").value()});
+  const auto anatomy = bodice::anatomy::analyze({}, c.mesh, {bodice::body::find_profile("ansur2").value()});
   if (!anatomy) return report.add_refused(c, anatomy.error().sentence());
   report.add(c, *anatomy);
   sheet.add(c, *anatomy);

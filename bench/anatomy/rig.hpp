@@ -15,7 +15,7 @@ namespace bench {
 struct Bone {
   std::string name;
   int parent = -1;              ///< position in the list, before the bone's own
-  bodice::geometry::Vec3 head;  ///< in the rest pose, metres
+  bodice::geometry::Vec3 head;  ///< in the rest pose, meters
 };
 
 /// Four bones a vertex and what each counts.

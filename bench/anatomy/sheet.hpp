@@ -8,7 +8,7 @@
 
 namespace bench {
 
-/// A contact sheet: many bodies, coloured by part, in one picture from the front and from the left.
+/// A contact sheet: many bodies, colored by part, in one picture from the front and from the left.
 class Sheet {
  public:
   void add(const Case& c, const bodice::anatomy::Anatomy& anatomy);

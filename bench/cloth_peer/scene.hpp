@@ -17,7 +17,7 @@ inline constexpr double kRadius_m = 0.25;
 inline constexpr double kThickness_m = 0.002;
 inline const bodice::geometry::Vec3 kCenter = {0.0, 1.25, 0.0};
 
-/// side * side particles over 1.2 m, a centimetre above the ball.
+/// side * side particles over 1.2 m, a centimeter above the ball.
 inline bodice::geometry::TriMesh sheet(int side) {
   bodice::geometry::TriMesh mesh;
   for (int j = 0; j < side; ++j)
@@ -48,7 +48,7 @@ inline double stretch_p95(const bodice::geometry::TriMesh& rest,
   return std::max(0.0, *at);
 }
 
-/// Depth of the deepest particle in the ball, metres.
+/// Depth of the deepest particle in the ball, meters.
 inline double deepest_m(const std::vector<bodice::geometry::Vec3>& now) {
   double deepest = 0.0;
   for (const auto& p : now) deepest = std::max(deepest, kRadius_m - (p - kCenter).norm());

@@ -32,7 +32,7 @@ bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
 }
 
 /// The places' nearest ones 4 mm over the proxy's surface. Over one and the same skin instead, the proxies of
-/// coarse bodies, whose flat triangles miss it by millimetres, would have other contacts than those of fine
+/// coarse bodies, whose flat triangles miss it by millimeters, would have other contacts than those of fine
 /// ones.
 Cloud over(const bodice::proxy::BodyProxy& proxy, const Cloud& places) {
   const bodice::collision::Collider collider(proxy);

@@ -7,7 +7,7 @@
 
 namespace bench {
 
-/// Particles as a solver has them: from call to call all drift by a millimetre, 30 mm to and fro, each with a
+/// Particles as a solver has them: from call to call all drift by a millimeter, 30 mm to and fro, each with a
 /// tremble of its own. A garment that slides over a body at 60 mm a second has that at 60 calls a second.
 class Frames {
  public:

@@ -69,7 +69,7 @@ void Limits::add_to(std::vector<Row>& rows) {
     rows.push_back({name, std::move(work), n, 0.0, [this] { frames_.step(); }, kFrameCalls});
   };
   add("limit: places read, contacts written", [this] { move_bytes(); });
-  add("limit: one ellipsoid, a nearest point a particle, frames",
+  add("limit: one ellipsoid, a closest point a particle, frames",
       [this] { one_.query({}, frames_.now().particles(), contacts_, frames_.workspace); });
 }
 

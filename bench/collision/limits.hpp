@@ -1,4 +1,4 @@
-// What no query can be faster than: its bytes, and one nearest point a particle with nothing to choose.
+// What no query can be faster than: its bytes, and one closest point a particle with nothing to choose.
 #pragma once
 
 #include <vector>

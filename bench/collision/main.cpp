@@ -54,7 +54,7 @@ struct Question {
 
 constexpr float kShort_m = 0.010f;
 constexpr float kAll_m = std::numeric_limits<float>::infinity();
-/// The bar of 7.5 and 15 ns comes from a prototype that answered 'inside only', by estimates: nearest points
+/// The bar of 7.5 and 15 ns comes from a prototype that answered 'inside only', by estimates: closest points
 /// of particles that are inside, nothing about others. It is held against the others as well.
 constexpr Question kQuestions[] = {{"all distances", {.within_m = kAll_m}, true},
                                    {"contacts within 10 mm", {.within_m = kShort_m}, false},
@@ -159,7 +159,7 @@ void add_responses(Contender& c, std::vector<Row>& rows) {
 void add_rows(Contender& c, std::vector<Row>& rows) {
   const auto n = static_cast<double>(c.coherent.size());
   add_queries(c, rows);
-  rows.push_back({c.name + ": query, all distances, coherent, frames, the proxy turning by a millimetre, too",
+  rows.push_back({c.name + ": query, all distances, coherent, frames, the proxy turning by a millimeter, too",
                   [&c] {
                     Frames& frames = c.beside_moving;
                     c.moving.query({}, frames.now().particles(), c.contacts, frames.workspace);
@@ -243,11 +243,11 @@ int main(int argc, char** argv) {
 
   std::printf(
       "%s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
-      "repeats. A query answers signed distance, nearest point, normal and ellipsoid; peers the distance "
+      "repeats. A query answers signed distance, closest point, normal and ellipsoid; peers the distance "
       "alone, without sign but for grids. The bars of 7.5 and 15 ns (30 and 60 with relief) come from a "
       "prototype that answered 'inside only' by estimates; they are held against exact distances of all, "
       "too. 'Frames': particles "
-      "drift by a millimetre a call and a workspace keeps what it can, the mean of %d calls; 'nothing kept': "
+      "drift by a millimeter a call and a workspace keeps what it can, the mean of %d calls; 'nothing kept': "
       "without one. A peer without sign must look as far for that as for all distances.\n\n",
       bench::title(origin).c_str(), origin.flags.c_str(), count, 1e3 * kBand_m, body.mesh.positions.size(),
       repeats, bench::kFrameCalls);

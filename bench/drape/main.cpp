@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
   app.add_option("--calm", options.calm_frames, "frames without, after them");
   app.add_option("--substeps", substeps, "one row each")->delimiter(',');
   app.add_option("--iterations", options.solver.iterations, "sweeps a substep");
-  app.add_option("--wind", wind, "metres a second")->expected(3)->delimiter(',');
+  app.add_option("--wind", wind, "meters a second")->expected(3)->delimiter(',');
   app.add_option("--gust", options.solver.environment.gust);
   app.add_option("--threads", workers);
   app.add_option("--turn", turn_deg_s, "degrees a second that the body turns");

@@ -30,8 +30,8 @@ class Home {
 
   /// Landmarks found elsewhere, carried back.
   double landmark_error(const Place& place) const {
-    const auto home = anatomy::analyse({}, body_.mesh, {.profile = profile_});
-    const auto there = anatomy::analyse({}, at(place), {.profile = profile_});
+    const auto home = anatomy::analyze({}, body_.mesh, {.profile = profile_});
+    const auto there = anatomy::analyze({}, at(place), {.profile = profile_});
     if (!home || !there) return kRefused;
     double worst = 0.0;
     for (std::size_t k = 0; k < home->landmarks.size(); ++k) {
@@ -42,8 +42,8 @@ class Home {
   }
 
   double label_error(const Place& place) const {
-    const auto home = anatomy::analyse({}, body_.mesh, {.profile = profile_});
-    const auto there = anatomy::analyse({}, at(place), {.profile = profile_});
+    const auto home = anatomy::analyze({}, body_.mesh, {.profile = profile_});
+    const auto there = anatomy::analyze({}, at(place), {.profile = profile_});
     if (!home || !there) return kRefused;
     std::size_t other = 0;
     for (std::size_t v = 0; v < home->part.size(); ++v) other += home->part[v] != there->part[v];
@@ -78,7 +78,7 @@ class Home {
 };
 
 /// A cotton sheet falls on a ball for half a second, in a gravity of its scale: where its vertices are then,
-/// from the ball's centre. Nothing if it is refused or does not stay finite.
+/// from the ball's center. Nothing if it is refused or does not stay finite.
 std::vector<Vec3> drape(const Place& place) {
   constexpr int kCells = 12, kFrames = 30;
   const geometry::Ellipsoid ball{place.center_m(), geometry::Mat3::Identity(), kBall * place.extents_m()};
@@ -116,7 +116,7 @@ double depth_in_ball(const Place& place) {
   const geometry::Ellipsoid ball{Vec3::Zero(), geometry::Mat3::Identity(), kBall * place.extents_m()};
   const auto sheet = drape(place);
   double depth = sheet.empty() ? kRefused : 0.0;
-  for (const Vec3& p : sheet) depth = std::max(depth, -geometry::nearest_point(ball, p).signed_distance);
+  for (const Vec3& p : sheet) depth = std::max(depth, -geometry::closest_point(ball, p).signed_distance);
   return depth / place.scale_m;
 }
 
@@ -136,9 +136,9 @@ double moved_by_offset(const Place& place) {
 std::vector<Curve> body_curves() {
   using proxy::Tier;
   const auto home = std::make_shared<Home>();
-  std::vector<Curve> curves = {{"anatomy::analyse", "landmark moved, to stature",
+  std::vector<Curve> curves = {{"anatomy::analyze", "landmark moved, to stature",
                                 [=](const Place& p) { return home->landmark_error(p); }, kBody},
-                               {"anatomy::analyse", "share of vertices with another part",
+                               {"anatomy::analyze", "share of vertices with another part",
                                 [=](const Place& p) { return home->label_error(p); }, kBody}};
   for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief})
     curves.push_back({"fit, " + std::string(proxy::name(tier)), "mean gap, to that at home",

@@ -34,7 +34,7 @@ struct Curve {
 };
 
 std::vector<Curve> point_curves();      ///< enclosing ellipsoids, clusters
-std::vector<Curve> ellipsoid_curves();  ///< nearest points, queries, responses
+std::vector<Curve> ellipsoid_curves();  ///< closest points, queries, responses
 std::vector<Curve> mesh_curves();       ///< distance to a mesh, distances along it
 std::vector<Curve> body_curves();       ///< anatomy, all tiers of fitting, cloth
 

@@ -40,7 +40,7 @@ double nearest_error(const Place& place) {
   const Ellipsoid e = ellipsoid_at(place);
   double worst = 0.0;
   for (const Vec3& q : queries_at(e, place.scale_m))
-    worst = std::max(worst, std::abs(geometry::nearest_point(e, q).signed_distance - signed_distance(e, q)));
+    worst = std::max(worst, std::abs(geometry::closest_point(e, q).signed_distance - signed_distance(e, q)));
   return worst / place.scale_m;
 }
 
@@ -98,7 +98,7 @@ double depth_left(const Place& place) {
 }  // namespace
 
 std::vector<Curve> ellipsoid_curves() {
-  return {{"nearest_point (double)", "distance, to size", nearest_error},
+  return {{"closest_point (double)", "distance, to size", nearest_error},
           {"Collider::query (float)", "distance, to size", query_error},
           {"Collider::resolve, nearest (float)", "depth left, to size", depth_left}};
 }

@@ -27,7 +27,7 @@ struct Range {
 
 const Range kRanges[] = {
     {"extremes_scale",
-     "Error against the input's size in metres.",
+     "Error against the input's size in meters.",
      {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6},
      &Place::scale_m,
      extremes_bench::kScale},

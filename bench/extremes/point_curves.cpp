@@ -50,7 +50,7 @@ double outside(const fitting::Mvee& found, const std::vector<Vec3>& points, cons
   return worst / place.scale_m;
 }
 
-/// How much farther a point's centre is than the nearest one.
+/// How much farther a point's center is than the nearest one.
 double assignment_error(const Place& place) {
   const std::vector<Vec3> points = box_cloud(place);
   const std::vector<Vec3> centers(points.begin() + 8, points.begin() + 8 + kCenters);
@@ -77,7 +77,7 @@ std::vector<Curve> point_curves() {
            [](const Place& p) {
              return outside(fitting::mvee_first_order(box_cloud(p), 1e-3), box_cloud(p), p);
            }},
-          {"kmeans", "centre farther than the nearest, to size", assignment_error}};
+          {"kmeans", "center farther than the nearest, to size", assignment_error}};
 }
 
 }  // namespace extremes_bench

@@ -7,7 +7,7 @@
 namespace fit_bench {
 
 bool print_anytime(const bodice::engine::Context& context, const std::string& name,
-                   const bodice::fitting::LabelledSkin& skin, const std::vector<bench::Probe>& probes,
+                   const bodice::fitting::LabeledSkin& skin, const std::vector<bench::Probe>& probes,
                    bodice::proxy::Tier tier) {
   using namespace bodice;
   using Clock = std::chrono::steady_clock;

@@ -13,7 +13,7 @@ namespace fit_bench {
 /// skin. The last row says after how long half of the gain over the start was there (the bar for tight: 100
 /// ms). False if a fit fails.
 bool print_anytime(const bodice::engine::Context& context, const std::string& name,
-                   const bodice::fitting::LabelledSkin& skin, const std::vector<bench::Probe>& probes,
+                   const bodice::fitting::LabeledSkin& skin, const std::vector<bench::Probe>& probes,
                    bodice::proxy::Tier tier);
 
 }  // namespace fit_bench

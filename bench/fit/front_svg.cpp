@@ -75,11 +75,11 @@ bool write_front_svg(const std::filesystem::path& file, const std::vector<FrontP
   const Axis y{0.9 * least, 1.1 * most, kHeight - kBottom, kTop};
   std::ofstream out(file);
   frame(out, x, y);
-  const char* const colours[] = {"#1b7f5c", "#c0392b", "#2c5aa0", "#8e44ad"};
-  int colour = 0;
+  const char* const colors[] = {"#1b7f5c", "#c0392b", "#2c5aa0", "#8e44ad"};
+  int color = 0;
   std::vector<Label> labels;
   for (const auto& [tier, line] : logs) {
-    const char* const stroke = colours[colour++ % 4];
+    const char* const stroke = colors[color++ % 4];
     out << "<polyline fill='none' stroke-width='2' stroke='" << stroke << "' points='";
     double last_y = 0.0;
     for (const auto& [count, sum] : line) {

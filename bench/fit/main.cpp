@@ -107,17 +107,17 @@ void print_line(const std::string& name, const fitting::FitResult& r, const benc
 
 struct Subject {
   std::string name;
-  fit_bench::LabelledBody body;
+  fit_bench::LabeledBody body;
   geometry::MeshDistance distance;
   std::vector<bench::Probe> probes;
 
-  Subject(const engine::Context& context, std::string called, fit_bench::LabelledBody made)
+  Subject(const engine::Context& context, std::string called, fit_bench::LabeledBody made)
       : name(std::move(called)),
         body(std::move(made)),
         distance(context, body.mesh),
         probes(bench::near_skin_probes(context, body.mesh, distance)) {}
 
-  fitting::LabelledSkin skin() const { return {body.mesh, body.part, body.stature_m, {}, &distance}; }
+  fitting::LabeledSkin skin() const { return {body.mesh, body.part, body.stature_m, {}, &distance}; }
 };
 
 /// Calls `each` with every body asked for, one at a time; false if one cannot be had.

@@ -41,7 +41,7 @@ bool read_obj(const std::filesystem::path& file, bodice::geometry::TriMesh& mesh
 }
 
 /// Thirds along y (the torso's own extent), halves along x (its mean).
-void split_torso(LabelledBody& body) {
+void split_torso(LabeledBody& body) {
   bodice::geometry::Box box;
   double x = 0.0, count = 0.0;
   for (std::size_t v = 0; v < body.part.size(); ++v)
@@ -70,8 +70,8 @@ std::optional<double> stature(const std::filesystem::path& json) {
 
 }  // namespace
 
-std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels) {
-  LabelledBody body;
+std::optional<LabeledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels) {
+  LabeledBody body;
   if (!read_obj(obj, body.mesh)) return std::nullopt;
   std::ifstream in(labels);
   int label = 0;
@@ -83,7 +83,7 @@ std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::fi
   return body;
 }
 
-std::optional<LabelledBody> make_synthetic(std::uint64_t seed) {
+std::optional<LabeledBody> make_synthetic(std::uint64_t seed) {
   using bodice::synth::Pose;
   constexpr Pose kPoses[] = {Pose::kA, Pose::kT, Pose::kArmsDown, Pose::kStride, Pose::kSit, Pose::kRun};
   bodice::engine::Random random(seed, 5);
@@ -95,7 +95,7 @@ std::optional<LabelledBody> make_synthetic(std::uint64_t seed) {
   options.pose = kPoses[seed % std::size(kPoses)];
   auto body = bodice::synth::make_body({}, options);
   if (!body) return std::nullopt;
-  return LabelledBody{std::move(body->mesh), std::move(body->part), body->stature_m};
+  return LabeledBody{std::move(body->mesh), std::move(body->part), body->stature_m};
 }
 
 }  // namespace fit_bench

@@ -11,7 +11,7 @@
 
 namespace fit_bench {
 
-struct LabelledBody {
+struct LabeledBody {
   bodice::geometry::TriMesh mesh;
   std::vector<bodice::body::Part> part;  ///< #V
   double stature_m = 0.0;
@@ -19,9 +19,9 @@ struct LabelledBody {
 
 /// `labels` holds one fine class a vertex (head, neck, upper_torso, lower_torso, l_upper_arm, ...). The
 /// torso's two classes are cut into six parts at thirds of its height and at its middle plane.
-std::optional<LabelledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels);
+std::optional<LabeledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels);
 
 /// A parametric body that nothing was developed on: sex, mass and pose follow from the seed.
-std::optional<LabelledBody> make_synthetic(std::uint64_t seed);
+std::optional<LabeledBody> make_synthetic(std::uint64_t seed);
 
 }  // namespace fit_bench

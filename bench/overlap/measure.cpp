@@ -73,7 +73,7 @@ Row measure(const Condition& condition, Workload& work, Executor& executor, doub
       if (!over) submit();
     }
     const bool fit_now = condition.foreground && row.fits == 0 && ms_since(begin) > 500 * least_s;
-    const FrameReport report = pipeline.frame([&](const Context& c) {
+    const FrameTiming report = pipeline.frame([&](const Context& c) {
       if (fit_now) static_cast<void>(work.prepare(c, [] {}));
       work.frame(c);
     });

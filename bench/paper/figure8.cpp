@@ -44,7 +44,7 @@ std::vector<bench::Cell> cells_of(const Subject& subject, const Variant& variant
           a.gap_mean_mm,      a.gap_p95_mm,    a.interior_percent,     a.outside_percent};
 }
 
-engine::Result<fitting::FitResult> fit_to(const fitting::LabelledSkin& skin, double mu_torso_m,
+engine::Result<fitting::FitResult> fit_to(const fitting::LabeledSkin& skin, double mu_torso_m,
                                           double mu_limbs_m) {
   fitting::FitOptions options{.tier = proxy::Tier::kPaper, .max_ellipsoids = kNoLimit};
   options.mu_torso_m = mu_torso_m;
@@ -54,7 +54,7 @@ engine::Result<fitting::FitResult> fit_to(const fitting::LabelledSkin& skin, dou
 
 /// The paper sets its thresholds by hand and does not say which. The limbs' threshold for which the number of
 /// ellipsoids is nearest to the paper's, by bisection.
-engine::Result<double> threshold_for(const fitting::LabelledSkin& skin, int ellipsoids) {
+engine::Result<double> threshold_for(const fitting::LabeledSkin& skin, int ellipsoids) {
   constexpr int kSteps = 9;
   double low_m = 0.005, high_m = 0.05, best_m = high_m, off = 1e9;
   for (int step = 0; step < kSteps; ++step) {
@@ -74,10 +74,10 @@ engine::Result<Figure8Row> draw_figure8(const Subject& subject, std::size_t samp
                                         const std::filesystem::path& folder) {
   const auto profile = body::find_profile("gb10000-88");
   if (!profile) return profile.error();
-  const auto anatomy = anatomy::analyse({}, subject.mesh, {.profile = *profile});
+  const auto anatomy = anatomy::analyze({}, subject.mesh, {.profile = *profile});
   if (!anatomy) return anatomy.error();
   const Judge judge({}, subject.mesh, samples);
-  const fitting::LabelledSkin skin{subject.mesh, anatomy->part, anatomy->stature_m, {}, &judge.distance()};
+  const fitting::LabeledSkin skin{subject.mesh, anatomy->part, anatomy->stature_m, {}, &judge.distance()};
   const auto mu_m = threshold_for(skin, subject.paper.ellipsoids);
   if (!mu_m) return mu_m.error();
   const Variant variants[] = {{"a", "one ellipsoid a part", kNoThreshold_m, kNoThreshold_m},

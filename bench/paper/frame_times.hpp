@@ -15,7 +15,7 @@ namespace paper_bench {
 struct FrameTimes {
   std::size_t body_vertices = 0, particles = 0, ellipsoids = 0;
   double paper_ms = 0.0;  ///< the paper's tier and its response
-  double solid_ms = 0.0;  ///< tier solid and the exact nearest point
+  double solid_ms = 0.0;  ///< tier solid and the exact closest point
   double trees_ms = 0.0;  ///< two trees of boxes, refitted; detection only
   std::size_t tree_contacts = 0;
 };

@@ -23,7 +23,7 @@ double distance_to(std::span<const Ellipsoid> ellipsoids, const Vec3& p) {
   for (const Ellipsoid& e : ellipsoids) {
     // The enclosing ball is no farther than the ellipsoid: skips most of them.
     const double reach = (p - e.center).norm() - e.radii.maxCoeff();
-    if (reach < least) least = std::min(least, bodice::geometry::nearest_point(e, p).signed_distance);
+    if (reach < least) least = std::min(least, bodice::geometry::closest_point(e, p).signed_distance);
   }
   return least;
 }
@@ -46,7 +46,7 @@ void add_gaps(std::span<const Ellipsoid> ellipsoids, std::size_t k,
     const Vec3 u(ring * std::cos(golden * i), ring * std::sin(golden * i), z);
     const Vec3 p = e.center + e.axes * e.radii.cwiseProduct(u);
     if (distance_to(ellipsoids, p) < -kOn_m) continue;
-    const auto hit = distance.nearest_within(p, 10.0);
+    const auto hit = distance.closest_point_within(p, 10.0);
     if (hit)
       gaps.push_back(
           {std::abs(hit->signed_distance), e.radii.prod() * u.cwiseQuotient(e.radii).norm() / count});
@@ -101,7 +101,7 @@ Judge::Judge(const bodice::engine::Context& context, const bodice::geometry::Tri
     for (int axis = 0; axis < 3; ++axis) p[axis] = random.uniform(box.low[axis], box.high[axis]);
     if (!distance_.inside(p)) continue;
     interior_.push_back(p);
-    if (!distance_.nearest_within(p, kDeep_m)) deep_.push_back(p);
+    if (!distance_.closest_point_within(p, kDeep_m)) deep_.push_back(p);
   }
 }
 

@@ -12,7 +12,7 @@ namespace paper_bench {
 
 struct Approximation {
   /// The paper's measure, E_j: mean and worst over the ellipsoids. A vertex counts for the ellipsoid whose
-  /// surface is nearest along the ray from its centre, since a proxy does not tell its clusters.
+  /// surface is nearest along the ray from its center, since a proxy does not tell its clusters.
   double radial_mean_mm = 0.0, radial_worst_mm = 0.0;
   double gap_mean_mm = 0.0, gap_p95_mm = 0.0;      ///< from the union's surface to the skin, by area
   double interior_percent = 0.0;                   ///< of the body's volume that is inside some ellipsoid

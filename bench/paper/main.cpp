@@ -90,7 +90,7 @@ void add_frame_times(bool quick, pb::Page& page) {
       "The paper: its time does not grow with the body's vertices, where [27] grows linearly; both "
       "grow with the garment's, and it is ten times faster than [27]. Here the paper's response runs "
       "as plain scalar code that also checks where each particle ends; the exact response is the "
-      "vectorised one. A garment is a skin 4 mm over the body's; bodies and garments of all sizes are "
+      "vectorized one. A garment is a skin 4 mm over the body's; bodies and garments of all sizes are "
       "made by `synth`.");
   const auto eleven = pb::over_body_vertices(bodies, quick ? 4000 : 20000, tell);
   page.add(pb::frame_table("figure11", "Figure 11. The body gets finer, the garment stays.", eleven));

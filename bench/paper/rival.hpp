@@ -24,7 +24,7 @@ struct RivalFit {
 RivalFit fit_rival(const bodice::engine::Context& context, std::span<const bodice::geometry::Vec3> skin,
                    std::size_t count, int most_tries, double min_radius_m);
 
-/// Eq. (6): mean distance along the ray from the centre between points and surface.
+/// Eq. (6): mean distance along the ray from the center between points and surface.
 double radial_error(const bodice::geometry::Ellipsoid& ellipsoid,
                     std::span<const bodice::geometry::Vec3> points);
 

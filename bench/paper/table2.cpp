@@ -38,7 +38,7 @@ engine::Result<MethodResult> measure_ours(const Subject& subject, const Judge& j
   MethodResult result{.method = "the paper's, here", .segment_ms = 1e30, .fit_ms = 1e30};
   for (int r = 0; r < repeats; ++r) {
     const std::int64_t begin_ns = clock.now_ns();
-    const auto anatomy = anatomy::analyse(context, subject.mesh, {.profile = *profile});
+    const auto anatomy = anatomy::analyze(context, subject.mesh, {.profile = *profile});
     if (!anatomy) return anatomy.error();
     result.segment_ms = std::min(result.segment_ms, clock.ms_since(begin_ns));
     const auto fit =

@@ -17,9 +17,9 @@ using Vec = Eigen::Vector3f;
 
 namespace {
 
-/// The nearest point of a triangle, by regions of its plane; in float, as Embree itself reckons.
+/// The closest point of a triangle, by regions of its plane; in float, as Embree itself reckons.
 /// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.5
-Vec nearest_on_triangle(const Vec& p, const Vec& a, const Vec& b, const Vec& c) {
+Vec closest_on_triangle(const Vec& p, const Vec& a, const Vec& b, const Vec& c) {
   const Vec ab = b - a, ac = c - a;
   const float d1 = ab.dot(p - a), d2 = ac.dot(p - a);
   if (d1 <= 0 && d2 <= 0) return a;
@@ -60,7 +60,7 @@ struct Search {
 bool visit(RTCPointQueryFunctionArguments* args) {
   const auto& search = *static_cast<Search*>(args->userPtr);
   const unsigned* t = &search.scene->indices[3 * args->primID];
-  const Vec q = nearest_on_triangle(search.p, search.scene->vertex(t[0]), search.scene->vertex(t[1]),
+  const Vec q = closest_on_triangle(search.p, search.scene->vertex(t[0]), search.scene->vertex(t[1]),
                                     search.scene->vertex(t[2]));
   const float d = (q - search.p).norm();
   if (d >= args->query->radius) return false;

@@ -23,7 +23,7 @@ using Vec2 = Eigen::Vector2d;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// An interval [from, to] of an edge, laid on the x axis from its first end, that a source at (x, y < 0) sees
-/// after it has travelled `so_far`; it shines into `triangle`.
+/// after it has traveled `so_far`; it shines into `triangle`.
 struct Window {
   Index edge, triangle;
   bool flipped;  ///< the x axis starts at the edge's second end

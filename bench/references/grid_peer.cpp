@@ -39,7 +39,7 @@ Grid empty_grid(const bodice::geometry::Box& box, double cell_m) {
   return grid;
 }
 
-/// Exact near the skin; farther out than twice the pad the value of a neighbour is good enough for the rows.
+/// Exact near the skin; farther out than twice the pad the value of a neighbor is good enough for the rows.
 void fill(Grid& grid, const bodice::geometry::MeshDistance& skin, double cell_m) {
   std::size_t at = 0;
   for (int k = 0; k < grid.n[2]; ++k)

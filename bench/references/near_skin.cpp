@@ -50,7 +50,7 @@ std::vector<Probe> near_skin_probes(const engine::Context& context, const geomet
       } else {
         probes[i].point = box.low + u.cwiseProduct(box.size());
       }
-      const geometry::SurfacePoint nearest = distance.nearest(probes[i].point);
+      const geometry::SurfacePoint nearest = distance.closest_point(probes[i].point);
       probes[i].signed_distance_m = nearest.signed_distance;
       probes[i].counts = nearest.triangle != geometry::kNoIndex && !buried[nearest.triangle];
     }

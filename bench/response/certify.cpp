@@ -69,14 +69,14 @@ Batch random_batch(const proxy::BodyProxy& proxy, const Vec3& origin, std::size_
   return batch;
 }
 
-/// Depth of a particle below the proxy's surface, metres; zero or less outside.
+/// Depth of a particle below the proxy's surface, meters; zero or less outside.
 double depth_m(const proxy::BodyProxy& proxy, const collision::Collider& collider, const float (&at)[3]) {
   if (!proxy.relief().empty()) return -double{collider.query(at).signed_distance};
   const Vec3 p = collider.origin() + Vec3(double{at[0]}, double{at[1]}, double{at[2]});
   double deepest = -1.0;
   for (const auto& e : proxy.ellipsoids())
     if (geometry::level(e.shape, p) < 1.0)
-      deepest = std::max(deepest, proxy.margin_m() - geometry::nearest_point(e.shape, p).signed_distance);
+      deepest = std::max(deepest, proxy.margin_m() - geometry::closest_point(e.shape, p).signed_distance);
   return deepest;
 }
 
@@ -89,7 +89,7 @@ Count certify(const proxy::BodyProxy& proxy, const collision::ResolveOptions& op
   while (count.particles < particles) {
     Batch batch =
         random_batch(proxy, collider.origin(), std::min(kBatch, particles - count.particles), random);
-    // What is judged works among candidates that were kept half a millimetre away.
+    // What is judged works among candidates that were kept half a millimeter away.
     collision::Workspace workspace;
     Batch before = batch;
     for (float& x : before.x) x += 5e-4f;

@@ -1,5 +1,5 @@
 // What a crease does to a particle that is drawn across it, and what fillets change: the largest jump of the
-// contact normal between places a tenth of a millimetre apart, how far a particle at rest moves a substep,
+// contact normal between places a tenth of a millimeter apart, how far a particle at rest moves a substep,
 // and what the response costs beside a query.
 #include <algorithm>
 #include <cmath>

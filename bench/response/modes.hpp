@@ -16,7 +16,7 @@ bool certify_random(std::span<char*> arguments);
 /// Normal jumps, chatter and cost at the creases of a body's proxy, with and without fillets.
 bool cross_creases(std::span<char*> arguments);
 
-/// The float kernel's nearest point against the solver in double. Arguments: [cases].
+/// The float kernel's closest point against the solver in double. Arguments: [cases].
 bool measure_nearest(std::span<char*> arguments);
 
 }  // namespace bench

@@ -1,5 +1,5 @@
-// How exact is the float kernel's nearest point? Random ellipsoids over twelve decades of size and aspects up
-// to 1:1000, random particles up to three radii away, some of them on symmetry planes and at the centre,
+// How exact is the float kernel's closest point? Random ellipsoids over twelve decades of size and aspects up
+// to 1:1000, random particles up to three radii away, some of them on symmetry planes and at the center,
 // against the solver in double, which the geometry suite holds to 1e-12 of a long double reference.
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ geometry::Ellipsoid random_shape(engine::Random& random) {
   return e;
 }
 
-/// In the ellipsoid's frame, in its radii; every eighth on a plane, an axis or the centre.
+/// In the ellipsoid's frame, in its radii; every eighth on a plane, an axis or the center.
 Vec3 random_place(engine::Random& random, std::size_t i) {
   Vec3 p = random.uniform(0.0, 3.0) * direction(random);
   for (int axis = 0; i % 8 == 0 && axis < 3; ++axis)
@@ -49,7 +49,7 @@ Vec3 random_place(engine::Random& random, std::size_t i) {
 struct Worst {
   double relative = 0.0;
   std::size_t above_bar = 0, not_finite = 0, cases = 0;
-  Vec3 radii = Vec3::Ones(), place = Vec3::Zero();  ///< of the worst; the place in its frame, in metres
+  Vec3 radii = Vec3::Ones(), place = Vec3::Zero();  ///< of the worst; the place in its frame, in meters
 };
 
 void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& worst) {
@@ -69,11 +69,11 @@ void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& wo
     const Vec3 p = collider.origin() + Vec3(double{x[i]}, double{y[i]}, double{z[i]});
     const collision::Contact& c = contacts[i];
     const Vec3 foot(double{c.point[0]}, double{c.point[1]}, double{c.point[2]});
-    const double truth = geometry::nearest_point(e, p).signed_distance;
+    const double truth = geometry::closest_point(e, p).signed_distance;
     // The distance, and how far the point is from the surface that it should be on.
     const double off =
         std::max(std::abs(double{c.signed_distance} - truth),
-                 std::abs(geometry::nearest_point(e, collider.origin() + foot).signed_distance));
+                 std::abs(geometry::closest_point(e, collider.origin() + foot).signed_distance));
     const double relative = off / std::max(e.radii.maxCoeff(), (p - e.center).norm());
     worst.not_finite += !std::isfinite(relative);
     worst.above_bar += relative > kBar;

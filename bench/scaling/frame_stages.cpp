@@ -52,7 +52,7 @@ struct ParticleSet {
   explicit ParticleSet(std::size_t count) {
     engine::Random random(5);
     for (auto* values : {&x, &y, &z}) values->resize(count);
-    for (std::size_t i = 0; i < count; ++i) {  // along a helix, so that neighbours lie together
+    for (std::size_t i = 0; i < count; ++i) {  // along a helix, so that neighbors lie together
       const double t = static_cast<double>(i) / static_cast<double>(count), angle = 400.0 * t;
       const double radius = 0.25 + 0.06 * random.uniform();
       x[i] = static_cast<float>(radius * std::cos(angle));

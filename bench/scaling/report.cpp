@@ -140,18 +140,18 @@ std::string to_svg(const std::vector<std::vector<Sample>>& strong, const Origin&
     label(x_of(n) - 3, kTop + kSize + 18, std::to_string(n), "#333");
     label(kLeft - 22, y_of(n) + 4, std::to_string(n), "#333");
   }
-  const char* const colours[] = {"#1f4e8c", "#d1495b", "#2e8b57", "#e0a030", "#6a4c93",
-                                 "#00798c", "#9c6644", "#555",    "#c77dff"};
+  const char* const colors[] = {"#1f4e8c", "#d1495b", "#2e8b57", "#e0a030", "#6a4c93",
+                                "#00798c", "#9c6644", "#555",    "#c77dff"};
   for (std::size_t i = 0; i < strong.size(); ++i) {
-    const std::string colour = colours[i % std::size(colours)];
+    const std::string color = colors[i % std::size(colors)];
     std::string path;
     for (const Sample& sample : strong[i]) {
       path += format("%s%.1f %.1f ", path.empty() ? "M" : "L", x_of(sample.workers),
                      y_of(speed_up(strong[i], sample)));
     }
-    svg += "<path stroke=\"" + colour + "\" d=\"" + path + "\"/>\n";
+    svg += "<path stroke=\"" + color + "\" d=\"" + path + "\"/>\n";
     label(kLeft + kSize + 20, kTop + 20.0 * static_cast<double>(i + 1),
-          strong[i].front().stage + format("  %.2f", speed_up(strong[i], strong[i].back())), colour);
+          strong[i].front().stage + format("  %.2f", speed_up(strong[i], strong[i].back())), color);
   }
   return svg + "</svg>\n";
 }

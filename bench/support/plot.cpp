@@ -9,8 +9,8 @@ namespace bench {
 namespace {
 
 constexpr double kWidth = 860, kHeight = 560, kLeft = 78, kRight = 200, kTop = 48, kBottom = 78;
-constexpr const char* kColours[] = {"#1f4e8c", "#d1495b", "#2e8b57", "#e08a00", "#6a4c93",
-                                    "#00798c", "#9c6644", "#444444", "#c0399f"};
+constexpr const char* kColors[] = {"#1f4e8c", "#d1495b", "#2e8b57", "#e08a00", "#6a4c93",
+                                   "#00798c", "#9c6644", "#444444", "#c0399f"};
 
 bool shows(const PlotPoint& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && p.x > 0.0 && p.y > 0.0;
@@ -86,7 +86,7 @@ std::string frame(const Plot& plot, const Axis& x, const Axis& y) {
 /// Where labels stand already: a new one goes to the first corner of its point that is free.
 class Labels {
  public:
-  std::string put(double x, double y, const std::string& text, const char* colour) {
+  std::string put(double x, double y, const std::string& text, const char* color) {
     constexpr double kHigh = 11, kWide = 6, kAway = 6;
     const double width = kWide * static_cast<double>(text.size());
     const Box corners[] = {{x + kAway, y - kAway, width},
@@ -102,7 +102,7 @@ class Labels {
     const auto at = std::ranges::find_if_not(corners, hits);
     const Box& box = at == std::end(corners) ? corners[0] : *at;
     taken_.push_back(box);
-    return words(box.x, box.y, text, format("font-size='10' fill='%s'", colour).c_str());
+    return words(box.x, box.y, text, format("font-size='10' fill='%s'", color).c_str());
   }
 
  private:
@@ -112,17 +112,17 @@ class Labels {
   std::vector<Box> taken_;
 };
 
-std::string draw(const PlotSeries& series, const char* colour, const Axis& x, const Axis& y, Labels& labels) {
+std::string draw(const PlotSeries& series, const char* color, const Axis& x, const Axis& y, Labels& labels) {
   std::string path, marks;
   for (const PlotPoint& p : series.points) {
     if (!shows(p)) continue;
     path += format("%s%.1f %.1f", path.empty() ? "M" : "L", x.at(p.x), y.at(p.y));
     marks += format("<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' fill='%s'/>\n", x.at(p.x),
-                    y.at(p.y), colour, series.hollow ? "white" : colour);
-    if (!p.label.empty()) marks += labels.put(x.at(p.x), y.at(p.y), p.label, colour);
+                    y.at(p.y), color, series.hollow ? "white" : color);
+    if (!p.label.empty()) marks += labels.put(x.at(p.x), y.at(p.y), p.label, color);
   }
   if (series.line)
-    path = format("<path fill='none' stroke-width='1.5' stroke='%s' d='", colour) + path + "'/>\n";
+    path = format("<path fill='none' stroke-width='1.5' stroke='%s' d='", color) + path + "'/>\n";
   return (series.line ? path : "") + marks;
 }
 
@@ -140,12 +140,12 @@ std::string to_svg(const Plot& plot) {
   double legend_y = kTop + 10;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
-    const std::size_t place = series.colour < 0 ? i : static_cast<std::size_t>(series.colour);
-    const char* const colour = kColours[place % std::size(kColours)];
+    const std::size_t place = series.color < 0 ? i : static_cast<std::size_t>(series.color);
+    const char* const color = kColors[place % std::size(kColors)];
     if (std::ranges::none_of(series.points, shows)) continue;
-    svg += draw(series, colour, x, y, labels);
+    svg += draw(series, color, x, y, labels);
     svg += format("<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' fill='%s'/>\n",
-                  kWidth - kRight + 18, legend_y - 4, colour, series.hollow ? "white" : colour);
+                  kWidth - kRight + 18, legend_y - 4, color, series.hollow ? "white" : color);
     svg += words(kWidth - kRight + 28, legend_y, series.name, "");
     legend_y += 20;
   }

@@ -12,7 +12,7 @@
 namespace tradeoff {
 
 struct Capsule {
-  float start[3], along[3];      ///< metres; the segment goes from start to start + along
+  float start[3], along[3];      ///< meters; the segment goes from start to start + along
   float inverse_squared_length;  ///< 0 for a sphere
   float radius;
 };

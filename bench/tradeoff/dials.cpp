@@ -36,7 +36,7 @@ double middle(std::vector<double> values) {
 }
 
 fitting::FitResult ask(const Setting& setting, const Subject& subject, const fitting::FitOptions& options) {
-  return must(fitting::fit(setting.context, tryon::labelled(subject.skin), options));
+  return must(fitting::fit(setting.context, tryon::labeled(subject.skin), options));
 }
 
 bool missed_by_warning(const fitting::FitResult& fit) {

@@ -22,12 +22,12 @@ struct Way {
 };
 
 std::vector<Way> ways(const Setting& setting) {
-  if (setting.effort == Effort::kSmallest) return {{Tier::kSolid, Response::kNearest, 4}};
+  if (setting.effort == Effort::kSmallest) return {{Tier::kSolid, Response::kClosestPoint, 4}};
   std::vector<Way> all;
   for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief})
-    for (const Response response : {Response::kPaper, Response::kNearest}) {
+    for (const Response response : {Response::kPaper, Response::kClosestPoint}) {
       // The paper's tier leaks, and is draped by the paper's response alone.
-      if (tier == Tier::kPaper && response == Response::kNearest) continue;
+      if (tier == Tier::kPaper && response == Response::kClosestPoint) continue;
       // Paper's response takes many times as long: two points of it show where it lies.
       const bool few = setting.effort == Effort::kQuick || response == Response::kPaper;
       const auto counts = few ? std::vector{4, 16} : std::vector{4, 8, 16, 32};
@@ -109,7 +109,7 @@ Findings sweep_drapes(const Setting& setting) {
   Findings found;
   found.text =
       "Frames of 1/60 s, two sweeps a substep, thickness as `bodice drape` chooses it. A garment that ends "
-      "faster than a metre a second has been thrown off the body: that nothing of it is inside says "
+      "faster than a meter a second has been thrown off the body: that nothing of it is inside says "
       "nothing.\n";
   found.shown.push_back(std::move(table));
   bench::Plot plot{"Depth in the true skin against the time of a frame (skirt; labels: substeps)",
@@ -117,11 +117,11 @@ Findings sweep_drapes(const Setting& setting) {
                    "deepest particle of any frame, mm (0.01: none)",
                    "",
                    {}};
-  std::map<std::string, int> colours;  // one a tier, hollow where the response is the paper's
+  std::map<std::string, int> colors;  // one a tier, hollow where the response is the paper's
   for (auto& [label, line] : series) {
     line.name = label, line.hollow = label.ends_with(", paper");
-    line.colour =
-        colours.try_emplace(label.substr(0, label.find(',')), static_cast<int>(colours.size())).first->second;
+    line.color =
+        colors.try_emplace(label.substr(0, label.find(',')), static_cast<int>(colors.size())).first->second;
     plot.series.push_back(line);
   }
   found.plots.emplace_back("drapes", std::move(plot));

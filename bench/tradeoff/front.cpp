@@ -65,7 +65,7 @@ std::vector<Contender> contenders_of(const Setting& setting, const Subject& subj
   std::vector<Contender> all;
   for (const Dial& dial : dials(setting)) {
     progress("front", subject.name + ", " + std::string(proxy::name(dial.tier)) + " " + dial.label());
-    const auto fit = must(fitting::fit(setting.context, tryon::labelled(subject.skin), dial.options()));
+    const auto fit = must(fitting::fit(setting.context, tryon::labeled(subject.skin), dial.options()));
     all.push_back(of_proxy(subject, fit, dial.label()));
     if (dial.tier == Tier::kTight || dial.tier == Tier::kRelief)
       all.push_back(of_proxy(subject, fit, dial.label(), collision::Accuracy::kFirstOrder));
@@ -168,7 +168,7 @@ Findings sweep_front(const Setting& setting) {
   found.text =
       "Particles spread evenly over depths up to 30 mm on either side of the skin, in Morton order, one "
       "thread; errors are against the exact signed distance (Embree has no sign: distances alone). Rivals "
-      "answer with a distance, ours with the nearest point, the normal and the ellipsoid as well; 'to first "
+      "answer with a distance, ours with the closest point, the normal and the ellipsoid as well; 'to first "
       "order' is the same proxy asked with Accuracy::kFirstOrder. "
       "`prepare` starts from the segmented skin; `update` is what a moved body pays a frame: ours and the "
       "capsules are carried rigidly by part, Embree and the grids are built anew and stay as exact (a refit "

@@ -93,7 +93,7 @@ Findings sweep_geodesics(const Setting& setting) {
     add_landmarks(subject, landmarks);
   }
   found.text =
-      "The analysis measures with the one method that it needs; errors of a method in millimetres bound what "
+      "The analysis measures with the one method that it needs; errors of a method in millimeters bound what "
       "it moves a landmark by.\n";
   found.shown.push_back(std::move(landmarks));
   return found;

@@ -54,7 +54,7 @@ std::vector<Point> measure(const Setting& setting) {
       for (const int count : counts) {
         progress("laws", subject.name + ", " + std::string(proxy::name(tier)) + " " + std::to_string(count));
         const auto fit =
-            must(fitting::fit(setting.context, tryon::labelled(subject.skin),
+            must(fitting::fit(setting.context, tryon::labeled(subject.skin),
                               {.tier = tier, .max_ellipsoids = count, .measure_accuracy = false}));
         points.push_back({subject.name, tier, static_cast<int>(fit.proxy.ellipsoids().size())});
         contenders.push_back(of_proxy(subject, fit, ""));

@@ -24,7 +24,7 @@ std::vector<float> in_double(const proxy::BodyProxy& proxy, const bench::Cloud& 
 
 void add_tier(const Setting& setting, const Subject& subject, proxy::Tier tier, bench::Table& table) {
   progress("precision", std::string(proxy::name(tier)));
-  const auto fit = must(fitting::fit(setting.context, tryon::labelled(subject.skin),
+  const auto fit = must(fitting::fit(setting.context, tryon::labeled(subject.skin),
                                      {.tier = tier, .max_ellipsoids = setting.by_effort(15, 30, 89)}));
   std::vector<Contender> one{of_proxy(subject, fit, "")};
   const double float_ns = time_all(one, 5)[0].query_ns;

@@ -77,7 +77,7 @@ struct Fitted {
 
 Fitted fit_parts(const Setting& setting, const Subject& subject, Tier tier, std::uint32_t parts) {
   auto fit =
-      must(fitting::fit(setting.context, tryon::labelled(subject.skin),
+      must(fitting::fit(setting.context, tryon::labeled(subject.skin),
                         {.tier = tier, .max_ellipsoids = setting.by_effort(30, 55, 89), .parts = parts}));
   const double ms = fit_ms(fit);
   return {std::move(fit), ms};
@@ -147,7 +147,7 @@ Findings sweep_regions(const Setting& setting) {
       "`bodice fit --region-of GARMENT` fits only what the garment can reach: the parts of it, and the torso "
       "as one. Paper and solid fit a part alone as they fit it in the whole body: the answers are the "
       "whole's, "
-      "to the bit. Tight and relief fit neighbours together, so that other neighbours give other ellipsoids: "
+      "to the bit. Tight and relief fit neighbors together, so that other neighbors give other ellipsoids: "
       "as near to the skin (error) as the whole's, not the same (apart). "
       "`tryon::within_reach` crops a proxy to a garment without changing an answer. Answers are compared by "
       "the reference in double.\n";

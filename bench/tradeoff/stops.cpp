@@ -90,12 +90,12 @@ double rms_mm(const std::vector<Vec3>& points, const fitting::Clusters& clusters
 
 bench::Table clustering(const Setting& setting, const Subject& subject) {
   bench::Table table("kmeans",
-                     "K-means over the skin's vertices: stop when no centre moves farther than sigma (the "
-                     "paper's eq. 7); spread is the root mean square distance from the centre.",
-                     {"centres", "sigma_mm", "iterations", "spread_mm", "above_converged_%", "time_us"});
+                     "K-means over the skin's vertices: stop when no center moves farther than sigma (the "
+                     "paper's eq. 7); spread is the root mean square distance from the center.",
+                     {"centers", "sigma_mm", "iterations", "spread_mm", "above_converged_%", "time_us"});
   const std::vector<Vec3>& points = subject.skin.input.skin.positions;
   for (const std::size_t count : setting.by_effort<std::vector<std::size_t>>({15}, {15, 89}, {15, 89, 200})) {
-    progress("stops", "K-means, " + std::to_string(count) + " centres");
+    progress("stops", "K-means, " + std::to_string(count) + " centers");
     std::vector<Vec3> start;
     for (std::size_t i = 0; i < count; ++i) start.push_back(points[i * points.size() / count]);
     const auto solve = [&](double sigma_m) {

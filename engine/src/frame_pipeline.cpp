@@ -64,9 +64,9 @@ FramePipeline::~FramePipeline() {
   for (const auto& job : impl_->jobs) job->wait();
 }
 
-FrameReport FramePipeline::frame(FunctionRef<void(const Context&)> body) {
+FrameTiming FramePipeline::frame(FunctionRef<void(const Context&)> body) {
   const Context context = impl_->context_on(impl_->frame_executor);
-  FrameReport report;
+  FrameTiming report;
   report.index = impl_->next_frame++;
   const TraceSpan span(context, "frame", static_cast<std::int64_t>(report.index));
   const std::int64_t start_ns = context.clock->now_ns();
@@ -119,7 +119,7 @@ std::shared_ptr<Job> StreamBase::start(std::string name, Job::Work work) {
 }
 
 bool StreamBase::cross_boundary(std::uint64_t frame, const PipelineOptions& options) noexcept {
-  if (!job_ || job_->cancelled()) return false;
+  if (!job_ || job_->canceled()) return false;
   if (options.mode == PipelineMode::kLatency) {
     collect();
     const bool any = has_collected();

@@ -12,8 +12,8 @@ namespace {
 // Each invitation nests one bulk deeper; past this depth all workers return and start afresh from the top.
 constexpr int kMaxDepth = 32;
 
-Error cancelled_error(const std::string& task) {
-  return Error{ErrorCode::kCancelled, "Cancelled at '" + task + "'.", ""};
+Error canceled_error(const std::string& task) {
+  return Error{ErrorCode::kCanceled, "Canceled at '" + task + "'.", ""};
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ struct TaskGraph::Impl::Run {
       }
       if (!result) return fail(rank, result.error(), nullptr);
       finish(rank, depth);
-    } catch (const Cancelled&) {
+    } catch (const Canceled&) {
       cancel(rank);
     } catch (...) {
       fail(rank, std::nullopt, std::current_exception());
@@ -57,11 +57,11 @@ struct TaskGraph::Impl::Run {
     graph.exception_ = std::move(exception);
   }
 
-  // A cancelled run starts nothing more, so it takes the place below every rank; the first one is told.
+  // A canceled run starts nothing more, so it takes the place below every rank; the first one is told.
   void cancel(std::uint32_t rank) {
     const std::lock_guard lock(graph.failure_mutex_);
-    const bool first = !graph.error_ || graph.error_->code != ErrorCode::kCancelled;
-    if (first) graph.error_ = cancelled_error(graph.node(rank).name);
+    const bool first = !graph.error_ || graph.error_->code != ErrorCode::kCanceled;
+    if (first) graph.error_ = canceled_error(graph.node(rank).name);
     graph.exception_ = nullptr;
     graph.limit_ = 0;
   }

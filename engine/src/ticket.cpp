@@ -14,8 +14,8 @@ Result<void> Job::call() noexcept {
   try {
     context_.cancel.check();
     return work_(*this, context_);
-  } catch (const Cancelled&) {
-    return Error{ErrorCode::kCancelled, "'" + name_ + "' was cancelled.", ""};
+  } catch (const Canceled&) {
+    return Error{ErrorCode::kCanceled, "'" + name_ + "' was canceled.", ""};
   } catch (const std::exception& error) {
     return Error{ErrorCode::kInternal, "'" + name_ + "' failed: " + error.what() + ".", ""};
   } catch (...) {
@@ -27,7 +27,7 @@ void Job::run() noexcept {
   Stage expected = Stage::kWaiting;
   if (!stage_.compare_exchange_strong(expected, Stage::kRunning)) return;
   result_ = call();
-  if (!result_ && result_.error().code != ErrorCode::kCancelled) context_.warn(result_.error().sentence());
+  if (!result_ && result_.error().code != ErrorCode::kCanceled) context_.warn(result_.error().sentence());
   work_ = nullptr;  // lets go of what the work held, here and not in a frame
   stage_.store(Stage::kDone, std::memory_order_release);
   signal();

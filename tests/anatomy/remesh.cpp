@@ -61,16 +61,16 @@ class Decimator {
     const auto& t = mesh_.triangles[f];
     return {mesh_.positions[t[0]], mesh_.positions[t[1]], mesh_.positions[t[2]]};
   }
-  std::set<Index> neighbours(Index v) const {
+  std::set<Index> neighbors(Index v) const {
     std::set<Index> near;
     for (const Index f : around_[v])
       for (const Index w : mesh_.triangles[f])
         if (w != v) near.insert(w);
     return near;
   }
-  /// The link condition (two common neighbours), and no triangle may turn over.
+  /// The link condition (two common neighbors), and no triangle may turn over.
   bool allowed(Index from, Index to) const {
-    const auto a = neighbours(from), b = neighbours(to);
+    const auto a = neighbors(from), b = neighbors(to);
     std::vector<Index> common;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
     if (a.count(to) == 0 || common.size() != 2) return false;
@@ -100,9 +100,9 @@ class Decimator {
     }
     alive_[from] = 0;
     around_[from].clear();
-    for (const Index w : neighbours(to)) {
+    for (const Index w : neighbors(to)) {
       push(w, to);
-      for (const Index x : neighbours(w)) push(w, x);
+      for (const Index x : neighbors(w)) push(w, x);
     }
   }
   TriMesh compact() const {

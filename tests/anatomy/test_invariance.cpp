@@ -18,7 +18,7 @@ namespace {
 constexpr double kSame = 0.01;
 
 anatomy::Anatomy understood(const TriMesh& mesh) {
-  auto found = anatomy::analyse({}, mesh, {*body::find_profile("ansur2")});
+  auto found = anatomy::analyze({}, mesh, {*body::find_profile("ansur2")});
   REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
   return std::move(found.value());
 }
@@ -137,7 +137,7 @@ TEST_CASE("damage that leaves the body whole changes nothing; what welds limbs i
   }
   const auto fused = bodice_test::data_file("awkward/m_avg_armsdown_fused.obj");
   REQUIRE(fused);
-  const auto refused = anatomy::analyse({}, repaired(*fused), {*body::find_profile("ansur2")});
+  const auto refused = anatomy::analyze({}, repaired(*fused), {*body::find_profile("ansur2")});
   REQUIRE(!refused.ok());
   CHECK(refused.error().message.find("fused where a hand touches a leg") != std::string::npos);
 }

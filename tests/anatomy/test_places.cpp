@@ -15,7 +15,7 @@ using geometry::Vec3;
 using synth::Pose;
 
 anatomy::Anatomy understood(const synth::Body& truth) {
-  auto found = anatomy::analyse({}, truth.mesh, {body::find_profile("ansur2").value()});
+  auto found = anatomy::analyze({}, truth.mesh, {body::find_profile("ansur2").value()});
   REQUIRE(found.ok());
   return std::move(*found);
 }

@@ -153,7 +153,7 @@ TEST_CASE("an arm that crosses its own width in a frame pushes a curtain and doe
     move(body, arm);
     CHECK(solver.step({}, body, kFrame_s).contacts.unresolved == 0);
     const std::vector<Vec3> now = positions(solver, mesh.positions.size());
-    for (const Vec3& p : now) REQUIRE(geometry::nearest_point(arm, p).signed_distance > -1e-5);
+    for (const Vec3& p : now) REQUIRE(geometry::closest_point(arm, p).signed_distance > -1e-5);
     for (Index i = 0; i <= 30; ++i) {  // each column still has its part before the arm
       double foremost = 0.0;
       for (Index j = 0; j <= 30; ++j) foremost = std::max(foremost, now[31 * j + i].z());

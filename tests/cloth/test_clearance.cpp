@@ -35,7 +35,7 @@ collision::Collider body_of(const std::vector<geometry::Ellipsoid>& all) {
 
 double distance_m(const std::vector<geometry::Ellipsoid>& all, const Vec3& at) {
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& shape : all) least = std::min(least, geometry::nearest_point(shape, at).signed_distance);
+  for (const auto& shape : all) least = std::min(least, geometry::closest_point(shape, at).signed_distance);
   return least;
 }
 
@@ -44,7 +44,7 @@ Vec3 random_place(const engine::Random& random, std::uint64_t key, double reach)
                       2.0 * random.uniform_at(3 * key + 2) - 1.0);
 }
 
-/// Clusters of 4 cm at random places up to half a metre away, some of them in the body.
+/// Clusters of 4 cm at random places up to half a meter away, some of them in the body.
 cloth::Particles scatter(const engine::Random& random, const Vec3& origin) {
   cloth::Particles p;
   p.size = kCount;
@@ -130,7 +130,7 @@ TEST_CASE("a cluster of which one touched is near without asking, and no other f
 }
 
 TEST_CASE("nor is one missed where relief rises at once") {
-  // A ball in rings half a millimetre apart, in turns flat and 2.5 mm high.
+  // A ball in rings half a millimeter apart, in turns flat and 2.5 mm high.
   constexpr double kRadius_m = 0.05;
   constexpr int kNodes = 255;
   proxy::BodyProxy::Data data;

@@ -26,7 +26,7 @@ void check_coloring(const std::vector<geometry::Index>& particles, std::size_t a
 
 }  // namespace
 
-TEST_CASE("no two constraints of a colour share a particle, and none is lost") {
+TEST_CASE("no two constraints of a color share a particle, and none is lost") {
   const engine::Random random(7);
   for (const std::size_t arity : {2u, 4u}) {
     std::vector<geometry::Index> particles;
@@ -39,13 +39,13 @@ TEST_CASE("no two constraints of a colour share a particle, and none is lost") {
   }
 }
 
-TEST_CASE("a fan of 200 constraints around one particle needs 200 colours, more than a word holds") {
+TEST_CASE("a fan of 200 constraints around one particle needs 200 colors, more than a word holds") {
   std::vector<geometry::Index> particles;
   for (geometry::Index k = 1; k <= 200; ++k) particles.insert(particles.end(), {0, k});
   check_coloring(particles, 2, 201);
   CHECK(cloth::color(particles, 2, 201).colors() == 200);
 }
 
-TEST_CASE("nothing to colour is no colour") {
+TEST_CASE("nothing to color is no color") {
   CHECK(cloth::color({}, 2, 10).colors() == 0);
 }

@@ -14,7 +14,7 @@ namespace {
 
 struct Outcome {
   cloth::FrameReport report;
-  double reach = 0.0;  ///< largest distance from the start, metres
+  double reach = 0.0;  ///< largest distance from the start, meters
 };
 
 Outcome run(const TriMesh& mesh, const cloth::SolverOptions& options, const collision::Collider& body,
@@ -79,7 +79,7 @@ TEST_CASE("a garment thrown at the body at 50 m/s does not end inside or beyond 
   for (int frame = 0; frame < 10; ++frame) {
     REQUIRE(solver.step(context, body, 1.0 / 60.0).finite);
     for (const Vec3& p : positions(solver, mesh.positions.size())) {
-      REQUIRE(geometry::nearest_point(shape, p).signed_distance > -1e-5);
+      REQUIRE(geometry::closest_point(shape, p).signed_distance > -1e-5);
     }
   }
   for (const Vec3& p : positions(solver, mesh.positions.size())) CHECK(p[1] > 0.7);

@@ -103,7 +103,7 @@ TEST_CASE("a ribbon let go hangs no longer than its strain limit allows, in any 
 }
 
 TEST_CASE("a fold let go keeps the angle that friction holds, and none without friction") {
-  // Two equilateral triangles: under moments a metre of fold, B t / h = m with h the area over the edge.
+  // Two equilateral triangles: under moments a meter of fold, B t / h = m with h the area over the edge.
   constexpr double kSide = 0.01, kFriction_n = 2.0e-4, kBend_n_m = 8.0e-6;
   const double height = kSide * std::sqrt(0.75);
   TriMesh mesh;
@@ -145,7 +145,7 @@ TEST_CASE("a sheet dropped on one ellipsoid rests on its offset surface") {
     const std::vector<Vec3> rest = positions(solver, mesh.positions.size());
     double nearest = 1.0, crown = 0.0;
     for (const Vec3& p : rest) {
-      const double d = geometry::nearest_point(shape, p).signed_distance;
+      const double d = geometry::closest_point(shape, p).signed_distance;
       nearest = std::min(nearest, d);
       if (std::hypot(p[0], p[2]) < 0.05) crown = std::max(crown, d);
     }

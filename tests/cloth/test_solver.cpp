@@ -111,15 +111,15 @@ TEST_CASE("at rest no energy appears, the elastic one included, and who sleeps s
     const engine::Context context;
     cloth::FrameReport report;
     for (int frame = 0; frame < 300; ++frame) report = solver.step(context, body, kFrame_s);
-    // A millimetre's fall of the whole sheet: a hundredth of what folds still give away.
-    const double millimetre_j = 0.14 * 0.7 * 0.7 * 9.81 * 1e-3;
+    // A millimeter's fall of the whole sheet: a hundredth of what folds still give away.
+    const double millimeter_j = 0.14 * 0.7 * 0.7 * 9.81 * 1e-3;
     auto energy = [](const cloth::FrameReport& r) {
       return r.kinetic_energy_j + r.gravity_energy_j + r.elastic_energy_j;
     };
     double least = energy(report);
     for (int frame = 0; frame < 600; ++frame) {
       report = solver.step(context, body, kFrame_s);
-      CHECK(energy(report) < least + millimetre_j);
+      CHECK(energy(report) < least + millimeter_j);
       least = std::min(least, energy(report));
     }
     CHECK(report.median_speed_m_s < 1e-3);
@@ -176,7 +176,7 @@ TEST_CASE("who sleeps is not drawn out by pins that begin to move slowly, nor le
   REQUIRE(report.asleep >= solver.particles() - 2);
   const double stretch_asleep = report.stretch_max;
   for (int frame = 1; frame <= 120; ++frame) {
-    const Vec3 by(0.03 * kFrame_s * frame, 0.0, 0.0);  // 3 cm/s, slower than what wakes a neighbour
+    const Vec3 by(0.03 * kFrame_s * frame, 0.0, 0.0);  // 3 cm/s, slower than what wakes a neighbor
     const Vec3 targets[] = {mesh.positions[pins[0]] + by, mesh.positions[pins[1]] + by};
     solver.move_pins(targets);
     report = solver.step(context, kFrame_s);
@@ -195,7 +195,7 @@ TEST_CASE("who sleeps is not drawn out by pins that begin to move slowly, nor le
 TEST_CASE("a pin that the body would push leaves its cloth at rest, whatever the substeps") {
   const TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3(-0.2, 0.098, -0.2));
   const std::vector<Index> middle = {12};  // 2 mm inside a ball that nothing else of the sheet touches
-  for (const auto response : {collision::Response::kNearest, collision::Response::kPaper}) {
+  for (const auto response : {collision::Response::kClosestPoint, collision::Response::kPaper}) {
     const collision::Collider body = ellipsoid_body(Vec3::Zero(), Vec3::Constant(0.1));
     for (const int substeps : {2, 8, 32, 128}) {
       cloth::SolverOptions options = vacuum();

@@ -36,7 +36,7 @@ inline Mat3 random_rotation(bodice::engine::Random& random) {
   return Eigen::AngleAxisd(random.uniform(0.0, 3.14159), axis).toRotationMatrix();
 }
 
-/// Centres in a cube of the given half side, radii log-uniform between the two.
+/// Centers in a cube of the given half side, radii log-uniform between the two.
 inline std::vector<Ellipsoid> random_ellipsoids(std::uint64_t seed, int count, double half_side, double least,
                                                 double largest) {
   bodice::engine::Random random(seed);
@@ -159,12 +159,12 @@ struct Cloud {
 };
 
 /// Brute force over the union, in double: the oracle of the suite.
-inline bodice::geometry::NearestPoint brute_force(const std::vector<Ellipsoid>& shapes, const Vec3& p,
+inline bodice::geometry::ClosestPoint brute_force(const std::vector<Ellipsoid>& shapes, const Vec3& p,
                                                   std::uint32_t* owner = nullptr) {
-  bodice::geometry::NearestPoint best;
+  bodice::geometry::ClosestPoint best;
   best.signed_distance = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < shapes.size(); ++k) {
-    const auto at = bodice::geometry::nearest_point(shapes[k], p);
+    const auto at = bodice::geometry::closest_point(shapes[k], p);
     if (at.signed_distance >= best.signed_distance) continue;
     best = at;
     if (owner) *owner = static_cast<std::uint32_t>(k);

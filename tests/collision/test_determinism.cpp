@@ -80,7 +80,7 @@ TEST_CASE("a query does not depend on which particles share a block") {
   }
 }
 
-TEST_CASE("every instruction set gives the same answers to two micrometres") {
+TEST_CASE("every instruction set gives the same answers to two micrometers") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     Cloud cloud = random_cloud();

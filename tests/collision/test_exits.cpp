@@ -37,7 +37,7 @@ namespace {
 double first_exit_m(const std::vector<Ellipsoid>& shapes, const Vec3& p, const Vec3& direction,
                     double clearance_m) {
   const auto below = [&](const Ellipsoid& e, double t) {
-    return geometry::nearest_point(e, p + t * direction).signed_distance < clearance_m;
+    return geometry::closest_point(e, p + t * direction).signed_distance < clearance_m;
   };
   double t = 0.0;
   for (bool left = true; left;) {

@@ -11,7 +11,7 @@ using namespace bodice_test;
 
 namespace {
 
-/// Particles at the centre, on the axes, on the symmetry planes and at random inside of `e`, local frame.
+/// Particles at the center, on the axes, on the symmetry planes and at random inside of `e`, local frame.
 Cloud inside_of(const Ellipsoid& e, const Vec3& origin) {
   engine::Random random(3);
   Cloud cloud;
@@ -28,7 +28,7 @@ Cloud inside_of(const Ellipsoid& e, const Vec3& origin) {
 
 }  // namespace
 
-TEST_CASE("aspects to 1:1000 and radii from a micrometre to a thousand kilometres") {
+TEST_CASE("aspects to 1:1000 and radii from a micrometer to a thousand kilometers") {
   engine::Random random(2);
   for (const double scale_m : {1e-6, 1e-3, 1.0, 1e3, 1e6})
     for (const double aspect : {1.0, 10.0, 100.0, 1000.0}) {
@@ -53,7 +53,7 @@ TEST_CASE("aspects to 1:1000 and radii from a micrometre to a thousand kilometre
     }
 }
 
-TEST_CASE("relief is certified in proportion to the body, from a millimetre to a kilometre") {
+TEST_CASE("relief is certified in proportion to the body, from a millimeter to a kilometer") {
   for (const double scale : {1e-3, 1.0, 1e3}) {
     auto data = data_of(random_ellipsoids(12, 40, 0.4 * scale, 0.06 * scale, 0.25 * scale));
     data.stature_m *= scale;
@@ -126,7 +126,7 @@ TEST_CASE("ten million particles are answered as each of them alone") {
   CHECK(farthest_m < 1e-6);
 }
 
-TEST_CASE("particles that are not numbers are left alone, counted, and spoil none of their neighbours") {
+TEST_CASE("particles that are not numbers are left alone, counted, and spoil none of their neighbors") {
   const auto shapes = random_ellipsoids(7, 10, 0.2, 0.1, 0.2);
   const Collider collider(proxy_of(shapes));
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
@@ -182,7 +182,7 @@ TEST_CASE("two hundred thousand random particles: none inside, shells and solids
       for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Vec3 p = cloud.position(i) + collider.origin();
         for (const Ellipsoid& e : shapes)
-          inside += geometry::level(e, p) < 1.0 && geometry::nearest_point(e, p).signed_distance < -1e-6;
+          inside += geometry::level(e, p) < 1.0 && geometry::closest_point(e, p).signed_distance < -1e-6;
       }
       CHECK(inside == 0);
     }

@@ -87,7 +87,7 @@ double missing(const Ellipsoid& e, double height) {
   const auto contacts = ask(collider, cloud, kFirst);
   double sum = 0.0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const auto truth = geometry::nearest_point(e, cloud.position(i) + collider.origin()).signed_distance;
+    const auto truth = geometry::closest_point(e, cloud.position(i) + collider.origin()).signed_distance;
     const double off = truth - double{contacts[i].signed_distance};
     sum += off * off;
   }
@@ -115,7 +115,7 @@ TEST_CASE("to first order the distance is that to a plane which touches the elli
       for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Vec3 p = cloud.position(i) + collider.origin(), n = vec(contacts[i].normal);
         const double told = double{contacts[i].signed_distance};
-        const double truth = geometry::nearest_point(e, p).signed_distance;
+        const double truth = geometry::closest_point(e, p).signed_distance;
         off_plane_m = std::max(off_plane_m, std::abs(told - over_tangent_plane(e, p, n.normalized())));
         above_truth_m = std::max(above_truth_m, told - truth);
         wrong_sides += std::abs(truth) > tolerance_m && (told < 0.0) != (truth < 0.0);
@@ -145,7 +145,7 @@ TEST_CASE("what is missing to the distance goes with the fourth power of the hei
   }
 }
 
-TEST_CASE("at a centre the way out is along the shortest axis") {
+TEST_CASE("at a center the way out is along the shortest axis") {
   for (const Ellipsoid& e : shapes_alone()) {
     const Collider collider(proxy_of({e}));
     const Vec3 center = e.center - collider.origin();
@@ -154,14 +154,14 @@ TEST_CASE("at a centre the way out is along the shortest axis") {
         kFirst);
     int shortest = 0;
     e.radii.minCoeff(&shortest);
-    // The centre may not be a float: the way out of next to it is as long.
+    // The center may not be a float: the way out of next to it is as long.
     CHECK(double{contact.signed_distance} == doctest::Approx(-e.radii.minCoeff()).epsilon(1e-3));
     if (e.radii[(shortest + 1) % 3] > e.radii[shortest] && e.radii[(shortest + 2) % 3] > e.radii[shortest])
       CHECK(std::abs(vec(contact.normal).dot(e.axes.col(shortest))) == doctest::Approx(1.0).epsilon(1e-3));
   }
 }
 
-TEST_CASE("of a union: sides are exact, and few take a wrong neighbour") {
+TEST_CASE("of a union: sides are exact, and few take a wrong neighbor") {
   const auto proxy = body_like(false);
   std::vector<Ellipsoid> shapes;
   for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
@@ -179,7 +179,7 @@ TEST_CASE("of a union: sides are exact, and few take a wrong neighbour") {
       const double told = double{contacts[i].signed_distance};
       wrong_sides += std::abs(truth) > 1e-6 && (told < 0.0) != (truth < 0.0);
       wrong_owners += contacts[i].ellipsoid != owner;
-      above_owner += told > geometry::nearest_point(shapes[contacts[i].ellipsoid], p).signed_distance + 1e-6;
+      above_owner += told > geometry::closest_point(shapes[contacts[i].ellipsoid], p).signed_distance + 1e-6;
       sum_m += std::abs(told - truth);
     }
     CHECK(wrong_sides == 0);
@@ -233,7 +233,7 @@ TEST_CASE("to first order within a contact distance") {
         }
         CHECK(too_far == 0);
         CHECK((told > 100 || within_m == -kInf));
-        // Fewer neighbours may be asked, so that another owner is told of.
+        // Fewer neighbors may be asked, so that another owner is told of.
         CHECK(differ <= (within_m == 0.0f && !relief ? 0 : 8));
       }
     }

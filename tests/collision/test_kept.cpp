@@ -26,7 +26,7 @@ bodice::proxy::BodyProxy crowd(bool relief, int count) {
   return proxy_of(relief ? with_relief(std::move(data), 9, 0.002, 82) : data);
 }
 
-/// Neighbours in space are neighbours in the arrays.
+/// Neighbors in space are neighbors in the arrays.
 Cloud lattice(int side) {
   Random random(83);
   Cloud cloud;
@@ -102,8 +102,8 @@ double equally_near_y(const std::vector<Ellipsoid>& shapes) {
   double low = -0.1, high = 0.3;
   for (int i = 0; i < 60; ++i) {
     const Vec3 p(0.0, 0.5 * (low + high), 0.0);
-    const double first = bodice::geometry::nearest_point(shapes[0], p).signed_distance;
-    (first < bodice::geometry::nearest_point(shapes[1], p).signed_distance ? low : high) = p.y();
+    const double first = bodice::geometry::closest_point(shapes[0], p).signed_distance;
+    (first < bodice::geometry::closest_point(shapes[1], p).signed_distance ? low : high) = p.y();
   }
   return low;
 }

@@ -26,7 +26,7 @@ std::vector<Ellipsoid> two_balls(double radius_m, double gap_m) {
 Vec3 normal_at(const Collider& collider, double x, float blend_m) {
   Cloud cloud;
   const Vec3 fall(0.0, -1.0, 0.0);
-  // Balls of 0.5 m at -+0.4: the surface, sunk by half a millimetre.
+  // Balls of 0.5 m at -+0.4: the surface, sunk by half a millimeter.
   const double y = std::sqrt(0.25 - std::pow(0.4 - std::abs(x), 2)) - 5e-4;
   cloud.add(Vec3(x, y, 0.0), fall);
   const ContactReport report =
@@ -167,7 +167,7 @@ TEST_CASE("a particle in a fold without room is not thrown, and its push is boun
 }
 
 TEST_CASE("in a fold whose crease is far a bounded particle goes midway at once, not along the fold") {
-  // 12 mm from the axis the balls overlap by half a millimetre; their crease is 2 mm farther out.
+  // 12 mm from the axis the balls overlap by half a millimeter; their crease is 2 mm farther out.
   const Collider collider(proxy_of(two_balls(0.1, -0.002)));
   for (const bool exactly : {false, true}) {
     Cloud cloud;
@@ -250,7 +250,7 @@ TEST_CASE("with fillets no particle is inside, and where one ellipsoid is near n
     const Vec3 end = cloud.position(i) + collider.origin();
     lowest_m = std::min(lowest_m, brute_force(shapes, end).signed_distance);
     int near = 0;
-    for (const Ellipsoid& e : shapes) near += geometry::nearest_point(e, p).signed_distance < 0.02;
+    for (const Ellipsoid& e : shapes) near += geometry::closest_point(e, p).signed_distance < 0.02;
     if (near != 1) continue;
     ++lone;
     differing += (end - p).norm() > 1e-4;

@@ -42,10 +42,10 @@ Errors compare(const std::vector<Ellipsoid>& shapes, const std::vector<Vec3>& pl
       ++errors.wrong_owner;
       continue;
     }
-    const auto own = geometry::nearest_point(shapes[c.ellipsoid], p);
+    const auto own = geometry::closest_point(shapes[c.ellipsoid], p);
     errors.point =
         std::max(errors.point,
-                 std::abs(geometry::nearest_point(shapes[c.ellipsoid], point).signed_distance) / scale_m);
+                 std::abs(geometry::closest_point(shapes[c.ellipsoid], point).signed_distance) / scale_m);
     if (own.signed_distance > truth.signed_distance + 2e-6 * scale_m) ++errors.wrong_owner;
   }
   return errors;
@@ -98,7 +98,7 @@ TEST_CASE("a batch query agrees with brute force in double over random unions") 
   }
 }
 
-TEST_CASE("neighbouring particles near the surface, as cloth has them, agree with brute force") {
+TEST_CASE("neighboring particles near the surface, as cloth has them, agree with brute force") {
   const auto shapes = random_ellipsoids(3, 89, 0.6, 0.03, 0.2);
   std::vector<Vec3> places;
   engine::Random random(9);
@@ -130,7 +130,7 @@ TEST_CASE("next to a crease the nearer of two ellipsoids is told, however rough 
   });
 }
 
-TEST_CASE("needles, discs and spheres of any size, at centres and on symmetry planes") {
+TEST_CASE("needles, discs and spheres of any size, at centers and on symmetry planes") {
   for (const double size_m : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     for (const Vec3& aspect :
          {Vec3(1, 1, 1), Vec3(1, 1, 1e-3), Vec3(1, 1e-3, 1e-3), Vec3(1, 0.5, 1e-3), Vec3(1e-2, 1, 1)}) {
@@ -174,7 +174,7 @@ TEST_CASE("seven hundred different ellipsoids in one place, particles in no orde
   CHECK(errors.wrong_owner == 0);
 }
 
-TEST_CASE("ten kilometres from the origin the answers are those at the origin") {
+TEST_CASE("ten kilometers from the origin the answers are those at the origin") {
   auto shapes = random_ellipsoids(3, 40, 0.6, 0.03, 0.2);
   const Collider near(proxy_of(shapes));
   const Vec3 away(10'000.0, 0.0, -10'000.0);
@@ -231,7 +231,7 @@ TEST_CASE("several contacts come nearest first, each with its own ellipsoid") {
     const std::size_t found =
         collider.query_all({float(local.x()), float(local.y()), float(local.z())}, 0.02f, contacts);
     std::vector<double> truth;
-    for (const Ellipsoid& e : shapes) truth.push_back(geometry::nearest_point(e, p).signed_distance);
+    for (const Ellipsoid& e : shapes) truth.push_back(geometry::closest_point(e, p).signed_distance);
     const auto within = std::count_if(truth.begin(), truth.end(), [](double d) { return d <= 0.02; });
     CHECK(found == static_cast<std::size_t>(within));
     std::sort(truth.begin(), truth.end());
@@ -270,7 +270,7 @@ TEST_CASE("relief agrees with the definition that fitting trains against") {
     }
     CAPTURE(nodes);
     CAPTURE(sorted_axes);
-    // A hundredth of a millimetre: where owners blend over 3 mm, an error of the distance counts eightfold.
+    // A hundredth of a millimeter: where owners blend over 3 mm, an error of the distance counts eightfold.
     CHECK(worst_m < 1e-5);
     CHECK(off_normals < 60);
   }
@@ -303,7 +303,7 @@ TEST_CASE("relief where some ellipsoids have no table: those are plain") {
 }
 
 TEST_CASE("places so close that one ellipsoid, or a handful, can be the nearest, agree with brute force") {
-  // Blocks of a millimetre to half a metre: what is dropped for a whole block must be nowhere the nearest.
+  // Blocks of a millimeter to half a meter: what is dropped for a whole block must be nowhere the nearest.
   const auto shapes = random_ellipsoids(13, 120, 0.6, 0.03, 0.2);
   engine::Random random(19);
   for (const double block_m : {1e-4, 1e-3, 1e-2, 0.1, 0.5}) {
@@ -319,7 +319,7 @@ TEST_CASE("places so close that one ellipsoid, or a handful, can be the nearest,
   }
 }
 
-TEST_CASE("a place far away hides nothing from its neighbours in the block") {
+TEST_CASE("a place far away hides nothing from its neighbors in the block") {
   constexpr int kTogether = 64;
   const proxy::BodyProxy proxy = proxy_of(random_ellipsoids(13, 120, 0.6, 0.03, 0.2));
   const Collider collider(proxy);

@@ -75,7 +75,7 @@ TEST_CASE("after the nearest response no particle is inside, whatever the union 
     }
 }
 
-TEST_CASE("extreme shapes: needles, discs, identical, nested and tangent ellipsoids, particles at centres") {
+TEST_CASE("extreme shapes: needles, discs, identical, nested and tangent ellipsoids, particles at centers") {
   std::vector<std::vector<Ellipsoid>> scenes;
   scenes.push_back(random_ellipsoids(5, 6, 0.2, 0.001, 1.0));
   scenes.push_back(std::vector<Ellipsoid>(50, random_ellipsoids(5, 1, 0.1, 0.1, 0.3)[0]));
@@ -100,14 +100,14 @@ TEST_CASE("extreme shapes: needles, discs, identical, nested and tangent ellipso
   }
 }
 
-TEST_CASE("outside a single ellipsoid the response is its nearest point") {
+TEST_CASE("outside a single ellipsoid the response is its closest point") {
   const auto shapes = random_ellipsoids(21, 1, 0.1, 0.1, 0.4);
   const Collider collider(proxy_of(shapes));
   Cloud cloud = around_origin(2, 5000, 0.3);
   const Cloud before = cloud;
   collider.resolve({}, cloud.particles(), {});
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const auto at = geometry::nearest_point(shapes[0], before.position(i) + collider.origin());
+    const auto at = geometry::closest_point(shapes[0], before.position(i) + collider.origin());
     if (at.signed_distance >= 0.0) continue;
     CHECK((cloud.position(i) + collider.origin() - at.point).norm() < 2e-6);
   }
@@ -218,7 +218,7 @@ TEST_CASE("what is left of a path into a corner goes along both surfaces of it")
   const Vec3 at = cloud.position(0) + collider.origin();
   CHECK(report.wrong_side == 1);
   CHECK(at.z() > 0.02);  // it meets the floor at z = 0.013, 3 mm from the wall
-  for (const Ellipsoid& e : shapes) CHECK(geometry::nearest_point(e, at).signed_distance < 1e-3);
+  for (const Ellipsoid& e : shapes) CHECK(geometry::closest_point(e, at).signed_distance < 1e-3);
   CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
 }
 

@@ -13,7 +13,7 @@ constexpr double kFrame_s = 1.0 / 60.0;
 
 /// Whether the segment goes through an ellipsoid and leaves it where the surface has turned by more than 66
 /// degrees, deeper than `shaved_m`, which relief may take off. An oracle of its own: the chord by bisection
-/// from the place nearest to the centre.
+/// from the place nearest to the center.
 bool pierces(const Ellipsoid& e, const Vec3& from, const Vec3& to, double shaved_m) {
   const auto unit = [&](const Vec3& p) -> Vec3 {
     return (e.axes.transpose() * (p - e.center)).cwiseQuotient(e.radii);
@@ -23,7 +23,7 @@ bool pierces(const Ellipsoid& e, const Vec3& from, const Vec3& to, double shaved
   const double t = std::clamp(-a.dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
   const Vec3 middle = a + t * (b - a);
   if (middle.norm() >= 1.0) return false;
-  if (geometry::nearest_point(e, from + t * (to - from)).signed_distance > -shaved_m) return false;
+  if (geometry::closest_point(e, from + t * (to - from)).signed_distance > -shaved_m) return false;
   const auto surface = [&](Vec3 outside) -> Vec3 {
     Vec3 inside = middle;
     for (int i = 0; i < 60; ++i) {
@@ -95,7 +95,7 @@ TEST_CASE("a hundred thousand shots, up to 1000 m/s: none goes through, with and
   }
 }
 
-TEST_CASE("a second at 1000 m/s: shots of a kilometre do not go through either") {
+TEST_CASE("a second at 1000 m/s: shots of a kilometer do not go through either") {
   const auto shapes = random_ellipsoids(3, 12, 0.4, 0.05, 0.2);
   const Collider collider(proxy_of(shapes));
   Shots shots = shoot(shapes, collider.origin(), 1000.0 / kFrame_s, 5000);
@@ -104,7 +104,7 @@ TEST_CASE("a second at 1000 m/s: shots of a kilometre do not go through either")
   int through = 0, inside = 0;
   for (std::size_t i = 0; i < shots.cloud.size(); ++i) {
     const Vec3 end = shots.cloud.position(i) + collider.origin();
-    // Where the path began as it was told, in floats of a kilometre.
+    // Where the path began as it was told, in floats of a kilometer.
     const Vec3 from = Vec3(double{shots.cloud.sx[i]}, double{shots.cloud.sy[i]}, double{shots.cloud.sz[i]}) +
                       collider.origin();
     through += pierces_any(shapes, from, end, 0.0);

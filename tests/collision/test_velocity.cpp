@@ -12,7 +12,7 @@ namespace {
 // Tangent planes that a particle was put on leave it a little off the curved surface.
 constexpr double kSurelyOn_m = 2e-5, kSurelyOff_m = 2e-4;
 
-/// Half-metre balls that meet around the origin, which is up to a millimetre inside of each.
+/// Half-meter balls that meet around the origin, which is up to a millimeter inside of each.
 std::vector<Ellipsoid> corner(engine::Random& random, int count) {
   std::vector<Ellipsoid> shapes = std::vector<Ellipsoid>(static_cast<std::size_t>(count), ball(0.5)[0]);
   const Vec3 outward = random_direction(random);
@@ -101,7 +101,7 @@ TEST_CASE("velocities go into no surface that a particle ends on, and mind no ot
       std::vector<Vec3> touched;
       bool unclear = false;
       for (const Ellipsoid& e : shapes) {
-        const auto at = geometry::nearest_point(e, cloud.position(0) + collider.origin());
+        const auto at = geometry::closest_point(e, cloud.position(0) + collider.origin());
         if (at.signed_distance < kSurelyOn_m) touched.push_back(at.normal);
         unclear |= at.signed_distance >= kSurelyOn_m && at.signed_distance < kSurelyOff_m;
       }
@@ -136,7 +136,7 @@ TEST_CASE("a surface that the last push went clear of takes no velocity") {
     CHECK(report.judged_exactly == (exactly ? 1u : 0u));
     CHECK(report.max_iterations >= 3);
     const Vec3 at = cloud.position(0) + collider.origin();
-    CHECK(geometry::nearest_point(shapes[1], at).signed_distance > 5e-4);
+    CHECK(geometry::closest_point(shapes[1], at).signed_distance > 5e-4);
     CHECK((cloud.velocity(0) - along).norm() < 0.01);
   }
 }

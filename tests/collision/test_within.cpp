@@ -36,7 +36,7 @@ Cloud random_cloud(int count) {
   return cloud;
 }
 
-/// The same particles along a line, so that neighbours lie together.
+/// The same particles along a line, so that neighbors lie together.
 Cloud in_order(const Cloud& cloud) {
   std::vector<std::size_t> order(cloud.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

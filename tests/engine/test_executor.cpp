@@ -94,7 +94,7 @@ TEST_CASE("an exception crosses nested bulks") {
   }
 }
 
-TEST_CASE("cancelling stops parallel_for before the blocks that have not started") {
+TEST_CASE("canceling stops parallel_for before the blocks that have not started") {
   for (const auto& [name, executor] : all_executors()) {
     CAPTURE(name);
     CancelSource parent;
@@ -105,9 +105,9 @@ TEST_CASE("cancelling stops parallel_for before the blocks that have not started
       ++blocks;
       parent.cancel();
     };
-    CHECK_THROWS_AS(parallel_for(context, 100'000, 1, cancel_first), Cancelled);
+    CHECK_THROWS_AS(parallel_for(context, 100'000, 1, cancel_first), Canceled);
     CHECK(blocks <= executor->concurrency());
-    CHECK_THROWS_AS(parallel_for(context, 1, 1, cancel_first), Cancelled);
+    CHECK_THROWS_AS(parallel_for(context, 1, 1, cancel_first), Canceled);
   }
 }
 

@@ -62,7 +62,7 @@ std::uint64_t run_session(Executor& executor, PipelineMode mode) {
         return refine(context, out, seed);
       });
     }
-    const FrameReport report = pipeline.frame([&](const Context& context) {
+    const FrameTiming report = pipeline.frame([&](const Context& context) {
       const std::uint64_t now = proxy.current() ? *proxy.current() : 0;
       parallel_for(context, particles.size(), 50, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) particles[i] = mix64(particles[i] + now + i);
@@ -261,7 +261,7 @@ TEST_CASE("a new body cancels the work for the old one, of which nothing appears
       return {};
     });
     superseded = true;
-    CHECK(old.wait().error().code == ErrorCode::kCancelled);
+    CHECK(old.wait().error().code == ErrorCode::kCanceled);
     CHECK(fresh.wait().ok());
     pipeline.frame([&](const Context&) { CHECK(*stream.current() == 1); });
   }
@@ -338,7 +338,7 @@ TEST_CASE("a thousand cancellations at random moments: results are whole, and ol
   Stream<Pair> stream(pipeline);
   Random random(11);
   std::uint64_t last_seen = 0;
-  bool whole = true, never_back = true, none_of_cancelled = true;
+  bool whole = true, never_back = true, none_of_canceled = true;
   for (std::uint64_t i = 1; i <= 1000; ++i) {
     Ticket ticket = stream.submit("body", [i](const Context& context, Sink<Pair>& out) -> Result<void> {
       std::vector<std::uint64_t> blocks(16);
@@ -362,13 +362,13 @@ TEST_CASE("a thousand cancellations at random moments: results are whole, and ol
       const Pair now = *stream.current();
       whole = whole && now.hash == mix64(now.seed);
       never_back = never_back && now.seed >= last_seen;
-      none_of_cancelled = none_of_cancelled && !(by_hand && now.seed == i);
+      none_of_canceled = none_of_canceled && !(by_hand && now.seed == i);
       last_seen = now.seed;
     });
   }
   CHECK(whole);
   CHECK(never_back);
-  CHECK(none_of_cancelled);
+  CHECK(none_of_canceled);
   CHECK(last_seen > 0);
 }
 

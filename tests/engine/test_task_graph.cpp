@@ -267,7 +267,7 @@ TEST_CASE("an exception of a task is rethrown, and the graph can run again") {
   CHECK(graph->run(Context{}).ok());
 }
 
-TEST_CASE("a cancelled run says where it stopped and starts no more tasks") {
+TEST_CASE("a canceled run says where it stopped and starts no more tasks") {
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);
     CancelSource source;
@@ -282,7 +282,7 @@ TEST_CASE("a cancelled run says where it stopped and starts no more tasks") {
     auto graph = std::move(builder).build();
     const auto result = graph->run(Context{.executor = executor.get(), .cancel = source.token()});
     REQUIRE(!result.ok());
-    CHECK(result.error().code == ErrorCode::kCancelled);
+    CHECK(result.error().code == ErrorCode::kCanceled);
     CHECK(result.error().message.find("'second'") != std::string::npos);
     CHECK(late == 0);
   }

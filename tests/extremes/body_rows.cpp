@@ -25,12 +25,12 @@ struct Place {
 const Place kPlaces[] = {
     {"scale 1e-6", 1e-6, Vec3::Zero()},        {"scale 1e-3", 1e-3, Vec3::Zero()},
     {"scale 1e3", 1e3, Vec3::Zero()},          {"scale 1e6", 1e6, Vec3::Zero()},
-    {"10 km away", 1.0, Vec3(1e4, 0.0, -1e4)}, {"a millimetre tall, 10 km away", 6e-4, Vec3(-1e4, 1e4, 0.0)}};
+    {"10 km away", 1.0, Vec3(1e4, 0.0, -1e4)}, {"a millimeter tall, 10 km away", 6e-4, Vec3(-1e4, 1e4, 0.0)}};
 
 struct Reference {
   synth::Body body = synth::make_body({}, {.vertices = 1500}).value();
   anatomy::Anatomy anatomy =
-      anatomy::analyse({}, body.mesh, {.profile = body::find_profile("ansur2").value()}).value();
+      anatomy::analyze({}, body.mesh, {.profile = body::find_profile("ansur2").value()}).value();
 
   geometry::TriMesh at(const Place& place) const {
     geometry::TriMesh mesh = body.mesh;
@@ -41,7 +41,7 @@ struct Reference {
 
 std::string check_anatomy(const Reference& r, const Place& place) {
   const auto mesh = r.at(place);
-  const auto found = anatomy::analyse({}, mesh, {.profile = body::find_profile("ansur2").value()});
+  const auto found = anatomy::analyze({}, mesh, {.profile = body::find_profile("ansur2").value()});
   if (!found.ok()) return found.error().message;
   const double stature = r.anatomy.stature_m;
   if (std::abs(found->stature_m / place.scale - stature) > 0.01 * stature) return "another stature";
@@ -69,7 +69,7 @@ std::string check_fit(const Reference& r, const Place& place, proxy::Tier tier) 
   if (!at_home.contains(tier)) at_home[tier] = gap_of(r, {"at home", 1.0, Vec3::Zero()}, tier);
   const auto here = at_home[tier], there = gap_of(r, place, tier);
   if (!here || !there) return "refused";
-  // A descent from rounded coordinates may end in a neighbouring minimum.
+  // A descent from rounded coordinates may end in a neighboring minimum.
   const double share = tier >= proxy::Tier::kTight ? 0.05 : 0.03;
   return expect(std::abs(*there - *here) <= share * *here,
                 "gap " + std::to_string(*there) + " instead of " + std::to_string(*here));
@@ -81,7 +81,7 @@ std::vector<Row> body_rows() {
   std::vector<Row> rows;
   const auto reference = std::make_shared<const Reference>();
   for (const Place& place : kPlaces) {
-    rows.push_back({"anatomy::analyse", place.name, [=] { return check_anatomy(*reference, place); }});
+    rows.push_back({"anatomy::analyze", place.name, [=] { return check_anatomy(*reference, place); }});
     for (const auto& [name, tier] :
          {std::pair("fit, paper", proxy::Tier::kPaper), std::pair("fit, solid", proxy::Tier::kSolid),
           std::pair("fit, tight", proxy::Tier::kTight), std::pair("fit, relief", proxy::Tier::kRelief)})

@@ -51,7 +51,7 @@ double float_tolerance_m(const Ellipsoid& shape, const Vec3& point) {
 std::string check_nearest(const EllipsoidCase& c) {
   const Ellipsoid& e = c.shape;
   for (const Vec3& q : bodice_test::hostile_queries(e)) {
-    const auto found = geometry::nearest_point(e, q);
+    const auto found = geometry::closest_point(e, q);
     if (!found.point.allFinite() || !found.normal.allFinite() || !std::isfinite(found.signed_distance))
       return "not finite";
     const double size = e.radii.maxCoeff() + (q - e.center).norm() + 1e-3 * e.center.norm();
@@ -87,7 +87,7 @@ std::string check_resolve(const EllipsoidCase& c, collision::Response response) 
   Cloud cloud(bodice_test::hostile_queries(c.shape), collider.origin());
   const auto report = collider.resolve({}, cloud.particles(), {.response = response});
   if (report.not_finite != 0) return "finite particles were left alone";
-  if (response == collision::Response::kNearest && report.unresolved != 0) return "unresolved";
+  if (response == collision::Response::kClosestPoint && report.unresolved != 0) return "unresolved";
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {
     const Vec3 p = cloud.at(i, collider.origin());
     if (!p.allFinite() || !std::isfinite(cloud.vx[i] + cloud.vy[i] + cloud.vz[i])) return "not finite";
@@ -111,10 +111,10 @@ std::string check_file(const EllipsoidCase& c) {
 std::vector<Row> ellipsoid_rows() {
   std::vector<Row> rows;
   for (const EllipsoidCase& c : bodice_test::extreme_ellipsoids()) {
-    rows.push_back({"nearest_point (double)", c.name, [&c] { return check_nearest(c); }});
+    rows.push_back({"closest_point (double)", c.name, [&c] { return check_nearest(c); }});
     rows.push_back({"Collider::query (float)", c.name, [&c] { return check_query(c); }});
     rows.push_back({"Collider::resolve, nearest", c.name,
-                    [&c] { return check_resolve(c, collision::Response::kNearest); }});
+                    [&c] { return check_resolve(c, collision::Response::kClosestPoint); }});
     rows.push_back(
         {"Collider::resolve, paper", c.name, [&c] { return check_resolve(c, collision::Response::kPaper); }});
     rows.push_back({"proxy file", c.name, [&c] { return check_file(c); }});

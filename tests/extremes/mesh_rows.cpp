@@ -69,7 +69,7 @@ std::string check_geodesics(const TriMesh& mesh, geodesic::Method method) {
 }
 
 std::string check_anatomy(const TriMesh& mesh) {
-  const auto found = anatomy::analyse({}, mesh, {.profile = body::find_profile("ansur2").value()});
+  const auto found = anatomy::analyze({}, mesh, {.profile = body::find_profile("ansur2").value()});
   if (!found.ok()) return told(found);
   if (!std::isfinite(found->stature_m) || found->part.size() != mesh.positions.size()) return "not finite";
   for (const auto& landmark : found->landmarks)
@@ -77,7 +77,7 @@ std::string check_anatomy(const TriMesh& mesh) {
   return expect(!found->warnings.empty(), "no body, and no warning");  // none of these is a human body
 }
 
-fitting::LabelledSkin labelled(const TriMesh& mesh, std::vector<body::Part>& part) {
+fitting::LabeledSkin labeled(const TriMesh& mesh, std::vector<body::Part>& part) {
   part.assign(mesh.positions.size(), body::Part::kTorsoUL);
   const auto box = geometry::bounding_box(mesh.positions);
   for (std::size_t v = 0; v < part.size(); ++v)
@@ -87,7 +87,7 @@ fitting::LabelledSkin labelled(const TriMesh& mesh, std::vector<body::Part>& par
 
 std::string check_fit(const TriMesh& mesh, proxy::Tier tier) {
   std::vector<body::Part> part;
-  const auto skin = labelled(mesh, part);
+  const auto skin = labeled(mesh, part);
   const auto fit = fitting::fit({}, skin, {.tier = tier, .max_ellipsoids = 6, .time_budget_s = 0.1});
   if (!fit.ok()) return told(fit);
   const auto& a = fit->accuracy;
@@ -100,7 +100,7 @@ std::string check_fit(const TriMesh& mesh, proxy::Tier tier) {
 
 std::string check_parts(const TriMesh& mesh) {
   std::vector<body::Part> part;
-  const auto skin = labelled(mesh, part);
+  const auto skin = labeled(mesh, part);
   const auto proxy = fitting::enclose_parts({}, skin, fitting::FitOptions{}.parts);
   if (!proxy.ok()) return told(proxy);
   double outside = 0.0;
@@ -108,7 +108,7 @@ std::string check_parts(const TriMesh& mesh) {
     for (const geometry::Index v : t) {
       double least = 1e300;
       for (const auto& e : proxy->ellipsoids())
-        least = std::min(least, geometry::nearest_point(e.shape, mesh.positions[v]).signed_distance);
+        least = std::min(least, geometry::closest_point(e.shape, mesh.positions[v]).signed_distance);
       outside = std::max(outside, least);
     }
   const double far = geometry::bounding_box(mesh.positions).center().norm();
@@ -148,7 +148,7 @@ std::vector<Row> mesh_rows() {
           std::pair("geodesics, unfolded", geodesic::Method::kUnfolded),
           std::pair("geodesics, fast marching", geodesic::Method::kFastMarching)})
       add(rows, c, name, [method = method](const TriMesh& m) { return check_geodesics(m, method); });
-    add(rows, c, "anatomy::analyse", check_anatomy);
+    add(rows, c, "anatomy::analyze", check_anatomy);
     add(rows, c, "enclose_parts", check_parts);
     for (const auto& [name, tier] :
          {std::pair("fit, paper", proxy::Tier::kPaper), std::pair("fit, solid", proxy::Tier::kSolid),

@@ -24,11 +24,11 @@ std::size_t not_finite(const PointSetCase& c) {
       std::ranges::count_if(c.points, [](const Vec3& p) { return !p.allFinite(); }));
 }
 
-/// Metres by which the farthest point is outside: judged by exact distance, not by the solver's own measure.
+/// Meters by which the farthest point is outside: judged by exact distance, not by the solver's own measure.
 double outside_m(const geometry::Ellipsoid& e, const PointSetCase& c) {
   double worst = 0.0;
   for (const Vec3& p : c.points)
-    if (p.allFinite()) worst = std::max(worst, geometry::nearest_point(e, p).signed_distance);
+    if (p.allFinite()) worst = std::max(worst, geometry::closest_point(e, p).signed_distance);
   return worst;
 }
 
@@ -54,7 +54,7 @@ std::string check_kmeans(const PointSetCase& c) {
   const auto found = fitting::kmeans({}, c.points, {}, centers, {});
   if (found.of_point.size() != c.points.size()) return "a point has no cluster";
   for (const Vec3& center : found.centers)
-    if (!center.allFinite()) return "a centre is not finite";
+    if (!center.allFinite()) return "a center is not finite";
   for (std::size_t i = 0; i < c.points.size(); ++i) {
     if (!c.points[i].allFinite()) {
       if (found.of_point[i] != geometry::kNoIndex) return "a point that is not finite has a cluster";
@@ -64,7 +64,7 @@ std::string check_kmeans(const PointSetCase& c) {
     const double mine = (c.points[i] - found.centers[found.of_point[i]]).norm();
     for (const Vec3& center : found.centers)
       if ((c.points[i] - center).norm() < mine - 1e-5 * c.size_m - resolution_m(c))
-        return "point " + std::to_string(i) + " is nearer to another centre";
+        return "point " + std::to_string(i) + " is nearer to another center";
   }
   return {};
 }

@@ -16,7 +16,7 @@ struct Row {
 };
 
 std::vector<Row> point_rows();      ///< enclosing ellipsoids, clusters
-std::vector<Row> ellipsoid_rows();  ///< nearest points in double and float, queries, responses, files
+std::vector<Row> ellipsoid_rows();  ///< closest points in double and float, queries, responses, files
 std::vector<Row> scene_rows();      ///< unions of ellipsoids as no fit makes them, plain and with tables
 std::vector<Row> mesh_rows();       ///< everything that takes a mesh
 std::vector<Row> body_rows();       ///< a body at any scale and place is the same body

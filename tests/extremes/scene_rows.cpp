@@ -116,7 +116,7 @@ proxy::BodyProxy proxy_of(const Union& u) {
   return proxy::BodyProxy::make(std::move(data)).value();
 }
 
-/// Random places, every centre, and each of them twice; NaN and Inf in the third and fourth place.
+/// Random places, every center, and each of them twice; NaN and Inf in the third and fourth place.
 struct Cloud {
   std::vector<float> x, y, z, vx, vy, vz;
 
@@ -178,7 +178,7 @@ std::string check_query(const Union& u) {
     if ((contacts[i].ellipsoid == collision::kNoEllipsoid) != nothing) return "an ellipsoid where none is";
     if (nothing) continue;
     if (!std::isfinite(contacts[i].signed_distance)) return "not finite";
-    if (u.relief && i >= kRandomPlaces) continue;  // from a centre, rounding decides where a table is read
+    if (u.relief && i >= kRandomPlaces) continue;  // from a center, rounding decides where a table is read
     const double truth = proxy::proxy_distance(proxy, cloud.at(i, collider.origin())).distance;
     const double error = std::abs(double{contacts[i].signed_distance} - truth);
     if (!(error <= tolerance_m(u))) return "distance off by " + std::to_string(error / u.size_m) + " sizes";
@@ -207,7 +207,7 @@ std::string check_first_order(const Union& u) {
     const Vec3 p = cloud.at(i, collider.origin());
     const double truth = proxy::proxy_distance(proxy, p).distance, told = double{c.signed_distance};
     if (std::abs(truth) > tolerance_m(u) && (told < 0.0) != (truth < 0.0)) return "the wrong side";
-    const double of_named = geometry::nearest_point(proxy.ellipsoids()[c.ellipsoid].shape, p).signed_distance;
+    const double of_named = geometry::closest_point(proxy.ellipsoids()[c.ellipsoid].shape, p).signed_distance;
     if (!(told <= of_named + tolerance_m(u)))
       return "beyond its ellipsoid by " + std::to_string((told - of_named) / u.size_m) + " sizes";
   }
@@ -224,7 +224,7 @@ std::string check_resolve(const Union& u, collision::Response response, double d
   const auto report = collider.resolve({}, cloud.particles(), {.response = response});
   if (u.shapes.empty()) return expect(report.contacts == 0, "contacts without ellipsoids");
   if (report.not_finite != 2) return "counted " + std::to_string(report.not_finite) + " as not finite";
-  if (response == collision::Response::kNearest && report.unresolved != 0) return "unresolved";
+  if (response == collision::Response::kClosestPoint && report.unresolved != 0) return "unresolved";
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {
     if (i == 2 || i == 3) continue;
     const Vec3 p = cloud.at(i, collider.origin());
@@ -257,13 +257,13 @@ std::vector<Row> scene_rows() {
     rows.push_back({"Collider::query", u.name, [&u] { return check_query(u); }});
     rows.push_back({"Collider::query, to first order", u.name, [&u] { return check_first_order(u); }});
     rows.push_back({"Collider, 0 and 1 particle", u.name, [&u] { return check_one(u); }});
-    rows.push_back(
-        {"Collider::resolve, nearest", u.name, [&u] { return check_resolve(u, Response::kNearest, -1.0); }});
+    rows.push_back({"Collider::resolve, nearest", u.name,
+                    [&u] { return check_resolve(u, Response::kClosestPoint, -1.0); }});
     rows.push_back(
         {"Collider::resolve, paper", u.name, [&u] { return check_resolve(u, Response::kPaper, -1.0); }});
     for (const double dt_s : {0.0, 1.0})
       rows.push_back({"move_to and resolve, dt " + std::to_string(dt_s) + " s", u.name,
-                      [&u, dt_s] { return check_resolve(u, Response::kNearest, dt_s); }});
+                      [&u, dt_s] { return check_resolve(u, Response::kClosestPoint, dt_s); }});
   }
   return rows;
 }

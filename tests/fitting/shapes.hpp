@@ -21,7 +21,7 @@ struct Skin {
   std::vector<Part> part;
   double stature_m = 1.0;
 
-  bodice::fitting::LabelledSkin view() const { return {mesh, part, stature_m}; }
+  bodice::fitting::LabeledSkin view() const { return {mesh, part, stature_m}; }
 };
 
 /// Adds a closed latitude-longitude mesh of an ellipsoid, outward.
@@ -50,7 +50,7 @@ inline void add_ellipsoid(Skin& skin, const Ellipsoid& e, Part part, int rings =
   skin.part.resize(skin.mesh.positions.size(), part);
 }
 
-/// Three ellipsoids apart from each other, as head, torso and a thigh, about a metre tall.
+/// Three ellipsoids apart from each other, as head, torso and a thigh, about a meter tall.
 inline Skin three_ellipsoids(double scale = 1.0, const Vec3& offset = Vec3::Zero()) {
   Skin skin;
   skin.stature_m = 1.0 * scale;

@@ -40,7 +40,8 @@ TEST_CASE("air: an ellipsoid across the gap between two legs is told how far off
   CHECK(samples.size() > 200);
   for (const auto& s : samples) {
     CHECK(s.signed_distance_m > kGap_m);
-    CHECK(s.signed_distance_m == doctest::Approx(distance.nearest(s.point).signed_distance).epsilon(1e-9));
+    CHECK(s.signed_distance_m ==
+          doctest::Approx(distance.closest_point(s.point).signed_distance).epsilon(1e-9));
     for (const auto& e : {left, across, behind})  // what another ellipsoid holds is not the union's surface
       CHECK(geometry::level(e, s.point) > 1.0 - 1e-9);
   }

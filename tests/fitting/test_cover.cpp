@@ -41,7 +41,7 @@ double deepest_uncovered(const Skin& skin, const proxy::BodyProxy& proxy) {
           w[0] * skin.mesh.corner(t, 0) + w[1] * skin.mesh.corner(t, 1) + w[2] * skin.mesh.corner(t, 2);
       double least = 1e300;
       for (const auto& e : proxy.ellipsoids())
-        least = std::min(least, geometry::nearest_point(e.shape, p).signed_distance);
+        least = std::min(least, geometry::closest_point(e.shape, p).signed_distance);
       deepest = std::max(deepest, least);
     }
   return deepest;
@@ -88,7 +88,7 @@ TEST_CASE("solid: a cavity that no column passes through is found and filled") {
   const geometry::Mat3 upright = geometry::Mat3::Identity();
   Skin skin;
   fitting_test::add_ellipsoid(skin, {Vec3::Zero(), upright, Vec3::Constant(0.1)}, body::Part::kTorsoUL);
-  // Four balls hold all of it but a cavity of a few millimetres about the middle.
+  // Four balls hold all of it but a cavity of a few millimeters about the middle.
   std::vector<geometry::Ellipsoid> balls;
   for (const Vec3& corner : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
     balls.push_back({0.3 * corner.normalized(), upright, Vec3::Constant(0.298)});
@@ -134,7 +134,7 @@ TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering o
 }
 
 TEST_CASE("tight, covering: skin that dips into another limb is covered up to where it dips") {
-  // Triangles of a decimetre, of which those across the seam have buried corners.
+  // Triangles of a decimeter, of which those across the seam have buried corners.
   const geometry::Ellipsoid left{Vec3(-0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
   const geometry::Ellipsoid right{Vec3(0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
   Skin skin;

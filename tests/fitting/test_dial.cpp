@@ -20,14 +20,14 @@ namespace {
 Skin bent_limbs() {
   Skin skin;
   skin.stature_m = 1.7;
-  const auto add = [&](const Vec3& centre, const Vec3& radii, double bend, body::Part part) {
+  const auto add = [&](const Vec3& center, const Vec3& radii, double bend, body::Part part) {
     const std::size_t first = skin.mesh.positions.size();
-    fitting_test::add_ellipsoid(skin, {centre, geometry::Mat3::Identity(), radii}, part);
+    fitting_test::add_ellipsoid(skin, {center, geometry::Mat3::Identity(), radii}, part);
     for (std::size_t v = first; v < skin.mesh.positions.size(); ++v) {
       Vec3& p = skin.mesh.positions[v];
-      const double along = (p.y() - centre.y()) / radii.y();
+      const double along = (p.y() - center.y()) / radii.y();
       p.x() += bend * along * along;
-      p.z() = centre.z() + (p.z() - centre.z()) * (1.0 + 0.12 * std::sin(7.0 * along));
+      p.z() = center.z() + (p.z() - center.z()) * (1.0 + 0.12 * std::sin(7.0 * along));
     }
   };
   add({0.0, 1.2, 0.0}, {0.16, 0.35, 0.11}, 0.05, body::Part::kTorsoUL);

@@ -294,7 +294,7 @@ TEST_CASE("fit: where a region was cut from the body there is no skin to be far 
 
 TEST_CASE("fit: bad input gets one clear sentence") {
   const Skin good = three_ellipsoids();
-  const auto code = [](const fitting::LabelledSkin& skin, const FitOptions& options) {
+  const auto code = [](const fitting::LabeledSkin& skin, const FitOptions& options) {
     const auto result = fitting::fit({}, skin, options);
     return result.ok() ? std::string() : result.error().sentence();
   };
@@ -321,7 +321,7 @@ TEST_CASE("fit: bad input gets one clear sentence") {
   CHECK(code(good.view(), options).find("no skin") != std::string::npos);
 }
 
-TEST_CASE("fit: cancelled work says so") {
+TEST_CASE("fit: canceled work says so") {
   const Skin skin = three_ellipsoids();
   engine::CancelSource source;
   source.cancel();
@@ -329,7 +329,7 @@ TEST_CASE("fit: cancelled work says so") {
   context.cancel = source.token();
   const auto result = fitting::fit(context, skin.view(), options_for(Tier::kTight, 6));
   REQUIRE_FALSE(result.ok());
-  CHECK(result.error().code == engine::ErrorCode::kCancelled);
+  CHECK(result.error().code == engine::ErrorCode::kCanceled);
 }
 
 TEST_CASE("fit: distances to the skin are prepared for those tiers and judges that ask for them") {

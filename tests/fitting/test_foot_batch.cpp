@@ -43,7 +43,7 @@ geometry::Ellipsoid turned(engine::Random& random, const Vec3& radii) {
 
 }  // namespace
 
-TEST_CASE("foot: near the surface it is the nearest point's distance") {
+TEST_CASE("foot: near the surface it is the closest point's distance") {
   engine::Random random(31);
   double worst = 0.0;
   for (int trial = 0; trial < 40; ++trial) {
@@ -57,14 +57,14 @@ TEST_CASE("foot: near the surface it is the nearest point's distance") {
     }
     points.measure(e);
     for (std::size_t i = 0; i < points.x.size(); ++i) {
-      const double truth = geometry::nearest_point(e, points.at(i)).signed_distance;
+      const double truth = geometry::closest_point(e, points.at(i)).signed_distance;
       worst = std::max(worst, std::abs(double{points.d[i]} - truth) / e.radii.maxCoeff());
     }
   }
   CHECK(worst < kNearSurface);
 }
 
-TEST_CASE("foot: thin, flat and round ellipsoids answer with numbers, near and far and from their centres") {
+TEST_CASE("foot: thin, flat and round ellipsoids answer with numbers, near and far and from their centers") {
   engine::Random random(32);
   for (const Vec3& radii : {Vec3(0.1, 0.1, 0.1), Vec3(1e-3, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1.0),
                             Vec3(1e-3, 1.0, 1.0), Vec3(0.5, 0.01, 0.1)}) {
@@ -107,7 +107,7 @@ TEST_CASE("foot: the tangent at a point lies below the distance everywhere") {
       CHECK(normal.norm() == doctest::Approx(1.0).epsilon(1e-5));
       const Vec3 other = anywhere();
       const double tangent = double{found[0][i]} + normal.dot(other - points.at(i));
-      CHECK(tangent <= geometry::nearest_point(e, other).signed_distance + 1e-5);
+      CHECK(tangent <= geometry::closest_point(e, other).signed_distance + 1e-5);
     }
   }
 }

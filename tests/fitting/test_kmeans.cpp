@@ -70,7 +70,7 @@ TEST_CASE("kmeans: the same bits for any number of workers, at any scale and off
   }
 }
 
-TEST_CASE("kmeans: extremes: no points, no centres, duplicates, a centre that nothing is near") {
+TEST_CASE("kmeans: extremes: no points, no centers, duplicates, a center that nothing is near") {
   CHECK(fitting::kmeans({}, {}, {}, {Vec3::Zero()}, {}).of_point.empty());
   const std::vector<Vec3> same(10, Vec3(1, 1, 1));
   CHECK(fitting::kmeans({}, same, {}, {}, {}).of_point.size() == 10);

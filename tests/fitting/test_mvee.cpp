@@ -58,13 +58,13 @@ std::vector<Vec3> random_set(engine::Random& random) {
 
 TEST_CASE("mvee: the corners of a box give the ellipsoid known in closed form") {
   std::vector<Vec3> corners;
-  const Vec3 half(0.5, 0.2, 0.1), centre(1.0, 2.0, 3.0);
+  const Vec3 half(0.5, 0.2, 0.1), center(1.0, 2.0, 3.0);
   for (int k = 0; k < 8; ++k)
-    corners.push_back(centre + half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
+    corners.push_back(center + half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
   for (int copies = 1; copies <= 3; ++copies) {
     const Mvee m = fitting::mvee(corners);
     CHECK(m.rank == 3);
-    CHECK((m.ellipsoid.center - centre).norm() < 1e-8);
+    CHECK((m.ellipsoid.center - center).norm() < 1e-8);
     CHECK((m.ellipsoid.radii - std::sqrt(3.0) * half).norm() < 1e-7);
     CHECK(m.volume_gap <= 1e-7);
     const auto copy = corners;  // duplicates change nothing
@@ -89,7 +89,7 @@ TEST_CASE("mvee: points on a known ellipsoid give it back, rotated, scaled and f
         points.push_back(scale * (turn * radii.cwiseProduct(v)) + Vec3::Constant(offset));
       const Mvee m = fitting::mvee(points);
       const double tolerance = offset > 0 ? 1e-6 : 2e-8;
-      // Antipodal points make the exact answer: the ellipsoid itself is centred and every point is on it.
+      // Antipodal points make the exact answer: the ellipsoid itself is centerd and every point is on it.
       CHECK((m.ellipsoid.radii / scale - radii).norm() < tolerance);
       CHECK(m.violation <= 1e-12);
       CHECK(m.volume_gap <= (offset > 0 ? 1e-5 : 1.01e-7));

@@ -37,24 +37,24 @@ std::vector<geometry::Ellipsoid> scattered(engine::Random& random, int count) {
 
 /// Samples of one block, `spread` across.
 struct Block {
-  std::vector<float> x, y, z, from_centre;
-  std::array<float, 3> centre;
-  std::array<std::vector<float>, 4> feet;  // of the centre: distance and normal
+  std::vector<float> x, y, z, from_center;
+  std::array<float, 3> center;
+  std::array<std::vector<float>, 4> feet;  // of the center: distance and normal
 
   Block(engine::Random& random, const std::vector<geometry::Ellipsoid>& ellipsoids, std::size_t count,
         double spread) {
     const auto in = [&](double half) { return random.uniform(-half, half); };
-    for (float& c : centre) c = static_cast<float>(in(0.3));
-    const Vec3 middle(double{centre[0]}, double{centre[1]}, double{centre[2]});
+    for (float& c : center) c = static_cast<float>(in(0.3));
+    const Vec3 middle(double{center[0]}, double{center[1]}, double{center[2]});
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 off(in(spread), in(spread), in(spread));
       x.push_back(static_cast<float>(middle.x() + off.x()));
       y.push_back(static_cast<float>(middle.y() + off.y()));
       z.push_back(static_cast<float>(middle.z() + off.z()));
-      from_centre.push_back(static_cast<float>(off.norm()));
+      from_center.push_back(static_cast<float>(off.norm()));
     }
     for (const auto& e : ellipsoids) {
-      const auto foot = geometry::nearest_point(e, middle);
+      const auto foot = geometry::closest_point(e, middle);
       feet[0].push_back(static_cast<float>(foot.signed_distance));
       for (int j = 0; j < 3; ++j) feet[1 + j].push_back(static_cast<float>(foot.normal[j]));
     }
@@ -63,8 +63,8 @@ struct Block {
   fitting::SampleBlock view() const {
     return {.count = x.size(),
             .at = {x.data(), y.data(), z.data()},
-            .from_centre = from_centre.data(),
-            .centre = centre,
+            .from_center = from_center.data(),
+            .center = center,
             .feet = {feet[0].data(), {feet[1].data(), feet[2].data(), feet[3].data()}, 1}};
   }
 };
@@ -84,7 +84,7 @@ TEST_CASE("candidates: brute force finds the same ones in the same order") {
     for (std::size_t i = 0; i < count; ++i) {
       std::vector<double> truth;
       for (const auto& e : ellipsoids)
-        truth.push_back(geometry::nearest_point(e, block.point(i)).signed_distance);
+        truth.push_back(geometry::closest_point(e, block.point(i)).signed_distance);
       const auto listed = found.of(i);
       const auto size = static_cast<std::size_t>(found.count(i));
       std::vector<bool> is_listed(truth.size(), false);

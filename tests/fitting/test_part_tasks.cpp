@@ -161,7 +161,7 @@ TEST_CASE("part tasks: six seeds of a small torso do not exceed the limit") {
   }
 }
 
-TEST_CASE("part tasks: fewer ellipsoids than parts joins neighbours and keeps the limit") {
+TEST_CASE("part tasks: fewer ellipsoids than parts joins neighbors and keeps the limit") {
   const auto skin = three_ellipsoids();
   for (const int count : {1, 2, 3}) {
     for (const Tier tier : {Tier::kPaper, Tier::kSolid}) {

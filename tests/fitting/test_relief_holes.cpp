@@ -46,7 +46,7 @@ TEST_CASE("relief: a single node that cuts deep is found, one that does not is l
   const auto holes = fitting::find_holes({}, free_skin, bad, kDepth_m, kMargin_m);
   CHECK(holes.size() > 3);
   for (const Vec3& hole : holes) {
-    CHECK(distance.nearest(hole).signed_distance <= -kDepth_m);
+    CHECK(distance.closest_point(hole).signed_distance <= -kDepth_m);
     CHECK(proxy::proxy_distance(bad, hole).distance >= -kMargin_m);
   }
   CHECK(fitting::find_holes({}, free_skin, with_one_bad_node(shape, 0.004), kDepth_m, kMargin_m).empty());

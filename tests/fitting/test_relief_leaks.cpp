@@ -13,7 +13,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// An arm pressed into a torso by `depth_m`: for a few millimetres a handful of vertices of each are buried.
+/// An arm pressed into a torso by `depth_m`: for a few millimeters a handful of vertices of each are buried.
 Skin pressed_together(double depth_m) {
   Skin skin;
   const geometry::Mat3 upright = geometry::Mat3::Identity();
@@ -44,7 +44,7 @@ TEST_CASE("relief: limbs that dip into each other open no hole, and the air betw
     for (int i = 0; i < 20000; ++i) {
       const Vec3 u(random.uniform(), random.uniform(), random.uniform());
       const Vec3 p = box.low + u.cwiseProduct(box.size());
-      const double s = distance.nearest(p).signed_distance;
+      const double s = distance.closest_point(p).signed_distance;
       const double f = proxy::proxy_distance(result->proxy, p).distance;
       if (s < -0.006) ++deep, leaks += f > 0.0;
       if (s > 0.010) ++far, ghosts += f < 0.0;

@@ -25,7 +25,7 @@ const std::vector<Ellipsoid> kTruth = {ball(-0.4, 0.85, 0.1), ball(0.3, 0.7, 0.1
 double union_distance(const std::vector<Ellipsoid>& ellipsoids, const Vec3& point) {
   double least = 1e300;
   for (const Ellipsoid& e : ellipsoids)
-    least = std::min(least, geometry::nearest_point(e, point).signed_distance);
+    least = std::min(least, geometry::closest_point(e, point).signed_distance);
   return least;
 }
 
@@ -51,7 +51,7 @@ struct Setting {
 
   Setting() : scaling(skin_of_one()), problem(samples, scaling, loss, kMotion) {}
 
-  static fitting::LabelledSkin skin_of_one() {
+  static fitting::LabeledSkin skin_of_one() {
     static const fitting_test::Skin skin = [] {
       fitting_test::Skin made;
       made.stature_m = 1.7;
@@ -101,7 +101,7 @@ TEST_CASE("local fit: what it says the cost rises by is what it rises by") {
   setting.problem.refresh({}, ellipsoids);
   const double before = setting.cost(ellipsoids);
   const std::uint32_t both[] = {1, 2};
-  const fitting::Neighbourhood samples = setting.problem.around(both, setting.problem.rank({}));
+  const fitting::Neighborhood samples = setting.problem.around(both, setting.problem.rank({}));
   CHECK(samples.x.size() == 800);
   CHECK(samples.cost == doctest::Approx(before).epsilon(0.01));
   fitting::LocalFit fit(samples, setting.loss, {ellipsoids[1], ellipsoids[2]});

@@ -1,5 +1,5 @@
 // Bytes as a body's file, in the formats whose readers are small enough to answer for: a mesh of finite
-// metres, or a sentence.
+// meters, or a sentence.
 #include <bodice/io/import.hpp>
 
 #include "harness.hpp"
@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Bytes in(data, size);
   const char* extension = kExtensions[in.next() % 3];
   const fuzz::TemporaryFile file(extension, in.rest());
-  const auto body = io::import_body({}, file.path(), {.unit = io::Unit::kMetre});
+  const auto body = io::import_body({}, file.path(), {.unit = io::Unit::kMeter});
   fuzz::check_told(body);
   if (!body.ok()) return 0;
   for (const auto& p : body->skin.positions) FUZZ_CHECK(p.allFinite());

@@ -35,7 +35,7 @@ void check_encloses(const fitting::Mvee& found, const std::vector<Vec3>& points)
   const auto box = geometry::bounding_box(points);
   const double tolerance = 1e-7 * size_of(points) + 1e-14 * (box.empty() ? 0.0 : box.center().norm());
   for (const Vec3& p : points)
-    FUZZ_CHECK(geometry::nearest_point(found.ellipsoid, p).signed_distance <= tolerance);
+    FUZZ_CHECK(geometry::closest_point(found.ellipsoid, p).signed_distance <= tolerance);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ std::vector<float> heights(const geometry::TriMesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("levels of height on a sphere are circles of known girth and centre") {
+TEST_CASE("levels of height on a sphere are circles of known girth and center") {
   const auto mesh = shapes::sphere(5);
   const auto edges = geodesic::mesh_edges(mesh);
   const auto z = heights(mesh);

@@ -21,7 +21,7 @@ TEST_CASE("Euler's number counts the handles, the components and the holes") {
   CHECK(euler(joined(icosphere(1.0, 1), torus(1.0, 0.3, 20, 10))) == 2);
 }
 
-TEST_CASE("edges and neighbours agree with a brute-force search") {
+TEST_CASE("edges and neighbors agree with a brute-force search") {
   const TriMesh mesh = shuffled(joined(torus(1.0, 0.3, 12, 7), sheet(1.0, 1.0, 4, 3)), 5);
   const Adjacency adjacency = build_adjacency(mesh);
   std::set<std::array<Index, 2>> expected;

@@ -100,7 +100,7 @@ void check_against_brute_force(const TriMesh& mesh, int count) {
   const double noise = 1e-13 * (size + bounding_box(mesh.positions).center().norm());
   for (const Vec3& query : queries_around(mesh, count, 17)) {
     CAPTURE(query);
-    const SurfacePoint got = distance.nearest(query);
+    const SurfacePoint got = distance.closest_point(query);
     const double truth = brute_distance(mesh, query);
     REQUIRE(std::abs(std::abs(got.signed_distance) - truth) <= noise + 1e-13 * truth);
     CHECK(std::abs((got.point - query).norm() - truth) <= noise + 1e-13 * truth);
@@ -111,10 +111,10 @@ void check_against_brute_force(const TriMesh& mesh, int count) {
       CHECK((got.signed_distance < 0.0) == (winding > 0.5));
       CHECK(distance.inside(query) == (winding > 0.5));
     }
-    const auto within = distance.nearest_within(query, truth * (1.0 + 1e-12) + 2.0 * noise);
+    const auto within = distance.closest_point_within(query, truth * (1.0 + 1e-12) + 2.0 * noise);
     REQUIRE(within);
     CHECK(std::abs(within->signed_distance - truth) <= noise + 1e-13 * truth);
-    CHECK_FALSE(distance.nearest_within(query, truth * (1.0 - 1e-12) - 2.0 * noise));
+    CHECK_FALSE(distance.closest_point_within(query, truth * (1.0 - 1e-12) - 2.0 * noise));
   }
 }
 
@@ -149,8 +149,8 @@ TEST_CASE("the extremes: every usable hostile mesh after repair, and no crash be
 TEST_CASE("an empty mesh is infinitely far") {
   const MeshDistance distance(Context{}, {});
   CHECK(distance.signed_distance(Vec3::Zero()) == INFINITY);
-  CHECK(distance.nearest(Vec3::Zero()).triangle == kNoIndex);
-  CHECK_FALSE(distance.nearest_within(Vec3::Zero(), 1e300));
+  CHECK(distance.closest_point(Vec3::Zero()).triangle == kNoIndex);
+  CHECK_FALSE(distance.closest_point_within(Vec3::Zero(), 1e300));
   CHECK(distance.winding_number(Vec3::Zero()) == 0.0);
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("queries that are absurd get an answer, never NaN and never a crash") 
   for (double x : extreme_values())
     for (double y : {0.0, x}) {
       CAPTURE(x);
-      const SurfacePoint got = distance.nearest({x, y, 0.0});
+      const SurfacePoint got = distance.closest_point({x, y, 0.0});
       CHECK_FALSE(std::isnan(got.signed_distance));
       CHECK_FALSE(std::isnan(distance.winding_number({x, y, 0.0})));
       if (std::isfinite(x) && std::abs(x) < 1e150) {
@@ -206,7 +206,7 @@ TEST_CASE("the tree has the same bits however many workers build it") {
     Random random(23);
     for (int i = 0; i < 500; ++i) {
       const Vec3 q(random.normal(), random.normal(), random.normal());
-      const SurfacePoint a = serial.nearest(q), b = built.nearest(q);
+      const SurfacePoint a = serial.closest_point(q), b = built.closest_point(q);
       CHECK(a.triangle == b.triangle);
       CHECK(a.signed_distance == b.signed_distance);
       CHECK(serial.winding_number(q) == built.winding_number(q));

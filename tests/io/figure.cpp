@@ -125,7 +125,7 @@ std::string to_stl(const TriMesh& mesh, bool binary) {
   return binary ? text : text + "endsolid figure\n";
 }
 
-std::string to_collada(const std::vector<NamedMesh>& meshes, double metres_per_unit,
+std::string to_collada(const std::vector<NamedMesh>& meshes, double meters_per_unit,
                        std::string_view up_axis) {
   std::string geometries, nodes;
   for (const auto& [name, mesh] : meshes) {
@@ -148,7 +148,7 @@ std::string to_collada(const std::vector<NamedMesh>& meshes, double metres_per_u
   }
   return "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
          "version=\"1.4.1\"><asset><unit name=\"u\" meter=\"" +
-         number(metres_per_unit) + "\"/><up_axis>" + std::string(up_axis) +
+         number(meters_per_unit) + "\"/><up_axis>" + std::string(up_axis) +
          "</up_axis></asset><library_geometries>" + geometries +
          "</library_geometries><library_visual_scenes><visual_scene id=\"s\">" + nodes +
          "</visual_scene></library_visual_scenes><scene><instance_visual_scene "

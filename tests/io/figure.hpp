@@ -35,7 +35,7 @@ std::string to_obj(const std::vector<NamedMesh>& groups);
 std::string to_ply(const TriMesh& mesh, bool binary);
 std::string to_stl(const TriMesh& mesh, bool binary);
 /// One document with unit and up axis, a geometry a mesh.
-std::string to_collada(const std::vector<NamedMesh>& meshes, double metres_per_unit,
+std::string to_collada(const std::vector<NamedMesh>& meshes, double meters_per_unit,
                        std::string_view up_axis);
 /// One mesh under a node with this column-major matrix; skinned to one joint whose own node carries
 /// `joint_matrix` if that is not empty (its bind pose).

@@ -36,16 +36,16 @@ bool warned(const io::ImportedMesh& mesh, std::string_view code) {
 TEST_CASE("the unit follows from the skin's area, for adults and children") {
   struct Case {
     const char* unit;
-    double per_metre;
+    double per_meter;
   };
-  for (const auto& [unit, per_metre] :
+  for (const auto& [unit, per_meter] :
        {Case{"m", 1.0}, Case{"dm", 10.0}, Case{"cm", 100.0}, Case{"mm", 1000.0}, Case{"inch", 1.0 / 0.0254}})
     for (const double stature : {0.9, 1.0, 1.1}) {
-      if (std::string_view(unit) == "inch" && stature < 0.95) continue;  // an infant in centimetres
+      if (std::string_view(unit) == "inch" && stature < 0.95) continue;  // an infant in centimeters
       CAPTURE(unit);
       CAPTURE(stature);
       const auto mesh =
-          import_obj(mapped(figure(), [&](const Vec3& p) { return Vec3(stature * per_metre * p); }));
+          import_obj(mapped(figure(), [&](const Vec3& p) { return Vec3(stature * per_meter * p); }));
       CHECK(mesh.unit == unit);
       CHECK(height(mesh.skin) == doctest::Approx(1.7 * stature).epsilon(1e-3));
       CHECK(!warned(mesh, "unit-unknown"));
@@ -71,9 +71,9 @@ TEST_CASE("a unit that is told is taken, and doubted where it makes no person") 
   CHECK(mesh.unit == "ft");
   CHECK(height(mesh.skin) == doctest::Approx(1.7).epsilon(1e-3));
   CHECK(mesh.warnings.empty());
-  for (const io::Unit unit : {io::Unit::kMillimetre, io::Unit::kCentimetre}) {
+  for (const io::Unit unit : {io::Unit::kMillimeter, io::Unit::kCentimeter}) {
     const auto tiny = import_obj(figure(), {.unit = unit});
-    CHECK(tiny.frame.metres_per_unit == (unit == io::Unit::kMillimetre ? 0.001 : 0.01));
+    CHECK(tiny.frame.meters_per_unit == (unit == io::Unit::kMillimeter ? 0.001 : 0.01));
     CHECK(warned(tiny, "unit-unlikely"));
   }
 }
@@ -97,7 +97,7 @@ TEST_CASE("the up axis follows from the shape, and options override") {
     CHECK(static_cast<int>(mesh.frame.up) == up);
     CHECK(height(mesh.skin) == doctest::Approx(1.7).epsilon(1e-3));
   }
-  const auto told = import_obj(figure(), {.unit = io::Unit::kCentimetre, .up = geometry::Axis::kX});
+  const auto told = import_obj(figure(), {.unit = io::Unit::kCentimeter, .up = geometry::Axis::kX});
   CHECK(told.frame.up == geometry::Axis::kX);
   CHECK(told.unit == "cm");
   CHECK(geometry::bounding_box(told.skin.positions).size().norm() < 0.02);

@@ -124,7 +124,7 @@ TEST_CASE("the GLB obeys the rules of the format, and has its named nodes as roo
 
 TEST_CASE("positions and ellipsoids are in the input's units and axes") {
   const TempFolder folder;
-  const geometry::Frame frame{.metres_per_unit = 0.01, .up = geometry::Axis::kZ};
+  const geometry::Frame frame{.meters_per_unit = 0.01, .up = geometry::Axis::kZ};
   const SceneFixture fixture(frame);
   const Glb glb = written(fixture.scene, folder);
   const std::vector<float> p =

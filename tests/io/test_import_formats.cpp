@@ -14,7 +14,7 @@ namespace {
 
 const engine::Context kContext;
 
-/// Imports a body that must be the figure, in metres and y up inside.
+/// Imports a body that must be the figure, in meters and y up inside.
 io::ImportedMesh import_figure(const std::filesystem::path& file, double tolerance_m = 2e-6) {
   auto result = io::import_body(kContext, file);
   REQUIRE_MESSAGE(result.ok(), (result.ok() ? std::string() : result.error().sentence()));
@@ -89,7 +89,7 @@ TEST_CASE("Collada's unit and up axis make the frame, and its own coordinates ar
   const auto mesh = import_figure(folder.write("cm.dae", to_collada({{"body", z_up(100.0)}}, 0.01, "Z_UP")));
   CHECK(mesh.unit == "cm");
   CHECK(mesh.frame.up == geometry::Axis::kZ);
-  CHECK(mesh.frame.metres_per_unit == doctest::Approx(0.01));
+  CHECK(mesh.frame.meters_per_unit == doctest::Approx(0.01));
   const TriMesh back = mapped(mesh.skin, [&](const Vec3& p) { return mesh.frame.to_file(p); });
   CHECK(vertex_distance(back, z_up(100.0)) < 2e-4);
 }
@@ -107,7 +107,7 @@ TEST_CASE("the map from the file's vertices leads to the same places") {
   CHECK(worst < 1e-6);
 }
 
-TEST_CASE("an OBJ ten kilometres from the origin keeps its digits") {
+TEST_CASE("an OBJ ten kilometers from the origin keeps its digits") {
   const TempFolder folder;
   const Vec3 far(10'000.0, -3'000.0, 7'000.0);
   const TriMesh moved = mapped(figure(), [&](const Vec3& p) { return Vec3(p + far); });

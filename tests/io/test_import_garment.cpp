@@ -23,11 +23,11 @@ TEST_CASE("a garment is all its meshes together, in the body's frame, as it was 
   for (auto& t : inward.triangles) std::swap(t[0], t[1]);
   const auto result =
       io::import_garment(kContext, folder.write("dress.obj", to_obj({{"skirt", skirt}, {"top", inward}})),
-                         {.metres_per_unit = 0.01, .up = geometry::Axis::kZ});
+                         {.meters_per_unit = 0.01, .up = geometry::Axis::kZ});
   REQUIRE(result.ok());
   CHECK(result->skin.triangles.size() == skirt.triangles.size() + inward.triangles.size());
   CHECK(result->repair.flipped_triangles == 0);
-  CHECK(result->frame.metres_per_unit == 0.01);
+  CHECK(result->frame.meters_per_unit == 0.01);
   const TriMesh truth = mapped(bodice_test::joined(skirt, inward),
                                [](const Vec3& p) { return Vec3(0.01 * Vec3(p.x(), p.z(), -p.y())); });
   CHECK(vertex_distance(result->skin, truth) < 1e-6);

@@ -81,7 +81,7 @@ TEST_CASE("the body stands where it should in the front and the side view") {
   CHECK(front > 1.4 * side);
 }
 
-TEST_CASE("parts have their own colours, garments cover the body, frames differ") {
+TEST_CASE("parts have their own colors, garments cover the body, frames differ") {
   const SceneFixture fixture;
   const Picture parts = drawn(fixture.scene, {}, kSmall);
   CHECK(parts.at(60, 50) != parts.at(60, 150));
@@ -138,7 +138,7 @@ TEST_CASE("the proxy's surface can be shown in place of its ellipsoids, if it is
   }
 }
 
-TEST_CASE("the fifteen parts have fifteen colours") {
+TEST_CASE("the fifteen parts have fifteen colors") {
   std::set<std::array<float, 3>> colors;
   for (int i = 0; i < body::kPartCount; ++i) {
     const auto color = io::part_color(static_cast<body::Part>(i));

@@ -42,7 +42,7 @@ TEST_CASE("the hash follows every number of the geometry, and not the frame or t
     CHECK(proxy->hash() != hash);
   }
   auto moved = base;
-  moved.frame.metres_per_unit = 0.01;
+  moved.frame.meters_per_unit = 0.01;
   moved.source_hash = 7;
   CHECK(BodyProxy::make(moved)->hash() == hash);
 }
@@ -89,7 +89,7 @@ TEST_CASE("what cannot be a proxy is refused, and the ellipsoid is named") {
   CHECK_FALSE(BodyProxy::make(uneven).ok());
   for (double value : {nan, inf, 0.0, -1.0}) {
     auto data = sample_data(3);
-    data.frame.metres_per_unit = value;
+    data.frame.meters_per_unit = value;
     CHECK_FALSE(BodyProxy::make(data).ok());
   }
 }

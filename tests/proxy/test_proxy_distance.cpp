@@ -63,7 +63,7 @@ TEST_CASE("proxy distance: without tables it is the least of the exact distances
     const Vec3 p(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4));
     double least = 1e300;
     for (const auto& e : data.ellipsoids)
-      least = std::min(least, geometry::nearest_point(e.shape, p).signed_distance);
+      least = std::min(least, geometry::closest_point(e.shape, p).signed_distance);
     CHECK(proxy::proxy_distance(data, p).distance == doctest::Approx(least - 0.002).epsilon(1e-12));
   }
 }
@@ -86,7 +86,7 @@ TEST_CASE("proxy distance: no ellipsoid is passed over, however thin and turned"
       std::size_t nearest = 0, nearest_center = 0;
       for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) {
         const geometry::Ellipsoid& e = data.ellipsoids[k].shape;
-        const double d = geometry::nearest_point(e, p).signed_distance;
+        const double d = geometry::closest_point(e, p).signed_distance;
         if (d < least) least = d, nearest = k;
         if ((p - e.center).norm() < (p - data.ellipsoids[nearest_center].shape.center).norm())
           nearest_center = k;
@@ -113,8 +113,8 @@ TEST_CASE("proxy distance: relief is continuous across owners and seams") {
     changes += a.owner != b.owner;
     jump = std::max(jump, std::abs(a.distance - b.distance));
   }
-  CHECK(jump < 4e-6);  // steps of a micrometre, slopes below 4
-  // Walk across the owner border on purpose: bisect until the owner changes within a nanometre.
+  CHECK(jump < 4e-6);  // steps of a micrometer, slopes below 4
+  // Walk across the owner border on purpose: bisect until the owner changes within a nanometer.
   for (int i = 0; i < 200; ++i) {
     Vec3 p = 0.2 * random_unit(random), q = Vec3(0.11, 0.08, 0.0) + 0.2 * random_unit(random);
     const auto owner = proxy::proxy_distance(data, p).owner;

@@ -21,7 +21,7 @@ namespace {
 void check_equal(const BodyProxy& a, const BodyProxy& b) {
   CHECK(a.hash() == b.hash());
   CHECK(a.source_hash() == b.source_hash());
-  CHECK(a.frame().metres_per_unit == b.frame().metres_per_unit);
+  CHECK(a.frame().meters_per_unit == b.frame().meters_per_unit);
   CHECK(a.frame().up == b.frame().up);
   CHECK(a.stature_m() == b.stature_m());
   REQUIRE(a.ellipsoids().size() == b.ellipsoids().size());
@@ -112,7 +112,7 @@ TEST_CASE("the hostile ellipsoids survive both forms") {
 TEST_CASE("JSON is in the file's unit and axes") {
   BodyProxy::Data data;
   data.ellipsoids.push_back({{bodice::geometry::Vec3(0.0, 1.5, 0.25)}});
-  data.frame = {0.01, Axis::kZ};  // centimetres, z up: y (height) is the file's z
+  data.frame = {0.01, Axis::kZ};  // centimeters, z up: y (height) is the file's z
   const std::string json = to_json(*BodyProxy::make(data));
   CHECK(json.find("\"center\":[0.0,-25.0,150.0]") != std::string::npos);
 }

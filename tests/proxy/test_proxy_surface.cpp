@@ -66,7 +66,7 @@ TEST_CASE("proxy surface: two bodies apart are both found, closed, and of the ri
       int balls = 0;
       for (std::size_t v = 0; v < surface->mesh.positions.size(); ++v) {
         const auto foot =
-            geometry::nearest_point(proxy.ellipsoids()[surface->owner[v]].shape, surface->mesh.positions[v]);
+            geometry::closest_point(proxy.ellipsoids()[surface->owner[v]].shape, surface->mesh.positions[v]);
         off = std::max(off, std::abs(foot.signed_distance) / cell_m);
         turned = std::max(turned, (foot.normal - surface->normals[v]).norm());
         balls += surface->owner[v] == 1;

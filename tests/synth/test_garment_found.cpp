@@ -1,4 +1,4 @@
-// Garments on what the program has: landmarks and parts that analyse() finds, not the truth a body was made
+// Garments on what the program has: landmarks and parts that analyze() finds, not the truth a body was made
 // of.
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ constexpr std::array kAllKinds = {GarmentKind::kSkirt, GarmentKind::kTunic, Garm
                                   GarmentKind::kTube};
 
 anatomy::Anatomy found(const geometry::TriMesh& mesh) {
-  auto anatomy = anatomy::analyse({}, mesh, {body::find_profile("ansur2").value()});
+  auto anatomy = anatomy::analyze({}, mesh, {body::find_profile("ansur2").value()});
   REQUIRE_MESSAGE(anatomy.ok(), (anatomy.ok() ? "" : anatomy.error().sentence()));
   return std::move(anatomy).value();
 }
@@ -105,8 +105,8 @@ TEST_CASE("a neck's border that runs over the shoulders does not keep a poncho f
   check_worn(skin, {body.mesh, body.part, body.landmarks, body.stature_m}, GarmentKind::kPoncho);
 }
 
-// A found armpit is a place on a fold some centimetres tall, and a border between parts a matter of taste.
-TEST_CASE("landmarks some centimetres off do not keep a garment from fitting") {
+// A found armpit is a place on a fold some centimeters tall, and a border between parts a matter of taste.
+TEST_CASE("landmarks some centimeters off do not keep a garment from fitting") {
   auto body = synth::make_body({}, {.vertices = 4000}).value();
   const geometry::MeshDistance skin({}, body.mesh);
   const auto at = [&](body::LandmarkId id) -> Vec3& {

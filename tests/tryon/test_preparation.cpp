@@ -150,7 +150,7 @@ TEST_CASE("what no garment reaches is not computed, and the trace shows it") {
   CHECK(run.error().message.find("within reach") != std::string::npos);
 }
 
-TEST_CASE("cancelled at any moment, a preparation ends with whole proxies and can run again") {
+TEST_CASE("canceled at any moment, a preparation ends with whole proxies and can run again") {
   const auto executor = bodice_test::make_threads(2);
   std::vector<std::uint64_t> known = proxies_of({}, proxy::Tier::kTight);
   std::ranges::sort(known);
@@ -160,7 +160,7 @@ TEST_CASE("cancelled at any moment, a preparation ends with whole proxies and ca
       [&](const auto&, const proxy::BodyProxy& proxy) { seen.push_back(proxy.hash()); });
   REQUIRE(preparation.ok());
   engine::Random random(5);
-  int cancelled = 0;
+  int canceled = 0;
   for (int round = 0; round < 20; ++round) {
     engine::CancelSource cancel;
     if (round == 0) cancel.cancel();
@@ -172,11 +172,11 @@ TEST_CASE("cancelled at any moment, a preparation ends with whole proxies and ca
     const auto run = preparation->run({.executor = executor.get(), .cancel = cancel.token()},
                                       synth::BodyOptions{.vertices = 1500});
     canceller.join();
-    if (!run) CHECK(run.error().code == engine::ErrorCode::kCancelled);
-    cancelled += !run;
+    if (!run) CHECK(run.error().code == engine::ErrorCode::kCanceled);
+    canceled += !run;
     CHECK((preparation->fit() != nullptr) == run.ok());
   }
-  CHECK(cancelled > 0);
+  CHECK(canceled > 0);
   for (const std::uint64_t hash : seen) CHECK(std::ranges::binary_search(known, hash));
   const std::size_t before = seen.size();
   CHECK(preparation->run({.executor = executor.get()}, synth::BodyOptions{.vertices = 1500}).ok());

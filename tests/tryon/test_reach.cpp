@@ -1,5 +1,5 @@
 // What a garment cannot reach is left out, and what it can reach answers as before: to the bit where parts
-// are fitted one by one or only left out, and as well against the true skin where neighbours are fitted
+// are fitted one by one or only left out, and as well against the true skin where neighbors are fitted
 // together.
 
 #include <doctest/doctest.h>
@@ -59,7 +59,7 @@ const Dressed& dressed() {
 
 proxy::BodyProxy fit(proxy::Tier tier, std::uint32_t parts) {
   auto fitted =
-      fitting::fit({}, tryon::labelled(dressed().skin), {.tier = tier, .max_ellipsoids = 45, .parts = parts});
+      fitting::fit({}, tryon::labeled(dressed().skin), {.tier = tier, .max_ellipsoids = 45, .parts = parts});
   REQUIRE_MESSAGE(fitted.ok(), fitted.error().sentence());
   return fitted->proxy;
 }
@@ -115,7 +115,7 @@ TEST_CASE(
     const std::uint32_t found = tryon::reachable_parts({}, dressed().skin, {&speck, 1}, 1e-4).value();
     for (const geometry::Index v : skin.triangles[place.triangle])
       REQUIRE((found & 1u << static_cast<int>(dressed().skin.anatomy.part[v])) != 0);
-    REQUIRE(std::popcount(found) <= 4);  // and none but its neighbours
+    REQUIRE(std::popcount(found) <= 4);  // and none but its neighbors
   }
 }
 

@@ -75,11 +75,11 @@ TEST_CASE("a newer body takes the place of one still in work") {
   REQUIRE(session.body() != nullptr);
   CHECK(session.body()->proxy.stature_m() > 1.75);
   const auto superseded = first.wait();  // unless it was done before the second came
-  if (!superseded) CHECK(superseded.error().code == engine::ErrorCode::kCancelled);
+  if (!superseded) CHECK(superseded.error().code == engine::ErrorCode::kCanceled);
 }
 
 TEST_CASE(
-    "of two bodies that wait for a frame the newer is shown, and the older one's ticket says cancelled") {
+    "of two bodies that wait for a frame the newer is shown, and the older one's ticket says canceled") {
   tryon::Session session({}, {.fit = {.tier = proxy::Tier::kSolid}});
   const engine::Ticket older = session.submit(synth::BodyOptions{.stature_m = 1.5, .mass_kg = 50});
   const engine::Ticket newer = session.submit(synth::BodyOptions{.stature_m = 1.9, .mass_kg = 80});
@@ -88,7 +88,7 @@ TEST_CASE(
   CHECK(newer.wait().ok());
   const auto superseded = older.wait();
   REQUIRE_FALSE(superseded.ok());
-  CHECK(superseded.error().code == engine::ErrorCode::kCancelled);
+  CHECK(superseded.error().code == engine::ErrorCode::kCanceled);
 }
 
 TEST_CASE("a body that cannot be read is an error of its ticket, and the frames go on") {

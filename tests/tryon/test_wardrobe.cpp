@@ -118,7 +118,7 @@ TEST_CASE("drape: a garment that is nowhere near the body, or in other units, is
   using geometry::Vec3;
   CHECK(codes([](const Vec3& p) { return p; }).empty());
   CHECK(codes([](const Vec3& p) { return Vec3(p + Vec3(3.0, 0.0, 0.0)); }) == "garment-far ");
-  CHECK(codes([](const Vec3& p) { return Vec3(0.01 * p); }) == "garment-size ");  // metres for centimetres
+  CHECK(codes([](const Vec3& p) { return Vec3(0.01 * p); }) == "garment-size ");  // meters for centimeters
   CHECK(codes([](const Vec3& p) { return Vec3(100.0 * (p - Vec3(0.0, 1.2, 0.3))); }) == "garment-size ");
 }
 

@@ -60,7 +60,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   REQUIRE(draped->garments.size() == 1);
   CHECK(draped->garments[0].frames.size() == 31);
 
-  // It stays on: the skirt's centre is still between knees and waist.
+  // It stays on: the skirt's center is still between knees and waist.
   double height = 0.0;
   for (const geometry::Vec3& p : draped->garments[0].frames.back()) height += p.y();
   height /= static_cast<double>(draped->garments[0].frames.back().size());
@@ -168,7 +168,7 @@ TEST_CASE("labels are one line a vertex, in the input's units") {
   const engine::Context context;
   auto skin = tryon::segment_builtin(context, {.vertices = 3000}, {});
   REQUIRE(skin.ok());
-  skin->input.frame = {.metres_per_unit = 0.01, .up = geometry::Axis::kZ};
+  skin->input.frame = {.meters_per_unit = 0.01, .up = geometry::Axis::kZ};
   std::istringstream lines(tryon::labels_text(*skin));
   std::size_t count = 0;
   double highest_z = 0.0, x = 0.0, y = 0.0, z = 0.0;
@@ -189,7 +189,7 @@ TEST_CASE("an ellipsoid carries the part of the skin that it stands for, whereve
   const geometry::TriMesh& mesh = body.skin.input.skin;
   int agree = 0;
   for (const proxy::ProxyEllipsoid& e : body.fit.proxy.ellipsoids()) {
-    const geometry::SurfacePoint nearest = body.skin.distance->nearest(e.shape.center);
+    const geometry::SurfacePoint nearest = body.skin.distance->closest_point(e.shape.center);
     agree += body.skin.anatomy.part[mesh.triangles[nearest.triangle][0]] == e.part;
   }
   // Those on a border may go either way.
@@ -202,7 +202,7 @@ TEST_CASE("solid with very few ellipsoids encloses the parts instead of growing 
   auto skin = tryon::segment_builtin({}, {}, {});
   REQUIRE(skin.ok());
   const auto solid =
-      fitting::fit({}, tryon::labelled(*skin), {.tier = proxy::Tier::kSolid, .max_ellipsoids = 8});
+      fitting::fit({}, tryon::labeled(*skin), {.tier = proxy::Tier::kSolid, .max_ellipsoids = 8});
   REQUIRE(solid.ok());
   CHECK(solid->accuracy.gap_m.mean < 0.06);
   CHECK(solid->accuracy.skin_outside_depth_m <= 1e-9);

@@ -8,7 +8,7 @@ namespace bodice::anatomy {
 
 struct Ball {
   geometry::Vec3 center = geometry::Vec3::Zero();
-  double radius = 0.0;  ///< root of the mean square distance from the centre
+  double radius = 0.0;  ///< root of the mean square distance from the center
 };
 
 /// The ball that a piece of skin resembles: area-weighted middle and spread of the triangles whose corners

@@ -22,7 +22,7 @@ class BodyCoordinates {
 
   /// side 0: seen from the body's left, 1: from its right.
   CoordinateArray at(std::size_t vertex, int side) const;
-  /// Metres that count as one in the distance from an end.
+  /// Meters that count as one in the distance from an end.
   float unit_of(Coordinate end) const {
     if (end == kFromHead) return size_;
     return end == kOwnHand || end == kOtherHand ? ends_.hands_apart : ends_.feet_apart;
@@ -39,9 +39,9 @@ class BodyCoordinates {
   const geodesic::Field& from_perineum() const { return from_perineum_; }
   /// False where no closed line runs around the middle, for instance on welded limbs.
   bool midline_found() const { return midline_found_; }
-  /// From the perineum along the skin to the crown, metres.
+  /// From the perineum along the skin to the crown, meters.
   float trunk_m() const { return trunk_; }
-  /// From breastbone and back to where the legs merge, metres; a usual body's where that is not found.
+  /// From breastbone and back to where the legs merge, meters; a usual body's where that is not found.
   float front_to_merge_m() const { return merge_front_; }
   float back_to_merge_m() const { return merge_back_; }
   /// About the stature.
@@ -49,7 +49,7 @@ class BodyCoordinates {
   const BodyEnds& ends() const { return ends_; }
   const Midline& midline() const { return midline_; }
   const LegMerge& leg_merge() const { return merge_; }
-  /// Where the loop around the arm widens, metres from the fingertip; 0 if it does not. See shoulder_level.
+  /// Where the loop around the arm widens, meters from the fingertip; 0 if it does not. See shoulder_level.
   float shoulder_level_m(int side) const { return shoulder_[side]; }
 
  private:

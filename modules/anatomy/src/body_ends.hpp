@@ -10,7 +10,7 @@ struct BodyEnds {
   std::array<geometry::Index, 2> hand{}, foot{};
   const geodesic::Field* from_head = nullptr;
   std::array<const geodesic::Field*, 2> from_hand{}, from_foot{};
-  float hands_apart = 0.0F, feet_apart = 0.0F, head_to_feet = 0.0F;  ///< metres along the skin
+  float hands_apart = 0.0F, feet_apart = 0.0F, head_to_feet = 0.0F;  ///< meters along the skin
 };
 
 /// Refers to the fields of `ends`.

@@ -1,5 +1,5 @@
 // Where the places of a body lie in its own coordinates, as data.
-// Borders were fitted by weighted least squares to labelled CC0 bodies (twelve builds, thin to obese,
+// Borders were fitted by weighted least squares to labeled CC0 bodies (twelve builds, thin to obese,
 // pregnant, children, in about ten poses each) and, with less weight, to made bodies. With each build left
 // out in turn, they put 1 % of the skin of real bodies into the wrong part and 1 to 3 % of children and obese
 // ones. Places were fitted to the same, to thirteen builds in twenty more poses, and to made bodies of other

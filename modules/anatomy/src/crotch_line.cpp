@@ -17,7 +17,7 @@ struct Nearest {
   std::size_t point = 0;
 };
 
-Nearest nearest_point(const std::vector<Isoline>& lines, const Vec3& place) {
+Nearest closest_point(const std::vector<Isoline>& lines, const Vec3& place) {
   Nearest nearest;
   double least = std::numeric_limits<double>::infinity();
   for (const Isoline& line : lines)
@@ -88,7 +88,7 @@ void smooth(CrotchLine& line) {
 std::optional<CrotchLine> crotch_line(const Skin& skin, const BodyCoordinates& coordinates,
                                       const Vec3& middle) {
   const std::vector<Isoline> lines = lines_between_feet(skin, coordinates.ends());
-  const Nearest nearest = nearest_point(lines, middle);
+  const Nearest nearest = closest_point(lines, middle);
   const double step = CrotchLine::kSpacing * static_cast<double>(coordinates.size_m());
   constexpr int kReach = CrotchLine::kReach;
   if (nearest.line == nullptr || !(nearest.line->girth_m > 2.0 * kReach * step)) return std::nullopt;

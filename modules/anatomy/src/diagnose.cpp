@@ -20,10 +20,11 @@ void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
     warnings.push_back({"holes", "", std::to_string(skin.open_edges) + " edges of the skin border a hole.",
                         "Close the holes if distances around them matter."});
   if (skin.pieces > 1)
-    warnings.push_back({"extra-pieces", "",
-                        std::to_string(skin.pieces - 1) +
-                            " pieces are not connected to the body and take the part of the nearest skin.",
-                        "Remove eyes, clothes or scan debris to leave them out."});
+    warnings.push_back(
+        {"extra-pieces", "",
+         std::to_string(skin.pieces - 1) +
+             " pieces are not connected to the body and take the part of the closest point of the skin.",
+         "Remove eyes, clothes or scan debris to leave them out."});
   const int count = handles(skin);
   if (count > 0)
     warnings.push_back(

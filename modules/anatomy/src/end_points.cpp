@@ -95,7 +95,7 @@ void refine_all(const engine::Context& context, const Skin& skin, float size, En
   }
 }
 
-/// n x n, row-major, metres.
+/// n x n, row-major, meters.
 std::vector<float> distances_between(const FarthestPoints& points) {
   const std::size_t n = points.vertex.size();
   std::vector<float> apart(n * n, 0.0F);

@@ -14,7 +14,7 @@ inline constexpr int kEndCount = 5;
 /// Hand A is on the side of foot A; which of the two sides is left is decided elsewhere.
 struct EndPoints {
   std::array<geometry::Index, kEndCount> vertex{};
-  std::array<geodesic::Field, kEndCount> field;  ///< distance of every vertex from each end, metres
+  std::array<geodesic::Field, kEndCount> field;  ///< distance of every vertex from each end, meters
   double misfit = 0.0;                           ///< of their distances to those of a body; below 1 is good
   double side_margin = 0.0;  ///< how clearly hands and feet pair, relative to the body's size
 

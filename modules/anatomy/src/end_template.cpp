@@ -49,7 +49,7 @@ Eigen::Matrix<double, kPairs, kPairs> precision() {
   return spread.inverse();
 }
 
-/// Ends are further out than their neighbours (toe and heel, fingertip and thumb), so of two equal fits the
+/// Ends are further out than their neighbors (toe and heel, fingertip and thumb), so of two equal fits the
 /// one whose ends are further apart is the right one.
 constexpr double kFartherIsBetter = 4.0;
 

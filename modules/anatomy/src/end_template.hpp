@@ -16,7 +16,7 @@ struct EndMatch {
 };
 
 /// The choice and order of five candidates whose mutual distances fit a body best.
-/// `apart`: n x n, row-major, metres.
+/// `apart`: n x n, row-major, meters.
 std::optional<EndMatch> match_ends(std::span<const float> apart, std::size_t n);
 
 }  // namespace bodice::anatomy

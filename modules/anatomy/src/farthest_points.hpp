@@ -7,7 +7,7 @@ namespace bodice::anatomy {
 
 struct FarthestPoints {
   std::vector<geometry::Index> vertex;
-  /// Distance of every vertex from each, metres. Empty for the last of as many as were asked for: how far it
+  /// Distance of every vertex from each, meters. Empty for the last of as many as were asked for: how far it
   /// lies from the others, their fields tell.
   std::vector<geodesic::Field> field;
 };

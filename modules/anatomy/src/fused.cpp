@@ -53,8 +53,8 @@ bool legs_meet(const BodyCoordinates& coordinates) {
          kFootToFoot * static_cast<double>(coordinates.size_m());
 }
 
-std::optional<engine::Error> spoilt_by_welds(const Skin& skin, const BodyCoordinates& coordinates,
-                                             const Landmarks& marks, const SecondWays& second) {
+std::optional<engine::Error> spoiled_by_welds(const Skin& skin, const BodyCoordinates& coordinates,
+                                              const Landmarks& marks, const SecondWays& second) {
   if (handles(skin) < 1 || places_in_doubt(marks, second) < kSpoilt) return std::nullopt;
   return engine::Error{engine::ErrorCode::kUnusableGeometry,
                        "The skin is fused where " + what_meets(coordinates) +

@@ -19,7 +19,7 @@ bool legs_meet(const BodyCoordinates& coordinates);
 
 /// The sentence that names what is fused, if that leaves no usable answer: a weld where limbs merely touch
 /// spoils few places, one far from the trunk moves ends, middle and most of the borders.
-std::optional<engine::Error> spoilt_by_welds(const Skin& skin, const BodyCoordinates& coordinates,
-                                             const Landmarks& marks, const SecondWays& second);
+std::optional<engine::Error> spoiled_by_welds(const Skin& skin, const BodyCoordinates& coordinates,
+                                              const Landmarks& marks, const SecondWays& second);
 
 }  // namespace bodice::anatomy

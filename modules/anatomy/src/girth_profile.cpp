@@ -1,5 +1,5 @@
-// Based on: Herbert Federer. Curvature measures. 1959. - the coarea formula: where a field grows by one metre
-// a metre, the skin's area between two levels is the length of the curves between them times the step.
+// Based on: Herbert Federer. Curvature measures. 1959. - the coarea formula: where a field grows by one meter
+// a meter, the skin's area between two levels is the length of the curves between them times the step.
 #include "girth_profile.hpp"
 
 #include <algorithm>

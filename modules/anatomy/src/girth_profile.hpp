@@ -10,7 +10,7 @@ namespace bodice::anatomy {
 
 /// Girths of the skin between two levels of a distance field, in equal steps.
 struct GirthProfile {
-  float from = 0.0F, step = 0.0F;  ///< metres along the skin
+  float from = 0.0F, step = 0.0F;  ///< meters along the skin
   std::vector<float> girth_m;      ///< of the curves between level i and level i + 1, all of them together
 
   float level(std::size_t i) const { return from + (static_cast<float>(i) + 0.5F) * step; }

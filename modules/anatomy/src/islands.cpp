@@ -61,14 +61,14 @@ void absorb_islands(const Skin& skin, std::vector<Part>& part) {
   const auto island = [&](Index v) { return patches.of(v) != largest[static_cast<int>(part[v])]; };
   std::vector<std::pair<Index, Tally>> around;  // islands by root, sorted, with the parts that touch them
   std::vector<Index> slot(part.size(), geometry::kNoIndex);
-  const auto touch = [&](Index v, Index neighbour) {
-    if (skin.component[v] != 0 || part[v] == part[neighbour] || !island(v) || island(neighbour)) return;
+  const auto touch = [&](Index v, Index neighbor) {
+    if (skin.component[v] != 0 || part[v] == part[neighbor] || !island(v) || island(neighbor)) return;
     Index& s = slot[patches.of(v)];
     if (s == geometry::kNoIndex) {
       s = static_cast<Index>(around.size());
       around.push_back({patches.of(v), Tally{}});
     }
-    ++around[s].second[static_cast<int>(part[neighbour])];
+    ++around[s].second[static_cast<int>(part[neighbor])];
   };
   for (const auto& [a, b] : skin.edges.ends) {
     touch(a, b);

@@ -73,10 +73,10 @@ Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Bo
                   int side, Coordinate end, float reach) {
   constexpr float kOutside = -1e-6F;
   const Field& from = from_end(coordinates.ends(), end, side);
-  const float no_neighbour = reach * coordinates.unit_of(end) + 2.0F * skin.graph.longest;
+  const float no_neighbor = reach * coordinates.unit_of(end) + 2.0F * skin.graph.longest;
   Field score(skin.mesh.positions.size(), kOutside);
   for (std::size_t v = 0; v < score.size(); ++v) {
-    if (!(from[v] < no_neighbour)) continue;
+    if (!(from[v] < no_neighbor)) continue;
     const CoordinateArray x = coordinates.at(v, side);
     const float s = border(x) + beyond;
     score[v] = x[end] < reach ? s : std::min(s, kOutside);

@@ -14,7 +14,7 @@ struct Girth {
   double girth_m = 0.0;
   double confidence = 0.0;
   float level_m = 0.0F;                       ///< mean distance of the loop from the end of its limb
-  float from_front = 0.0F, from_back = 0.0F;  ///< least distance on the loop from breastbone and back, metres
+  float from_front = 0.0F, from_back = 0.0F;  ///< least distance on the loop from breastbone and back, meters
 };
 
 struct Landmarks {

@@ -9,7 +9,7 @@ namespace bodice::anatomy {
 /// the nearer foot are one loop a leg, above it they have merged. The paper's perineum.
 struct LegMerge {
   SkinPoint at;
-  float distance = 0.0F;  ///< from either foot, metres
+  float distance = 0.0F;  ///< from either foot, meters
 };
 
 /// at.found() is false where no way leads from foot to foot. O(#E).

@@ -8,7 +8,7 @@
 
 namespace bodice::anatomy {
 
-/// How far around the best vertex its neighbours share in the place, of the size.
+/// How far around the best vertex its neighbors share in the place, of the size.
 inline constexpr double kPlaceRadius = 0.05;
 
 struct NearestSignature {

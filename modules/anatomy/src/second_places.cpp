@@ -5,7 +5,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-#include "centreline.hpp"
+#include "centerline.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -37,7 +37,7 @@ double end_apart(const Skin& skin, const BodyCoordinates& coordinates, const Fie
 
 struct Limb {
   const Field& from_end;
-  float length;  ///< from its end to where it leaves the trunk, metres
+  float length;  ///< from its end to where it leaves the trunk, meters
   float from, to, share;
 };
 

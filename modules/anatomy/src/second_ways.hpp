@@ -7,7 +7,7 @@ namespace bodice::anatomy {
 
 /// How far the second way's answer lies from the first's, of the size; negative where it has no answer.
 struct SecondWays {
-  double neck = -1.0;      ///< centre of the least girth between head and shoulders, as in the paper
+  double neck = -1.0;      ///< center of the least girth between head and shoulders, as in the paper
   double perineum = -1.0;  ///< where the legs' loops merge
   std::array<double, 2> armpit{-1.0, -1.0};  ///< level where the loop around the arm widens into the trunk
   double armpits = -1.0;  ///< how much farther one armpit lies from its fingertip than the other

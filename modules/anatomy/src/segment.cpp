@@ -65,7 +65,7 @@ Part part_of(const BodyCoordinates& coordinates, const BordersOfBuild& border, f
   return on_side((1.0F - kChestShare) * waist > kChestShare * -neck ? Part::kTorsoUL : Part::kTorsoML, side);
 }
 
-/// Eyes, teeth, clothes and debris follow the nearest skin of the body.
+/// Eyes, teeth, clothes and debris follow the closest point of the skin of the body.
 void attach_pieces(const engine::Context& context, const Skin& skin, std::vector<Part>& part) {
   if (skin.components < 2) return;
   geometry::TriMesh body{skin.mesh.positions, {}};
@@ -76,7 +76,7 @@ void attach_pieces(const engine::Context& context, const Skin& skin, std::vector
     for (std::size_t v = begin; v < end; ++v) {
       if (skin.component[v] == 0) continue;
       const geometry::SurfacePoint at =
-          distance.nearest_within(skin.mesh.positions[v], kAnywhere).value_or(geometry::SurfacePoint{});
+          distance.closest_point_within(skin.mesh.positions[v], kAnywhere).value_or(geometry::SurfacePoint{});
       if (at.triangle != geometry::kNoIndex) part[v] = part[body.triangles[at.triangle][0]];
     }
   });

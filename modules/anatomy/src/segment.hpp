@@ -8,7 +8,7 @@
 namespace bodice::anatomy {
 
 /// Every vertex gets a part; each part is one patch of the body. Pieces other than the body take the part of
-/// the nearest skin. O(#V log #V).
+/// the closest point of the skin. O(#V log #V).
 std::vector<body::Part> segment(const engine::Context& context, const Skin& skin,
                                 const BodyCoordinates& coordinates);
 

@@ -19,7 +19,7 @@ using geometry::Vec3;
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
 constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as parts of that way
 
-/// What a metre through space counts against one along the skin: 8 takes the front of a pointed foot's ankle,
+/// What a meter through space counts against one along the skin: 8 takes the front of a pointed foot's ankle,
 /// 2 that of an obese runner's.
 constexpr float kThroughSpace = 4.0F;
 
@@ -84,7 +84,7 @@ double signed_turn(std::complex<double> first, std::complex<double> second) {
   return size > 0.0 ? std::imag(second * std::conj(first)) / size : 0.0;
 }
 
-/// Mean over the loops of what `reads` says, for levels of the field that rises towards the trunk. The lower
+/// Mean over the loops of what `reads` says, for levels of the field that rises toward the trunk. The lower
 /// a loop, the more it counts: a bent knee disturbs those near it.
 template <class Reads>
 double mean_over_loops(const Skin& skin, const Field& field, const std::array<float, kReadAt.size()>& levels,

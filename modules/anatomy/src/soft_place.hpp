@@ -9,7 +9,7 @@ namespace bodice::anatomy {
 
 /// The mean of the skin around a vertex, weighed by area and by weight(v) >= 0: a place that does not jump
 /// from vertex to vertex as the best one does, and hardly depends on how fine the mesh is. Only triangles
-/// with all corners within `radius` metres take part; the vertex itself if none has weight. O(#F).
+/// with all corners within `radius` meters take part; the vertex itself if none has weight. O(#F).
 template <class Weight>
 geometry::Vec3 soft_place(const Skin& skin, geometry::Index vertex, double radius, Weight weight) {
   const auto& positions = skin.mesh.positions;

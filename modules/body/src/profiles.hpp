@@ -13,7 +13,7 @@ struct Measure {
   double least, most;
 };
 
-/// Every member of Proportions. The bounds are wide of any adult or child survey: they catch centimetres
+/// Every member of Proportions. The bounds are wide of any adult or child survey: they catch centimeters
 /// taken for ratios and swapped columns, not unusual bodies.
 inline constexpr std::array<Measure, 15> kMeasures = {{
     {"upper_arm", &Proportions::upper_arm, 0.10, 0.30},

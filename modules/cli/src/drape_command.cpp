@@ -120,7 +120,7 @@ void add_motion_options(CLI::App& sub, DrapeCommand& c) {
       ->check(whole(1, cloth::kMaxSubsteps))
       ->group(group)
       ->capture_default_str();
-  auto* wind = sub.add_option("--wind", c.wind_m_s, "x,y,z in the file's axes, metres a second");
+  auto* wind = sub.add_option("--wind", c.wind_m_s, "x,y,z in the file's axes, meters a second");
   wind->delimiter(',')->check(finite())->expected(3)->group(group);
   sub.add_option("--gust", c.drape.solver.environment.gust, "share of the wind that fluctuates")
       ->check(between(0.0, 1.0))

@@ -11,9 +11,9 @@
 namespace bodice::cli {
 namespace {
 
-const std::map<std::string, io::Unit> kUnits = {{"auto", io::Unit::kAuto},     {"m", io::Unit::kMetre},
-                                                {"dm", io::Unit::kDecimetre},  {"cm", io::Unit::kCentimetre},
-                                                {"mm", io::Unit::kMillimetre}, {"in", io::Unit::kInch},
+const std::map<std::string, io::Unit> kUnits = {{"auto", io::Unit::kAuto},     {"m", io::Unit::kMeter},
+                                                {"dm", io::Unit::kDecimeter},  {"cm", io::Unit::kCentimeter},
+                                                {"mm", io::Unit::kMillimeter}, {"in", io::Unit::kInch},
                                                 {"ft", io::Unit::kFoot}};
 
 const std::map<std::string, synth::Pose> kPoses = {{"a", synth::Pose::kA},
@@ -40,7 +40,7 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
   const auto group = "Speed against accuracy";
   command
       .add_option("--tier", o.tier,
-                  "paper (as published), solid (no leaks), tight (about a millimetre from the skin), relief "
+                  "paper (as published), solid (no leaks), tight (about a millimeter from the skin), relief "
                   "(about a quarter of one; the default)")
       ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}))
       ->group(group)
@@ -153,7 +153,7 @@ void add_builtin_options(CLI::App& command, CommonOptions& o) {
       ->excludes("BODY")
       ->group(group)
       ->capture_default_str();
-  command.add_option("--height", o.height_m, "stature, metres")
+  command.add_option("--height", o.height_m, "stature, meters")
       ->check(between(0.4, 2.6))
       ->excludes("BODY")
       ->group(group)
@@ -231,14 +231,14 @@ engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& o) {
 }
 
 fitting::FitOptions fit_options(const CommonOptions& o) {
-  auto metres = [](std::optional<double> mm) { return mm ? std::optional(*mm * 1e-3) : std::nullopt; };
+  auto meters = [](std::optional<double> mm) { return mm ? std::optional(*mm * 1e-3) : std::nullopt; };
   fitting::FitOptions options;
   if (!o.tier.empty()) options.tier = *proxy::tier_from_name(o.tier);
-  options.target_error_m = metres(o.target_error_mm);
+  options.target_error_m = meters(o.target_error_mm);
   options.max_ellipsoids = o.max_ellipsoids;
   options.budget_us = o.budget_us;
-  options.mu_torso_m = metres(o.mu_torso_mm);
-  options.mu_limbs_m = metres(o.mu_limbs_mm);
+  options.mu_torso_m = meters(o.mu_torso_mm);
+  options.mu_limbs_m = meters(o.mu_limbs_mm);
   options.time_budget_s = o.time_budget_s;
   return options;
 }

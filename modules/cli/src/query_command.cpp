@@ -60,7 +60,7 @@ std::string answer(const collision::Collider& collider, const proxy::BodyProxy& 
   const Vec3 normal =
       frame.direction_to_file({double{c.normal[0]}, double{c.normal[1]}, double{c.normal[2]}});
   std::string line;
-  engine::append_number(line, double{c.signed_distance} / frame.metres_per_unit, 7);
+  engine::append_number(line, double{c.signed_distance} / frame.meters_per_unit, 7);
   for (const double v : point) engine::append_number(line += ' ', v, 9);
   for (const double v : normal) engine::append_number(line += ' ', v, 6);
   return line + ' ' + std::to_string(c.ellipsoid) + '\n';
@@ -86,7 +86,7 @@ engine::Result<void> query(const QueryCommand& command) {
 
 void add_query_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<QueryCommand>();
-  CLI::App* sub = app.add_subcommand("query", "Ask a proxy for signed distances and nearest points");
+  CLI::App* sub = app.add_subcommand("query", "Ask a proxy for signed distances and closest points");
   sub->add_option("PROXY", command->proxy, "a proxy that `bodice fit` wrote")->check(not_empty())->required();
   sub->add_option("POINTS", command->points, "text, one point a line: x y z, in the proxy's units and axes")
       ->check(not_empty())
@@ -94,7 +94,7 @@ void add_query_command(CLI::App& app, int& exit_code) {
   sub->add_option("-o,--output", command->output, "where to write (default: standard output)")
       ->check(not_empty());
   sub->footer(
-      "A line a point: signed distance (negative inside), nearest point x y z, normal x y z, ellipsoid (from "
+      "A line a point: signed distance (negative inside), closest point x y z, normal x y z, ellipsoid (from "
       "0);\n`inf nan ... none` where single precision does not reach, millions of body lengths away.\n"
       "Example: bodice query proxy.json points.txt");
   sub->callback([command, &exit_code] {

@@ -31,7 +31,7 @@ void update_triangles(const Particles& p, Air& air, std::size_t begin, std::size
   }
 }
 
-// Neighbouring triangles may be wound against each other: each is turned to the first one's side, which is
+// Neighboring triangles may be wound against each other: each is turned to the first one's side, which is
 // right wherever the surface is not folded sharply.
 void update_normal(Air& air, std::size_t i) {
   float sx = 0.0f, sy = 0.0f, sz = 0.0f, area = 0.0f;

@@ -15,10 +15,10 @@ struct Air {
   std::vector<Triangle> triangles;            ///< of particles
   std::vector<Index> corner_begin;            ///< #P + 1, offsets into corner_triangle
   std::vector<Index> corner_triangle;         ///< triangles around each particle, ascending
-  std::vector<float> tri_x, tri_y, tri_z;     ///< #F, a third of the area vector, square metres
+  std::vector<float> tri_x, tri_y, tri_z;     ///< #F, a third of the area vector, square meters
   std::vector<float> nx, ny, nz;              ///< unit normal, or zero
   std::vector<float> area_m2;                 ///< a third of the triangles' areas
-  std::vector<float> wind_x, wind_y, wind_z;  ///< metres a second
+  std::vector<float> wind_x, wind_y, wind_z;  ///< meters a second
 };
 
 Air make_air(const geometry::TriMesh& mesh);

@@ -19,7 +19,7 @@ template <class Id>
 struct HingePack {
   Id corner[4][kPack];     ///< the edge's ends, then the two opposite corners
   Half k[3][kPack];        ///< cotangent weights of all but the first corner: they sum to zero
-  Half compliance[kPack];  ///< metres a newton
+  Half compliance[kPack];  ///< meters a newton
   float rest_m[kPack];
   float held[kPack];  ///< value at which friction holds it
 };

@@ -18,7 +18,7 @@ inline constexpr std::size_t kPatch = 512;
 struct Carry {
   float followed_m = 0.0f;   ///< who comes farther in a substep, against the body, is followed on its way
   bool moving = false;       ///< in this frame
-  std::vector<Point> by;     ///< #P, metres in the frame, of the material nearest to each; zero if none moves
+  std::vector<Point> by;     ///< #P, meters in the frame, of the material nearest to each; zero if none moves
   std::vector<Point> ahead;  ///< #P, its part along the surface's normal
 };
 

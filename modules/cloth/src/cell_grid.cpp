@@ -45,7 +45,7 @@ CellGrid::CellGrid(float cell_m, std::size_t points) {
 CellGrid::Cell CellGrid::cell_of(const Point& at) const {
   auto cell = [&](float value) {
     const float at_cell = std::clamp(value * per_cell_, -kFarthestCell, kFarthestCell);
-    const int whole = static_cast<int>(at_cell);  // towards zero; std::floor would be a call
+    const int whole = static_cast<int>(at_cell);  // toward zero; std::floor would be a call
     return whole - (static_cast<float>(whole) > at_cell ? 1 : 0);
   };
   return {cell(at.x), cell(at.y), cell(at.z)};

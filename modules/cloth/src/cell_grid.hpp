@@ -102,7 +102,7 @@ class CellGrid {
 
   int x_bits_ = 0, chapter_shift_ = 0;
   std::size_t x_mask_ = 0, row_mask_ = 0, skew_ = 0;
-  float per_cell_ = 0.0f;             // cells a metre
+  float per_cell_ = 0.0f;             // cells a meter
   std::vector<Index> begin_;          // #slots + 1
   std::vector<float> x_, y_, z_;      // #P and three more, by slot, ascending particles inside one
   std::vector<Index> particle_;       // #P and three more, in the same order; before, each point's slot

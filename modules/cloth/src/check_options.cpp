@@ -9,7 +9,7 @@ namespace bodice::cloth {
 namespace {
 
 /// Floats square lengths.
-constexpr double kMostMetres = 1e9;
+constexpr double kMostMeters = 1e9;
 
 constexpr int kMaxIterations = 64;
 
@@ -34,8 +34,8 @@ engine::Result<void> check(const Environment& e) {
 engine::Result<void> check(const SolverOptions& o) {
   if (auto good = check_count("substeps", o.substeps, kMaxSubsteps); !good) return good;
   if (auto good = check_count("iterations", o.iterations, kMaxIterations); !good) return good;
-  if (!(o.thickness_m >= 0.0 && o.thickness_m <= kMostMetres))
-    return bad(engine::message("thickness_m is ", o.thickness_m), "Give metres, 0 to 1e9.");
+  if (!(o.thickness_m >= 0.0 && o.thickness_m <= kMostMeters))
+    return bad(engine::message("thickness_m is ", o.thickness_m), "Give meters, 0 to 1e9.");
   if (!(o.budget_us >= 0.0)) return bad(engine::message("budget_us is ", o.budget_us), "Give zero or more.");
   return check(o.environment);
 }

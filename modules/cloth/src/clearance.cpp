@@ -9,13 +9,13 @@
 namespace bodice::cloth {
 namespace {
 
-/// Metres of distance that a metre of travel takes off at most, beyond a rise at once.
+/// Meters of distance that a meter of travel takes off at most, beyond a rise at once.
 struct Steepness {
   float slope, rise_m;
 };
 constexpr Steepness kPlain = {1.0f, 0.0f};
 // Tables of relief are steep in places. On five made bodies (seeds 0, 3, 5, 7 and 11, three poses) 1.4
-// million ways each of 0.5 to 40 mm towards the surface took at most 2.3 mm more than twice their length.
+// million ways each of 0.5 to 40 mm toward the surface took at most 2.3 mm more than twice their length.
 constexpr Steepness kRelief = {2.0f, 3e-3f};
 // Travel asked for, in that expected: constraints pull some particles faster than gravity does.
 constexpr float kSpare = 2.0f;

@@ -13,13 +13,13 @@
 
 namespace bodice::cloth {
 
-/// Neighbours on the cloth; as many as a block of the collider's kernels.
+/// Neighbors on the cloth; as many as a block of the collider's kernels.
 inline constexpr std::size_t kCluster = 64;
 
 struct Clearance {
-  std::vector<float> free_m;                ///< a cluster: may be travelled before one of it can touch
+  std::vector<float> free_m;                ///< a cluster: may be traveled before one of it can touch
   std::vector<collision::Contact> nearest;  ///< #P
-  float slope = 1.0f;                       ///< metres of distance that a metre of travel takes off at most
+  float slope = 1.0f;                       ///< meters of distance that a meter of travel takes off at most
   int frames_without = 0;                   ///< until distances are worth asking again
 };
 

@@ -40,7 +40,7 @@ struct CoarseLevel {
   int sweeps = 1;
   std::vector<Index> node;  ///< #N, the particle at each node
   std::vector<Point> at;    ///< #N, those that idle slots name; weight: inverse mass it stands for
-  std::vector<Point> move;  ///< #N, metres: where a solve begins, and after it how far it went
+  std::vector<Point> move;  ///< #N, meters: where a solve begins, and after it how far it went
   Ties ties;
   std::vector<Parents> parents;    ///< #P
   std::vector<Index> child_begin;  ///< #N + 1, offsets into child

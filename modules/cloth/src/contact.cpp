@@ -16,7 +16,7 @@ namespace bodice::cloth {
 namespace {
 
 // How fast a particle that is deeper than its last path explains is brought out: a garment that begins two
-// centimetres inside is out after a frame, and neighbours feel no jerk.
+// centimeters inside is out after a frame, and neighbors feel no jerk.
 constexpr float kRecovery_m_s = 1.0f;
 
 collision::Particles view(Particles& p, std::size_t begin, std::size_t end, bool with_velocities) {

@@ -15,8 +15,8 @@ struct Spacing {
   int sweeps;
 };
 constexpr Spacing kSpacings[kMostLevels] = {{16.0, 8}, {4.0, 3}};
-constexpr double kNeighbours = 1.7;  // nodes this many spacings apart are tied
-constexpr double kReach = 1.7;       // a particle's parents lie within this many spacings
+constexpr double kNeighbors = 1.7;  // nodes this many spacings apart are tied
+constexpr double kReach = 1.7;      // a particle's parents lie within this many spacings
 constexpr std::size_t kFewNodes = 3;
 
 void pick_nodes(const geometry::TriMesh& mesh, ClothDistance& distance, double spacing, CoarseLevel& level) {
@@ -46,11 +46,11 @@ std::vector<Tie> tie_nodes(ClothDistance& distance, double spacing, double slack
                            const std::vector<Index>& node_of) {
   std::vector<Tie> ties;
   for (Index n = 0; n < level.node.size(); ++n) {
-    for (const auto& [d, p] : distance.within(level.node[n], std::max(kNeighbours, kReach) * spacing)) {
+    for (const auto& [d, p] : distance.within(level.node[n], std::max(kNeighbors, kReach) * spacing)) {
       const double t = 1.0 - d / (kReach * spacing);
       if (t > 0.0) offer_parent(level, p, n, static_cast<float>(t * t));
       const Index other = node_of[p];
-      if (other == geometry::kNoIndex || other <= n || d > kNeighbours * spacing) continue;
+      if (other == geometry::kNoIndex || other <= n || d > kNeighbors * spacing) continue;
       ties.push_back({n, other, static_cast<float>(d * (1.0 + slack))});
     }
   }

@@ -11,7 +11,7 @@ namespace {
 // Share of the strain limit that coarse limits allow: distances along edges are 2 % too long as it is.
 constexpr double kCoarseSlack = 0.25;
 
-// Of the longest travel in a substep. A garment a metre across: 5 mm, within the radius of fingers.
+// Of the longest travel in a substep. A garment a meter across: 5 mm, within the radius of fingers.
 constexpr float kFollowed = 0.1f;
 
 // Layers keep this share of the median edge apart: below 0.71 a particle passes through the middle of a quad.
@@ -58,7 +58,7 @@ std::vector<bool> pinned_particles(const Pins& pins, std::size_t particles) {
   return out;
 }
 
-// Where a dropped vertex is reported: its input place, or the garment's centre if that is not finite.
+// Where a dropped vertex is reported: its input place, or the garment's center if that is not finite.
 std::vector<Vec3> resting_places(const geometry::TriMesh& garment, const geometry::TriMesh& particles) {
   const Vec3 center = geometry::bounding_box(particles.positions).center();
   std::vector<Vec3> out = garment.positions;

@@ -1,4 +1,4 @@
-// The garment's particles as structure of arrays, in a local frame, so that floats keep micrometres anywhere.
+// The garment's particles as structure of arrays, in a local frame, so that floats keep micrometers anywhere.
 #pragma once
 
 #include <vector>
@@ -21,9 +21,9 @@ inline constexpr float kPinnedMass = 1e3f;
 struct Particles {
   std::size_t size = 0;
   Vec3 origin = Vec3::Zero();
-  std::vector<float> x, y, z;              ///< metres
-  std::vector<float> old_x, old_y, old_z;  ///< metres, at the start of the substep
-  std::vector<float> vx, vy, vz;           ///< metres a second
+  std::vector<float> x, y, z;              ///< meters
+  std::vector<float> old_x, old_y, old_z;  ///< meters, at the start of the substep
+  std::vector<float> vx, vy, vz;           ///< meters a second
   std::vector<float> mass;                 ///< kilograms, the pinned ones too
   std::vector<float> inverse_mass;         ///< 0: pinned
   std::vector<Point> point;                ///< #P, those that idle slots of a schedule name, three more
@@ -34,7 +34,7 @@ struct Particles {
   }
 };
 
-/// Order that keeps neighbours in space near each other in memory (Morton code of the rest position, ties by
+/// Order that keeps neighbors in space near each other in memory (Morton code of the rest position, ties by
 /// index): result[new] = old. Collision culls blocks of such particles, constraints hit the cache.
 std::vector<Index> morton_order(const std::vector<Vec3>& positions);
 

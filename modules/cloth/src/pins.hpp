@@ -10,7 +10,7 @@ namespace bodice::cloth {
 
 struct Pins {
   std::vector<Index> particle;  ///< one a pin of make(); kNoIndex: dropped
-  std::vector<Vec3> to;         ///< world metres, at the end of the frame
+  std::vector<Vec3> to;         ///< world meters, at the end of the frame
 };
 
 /// Whether any target is new.

@@ -21,7 +21,7 @@ struct Wanted {
   }
 };
 
-// Packs of the listed constraints, colour by colour; returns where each colour begins.
+// Packs of the listed constraints, color by color; returns where each color begins.
 std::vector<std::uint32_t> append(const Wanted& wanted, const std::vector<std::uint32_t>& listed, Index idle,
                                   Schedule& out) {
   std::vector<Index> members;

@@ -1,6 +1,6 @@
 // Who is solved when: particles lie in blocks (they are in Morton order, so a block is a patch of cloth).
 // Constraints inside a block are one worker's, one after the other, while the patch is in its cache; the few
-// across blocks follow by colour. That is two meetings of the workers a sweep in place of one a colour.
+// across blocks follow by color. That is two meetings of the workers a sweep in place of one a color.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Schedule {
   std::vector<std::uint32_t> slot;         ///< a constraint each, or kIdle
   std::vector<geometry::Index> idle;       ///< a pack: the particle that its idle slots may name
   std::vector<std::uint32_t> block_begin;  ///< #blocks + 1, packs
-  std::vector<std::uint32_t> color_begin;  ///< #colours + 1, packs across blocks
+  std::vector<std::uint32_t> color_begin;  ///< #colors + 1, packs across blocks
 
   std::size_t packs() const { return idle.size(); }
   std::size_t blocks() const { return block_begin.size() - 1; }
@@ -79,7 +79,7 @@ void for_each_slot(const Schedule& schedule, std::size_t particle_count, Fill&& 
   fill_packs(schedule.packs_inside(), schedule.packs(), 0, particle_count + schedule.blocks());
 }
 
-/// Calls solve(begin, end) for the packs across blocks, colour by colour.
+/// Calls solve(begin, end) for the packs across blocks, color by color.
 template <class Solve>
 void for_each_across(const engine::Context& context, const Schedule& schedule, Solve&& solve) {
   for (std::size_t c = 0; c + 1 < schedule.color_begin.size(); ++c) {

@@ -108,17 +108,17 @@ float length_of(Float4 v) {
 }
 
 // How far a particle has come in this substep.
-Float4 travelled(const Particles& p, Index i) {
+Float4 traveled(const Particles& p, Index i) {
   return xyz(load(p.point[i])) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f};
 }
 
-// What parts two particles that are too near: as far as they came towards each other, and out of what was too
+// What parts two particles that are too near: as far as they came toward each other, and out of what was too
 // near before at a bounded speed, for a push is a velocity and a fold that throws its sides about never
 // rests. Then friction, as on the body.
 Float4 part(const Particles& p, const Rub& rub, Index i, Index j, float near_m) {
   const Float4 apart = xyz(load(p.point[i]) - load(p.point[j]));
   const float length = length_of(apart);
-  const Float4 normal = apart / length, slid = travelled(p, i) - travelled(p, j);
+  const Float4 normal = apart / length, slid = traveled(p, i) - traveled(p, j);
   const Float4 along = slid * normal;
   const float approach = along[0] + along[1] + along[2];
   const float push = std::min(near_m - length, std::max(-approach, 0.0f) + rub.recovery_m);

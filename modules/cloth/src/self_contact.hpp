@@ -34,13 +34,13 @@ struct SelfContact {
   float radius_m = 0.0f;  ///< particles are kept this far apart, or as far as they were at rest
   double travel_m = std::numeric_limits<double>::infinity();  ///< of the fastest since the pairs were found
   CellGrid grid;
-  std::vector<Point> rest;                ///< #P, metres, in the particles' frame of the start
+  std::vector<Point> rest;                ///< #P, meters, in the particles' frame of the start
   std::vector<Joined> joined;             ///< #P
   std::vector<ClosePairs> close;          ///< #P
   std::vector<std::uint8_t> close_count;  ///< #P
   std::vector<Index> active;              ///< #P, from each block's first on: its particles with pairs
   std::vector<Index> active_count;        ///< #blocks
-  std::vector<Point> move;                ///< as active: metres, corrections of this sweep
+  std::vector<Point> move;                ///< as active: meters, corrections of this sweep
 };
 
 SelfContact make_self_contact(const Particles& particles, const Ring& ring, double radius_m);

@@ -10,8 +10,8 @@
 namespace bodice::cloth {
 namespace {
 
-constexpr float kSlow_m_s = 0.010f;    // slower than this is resting: a sixth of a millimetre a frame
-constexpr float kWaking_m_s = 0.050f;  // a neighbour faster than this wakes
+constexpr float kSlow_m_s = 0.010f;    // slower than this is resting: a sixth of a millimeter a frame
+constexpr float kWaking_m_s = 0.050f;  // a neighbor faster than this wakes
 constexpr float kQuiet_s = 0.5f;       // longer than the turning point of any swing that one can see
 // Who keeps this near to a place trembles; a drift as slow as resting leaves it in half of the time.
 constexpr float kTremble_m = 0.5f * kSlow_m_s * kQuiet_s;

@@ -36,7 +36,7 @@ FrameReport Solver::step(const engine::Context& context, double dt_s) {
 }
 
 void Solver::move_pins(std::span<const geometry::Vec3> world_positions) {
-  // Sleepers weigh nothing and would let their neighbours' edges be drawn out.
+  // Sleepers weigh nothing and would let their neighbors' edges be drawn out.
   if (set_pin_targets(world_positions, impl_->state.pins)) wake_all(impl_->state.sleep);
 }
 

@@ -22,7 +22,7 @@ namespace {
 // what a second correction rounds away is more than what it gains.
 constexpr float kWorthTwoSweeps_s = 3e-4f;
 
-// Newtons a metre of elongation. A strip of length l and width w is E w / l, and the triangles of an edge
+// Newtons a meter of elongation. A strip of length l and width w is E w / l, and the triangles of an edge
 // have the area l w. A diagonal of length l feels the shear angle g as the strain g A / l^2, the quad holds
 // G g^2 A / 2, hence k = G l^2 / A.
 double edge_stiffness(const Edge& edge, double length, const Fabric& fabric) {

@@ -18,7 +18,7 @@ template <class Id>
 struct EdgePack {
   Id a[kPack], b[kPack];
   float rest_m[kPack];
-  float compliance[kPack];  ///< metres a newton
+  float compliance[kPack];  ///< meters a newton
 };
 
 static_assert(sizeof(EdgePack<Local>) == 12 * kPack);  // a large garment's sweep is as fast as memory

@@ -5,7 +5,7 @@
 
 namespace bodice::cloth {
 
-/// Square metres under a root: the length of a collapsed edge, so that it divides nothing by zero.
+/// Square meters under a root: the length of a collapsed edge, so that it divides nothing by zero.
 inline constexpr float kTinyLength2 = 1e-24f;
 /// Inverse kilograms: a constraint between pinned particles divides nothing by zero.
 inline constexpr float kTinyWeight = 1e-12f;

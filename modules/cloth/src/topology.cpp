@@ -64,9 +64,9 @@ Ring make_ring(const TriMesh& mesh, const Topology& topology) {
   ring.begin.assign(mesh.positions.size() + 1, 0);
   for (const Edge& e : topology.edges) ++ring.begin[e.a + 1], ++ring.begin[e.b + 1];
   for (std::size_t i = 1; i < ring.begin.size(); ++i) ring.begin[i] += ring.begin[i - 1];
-  ring.neighbour.resize(2 * topology.edges.size());
+  ring.neighbor.resize(2 * topology.edges.size());
   std::vector<Index> next(ring.begin.begin(), ring.begin.end() - 1);
-  for (const Edge& e : topology.edges) ring.neighbour[next[e.a]++] = e.b, ring.neighbour[next[e.b]++] = e.a;
+  for (const Edge& e : topology.edges) ring.neighbor[next[e.a]++] = e.b, ring.neighbor[next[e.b]++] = e.a;
   return ring;
 }
 

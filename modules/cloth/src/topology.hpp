@@ -28,11 +28,11 @@ struct Topology {
 
 /// The particles that edges join to each, in CSR form.
 struct Ring {
-  std::vector<Index> begin;  ///< #P + 1, offsets into neighbour
-  std::vector<Index> neighbour;
+  std::vector<Index> begin;  ///< #P + 1, offsets into neighbor
+  std::vector<Index> neighbor;
 
   std::span<const Index> of(std::size_t i) const {
-    return {neighbour.data() + begin[i], neighbour.data() + begin[i + 1]};
+    return {neighbor.data() + begin[i], neighbor.data() + begin[i + 1]};
   }
 };
 

@@ -18,7 +18,7 @@ using Int4 = int __attribute__((vector_size(16)));
 
 /// A particle as the constraints see it.
 struct alignas(16) Point {
-  float x = 0.0f, y = 0.0f, z = 0.0f;  ///< metres
+  float x = 0.0f, y = 0.0f, z = 0.0f;  ///< meters
   float weight = 0.0f;                 ///< inverse mass; 0: pinned or asleep
 };
 

@@ -11,8 +11,8 @@ namespace bodice::collision {
 /// One ellipsoid. Axes are ordered by falling radius and lengths are in units of the longest radius r0, so
 /// that the solver's squares stay in range for any radius: y = to_unit (p - center), |y| = 1 at r0.
 struct BakedEllipsoid {
-  float center[3];           ///< metres
-  float to_unit[9];          ///< rows: unit axes / r0, 1/metres
+  float center[3];           ///< meters
+  float to_unit[9];          ///< rows: unit axes / r0, 1/meters
   float radius1, radius2;    ///< r1 / r0 and r2 / r0, in (0, 1]
   float gap0, gap1;          ///< 1 - radius2^2 and radius1^2 - radius2^2: how far from being a sphere
   float inverse1, inverse2;  ///< 1 / radius1, 1 / radius2
@@ -24,21 +24,21 @@ inline constexpr int kShapeFloats = kBakedFloats - 1;  ///< without the name
 
 /// One ellipsoid as the unit ball: u = to_ball p + offset is where p is then.
 struct alignas(64) BallMap {
-  float to_ball[9];         ///< diag(1 / r) R^T, 1/metres
+  float to_ball[9];         ///< diag(1 / r) R^T, 1/meters
   float offset[3];          ///< - to_ball c
-  float inverse_radius[3];  ///< 1/metres
+  float inverse_radius[3];  ///< 1/meters
   std::int32_t name;        ///< the proxy's index
 };
 inline constexpr int kBallFloats = 15, kBallOffset = 9, kBallInverse = 12;  ///< without the name
 
 /// The same, and boxes and inner balls, one array a number, for sixteen ellipsoids at a time; padded to kPad
-/// with boxes infinitely far away. Neighbours in space should be neighbours here.
+/// with boxes infinitely far away. Neighbors in space should be neighbors here.
 struct CullArrays {
   std::vector<float> baked[kShapeFloats];  ///< the members of BakedEllipsoid, in order
   std::vector<float> ball[kBallFloats];    ///< the members of BallMap, in order
-  std::vector<float> low[3], high[3];      ///< metres
-  std::vector<float> shortest;             ///< r2, metres: radius of the ball inside
-  /// Boxes of the groups of kGroup consecutive ellipsoids, metres; padded likewise.
+  std::vector<float> low[3], high[3];      ///< meters
+  std::vector<float> shortest;             ///< r2, meters: radius of the ball inside
+  /// Boxes of the groups of kGroup consecutive ellipsoids, meters; padded likewise.
   std::vector<float> group_low[3], group_high[3];
 };
 

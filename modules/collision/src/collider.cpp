@@ -176,7 +176,7 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
     return a.signed_distance < b.signed_distance;
   };
   for (std::uint32_t k = 0; k < impl_->field.size(); ++k) {
-    const geometry::NearestPoint at = geometry::nearest_point(impl_->field.shape(k), p);
+    const geometry::ClosestPoint at = geometry::closest_point(impl_->field.shape(k), p);
     ReliefSample sample{at.signed_distance, at.normal, k};
     if (impl_->relief) sample = correct(impl_->field, *impl_->relief, k, at);
     const Contact contact = impl_->make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), k);

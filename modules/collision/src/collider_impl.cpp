@@ -24,7 +24,7 @@ Vec3 middle_of(const proxy::BodyProxy& proxy) {
   return box.empty() ? Vec3(Vec3::Zero()) : box.center();
 }
 
-/// Halves the span across its longest side until groups are left; equal centres keep their order, so that
+/// Halves the span across its longest side until groups are left; equal centers keep their order, so that
 /// the lowest index still wins a tie between identical ellipsoids.
 void halve(std::span<std::uint32_t> order, std::span<const proxy::ProxyEllipsoid> ellipsoids) {
   if (order.size() <= kGroup) {
@@ -44,7 +44,7 @@ void halve(std::span<std::uint32_t> order, std::span<const proxy::ProxyEllipsoid
   halve(order.subspan(half), ellipsoids);
 }
 
-/// Each group of consecutive ones are neighbours.
+/// Each group of consecutive ones are neighbors.
 std::vector<std::uint32_t> spatial_order(const proxy::BodyProxy& proxy) {
   std::vector<std::uint32_t> order(proxy.ellipsoids().size());
   std::iota(order.begin(), order.end(), 0u);
@@ -101,7 +101,7 @@ void count(const ParticleReport& particle, body::Part part, ContactReport& repor
   report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
 }
 
-/// Contacts by part. Neighbours are mostly of one part: what is stored at each waits for the one before.
+/// Contacts by part. Neighbors are mostly of one part: what is stored at each waits for the one before.
 class PartCount {
  public:
   explicit PartCount(ContactReport& report) : report_(report) {}
@@ -192,7 +192,7 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   if (options.response == Response::kPaper)
     one = resolve_paper(field, clearance_m, state);
   else
-    one = resolve_nearest(field, tables(), clearance_m, options, state);
+    one = resolve_closest_point(field, tables(), clearance_m, options, state);
   if (one.outcome == Outcome::kClear) return;
   store(state, particles, i);
   count(one, part[one.ellipsoid], report);
@@ -219,9 +219,9 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
                             moving ? travel_m : 0.0f,
                             options.blend_m};
   BatchResponse response;
-  const bool settled = batch.count == 0 || (options.response == Response::kNearest &&
+  const bool settled = batch.count == 0 || (options.response == Response::kClosestPoint &&
                                             resolve_batch(baked, tables(), clearance, batch, response));
-  if (!settled && options.response == Response::kNearest && end - begin > kBlock) {
+  if (!settled && options.response == Response::kClosestPoint && end - begin > kBlock) {
     // Too many ellipsoids near for a batch may do for its blocks.
     for (std::size_t from = begin; from < end; from += kBlock)
       resolve_some(particles, from, std::min(from + kBlock, end), sequence, options, report);

@@ -8,8 +8,8 @@
 
 namespace bodice::collision {
 
+using geometry::ClosestPoint;
 using geometry::Ellipsoid;
-using geometry::NearestPoint;
 using geometry::Vec3;
 
 namespace {
@@ -61,7 +61,7 @@ double leave(const UnionField& field, const Owner& owner, const Vec3& x, const V
   if (!std::isfinite(t)) return gap + nudge_m;
   // From outside, convexity again: a tangent's root lies before the place and not before the distance's root.
   for (int step = 0; step < kLeaveSteps; ++step) {
-    const NearestPoint at = geometry::nearest_point(e, x + t * direction);
+    const ClosestPoint at = geometry::closest_point(e, x + t * direction);
     const double beyond = at.signed_distance - clearance_m, rise = at.normal.dot(direction);
     if (!(beyond > nudge_m) || !(rise > kFlatSlope)) break;
     t -= beyond / rise;
@@ -98,7 +98,7 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
     double advance = length - t;
     entry.ellipsoid = kNoEllipsoid;
     const auto meet = [&](std::size_t k, const UnionField::Plane&) {
-      const NearestPoint at = geometry::nearest_point(field.shape(k), entry.point);
+      const ClosestPoint at = geometry::closest_point(field.shape(k), entry.point);
       const double slope = at.normal.dot(direction);
       // Convexity again: before the tangent's root the distance is above the clearance.
       if (slope >= 0.0 || at.signed_distance - clearance_m >= -slope * advance) return;

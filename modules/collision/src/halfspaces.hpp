@@ -1,4 +1,4 @@
-// A handful of half-spaces and the nearest point of their intersection: what a contact with several
+// A handful of half-spaces and the closest point of their intersection: what a contact with several
 // ellipsoids comes down to, for positions and (through the origin) for velocities.
 #pragma once
 
@@ -46,7 +46,7 @@ class Halfspaces {
     return largest;
   }
 
-  /// The nearest point of the intersection to `p`, each plane to `tolerance_m`; nothing if the intersection
+  /// The closest point of the intersection to `p`, each plane to `tolerance_m`; nothing if the intersection
   /// is empty or so far off that the planes are as good as parallel.
   std::optional<geometry::Vec3> nearest(const geometry::Vec3& p, double tolerance_m) const {
     if (largest_gap_m(p) <= tolerance_m) return p;

@@ -44,7 +44,7 @@ bool KeptBatch::renew(float least_reach_m, float most_reach_m) {
 
 void KeptCandidates::forget() {
   for (KeptBatch& batch : batches_) batch.count = 0;
-  travelled_m_ = 0.0;
+  traveled_m_ = 0.0;
 }
 
 void KeptCandidates::begin(std::size_t particles, std::span<const Ellipsoid> shapes, float beyond_m) {
@@ -53,8 +53,8 @@ void KeptCandidates::begin(std::size_t particles, std::span<const Ellipsoid> sha
   if (same_number && beyond_m == beyond_m_ &&
       std::memcmp(shapes.data(), shapes_.data(), shapes.size_bytes()) == 0)
     return;
-  if (same_number) travelled_m_ += kWidened * farthest_travel(shapes_, shapes);
-  if (!same_number || beyond_m != beyond_m_ || !std::isfinite(travelled_m_)) forget();
+  if (same_number) traveled_m_ += kWidened * farthest_travel(shapes_, shapes);
+  if (!same_number || beyond_m != beyond_m_ || !std::isfinite(traveled_m_)) forget();
   shapes_.assign(shapes.begin(), shapes.end());
   beyond_m_ = beyond_m;
 }

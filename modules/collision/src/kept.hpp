@@ -1,4 +1,4 @@
-// Candidates kept from call to call: which ellipsoids can be the nearest of some neighbouring particles. A
+// Candidates kept from call to call: which ellipsoids can be the nearest of some neighboring particles. A
 // distance changes by no more than its place moves, and by no more than the ellipsoid's material does. Hence
 // an ellipsoid that was farther than the nearest by some slack is not the nearest while place and material
 // together have come less far than half of that: answers among the others have the same bits as among all.
@@ -23,9 +23,9 @@ struct alignas(64) KeptBatch {
   static constexpr int kLeastUse = 2;                        ///< calls that pay for finding what is kept
   static constexpr int kShortLife = 6, kLongLife = 40;       ///< calls: the reach grows or shrinks
   static constexpr int kRest = 16;                           ///< calls that nothing is kept after a failure
-  static constexpr float kFar = 1e30f;                       ///< metres
+  static constexpr float kFar = 1e30f;                       ///< meters
 
-  float x[kBatch], y[kBatch], z[kBatch];  ///< metres: where the particles were
+  float x[kBatch], y[kBatch], z[kBatch];  ///< meters: where the particles were
   float least_m[kSpans];                  ///< no place was nearer to an ellipsoid
   /// By how much a candidate was farther than the nearest, at least; kFar: it is not near the span.
   alignas(64) float slack_m[kSpans][kMost];
@@ -33,9 +33,9 @@ struct alignas(64) KeptBatch {
   int candidates = 0;
   int count = 0;  ///< lanes; zero: nothing is kept
   float reach_m = 0.0f;
-  float moved_m = 0.0f;      ///< how far place and material have come together, at most
-  double travelled_m = 0.0;  ///< KeptCandidates::travelled_m() then
-  int used = 0, rest = 0;    ///< calls
+  float moved_m = 0.0f;     ///< how far place and material have come together, at most
+  double traveled_m = 0.0;  ///< KeptCandidates::traveled_m() then
+  int used = 0, rest = 0;   ///< calls
 
   /// Chooses the reach of what is found next; false if nothing should be kept now.
   bool renew(float least_reach_m, float most_reach_m);
@@ -56,7 +56,7 @@ class KeptCandidates {
 
   KeptBatch& batch(std::size_t i) { return batches_[i]; }
   /// The length of the proxy's way: no material of it moved farther since.
-  double travelled_m() const { return travelled_m_; }
+  double traveled_m() const { return traveled_m_; }
 
  private:
   void forget();
@@ -64,7 +64,7 @@ class KeptCandidates {
   std::vector<KeptBatch> batches_;
   std::vector<geometry::Ellipsoid> shapes_;
   float beyond_m_ = 0.0f;
-  double travelled_m_ = 0.0;
+  double traveled_m_ = 0.0;
 };
 
 }  // namespace bodice::collision

@@ -1,4 +1,4 @@
-// The float kernels, one block of neighbouring particles a call, compiled for several instruction sets and
+// The float kernels, one block of neighboring particles a call, compiled for several instruction sets and
 // chosen at run time.
 #pragma once
 
@@ -27,7 +27,7 @@ struct KeptBatch;
 /// What is kept about a batch from call to call.
 struct Keeping {
   KeptBatch* batch = nullptr;  ///< null: nothing
-  double travelled_m = 0.0;    ///< length of the proxy's way
+  double traveled_m = 0.0;     ///< length of the proxy's way
   float least_reach_m = 0.0f, most_reach_m = 0.0f;
 };
 
@@ -42,7 +42,7 @@ struct Ahead {
 
 /// What a query reads and writes.
 struct QueryBatch {
-  const float *x, *y, *z;      ///< metres, local frame; repeated up to a whole block
+  const float *x, *y, *z;      ///< meters, local frame; repeated up to a whole block
   const std::uint32_t* index;  ///< into contacts, a particle; null: in order
   int count;                   ///< at most kBatch
   float margin_m;
@@ -66,9 +66,9 @@ inline Contact no_contact() {
 
 /// Particles of some blocks, gathered; up to a whole block lanes beyond `count` repeat the last one.
 struct alignas(64) Gathering {
-  float x[kBatch], y[kBatch], z[kBatch];     ///< metres, local frame
-  float vx[kBatch], vy[kBatch], vz[kBatch];  ///< metres a second, if has_velocity
-  float sx[kBatch], sy[kBatch], sz[kBatch];  ///< metres, last safe positions, if has_safe
+  float x[kBatch], y[kBatch], z[kBatch];     ///< meters, local frame
+  float vx[kBatch], vy[kBatch], vz[kBatch];  ///< meters a second, if has_velocity
+  float sx[kBatch], sy[kBatch], sz[kBatch];  ///< meters, last safe positions, if has_safe
   int count = 0;
   bool has_velocity = false;
   bool has_safe = false;
@@ -109,8 +109,8 @@ struct alignas(64) BatchResponse {
   /// Particles that were below the clearance, and where they are now: `count` of them, by rising lane.
   std::int32_t lane[kSize];
   std::int32_t owner[kSize];              ///< the deepest ellipsoid
-  float x[kSize], y[kSize], z[kSize];     ///< metres, local frame
-  float vx[kSize], vy[kSize], vz[kSize];  ///< metres a second, if has_velocity
+  float x[kSize], y[kSize], z[kSize];     ///< meters, local frame
+  float vx[kSize], vy[kSize], vz[kSize];  ///< meters a second, if has_velocity
   int count = 0;
   int pending = 0;               ///< of those: held back by max_push_m
   LaneBits hard;                 ///< not settled and not among them: for the exact side

@@ -6,7 +6,7 @@
 
 namespace bodice::collision {
 
-using geometry::NearestPoint;
+using geometry::ClosestPoint;
 using geometry::Vec3;
 
 /// Ellipsoids farther than this from a place neither own it below below_m nor blend into its owner.
@@ -32,7 +32,7 @@ void NearField::expect(const Vec3& center, double radius_m) {
 }
 
 void NearField::meet(std::uint32_t k, const Vec3& x) {
-  const NearestPoint at = geometry::nearest_point(field_.shape(k), x);
+  const ClosestPoint at = geometry::closest_point(field_.shape(k), x);
   least_m_ = std::min(least_m_, at.signed_distance);
   // What lies beyond the blending is dropped when room is needed; the window only shrinks.
   if (foot_count_ == kMost) {

@@ -54,9 +54,9 @@ class NearField {
 
   struct Candidate {
     std::uint32_t ellipsoid;
-    UnionField::Plane plane;  ///< at the centre
+    UnionField::Plane plane;  ///< at the center
   };
-  struct Foot {  // without initialisers: most of so many are never met
+  struct Foot {  // without initializers: most of so many are never met
     std::uint32_t ellipsoid;
     double distance_m;
     geometry::Vec3 point, normal;

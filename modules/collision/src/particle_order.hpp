@@ -22,7 +22,7 @@ class ParticleOrder {
   /// Empty: as they are stored, which is about as good.
   std::span<const std::uint32_t> order() const { return stored_ ? std::span<const std::uint32_t>() : order_; }
 
-  /// Written by whoever works on a block: the block's radius, metres, unless below zero. One writer a block.
+  /// Written by whoever works on a block: the block's radius, meters, unless below zero. One writer a block.
   void note_radius(std::size_t block, float radius_m) {
     if (radius_m >= 0.0f) radius_m_[block] = radius_m;
   }

@@ -92,7 +92,7 @@ Keeping Collider::Impl::keeping_of(const Particles& particles, std::size_t begin
                                    Memory* memory) const {
   if (!memory || (end - begin != kBatch && end != particles.count) || begin % kBatch != 0) return {};
   const auto share = [&](double of_size) { return static_cast<float>(of_size * field.size_m()); };
-  return {&memory->candidates.batch(begin / kBatch), memory->candidates.travelled_m(), share(kLeastReach),
+  return {&memory->candidates.batch(begin / kBatch), memory->candidates.traveled_m(), share(kLeastReach),
           share(kMostReach)};
 }
 
@@ -158,7 +158,7 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
   for (int from = 0; from < places.count; from += kBlock) {
     const int to = std::min(from + kBlock, places.count);
     if (kernel(from, to - from)) continue;
-    // Whether floats answer a particle must not depend on its neighbours.
+    // Whether floats answer a particle must not depend on its neighbors.
     for (int i = from; i < to; ++i) {
       Places alone;
       take(places, i, alone);

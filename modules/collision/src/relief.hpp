@@ -17,7 +17,7 @@
 
 namespace bodice::collision {
 
-/// One ellipsoid's table; bytes already scaled to metres (h) and to per metre of distance (a / out).
+/// One ellipsoid's table; bytes already scaled to meters (h) and to per meter of distance (a / out).
 struct alignas(16) BakedTable {
   std::int32_t first_byte = 0;
   std::int32_t nodes = 2;  ///< per side
@@ -27,7 +27,7 @@ struct alignas(16) BakedTable {
 };
 inline constexpr int kTableFloats = sizeof(BakedTable) / sizeof(float);
 
-/// How far from an ellipsoid a corrected distance F_k of m can be found: where F_k <= m and the nearest point
+/// How far from an ellipsoid a corrected distance F_k of m can be found: where F_k <= m and the closest point
 /// is in an octant of the proxy's axes (bits 0, 1, 2: negative along x, y, z),
 ///   d_k <= at_zero_m[octant] + m (m > 0 ? rise : fall).
 /// Aligned for masked loads, which read whole vectors.

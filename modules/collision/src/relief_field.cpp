@@ -66,7 +66,7 @@ TableValue read_table(const ReliefTables& relief, const BakedTable& table, const
 }
 
 ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
-                     const geometry::NearestPoint& at) {
+                     const geometry::ClosestPoint& at) {
   const BakedTable& table = relief.tables[k];
   ReliefSample sample{at.signed_distance, at.normal, k};
   if (table.nodes < 2) return sample;
@@ -100,7 +100,7 @@ ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, 
   double weights = 0.0, distance = 0.0;
   Vec3 gradient = Vec3::Zero();
   const auto add = [&](std::size_t k, const UnionField::Plane&) {
-    const geometry::NearestPoint at = geometry::nearest_point(field.shape(k), p);
+    const geometry::ClosestPoint at = geometry::closest_point(field.shape(k), p);
     const double root = 1.0 - (at.signed_distance - least) / blend;
     if (!(root > 0.0)) return;
     const ReliefSample one = correct(field, relief, static_cast<std::uint32_t>(k), at);

@@ -19,9 +19,9 @@ struct ReliefSample {
   std::uint32_t owner = kNoEllipsoid;
 };
 
-/// F_k of one ellipsoid at a point, given the ellipsoid's nearest point to it.
+/// F_k of one ellipsoid at a point, given the ellipsoid's closest point to it.
 ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
-                     const geometry::NearestPoint& at);
+                     const geometry::ClosestPoint& at);
 
 /// F at p. No owner, and +infinity, for a proxy without ellipsoids. Cost: O(#ellipsoids).
 ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, const geometry::Vec3& p);

@@ -44,13 +44,13 @@ struct ParticleReport {
   bool pinched = false;     ///< outside, but surfaces that face each other leave less room than the clearance
 };
 
-/// The nearest point of the union's surface, corrected by `relief` unless that is null, raised by
+/// The closest point of the union's surface, corrected by `relief` unless that is null, raised by
 /// `clearance_m` (which includes options.thickness_m); inward velocity removed, friction. Cost: 2 to 10
 /// distances, some hundreds where the path from a safe position has to be followed or a fallback is needed.
-ParticleReport resolve_nearest(const UnionField& field, const ReliefTables* relief, double clearance_m,
-                               const ResolveOptions& options, ParticleState& particle);
+ParticleReport resolve_closest_point(const UnionField& field, const ReliefTables* relief, double clearance_m,
+                                     const ResolveOptions& options, ParticleState& particle);
 
-/// The paper's section 4: the ray from the centre of each ellipsoid that holds the particle, the exit with
+/// The paper's section 4: the ray from the center of each ellipsoid that holds the particle, the exit with
 /// the least distance, speed scaling by |c P0| / (|c P0| + |P0 p0|).
 ParticleReport resolve_paper(const UnionField& field, double clearance_m, ParticleState& particle);
 

@@ -87,7 +87,7 @@ Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double
   while (best.rounds < kSettleRounds && !best.clear) {
     ++best.rounds;
     planes.put(x, here, near.shares());
-    // The nearest point to p diverges where a surface bends within its depth; a step from x does not.
+    // The closest point to p diverges where a surface bends within its depth; a step from x does not.
     const Vec3 base = near.bent() && best.rounds > kNearestRounds ? x : p;
     const double left_m = std::max(0.0, longest_m - (base - p).norm());
     const auto next = planes.halfspaces().least_violating(base, left_m, 0.1 * overshoot_m);

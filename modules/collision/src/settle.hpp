@@ -1,4 +1,4 @@
-// From a particle below its clearance to the nearest place that keeps it, or that misses it by least.
+// From a particle below its clearance to the closest place that keeps it, or that misses it by least.
 #pragma once
 
 #include "halfspaces.hpp"

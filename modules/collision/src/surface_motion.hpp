@@ -7,7 +7,7 @@
 
 namespace bodice::collision {
 
-/// Velocity of the material at x carried by one ellipsoid: turn x + shift, metres a second.
+/// Velocity of the material at x carried by one ellipsoid: turn x + shift, meters a second.
 struct SurfaceMotion {
   float turn[9] = {};
   float shift[3] = {};
@@ -18,7 +18,7 @@ struct SurfaceMotion {
 /// A material point keeps its place in the ellipsoid's frame, in shares of the radii.
 SurfaceMotion motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now, double dt_s);
 
-/// No material of the ellipsoid moved farther than this between the poses, metres.
+/// No material of the ellipsoid moved farther than this between the poses, meters.
 double travel_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now);
 
 }  // namespace bodice::collision

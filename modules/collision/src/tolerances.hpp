@@ -8,7 +8,7 @@ namespace bodice::collision {
 inline constexpr double kCertificate = 2e-7;
 
 /// How far below the corrected surface a resolved particle may lie, share of relief's blending, which goes
-/// with the body's stature: 5 micrometres of 3 mm, a tenth of what relief promises and a hundred times what
+/// with the body's stature: 5 micrometers of 3 mm, a tenth of what relief promises and a hundred times what
 /// rounding does through tables of usual slope.
 inline constexpr double kReliefCertificate = 5e-3 / 3.0;
 
@@ -21,8 +21,8 @@ inline constexpr double kFloatRounding = 1e-6;
 /// needs.
 inline constexpr float kBoundGrowth = 5.5e-4f;
 
-/// What the float solver's nearest point and distance may be off by, share of the longest radius (or of the
-/// distance from the centre): nearly twice the worst of 120 million random cases (`response nearest`).
+/// What the float solver's closest point and distance may be off by, share of the longest radius (or of the
+/// distance from the center): nearly twice the worst of 120 million random cases (`response nearest`).
 inline constexpr double kFootError = 1e-6;
 
 /// Cosine below which a ray runs along a surface rather than out of it.
@@ -46,14 +46,14 @@ inline constexpr double kUsualPush = 1.5;
 /// Newton two or three steps.
 inline constexpr int kSettleRounds = 10;
 
-/// Of these the first look for the nearest place even on a bent surface.
+/// Of these the first look for the closest place even on a bent surface.
 inline constexpr int kNearestRounds = 3;
 
 /// Share of what is missing to the clearance to which the place midway between two surfaces is found.
 inline constexpr double kMidway = 0.05;
 
 /// Share of relief's blending by which pushes overshoot, so that Newton's steps over a bent surface arrive
-/// from below: 6 micrometres of 3 mm.
+/// from below: 6 micrometers of 3 mm.
 inline constexpr double kReliefOvershoot = 2e-3;
 
 /// Share of its length by which the first push out of relief goes further: what Newton's step is off by grows
@@ -66,25 +66,25 @@ inline constexpr double kFilletOvershoot = 20.0;
 /// A path longer than this share of the shortest radius around may have changed sides.
 inline constexpr double kLongPath = 0.3;
 
-/// Least step along a path through relief, share of the union's size: a quarter of a millimetre of a body.
+/// Least step along a path through relief, share of the union's size: a quarter of a millimeter of a body.
 inline constexpr double kPathStep = 3e-4;
 
 /// Share of the union's size by which a place found by halving lies on the clear side of it: relief jumps
-/// where an ellipsoid's nearest point changes sides, and floats must not tell another side there. A
-/// micrometre.
+/// where an ellipsoid's closest point changes sides, and floats must not tell another side there. A
+/// micrometer.
 inline constexpr double kBesideJump = 1e-6;
 
 /// Depth, share of the union's size, up to which a place without room around is taken for a fold of the skin,
-/// where limbs overlap: a centimetre of a body.
+/// where limbs overlap: a centimeter of a body.
 inline constexpr double kFoldDepth = 1e-2;
 
 /// Share of another way's length from which on a ray out is worth following.
 inline constexpr double kMuchShorter = 0.75;
 
-/// Halvings of a ray between a particle and a clear place: of a metre, to a micrometre.
+/// Halvings of a ray between a particle and a clear place: of a meter, to a micrometer.
 inline constexpr int kExitHalvings = 20;
 
-/// Coordinates beyond this, metres, are not sorted with the rest and go to the exact side: their squares must
+/// Coordinates beyond this, meters, are not sorted with the rest and go to the exact side: their squares must
 /// stay in float range over the smallest radius that a proxy may have.
 inline constexpr float kFarthest = 1e9f;
 
@@ -97,7 +97,7 @@ inline constexpr double kScattered = 0.6;
 inline constexpr double kStoredWell = 1.2;
 
 /// Least and longest way, share of the union's size, that places and material may come before the ellipsoids
-/// near them are found anew: 1 and 10 mm of a body. Each millimetre brings more ellipsoids near.
+/// near them are found anew: 1 and 10 mm of a body. Each millimeter brings more ellipsoids near.
 inline constexpr double kLeastReach = 1e-3, kMostReach = 12e-3;
 
 /// Growth of the blocks' summed radii that makes a new spatial sort worth its 10 ns a particle.

@@ -60,7 +60,7 @@ Owner UnionField::owner(const Vec3& p, double below_m) const {
   Owner best;
   double least = below_m, within = below_m;
   const auto meet = [&](std::size_t k) {
-    const geometry::NearestPoint at = geometry::nearest_point(shapes_[k], p);
+    const geometry::ClosestPoint at = geometry::closest_point(shapes_[k], p);
     const bool tie = at.signed_distance == least && best.ellipsoid != kNoEllipsoid && k < best.ellipsoid;
     if (!(at.signed_distance < least || tie)) return;
     least = at.signed_distance;

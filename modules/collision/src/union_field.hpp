@@ -15,7 +15,7 @@ namespace bodice::collision {
 /// The ellipsoid with the least signed distance to a point.
 struct Owner {
   std::uint32_t ellipsoid = kNoEllipsoid;
-  geometry::NearestPoint at;  ///< on the ellipsoid itself, without margin
+  geometry::ClosestPoint at;  ///< on the ellipsoid itself, without margin
 };
 
 /// Immutable once built.
@@ -33,7 +33,7 @@ class UnionField {
   const geometry::Box& box(std::size_t k) const { return boxes_[k]; }
 
   /// A plane that ellipsoid k lies behind: d(x) >= distance_m + normal . (x - p) for every x, by first order
-  /// (simd/bound-inl.hpp), at a tenth of the nearest point's cost.
+  /// (simd/bound-inl.hpp), at a tenth of the closest point's cost.
   struct Plane {
     double distance_m;
     geometry::Vec3 normal;
@@ -60,7 +60,7 @@ class UnionField {
   Owner owner(const geometry::Vec3& p, double below_m) const;
 
  private:
-  static constexpr std::size_t kGroup = 16;  ///< neighbours in space, as the shapes are ordered
+  static constexpr std::size_t kGroup = 16;  ///< neighbors in space, as the shapes are ordered
   static constexpr double kBoundRounding = 1e-12;
 
   /// Whether p is outside of the box and farther from it than the limit, which may be negative.

@@ -23,7 +23,7 @@ bool inside_another(std::span<const geometry::Ellipsoid> ellipsoids, std::size_t
 std::vector<DistanceSample> samples_in_air(const engine::Context& context, const SkinSource& source,
                                            std::span<const geometry::Ellipsoid> ellipsoids, std::size_t count,
                                            double gap_m, double most_m) {
-  const LabelledSkin& skin = source.skin;
+  const LabeledSkin& skin = source.skin;
   double total = 0.0;
   for (const auto& e : ellipsoids) total += surface_area(e.radii);
   std::vector<std::vector<DistanceSample>> found(ellipsoids.size());
@@ -31,7 +31,7 @@ std::vector<DistanceSample> samples_in_air(const engine::Context& context, const
     const double share = static_cast<double>(count) * surface_area(ellipsoids[k].radii) / total;
     for (const SurfaceProbe& probe : probe_surface(ellipsoids[k], kLeastProbes + static_cast<int>(share))) {
       if (inside_another(ellipsoids, k, probe.point)) continue;
-      const auto hit = skin.distance->nearest_within(probe.point, most_m);
+      const auto hit = skin.distance->closest_point_within(probe.point, most_m);
       if (!hit) {
         if (!skin.distance->inside(probe.point)) found[k].push_back({probe.point, most_m});
         continue;

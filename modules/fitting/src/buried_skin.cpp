@@ -55,7 +55,7 @@ struct Search {
     engine::parallel_for(context, state.size(), 256, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
         const geometry::Vec3 off = mesh.positions[v] + reach_m * normals[v];
-        const auto hit = distance.nearest_within(off, reach_m * (1.0 - 1e-3));
+        const auto hit = distance.closest_point_within(off, reach_m * (1.0 - 1e-3));
         found[v] = !exact[v] && hit && hit->normal.dot(off - hit->point) < 0.0;
       }
     });

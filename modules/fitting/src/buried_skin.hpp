@@ -12,7 +12,7 @@
 namespace bodice::fitting {
 
 /// One flag a triangle. Winding numbers are asked at every eighth vertex, spread along the skin, and asked
-/// again wherever neighbours disagree and where a vertex looks at the back of other skin.
+/// again wherever neighbors disagree and where a vertex looks at the back of other skin.
 std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const geometry::TriMesh& mesh,
                                            const geometry::MeshDistance& distance, double stature_m);
 

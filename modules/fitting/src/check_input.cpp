@@ -16,7 +16,7 @@ bool positive(const std::optional<double>& value) {
 
 engine::Result<void> check_thresholds(const FitOptions& options) {
   if (!positive(options.mu_torso_m) || !positive(options.mu_limbs_m))
-    return bad("A threshold mu is not positive.", "Give metres above 0, or leave it out.");
+    return bad("A threshold mu is not positive.", "Give meters above 0, or leave it out.");
   if (options.mu_torso_m.has_value() != options.mu_limbs_m.has_value())
     return bad("One of the two thresholds mu is missing.", "Give the torso's and the limbs', or neither.");
   if (!options.mu_torso_m) return {};
@@ -33,7 +33,7 @@ engine::Result<void> check_options(const FitOptions& options) {
   if (options.max_ellipsoids && (*options.max_ellipsoids < 1 || *options.max_ellipsoids > 10000))
     return bad("max_ellipsoids is " + std::to_string(*options.max_ellipsoids) + ".", "Ask for 1 to 10000.");
   if (!positive(options.target_error_m))
-    return bad("target_error_m is not positive.", "Give metres above 0.");
+    return bad("target_error_m is not positive.", "Give meters above 0.");
   if (!positive(options.budget_us)) return bad("budget_us is not positive.", "Give microseconds above 0.");
   if (auto good = check_thresholds(options); !good) return good;
   if (options.time_budget_s && !(*options.time_budget_s >= 0.0))
@@ -45,7 +45,7 @@ engine::Result<void> check_options(const FitOptions& options) {
 
 }  // namespace
 
-engine::Result<void> check_input(const LabelledSkin& skin, const FitOptions& options) {
+engine::Result<void> check_input(const LabeledSkin& skin, const FitOptions& options) {
   if (auto ok = check_options(options); !ok) return ok;
   const std::size_t n = skin.mesh.positions.size();
   if (skin.part.size() != n)
@@ -56,7 +56,7 @@ engine::Result<void> check_input(const LabelledSkin& skin, const FitOptions& opt
     return engine::Error{engine::ErrorCode::kUnusableGeometry, "The skin has no triangles.",
                          "Give a closed triangle mesh."};
   if (!(std::isfinite(skin.stature_m) && skin.stature_m > 0.0))
-    return bad("stature_m is not positive.", "Give the body's standing height in metres.");
+    return bad("stature_m is not positive.", "Give the body's standing height in meters.");
   for (std::size_t v = 0; v < n; ++v) {
     if (!skin.mesh.positions[v].allFinite())
       return bad("Vertex " + std::to_string(v) + " is not finite.",

@@ -5,7 +5,7 @@
 namespace bodice::fitting {
 
 /// Rejects what no proxy can be made from, with the element and the remedy.
-engine::Result<void> check_input(const LabelledSkin& skin, const FitOptions& options);
+engine::Result<void> check_input(const LabeledSkin& skin, const FitOptions& options);
 
 /// No triangle belongs to a wanted part.
 engine::Error no_skin();

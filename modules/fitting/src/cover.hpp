@@ -20,8 +20,8 @@ using geometry::Vec3;
 /// corners of the icosahedron inscribed in it, whose own least ellipsoid it is.
 geometry::Ellipsoid grown(const geometry::Ellipsoid& ellipsoid, std::span<const Vec3> points);
 
-/// The ellipsoid stretched towards `point` until it holds it; what it held it still holds. In its own frame,
-/// where it is the unit ball and the point at distance rho: semi-axis a = (1 + rho) / 2 towards the point,
+/// The ellipsoid stretched toward `point` until it holds it; what it held it still holds. In its own frame,
+/// where it is the unit ball and the point at distance rho: semi-axis a = (1 + rho) / 2 toward the point,
 /// the others sqrt(a), so that the ball osculates the far end of the long axis from inside.
 geometry::Ellipsoid stretched(const geometry::Ellipsoid& ellipsoid, const Vec3& point);
 
@@ -39,7 +39,7 @@ void relax_cover(const engine::Context& context, const geometry::TriMesh& mesh,
 
 /// Stretches the ellipsoids until the union holds every column of the inside along its whole length, and what
 /// lies between columns down to an eighth of their spacing (unsure_between()). Returns the length of columns
-/// that had to be covered, metres.
+/// that had to be covered, meters.
 double cover_interior(const engine::Context& context, const InteriorColumns& columns,
                       const geometry::MeshDistance& distance, std::vector<geometry::Ellipsoid>& ellipsoids);
 

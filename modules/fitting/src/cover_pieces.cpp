@@ -41,7 +41,7 @@ double longest_edge(std::span<const geometry::Vec3> positions, const Triangle& t
                    (positions[t[2]] - positions[t[0]]).norm()});
 }
 
-/// Cuts triangles in four at the middles of their edges, which neighbours share.
+/// Cuts triangles in four at the middles of their edges, which neighbors share.
 class Cutter {
  public:
   explicit Cutter(std::vector<geometry::Vec3>& positions) : positions_(positions) {}
@@ -64,7 +64,7 @@ class Cutter {
 
 }  // namespace
 
-CoverPieces cut_at_creases(const LabelledSkin& skin, std::span<const Index> triangles,
+CoverPieces cut_at_creases(const LabeledSkin& skin, std::span<const Index> triangles,
                            std::span<const geometry::Ellipsoid> ellipsoids) {
   CoverPieces pieces{{skin.mesh.positions, {}}};
   for (const Index t : triangles) pieces.mesh.triangles.push_back(skin.mesh.triangles[t]);

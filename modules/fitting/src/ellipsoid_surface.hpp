@@ -6,7 +6,7 @@
 
 namespace bodice::fitting {
 
-/// Square metres. Based on: Knud Thomsen's approximation, within 1.1 %: only shares samples out.
+/// Square meters. Based on: Knud Thomsen's approximation, within 1.1 %: only shares samples out.
 double surface_area(const geometry::Vec3& radii);
 
 struct SurfaceProbe {

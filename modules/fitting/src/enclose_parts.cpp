@@ -1,6 +1,6 @@
 #include <bodice/fitting/enclose_parts.hpp>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/fitting/mvee.hpp>
 
@@ -12,7 +12,7 @@ namespace bodice::fitting {
 namespace {
 
 /// Bits of the parts whose ellipsoid must hold each vertex, #V.
-std::vector<std::uint32_t> holders(const LabelledSkin& skin) {
+std::vector<std::uint32_t> holders(const LabeledSkin& skin) {
   std::vector<std::uint32_t> bits(skin.mesh.positions.size(), 0);
   for (const geometry::Triangle& t : skin.mesh.triangles) {
     std::uint32_t all = 0;
@@ -22,9 +22,9 @@ std::vector<std::uint32_t> holders(const LabelledSkin& skin) {
   return bits;
 }
 
-engine::Result<proxy::BodyProxy> enclose_checked(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<proxy::BodyProxy> enclose_checked(const engine::Context& context, const LabeledSkin& skin,
                                                  std::uint32_t parts) {
-  // Loose on purpose: the gap is centimetres, so a volume within a percent of the least will do.
+  // Loose on purpose: the gap is centimeters, so a volume within a percent of the least will do.
   const MveeOptions loose{.volume_tolerance = 1e-2, .min_radius_m = kLeastRadius * skin.stature_m};
   const std::vector<std::uint32_t> bits = holders(skin);
   std::vector<std::vector<Vec3>> points(body::kPartCount);
@@ -48,11 +48,11 @@ engine::Result<proxy::BodyProxy> enclose_checked(const engine::Context& context,
 
 }  // namespace
 
-engine::Result<proxy::BodyProxy> enclose_parts(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<proxy::BodyProxy> enclose_parts(const engine::Context& context, const LabeledSkin& skin,
                                                std::uint32_t parts) {
   if (auto ok = check_input(skin, {.parts = parts}); !ok) return ok.error();
-  return engine::catch_cancelled("The enclosing of the parts",
-                                 [&] { return enclose_checked(context, skin, parts); });
+  return engine::catch_canceled("The enclosing of the parts",
+                                [&] { return enclose_checked(context, skin, parts); });
 }
 
 }  // namespace bodice::fitting

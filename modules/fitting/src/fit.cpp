@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/clock.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
@@ -26,7 +26,7 @@ constexpr double kNoTimeLimit_s = 1e6;
 constexpr double kKeptTo = 1.1;     // times the target: what the search aims at
 constexpr double kWarnAbove = 1.2;  // times the target: what the dial promises
 
-engine::Result<Draft> run_tier(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<Draft> run_tier(const engine::Context& context, const LabeledSkin& skin,
                                const FitOptions& options, int count, std::vector<engine::StageTime>& stages) {
   using proxy::Tier;
   if (options.tier == Tier::kTight) {
@@ -42,7 +42,7 @@ engine::Result<Draft> run_tier(const engine::Context& context, const LabelledSki
 /// Runs plans one after the other; relief keeps its ellipsoids while only the size of its tables changes.
 class PlanRunner {
  public:
-  PlanRunner(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+  PlanRunner(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,
              std::vector<engine::StageTime>& stages)
       : context_(context), skin_(skin), options_(options), stages_(stages) {}
 
@@ -65,7 +65,7 @@ class PlanRunner {
   }
 
   const engine::Context& context_;
-  const LabelledSkin& skin_;
+  const LabeledSkin& skin_;
   FitOptions options_;
   std::vector<engine::StageTime>& stages_;
   std::unique_ptr<ReliefRun> relief_;
@@ -116,7 +116,7 @@ bool better(const Measured& a, const Measured& b, double target_m) {
 }
 
 /// The plan without a target, else the best of those that the dial tries. Fails if no ellipsoid comes out.
-engine::Result<Found> search(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<Found> search(const engine::Context& context, const LabeledSkin& skin,
                              const FitOptions& options, std::vector<engine::StageTime>& stages) {
   Dial dial(options, skin.stature_m);
   PlanRunner runner(context, skin, options, stages);
@@ -147,16 +147,16 @@ engine::Result<Found> search(const engine::Context& context, const LabelledSkin&
 }
 
 /// The paper's tier works on vertices alone: only its judge asks for distances.
-bool asks_distances(const LabelledSkin& skin, const FitOptions& options) {
+bool asks_distances(const LabeledSkin& skin, const FitOptions& options) {
   return options.measure_accuracy || options.target_error_m ||
          Dial(options, skin.stature_m).plan().tier != proxy::Tier::kPaper;
 }
 
-engine::Result<FitResult> fit_checked(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<FitResult> fit_checked(const engine::Context& context, const LabeledSkin& skin,
                                       const FitOptions& options) {
   std::vector<engine::StageTime> stages;
   std::unique_ptr<geometry::MeshDistance> own;
-  LabelledSkin judged = skin;
+  LabeledSkin judged = skin;
   if (!skin.distance && asks_distances(skin, options)) {
     engine::StageTimer timer(context, stages, "distance");
     own = std::make_unique<geometry::MeshDistance>(context, skin.mesh);
@@ -184,10 +184,10 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
 
 }  // namespace
 
-engine::Result<FitResult> fit(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<FitResult> fit(const engine::Context& context, const LabeledSkin& skin,
                               const FitOptions& options) {
   if (auto ok = check_input(skin, options); !ok) return ok.error();
-  return engine::catch_cancelled("The fit", [&] { return fit_checked(context, skin, options); });
+  return engine::catch_canceled("The fit", [&] { return fit_checked(context, skin, options); });
 }
 
 }  // namespace bodice::fitting

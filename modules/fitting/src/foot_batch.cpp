@@ -2,7 +2,7 @@
 // 1/|w| from a lower bound (each step stays a lower bound, because 1/|w| is concave). All is multiplied by
 // (t + r_0^2)(t + r_1^2)(t + r_2^2), so that a step costs one division. Based on: David Eberly.
 // Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013. Differs: fixed number of
-// steps in float, without branches, so that compilers vectorise over the points.
+// steps in float, without branches, so that compilers vectorize over the points.
 #include "foot_batch.hpp"
 
 #include "vector_clones.hpp"

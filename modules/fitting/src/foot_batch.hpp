@@ -1,4 +1,4 @@
-// Nearest points of many points on one ellipsoid at a fixed cost: the inner loop of the anytime tiers.
+// Closest points of many points on one ellipsoid at a fixed cost: the inner loop of the anytime tiers.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ class FreeSkin {
   FreeSkin(const engine::Context& context, const SkinSource& source);
 
   /// The skin, with its buried triangles.
-  const LabelledSkin& all() const { return source_.skin; }
+  const LabeledSkin& all() const { return source_.skin; }
   /// Whether a triangle of all the skin bounds the body.
   bool bounds(std::size_t triangle) const { return buried_.empty() || !buried_[triangle]; }
   /// Whether no corner of the triangle is buried: one that bounds the body may dip into another limb.
@@ -26,7 +26,7 @@ class FreeSkin {
 
   /// Nearest free skin within a distance, unsigned.
   std::optional<geometry::SurfacePoint> nearest_within(const Vec3& point, double max_distance_m) const {
-    return distance_->nearest_within(point, max_distance_m);
+    return distance_->closest_point_within(point, max_distance_m);
   }
   body::Part part(const geometry::SurfacePoint& hit) const;
   bool inside(const Vec3& point) const { return source_.skin.distance->inside(point); }

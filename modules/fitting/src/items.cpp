@@ -11,7 +11,7 @@ namespace bodice::fitting {
 namespace {
 
 /// The part of most of a triangle's corners; of the first corner if all differ.
-body::Part part_of(const LabelledSkin& skin, const geometry::Triangle& t) {
+body::Part part_of(const LabeledSkin& skin, const geometry::Triangle& t) {
   return skin.part[t[1]] == skin.part[t[2]] ? skin.part[t[1]] : skin.part[t[0]];
 }
 
@@ -64,7 +64,7 @@ std::vector<Vec3> part_means(const Items& items, const Region& region) {
 
 }  // namespace
 
-Items vertex_items(const LabelledSkin& skin) {
+Items vertex_items(const LabeledSkin& skin) {
   Items items;
   items.where = skin.mesh.positions;
   items.weight.assign(skin.part.size(), 1.0);
@@ -72,7 +72,7 @@ Items vertex_items(const LabelledSkin& skin) {
   return items;
 }
 
-Items triangle_items(const engine::Context& context, const LabelledSkin& skin) {
+Items triangle_items(const engine::Context& context, const LabeledSkin& skin) {
   constexpr std::size_t kGrain = 2048;
   Items items;
   const geometry::TriMesh& m = skin.mesh;

@@ -69,7 +69,7 @@ void Lloyd::mark_moved() {
   }
 }
 
-/// The centres that can be the nearest of a point of the chunk; false if all keep theirs.
+/// The centers that can be the nearest of a point of the chunk; false if all keep theirs.
 bool Lloyd::choose_candidates(const Chunk& chunk, Scratch& scratch) const {
   const auto from_middle = [&](Index k) {
     const float x = placed_[3 * k] - chunk.middle[0], y = placed_[3 * k + 1] - chunk.middle[1],
@@ -145,7 +145,7 @@ void Lloyd::assign(const engine::Context& context) {
     for (std::size_t k = 0; k < changed_.size(); ++k) changed_[k] |= block[k];
 }
 
-/// Moves each centre to its cluster's mean, also one that was put elsewhere and kept its points; returns the
+/// Moves each center to its cluster's mean, also one that was put elsewhere and kept its points; returns the
 /// largest move.
 double Lloyd::move_centers() {
   std::vector<Sum> sums(centers_.size(), Sum::Zero());

@@ -34,12 +34,12 @@ BODICE_CLONES static void add_up(std::size_t n, const float* __restrict cost, do
     for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += static_cast<double>(cost[first + lane]);
 }
 
-void Neighbourhood::resize(std::size_t count) {
+void Neighborhood::resize(std::size_t count) {
   for (auto* v : {&x, &y, &z, &target, &others}) v->resize(count);
   one_sided.resize(count);
 }
 
-LocalFit::LocalFit(const Neighbourhood& samples, const TightLoss& loss, std::vector<Ellipsoid> ellipsoids)
+LocalFit::LocalFit(const Neighborhood& samples, const TightLoss& loss, std::vector<Ellipsoid> ellipsoids)
     : samples_(samples), loss_(loss), ellipsoids_(std::move(ellipsoids)), damping_(kFirstDamping) {
   const std::size_t n = samples.x.size();
   for (Assignment* made : {&now_, &before_}) {

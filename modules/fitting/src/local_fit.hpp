@@ -12,7 +12,7 @@
 namespace bodice::fitting {
 
 /// The samples that some ellipsoids may be the nearest of, structure of arrays.
-struct Neighbourhood {
+struct Neighborhood {
   std::vector<float> x, y, z;
   std::vector<float> target;  ///< distance to the skin
   std::vector<float> others;  ///< distance to the nearest of the other ellipsoids
@@ -22,10 +22,10 @@ struct Neighbourhood {
   void resize(std::size_t count);
 };
 
-/// Damped steps of some ellipsoids in place of those that the neighbourhood is of, which must outlive it.
+/// Damped steps of some ellipsoids in place of those that the neighborhood is of, which must outlive it.
 class LocalFit {
  public:
-  LocalFit(const Neighbourhood& samples, const TightLoss& loss, std::vector<geometry::Ellipsoid> ellipsoids);
+  LocalFit(const Neighborhood& samples, const TightLoss& loss, std::vector<geometry::Ellipsoid> ellipsoids);
 
   void advance(int steps);
   /// What the cost rises by if the ellipsoids are put in place.
@@ -37,7 +37,7 @@ class LocalFit {
   double evaluate(const std::vector<geometry::Ellipsoid>& ellipsoids);
   NormalBlock normal_equations(std::size_t ellipsoid);
 
-  const Neighbourhood& samples_;
+  const Neighborhood& samples_;
   const TightLoss& loss_;
   std::vector<geometry::Ellipsoid> ellipsoids_;
   /// What evaluate() finds.

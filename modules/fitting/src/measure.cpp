@@ -51,7 +51,7 @@ bool settle(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double toleran
 }
 
 /// Ellipsoids about the parts that were not asked for.
-std::vector<geometry::Ellipsoid> about_others(const engine::Context& context, const LabelledSkin& skin,
+std::vector<geometry::Ellipsoid> about_others(const engine::Context& context, const LabeledSkin& skin,
                                               std::uint32_t parts) {
   std::vector<geometry::Ellipsoid> shapes;
   if ((parts & kAllParts) == kAllParts) return shapes;
@@ -86,7 +86,7 @@ Spread gaps(const std::vector<GapProbe>& probes, const proxy::BodyProxy::Data& p
 }
 
 void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
-                  const LabelledSkin& skin, std::uint32_t parts, double tolerance_m, Accuracy& accuracy) {
+                  const LabeledSkin& skin, std::uint32_t parts, double tolerance_m, FitAccuracy& accuracy) {
   const auto samples = geometry::sample_surface(skin.mesh, kSkinSamples, 1);
   std::vector<double> outside(samples.size(), -1.0);
   engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -109,15 +109,16 @@ void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& 
 
 /// Of the points of an interior grid, those that a wanted part's skin is nearest to.
 void measure_interior(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
-                      const LabelledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts,
-                      Accuracy& accuracy) {
+                      const LabeledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts,
+                      FitAccuracy& accuracy) {
   const double volume = std::abs(geometry::signed_volume(skin.mesh));
   const std::vector<Vec3> grid = interior_grid(skin.mesh, std::cbrt(volume / kInteriorSamples));
   std::vector<std::int8_t> state(grid.size(), -1);
   const bool all_parts = parts == kAllParts;
   engine::parallel_for(context, grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto hit = all_parts ? std::nullopt : distance.nearest_within(grid[i], 10.0 * skin.stature_m);
+      const auto hit =
+          all_parts ? std::nullopt : distance.closest_point_within(grid[i], 10.0 * skin.stature_m);
       if (!all_parts && !hit) continue;
       const auto part = hit ? static_cast<int>(skin.part[skin.mesh.triangles[hit->triangle][0]]) : 0;
       if (all_parts || ((parts >> part) & 1u))
@@ -152,15 +153,15 @@ Spread spread_of(std::vector<std::pair<double, double>> values) {
   return spread;
 }
 
-Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
-                 const LabelledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts) {
-  const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometre: below it is on the surface
+Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy, const LabeledSkin& skin,
+                 const geometry::MeshDistance& distance, std::uint32_t parts) {
+  const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometer: below it is on the surface
   std::vector<GapProbe> probes = gap_probes(proxy);
   const std::vector<geometry::Ellipsoid> others = about_others(context, skin, parts);
   engine::parallel_for(context, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (settle(proxy, probes[i], tolerance_m))
-        if (const auto hit = distance.nearest_within(probes[i].at.point, 10.0 * skin.stature_m);
+        if (const auto hit = distance.closest_point_within(probes[i].at.point, 10.0 * skin.stature_m);
             hit && !is_cut(proxy, *hit, probes[i].at.point, others))
           probes[i].gap_m = std::abs(hit->signed_distance);
   });

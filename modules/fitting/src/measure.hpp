@@ -13,13 +13,13 @@ namespace bodice::fitting {
 using geometry::Vec3;
 
 struct Measured {
-  Accuracy accuracy;
+  FitAccuracy accuracy;
   std::array<Spread, body::kPartCount> gap_of_part{};
 };
 
 /// Samples the proxy's surface, the skin (of the wanted parts) and the interior. Deterministic.
-Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
-                 const LabelledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts);
+Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy, const LabeledSkin& skin,
+                 const geometry::MeshDistance& distance, std::uint32_t parts);
 
 /// Weighted mean, 95th percentile and maximum of (value, weight) pairs; zeros if there are none.
 Spread spread_of(std::vector<std::pair<double, double>> values);

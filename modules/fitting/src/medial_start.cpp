@@ -70,14 +70,14 @@ double demand(const InscribedBall& ball, double stature_m) {
 std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& context,
                                                     std::span<const InscribedBall> balls, int count,
                                                     double stature_m) {
-  std::vector<Vec3> centres;
+  std::vector<Vec3> centers;
   std::vector<double> weights;
   for (const InscribedBall& b : balls) {
-    centres.push_back(b.centre);
+    centers.push_back(b.center);
     weights.push_back(demand(b, stature_m));
   }
   const Clusters found =
-      kmeans(context, centres, weights, farthest_seeds(centres, count), {1e-4 * stature_m, 30});
+      kmeans(context, centers, weights, farthest_seeds(centers, count), {1e-4 * stature_m, 30});
   std::vector<std::vector<Vec3>> touched(found.centers.size());
   for (std::size_t i = 0; i < balls.size(); ++i) touched[found.of_point[i]].push_back(balls[i].skin);
   std::vector<proxy::ProxyEllipsoid> ellipsoids;
@@ -88,7 +88,7 @@ std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& conte
 
 std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const SkinSource& source,
                                                 int count) {
-  const LabelledSkin& skin = source.skin;
+  const LabeledSkin& skin = source.skin;
   const std::size_t samples = std::clamp<std::size_t>(40 * static_cast<std::size_t>(count), 1500, 12000);
   std::array<Balls, body::kPartCount> of_part;
   std::array<double, body::kPartCount> demand_of{};

@@ -99,7 +99,7 @@ Mvee solve(const PointFrame& frame, const MveeOptions& options) {
   double excess_all = 0.0;
   std::vector<double> kappa;
   while (result.rounds < kMaxRounds) {
-    maximise_dual(set, 0.5 * tolerance);
+    maximize_dual(set, 0.5 * tolerance);
     set.drop_idle();
     ++result.rounds;
     excess_all = scan<R>(frame, set, 0.5 * tolerance, kappa);

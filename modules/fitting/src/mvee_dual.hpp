@@ -1,6 +1,6 @@
 // The dual of the enclosing-ellipsoid problem on a small active set.
 // Based on: Michael J. Todd. Minimum-Volume Ellipsoids: Theory and Algorithms. 2016. - chapters 2 and 3
-// (lifting q = (y, 1); maximise ln det sum u q q^T over the simplex; optimal when every
+// (lifting q = (y, 1); maximize ln det sum u q q^T over the simplex; optimal when every
 // kappa = q^T M^-1 q <= N).
 // Based on: Radoslav Harman, Luc Pronzato. Improvements on removing nonoptimal support points in D-optimum
 // design algorithms. 2007. - eq. (6) (which points cannot carry weight).
@@ -54,7 +54,7 @@ struct ActiveSet {
   void drop_idle() {
     keep_if([this](int i) { return u[i] > 0.0; });
   }
-  void normalise() {
+  void normalize() {
     double sum = 0.0;
     for (int i = 0; i < size; ++i) sum += u[i];
     for (int i = 0; i < size; ++i) u[i] /= sum;
@@ -67,7 +67,7 @@ struct ActiveSet {
   }
   /// Normalises the weights and finds z, kappa and log_det; false if M is not positive definite.
   bool measure() {
-    normalise();
+    normalize();
     const Eigen::LLT<Square> llt(moment());
     if (llt.info() != Eigen::Success) return false;
     const Square l = llt.matrixL();
@@ -179,7 +179,7 @@ bool newton_step(ActiveSet<N>& set) {
   return set.measure();
 }
 
-/// One Wolfe-Atwood step: towards the worst point, or away from the least useful one. Always ascends.
+/// One Wolfe-Atwood step: toward the worst point, or away from the least useful one. Always ascends.
 template <int N>
 void wolfe_atwood_step(ActiveSet<N>& set) {
   const int worst = set.worst();
@@ -199,7 +199,7 @@ void wolfe_atwood_step(ActiveSet<N>& set) {
 /// Maximises the dual on the active set until its own excess is below `tolerance`; bounded work.
 /// Returns the excess reached.
 template <int N>
-double maximise_dual(ActiveSet<N>& set, double tolerance) {
+double maximize_dual(ActiveSet<N>& set, double tolerance) {
   constexpr int kNewtonSteps = 80, kFirstOrderSteps = 2000;
   double reached = 1e300;
   if (!set.measure()) return reached;

@@ -66,20 +66,20 @@ double radius_floor(const PointFrame& frame, double longest, double min_radius_m
 
 }  // namespace
 
-geometry::Ellipsoid spanned(const Vec3& centre, const Mat3& half) {
+geometry::Ellipsoid spanned(const Vec3& center, const Mat3& half) {
   Mat3 columns = half;
   orthogonalise(columns);
   geometry::Ellipsoid e;
-  e.center = centre;
+  e.center = center;
   e.axes = basis_of(columns);
   for (int j = 0; j < 3; ++j) e.radii[j] = columns.col(j).stableNorm();
   return e;
 }
 
-void certify(const PointFrame& frame, const Vec3& centre, const Mat3& half, double dual_log_volume,
+void certify(const PointFrame& frame, const Vec3& center, const Mat3& half, double dual_log_volume,
              double min_radius_m, Mvee& result) {
   geometry::Ellipsoid& e = result.ellipsoid;
-  e = spanned(centre, half);
+  e = spanned(center, half);
   const double floor = radius_floor(frame, e.radii[0], min_radius_m);
   e.radii = e.radii.cwiseMax(floor);
 

@@ -1,4 +1,4 @@
-// From dual weights to an ellipsoid in metres, with its certificate re-measured on the points themselves.
+// From dual weights to an ellipsoid in meters, with its certificate re-measured on the points themselves.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace bodice::fitting {
 
-/// The ellipsoid { centre + half * unit ball }; vanishing columns leave vanishing radii.
-geometry::Ellipsoid spanned(const Vec3& centre, const Mat3& half);
+/// The ellipsoid { center + half * unit ball }; vanishing columns leave vanishing radii.
+geometry::Ellipsoid spanned(const Vec3& center, const Mat3& half);
 
-/// Sets result.ellipsoid from `half`, whose columns span it (x = centre + half * unit ball), floors the
+/// Sets result.ellipsoid from `half`, whose columns span it (x = center + half * unit ball), floors the
 /// radii, grows it to hold every point, and records rank, gap and violation. `dual_log_volume` bounds the
 /// least volume from below (sum of log radii).
-void certify(const PointFrame& frame, const Vec3& centre, const Mat3& half, double dual_log_volume,
+void certify(const PointFrame& frame, const Vec3& center, const Mat3& half, double dual_log_volume,
              double min_radius_m, Mvee& result);
 
 /// Rank 0 and 1 in closed form.
@@ -33,19 +33,19 @@ void finish(const PointFrame& frame, const Points& points, const Weights& weight
   using Vector = Eigen::Matrix<double, R, 1>;
   using Square = Eigen::Matrix<double, R, R>;
   const Vector c = points * weights;
-  const auto centred = (points.colwise() - c).eval();
-  const Square spread = R * (centred * weights.asDiagonal() * centred.transpose());
+  const auto centerd = (points.colwise() - c).eval();
+  const Square spread = R * (centerd * weights.asDiagonal() * centerd.transpose());
   const Square root = spread.llt().matrixL();
-  Vec3 centre = frame.origin;
+  Vec3 center = frame.origin;
   Mat3 half = Mat3::Zero();
   double log_volume = 0.0;
   for (int j = 0; j < R; ++j) {
-    centre += frame.extent[j] * c[j] * frame.axes.col(j);
+    center += frame.extent[j] * c[j] * frame.axes.col(j);
     log_volume += std::log(root(j, j) * frame.extent[j]);
   }
   for (int k = 0; k < R; ++k)
     for (int j = k; j < R; ++j) half.col(k) += frame.extent[j] * root(j, k) * frame.axes.col(j);
-  certify(frame, centre, half, log_volume, min_radius_m, result);
+  certify(frame, center, half, log_volume, min_radius_m, result);
 }
 
 }  // namespace bodice::fitting

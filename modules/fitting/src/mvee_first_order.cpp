@@ -1,5 +1,5 @@
 // Based on: Michael J. Todd, E. Alper Yildirim. On Khachiyan's algorithm for the computation of
-// minimum-volume enclosing ellipsoids. 2007. - section 4 (steps towards the worst point and away from the
+// minimum-volume enclosing ellipsoids. 2007. - section 4 (steps toward the worst point and away from the
 // least useful one) Differs: works in the rank-revealing frame, so flat sets are solved in their own
 // dimension; M^-1 is recomputed from the weights every 50 steps, so rounding of the rank-one updates cannot
 // pile up.

@@ -49,20 +49,20 @@ BODICE_CLONES static std::uint32_t at_most(const float* __restrict d, const floa
   return mask;
 }
 
-/// Signed distances are 1-Lipschitz: one whose distance from the ball's centre is above this is within reach
+/// Signed distances are 1-Lipschitz: one whose distance from the ball's center is above this is within reach
 /// of no sample's nearest.
 static float enough(const SampleBlock& block, const float* nearest, float reach) {
   float most = -std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < block.count; ++i) most = std::max(most, nearest[i] + block.from_centre[i]);
+  for (std::size_t i = 0; i < block.count; ++i) most = std::max(most, nearest[i] + block.from_center[i]);
   return most + reach;
 }
 
-/// By their distance to the ball's centre, those that may be near enough.
+/// By their distance to the ball's center, those that may be near enough.
 void NearestCandidates::sort_by_ball(std::size_t ellipsoids, const SampleBlock& block, float reach) {
   const auto of_ball = [&](std::size_t k) { return block.feet.d[k * block.feet.stride]; };
   float nearest = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < ellipsoids; ++k) nearest = std::min(nearest, of_ball(k));
-  const float radius = *std::max_element(block.from_centre, block.from_centre + block.count);
+  const float radius = *std::max_element(block.from_center, block.from_center + block.count);
   order_.clear();
   for (std::uint32_t k = 0; k < ellipsoids; ++k)
     if (of_ball(k) <= nearest + 2.0f * radius + reach) order_.push_back({of_ball(k), k});
@@ -73,7 +73,7 @@ void NearestCandidates::sort_by_ball(std::size_t ellipsoids, const SampleBlock& 
 void NearestCandidates::load(const SampleBlock& block) {
   for (std::size_t j = 0; j < 3; ++j)
     for (std::size_t i = 0; i < kLanes; ++i)
-      from_[j][i] = block.at[j][std::min(i, block.count - 1)] - block.centre[j];
+      from_[j][i] = block.at[j][std::min(i, block.count - 1)] - block.center[j];
 }
 
 bool NearestCandidates::may_reach(const SampleBlock& block, std::uint32_t k, float d, const Lanes& least,

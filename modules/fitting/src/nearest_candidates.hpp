@@ -1,4 +1,4 @@
-// The few ellipsoids that can be the nearest of a sample, found for blocks of neighbouring samples at once.
+// The few ellipsoids that can be the nearest of a sample, found for blocks of neighboring samples at once.
 #pragma once
 
 #include <array>
@@ -11,11 +11,11 @@
 
 namespace bodice::fitting {
 
-/// Samples of a block: neighbours in space, whose lists are found together.
+/// Samples of a block: neighbors in space, whose lists are found together.
 inline constexpr std::size_t kSampleBlock = 32;
 
 /// Feet of one point on all ellipsoids; ellipsoid k's are at k * stride.
-struct CentreFeet {
+struct CenterFeet {
   const float* d = nullptr;                 ///< signed distances
   std::array<const float*, 3> normal = {};  ///< outward, unit
   std::size_t stride = 1;
@@ -25,9 +25,9 @@ struct CentreFeet {
 struct SampleBlock {
   std::size_t count = 0;                ///< of samples, at most kSampleBlock
   std::array<const float*, 3> at = {};  ///< x, y, z
-  const float* from_centre = nullptr;   ///< distance of each sample to the ball's centre
-  std::array<float, 3> centre = {};     ///< of the ball
-  CentreFeet feet;                      ///< of the centre
+  const float* from_center = nullptr;   ///< distance of each sample to the ball's center
+  std::array<float, 3> center = {};     ///< of the ball
+  CenterFeet feet;                      ///< of the center
 };
 
 /// Works on one block at a time; kept between blocks for its memory.
@@ -47,14 +47,14 @@ class NearestCandidates {
   using Lanes = std::array<float, kSampleBlock>;
 
   void load(const SampleBlock& block);
-  /// Whether ellipsoid k, at distance d from the ball's centre, can be within reach of some sample's nearest.
-  /// Signed distances to convex bodies are convex: none lies below its tangent at the centre.
+  /// Whether ellipsoid k, at distance d from the ball's center, can be within reach of some sample's nearest.
+  /// Signed distances to convex bodies are convex: none lies below its tangent at the center.
   bool may_reach(const SampleBlock& block, std::uint32_t k, float d, const Lanes& least, float reach) const;
   void sort_by_ball(std::size_t ellipsoids, const SampleBlock& block, float reach);
   Lanes measure(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block, float reach);
   void insert(std::size_t sample, std::uint32_t ellipsoid, float distance);
 
-  std::array<Lanes, 3> from_;  ///< the samples less the ball's centre
+  std::array<Lanes, 3> from_;  ///< the samples less the ball's center
   std::vector<std::pair<float, std::uint32_t>> order_;
   std::vector<std::uint32_t> ellipsoid_;  ///< #C that may be within reach somewhere in the block
   std::vector<Lanes> distance_;           ///< at least #C

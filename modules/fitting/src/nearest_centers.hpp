@@ -6,7 +6,7 @@
 
 namespace bodice::fitting {
 
-/// For each of n points (structure of arrays): the squared distance to the nearest of the `count` centres
+/// For each of n points (structure of arrays): the squared distance to the nearest of the `count` centers
 /// named by `which` (ascending), and its number; the lowest number on a tie. Nothing aliases.
 void nearest_centers(std::size_t n, const float* x, const float* y, const float* z, std::size_t count,
                      const std::uint32_t* which, const float* centers_xyz, float* distance,

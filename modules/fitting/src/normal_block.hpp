@@ -11,7 +11,7 @@
 
 namespace bodice::fitting {
 
-/// One ellipsoid's normal equations: centre, log radii, rotation vector.
+/// One ellipsoid's normal equations: center, log radii, rotation vector.
 struct NormalBlock {
   using Matrix = Eigen::Matrix<double, 9, 9>;
   using Vector = Eigen::Matrix<double, 9, 1>;
@@ -53,8 +53,8 @@ std::span<const std::uint32_t> pick(std::size_t n, std::vector<std::uint32_t>& r
   return {room.data(), count};
 }
 
-/// sum weight j j^T and sum weight r j, with j = d(distance) / d(centre, log radii, rotation vector). The
-/// foot minimises the distance, so that its own motion drops out of the derivative (envelope theorem).
+/// sum weight j j^T and sum weight r j, with j = d(distance) / d(center, log radii, rotation vector). The
+/// foot minimizes the distance, so that its own motion drops out of the derivative (envelope theorem).
 NormalBlock normal_block(const geometry::Ellipsoid& ellipsoid, BlockSamples& samples);
 
 }  // namespace bodice::fitting

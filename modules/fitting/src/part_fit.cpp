@@ -22,7 +22,7 @@ struct Nearest {
 
 using OfParts = std::array<std::vector<std::size_t>, body::kPartCount>;
 
-std::vector<Nearest> find_nearest(const engine::Context& context, const LabelledSkin& skin,
+std::vector<Nearest> find_nearest(const engine::Context& context, const LabeledSkin& skin,
                                   std::span<const proxy::ProxyEllipsoid> ellipsoids, const OfParts& of_part) {
   std::vector<Nearest> nearest(skin.part.size());
   engine::parallel_for(context, nearest.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -37,7 +37,7 @@ std::vector<Nearest> find_nearest(const engine::Context& context, const Labelled
 
 }  // namespace
 
-std::vector<PartFit> part_fits(const engine::Context& context, const LabelledSkin& skin,
+std::vector<PartFit> part_fits(const engine::Context& context, const LabeledSkin& skin,
                                std::span<const proxy::ProxyEllipsoid> ellipsoids, const Measured& measured,
                                std::uint32_t parts) {
   std::vector<double> sum(ellipsoids.size(), 0.0), count(ellipsoids.size(), 0.0);

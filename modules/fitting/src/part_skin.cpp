@@ -13,10 +13,10 @@ namespace bodice::fitting {
 namespace {
 
 /// No body is thicker than a third of its height where it is cut across.
-constexpr double kMostRadius = 0.15;     // of stature
-constexpr double kNeighbourhood = 0.02;  // of stature: how far another region's skin matters
+constexpr double kMostRadius = 0.15;    // of stature
+constexpr double kNeighborhood = 0.02;  // of stature: how far another region's skin matters
 
-/// Fills in the balls' radii and centres.
+/// Fills in the balls' radii and centers.
 void grow_balls(PartSkin& part, double stature_m) {
   const std::size_t n = part.balls.size();
   if (n == 0) return;
@@ -34,14 +34,14 @@ void grow_balls(PartSkin& part, double stature_m) {
   for (std::size_t i = 0; i < n; ++i) {
     InscribedBall& ball = part.balls[i];
     ball.radius_m = static_cast<double>(inward[i]) * stature_m;
-    ball.centre = ball.skin - ball.radius_m * part.normals[i];
+    ball.center = ball.skin - ball.radius_m * part.normals[i];
     part.outer_radius_m[i] = static_cast<double>(outward[i]) * stature_m;
   }
 }
 
 }  // namespace
 
-std::vector<PartSkin> sample_parts(const engine::Context& context, const LabelledSkin& skin,
+std::vector<PartSkin> sample_parts(const engine::Context& context, const LabeledSkin& skin,
                                    const std::vector<Region>& regions, std::size_t count) {
   std::array<std::size_t, body::kPartCount> region_of;
   region_of.fill(regions.size());
@@ -82,7 +82,7 @@ std::vector<DistanceSample> part_samples(const std::vector<PartSkin>& skins, std
                                      0.9 * own.outer_radius_m[i]);
     samples.push_back({ball.skin + offset * own.normals[i], offset, ball.part});
   }
-  const double reach = kNeighbourhood * stature_m;
+  const double reach = kNeighborhood * stature_m;
   for (std::size_t other = 0; other < skins.size(); ++other)
     for (const InscribedBall& ball : skins[other].balls)
       if (other != r && (ball.skin.array() > box.low.array() - reach).all() &&

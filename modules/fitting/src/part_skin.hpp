@@ -18,7 +18,7 @@ struct PartSkin {
 };
 
 /// About `count` samples of the whole skin, sorted into the regions. Deterministic, parallel.
-std::vector<PartSkin> sample_parts(const engine::Context& context, const LabelledSkin& skin,
+std::vector<PartSkin> sample_parts(const engine::Context& context, const LabeledSkin& skin,
                                    const std::vector<Region>& regions, std::size_t count);
 
 /// What region r's ellipsoids are fitted to: its skin, points off it to either side with their distance to

@@ -25,7 +25,7 @@ inline constexpr double kBudgetKeptTo = 1.2;
 /// The largest count whose predicted time is within the budget, at least 1.
 int count_within_budget(proxy::Tier tier, double budget_us);
 
-/// Mean gap to expect at a count, metres, for a body of this stature; relief with full tables.
+/// Mean gap to expect at a count, meters, for a body of this stature; relief with full tables.
 double predicted_gap_m(proxy::Tier tier, int ellipsoids, double stature_m);
 
 /// The search for a plan: tries one, is told what it achieved, tries the next. A target error changes the

@@ -16,7 +16,7 @@ using geometry::Vec3;
 struct PointFrame {
   Vec3 origin = Vec3::Zero();
   Mat3 axes = Mat3::Identity();          ///< orthonormal, from the longest direction to the thinnest
-  Vec3 extent = Vec3::Zero();            ///< half-extent along each axis, metres
+  Vec3 extent = Vec3::Zero();            ///< half-extent along each axis, meters
   int rank = 0;                          ///< axes whose extent is not flat
   double thickness = 0.0;                ///< largest half-extent over the flat axes
   std::array<std::vector<double>, 3> y;  ///< structure of arrays, #kept each

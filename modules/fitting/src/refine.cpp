@@ -143,7 +143,7 @@ void Refinement::recluster(std::vector<Vec3> centers) {
   for (std::size_t i = 0; i < region_.items.size(); ++i) members[of_item[i]].push_back(region_.items[i]);
   centers_ = lloyd_.centers();
   set_members(std::move(members));
-  if (centers_.size() != lloyd_.centers().size()) lloyd_ = fresh_lloyd();  // centres were renumbered
+  if (centers_.size() != lloyd_.centers().size()) lloyd_ = fresh_lloyd();  // centers were renumbered
   if (!options_.reclassify) return;
   fit_rest();
   reclassify();

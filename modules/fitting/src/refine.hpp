@@ -38,7 +38,7 @@ struct Region {
   std::uint32_t parts = 0;  ///< bit a part
   bool torso = false;
   std::vector<Index> items;
-  std::vector<Vec3> seeds;  ///< initial centres: 6 for the torso, else 1
+  std::vector<Vec3> seeds;  ///< initial centers: 6 for the torso, else 1
 };
 
 struct RefineOptions {
@@ -47,10 +47,10 @@ struct RefineOptions {
   bool reclassify = false;    ///< eq. (8)
 };
 
-/// No enclosing ellipsoid is thinner: a fraction of stature, half a millimetre.
+/// No enclosing ellipsoid is thinner: a fraction of stature, half a millimeter.
 inline constexpr double kLeastRadius = 3e-4;
 
-/// Pruned stop: centres that move less than 2 parts in 1000 of stature no longer change which ellipsoid fits.
+/// Pruned stop: centers that move less than 2 parts in 1000 of stature no longer change which ellipsoid fits.
 inline RefineOptions refine_options(double stature_m) {
   return {.sigma_m = 2e-3 * stature_m, .min_radius_m = kLeastRadius * stature_m};
 }
@@ -66,10 +66,10 @@ struct Cluster {
 /// The points that these items' ellipsoid must hold, each once.
 std::vector<Vec3> enclosed_points(const Items& items, std::span<const Index> members);
 
-/// Along the ray from the centre, between a point and the ellipsoid.
+/// Along the ray from the center, between a point and the ellipsoid.
 double radial_distance(const geometry::Ellipsoid& ellipsoid, const Vec3& point);
 
-/// Eq. (6): mean distance along the ray from the centre between the points and the ellipsoid.
+/// Eq. (6): mean distance along the ray from the center between the points and the ellipsoid.
 double radial_error(const geometry::Ellipsoid& ellipsoid, std::span<const Vec3> points);
 
 class Refinement {

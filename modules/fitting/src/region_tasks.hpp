@@ -34,7 +34,7 @@ inline bool wanted(const Region& region, std::uint32_t parts) {
 }
 
 /// Runs the tasks, the largest regions first; #regions results in the order of the regions, empty where there
-/// is no task. Fails with kCancelled.
+/// is no task. Fails with kCanceled.
 engine::Result<std::vector<FittedRegion>> run_region_tasks(const engine::Context& context,
                                                            const std::vector<Region>& regions,
                                                            const RegionTasks& tasks);

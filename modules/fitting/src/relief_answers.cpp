@@ -9,7 +9,7 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kBlock = 10;   // neighbouring samples that share candidates
+constexpr std::size_t kBlock = 10;   // neighboring samples that share candidates
 constexpr std::size_t kGrain = 512;  // samples a task
 
 /// The answers of one task's samples, in sample order.
@@ -47,7 +47,7 @@ std::vector<Candidate> candidates_in(std::span<const proxy::ProxyEllipsoid> elli
     const double enough = least + 2.0 * radius_m + blend_m;
     const double bound = lower_bound(ellipsoids[k].shape, center, enough);
     if (bound > enough) continue;
-    const double d = geometry::nearest_point(ellipsoids[k].shape, center).signed_distance;
+    const double d = geometry::closest_point(ellipsoids[k].shape, center).signed_distance;
     least = std::min(least, d);
     found.push_back({d, k});
   }
@@ -59,7 +59,7 @@ std::vector<Candidate> candidates_in(std::span<const proxy::ProxyEllipsoid> elli
 }
 
 struct Near {
-  geometry::NearestPoint foot;
+  geometry::ClosestPoint foot;
   std::uint32_t ellipsoid;
 };
 
@@ -73,7 +73,7 @@ void answer(const ReliefSample& sample, std::uint32_t index, std::span<const Can
     const geometry::Ellipsoid& e = ellipsoids[c.ellipsoid].shape;
     const double enough = least + reach.blend_m;
     if (lower_bound(e, sample.point, enough) > enough) continue;
-    near.push_back({geometry::nearest_point(e, sample.point), c.ellipsoid});
+    near.push_back({geometry::closest_point(e, sample.point), c.ellipsoid});
     least = std::min(least, near.back().foot.signed_distance);
   }
   const bool deep = least < -reach.in_m && sample.signed_distance_m < -0.5 * reach.in_m;

@@ -32,7 +32,7 @@ struct ReliefAnswers {
   std::vector<float> weight;              ///< #S; zero: asks nothing
 };
 
-/// Exact distances, found among the ellipsoids that a block of neighbouring samples can have near.
+/// Exact distances, found among the ellipsoids that a block of neighboring samples can have near.
 /// Deterministic, parallel. About a microsecond a sample with 89 ellipsoids.
 ReliefAnswers find_answers(const engine::Context& context, std::span<const ReliefSample> samples,
                            std::span<const proxy::ProxyEllipsoid> ellipsoids,

@@ -1,4 +1,4 @@
-// The octahedral node grid as a closed surface: which nodes are the same direction, and who neighbours whom.
+// The octahedral node grid as a closed surface: which nodes are the same direction, and who neighbors whom.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ std::vector<Vec3> find_holes(const engine::Context& context, const FreeSkin& ski
   const proxy::ReliefReach reach = proxy::relief_reach(proxy.stature_m);
   const auto is_hole = [&](const Vec3& p) {
     if (proxy::proxy_distance(proxy, p).distance < -margin_m) return false;
-    return !skin.nearest_within(p, depth_m) && skin.inside(p);
+    return !skin.closest_point_within(p, depth_m) && skin.inside(p);
   };
   std::vector<std::vector<Vec3>> of_each(proxy.ellipsoids.size());
   engine::parallel_for(context, of_each.size(), 1, [&](std::size_t k, std::size_t) {

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kTouch = 1e-4;  // of a radius: a ball's own foot is no obstacle
 
-/// Up to `reach_m` along `direction`, how far the skin point p itself is certainly the nearest skin: the
-/// radius of a ball that touches p and holds no skin. If that ball is empty, so is every smaller one.
-/// After Ma, Bae, Choi's shrinking ball (skin_samples.hpp), given up after two tries: then 0.
+/// Up to `reach_m` along `direction`, how far the skin point p itself is certainly the closest point of the
+/// skin: the radius of a ball that touches p and holds no skin. If that ball is empty, so is every smaller
+/// one. After Ma, Bae, Choi's shrinking ball (skin_samples.hpp), given up after two tries: then 0.
 double free_reach(const FreeSkin& skin, const Vec3& p, const Vec3& direction, double reach_m) {
   constexpr int kTries = 3;
   double radius = reach_m;
   for (int attempt = 0; attempt < kTries; ++attempt) {
-    const auto hit = skin.nearest_within(p + radius * direction, radius * (1.0 - kTouch));
+    const auto hit = skin.closest_point_within(p + radius * direction, radius * (1.0 - kTouch));
     if (!hit) return radius;
     const Vec3 to = hit->point - p;
     const double along = 2.0 * direction.dot(to);
@@ -35,10 +35,10 @@ double free_reach(const FreeSkin& skin, const Vec3& p, const Vec3& direction, do
 
 /// The face's normal tells the side where it can; at sharp edges and far away the winding number is asked.
 double signed_distance(const FreeSkin& skin, const Vec3& point, double reach_m) {
-  const auto hit = skin.nearest_within(point, reach_m * (1.0 + kTouch));
+  const auto hit = skin.closest_point_within(point, reach_m * (1.0 + kTouch));
   if (!hit) return skin.inside(point) ? -reach_m : reach_m;
   const double d = std::abs(hit->signed_distance), side = hit->normal.dot(point - hit->point);
-  // Next to a cut the nearest point may lie on the rim, whose triangle's normal tells nothing.
+  // Next to a cut the closest point may lie on the rim, whose triangle's normal tells nothing.
   if (std::abs(side) > (skin.is_cut() ? 0.9999 : 0.7) * d) return side < 0.0 ? -d : d;
   return skin.inside(point) ? -d : d;
 }
@@ -91,7 +91,7 @@ std::vector<ReliefSample> sample_inside(const engine::Context& context, const Fr
   std::vector<ReliefSample> samples(grid.size());
   engine::parallel_for(context, grid.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto hit = skin.nearest_within(grid[i], skin.all().stature_m);
+      const auto hit = skin.closest_point_within(grid[i], skin.all().stature_m);
       if (!hit || !skin.wanted(skin.part(*hit))) continue;
       const double s = -std::min(std::abs(hit->signed_distance), reach_m);
       samples[i] = {grid[i], s, importance(s, reach_m)};

@@ -1,4 +1,4 @@
-// The tables of all ellipsoids as one sparse least-squares problem: neighbours share the samples between
+// The tables of all ellipsoids as one sparse least-squares problem: neighbors share the samples between
 // them, as they share the blended distance.
 #pragma once
 
@@ -15,7 +15,7 @@
 namespace bodice::fitting {
 
 /// Regularised normal equations, applied without being formed. Unknowns of ellipsoid k: h, then a, of each
-/// distinct node of its grid, metres.
+/// distinct node of its grid, meters.
 class ReliefSystem {
  public:
   using Vector = Eigen::VectorXd;
@@ -33,9 +33,9 @@ class ReliefSystem {
   /// Brings every |a| within `limit_m`; zero in the result where it had to.
   Vector limit_slopes(Vector& x, double limit_m) const;
 
-  /// #S: the blended distance less the true one, metres.
+  /// #S: the blended distance less the true one, meters.
   std::vector<double> errors(const Vector& x) const;
-  /// #E: sum of the shares of |error| over each ellipsoid's samples, metres.
+  /// #E: sum of the shares of |error| over each ellipsoid's samples, meters.
   std::vector<double> error_of_each(const Vector& x) const;
 
   const ReliefGrid& grid(std::size_t ellipsoid) const { return *tables_[ellipsoid].grid; }

@@ -1,6 +1,6 @@
 // Based on: Naonori Ueda, Ryohei Nakano, Zoubin Ghahramani, Geoffrey Hinton. SMEM algorithm for mixture
 // models. 2000 (splits and merges at once, tried with all other components fixed). Differs: least squares;
-// every ellipsoid's split and removal and every pair of neighbours' merge is tried; as many moves are made at
+// every ellipsoid's split and removal and every pair of neighbors' merge is tried; as many moves are made at
 // once as do not touch each other.
 #include "relocation.hpp"
 
@@ -90,7 +90,7 @@ OneByOne try_each(const engine::Context& context, const TightProblem& problem,
   OneByOne tried{std::vector<Trial>(count), std::vector<Trial>(count)};
   engine::parallel_for(context, count, 1, [&](std::size_t i, std::size_t) {
     const auto k = static_cast<std::uint32_t>(i);
-    const Neighbourhood samples = problem.around({&k, 1}, ranked);
+    const Neighborhood samples = problem.around({&k, 1}, ranked);
     tried.removals[i] = {k, k, LocalFit(samples, problem.loss(), {}).rise(), {}};
     std::vector<LocalFit> along;
     along.reserve(3);
@@ -119,7 +119,7 @@ std::vector<Trial> try_merges(const engine::Context& context, const TightProblem
   engine::parallel_for(context, merges.size(), 1, [&](std::size_t i, std::size_t) {
     Trial& merge = merges[i];
     const std::uint32_t both[] = {merge.first, merge.second};
-    const Neighbourhood samples = problem.around(both, ranked);
+    const Neighborhood samples = problem.around(both, ranked);
     LocalFit fit(samples, problem.loss(), {merged(ellipsoids[merge.first], ellipsoids[merge.second])});
     fit.advance(kFirstSteps);
     if (fit.rise() < most_rise) fit.advance(kLastSteps);

@@ -7,7 +7,7 @@
 
 namespace bodice::fitting {
 
-/// Two neighbours become one, or one that is hardly needed goes, and the ellipsoid that this frees becomes
+/// Two neighbors become one, or one that is hardly needed goes, and the ellipsoid that this frees becomes
 /// half of another, wherever that lowers the cost. Returns which ellipsoids changed: none if no such move
 /// pays. The problem stays as it is: refresh it. Costs about as much as twenty steps of the descent.
 std::vector<std::size_t> relocate(const engine::Context& context, const TightProblem& problem,

@@ -4,16 +4,16 @@
 
 namespace bodice::fitting {
 
-/// The optimisations run on a body of 1.7 m at the origin, so that their tolerances are lengths and floats
+/// The optimizations run on a body of 1.7 m at the origin, so that their tolerances are lengths and floats
 /// do.
 struct Scaling {
   geometry::Vec3 origin = geometry::Vec3::Zero();
   double scale = 1.0;
 
-  explicit Scaling(const LabelledSkin& skin)
+  explicit Scaling(const LabeledSkin& skin)
       : origin(geometry::bounding_box(skin.mesh.positions).center()), scale(1.7 / skin.stature_m) {}
 
-  double mm() const { return 1e-3 / scale; }  ///< a millimetre of the scaled body, in metres of the real one
+  double mm() const { return 1e-3 / scale; }  ///< a millimeter of the scaled body, in meters of the real one
   geometry::Ellipsoid in(const geometry::Ellipsoid& e) const {
     return {(e.center - origin) * scale, e.axes, e.radii * scale};
   }

@@ -16,7 +16,7 @@ constexpr std::size_t kGrain = 256;
 /// Even samples of the skin that counts.
 std::vector<geometry::SurfaceSample> wanted_skin(const SkinSource& source, std::size_t count,
                                                  std::uint64_t seed) {
-  const LabelledSkin& skin = source.skin;
+  const LabeledSkin& skin = source.skin;
   auto samples = geometry::sample_surface(skin.mesh, count, seed);
   std::erase_if(samples, [&](const geometry::SurfaceSample& s) {
     const auto part = static_cast<int>(skin.part[skin.mesh.triangles[s.triangle][0]]);
@@ -30,7 +30,7 @@ std::vector<geometry::SurfaceSample> wanted_skin(const SkinSource& source, std::
 /// edges and next to buried skin.
 double exact_distance(const SkinSource& source, const Vec3& point, double offset) {
   const geometry::MeshDistance& distance = *source.skin.distance;
-  const auto hit = distance.nearest_within(point, std::abs(offset) * (1.0 + 1e-9));
+  const auto hit = distance.closest_point_within(point, std::abs(offset) * (1.0 + 1e-9));
   if (!hit) return offset;
   const double d = std::abs(hit->signed_distance);
   if (d >= std::abs(offset) * (1.0 - 1e-6)) return offset;
@@ -39,11 +39,11 @@ double exact_distance(const SkinSource& source, const Vec3& point, double offset
   return distance.inside(point) ? -d : d;
 }
 
-/// Whether the nearest skin, |d| away, is that of a part that is not wanted: it must not draw ellipsoids
-/// there.
+/// Whether the closest point of the skin, |d| away, is that of a part that is not wanted: it must not draw
+/// ellipsoids there.
 bool is_of_others(const SkinSource& source, const Vec3& point, double d) {
   if (source.parts == kAllParts) return false;
-  const auto hit = source.skin.distance->nearest_within(point, std::abs(d) * (1.0 + 1e-6));
+  const auto hit = source.skin.distance->closest_point_within(point, std::abs(d) * (1.0 + 1e-6));
   if (!hit) return false;
   const auto part = static_cast<int>(source.skin.part[source.skin.mesh.triangles[hit->triangle][0]]);
   return ((source.parts >> part) & 1u) == 0;
@@ -52,7 +52,7 @@ bool is_of_others(const SkinSource& source, const Vec3& point, double d) {
 double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const Vec3& inward, double radius) {
   constexpr int kSteps = 12;
   for (int step = 0; step < kSteps; ++step) {
-    const auto hit = distance.nearest_within(p + radius * inward, radius * (1.0 - 1e-3));
+    const auto hit = distance.closest_point_within(p + radius * inward, radius * (1.0 - 1e-3));
     if (!hit) break;
     const Vec3 to = hit->point - p;
     const double along = 2.0 * inward.dot(to);
@@ -65,7 +65,7 @@ double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const 
 
 }  // namespace
 
-SkinSource make_skin_source(const engine::Context& context, const LabelledSkin& skin, std::uint32_t parts) {
+SkinSource make_skin_source(const engine::Context& context, const LabeledSkin& skin, std::uint32_t parts) {
   std::uint32_t torso = 0;
   for (int p = 0; p < body::kPartCount; ++p)
     if (body::is_torso(static_cast<body::Part>(p))) torso |= 1u << p;
@@ -75,7 +75,7 @@ SkinSource make_skin_source(const engine::Context& context, const LabelledSkin& 
 
 std::vector<DistanceSample> sample_near_skin(const engine::Context& context, const SkinSource& source,
                                              const SampleOptions& options) {
-  const LabelledSkin& skin = source.skin;
+  const LabeledSkin& skin = source.skin;
   const auto surface = wanted_skin(source, options.count, options.seed);
   std::vector<DistanceSample> samples(surface.size());
   const engine::Random random(options.seed, 17);
@@ -98,7 +98,7 @@ std::vector<DistanceSample> sample_near_skin(const engine::Context& context, con
 
 std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const SkinSource& source,
                                            std::size_t count, std::uint64_t seed) {
-  const LabelledSkin& skin = source.skin;
+  const LabeledSkin& skin = source.skin;
   const auto surface = wanted_skin(source, count, seed);
   std::vector<InscribedBall> balls(surface.size());
   engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {

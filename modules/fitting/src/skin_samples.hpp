@@ -28,26 +28,26 @@ struct SampleOptions {
 
 /// The skin that counts: that of the wanted parts, less what is buried in other limbs.
 struct SkinSource {
-  const LabelledSkin& skin;
+  const LabeledSkin& skin;
   std::uint32_t parts = 0;
   std::vector<std::uint8_t> buried;  ///< #F
 };
 /// With the whole torso if any part of it is wanted: its ellipsoids are shared.
-SkinSource make_skin_source(const engine::Context& context, const LabelledSkin& skin, std::uint32_t parts);
+SkinSource make_skin_source(const engine::Context& context, const LabeledSkin& skin, std::uint32_t parts);
 
 /// Deterministic, parallel. About 2 microseconds a sample.
 std::vector<DistanceSample> sample_near_skin(const engine::Context& context, const SkinSource& source,
                                              const SampleOptions& options);
 
 struct InscribedBall {
-  Vec3 centre, skin;  ///< it touches the skin there
+  Vec3 center, skin;  ///< it touches the skin there
   double radius_m = 0.0;
   body::Part part = body::Part::kHead;
 };
 
 /// The largest ball inside the body that touches the skin at each of about `count` even samples.
 /// Based on: Jaehwan Ma, Sang Won Bae, Sunghee Choi. 3D medial axis point approximation using nearest
-/// neighbors and the normal field. 2012. (shrinking balls) Differs: nearest point of the surface, not of a
+/// neighbors and the normal field. 2012. (shrinking balls) Differs: closest point of the surface, not of a
 /// point set.
 std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const SkinSource& source,
                                            std::size_t count, std::uint64_t seed);

@@ -16,7 +16,7 @@ proxy::BodyProxy::Data grown_by(proxy::BodyProxy::Data data, double length_m) {
 
 }  // namespace
 
-void spend_slack(const engine::Context& context, const LabelledSkin& skin, std::uint32_t parts,
+void spend_slack(const engine::Context& context, const LabeledSkin& skin, std::uint32_t parts,
                  double target_m, proxy::BodyProxy::Data& data, Measured& measured) {
   const double gap_m = measured.accuracy.gap_m.mean;
   if (!(kNearEnough * gap_m < target_m && target_m < kMostSlack * gap_m)) return;

@@ -9,7 +9,7 @@
 namespace bodice::fitting {
 
 /// The points' indices along a Morton curve through their bounding box (1024 cells a side, ties by index):
-/// neighbours in the list are neighbours in space. O(n log n).
+/// neighbors in the list are neighbors in space. O(n log n).
 std::vector<std::uint32_t> spatial_order(std::span<const geometry::Vec3> points);
 
 }  // namespace bodice::fitting

@@ -64,7 +64,7 @@ engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& 
   return run_region_tasks(context, regions, tasks);
 }
 
-engine::Result<Draft> fit_paper(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<Draft> fit_paper(const engine::Context& context, const LabeledSkin& skin,
                                 const FitOptions& options, int count) {
   const Items items = vertex_items(skin);
   const std::vector<Region> regions = make_regions(items, count);

@@ -17,7 +17,7 @@ constexpr double kNoTimeLimit_s = 1e6;
 constexpr std::size_t kFirstNormals = 8000, kNormals = 28000;
 constexpr int kFirstPerNormal = 3, kPerNormal = 4;
 constexpr int kFirstSteps = 16, kSteps = 24;
-/// Of stature: turns most misses of a tenth of a millimetre into hits.
+/// Of stature: turns most misses of a tenth of a millimeter into hits.
 constexpr double kMargin = 0.1e-3 / 1.7;
 /// Of stature: finds every hole between ellipsoids that a thumb fits into.
 constexpr double kInsideSpacing = 0.010 / 1.7;
@@ -92,7 +92,7 @@ void ReliefTables::fit(std::size_t bytes) {
   fit_tables(context_, answers_, sides, kSteps, data_, look_closer);
 }
 
-ReliefRun::ReliefRun(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+ReliefRun::ReliefRun(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,
                      const Plan& plan, std::vector<engine::StageTime>& stages)
     : context_(context), stages_(stages), count_(plan.count) {
   const double budget_s = options.time_budget_s.value_or(kNoTimeLimit_s);

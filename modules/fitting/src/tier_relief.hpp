@@ -40,7 +40,7 @@ class ReliefTables {
 /// ellipsoids than tables fit (about 1000) the draft stays plain.
 class ReliefRun {
  public:
-  ReliefRun(const engine::Context& context, const LabelledSkin& skin, const FitOptions& options,
+  ReliefRun(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,
             const Plan& plan, std::vector<engine::StageTime>& stages);
   ReliefRun(const ReliefRun&) = delete;
   ReliefRun& operator=(const ReliefRun&) = delete;

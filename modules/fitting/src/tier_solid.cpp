@@ -43,8 +43,8 @@ std::vector<int> shares_by_demand(const std::vector<PartSkin>& skins, int count,
   return share;
 }
 
-/// Ellipsoids that follow one region's skin, in metres.
-std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const LabelledSkin& skin,
+/// Ellipsoids that follow one region's skin, in meters.
+std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const LabeledSkin& skin,
                                           const std::vector<PartSkin>& skins, std::size_t r, int count) {
   auto ellipsoids = start_from_balls(context, skins[r].balls, count, skin.stature_m);
   const Scaling scaling(skin);
@@ -70,7 +70,7 @@ proxy::ProxyEllipsoid speck(const Items& items, const Region& region, double sta
   return e;
 }
 
-FittedRegion cover_region(const engine::Context& context, const LabelledSkin& skin, const Items& items,
+FittedRegion cover_region(const engine::Context& context, const LabeledSkin& skin, const Items& items,
                           const Region& region, std::vector<proxy::ProxyEllipsoid> ellipsoids) {
   if (ellipsoids.empty()) ellipsoids.push_back(speck(items, region, skin.stature_m));
   std::vector<geometry::Ellipsoid> shapes;
@@ -102,13 +102,13 @@ double total_volume(const FittedRegion& fitted) {
   return sum;
 }
 
-InteriorColumns columns_of(const LabelledSkin& skin) {
+InteriorColumns columns_of(const LabeledSkin& skin) {
   return interior_columns(skin.mesh, kColumnSpacing * skin.stature_m);
 }
 
 /// Fills in the columns of the inside, if they are asked for, while the skin is sampled.
 engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& context,
-                                                        const LabelledSkin& skin, const Items& items,
+                                                        const LabeledSkin& skin, const Items& items,
                                                         const std::vector<Region>& regions, int count,
                                                         const FitOptions& options, InteriorColumns* columns) {
   std::vector<PartSkin> skins;
@@ -137,7 +137,7 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
   return run_region_tasks(context, regions, tasks);
 }
 
-void close_inside(const engine::Context& context, const LabelledSkin& skin, const InteriorColumns& columns,
+void close_inside(const engine::Context& context, const LabeledSkin& skin, const InteriorColumns& columns,
                   std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(e.shape);
@@ -147,7 +147,7 @@ void close_inside(const engine::Context& context, const LabelledSkin& skin, cons
 
 }  // namespace
 
-engine::Result<Draft> fit_solid(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<Draft> fit_solid(const engine::Context& context, const LabeledSkin& skin,
                                 const FitOptions& options, int count) {
   const Items items = triangle_items(context, skin);
   const std::vector<Region> regions = make_regions(items, count);

@@ -55,7 +55,7 @@ std::vector<Index> open_triangles(const SkinSource& source) {
 /// Every open triangle of the wanted skin into ellipsoids, in pieces.
 void cover_skin(const engine::Context& context, const SkinSource& source,
                 std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
-  const LabelledSkin& skin = source.skin;
+  const LabeledSkin& skin = source.skin;
   std::vector<geometry::Ellipsoid> shapes, anchors;
   for (const auto& e : ellipsoids) {
     const auto& [center, axes, radii] = e.shape;

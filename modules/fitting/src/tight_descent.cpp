@@ -68,7 +68,7 @@ class Descent {
 
   /// One damped step of every ellipsoid; those that made it worse stay where they were.
   void iterate() {
-    // One that waits costs more than a refresh: its neighbours settle around a place that it will leave.
+    // One that waits costs more than a refresh: its neighbors settle around a place that it will leave.
     const double most = kHeldBack * problem_.most_motion();
     if (std::ranges::any_of(moved_, [&](double motion) { return motion > most; })) refresh();
     const auto blocks = problem_.normal_equations(context_, state_.ellipsoids);

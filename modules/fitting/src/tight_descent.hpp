@@ -1,4 +1,4 @@
-// The anytime optimisation of all ellipsoids of a proxy together.
+// The anytime optimization of all ellipsoids of a proxy together.
 #pragma once
 
 #include <functional>

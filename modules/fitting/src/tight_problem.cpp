@@ -47,39 +47,39 @@ void TightProblem::add(std::span<const DistanceSample> samples) {
 }
 
 void TightProblem::bound_blocks() {
-  for (auto& axis : ball_centre_) axis.clear();
-  from_centre_.resize(target_.size());
+  for (auto& axis : ball_center_) axis.clear();
+  from_center_.resize(target_.size());
   for (std::size_t begin = 0; begin < target_.size(); begin += kSampleBlock)
     bound_block(begin, std::min(begin + kSampleBlock, target_.size()));
 }
 
 void TightProblem::bound_block(std::size_t begin, std::size_t end) {
-  std::array<float, 3> centre;
+  std::array<float, 3> center;
   for (int j = 0; j < 3; ++j) {
     const auto [low, high] = std::minmax_element(&point_[j][begin], &point_[j][begin] + (end - begin));
-    centre[j] = 0.5f * (*low + *high);
-    ball_centre_[j].push_back(centre[j]);
+    center[j] = 0.5f * (*low + *high);
+    ball_center_[j].push_back(center[j]);
   }
   for (std::size_t i = begin; i < end; ++i) {
     float squared = 0.0f;
-    for (int j = 0; j < 3; ++j) squared += (point_[j][i] - centre[j]) * (point_[j][i] - centre[j]);
-    from_centre_[i] = std::sqrt(squared);
+    for (int j = 0; j < 3; ++j) squared += (point_[j][i] - center[j]) * (point_[j][i] - center[j]);
+    from_center_[i] = std::sqrt(squared);
   }
 }
 
-/// Of the blocks' centres, #E x #blocks: distances, and the ellipsoids' outward unit normals there.
+/// Of the blocks' centers, #E x #blocks: distances, and the ellipsoids' outward unit normals there.
 struct TightProblem::BlockFeet {
   std::array<std::unique_ptr<float[]>, 4> of;
 };
 
 void TightProblem::find_feet(const engine::Context& context, std::span<const FootEllipsoid> ellipsoids,
                              BlockFeet& feet) const {
-  const std::size_t blocks = ball_centre_[0].size();
+  const std::size_t blocks = ball_center_[0].size();
   for (auto& values : feet.of) values = std::make_unique_for_overwrite<float[]>(ellipsoids.size() * blocks);
   engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin, at = begin * blocks; k < end; ++k, at += blocks)
-      foot_normals(ellipsoids[k], blocks, ball_centre_[0].data(), ball_centre_[1].data(),
-                   ball_centre_[2].data(), &feet.of[0][at], &feet.of[1][at], &feet.of[2][at],
+      foot_normals(ellipsoids[k], blocks, ball_center_[0].data(), ball_center_[1].data(),
+                   ball_center_[2].data(), &feet.of[0][at], &feet.of[1][at], &feet.of[2][at],
                    &feet.of[3][at]);
   });
 }
@@ -89,7 +89,7 @@ void TightProblem::choose_candidates(const engine::Context& context,
                                      std::span<const FootEllipsoid> ellipsoids) {
   BlockFeet feet;
   find_feet(context, ellipsoids, feet);
-  const std::size_t blocks = ball_centre_[0].size();
+  const std::size_t blocks = ball_center_[0].size();
   engine::parallel_for(context, blocks, 16, [&](std::size_t begin, std::size_t end) {
     NearestCandidates found;
     for (std::size_t b = begin; b < end; ++b) {
@@ -97,8 +97,8 @@ void TightProblem::choose_candidates(const engine::Context& context,
       found.find(ellipsoids,
                  {.count = samples,
                   .at = {&point_[0][first], &point_[1][first], &point_[2][first]},
-                  .from_centre = &from_centre_[first],
-                  .centre = {ball_centre_[0][b], ball_centre_[1][b], ball_centre_[2][b]},
+                  .from_center = &from_center_[first],
+                  .center = {ball_center_[0][b], ball_center_[1][b], ball_center_[2][b]},
                   .feet = {&feet.of[0][b], {&feet.of[1][b], &feet.of[2][b], &feet.of[3][b]}, blocks}},
                  reach_);
       for (std::size_t i = 0; i < samples; ++i) {
@@ -228,10 +228,10 @@ std::vector<Nearest3> TightProblem::rank(const engine::Context& context) const {
   return ranked;
 }
 
-Neighbourhood TightProblem::around(std::span<const std::uint32_t> ellipsoids,
-                                   std::span<const Nearest3> ranked) const {
+Neighborhood TightProblem::around(std::span<const std::uint32_t> ellipsoids,
+                                  std::span<const Nearest3> ranked) const {
   const std::uint32_t first = ellipsoids.front(), last = ellipsoids.back();
-  Neighbourhood found;
+  Neighborhood found;
   found.resize(pair_begin_[first + 1] - pair_begin_[first] + pair_begin_[last + 1] - pair_begin_[last]);
   std::size_t count = 0;
   const auto add = [&](std::uint32_t i) {
@@ -269,7 +269,7 @@ std::vector<std::array<std::uint32_t, body::kPartCount>> TightProblem::skin_of_e
 std::vector<double> TightProblem::gains() const {
   std::vector<double> gain(ellipsoids_, 0.0);
   if (owner_.empty()) return gain;
-  std::uint32_t last = 0;  // neighbours have the same owner: its sum stays in a register
+  std::uint32_t last = 0;  // neighbors have the same owner: its sum stays in a register
   double of_last = 0.0;
   for (std::size_t i = 0; i < owner_.size(); ++i) {
     const double fall = static_cast<double>(remembered_cost_[i] - cost_[i]);

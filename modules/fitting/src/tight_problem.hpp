@@ -55,7 +55,7 @@ class TightProblem {
   std::vector<Nearest3> rank(const engine::Context& context) const;  ///< #S
   /// The samples that one of `ellipsoids` (one or two, ascending) may be the nearest of, with the distance to
   /// the others.
-  Neighbourhood around(std::span<const std::uint32_t> ellipsoids, std::span<const Nearest3> ranked) const;
+  Neighborhood around(std::span<const std::uint32_t> ellipsoids, std::span<const Nearest3> ranked) const;
   /// Samples on or just off the skin, within 5 mm, by the ellipsoid that owns them and by part.
   std::vector<std::array<std::uint32_t, body::kPartCount>> skin_of_each() const;
   /// Fall of the cost since remember(), by ellipsoid (owner before or after).
@@ -83,8 +83,8 @@ class TightProblem {
   std::vector<float> target_;                      ///< #S
   std::vector<std::uint8_t> one_sided_;            ///< #S
   std::vector<body::Part> part_;                   ///< #S
-  std::array<std::vector<float>, 3> ball_centre_;  ///< #blocks of neighbouring samples
-  std::vector<float> from_centre_;                 ///< #S: distance to the centre of the block's ball
+  std::array<std::vector<float>, 3> ball_center_;  ///< #blocks of neighboring samples
+  std::vector<float> from_center_;                 ///< #S: distance to the center of the block's ball
   std::size_t ellipsoids_ = 0;
   std::vector<std::uint32_t> pair_begin_;   ///< #E + 1: pairs are grouped by ellipsoid
   std::vector<std::uint32_t> pair_sample_;  ///< #P

@@ -1,4 +1,4 @@
-// One step of one ellipsoid of the anytime optimisation.
+// One step of one ellipsoid of the anytime optimization.
 #pragma once
 
 #include "normal_block.hpp"
@@ -6,7 +6,7 @@
 namespace bodice::fitting {
 
 constexpr double kFirstDamping = 1e-2;
-/// Neighbours give way to each other: what each block asks for is too short. Much more than this needs more
+/// Neighbors give way to each other: what each block asks for is too short. Much more than this needs more
 /// steps to settle than it saves.
 constexpr double kOverStep = 1.6;
 

@@ -26,8 +26,8 @@ struct Offset {
 
 [[gnu::always_inline]] inline Offset offset(const LevelForm& e, const TriangleBatch& t, int corner,
                                             std::size_t i) {
-  return {t.at[3 * corner][i] - e.centre[0], t.at[3 * corner + 1][i] - e.centre[1],
-          t.at[3 * corner + 2][i] - e.centre[2]};
+  return {t.at[3 * corner][i] - e.center[0], t.at[3 * corner + 1][i] - e.center[1],
+          t.at[3 * corner + 2][i] - e.center[2]};
 }
 
 [[gnu::always_inline]] inline double worst_level(const LevelForm& e, const TriangleBatch& t, std::size_t i) {
@@ -39,7 +39,7 @@ struct Offset {
 
 LevelForm::LevelForm(const geometry::Ellipsoid& e) {
   for (int j = 0; j < 3; ++j) {
-    centre[j] = e.center[j];
+    center[j] = e.center[j];
     for (int i = 0; i < 3; ++i) whiten[j][i] = e.axes(i, j) / e.radii[j];
   }
 }

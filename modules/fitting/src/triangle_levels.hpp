@@ -24,9 +24,9 @@ struct TriangleBatch {
   }
 };
 
-/// An ellipsoid made ready: level(p) = |whiten (p - centre)|^2.
+/// An ellipsoid made ready: level(p) = |whiten (p - center)|^2.
 struct LevelForm {
-  double centre[3], whiten[3][3];
+  double center[3], whiten[3][3];
   explicit LevelForm(const geometry::Ellipsoid& e);
 };
 

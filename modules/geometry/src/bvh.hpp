@@ -37,7 +37,7 @@ struct Bvh {
   static constexpr int kStackSize = 128;
 
   Vec3 origin = Vec3::Zero();
-  double scale = 1.0;                   ///< metres a local unit: a power of two, so that scaling is exact
+  double scale = 1.0;                   ///< meters a local unit: a power of two, so that scaling is exact
   std::vector<BvhNode> nodes;           ///< nodes[0] is the root; parents precede children
   std::vector<LeafTriangles> leaves;    ///< in the order of the nodes that hold them
   std::vector<BvhTriangle> triangles;   ///< leaf order; only those with finite corners

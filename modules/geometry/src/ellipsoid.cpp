@@ -42,7 +42,7 @@ Vec3 radial_projection(const Ellipsoid& ellipsoid, const Vec3& point) {
     ellipsoid.radii.minCoeff(&shortest);
     return ellipsoid.center + ellipsoid.radii[shortest] * ellipsoid.axes.col(shortest);
   }
-  // Unit direction on the sphere first, then the radii: exact in scale however near the centre.
+  // Unit direction on the sphere first, then the radii: exact in scale however near the center.
   const Vec3 w = (y / size).cwiseQuotient(ellipsoid.radii / ellipsoid.radii.maxCoeff()).stableNormalized();
   return ellipsoid.center + ellipsoid.axes * ellipsoid.radii.cwiseProduct(w);
 }

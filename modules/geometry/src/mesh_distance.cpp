@@ -50,7 +50,7 @@ MeshDistance::~MeshDistance() = default;
 MeshDistance::MeshDistance(MeshDistance&&) noexcept = default;
 MeshDistance& MeshDistance::operator=(MeshDistance&&) noexcept = default;
 
-SurfacePoint MeshDistance::nearest(const Vec3& query) const {
+SurfacePoint MeshDistance::closest_point(const Vec3& query) const {
   const Vec3 local = impl_->bvh.to_local(query);
   const BvhHit hit = nearest_triangle(impl_->bvh, local, kInfinity);
   if (hit.leaf_triangle == ~0u) return {.signed_distance = kInfinity};
@@ -59,7 +59,8 @@ SurfacePoint MeshDistance::nearest(const Vec3& query) const {
   return result;
 }
 
-std::optional<SurfacePoint> MeshDistance::nearest_within(const Vec3& query, double max_distance_m) const {
+std::optional<SurfacePoint> MeshDistance::closest_point_within(const Vec3& query,
+                                                               double max_distance_m) const {
   if (!(max_distance_m >= 0.0)) return std::nullopt;
   const double reach = max_distance_m / impl_->bvh.scale;
   // The next double: a point exactly at the limit still counts.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/geometry/adjacency.hpp>
 #include <bodice/geometry/fins.hpp>
@@ -225,7 +225,7 @@ engine::Result<RepairedMesh> repair(const engine::Context& context, const TriMes
     return Error{ErrorCode::kInvalidArgument,
                  "The weld distance must be a fraction of the diagonal, in [0, 1).",
                  engine::message("Use ", kWeldRelative, ", or 0 to weld exact copies only.")};
-  return engine::catch_cancelled("The mesh repair", [&] { return Repair(input, options).run(context); });
+  return engine::catch_canceled("The mesh repair", [&] { return Repair(input, options).run(context); });
 }
 
 }  // namespace bodice::geometry

@@ -9,7 +9,7 @@ namespace {
 // seen from its centroid .01.
 constexpr double kFlatPatch = 1e-6;
 
-/// Whether two triangles run along a shared edge in opposite directions, as consistent neighbours do.
+/// Whether two triangles run along a shared edge in opposite directions, as consistent neighbors do.
 bool consistent(const Triangle& a, const Triangle& b, const Edge& edge) {
   auto forward = [&](const Triangle& t) {
     for (int k = 0; k < 3; ++k)

@@ -13,7 +13,7 @@ struct Orientation {
   std::size_t conflicts = 0;  ///< edges that no choice makes consistent (Moebius bands)
 };
 
-/// Chooses the winding of each patch (triangles joined by edges of two) so that neighbours agree and its
+/// Chooses the winding of each patch (triangles joined by edges of two) so that neighbors agree and its
 /// signed volume is positive; a patch too flat to enclose anything keeps the winding of its majority. O(#F).
 Orientation choose_orientation(const TriMesh& mesh, const Adjacency& adjacency);
 

@@ -28,7 +28,7 @@ std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
     const Vec3 area = area_vector(mesh, t);
     for (Index v : mesh.triangles[t]) normals[v] += area;
   }
-  // stableNormalize scales first: squares of micrometre areas underflow otherwise.
+  // stableNormalize scales first: squares of micrometer areas underflow otherwise.
   for (Vec3& n : normals) n.stableNormalize();
   return normals;
 }

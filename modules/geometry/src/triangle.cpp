@@ -18,7 +18,7 @@ TrianglePoint on_vertex(const Vec3& p, int k) {
   return {p, Vec3::Unit(k), static_cast<TriangleFeature>(static_cast<int>(TriangleFeature::kVertex0) + k)};
 }
 
-/// The nearest point of edge k (corner k to corner k + 1).
+/// The closest point of edge k (corner k to corner k + 1).
 TrianglePoint on_edge(const Vec3& from, const Vec3& to, int k, const Vec3& query) {
   const Vec3 along = to - from;
   const double length2 = along.squaredNorm();
@@ -32,7 +32,7 @@ TrianglePoint on_edge(const Vec3& from, const Vec3& to, int k, const Vec3& query
   return result;
 }
 
-/// The nearest point of the edges in `mask` (bit k: corner k to corner k + 1), which holds at least one.
+/// The closest point of the edges in `mask` (bit k: corner k to corner k + 1), which holds at least one.
 TrianglePoint nearest_edge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& query, unsigned mask) {
   const Vec3* corners[] = {&a, &b, &c, &a};
   TrianglePoint best;
@@ -60,7 +60,7 @@ TrianglePoint closest_point(const Vec3& a, const Vec3& b, const Vec3& c, const V
   // Barycentric weights of the projection, from the areas of the three sub-triangles.
   const double v = ap.cross(ac).dot(normal);
   const double w = ab.cross(ap).dot(normal);
-  // The nearest point lies on an edge that the projection is beyond; in slivers the signs are noise: all
+  // The closest point lies on an edge that the projection is beyond; in slivers the signs are noise: all
   // three.
   const bool sliver = !(area2 > kSliver2 * ab.squaredNorm() * ac.squaredNorm());
   const unsigned beyond = (w > 0.0 ? 0u : 1u) | (v + w < area2 ? 0u : 2u) | (v > 0.0 ? 0u : 4u);

@@ -60,7 +60,7 @@ bool takes_time(const GarmentTrack& track) {
 
 engine::Result<void> check_scene(const Scene& scene) {
   if (!scene.body && !scene.proxy && scene.garments.empty()) return invalid("The scene is empty.");
-  if (!(scene.frame.metres_per_unit > 0.0 && std::isfinite(scene.frame.metres_per_unit)))
+  if (!(scene.frame.meters_per_unit > 0.0 && std::isfinite(scene.frame.meters_per_unit)))
     return invalid("The scene's unit is not a positive length.");
   if (scene.body && !valid_mesh(*scene.body))
     return invalid("The body is empty, not finite or refers to missing vertices.");

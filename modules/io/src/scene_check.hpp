@@ -11,10 +11,10 @@ engine::Result<void> check_scene(const Scene& scene);
 /// Whether there is anything to play: not where all frames have the same time.
 bool takes_time(const GarmentTrack& track);
 
-/// Of everything in the scene, metres, y up.
+/// Of everything in the scene, meters, y up.
 geometry::Box scene_box(const Scene& scene);
 
-/// Cloth's colour, sRGB 0..1, for the k-th garment.
+/// Cloth's color, sRGB 0..1, for the k-th garment.
 std::array<float, 3> garment_color(std::size_t k);
 
 }  // namespace bodice::io

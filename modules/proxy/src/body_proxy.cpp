@@ -8,7 +8,7 @@
 namespace bodice::proxy {
 namespace {
 
-constexpr std::size_t kNumbersPerEllipsoid = 15;  // centre, radii, axes
+constexpr std::size_t kNumbersPerEllipsoid = 15;  // center, radii, axes
 
 void round_numbers(BodyProxy::Data& data) {
   data.stature_m = round44(data.stature_m);

@@ -33,7 +33,7 @@ Fault check_header(const BodyProxy::Data& data) {
     return fault("the tier is not one of the four");
   if (!bounded(data.stature_m, 0.0, kLargestM)) return fault("the stature is negative or not finite");
   if (!bounded(std::abs(data.margin_m), 0.0, kLargestM)) return fault("the margin is not finite");
-  if (!bounded(data.frame.metres_per_unit, kSmallestUnitM, kLargestUnitM))
+  if (!bounded(data.frame.meters_per_unit, kSmallestUnitM, kLargestUnitM))
     return fault("the unit is not a length between 1e-12 m and 1e12 m");
   if (static_cast<unsigned>(data.frame.up) > static_cast<unsigned>(geometry::Axis::kZ))
     return fault("the up axis is not x, y or z");
@@ -49,7 +49,7 @@ Fault check_ellipsoid(const ProxyEllipsoid& e, const std::string& which) {
   if (e.bone < kNoBone) return fault(which + " has a negative bone");
   for (int k = 0; k < 3; ++k) {
     if (!bounded(std::abs(e.shape.center[k]), 0.0, kLargestM))
-      return fault(which + " has a centre that is not finite");
+      return fault(which + " has a center that is not finite");
     if (!bounded(e.shape.radii[k], kSmallestRadiusM, kLargestM))
       return fault(which + " has a radius that is not positive and finite");
   }

@@ -63,7 +63,7 @@ void CrossedCells::evaluate(const engine::Context& context,
   });
 }
 
-/// The neighbours behind faces with both signs.
+/// The neighbors behind faces with both signs.
 void CrossedCells::add_beyond(const Cell& cell, std::vector<LatticePoint>& next) {
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1}) {

@@ -83,7 +83,7 @@ std::uint64_t hash_value(const json& object, const char* key) {
 
 Frame read_frame(const json& root) {
   Frame frame;
-  frame.metres_per_unit = number(root, "metres_per_unit", "");
+  frame.meters_per_unit = number(root, "metres_per_unit", "");
   const std::string up = text(root, "up", "");
   for (std::size_t i = 0; i < kAxisNames.size(); ++i)
     if (kAxisNames[i] == up) {
@@ -102,7 +102,7 @@ ProxyEllipsoid read_ellipsoid(const json& value, const Frame& frame, const std::
   if (value.contains("bone"))
     e.bone = static_cast<std::int16_t>(integer(value["bone"], where + "bone", kNoBone, INT16_MAX));
   e.shape.center = frame.to_inside(vector(member(value, "center", where), where + "center"));
-  e.shape.radii = frame.metres_per_unit * vector(member(value, "radii", where), where + "radii");
+  e.shape.radii = frame.meters_per_unit * vector(member(value, "radii", where), where + "radii");
   const json& axes = list(member(value, "axes", where), where + "axes");
   if (axes.size() != 3) fail(where + "axes", "a list of three directions");
   for (int k = 0; k < 3; ++k) e.shape.axes.col(k) = frame.rotation() * vector(axes[k], where + "axes");
@@ -112,9 +112,9 @@ ProxyEllipsoid read_ellipsoid(const json& value, const Frame& frame, const std::
 ReliefTable read_table(const json& value, const Frame& frame, const std::string& where) {
   if (!value.is_object()) fail(where, "an object");
   auto length = [&](const char* key) {
-    const double metres = number(value, key, where) * frame.metres_per_unit;
-    if (!(std::abs(metres) <= 1e30)) fail(where + key, "a length");
-    return static_cast<float>(metres);
+    const double meters = number(value, key, where) * frame.meters_per_unit;
+    if (!(std::abs(meters) <= 1e30)) fail(where + key, "a length");
+    return static_cast<float>(meters);
   };
   ReliefTable t;
   t.nodes_per_side =
@@ -181,8 +181,8 @@ BodyProxy::Data read_data(const json& root) {
   const auto tier = tier_from_name(text(root, "tier", ""));
   if (!tier) fail("tier", "paper, solid, tight or relief");
   data.tier = *tier;
-  data.stature_m = number(root, "stature", "") * data.frame.metres_per_unit;
-  data.margin_m = number(root, "margin", "") * data.frame.metres_per_unit;
+  data.stature_m = number(root, "stature", "") * data.frame.meters_per_unit;
+  data.margin_m = number(root, "margin", "") * data.frame.meters_per_unit;
   data.source_hash = hash_value(root, "source_hash");
   const json& ellipsoids = list(member(root, "ellipsoids", ""), "ellipsoids");
   for (std::size_t i = 0; i < ellipsoids.size(); ++i)

@@ -24,14 +24,14 @@ std::string ellipsoid_line(const ProxyEllipsoid& e, const Frame& frame) {
   json["part"] = body::name(e.part);
   if (e.bone != kNoBone) json["bone"] = e.bone;
   json["center"] = array(frame.to_file(e.shape.center));
-  json["radii"] = array(e.shape.radii / frame.metres_per_unit);
+  json["radii"] = array(e.shape.radii / frame.meters_per_unit);
   json["axes"] = Json::array();
   for (int k = 0; k < 3; ++k) json["axes"].push_back(array(frame.direction_to_file(e.shape.axes.col(k))));
   return json.dump();
 }
 
 std::string table_line(const ReliefTable& t, const Frame& frame) {
-  auto length = [&](float metres) { return static_cast<double>(metres) / frame.metres_per_unit; };
+  auto length = [&](float meters) { return static_cast<double>(meters) / frame.meters_per_unit; };
   const Json json = {{"nodes", t.nodes_per_side},      {"first_texel", t.first_texel},
                      {"h_scale", length(t.h_scale_m)}, {"h_offset", length(t.h_offset_m)},
                      {"a_scale", length(t.a_scale)},   {"a_offset", length(t.a_offset)}};
@@ -72,10 +72,10 @@ std::string to_json(const BodyProxy& proxy) {
   field("format", Json(kJsonFormat).dump());
   field("version", Json(kJsonVersion).dump());
   field("tier", Json(name(proxy.tier())).dump());
-  field("metres_per_unit", Json(frame.metres_per_unit).dump());
+  field("metres_per_unit", Json(frame.meters_per_unit).dump());
   field("up", Json(kAxisNames[static_cast<std::size_t>(frame.up)]).dump());
-  field("stature", Json(proxy.stature_m() / frame.metres_per_unit).dump());
-  field("margin", Json(proxy.margin_m() / frame.metres_per_unit).dump());
+  field("stature", Json(proxy.stature_m() / frame.meters_per_unit).dump());
+  field("margin", Json(proxy.margin_m() / frame.meters_per_unit).dump());
   field("source_hash", Json(engine::hex64(proxy.source_hash())).dump());
   field("hash", Json(engine::hex64(proxy.hash())).dump());
   field("ellipsoids", lines(proxy.ellipsoids(), [&](const auto& e) { return ellipsoid_line(e, frame); }));

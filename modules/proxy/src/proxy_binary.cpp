@@ -1,8 +1,8 @@
 // The binary form, little-endian:
 //   magic "BODICEPX", u32 version
-//   u8 tier, u8 up axis, u16 0, f64 metres per unit, f64 stature, f64 margin, u64 source hash
+//   u8 tier, u8 up axis, u16 0, f64 meters per unit, f64 stature, f64 margin, u64 source hash
 //   u32 #ellipsoids, u32 #tables, u32 #texels
-//   ellipsoid:  f64 centre[3], f64 axes[9] by columns, f64 radii[3], u8 part, u8 0, u16 bone     124 bytes
+//   ellipsoid:  f64 center[3], f64 axes[9] by columns, f64 radii[3], u8 part, u8 0, u16 bone     124 bytes
 //   table:      u16 nodes a side, u16 0, f32 h scale, h offset, a scale, a offset, u32 first      24 bytes
 //   texel:      u8 h, u8 a
 //   u64 checksum of all bytes before it
@@ -78,7 +78,7 @@ void put_header(ByteWriter& out, const BodyProxy& proxy) {
   out.put(static_cast<std::uint8_t>(proxy.tier()));
   out.put(static_cast<std::uint8_t>(proxy.frame().up));
   out.put(std::uint16_t{0});
-  for (double value : {proxy.frame().metres_per_unit, proxy.stature_m(), proxy.margin_m()}) out.put(value);
+  for (double value : {proxy.frame().meters_per_unit, proxy.stature_m(), proxy.margin_m()}) out.put(value);
   out.put(proxy.source_hash());
 }
 
@@ -88,7 +88,7 @@ engine::Result<BodyProxy> read_body(ByteReader& in) {
   data.tier = static_cast<Tier>(in.get<std::uint8_t>());
   data.frame.up = static_cast<geometry::Axis>(in.get<std::uint8_t>());
   in.get<std::uint16_t>();
-  data.frame.metres_per_unit = in.get_double();
+  data.frame.meters_per_unit = in.get_double();
   data.stature_m = in.get_double();
   data.margin_m = in.get_double();
   data.source_hash = in.get<std::uint64_t>();

@@ -52,7 +52,7 @@ TableValue read(const ReliefTable& table, std::span<const ReliefTexel> texels, c
 }
 
 struct Candidate {
-  geometry::NearestPoint foot;
+  geometry::ClosestPoint foot;
   std::uint32_t index = 0;
 };
 
@@ -107,13 +107,13 @@ ProxyDistance evaluate(std::span<const ProxyEllipsoid> ellipsoids, std::span<con
   for (const ProxyEllipsoid& e : ellipsoids) bound.push_back(lower_bound(e.shape, point));
   // What the ellipsoid of the least bound is beaten by is not much farther down: few feet are left to take.
   const auto first = static_cast<std::size_t>(std::ranges::min_element(bound) - bound.begin());
-  const geometry::NearestPoint first_foot = geometry::nearest_point(ellipsoids[first].shape, point);
+  const geometry::ClosestPoint first_foot = geometry::closest_point(ellipsoids[first].shape, point);
   double least = first_foot.signed_distance;
   std::vector<Candidate> near;  // within the blend of the nearest so far
   for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
     const geometry::Ellipsoid& e = ellipsoids[k].shape;
     if (k != first && bound[k] > least + keep) continue;
-    const geometry::NearestPoint foot = k == first ? first_foot : geometry::nearest_point(e, point);
+    const geometry::ClosestPoint foot = k == first ? first_foot : geometry::closest_point(e, point);
     least = std::min(least, foot.signed_distance);
     if (foot.signed_distance < result.distance) {
       result.distance = foot.signed_distance;

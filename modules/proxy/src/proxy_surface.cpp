@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
@@ -138,7 +138,7 @@ engine::Result<ProxySurface> surface_of(const engine::Context& context, const Bo
 
 engine::Result<ProxySurface> proxy_surface(const engine::Context& context, const BodyProxy& proxy,
                                            double cell_m) {
-  return engine::catch_cancelled("The proxy's surface", [&] { return surface_of(context, proxy, cell_m); });
+  return engine::catch_canceled("The proxy's surface", [&] { return surface_of(context, proxy, cell_m); });
 }
 
 }  // namespace bodice::proxy

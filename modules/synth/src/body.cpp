@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 
 #include "deform.hpp"
@@ -13,7 +13,7 @@
 namespace bodice::synth {
 namespace {
 
-constexpr double kDensity = 1010.0;   // kg per cubic metre of living body
+constexpr double kDensity = 1010.0;   // kg per cubic meter of living body
 constexpr int kLeastVertices = 1350;  // the cage's own, with the smallest allowance of ten percent
 constexpr int kMostVertices = 4'000'000;
 constexpr int kGirthRounds = 8;
@@ -78,7 +78,7 @@ std::vector<geometry::Triangle> triangulate(const PatchMesh& mesh, const std::ve
   return triangles;
 }
 
-/// To metres, the lowest vertex on the floor, the pelvis over the origin.
+/// To meters, the lowest vertex on the floor, the pelvis over the origin.
 void place(Body& body, double stature_m) {
   double floor = 1e9;
   for (const Vec3& p : body.mesh.positions) floor = std::min(floor, p.y());
@@ -131,7 +131,7 @@ engine::Result<Body> make_body(const engine::Context& context, const BodyOptions
   const auto profile = options.profile ? engine::Result<body::ProportionProfile>(*options.profile)
                                        : body::find_profile("ansur2");
   if (!profile) return profile.error();
-  return engine::catch_cancelled("The making of the body", [&]() -> engine::Result<Body> {
+  return engine::catch_canceled("The making of the body", [&]() -> engine::Result<Body> {
     return make(context, options, profile.value().of(options.sex));
   });
 }

@@ -1,4 +1,4 @@
-// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.9, segments' nearest points
+// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.9, segments' closest points
 #include "clearance.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace {
 struct Capsule {
   Vec3 a, b;
   double radius;
-  int group;  ///< capsules of neighbouring groups touch by nature
+  int group;  ///< capsules of neighboring groups touch by nature
 };
 
 enum Group { kTrunkGroup, kHeadGroup, kArmGroup, kForearmGroup = 4, kThighGroup = 6, kCalfGroup = 8 };

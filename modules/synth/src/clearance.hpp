@@ -5,7 +5,7 @@
 
 namespace bodice::synth {
 
-/// Least distance between the capsules of limbs that are not neighbours, units of stature; negative where
+/// Least distance between the capsules of limbs that are not neighbors, units of stature; negative where
 /// flesh would run through flesh.
 double clearance(const Figure& figure, const BoneTransforms& posed);
 

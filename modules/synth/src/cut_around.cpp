@@ -14,14 +14,14 @@ constexpr double kBandWidth = 0.012;   // of stature: the pinned waistband
 
 engine::Error unusable(std::string message) {
   return {engine::ErrorCode::kUnusableGeometry, std::move(message),
-          "Check that the body's torso and thighs are labelled."};
+          "Check that the body's torso and thighs are labeled."};
 }
 
 int columns_for(const Outline& outline, double edge) {
   return std::max(12, 2 * static_cast<int>(std::lround(perimeter(outline) / (2.0 * edge))));
 }
 
-/// Outlines from the waist down, each around the same centre and at least as wide as the one above: cloth
+/// Outlines from the waist down, each around the same center and at least as wide as the one above: cloth
 /// hangs from the widest place, and does not follow the legs inward.
 struct Funnel {
   std::vector<Outline> outlines;

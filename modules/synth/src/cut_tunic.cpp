@@ -180,7 +180,7 @@ engine::Result<Cut> cut_tunic(const Fitting& f) {
     if (*std::min_element(outline.radius.begin(), outline.radius.end()) <= 0.0)
       return engine::Error{engine::ErrorCode::kUnusableGeometry,
                            "The body's torso is not closed between hips and armpits.",
-                           "Check that the body's torso is labelled."};
+                           "Check that the body's torso is labeled."};
     if (r == 0) angles = ring_angles(plan, outline);
     add_ring(cut, outline, y, angles);
   }

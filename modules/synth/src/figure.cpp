@@ -50,7 +50,7 @@ void vary(Figure& figure, std::uint64_t seed) {
   b.seat = factor(random, 0.12);
 }
 
-/// From a grown-up's proportions towards a two-year-old's. The numbers are the author's, after growth charts:
+/// From a grown-up's proportions toward a two-year-old's. The numbers are the author's, after growth charts:
 /// the head's share of the stature grows from 1/7.5 to 1/5, the legs' falls from .47 to .37.
 void make_young(Figure& f, double childhood) {
   body::Proportions& p = f.p;

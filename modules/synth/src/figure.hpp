@@ -95,9 +95,9 @@ struct Figure {
   double leg_length() const { return hip_height - ankle_height; }              ///< hip joint to ankle joint
   double thigh_length() const { return hip_height - p.knee_height - kCondyle; }
 
-  static constexpr double kShoulderDrop = 0.012;  ///< acromion above the centre of the joint
+  static constexpr double kShoulderDrop = 0.012;  ///< acromion above the center of the joint
   // Surveys measure to radiale and tibiale, the edges of the forearm's and the shin's bone. Elbow and knee
-  // turn about the centres of the knuckles that roll on them, a radius above: some 11 and 21 mm.
+  // turn about the centers of the knuckles that roll on them, a radius above: some 11 and 21 mm.
   static constexpr double kCapitulum = 0.0065, kCondyle = 0.0125;
   static constexpr double kLegSpread_rad = 0.20943951023931953;
   static constexpr double kArmDrop_rad = 0.78539816339744828;

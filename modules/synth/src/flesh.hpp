@@ -78,7 +78,7 @@ class Flesh {
 
   std::vector<Primitive> primitives_;
   std::array<std::vector<int>, kRegionCount> own_;      ///< primitives of each region
-  std::array<std::vector<int>, kRegionCount> visible_;  ///< own and its tree neighbours', in build order
+  std::array<std::vector<int>, kRegionCount> visible_;  ///< own and its tree neighbors', in build order
   /// As visible_, for points of the right half: the union folds in the mirrored order, so that the body is
   /// its own mirror image to the last bits.
   std::array<std::vector<int>, kRegionCount> visible_right_;

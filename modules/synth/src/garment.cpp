@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 
 #include "keep_ease.hpp"
@@ -90,7 +90,7 @@ engine::Result<Garment> make(const engine::Context& context, const SegmentedBody
 
 engine::Result<Garment> make_garment(const engine::Context& context, const SegmentedBody& body,
                                      const GarmentOptions& options) {
-  return engine::catch_cancelled("The making of the garment", [&] { return make(context, body, options); });
+  return engine::catch_canceled("The making of the garment", [&] { return make(context, body, options); });
 }
 
 }  // namespace bodice::synth

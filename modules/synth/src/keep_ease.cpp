@@ -11,7 +11,7 @@ namespace {
 using geometry::Index;
 
 constexpr int kPushes = 24;          // each gains what is missing; slanted skin needs several
-constexpr int kAlongCut = 16;        // of them: afterwards straight away from the nearest skin
+constexpr int kAlongCut = 16;        // of them: afterwards straight away from the closest point of the skin
 constexpr double kLeastPush = 2e-4;  // of stature: ends a slow approach along slanted skin
 constexpr double kGenerous = 1.3;    // a push of just the missing distance would end a little short
 constexpr int kPasses = 8;           // of pushing, spreading and looking at the triangles
@@ -56,7 +56,7 @@ bool Presser::push_vertex(std::size_t v) {
   Vec3& p = cut_.mesh.positions[v];
   for (int k = 0; k <= kPushes; ++k) {
     const Vec3 world = fitting_.frame.to_world(p);
-    const auto nearest = fitting_.distance.nearest(world);
+    const auto nearest = fitting_.distance.closest_point(world);
     const double missing = wanted - nearest.signed_distance;
     if (missing <= 0.0) return true;
     held_[v] = 1;
@@ -72,7 +72,7 @@ bool Presser::push() {
   return each(extra_.size(), [&](std::size_t v) { return push_vertex(v); });
 }
 
-/// A push moves one row of the grid onto the next: what lies around follows by the mean of its neighbours'
+/// A push moves one row of the grid onto the next: what lies around follows by the mean of its neighbors'
 /// moves, so that cells keep their shape.
 void Presser::spread(const std::vector<Vec3>& before) {
   std::vector<Vec3>& p = cut_.mesh.positions;

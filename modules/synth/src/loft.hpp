@@ -11,7 +11,7 @@ namespace bodice::synth {
 using geometry::Vec3;
 
 /// One cross-section. `side` goes along the axes' +u and -u alike, `front` along +v, `back` along -v;
-/// (u, v) is the centre's offset from the axis.
+/// (u, v) is the center's offset from the axis.
 struct Section {
   double s = 0.0;  ///< place along the axis
   double side = 0.0, front = 0.0, back = 0.0;

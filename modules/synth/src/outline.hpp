@@ -13,7 +13,7 @@ namespace bodice::synth {
 
 using geometry::Vec3;
 
-/// x to the body's left, y from the perineum towards the neck, z to the front; origin at the perineum.
+/// x to the body's left, y from the perineum toward the neck, z to the front; origin at the perineum.
 struct TrunkFrame {
   geometry::Mat3 axes;  ///< columns x, y, z
   Vec3 origin;
@@ -58,7 +58,7 @@ TrunkFrame upright(const SegmentedBody& body, const TrunkFrame& frame);
 /// convex hulls in two dimensions. 1979.
 std::vector<Point2> convex_hull(std::vector<Point2> points);
 
-/// A convex curve around a centre, as radii over equally spread directions from +x towards +z.
+/// A convex curve around a center, as radii over equally spread directions from +x toward +z.
 struct Outline {
   static constexpr int kDirections = 256;
   Point2 center;

@@ -32,7 +32,7 @@ void turn_arm(const Figure& f, const ArmAngles& a, int side, LocalTurns& turn) {
   of(Bone::kUpperArmL) = about(kX, -a.forward) * about(kZ, sign * (a.raise - rest - girdle)) *
                          about(axes.along, -sign * a.twist);
   of(Bone::kForearmL) = about(-sign * axes.out, a.elbow);
-  const Vec3 to_palm = sign * axes.front;  // turning about it moves the hand towards the palm
+  const Vec3 to_palm = sign * axes.front;  // turning about it moves the hand toward the palm
   of(Bone::kHandL) = about(-to_palm, a.wrist);
   of(Bone::kFingersL) = about(-to_palm, a.curl);
   of(Bone::kFingertipsL) = about(-to_palm, 1.3 * a.curl);

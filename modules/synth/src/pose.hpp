@@ -17,7 +17,7 @@ struct ArmAngles {
   double forward = 0.0;  ///< swing to the front, after the raise
   double twist = 0.0;    ///< about the upper arm's axis, inward positive
   double elbow = 4.0;
-  double wrist = 0.0;  ///< palm towards the forearm
+  double wrist = 0.0;  ///< palm toward the forearm
   double curl = 8.0;   ///< of each row of finger joints
 };
 

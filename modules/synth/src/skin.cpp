@@ -16,7 +16,7 @@ constexpr std::size_t kGrain = 256;     // vertices a task: each costs some ten 
 constexpr double kDesignEdge = 0.013;   // of stature: resolves the trunk's curves
 constexpr int kDesignRelaxations = 24;  // until the cage's unevenness is gone
 constexpr int kFinalRelaxations = 3;    // until the sampling's creases are gone
-constexpr double kRelaxation = 0.6;     // share of the way to the neighbours' mean
+constexpr double kRelaxation = 0.6;     // share of the way to the neighbors' mean
 
 void project_all(const engine::Context& context, const Flesh& flesh, const PatchMesh& mesh, int steps,
                  std::vector<Vec3>& positions) {
@@ -26,15 +26,15 @@ void project_all(const engine::Context& context, const Flesh& flesh, const Patch
   });
 }
 
-/// Slides each vertex towards the mean of its neighbours and back onto the flesh.
+/// Slides each vertex toward the mean of its neighbors and back onto the flesh.
 void relax(const engine::Context& context, const Flesh& flesh, const PatchMesh& mesh, int iterations,
            std::vector<Vec3>& positions) {
-  const Neighbours near(mesh);
+  const Neighbors near(mesh);
   std::vector<Vec3> next(positions.size());
   for (int i = 0; i < iterations; ++i) {
     engine::parallel_for(context, positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
-        if (is_digit(mesh.region[v])) {  // evening out would draw the few rings of a digit towards the palm
+        if (is_digit(mesh.region[v])) {  // evening out would draw the few rings of a digit toward the palm
           next[v] = positions[v];
           continue;
         }
@@ -51,7 +51,7 @@ void relax(const engine::Context& context, const Flesh& flesh, const PatchMesh& 
 
 }  // namespace
 
-Neighbours::Neighbours(const PatchMesh& mesh) : start(mesh.at.size() + 1, 0) {
+Neighbors::Neighbors(const PatchMesh& mesh) : start(mesh.at.size() + 1, 0) {
   // On a closed surface each edge is walked once in each direction: from a corner, to the next one.
   for (const auto& quad : mesh.quads)
     for (const Index v : quad) ++start[v + 1];

@@ -29,11 +29,11 @@ double volume(const PatchMesh& mesh, const std::vector<Vec3>& positions);
 std::vector<Vec3> sample_skin(const engine::Context& context, const Skin& skin, const Flesh& flesh,
                               const PatchMesh& mesh);
 
-/// Neighbours along quad edges, in rows of a compressed list.
-struct Neighbours {
+/// Neighbors along quad edges, in rows of a compressed list.
+struct Neighbors {
   std::vector<std::size_t> start;  ///< #V + 1
   std::vector<geometry::Index> vertex;
-  explicit Neighbours(const PatchMesh& mesh);
+  explicit Neighbors(const PatchMesh& mesh);
 };
 
 }  // namespace bodice::synth

@@ -22,7 +22,7 @@ using MeshEdge = std::pair<geometry::Index, geometry::Index>;
 
 /// What one triangle adds to a slice.
 struct Piece {
-  std::array<MeshEdge, 2> edge;  ///< where it goes on in the neighbours
+  std::array<MeshEdge, 2> edge;  ///< where it goes on in the neighbors
   std::array<Vec3, 2> end;
   double share = 0.0;  ///< of the triangle's corners: those of wanted parts
 };

@@ -37,7 +37,7 @@ struct Levels {
 };
 Levels levels_of(const Fitting& fitting);
 /// The greatest height below the armpits at which there is room for cloth between trunk and arm. Judged by
-/// the skin itself: an armpit's landmark may be some centimetres above the fold.
+/// the skin itself: an armpit's landmark may be some centimeters above the fold.
 double tube_top(const Fitting& fitting);
 
 /// The outline of the wanted parts' slices at two heights and between them, widened by the ease; radius 0

@@ -6,14 +6,14 @@
 namespace bodice::synth {
 namespace {
 
-// Rounds of averaging with the neighbours: bends spread over some 6 % of stature on trunk and limbs.
+// Rounds of averaging with the neighbors: bends spread over some 6 % of stature on trunk and limbs.
 constexpr int kSmoothings = 9;
 constexpr int kDigitSmoothings = 2;
 
 /// Where the skin of one limb ends: a plane near a joint, in the rest pose, left side.
 struct Cut {
   Vec3 from_joint;  ///< of stature
-  Vec3 normal;      ///< towards the end of the limb
+  Vec3 normal;      ///< toward the end of the limb
 };
 
 // As in rigged scans: the shoulder is cut upright, the groin slants, the kneecap is the thigh's, the bend of
@@ -112,7 +112,7 @@ std::vector<BoneWeights> bone_weights(const Figure& figure, const Skin& skin) {
   std::vector<BoneWeights> weights(n, BoneWeights::Zero());
   for (std::size_t v = 0; v < n; ++v)
     weights[v][index(nearest_bone(figure, flesh, skin.mesh.region[v], skin.positions[v]))] = 1.0f;
-  const Neighbours near(skin.mesh);
+  const Neighbors near(skin.mesh);
   std::vector<BoneWeights> next(n);
   for (int i = 0; i < kSmoothings; ++i) {
     for (std::size_t v = 0; v < n; ++v) {

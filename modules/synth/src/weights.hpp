@@ -16,7 +16,7 @@ using BoneWeights = Eigen::Matrix<float, kBoneCount, 1>;  ///< sums to 1
 /// across the gap between an arm and the trunk. #design vertices.
 std::vector<BoneWeights> bone_weights(const Figure& figure, const Skin& skin);
 
-/// Limb and trunk as a bone's skin is labelled; the trunk as its lower left part.
+/// Limb and trunk as a bone's skin is labeled; the trunk as its lower left part.
 body::Part part_of(Bone bone);
 
 /// Share of the weights on each part's bones; the trunk's under kTorsoLL.

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/engine/stage_timer.hpp>
@@ -51,7 +51,7 @@ std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy&
           }
           inside += std::ranges::any_of(proxy.ellipsoids(), [&](const proxy::ProxyEllipsoid& e) {
             return geometry::level(e.shape, positions[i]) < 1.0 &&
-                   geometry::nearest_point(e.shape, positions[i]).signed_distance < -tolerance_m;
+                   geometry::closest_point(e.shape, positions[i]).signed_distance < -tolerance_m;
           });
         }
         return inside;
@@ -59,7 +59,7 @@ std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy&
       [](std::size_t a, std::size_t b) { return a + b; });
 }
 
-void summarise_times(std::vector<double> frame_ms, DrapeReport& report) {
+void summarize_times(std::vector<double> frame_ms, DrapeReport& report) {
   if (frame_ms.empty()) return;
   std::ranges::sort(frame_ms);
   auto at = [&](double q) {
@@ -132,7 +132,7 @@ void warn_of_strangers(const std::vector<WornGarment>& garments, const PreparedB
     for (const Vec3& p : garment.mesh.positions) {
       if (!p.allFinite()) continue;
       box.extend(p);
-      near = near || body.skin.distance->nearest_within(p, kNearStatures * stature_m);
+      near = near || body.skin.distance->closest_point_within(p, kNearStatures * stature_m);
     }
     const double size_m = box.size().norm();
     if (!(size_m > kSmallStatures * stature_m && size_m < kLargeStatures * stature_m))
@@ -206,7 +206,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   }
 
   timer.reset();
-  summarise_times(std::move(frame_ms), report);
+  summarize_times(std::move(frame_ms), report);
   report.pierced_share = pierced_share(context, *body.skin.distance, positions, all.mesh.triangles);
   report.inside_union = count_inside(context, proxy, collider, positions);
   report.stretch_p95 = last.stretch_p95;
@@ -223,8 +223,8 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
 engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
                                   const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                   const Progress& progress) {
-  return engine::catch_cancelled("The drape",
-                                 [&] { return simulate(context, body, garments, options, progress); });
+  return engine::catch_canceled("The drape",
+                                [&] { return simulate(context, body, garments, options, progress); });
 }
 
 }  // namespace bodice::tryon

@@ -4,7 +4,7 @@
 
 namespace bodice::tryon {
 
-/// The skin of any source, repaired, as a body of metres. Its stages are load and check.
+/// The skin of any source, repaired, as a body of meters. Its stages are load and check.
 engine::Result<io::ImportedMesh> load_body(const engine::Context& context, const BodySource& source,
                                            const io::ImportOptions& options);
 

@@ -74,7 +74,7 @@ Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin
   options.on_part = [&](const fitting::FittedPart& part) {
     static_cast<void>(handover.give_part(tier, part));
   };
-  auto fit = fitting::fit(context, labelled(skin), options);
+  auto fit = fitting::fit(context, labeled(skin), options);
   if (!fit) return of_body(std::move(fit).error(), skin.input);
   handover.give(fit->proxy);
   return fit;
@@ -101,7 +101,7 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
   auto coarse = builder.add(
       "coarse proxy",
       [handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
-        auto enclosed = fitting::enclose_parts(c, labelled(*on), parts);
+        auto enclosed = fitting::enclose_parts(c, labeled(*on), parts);
         if (!enclosed) return of_body(std::move(enclosed).error(), on->input);
         handover->begin(on);
         handover->give(*enclosed);

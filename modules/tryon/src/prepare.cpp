@@ -61,7 +61,7 @@ engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::I
   return std::move(*graph->take(*skin));
 }
 
-fitting::LabelledSkin labelled(const SegmentedSkin& skin) {
+fitting::LabeledSkin labeled(const SegmentedSkin& skin) {
   return {.mesh = skin.input.skin,
           .part = skin.anatomy.part,
           .stature_m = skin.anatomy.stature_m,
@@ -72,7 +72,7 @@ fitting::LabelledSkin labelled(const SegmentedSkin& skin) {
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress) {
   tell(progress, "fit", 0.0);
-  auto fit = fitting::fit(context, labelled(skin), options);
+  auto fit = fitting::fit(context, labeled(skin), options);
   if (!fit) return of_body(std::move(fit).error(), skin.input);
   return PreparedBody{.skin = std::move(skin), .fit = std::move(fit).value()};
 }

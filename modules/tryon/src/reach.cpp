@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
@@ -17,7 +17,7 @@ namespace {
 using geometry::Vec3;
 using proxy::BodyProxy;
 
-/// A triangle as the ball about its centroid: whoever is within its radius and some length of the centre may
+/// A triangle as the ball about its centroid: whoever is within its radius and some length of the center may
 /// be within that length of the triangle.
 struct Ball {
   Vec3 center;
@@ -42,7 +42,7 @@ std::vector<Ball> balls_of(std::span<const geometry::TriMesh> garments) {
 engine::Result<void> check_reach(std::span<const geometry::TriMesh> garments, double margin_m) {
   if (!(margin_m >= 0.0) || !std::isfinite(margin_m))
     return engine::Error{engine::ErrorCode::kInvalidArgument, "The margin of a garment's reach is no length.",
-                         "Give metres, zero or more."};
+                         "Give meters, zero or more."};
   return check_triangles(garments);
 }
 
@@ -52,7 +52,7 @@ bool reaches(const geometry::Ellipsoid& shape, const std::vector<Ball>& balls, d
   return std::ranges::any_of(balls, [&](const Ball& ball) {
     const double reach_m = within_m + ball.radius_m;
     if ((ball.center - shape.center).norm() > largest_m + reach_m) return false;
-    return geometry::nearest_point(shape, ball.center).signed_distance <= reach_m;
+    return geometry::closest_point(shape, ball.center).signed_distance <= reach_m;
   });
 }
 
@@ -89,7 +89,7 @@ std::uint32_t parts_of(const SegmentedSkin& skin, std::size_t triangle) {
 engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
                                               std::span<const geometry::TriMesh> garments, double margin_m) {
   if (auto good = check_reach(garments, margin_m); !good) return std::move(good).error();
-  return engine::catch_cancelled("The search for parts within reach", [&]() -> engine::Result<std::uint32_t> {
+  return engine::catch_canceled("The search for parts within reach", [&]() -> engine::Result<std::uint32_t> {
     const geometry::TriMesh& mesh = skin.input.skin;
     std::atomic<std::uint32_t> reached = 0;  // a union of bits: the order of the writers does not matter
     for (const geometry::TriMesh& garment : garments) {
@@ -99,7 +99,7 @@ engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, co
           const std::uint32_t bits = parts_of(skin, t);
           if ((reached.load(std::memory_order_relaxed) & bits) == bits) continue;
           const Ball ball = ball_of(mesh, t);
-          if (to_garment.nearest_within(ball.center, margin_m + ball.radius_m)) reached.fetch_or(bits);
+          if (to_garment.closest_point_within(ball.center, margin_m + ball.radius_m)) reached.fetch_or(bits);
         }
       });
     }
@@ -114,7 +114,7 @@ engine::Result<BodyProxy> within_reach(const engine::Context& context, const Bod
   const double blend_m = proxy.relief().empty() ? 0.0 : proxy::relief_reach(proxy.stature_m()).blend_m;
   const std::vector<Ball> balls = balls_of(garments);
   std::vector<std::uint8_t> kept(proxy.ellipsoids().size());
-  const auto searched = engine::catch_cancelled("The search for what is within reach", [&] {
+  const auto searched = engine::catch_canceled("The search for what is within reach", [&] {
     engine::parallel_for(context, kept.size(), 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
         kept[k] = reaches(proxy.ellipsoids()[k].shape, balls, margin_m + blend_m);

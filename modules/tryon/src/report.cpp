@@ -9,8 +9,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double mm(double metres) {
-  return metres * 1e3;
+double mm(double meters) {
+  return meters * 1e3;
 }
 
 std::string_view axis_name(geometry::Axis axis) {
@@ -59,7 +59,7 @@ Json landmarks_json(const SegmentedSkin& skin) {
   return landmarks;
 }
 
-Json accuracy_json(const fitting::Accuracy& accuracy) {
+Json accuracy_json(const fitting::FitAccuracy& accuracy) {
   return {{"gap_mm", spread_mm(accuracy.gap_m)},
           {"interior_covered_percent", accuracy.interior_covered_percent},
           {"skin_outside_percent", accuracy.skin_outside_percent},

@@ -60,7 +60,7 @@ engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks
       "anatomy",
       [profile = *profile](const engine::Context& context,
                            const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
-        auto found = anatomy::analyse(context, body.skin, {.profile = profile});
+        auto found = anatomy::analyze(context, body.skin, {.profile = profile});
         if (!found) return of_body(std::move(found).error(), body);
         return found;
       },

@@ -45,7 +45,7 @@ std::vector<Piece> find_pieces(const geometry::TriMesh& mesh, const geometry::Co
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     Piece& piece = pieces[components.of_vertex[v]];
     piece.top = std::max(piece.top, height_of(mesh.positions[v], body));
-    piece.worn = piece.worn || body.distance->nearest_within(mesh.positions[v], near_m).has_value();
+    piece.worn = piece.worn || body.distance->closest_point_within(mesh.positions[v], near_m).has_value();
   }
   for (std::vector<Index>& rim : geometry::boundary_loops(mesh, geometry::build_adjacency(mesh))) {
     double height = 0.0;

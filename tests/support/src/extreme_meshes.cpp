@@ -88,7 +88,7 @@ std::vector<MeshCase> make_meshes() {
       {"sphere at scale 1e-6", moved(ball(), 1e-6, Vec3::Zero()), true},
       {"sphere at scale 1e6", moved(ball(), 1e6, Vec3::Zero()), true},
       {"sphere 10 km away", moved(ball(), 1.0, far), true},
-      {"millimetre sphere 10 km away", moved(ball(), 1e-3, far), true},
+      {"millimeter sphere 10 km away", moved(ball(), 1e-3, far), true},
   };
 }
 

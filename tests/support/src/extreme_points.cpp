@@ -13,7 +13,7 @@ using bodice::geometry::Box;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kTenKilometres = 1e4;
+constexpr double kTenKilometers = 1e4;
 
 using Points = std::vector<Vec3>;
 
@@ -130,11 +130,11 @@ void add_solid(Table& table) {
 
 void add_scaled(Table& table) {
   const Points cloud3 = turned(cloud(150, {1.0, 0.4, 0.2}, 11));
-  const Vec3 far = kTenKilometres * Vec3(0.6, -0.64, 0.48);
+  const Vec3 far = kTenKilometers * Vec3(0.6, -0.64, 0.48);
   for (const auto& [scale, label] : {std::pair{1e-6, "1e-6"}, {1e-3, "1e-3"}, {1e3, "1e3"}, {1e6, "1e6"}})
     table.add(std::string("cloud at scale ") + label, placed(cloud3, scale, Vec3::Zero()), 3);
   table.add("cloud 10 km away", placed(cloud3, 1.0, far), 3);
-  table.add("millimetre cloud 10 km away", placed(cloud3, 1e-3, far), 3);
+  table.add("millimeter cloud 10 km away", placed(cloud3, 1e-3, far), 3);
   table.add("sphere of radius 1e-6", placed(on_sphere(200, 12), 1e-6, Vec3::Zero()), 3);
   table.add("sphere of radius 1e6", placed(on_sphere(200, 13), 1e6, Vec3::Zero()), 3);
 }

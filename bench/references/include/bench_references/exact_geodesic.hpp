@@ -4,7 +4,7 @@
 
 namespace bench {
 
-/// Exact polyhedral distances from a vertex, #V, metres: the yardstick, hundreds of times slower than what it
+/// Exact polyhedral distances from a vertex, #V, meters: the yardstick, hundreds of times slower than what it
 /// measures. Precondition: a closed mesh or one whose boundary is convex along the skin.
 std::vector<double> exact_distances(const bodice::geometry::TriMesh& mesh,
                                     const bodice::geodesic::MeshEdges& edges, bodice::geometry::Index source);

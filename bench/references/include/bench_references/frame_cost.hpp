@@ -33,7 +33,7 @@ bodice::geometry::TriMesh garment_over(const bodice::geometry::TriMesh& skin);
 class ProxyFrames {
  public:
   ProxyFrames(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
-              bodice::collision::Response response = bodice::collision::Response::kNearest);
+              bodice::collision::Response response = bodice::collision::Response::kClosestPoint);
 
   void run();
   /// Processor time of each frame but the first two, which sort the particles; rising.
@@ -56,7 +56,7 @@ class ProxyFrames {
 
 /// Median of a few frames.
 FrameCost proxy_frame(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
-                      bodice::collision::Response response = bodice::collision::Response::kNearest);
+                      bodice::collision::Response response = bodice::collision::Response::kClosestPoint);
 
 /// Refits two trees of boxes and finds what lies within 5 mm; responds to nothing.
 FrameCost tree_frame(bodice::geometry::TriMesh body, bodice::geometry::TriMesh garment);

@@ -10,7 +10,7 @@
 
 namespace bench {
 
-/// Positions as structure of arrays, world metres.
+/// Positions as structure of arrays, world meters.
 struct Cloud {
   std::vector<float> x, y, z;
 
@@ -24,7 +24,7 @@ struct Cloud {
 
 bodice::synth::Body make_subject(int vertices);
 
-/// A proxy of the tier with `ellipsoids` ellipsoids, given `seconds` to optimise.
+/// A proxy of the tier with `ellipsoids` ellipsoids, given `seconds` to optimize.
 bodice::proxy::BodyProxy fit_subject(const bodice::synth::Body& body,
                                      const bodice::geometry::MeshDistance& skin, bodice::proxy::Tier tier,
                                      int ellipsoids, double seconds);

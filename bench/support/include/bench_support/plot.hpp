@@ -15,7 +15,7 @@ struct PlotSeries {
   std::vector<PlotPoint> points;
   bool line = false;    ///< joined in the order given
   bool hollow = false;  ///< circles rather than discs: a rival
-  int colour = -1;      ///< of the palette; -1: the series' own place in it
+  int color = -1;       ///< of the palette; -1: the series' own place in it
 };
 
 /// Series over two logarithmic axes, with a legend. Points that are not positive and finite are left out.

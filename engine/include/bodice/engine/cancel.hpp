@@ -7,31 +7,31 @@
 
 namespace bodice::engine {
 
-/// Thrown by parallel_for and by check() when the work was cancelled; public functions turn it into
-/// ErrorCode::kCancelled.
-struct Cancelled : std::exception {
-  const char* what() const noexcept override { return "cancelled"; }
+/// Thrown by parallel_for and by check() when the work was canceled; public functions turn it into
+/// ErrorCode::kCanceled.
+struct Canceled : std::exception {
+  const char* what() const noexcept override { return "canceled"; }
 };
 
-/// The reading side of a cancellation. Default-constructed: never cancelled. Copyable, thread-safe.
+/// The reading side of a cancellation. Default-constructed: never canceled. Copyable, thread-safe.
 class CancelToken {
  public:
   CancelToken() = default;
-  bool cancelled() const noexcept {
+  bool canceled() const noexcept {
     for (const State* state = state_.get(); state; state = state->parent.get()) {
-      if (state->cancelled.load(std::memory_order_relaxed)) return true;
+      if (state->canceled.load(std::memory_order_relaxed)) return true;
     }
     return false;
   }
-  /// Throws Cancelled if the work was cancelled.
+  /// Throws Canceled if the work was canceled.
   void check() const {
-    if (cancelled()) throw Cancelled{};
+    if (canceled()) throw Canceled{};
   }
 
  private:
   friend class CancelSource;
   struct State {
-    std::atomic<bool> cancelled{false};
+    std::atomic<bool> canceled{false};
     std::shared_ptr<const State> parent;
   };
   explicit CancelToken(std::shared_ptr<const State> state) : state_(std::move(state)) {}
@@ -42,11 +42,11 @@ class CancelToken {
 class CancelSource {
  public:
   CancelSource() : CancelSource(CancelToken{}) {}
-  /// Work that is also cancelled when `parent` is.
+  /// Work that is also canceled when `parent` is.
   explicit CancelSource(const CancelToken& parent) : state_(std::make_shared<CancelToken::State>()) {
     state_->parent = parent.state_;
   }
-  void cancel() noexcept { state_->cancelled.store(true, std::memory_order_relaxed); }
+  void cancel() noexcept { state_->canceled.store(true, std::memory_order_relaxed); }
   CancelToken token() const { return CancelToken(state_); }
 
  private:

@@ -21,7 +21,7 @@ struct Context {
   void info(std::string_view message) const {
     if (log) log->write(LogLevel::kInfo, message);
   }
-  /// Where long work may be cut: throws Cancelled, or lets a frame go first (FramePipeline). Every block of
+  /// Where long work may be cut: throws Canceled, or lets a frame go first (FramePipeline). Every block of
   /// parallel_for passes one; a serial loop of more than a millisecond should call it now and then.
   void checkpoint() const {
     cancel.check();

@@ -1,6 +1,6 @@
 // Simulation frames and preprocessing on the same workers.
 //
-//        submit("body A")                      submit("body B"): A is cancelled
+//        submit("body A")                      submit("body B"): A is canceled
 //   host   |      [frame 0][frame 1]  [frame 2] |  [frame 3]  ...
 //   worker +--> A...(helps)(helps)..A publishes     (helps) B...
 //                                     ^ taken at the boundary before the next frame
@@ -54,7 +54,7 @@ struct PipelineOptions {
   double background_share = 0.25;
 };
 
-struct FrameReport {
+struct FrameTiming {
   std::uint64_t index = 0;
   std::int64_t boundary_ns = 0;  ///< at the boundary: waiting, in deterministic mode
   std::int64_t body_ns = 0;
@@ -84,7 +84,7 @@ class FramePipeline {
 
   /// A boundary, at which the streams take their results, then body(context of the frame). Allocates
   /// nothing. Rethrows what the body threw. A loop nested in a loop of the frame runs on one thread.
-  FrameReport frame(FunctionRef<void(const Context&)> body);
+  FrameTiming frame(FunctionRef<void(const Context&)> body);
 
   std::uint64_t next_frame() const noexcept;
   const PipelineOptions& options() const noexcept;
@@ -109,7 +109,7 @@ class StreamBase {
   explicit StreamBase(FramePipeline& pipeline);
   virtual ~StreamBase();
 
-  /// Starts `work` as a job that takes the place of the stream's last one, which is cancelled.
+  /// Starts `work` as a job that takes the place of the stream's last one, which is canceled.
   std::shared_ptr<Job> start(std::string name, Job::Work work);
 
  private:
@@ -131,8 +131,8 @@ class StreamBase {
 template <class T>
 class Sink {
  public:
-  /// Offers a result, better than the ones before, for a coming frame boundary. Throws Cancelled if the
-  /// job was cancelled or superseded: then nothing more of it can take effect.
+  /// Offers a result, better than the ones before, for a coming frame boundary. Throws Canceled if the
+  /// job was canceled or superseded: then nothing more of it can take effect.
   void publish(std::shared_ptr<const T> value) {
     job_->token().check();
     box_->offered.push(new detail::ValueNode<T>{std::move(value)});

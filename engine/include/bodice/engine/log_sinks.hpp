@@ -11,7 +11,7 @@
 
 namespace bodice::engine {
 
-/// Lines `[12:34:56.789] [info] message` on the standard error stream, coloured on a terminal.
+/// Lines `[12:34:56.789] [info] message` on the standard error stream, colored on a terminal.
 std::unique_ptr<Log> make_stderr_log(LogLevel least = LogLevel::kInfo);
 
 /// The same lines, appended to a file that is flushed at every warning and error. Fails with kWriteFailed.

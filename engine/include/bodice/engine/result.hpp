@@ -13,7 +13,7 @@ enum class ErrorCode {
   kNotFound,          ///< A file, mesh or name does not exist.
   kUnreadable,        ///< A file exists but cannot be parsed.
   kUnusableGeometry,  ///< The input parsed, but no usable result can be made from it.
-  kCancelled,         ///< The caller cancelled the work.
+  kCanceled,          ///< The caller canceled the work.
   kWriteFailed,       ///< An output could not be written; nothing was left behind.
   kInternal,          ///< A broken invariant inside bodice.
 };

@@ -221,7 +221,7 @@ class TaskGraph {
   }
 
   /// Runs every task once, each as soon as what it needs is there, and traces each under its name.
-  /// Fails with kInvalidArgument if an input was never set, with kCancelled, or with the error of the
+  /// Fails with kInvalidArgument if an input was never set, with kCanceled, or with the error of the
   /// failed task that comes first in topological order; rethrows an exception of a task by the same rule.
   /// Which error is reported does not depend on timing.
   Result<void> run(const Context& context);

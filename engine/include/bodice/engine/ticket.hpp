@@ -24,7 +24,7 @@ class Job final : public BackgroundTask {
   void run() noexcept override;
 
   void cancel() noexcept { cancel_.cancel(); }
-  bool cancelled() const noexcept { return cancel_.token().cancelled(); }
+  bool canceled() const noexcept { return cancel_.token().canceled(); }
   CancelToken token() const { return cancel_.token(); }
   bool done() const noexcept { return stage_.load(std::memory_order_acquire) == Stage::kDone; }
   /// Runs it here if it is still waiting; returns when it is done.
@@ -61,7 +61,7 @@ class Ticket {
     if (job_) job_->cancel();
   }
   bool done() const noexcept { return !job_ || job_->done(); }
-  /// Returns when the work is over: its error, kCancelled if it was stopped, or success. Not in a frame.
+  /// Returns when the work is over: its error, kCanceled if it was stopped, or success. Not in a frame.
   Result<void> wait() const {
     if (!job_) return {};
     job_->wait();

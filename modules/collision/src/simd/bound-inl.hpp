@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-// So close to the centre, in radii, the bound is only made to stay finite and low enough.
+// So close to the center, in radii, the bound is only made to stay finite and low enough.
 constexpr float kLeastSquare = 1e-20f, kLeastSlope2 = 1e-37f;
 
 /// Where a vector of points is when the ellipsoid is the unit ball.
@@ -40,7 +40,7 @@ HWY_INLINE V slope_square(const BallMap& e, V3 u) {
 // The estimate of 1 / k0 is off by a share of it, as if the ellipsoid were larger by that.
 static_assert(kBoundGrowth > kEstimate);
 
-/// L there, metres: of Baked::bounds not above that of the ellipsoid itself by more than twice the share
+/// L there, meters: of Baked::bounds not above that of the ellipsoid itself by more than twice the share
 /// kEstimate of it. Never NaN or infinite.
 HWY_INLINE V bound_in_ball(const BallMap& e, V3 u) {
   const V square = hn::Max(dot(u, u), all(kLeastSquare));

@@ -21,7 +21,7 @@ using Batched = Answers<kBatch>;
 HWY_INLINE void combine_nearest(const Pairs& pairs, Batched& out) {
   const auto& a = pairs.answers;
   for (int i = 0; i < pairs.count; ++i) {
-    // Without a branch: which of two neighbours is the nearer cannot be foretold.
+    // Without a branch: which of two neighbors is the nearer cannot be foretold.
     const int lane = pairs.lane[i];
     const float d = a.distance[i], least = out.distance[lane];
     const bool nearer = (d < least) | ((d == least) & (a.name[i] < out.name[lane]));

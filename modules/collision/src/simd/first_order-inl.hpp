@@ -24,7 +24,7 @@ HWY_INLINE V within_range(V slope2) {
   return hn::Min(hn::Max(slope2, all(kLeastSlope2)), all(kMostSlope2));
 }
 
-/// Twice the first-order distance of one ellipsoid, metres, to the share kEstimate of itself. Not above
+/// Twice the first-order distance of one ellipsoid, meters, to the share kEstimate of itself. Not above
 /// lower_bound(), an estimate of a root cheaper, and a little better at telling the nearest.
 HWY_INLINE V twice_first_order(const BallMap& e, V3 p) {
   const V3 u = in_ball(e, p);
@@ -34,7 +34,7 @@ HWY_INLINE V twice_first_order(const BallMap& e, V3 p) {
 
 /// A plane that touches an ellipsoid, one problem a lane.
 struct Tangent {
-  V distance;  ///< of the particle, metres: not above that to the ellipsoid, but for rounding
+  V distance;  ///< of the particle, meters: not above that to the ellipsoid, but for rounding
   V3 normal;   ///< outward, unit, local frame
   V3 w;        ///< where it touches: direction on the unit sphere, axes of the proxy
   V3 shrink;   ///< r_j^2 / (t + r_j^2), t as one step has it
@@ -91,7 +91,7 @@ HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount],
 /// The ellipsoid's own table on top, unblended: as corrected(), with t and quotients as the tangent has them.
 HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BallLanes& e,
                         Tangent& at) {
-  constexpr float kMostShrink = 1e6f;  // next to the centre
+  constexpr float kMostShrink = 1e6f;  // next to the center
   const V3 i = e.inverse_radius, w = absolute(at.w), signs = signs_of(at.w);
   const Correction by = correction(relief, table, {w, signs}, at.distance);
   const auto limited = [](V shrink) { return hn::Min(shrink, all(kMostShrink)); };

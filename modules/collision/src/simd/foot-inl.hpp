@@ -1,9 +1,9 @@
-// The nearest point of an ellipsoid's surface, one problem a lane.
+// The closest point of an ellipsoid's surface, one problem a lane.
 // Based on: David Eberly. Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013.
 // Differs: the root is sought in u = t + r2^2, which does not cancel next to the pole; Newton on 1 / |w(u)|
 // (Jorge J. More, Danny C. Sorensen. Computing a Trust Region Step. 1983), which is concave, so that every
 // step but the first comes from the left of the root, lengthened as Halley's; a lane stops by its own
-// residual, so that its result does not depend on its neighbours.
+// residual, so that its result does not depend on its neighbors.
 #if defined(BODICE_COLLISION_FOOT_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_FOOT_INL_
 #undef BODICE_COLLISION_FOOT_INL_
@@ -65,7 +65,7 @@ HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
 }
 
 struct Foot {
-  V distance;  ///< metres, negative inside
+  V distance;  ///< meters, negative inside
   V3 n;        ///< outward normal, as long as the longest radius, in the octant and axes of w
   V3 w;        ///< direction of the foot on the unit sphere, first octant, axes by
                ///< falling radius
@@ -103,7 +103,7 @@ HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
   return secular({hn::Mul(a.x, inverse.x), hn::Mul(a.y, inverse.y), hn::Mul(a.z, inverse.z)}, inverse);
 }
 
-constexpr float kLeastNorm2 = 1e-35f;  // w = 0 at the centre: a step is then of no use, but must be finite
+constexpr float kLeastNorm2 = 1e-35f;  // w = 0 at the center: a step is then of no use, but must be finite
 
 /// Newton's step on 1 / |w|: (|w| - 1) |w|^2 / sum w^2 / e; Halley divides it by 1 + half its curvature. By
 /// estimates: what a step is off by is left to the next.
@@ -146,7 +146,7 @@ HWY_INLINE V usual_root(const Secular& g, V u, V low) {
 }
 
 /// Lanes that need another step; a lane judges by itself, so that its result does not depend on its
-/// neighbours.
+/// neighbors.
 HWY_INLINE M unsettled(const Secular& g, V u, V low) {
   // Next to the focal ellipse of a thin shape all of w_z, and with it the normal, hangs on the last digits of
   // u that |w| hardly feels: there the step that is left must be short beside u, as far as |w| can tell.

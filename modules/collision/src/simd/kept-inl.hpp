@@ -21,8 +21,8 @@ static_assert(KeptBatch::kSpan % kStep == 0 && kBlock % KeptBatch::kSpan == 0);
 /// Whether no place is farther from where it was than the reach that the proxy's own way leaves; takes note
 /// of the farthest.
 HWY_INLINE bool holds(KeptBatch& kept, const QueryBatch& batch) {
-  const auto travelled_m = static_cast<float>(batch.keeping.travelled_m - kept.travelled_m);
-  const float left_m = kept.reach_m - travelled_m;
+  const auto traveled_m = static_cast<float>(batch.keeping.traveled_m - kept.traveled_m);
+  const float left_m = kept.reach_m - traveled_m;
   if (kept.count < batch.count || !(left_m > 0.0f)) return false;
   const V limit = all(left_m * left_m);
   V most = hn::Zero(f);
@@ -34,7 +34,7 @@ HWY_INLINE bool holds(KeptBatch& kept, const QueryBatch& batch) {
     near = hn::And(near, hn::Lt(way2, limit));
     most = hn::Max(most, way2);
   }
-  kept.moved_m = travelled_m + 1.001f * std::sqrt(hn::GetLane(hn::MaxOfLanes(f, most)));
+  kept.moved_m = traveled_m + 1.001f * std::sqrt(hn::GetLane(hn::MaxOfLanes(f, most)));
   return hn::AllTrue(f, near);
 }
 
@@ -128,7 +128,7 @@ HWY_INLINE void keep_places(const QueryBatch& batch, KeptBatch& kept) {
     hn::Store(hn::LoadU(f, batch.y + i), f, kept.y + i);
     hn::Store(hn::LoadU(f, batch.z + i), f, kept.z + i);
   }
-  kept.travelled_m = batch.keeping.travelled_m;
+  kept.traveled_m = batch.keeping.traveled_m;
   kept.moved_m = 0.0f;
   kept.count = batch.count;
 }

@@ -134,7 +134,7 @@ struct AmongColumns {
 };
 
 /// The plane that bounds the distances to ellipsoid k + lane from below: base + slope . (p - middle), base
-/// being the first-order distance at the middle; NaN at a centre: no bound.
+/// being the first-order distance at the middle; NaN at a center: no bound.
 struct Planes {
   V base, scale;
   V3 u;

@@ -19,8 +19,8 @@ namespace bodice::collision::HWY_NAMESPACE {
 /// What one ellipsoid says about each of kSize particles.
 template <int kSize>
 struct alignas(64) Answers {
-  float distance[kSize];  ///< to the ellipsoid, metres
-  float value[kSize];     ///< relief only: the corrected distance, metres
+  float distance[kSize];  ///< to the ellipsoid, meters
+  float value[kSize];     ///< relief only: the corrected distance, meters
   float gx[kSize], gy[kSize],
       gz[kSize];             ///< its gradient: the unit normal without relief
   std::int32_t name[kSize];  ///< the proxy's index of the ellipsoid

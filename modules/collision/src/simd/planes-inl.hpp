@@ -1,4 +1,4 @@
-// The nearest place in all of two or three half-spaces.
+// The closest place in all of two or three half-spaces.
 #if defined(BODICE_COLLISION_PLANES_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_PLANES_INL_
 #undef BODICE_COLLISION_PLANES_INL_
@@ -21,7 +21,7 @@ struct Plane {
   HWY_INLINE V missing(V3 x) const { return hn::Sub(offset, dot(n, x)); }
 };
 
-/// The nearest point to p of both half-spaces, the second only where `two`: the four cases of the optimality
+/// The closest point to p of both half-spaces, the second only where `two`: the four cases of the optimality
 /// conditions.
 HWY_INLINE V3 project(const Plane& a, const Plane& b, M two, V3 p) {
   const V zero = hn::Zero(f);
@@ -44,7 +44,7 @@ HWY_INLINE V3 cross(V3 a, V3 b) {
           hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
-/// The nearest point to p of three half-spaces, of which the first two do not do: that of the third and one
+/// The closest point to p of three half-spaces, of which the first two do not do: that of the third and one
 /// of them if it is in the other, or else where all planes meet.
 HWY_INLINE V3 project(const Plane& a, const Plane& b, const Plane& c, V3 p, V slack) {
   const M all_lanes = hn::FirstN(f, kWidth);

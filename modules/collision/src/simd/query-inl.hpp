@@ -1,4 +1,4 @@
-// Signed distance, nearest point, normal and owner for a batch.
+// Signed distance, closest point, normal and owner for a batch.
 #if defined(BODICE_COLLISION_QUERY_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_QUERY_INL_
 #undef BODICE_COLLISION_QUERY_INL_

@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 struct Sample {
-  V distance;   ///< F, metres; what `distance` was at the start where every
+  V distance;   ///< F, meters; what `distance` was at the start where every
                 ///< ellipsoid is farther
   V3 gradient;  ///< unit for plain ellipsoids
   VI owner;

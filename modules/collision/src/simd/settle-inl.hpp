@@ -136,7 +136,7 @@ HWY_INLINE InForce in_force(const Way& way, VI at) {
   return {first, latest, hn::IfThenElse(hn::RebindMask(I(), three), of3, of2), two};
 }
 
-/// A plane of the lanes `which`, whose indices are `at` (zero elsewhere), and the nearest place beyond it and
+/// A plane of the lanes `which`, whose indices are `at` (zero elsewhere), and the closest place beyond it and
 /// those before; of these the first and the latest stay in force.
 HWY_INLINE Push add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI whose,
                           const Reached& reached, Way& way) {

@@ -71,7 +71,7 @@ constexpr int kFew = kWidth / 2;
 struct Lists {
   Columns columns, alone;
   Near near, of_piece[kBlocks], of_alone, of_span[KeptBatch::kSpans];
-  /// Metres around the places of a call within which the next may ask again; share() alone reads it.
+  /// Meters around the places of a call within which the next may ask again; share() alone reads it.
   float room_m = 0.0f;
   Extent covered;       ///< the columns hold all candidates of places in it,
   bool covers = false;  ///< if so

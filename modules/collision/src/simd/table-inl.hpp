@@ -133,8 +133,8 @@ HWY_INLINE Bilinear bilinear(VI upper, VI lower, V u, V v, V scale, V offset) {
 
 /// What a table takes off the distance at a direction.
 struct Correction {
-  V value;         ///< h + a d, metres
-  V3 slope;        ///< its slope over the direction in the first octant, metres
+  V value;         ///< h + a d, meters
+  V3 slope;        ///< its slope over the direction in the first octant, meters
   V along_normal;  ///< 1 less its slope over the distance
 };
 
@@ -165,7 +165,7 @@ HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& t
 }
 
 struct Corrected {
-  V value;      ///< F_k, metres
+  V value;      ///< F_k, meters
   V3 gradient;  ///< of F_k, local frame of the collider
 };
 

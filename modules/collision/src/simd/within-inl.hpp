@@ -74,7 +74,7 @@ class Reaches {
     for (int i = 0; i < columns.count(); ++i) {
       const OctantReach& reach = relief.reaches[columns.ellipsoid(i)];
       const BakedEllipsoid& e = baked.ellipsoids[columns.ellipsoid(i)];
-      // Only deeper than the least radius of curvature can rounding take the nearest point to another octant.
+      // Only deeper than the least radius of curvature can rounding take the closest point to another octant.
       const V least = all(-0.99f * e.longest_m * e.radius2 * e.radius2);
       const V shift = all(reach.shift_m(limit_m));
       for (int k = 0; k < kOctants; k += kWidth) {

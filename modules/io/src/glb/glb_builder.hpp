@@ -21,7 +21,7 @@ class GlbBuilder {
 
   /// Each adds data to the buffer and returns its accessor's index.
   std::size_t add_positions(std::span<const Vec3f> values);  ///< with the bounds that glTF demands
-  std::size_t add_vectors(std::span<const Vec3f> values);    ///< normals, colours
+  std::size_t add_vectors(std::span<const Vec3f> values);    ///< normals, colors
   std::size_t add_triangles(std::span<const geometry::Triangle> triangles);
   std::size_t add_times(std::span<const float> seconds);
   std::size_t add_scalars(std::span<const float> values);

@@ -132,7 +132,7 @@ class SceneWriter {
   /// The translation, rotation and scale that turn the unit sphere into the ellipsoid.
   Json placed(const geometry::Ellipsoid& shape) const {
     const Vec3 center = scene_.frame.to_file(shape.center) - origin_;
-    const Vec3 radii = shape.radii / scene_.frame.metres_per_unit;
+    const Vec3 radii = shape.radii / scene_.frame.meters_per_unit;
     const geometry::Mat3 axes = scene_.frame.rotation().transpose() * shape.axes;
     const Eigen::Quaterniond turn = Eigen::Quaterniond(axes).normalized();
     return {{"translation", {center.x(), center.y(), center.z()}},

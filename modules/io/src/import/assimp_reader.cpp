@@ -82,10 +82,10 @@ class Collector {
 
 /// assimp folds the document's unit into the root node; we keep the file's own coordinates.
 Eigen::Matrix4d undo_collada_unit(const ColladaAsset& asset, FileScene& scene) {
-  scene.metres_per_unit = asset.metres_per_unit;
+  scene.meters_per_unit = asset.meters_per_unit;
   scene.up = asset.up.value_or(geometry::Axis::kY);  // the standard's default
   Eigen::Matrix4d world_to_file = Eigen::Matrix4d::Identity();
-  world_to_file.topLeftCorner<3, 3>() /= asset.metres_per_unit.value_or(1.0);
+  world_to_file.topLeftCorner<3, 3>() /= asset.meters_per_unit.value_or(1.0);
   return world_to_file;
 }
 
@@ -94,17 +94,17 @@ void read_fbx_metadata(const aiScene& scene, FileScene& out) {
   int axis = -1;
   if (scene.mMetaData->Get("UpAxis", axis) && axis >= 0 && axis <= 2)
     out.up = static_cast<geometry::Axis>(axis);
-  float centimetres_f = 0.0f;
-  double centimetres = 0.0;
-  if (scene.mMetaData->Get("UnitScaleFactor", centimetres_f))
-    centimetres = static_cast<double>(centimetres_f);
-  if (centimetres == 0.0) scene.mMetaData->Get("UnitScaleFactor", centimetres);
-  if (centimetres > 0.0 && std::isfinite(centimetres)) out.metres_per_unit = 0.01 * centimetres;
+  float centimeters_f = 0.0f;
+  double centimeters = 0.0;
+  if (scene.mMetaData->Get("UnitScaleFactor", centimeters_f))
+    centimeters = static_cast<double>(centimeters_f);
+  if (centimeters == 0.0) scene.mMetaData->Get("UnitScaleFactor", centimeters);
+  if (centimeters > 0.0 && std::isfinite(centimeters)) out.meters_per_unit = 0.01 * centimeters;
 }
 
 /// `offset` becomes what to add to every position.
 const aiScene* parse(Assimp::Importer& importer, const std::filesystem::path& file, Vec3& offset) {
-  // What an archive's document says is out of our reach: there we let assimp turn it to metres, y up.
+  // What an archive's document says is out of our reach: there we let assimp turn it to meters, y up.
   const bool as_stored = format_of(file) != Format::kColladaArchive;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, as_stored);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
@@ -155,7 +155,7 @@ engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
   if (format_of(file) == Format::kCollada)
     world_to_file = undo_collada_unit(parse_collada_asset(read_text(file)), result);
   if (format_of(file) == Format::kGltf || format_of(file) == Format::kColladaArchive) {
-    result.metres_per_unit = 1.0;
+    result.meters_per_unit = 1.0;
     result.up = geometry::Axis::kY;
   }
   read_fbx_metadata(*scene, result);

@@ -15,7 +15,7 @@ using geometry::Vec3;
 
 // The skin's area does not change with the pose, so it is what tells the unit. Adults have 1.3 to 2.6 m2,
 // a one-year-old .45 m2 (Mosteller: sqrt(height_cm mass_kg / 3600) m2); sculpted hands, ears and mouths add
-// some. The decades of metre, decimetre, centimetre and millimetre lie a factor of 100 apart in area.
+// some. The decades of meter, decimeter, centimeter and millimeter lie a factor of 100 apart in area.
 constexpr double kSmallestSkinM2 = 0.42, kLargestSkinM2 = 4.0;
 constexpr double kSmallestAdultM2 = 1.15, kLargestAdultM2 = 2.7;
 constexpr double kTypicalSkinM2 = 1.75;
@@ -36,22 +36,22 @@ constexpr double kSymmetric = 0.8;
 struct NamedUnit {
   Unit unit;
   const char* name;
-  double metres;
+  double meters;
 };
-constexpr std::array<NamedUnit, 6> kUnits = {{{Unit::kMetre, "m", 1.0},
-                                              {Unit::kDecimetre, "dm", 0.1},
-                                              {Unit::kCentimetre, "cm", 0.01},
-                                              {Unit::kMillimetre, "mm", 0.001},
+constexpr std::array<NamedUnit, 6> kUnits = {{{Unit::kMeter, "m", 1.0},
+                                              {Unit::kDecimeter, "dm", 0.1},
+                                              {Unit::kCentimeter, "cm", 0.01},
+                                              {Unit::kMillimeter, "mm", 0.001},
                                               {Unit::kInch, "inch", 0.0254},
                                               {Unit::kFoot, "ft", 0.3048}}};
 
-std::optional<double> metres_from_area(double area) {
+std::optional<double> meters_from_area(double area) {
   for (const NamedUnit& unit : kUnits) {
     if (unit.unit == Unit::kInch || unit.unit == Unit::kFoot) continue;
-    const double skin_m2 = area * unit.metres * unit.metres;
-    if (skin_m2 >= kSmallestSkinM2 && skin_m2 <= kLargestSkinM2) return unit.metres;
+    const double skin_m2 = area * unit.meters * unit.meters;
+    if (skin_m2 >= kSmallestSkinM2 && skin_m2 <= kLargestSkinM2) return unit.meters;
   }
-  constexpr double inch = 0.0254;  // an adult in inches would be an infant in centimetres
+  constexpr double inch = 0.0254;  // an adult in inches would be an infant in centimeters
   const double skin_m2 = area * inch * inch;
   if (skin_m2 >= kSmallestAdultM2 && skin_m2 <= kLargestAdultM2) return inch;
   return std::nullopt;
@@ -62,12 +62,12 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
   const double length = geometry::bounding_box(body.positions).size().maxCoeff();
   for (const NamedUnit& unit : kUnits) {
     if (unit.unit != options.unit) continue;
-    out.frame.metres_per_unit = unit.metres;
+    out.frame.meters_per_unit = unit.meters;
     out.unit = unit.name;
-    if (unit.metres * length < kSmallestLengthM || unit.metres * length > kLargestLengthM)
+    if (unit.meters * length < kSmallestLengthM || unit.meters * length > kLargestLengthM)
       out.warnings.push_back({"unit-unlikely", "",
                               engine::message("In ", out.unit, ", as was told, the body is ",
-                                              unit.metres * length, " m long, which is no person's size."),
+                                              unit.meters * length, " m long, which is no person's size."),
                               "Leave --unit out to have it found."});
     return;
   }
@@ -75,9 +75,9 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
   const bool believable = file_says && *file_says * length >= kSmallestLengthM &&
                           *file_says * length <= kLargestLengthM &&
                           *file_says * *file_says * area <= kLargestStylisedSkinM2;
-  if (const auto metres = believable ? file_says : metres_from_area(area)) {
-    out.frame.metres_per_unit = *metres;
-    out.unit = unit_name(*metres);
+  if (const auto meters = believable ? file_says : meters_from_area(area)) {
+    out.frame.meters_per_unit = *meters;
+    out.unit = unit_name(*meters);
     if (file_says && !believable)
       out.warnings.push_back(
           {"unit-contradicted", "",
@@ -86,12 +86,12 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
            "Give --unit if that is wrong."});
     return;
   }
-  out.frame.metres_per_unit = area > 0.0 ? std::sqrt(kTypicalSkinM2 / area) : 1.0;
+  out.frame.meters_per_unit = area > 0.0 ? std::sqrt(kTypicalSkinM2 / area) : 1.0;
   out.unit = "unknown";
   out.warnings.push_back({"unit-unknown", "",
                           engine::message("No common unit makes the body, ", length,
                                           " units long, a person's size; it was scaled to ",
-                                          out.frame.metres_per_unit * length, " m."),
+                                          out.frame.meters_per_unit * length, " m."),
                           "Give --unit to set it."});
 }
 
@@ -158,9 +158,9 @@ Axis ground_axis(const geometry::TriMesh& body, const geometry::Box& box) {
 
 }  // namespace
 
-std::string unit_name(double metres) {
+std::string unit_name(double meters) {
   for (const NamedUnit& unit : kUnits)
-    if (std::abs(unit.metres / metres - 1.0) < 1e-3) return unit.name;
+    if (std::abs(unit.meters / meters - 1.0) < 1e-3) return unit.name;
   return "unknown";
 }
 
@@ -183,9 +183,9 @@ Axis up_axis_of(const geometry::TriMesh& body) {
 }
 
 DetectedFrame detect_frame(const geometry::TriMesh& body, const ImportOptions& options,
-                           std::optional<double> metres_per_unit, std::optional<Axis> up) {
+                           std::optional<double> meters_per_unit, std::optional<Axis> up) {
   DetectedFrame detected;
-  detect_unit(body, options, metres_per_unit, detected);
+  detect_unit(body, options, meters_per_unit, detected);
   const Axis by_shape = up_axis_of(body);
   detected.frame.up = options.up ? *options.up : up ? *up : by_shape;
   return detected;

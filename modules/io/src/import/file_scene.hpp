@@ -21,7 +21,7 @@ struct FileMesh {
 
 struct FileScene {
   std::vector<FileMesh> meshes;           ///< those with at least one triangle
-  std::optional<double> metres_per_unit;  ///< what the file says of itself
+  std::optional<double> meters_per_unit;  ///< what the file says of itself
   std::optional<geometry::Axis> up;       ///< what the file says of itself
   bool kept_digits = false;               ///< read in more than single precision
 };

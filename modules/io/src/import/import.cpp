@@ -32,7 +32,7 @@ void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedM
   double farthest = 0.0;
   for (const geometry::Vec3& p : shape.positions)
     if (p.allFinite()) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
-  const double grid_m = farthest * kFloatGrid * out.frame.metres_per_unit;
+  const double grid_m = farthest * kFloatGrid * out.frame.meters_per_unit;
   if (kept_digits || grid_m <= kWorthAWordM) return;
   out.warnings.push_back({"far-from-origin", out.mesh,
                           engine::message("The mesh lies so far from the origin that its coordinates are ",
@@ -65,7 +65,7 @@ engine::Result<ImportedMesh> import_body(const engine::Context& context, const s
 
   auto repaired = geometry::repair(context, chosen->shape);
   if (!repaired) return in_file(repaired.error(), file);
-  DetectedFrame detected = detect_frame(repaired->mesh, options, scene->metres_per_unit, scene->up);
+  DetectedFrame detected = detect_frame(repaired->mesh, options, scene->meters_per_unit, scene->up);
   out.frame = detected.frame;
   out.unit = std::move(detected.unit);
   append_warnings(std::move(detected.warnings), out.warnings);
@@ -99,7 +99,7 @@ engine::Result<ImportedMesh> import_garment(const engine::Context& context, cons
   auto repaired = geometry::repair(context, all, {.weld_relative = 0.0, .orient = false, .drop_fins = false});
   if (!repaired) return in_file(repaired.error(), file);
   out.frame = body_frame;
-  out.unit = unit_name(body_frame.metres_per_unit);
+  out.unit = unit_name(body_frame.meters_per_unit);
   check_precision(all, scene->kept_digits, out);
   out.skin = std::move(repaired->mesh);
   to_inside(out.frame, out.skin);

@@ -36,7 +36,7 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-/// The position of a `v x y z` line, with what follows it (w, colours) left in `line`.
+/// The position of a `v x y z` line, with what follows it (w, colors) left in `line`.
 std::optional<geometry::Vec3> take_vertex(std::string_view& line) {
   std::string_view rest = skip_blanks(line);
   if (rest.size() < 2 || rest[0] != 'v' || (rest[1] != ' ' && rest[1] != '\t')) return std::nullopt;
@@ -127,8 +127,8 @@ ColladaAsset parse_collada_asset(std::string_view document) {
   if (const auto unit = between(document, "<unit", ">")) {
     for (const std::string_view quote : {"\"", "'"})
       if (auto value = between(*unit, std::string("meter=") + std::string(quote), quote))
-        asset.metres_per_unit = take_number(*value);
-    if (asset.metres_per_unit && !(*asset.metres_per_unit > 0.0)) asset.metres_per_unit.reset();
+        asset.meters_per_unit = take_number(*value);
+    if (asset.meters_per_unit && !(*asset.meters_per_unit > 0.0)) asset.meters_per_unit.reset();
   }
   if (const auto axis = between(document, "<up_axis>", "</up_axis>")) {
     if (axis->find("X_UP") != std::string_view::npos) asset.up = geometry::Axis::kX;
@@ -156,7 +156,7 @@ std::optional<MovedObj> move_to_origin(std::string_view obj) {
         engine::append_number(moved.text, number, 12);
       }
     }
-    moved.text += line;  // whatever take_vertex left: colours, the line end, or the whole line
+    moved.text += line;  // whatever take_vertex left: colors, the line end, or the whole line
   });
   return moved;
 }

@@ -24,7 +24,7 @@ std::string read_text(const std::filesystem::path& file);
 
 /// What a Collada document says in <asset>; absent where it is silent.
 struct ColladaAsset {
-  std::optional<double> metres_per_unit;
+  std::optional<double> meters_per_unit;
   std::optional<geometry::Axis> up;
 };
 ColladaAsset parse_collada_asset(std::string_view document);

@@ -23,7 +23,7 @@ View panel_view(const geometry::Box& box, Side side, int width, int height) {
   const float wide = std::max(size.x(), size.z()), tall = size.y();  // one scale for both sides
   const float fit = std::min(static_cast<float>(view.width) / std::max(wide, 1e-30f),
                              static_cast<float>(view.height) / std::max(tall, 1e-30f));
-  view.pixels_per_metre = (1.0f - 2.0f * kMargin) * fit;
+  view.pixels_per_meter = (1.0f - 2.0f * kMargin) * fit;
   return view;
 }
 

@@ -17,11 +17,11 @@ using Vec3f = Eigen::Vector3f;
 struct View {
   Vec3f right, up, toward_eye;  ///< orthonormal, in the world
   Vec3f center;                 ///< world point in the middle of the picture
-  float pixels_per_metre = 1.0f;
+  float pixels_per_meter = 1.0f;
   int width = 0, height = 0;
 
   Vec3f project(const Vec3f& p) const {
-    const Vec3f d = (p - center) * pixels_per_metre;
+    const Vec3f d = (p - center) * pixels_per_meter;
     return {0.5f * static_cast<float>(width) + d.dot(right), 0.5f * static_cast<float>(height) - d.dot(up),
             -d.dot(toward_eye)};
   }
@@ -54,7 +54,7 @@ struct FlatTriangle {
   }
 };
 
-/// Calls visit(pixel) for each pixel centre of the triangle that is nearer than what is there, and keeps its
+/// Calls visit(pixel) for each pixel center of the triangle that is nearer than what is there, and keeps its
 /// depth. Draws both sides.
 template <class Visit>
 void draw_triangle(DepthBuffer& buffer, const FlatTriangle& triangle, Visit&& visit) {

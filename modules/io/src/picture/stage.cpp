@@ -18,7 +18,7 @@ View light_view(const geometry::Box& box, const View& eye) {
   view.up = view.toward_eye.cross(view.right);
   view.center = box.center().cast<float>();
   view.width = view.height = kShadowSize;
-  view.pixels_per_metre = static_cast<float>(kShadowSize) / static_cast<float>(1.02 * box.size().norm());
+  view.pixels_per_meter = static_cast<float>(kShadowSize) / static_cast<float>(1.02 * box.size().norm());
   return view;
 }
 
@@ -54,7 +54,7 @@ float Lighting::lit(const Vec3f& point, const Vec3f& normal) const {
                                                          {0.2f, -0.45f},
                                                          {-0.2f, 0.45f},
                                                          {-0.45f, -0.2f}}};
-  const Vec3f at = view_.project(point + normal * (bias_ / view_.pixels_per_metre));
+  const Vec3f at = view_.project(point + normal * (bias_ / view_.pixels_per_meter));
   float sum = 0.0f;
   for (const auto& [dx, dy] : ring) {
     const int x = static_cast<int>(at.x() + kPenumbraPixels * dx);

@@ -9,7 +9,7 @@ namespace bodice::io {
 
 /// A surface ready to draw.
 struct Actor {
-  std::vector<Vec3f> positions, normals;  ///< #V, metres, y up
+  std::vector<Vec3f> positions, normals;  ///< #V, meters, y up
   std::vector<Vec3f> colors;              ///< #V, linear light 0..1
   std::vector<geometry::Triangle> triangles;
   bool two_sided = false;  ///< cloth: the inside is seen, darker

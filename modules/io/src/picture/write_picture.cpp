@@ -57,7 +57,7 @@ void add_ellipsoids(const proxy::BodyProxy& proxy, std::vector<Actor>& actors) {
   }
 }
 
-/// In the colours of the parts whose ellipsoids make it.
+/// In the colors of the parts whose ellipsoids make it.
 Actor surface_actor(const proxy::BodyProxy& proxy, const proxy::ProxySurface& surface) {
   Actor actor;
   actor.triangles = surface.mesh.triangles;

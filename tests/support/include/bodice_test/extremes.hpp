@@ -45,7 +45,7 @@ struct EllipsoidCase {
 /// rotated, 10 km from the origin.
 const std::vector<EllipsoidCase>& extreme_ellipsoids();
 
-/// Queries that break formulas for this ellipsoid: its centre, axes, symmetry planes, medial disk and its
+/// Queries that break formulas for this ellipsoid: its center, axes, symmetry planes, medial disk and its
 /// rim, a rounding away from each, on, just inside and just outside the surface, and 10 km away.
 std::vector<Vec3> hostile_queries(const Ellipsoid& ellipsoid);
 

@@ -1,4 +1,4 @@
-// Small meshes with closed-form truth, wound outward, metres.
+// Small meshes with closed-form truth, wound outward, meters.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ TriMesh icosphere(double radius_m, int subdivisions, const Vec3& center = Vec3::
 /// An axis-aligned box, two triangles a cell, `cells` cells along each edge of a face.
 TriMesh box(const Vec3& half_size_m, int cells = 1, const Vec3& center = Vec3::Zero());
 
-/// Around y from -height/2 to height/2. Closed by two fans around cap centres, or open at both ends.
+/// Around y from -height/2 to height/2. Closed by two fans around cap centers, or open at both ends.
 TriMesh cylinder(double radius_m, double height_m, int around, int along, bool caps = true);
 
 /// Around y; genus 1.
 TriMesh torus(double major_m, double minor_m, int around, int across);
 
-/// A flat sheet in the xz plane, normals +y, centred.
+/// A flat sheet in the xz plane, normals +y, centerd.
 TriMesh sheet(double width_m, double depth_m, int cells_x, int cells_z);
 
 /// Both, side by side in one mesh; nothing is joined.

@@ -28,7 +28,7 @@ struct Anatomy {
 /// Finds the landmarks and segments. Pose, place, turn and scale of the mesh do not matter.
 /// Fails with kUnusableGeometry when no body can be made out; the sentence says what is missing.
 /// Precondition: a repaired mesh (geometry::repair). Deterministic for any worker count.
-engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& skin,
+engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& skin,
                                 const Options& options);
 
 }  // namespace bodice::anatomy

@@ -37,7 +37,7 @@ constexpr std::string_view name(LandmarkId id) {
 /// A named place on or (neck, elbow, knee: the centroid of their girth) inside the body.
 struct Landmark {
   LandmarkId id = LandmarkId::kCrown;
-  geometry::Vec3 position = geometry::Vec3::Zero();  ///< metres
+  geometry::Vec3 position = geometry::Vec3::Zero();  ///< meters
   geometry::Index vertex = geometry::kNoIndex;       ///< nearest vertex of the skin
   double confidence = 0.0;                           ///< 0..1
 };

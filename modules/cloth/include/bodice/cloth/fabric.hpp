@@ -12,13 +12,13 @@ namespace bodice::cloth {
 struct Fabric {
   std::string name;
   double density_kg_m2 = 0.15;
-  double stretch_n_m = 1000.0;  ///< membrane stiffness, newtons a metre width
+  double stretch_n_m = 1000.0;  ///< membrane stiffness, newtons a meter width
   double shear_n_m = 100.0;
-  double bend_n_m = 1e-5;  ///< bending rigidity, newton metres
+  double bend_n_m = 1e-5;  ///< bending rigidity, newton meters
   double friction = 0.4;
   double damping_per_s = 0.5;
   double max_stretch = 0.05;  ///< strain limit
-  /// Moment a metre of fold, in newtons, that the yarns' friction holds against bending and unbending.
+  /// Moment a meter of fold, in newtons, that the yarns' friction holds against bending and unbending.
   double bend_friction_n = 0.0;
 };
 

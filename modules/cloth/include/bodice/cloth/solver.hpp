@@ -26,7 +26,7 @@ struct SolverOptions {
   int iterations = 1;          ///< constraint sweeps a substep
   double thickness_m = 0.001;  ///< cloth kept this far from the proxy
   bool self_collision = true;
-  collision::Response response = collision::Response::kNearest;
+  collision::Response response = collision::Response::kClosestPoint;
   Environment environment;
   std::uint64_t seed = 0;
   /// Time a frame may take; 0: no budget. A frame above it makes the next ones do without, in this order:
@@ -73,7 +73,7 @@ struct FrameReport {
 /// One garment (or several layers together) in motion. Not thread-safe; one frame at a time.
 class Solver {
  public:
-  /// `garment` in world metres; vertices at one place are one particle, isolated ones are dropped and
+  /// `garment` in world meters; vertices at one place are one particle, isolated ones are dropped and
   /// reported. `pinned` are vertices of `garment` that do not move relative to the body.
   static engine::Result<Solver> make(const geometry::TriMesh& garment,
                                      std::span<const geometry::Index> pinned, const Fabric& fabric,

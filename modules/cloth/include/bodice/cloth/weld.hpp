@@ -12,7 +12,7 @@ namespace bodice::cloth {
 /// files along seams, narrow enough to keep a facing sewn on by hand a layer of its own.
 inline constexpr double kSeamRelative = 0.01;
 
-/// So are the ends of an edge shorter than this fraction of it: what its neighbours leave unsolved would be
+/// So are the ends of an edge shorter than this fraction of it: what its neighbors leave unsolved would be
 /// all of its length.
 inline constexpr double kShortRelative = 0.1;
 

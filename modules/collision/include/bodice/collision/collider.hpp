@@ -16,9 +16,9 @@ namespace bodice::collision {
 /// Velocities may be null; `safe_*` is where each particle was last known outside, or null.
 struct Particles {
   std::size_t count = 0;
-  float *x = nullptr, *y = nullptr, *z = nullptr;                       ///< metres, in/out
-  float *vx = nullptr, *vy = nullptr, *vz = nullptr;                    ///< metres a second, in/out
-  const float *safe_x = nullptr, *safe_y = nullptr, *safe_z = nullptr;  ///< metres
+  float *x = nullptr, *y = nullptr, *z = nullptr;                       ///< meters, in/out
+  float *vx = nullptr, *vy = nullptr, *vz = nullptr;                    ///< meters a second, in/out
+  const float *safe_x = nullptr, *safe_y = nullptr, *safe_z = nullptr;  ///< meters
 };
 
 /// Contact::ellipsoid where there is none: an empty proxy, a particle that is not finite, or one farther than
@@ -27,18 +27,18 @@ inline constexpr std::uint32_t kNoEllipsoid = ~std::uint32_t{0};
 
 /// Aligned to its size, so that none is stored across two lines of the cache.
 struct alignas(32) Contact {
-  float signed_distance = 0.0f;  ///< metres to the proxy's surface (margin included), negative inside
-  float point[3] = {0, 0, 0};    ///< nearest surface point, local frame
+  float signed_distance = 0.0f;  ///< meters to the proxy's surface (margin included), negative inside
+  float point[3] = {0, 0, 0};    ///< closest surface point, local frame
   float normal[3] = {0, 1, 0};   ///< outward unit normal there
   std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids(); kNoEllipsoid: nothing to tell
 };
 
 /// What a query's answer may be off by.
 enum class Accuracy : std::uint8_t {
-  kExact,  ///< the nearest point of all ellipsoids; relief blends where they meet
+  kExact,  ///< the closest point of all ellipsoids; relief blends where they meet
   /// Half the time. The ellipsoid that is nearest to first order, and there the plane that touches it where
   /// one step of Newton's leads. Plain ellipsoids: the sign is exact, and errors grow with the fourth power
-  /// of the distance, but for few particles to which a neighbour looks nearer than it is, the fewer the
+  /// of the distance, but for few particles to which a neighbor looks nearer than it is, the fewer the
   /// closer they are to the surface. Relief is not blended and jumps between ellipsoids. What both come to:
   /// `bench/collision`. Other particles, and what a workspace keeps, may decide which of two ellipsoids a
   /// particle is told of; the number of workers does not.
@@ -55,14 +55,15 @@ struct QueryOptions {
 };
 
 enum class Response : std::uint8_t {
-  kPaper,    ///< along the ray from the centre, least-distance rule, speed scaling
-  kNearest,  ///< nearest point of the union's surface, certified outside; normal velocity removed, friction
+  kPaper,         ///< along the ray from the center, least-distance rule, speed scaling
+  kClosestPoint,  ///< closest point of the union's surface, certified outside; normal velocity removed,
+                  ///< friction
 };
 
 /// Values that are no number, and less than zero where that means nothing, count as zero; a max_push_m that
 /// is no number as no limit.
 struct ResolveOptions {
-  Response response = Response::kNearest;
+  Response response = Response::kClosestPoint;
   float thickness_m = 0.0f;  ///< kept between particle and surface
   float friction = 0.3f;     ///< Coulomb coefficient
   /// Longest move a call, beyond taking back the path from the safe position: particles that start deep
@@ -93,7 +94,7 @@ struct ContactReport {
 
 /// What a caller keeps from call to call for one set of particles: a spatial order, so that the speed does
 /// not depend on the order in which they are stored, and which ellipsoids are near, which holds while
-/// particles and proxy move by millimetres. Changes no bit of an answer. Refreshed by itself; any collider
+/// particles and proxy move by millimeters. Changes no bit of an answer. Refreshed by itself; any collider
 /// may use it. Not thread-safe; allocates, about 30 bytes a particle, when these become more.
 class Workspace {
  public:
@@ -108,7 +109,7 @@ class Workspace {
 };
 
 /// A proxy baked for queries: floats in a local frame, boxes for culling. Thread-safe but for move_to().
-/// Speed: neighbours in space should be neighbours in the arrays, or a Workspace be given.
+/// Speed: neighbors in space should be neighbors in the arrays, or a Workspace be given.
 class Collider {
  public:
   explicit Collider(const proxy::BodyProxy& proxy);
@@ -123,19 +124,19 @@ class Collider {
   bool has_relief() const noexcept;
   std::uint64_t poses() const noexcept;  ///< how often move_to() took it elsewhere
 
-  /// Carries the proxy to another pose: `shapes` are its ellipsoids now, world metres, size() of them; tables
+  /// Carries the proxy to another pose: `shapes` are its ellipsoids now, world meters, size() of them; tables
   /// move along. Contacts then know the surface's velocity, (now - before) / dt_s, zero if dt_s is not
   /// positive, and safe positions are carried with the ellipsoid they are nearest to. The origin stays.
   /// False, and nothing moves, when their number is another or one of them is not finite, has no extent or
   /// has axes that are not orthonormal and right-handed (a rig's matrix may carry a scale: it belongs to the
   /// radii). Allocates nothing; must not overlap another call. Cost: about 0.1 microseconds an ellipsoid.
   bool move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
-  /// Velocity of the body's material at a place carried by an ellipsoid; metres a second, local frame.
+  /// Velocity of the body's material at a place carried by an ellipsoid; meters a second, local frame.
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
 
-  /// Signed distance, nearest point, normal and owner of each particle; contacts has particles.count entries
-  /// (with fewer, only so many particles are asked about). Throws engine::Cancelled if the context's work is
-  /// cancelled: what contacts hold then is unspecified.
+  /// Signed distance, closest point, normal and owner of each particle; contacts has particles.count entries
+  /// (with fewer, only so many particles are asked about). Throws engine::Canceled if the context's work is
+  /// canceled: what contacts hold then is unspecified.
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              const QueryOptions& options = {}) const;
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
@@ -147,7 +148,7 @@ class Collider {
                         std::span<Contact> contacts) const noexcept;
 
   /// Moves every particle that is inside (or nearer than the thickness) out and corrects its velocity.
-  /// Allocates nothing once warm. Throws engine::Cancelled as query() does: some particles are out then.
+  /// Allocates nothing once warm. Throws engine::Canceled as query() does: some particles are out then.
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,

@@ -1,4 +1,4 @@
-// From a labelled skin to a BodyProxy: the paper's section 3 and what it lacks.
+// From a labeled skin to a BodyProxy: the paper's section 3 and what it lacks.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@
 namespace bodice::fitting {
 
 /// The skin to stand for: a closed mesh, a part a vertex. Labels may come from anywhere.
-struct LabelledSkin {
+struct LabeledSkin {
   const geometry::TriMesh& mesh;
   std::span<const body::Part> part;  ///< #V
   double stature_m = 0.0;
@@ -89,7 +89,7 @@ struct PartFit {
 };
 
 /// Against the exact signed distance to the skin, never against the proxy.
-struct Accuracy {
+struct FitAccuracy {
   Spread gap_m;
   double interior_covered_percent = 0.0;  ///< of interior sample points inside the proxy
   double skin_outside_percent = 0.0;      ///< of the skin's area outside the proxy
@@ -100,13 +100,13 @@ struct FitResult {
   proxy::BodyProxy proxy;
   double mu_torso_m = 0.0, mu_limbs_m = 0.0;  ///< in force
   std::vector<PartFit> parts;
-  Accuracy accuracy;
+  FitAccuracy accuracy;
   std::vector<engine::Warning> warnings;
   std::vector<engine::StageTime> stages;  ///< fit, tight, relief, measure
 };
 
 /// Deterministic for any worker count, except that a time budget that cuts an anytime tier short is time's.
-engine::Result<FitResult> fit(const engine::Context& context, const LabelledSkin& skin,
+engine::Result<FitResult> fit(const engine::Context& context, const LabeledSkin& skin,
                               const FitOptions& options);
 
 }  // namespace bodice::fitting

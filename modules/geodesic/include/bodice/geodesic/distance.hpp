@@ -13,10 +13,10 @@ inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
 /// A source and the distance it starts with.
 struct Seed {
   geometry::Index vertex = 0;
-  float distance = 0.0F;  ///< metres, >= 0
+  float distance = 0.0F;  ///< meters, >= 0
 };
 
-/// Distance of every vertex from its nearest source, #V, metres.
+/// Distance of every vertex from its nearest source, #V, meters.
 using Field = std::vector<float>;
 
 struct NearestSource {
@@ -28,7 +28,7 @@ struct NearestSource {
 /// edges are of similar length, O(#links log #V) at worst is not exceeded by more than the spread of lengths.
 Field distances(const EdgeGraph& graph, std::span<const Seed> seeds);
 Field distances_from(const EdgeGraph& graph, geometry::Index source);
-/// The same where that is at most `most` metres; kUnreachable farther off. Costs what lies within.
+/// The same where that is at most `most` meters; kUnreachable farther off. Costs what lies within.
 Field distances_within(const EdgeGraph& graph, std::span<const Seed> seeds, float most);
 /// The same, and which source is nearest; the first in the list among equals.
 NearestSource nearest_sources(const EdgeGraph& graph, std::span<const geometry::Index> sources);

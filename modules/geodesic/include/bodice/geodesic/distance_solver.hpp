@@ -23,7 +23,7 @@ class DistanceSolver {
   DistanceSolver(const engine::Context&, const geometry::TriMesh&, const MeshEdges&&, Method) = delete;
   DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const MeshEdges&&, Method) = delete;
 
-  /// #V, metres; kUnreachable where no source leads. Sources outside the mesh are ignored.
+  /// #V, meters; kUnreachable where no source leads. Sources outside the mesh are ignored.
   Field distances(std::span<const Seed> seeds) const;
   Field distances_from(geometry::Index source) const;
 

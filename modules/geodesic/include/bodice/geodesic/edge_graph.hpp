@@ -14,15 +14,15 @@ enum class Metric {
 
 struct Link {
   geometry::Index to = 0;
-  float length = 0.0F;  ///< metres, > 0
+  float length = 0.0F;  ///< meters, > 0
 };
 
 /// The links of vertex v are links[offset[v]] .. links[offset[v + 1]).
 struct EdgeGraph {
   std::vector<geometry::Index> offset;  ///< #V + 1
   std::vector<Link> links;
-  float longest = 0.0F;  ///< metres
-  float mean = 0.0F;     ///< metres
+  float longest = 0.0F;  ///< meters
+  float mean = 0.0F;     ///< meters
 
   std::size_t vertex_count() const { return offset.empty() ? 0 : offset.size() - 1; }
 };

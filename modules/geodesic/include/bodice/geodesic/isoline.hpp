@@ -11,7 +11,7 @@ namespace bodice::geodesic {
 struct Isoline {
   std::vector<geometry::Vec3> points;  ///< on mesh edges, in order; a closed loop does not repeat its first
   std::vector<geometry::Index> edges;  ///< the edge of each point
-  geometry::Vec3 centroid = geometry::Vec3::Zero();  ///< of the curve (by length), metres
+  geometry::Vec3 centroid = geometry::Vec3::Zero();  ///< of the curve (by length), meters
   double girth_m = 0.0;
   bool closed = false;  ///< false where the curve ends at a hole
 };

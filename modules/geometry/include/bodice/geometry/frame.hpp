@@ -6,10 +6,10 @@ namespace bodice::geometry {
 
 enum class Axis : std::uint8_t { kX, kY, kZ };
 
-/// How a file's coordinates relate to bodice's inside (metres, y up):
-/// inside = metres_per_unit * rotation(up) * file. Rotations are signed permutations, hence exact.
+/// How a file's coordinates relate to bodice's inside (meters, y up):
+/// inside = meters_per_unit * rotation(up) * file. Rotations are signed permutations, hence exact.
 struct Frame {
-  double metres_per_unit = 1.0;
+  double meters_per_unit = 1.0;
   Axis up = Axis::kY;
 
   Mat3 rotation() const {
@@ -18,9 +18,9 @@ struct Frame {
     if (up == Axis::kX) r << 0, -1, 0, 1, 0, 0, 0, 0, 1;
     return r;
   }
-  Vec3 to_inside(const Vec3& file_point) const { return metres_per_unit * (rotation() * file_point); }
+  Vec3 to_inside(const Vec3& file_point) const { return meters_per_unit * (rotation() * file_point); }
   Vec3 to_file(const Vec3& inside_point) const {
-    return rotation().transpose() * inside_point / metres_per_unit;
+    return rotation().transpose() * inside_point / meters_per_unit;
   }
   Vec3 direction_to_file(const Vec3& inside) const { return rotation().transpose() * inside; }
 };

@@ -46,7 +46,7 @@ engine::Result<RepairedMesh> repair(const engine::Context& context, const TriMes
 /// Component of each vertex (#V, numbered from the component with the most area down) and their count.
 struct Components {
   std::vector<Index> of_vertex;
-  std::vector<double> area;  ///< square metres, one a component
+  std::vector<double> area;  ///< square meters, one a component
 };
 Components connected_components(const TriMesh& mesh);
 

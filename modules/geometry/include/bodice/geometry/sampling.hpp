@@ -10,7 +10,7 @@ namespace bodice::geometry {
 struct SurfaceSample {
   Vec3 point = Vec3::Zero();
   Index triangle = kNoIndex;
-  double area = 0.0;  ///< square metres that it stands for: the same for all, the sum is the surface's area
+  double area = 0.0;  ///< square meters that it stands for: the same for all, the sum is the surface's area
 };
 
 /// `count` points spread evenly over the surface: stratified along the triangles' running area, by a

@@ -6,7 +6,7 @@
 
 namespace bodice::geometry {
 
-/// An indexed triangle mesh. Inside bodice: metres, y up, counter-clockwise seen from outside.
+/// An indexed triangle mesh. Inside bodice: meters, y up, counter-clockwise seen from outside.
 struct TriMesh {
   std::vector<Vec3> positions;      ///< #V
   std::vector<Triangle> triangles;  ///< #F, indices into positions
@@ -21,10 +21,10 @@ inline Vec3 area_vector(const TriMesh& mesh, std::size_t triangle) {
   return (mesh.corner(triangle, 1) - a).cross(mesh.corner(triangle, 2) - a);
 }
 
-/// Surface area, square metres. O(#F).
+/// Surface area, square meters. O(#F).
 double surface_area(const TriMesh& mesh);
 
-/// Signed volume by the divergence theorem, cubic metres; positive when wound outward. O(#F).
+/// Signed volume by the divergence theorem, cubic meters; positive when wound outward. O(#F).
 double signed_volume(const TriMesh& mesh);
 
 /// Area-weighted unit normals, #V; zero where no triangle gives a direction. O(#V + #F).

@@ -13,7 +13,7 @@ struct TrianglePoint {
   TriangleFeature feature = TriangleFeature::kVertex0;
 };
 
-/// The nearest point of triangle abc. Degenerate triangles act as their longest edge or their point. No NaN
+/// The closest point of triangle abc. Degenerate triangles act as their longest edge or their point. No NaN
 /// for finite input whose squares do not overflow.
 TrianglePoint closest_point(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& query);
 

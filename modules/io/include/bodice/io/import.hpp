@@ -13,7 +13,7 @@
 
 namespace bodice::io {
 
-enum class Unit { kAuto, kMetre, kDecimetre, kCentimetre, kMillimetre, kInch, kFoot };
+enum class Unit { kAuto, kMeter, kDecimeter, kCentimeter, kMillimeter, kInch, kFoot };
 
 struct ImportOptions {
   Unit unit = Unit::kAuto;           ///< told: taken, with a warning where it makes no person's size
@@ -26,7 +26,7 @@ struct ImportedMesh {
   std::string mesh;        ///< name of the mesh or group that was taken
   std::string unit;        ///< "m", "cm", ...; "unknown" with a warning when none fits
   geometry::Frame frame;   ///< file coordinates to inside
-  geometry::TriMesh skin;  ///< repaired, metres, y up
+  geometry::TriMesh skin;  ///< repaired, meters, y up
   /// #input vertices -> skin vertex or kNoIndex. Input vertices are the file's own, mesh after mesh; for OBJ,
   /// FBX and Collada, whose readers split them by corner, those of the chosen meshes in order of first use.
   std::vector<geometry::Index> vertex_of_input;  ///< #input vertices of that mesh -> skin vertex or kNoIndex

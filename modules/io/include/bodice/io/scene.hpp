@@ -17,7 +17,7 @@ namespace bodice::io {
 
 struct GarmentTrack {
   std::string name;                                 ///< "cloth", "cloth_2", ...
-  geometry::TriMesh mesh;                           ///< topology and first frame, metres, y up
+  geometry::TriMesh mesh;                           ///< topology and first frame, meters, y up
   std::vector<std::vector<geometry::Vec3>> frames;  ///< kept frames, #V each
   std::vector<double> time_s;                       ///< of each kept frame: increasing, or all the same
 };
@@ -31,7 +31,7 @@ struct Scene {
   geometry::Frame frame;  ///< of the input: what is written is in it
 };
 
-/// One distinct colour a part, sRGB 0..1, told apart by colour-blind people too as far as 15 allow.
+/// One distinct color a part, sRGB 0..1, told apart by color-blind people too as far as 15 allow.
 std::span<const float, 3> part_color(body::Part part);
 
 /// Binary glTF 2.0: nodes `body`, `ellipsoids`, `cloth`, `cloth_2`...; the cloth's frames are morph targets

@@ -15,7 +15,7 @@
 
 namespace bodice::proxy {
 
-/// The accuracy tiers, from the paper as written to a fraction of a millimetre; README.md shows the trade.
+/// The accuracy tiers, from the paper as written to a fraction of a millimeter; README.md shows the trade.
 enum class Tier : std::uint8_t { kPaper, kSolid, kTight, kRelief };
 
 std::string_view name(Tier tier);
@@ -37,7 +37,7 @@ struct ProxyEllipsoid {
 struct ReliefTable {
   std::uint16_t nodes_per_side = 0;           ///< N, 2..kMaxReliefNodes; 0: no table
   float h_scale_m = 0.0f, h_offset_m = 0.0f;  ///< h = offset + scale * byte / 255
-  float a_scale = 0.0f, a_offset = 0.0f;      ///< a likewise, metres
+  float a_scale = 0.0f, a_offset = 0.0f;      ///< a likewise, meters
   std::uint32_t first_texel = 0;              ///< into BodyProxy::texels(), N*N texels, row-major; not
                                               ///< beyond their end without a table either
 };
@@ -47,7 +47,7 @@ struct ReliefTexel {
   std::uint8_t a = 0;
 };
 
-/// An immutable union of ellipsoids that stands for a body. Thread-safe. Metres, y up.
+/// An immutable union of ellipsoids that stands for a body. Thread-safe. Meters, y up.
 class BodyProxy {
  public:
   struct Data {

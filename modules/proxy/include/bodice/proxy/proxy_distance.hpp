@@ -1,8 +1,8 @@
 // The proxy's signed distance, defined: the scalar double reference that fitting trains against, that
 // reports are judged with, and that every faster evaluation has to agree with.
 //
-// For a point x and ellipsoid k (centre c, axes R, radii r):
-//   (1)  d_k   exact signed distance to the ellipsoid's surface, negative inside; f_k its nearest point
+// For a point x and ellipsoid k (center c, axes R, radii r):
+//   (1)  d_k   exact signed distance to the ellipsoid's surface, negative inside; f_k its closest point
 //   (2)  w_k   = R^T (f_k - c) / r, component by component: a unit vector, the foot on the unit sphere
 //   (3)  F_k   = d_k - h_k(w_k) - a_k(w_k) clamp(d_k, -reach.in, reach.out) / reach.out  (no table: d_k)
 //   (4)  owner = argmin_k d_k, the lowest index on a tie
@@ -10,7 +10,7 @@
 //        F     = sum_k W_k F_k / sum_k W_k - margin                                      (relief)
 //        W_k   = max(0, 1 - (d_k - d_owner) / reach.blend)^2
 // (5) is continuous: W_k falls to zero, with its slope, before k stops being near the owner. What
-// remains is the ellipsoids' own medial disks, deep inside, where the nearest point is not unique.
+// remains is the ellipsoids' own medial disks, deep inside, where the closest point is not unique.
 // reach scales with the body, so that a proxy in another unit is the same proxy: relief_reach().
 //
 // The table is read at w by the octahedral map. With s = |w_x| + |w_y| + |w_z|, p = (w_x, w_y) / s; where
@@ -54,7 +54,7 @@ struct TableStencil {
 TableStencil table_stencil(const Vec3& direction, int nodes_per_side);
 
 struct ProxyDistance {
-  double distance = 0.0;        ///< F, metres, negative inside
+  double distance = 0.0;        ///< F, meters, negative inside
   Vec3 normal = Vec3::UnitX();  ///< unit gradient of F, with the weights W_k held fixed
   std::uint32_t owner = 0;      ///< eq. (4)
 };

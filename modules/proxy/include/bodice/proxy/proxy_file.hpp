@@ -1,5 +1,5 @@
 // Proxies on disk: JSON for people and tools (in the units and axes of the body's file, BodyProxy::frame()),
-// a compact binary for runtimes (metres, y up). Both are versioned, both give the same hash back, and loading
+// a compact binary for runtimes (meters, y up). Both are versioned, both give the same hash back, and loading
 // hostile bytes is safe: every length and value is checked before it is used.
 #pragma once
 

@@ -25,7 +25,7 @@ struct ProxySurface {
 /// Cost: two or three scalar distances a vertex; a body of 89 ellipsoids with relief at a three-hundredth of
 /// its stature has 80,000 of them and takes a second of one core.
 // Based on: Sarah F. F. Gibson. Constrained Elastic Surface Nets. 1998.
-// Differs: only cells that the surface crosses are visited, each from a neighbour; vertices go down the
+// Differs: only cells that the surface crosses are visited, each from a neighbor; vertices go down the
 // distance's gradient in place of relaxing.
 engine::Result<ProxySurface> proxy_surface(const engine::Context& context, const BodyProxy& proxy,
                                            double cell_m);

@@ -44,12 +44,12 @@ struct BodyOptions {
 
 struct Joint {
   std::string name;         ///< "elbow_l", "knee_r", "neck", ...
-  geometry::Vec3 position;  ///< metres
+  geometry::Vec3 position;  ///< meters
 };
 
 /// A closed surface of one component and genus 0, with the truth it was made from.
 struct Body {
-  geometry::TriMesh mesh;        ///< metres, y up, facing +z, the body's left at +x
+  geometry::TriMesh mesh;        ///< meters, y up, facing +z, the body's left at +x
   std::vector<body::Part> part;  ///< #V
   std::vector<Joint> joints;
   std::vector<body::Landmark> landmarks;  ///< all of LandmarkId, confidence 1

@@ -58,7 +58,7 @@ engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::I
                                            const SegmentOptions& options, const Progress& progress = {});
 
 /// The skin as fitting takes it; valid as long as the skin.
-fitting::LabelledSkin labelled(const SegmentedSkin& skin);
+fitting::LabeledSkin labeled(const SegmentedSkin& skin);
 
 /// Fits a proxy to a segmented skin.
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,

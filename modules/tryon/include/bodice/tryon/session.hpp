@@ -41,7 +41,7 @@ struct LiveBody {
 };
 
 struct FrameOutcome {
-  engine::FrameReport timing;
+  engine::FrameTiming timing;
   cloth::FrameReport cloth;
   bool has_body = false;
   std::uint64_t proxy_hash = 0;  ///< of the proxy in force

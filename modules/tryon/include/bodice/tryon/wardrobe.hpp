@@ -14,7 +14,7 @@ namespace bodice::tryon {
 
 struct WornGarment {
   std::string name;
-  geometry::TriMesh mesh;             ///< metres, y up
+  geometry::TriMesh mesh;             ///< meters, y up
   std::vector<geometry::Index> held;  ///< vertices that stay with the body
 };
 
@@ -43,7 +43,7 @@ double fitted_thickness_m(const engine::Context& context, const geometry::TriMes
                           const geometry::MeshDistance& skin, double stature_m);
 
 /// Where the held vertices are to be: their own places, pushed out of the collider where they lie inside it,
-/// as a waistband lies on the body that it is on. #held, world metres.
+/// as a waistband lies on the body that it is on. #held, world meters.
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,
                                            double thickness_m);
 

@@ -14,8 +14,8 @@ using body::LandmarkId;
 
 namespace {
 
-engine::Result<anatomy::Anatomy> analyse(const geometry::TriMesh& mesh, const engine::Context& context = {}) {
-  return anatomy::analyse(context, mesh, {*body::find_profile("ansur2")});
+engine::Result<anatomy::Anatomy> analyze(const geometry::TriMesh& mesh, const engine::Context& context = {}) {
+  return anatomy::analyze(context, mesh, {*body::find_profile("ansur2")});
 }
 
 /// Worst distance between the landmarks of two answers, after `back` undoes what was done to the second mesh.
@@ -36,7 +36,7 @@ TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swa
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     CAPTURE(seed);
     const synth::Body truth = made::random_body(seed);
-    const auto found = analyse(truth.mesh);
+    const auto found = analyze(truth.mesh);
     REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
     const double agreement = made::agreement(truth, found->part);
     sum += agreement;
@@ -58,7 +58,7 @@ TEST_CASE("children of all ages, pregnant and very heavy bodies are understood")
   const auto check = [](const synth::BodyOptions& options) {
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    const auto found = analyse(truth->mesh);
+    const auto found = analyze(truth->mesh);
     REQUIRE(found.ok());
     CHECK(made::agreement(*truth, found->part) > 0.93);
     CHECK(made::swapped(*truth, found->part) < 0.001);
@@ -91,7 +91,7 @@ TEST_CASE(
     const auto truth = synth::make_body(
         {}, {.mass_kg = 40.0 * 1.68 * 1.68, .pose = synth::Pose::kT, .vertices = 5000, .seed = seed});
     REQUIRE(truth.ok());
-    const auto found = analyse(truth->mesh);
+    const auto found = analyze(truth->mesh);
     REQUIRE(found.ok());
     for (const LandmarkId armpit : {LandmarkId::kArmpitL, LandmarkId::kArmpitR})
       CHECK(made::error(*truth, *found, armpit) < 0.025);
@@ -101,7 +101,7 @@ TEST_CASE(
 namespace {
 
 double worst_error(const synth::Body& truth, std::initializer_list<LandmarkId> ids) {
-  const auto found = analyse(truth.mesh);
+  const auto found = analyze(truth.mesh);
   REQUIRE(found.ok());
   double worst = 0.0;
   for (const LandmarkId id : ids) worst = std::max(worst, made::error(truth, *found, id));
@@ -183,7 +183,7 @@ TEST_CASE("the tips of blunt feet are where they are found") {
 
 TEST_CASE("every landmark has a confidence that was measured") {
   const synth::Body truth = made::random_body(6);
-  const auto found = analyse(truth.mesh);
+  const auto found = analyze(truth.mesh);
   REQUIRE(found.ok());
   for (const body::Landmark& mark : found->landmarks) {
     CAPTURE(std::string(body::name(mark.id)));
@@ -208,7 +208,7 @@ TEST_CASE("left and right hold on bent knees of any build, where ways run over t
         options.seed = 3;
         const auto truth = synth::make_body({}, options);
         REQUIRE(truth.ok());
-        const auto found = analyse(truth->mesh);
+        const auto found = analyze(truth->mesh);
         REQUIRE(found.ok());
         CHECK(made::swapped(*truth, found->part) < 0.001);
       }
@@ -219,13 +219,13 @@ TEST_CASE("fins that bridge the body change nothing") {
   options.vertices = 3600;
   const auto body = synth::make_body({}, options);
   REQUIRE(body.ok());
-  const auto reference = analyse(body->mesh);
+  const auto reference = analyze(body->mesh);
   REQUIRE(reference.ok());
   geometry::TriMesh finned = body->mesh;
   const auto crown = reference->landmarks[static_cast<std::size_t>(LandmarkId::kCrown)].vertex;
   for (std::size_t f = 0; f < body->mesh.triangles.size(); f += 97)
     finned.triangles.push_back({body->mesh.triangles[f][0], body->mesh.triangles[f][1], crown});
-  const auto found = analyse(finned);
+  const auto found = analyze(finned);
   REQUIRE(found.ok());
   CHECK(found->part == reference->part);
   CHECK(worst_move(*reference, *found, [](const geometry::Vec3& p) { return p; }) < 1e-9);
@@ -237,7 +237,7 @@ TEST_CASE("a forearm welded to the trunk in one vertex is taken apart, and said"
   options.pose = synth::Pose::kArmsDown;
   const auto body = synth::make_body({}, options);
   REQUIRE(body.ok());
-  const auto reference = analyse(body->mesh);
+  const auto reference = analyze(body->mesh);
   REQUIRE(reference.ok());
   geometry::Index arm = 0, other = 0;
   double least = 1e9;
@@ -255,7 +255,7 @@ TEST_CASE("a forearm welded to the trunk in one vertex is taken apart, and said"
   for (auto& t : welded.triangles)
     for (auto& v : t)
       if (v == arm) v = other;
-  const auto found = analyse(welded);
+  const auto found = analyze(welded);
   REQUIRE(found.ok());
   std::size_t differ = 0;
   for (std::size_t v = 0; v < found->part.size(); ++v)
@@ -270,12 +270,12 @@ TEST_CASE("hands fused to legs and legs to each other are refused with a sentenc
   const auto truth = synth::make_body({}, {.pose = synth::Pose::kArmsDown, .vertices = 5000});
   REQUIRE(truth.ok());
   const auto left = made::fused(*truth, truth->mesh, Part::kForearmL, Part::kThighL);
-  const auto hands = analyse(made::fused(*truth, left, Part::kForearmR, Part::kThighR));
+  const auto hands = analyze(made::fused(*truth, left, Part::kForearmR, Part::kThighR));
   REQUIRE(!hands.ok());
   CHECK(hands.error().code == engine::ErrorCode::kUnusableGeometry);
   CHECK(hands.error().message.find("a hand touches a leg") != std::string::npos);
   CHECK(!hands.error().remedy.empty());
-  const auto legs = analyse(made::fused(*truth, truth->mesh, Part::kCalfL, Part::kCalfR));
+  const auto legs = analyze(made::fused(*truth, truth->mesh, Part::kCalfL, Part::kCalfR));
   REQUIRE(!legs.ok());
   CHECK(legs.error().message.find("the legs touch") != std::string::npos);
 }
@@ -288,7 +288,7 @@ TEST_CASE("a weld that spoils few places leaves the rest, and every place that i
     return std::any_of(found.warnings.begin(), found.warnings.end(),
                        [&](const engine::Warning& w) { return w.code == code && w.part == part; });
   };
-  const auto hand = analyse(made::fused(*truth, truth->mesh, Part::kForearmL, Part::kThighL));
+  const auto hand = analyze(made::fused(*truth, truth->mesh, Part::kForearmL, Part::kThighL));
   REQUIRE(hand.ok());
   CHECK(made::agreement(*truth, hand->part) > 0.95);
   CHECK(has(*hand, "hand-fused-to-leg", "forearm_l"));
@@ -296,7 +296,7 @@ TEST_CASE("a weld that spoils few places leaves the rest, and every place that i
   for (int i = 0; i < body::kLandmarkCount; ++i)
     if (static_cast<LandmarkId>(i) != LandmarkId::kArmpitL)
       CHECK(made::error(*truth, *hand, static_cast<LandmarkId>(i)) < 0.03);
-  const auto thighs = analyse(made::fused(*truth, truth->mesh, Part::kThighL, Part::kThighR));
+  const auto thighs = analyze(made::fused(*truth, truth->mesh, Part::kThighL, Part::kThighR));
   REQUIRE(thighs.ok());
   CHECK(made::agreement(*truth, thighs->part) > 0.95);
   CHECK(has(*thighs, "limbs-fused", ""));
@@ -304,13 +304,13 @@ TEST_CASE("a weld that spoils few places leaves the rest, and every place that i
 
 TEST_CASE("any number of workers gives the same bits") {
   const synth::Body truth = made::random_body(5);
-  const auto serial = analyse(truth.mesh);
+  const auto serial = analyze(truth.mesh);
   REQUIRE(serial.ok());
   for (const int workers : {2, 4}) {
     const auto executor = bodice_test::make_threads(workers);
     engine::Context context;
     context.executor = executor.get();
-    const auto parallel = analyse(truth.mesh, context);
+    const auto parallel = analyze(truth.mesh, context);
     REQUIRE(parallel.ok());
     CHECK(parallel->part == serial->part);
     CHECK(parallel->stature_m == serial->stature_m);
@@ -323,7 +323,7 @@ TEST_CASE("a mirrored body's left is the original's right") {
   geometry::TriMesh mirror = truth.mesh;
   for (auto& p : mirror.positions) p.x() = -p.x();
   for (auto& t : mirror.triangles) std::swap(t[1], t[2]);
-  const auto a = analyse(truth.mesh), b = analyse(mirror);
+  const auto a = analyze(truth.mesh), b = analyze(mirror);
   REQUIRE((a.ok() && b.ok()));
   std::size_t differ = 0;
   for (std::size_t v = 0; v < a->part.size(); ++v) differ += body::mirrored(a->part[v]) != b->part[v];
@@ -332,7 +332,7 @@ TEST_CASE("a mirrored body's left is the original's right") {
 
 TEST_CASE("each part is one patch of the skin") {
   const synth::Body truth = made::random_body(2);
-  const auto found = analyse(truth.mesh);
+  const auto found = analyze(truth.mesh);
   REQUIRE(found.ok());
   std::array<int, body::kPartCount> patches{};
   std::vector<char> seen(found->part.size(), 0);
@@ -359,12 +359,12 @@ TEST_CASE("each part is one patch of the skin") {
 
 TEST_CASE("what is not a body fails with a sentence, and never crashes") {
   geometry::TriMesh mesh;
-  CHECK(analyse(mesh).error().code == engine::ErrorCode::kUnusableGeometry);
+  CHECK(analyze(mesh).error().code == engine::ErrorCode::kUnusableGeometry);
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 1, 2}};
-  CHECK(!analyse(mesh).ok());
+  CHECK(!analyze(mesh).ok());
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};  // a tetrahedron
-  const auto found = analyse(mesh);
+  const auto found = analyze(mesh);
   REQUIRE(!found.ok());
   CHECK(found.error().code == engine::ErrorCode::kUnusableGeometry);
   CHECK(!found.error().remedy.empty());

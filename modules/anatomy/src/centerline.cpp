@@ -1,4 +1,4 @@
-#include "centreline.hpp"
+#include "centerline.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The nearest point against a reference in 113-bit arithmetic that shares nothing with it but the problem:
+// The closest point against a reference in 113-bit arithmetic that shares nothing with it but the problem:
 // plain bisection of Eberly's equation in t, 400 halvings.
 #include <doctest/doctest.h>
 
@@ -94,7 +94,7 @@ struct Errors {
 };
 
 Errors errors_of(const Ellipsoid& e, const Vec3& query) {
-  const NearestPoint got = nearest_point(e, query);
+  const ClosestPoint got = closest_point(e, query);
   REQUIRE(got.point.allFinite());
   REQUIRE(got.normal.allFinite());
   REQUIRE(std::isfinite(got.signed_distance));
@@ -132,14 +132,14 @@ void check_errors(const Ellipsoid& e, const Vec3& query) {
 
 }  // namespace
 
-TEST_CASE("nearest_point is exact to 1e-12 on every hostile query of every hostile ellipsoid") {
+TEST_CASE("closest_point is exact to 1e-12 on every hostile query of every hostile ellipsoid") {
   for (const auto& extreme : bodice_test::extreme_ellipsoids()) {
     CAPTURE(extreme.name);
     for (const Vec3& query : bodice_test::hostile_queries(extreme.shape)) check_errors(extreme.shape, query);
   }
 }
 
-TEST_CASE("nearest_point is exact to 1e-12 on random shapes and queries over twelve decades") {
+TEST_CASE("closest_point is exact to 1e-12 on random shapes and queries over twelve decades") {
   bodice::engine::Random random(7);
   for (int i = 0; i < 4000; ++i) {
     Ellipsoid e;
@@ -158,7 +158,7 @@ TEST_CASE("nearest_point is exact to 1e-12 on random shapes and queries over twe
   }
 }
 
-TEST_CASE("no sampled surface point is nearer than nearest_point") {
+TEST_CASE("no sampled surface point is nearer than closest_point") {
   bodice::engine::Random random(3);
   for (const auto& extreme : bodice_test::extreme_ellipsoids()) {
     CAPTURE(extreme.name);
@@ -166,7 +166,7 @@ TEST_CASE("no sampled surface point is nearer than nearest_point") {
     for (int i = 0; i < 20; ++i) {
       const Vec3 w = 1.3 * Vec3(random.normal(), random.normal(), random.normal());
       const Vec3 query = e.center + e.axes * e.radii.cwiseProduct(w);
-      const double best = (nearest_point(e, query).point - query).norm();
+      const double best = (closest_point(e, query).point - query).norm();
       for (int s = 0; s < 100; ++s) {
         const Vec3 u = Vec3(random.normal(), random.normal(), random.normal()).normalized();
         const Vec3 p = e.center + e.axes * e.radii.cwiseProduct(u);
@@ -176,22 +176,22 @@ TEST_CASE("no sampled surface point is nearer than nearest_point") {
   }
 }
 
-TEST_CASE("where the nearest point is not unique, the documented one is returned") {
+TEST_CASE("where the closest point is not unique, the documented one is returned") {
   const Ellipsoid e{Vec3::Zero(), Mat3::Identity(), Vec3(3.0, 1.0, 2.0)};
-  const NearestPoint at_centre = nearest_point(e, Vec3::Zero());
-  CHECK(at_centre.point == Vec3(0.0, 1.0, 0.0));
-  CHECK(at_centre.normal == Vec3(0.0, 1.0, 0.0));
-  CHECK(at_centre.signed_distance == -1.0);
-  const NearestPoint on_disk = nearest_point(e, Vec3(0.5, 0.0, -0.3));
+  const ClosestPoint at_center = closest_point(e, Vec3::Zero());
+  CHECK(at_center.point == Vec3(0.0, 1.0, 0.0));
+  CHECK(at_center.normal == Vec3(0.0, 1.0, 0.0));
+  CHECK(at_center.signed_distance == -1.0);
+  const ClosestPoint on_disk = closest_point(e, Vec3(0.5, 0.0, -0.3));
   CHECK(on_disk.point[1] > 0.0);
-  const NearestPoint below = nearest_point(e, Vec3(0.5, -1e-30, -0.3));
+  const ClosestPoint below = closest_point(e, Vec3(0.5, -1e-30, -0.3));
   CHECK(below.point[1] == doctest::Approx(-on_disk.point[1]));
 }
 
-TEST_CASE("a sphere's nearest point is radial, to the last digits") {
+TEST_CASE("a sphere's closest point is radial, to the last digits") {
   const Ellipsoid sphere{Vec3(1, 2, 3), Mat3::Identity(), Vec3::Constant(0.5)};
   const Vec3 direction = Vec3(1, -2, 2) / 3.0;
-  const NearestPoint got = nearest_point(sphere, sphere.center + 0.8 * direction);
+  const ClosestPoint got = closest_point(sphere, sphere.center + 0.8 * direction);
   CHECK((got.normal - direction).norm() < 1e-15);
   CHECK(got.signed_distance == doctest::Approx(0.3).epsilon(1e-14));
 }

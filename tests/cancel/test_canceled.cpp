@@ -1,5 +1,5 @@
-// Every public function that takes a Context and returns a Result, cancelled at one checkpoint after another:
-// it answers kCancelled or, if it was done before, with its result. Nothing is thrown.
+// Every public function that takes a Context and returns a Result, canceled at one checkpoint after another:
+// it answers kCanceled or, if it was done before, with its result. Nothing is thrown.
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -57,7 +57,7 @@ engine::Result<void> outcome(const engine::Result<T>& result) {
 struct Subjects {
   synth::Body body = *synth::make_body({}, {.vertices = 1500});
   body::ProportionProfile profile = *body::find_profile("ansur2");
-  fitting::LabelledSkin skin{body.mesh, body.part, body.stature_m};
+  fitting::LabeledSkin skin{body.mesh, body.part, body.stature_m};
   proxy::BodyProxy proxy = *fitting::enclose_parts({}, skin, fitting::kAllParts);
   tryon::PreparedBody worn = *tryon::fit_proxy({}, *tryon::segment_builtin({}, {.vertices = 1500}, {}),
                                                {.tier = proxy::Tier::kPaper});
@@ -66,7 +66,7 @@ struct Subjects {
   std::filesystem::path file = folder / "body.obj";
 };
 
-/// How many of the places at which it was cancelled were reached.
+/// How many of the places at which it was canceled were reached.
 int cancel_everywhere(const std::string& name, const Call& call) {
   CAPTURE(name);
   int reached = 0;
@@ -76,8 +76,8 @@ int cancel_everywhere(const std::string& name, const Call& call) {
     engine::Result<void> result;
     CHECK_NOTHROW(result = call(executor.context()));
     if (result.ok()) break;
-    REQUIRE(result.error().code == ErrorCode::kCancelled);
-    CHECK(result.error().message.find("ancelled") != std::string::npos);  // or "Cancelled at 'task'."
+    REQUIRE(result.error().code == ErrorCode::kCanceled);
+    CHECK(result.error().message.find("ancelled") != std::string::npos);  // or "Canceled at 'task'."
     ++reached;
   }
   return reached;
@@ -85,7 +85,7 @@ int cancel_everywhere(const std::string& name, const Call& call) {
 
 }  // namespace
 
-TEST_CASE("cancelled work is kCancelled from every public function, wherever it is cut") {
+TEST_CASE("canceled work is kCanceled from every public function, wherever it is cut") {
   const Subjects of;
   REQUIRE(io::write_obj(of.body.mesh, of.file).ok());
   const struct {
@@ -100,7 +100,7 @@ TEST_CASE("cancelled work is kCancelled from every public function, wherever it 
          return outcome(synth::make_garment(
              c, {of.body.mesh, of.body.part, of.body.landmarks, of.body.stature_m}, {.edge_length_m = 0.05}));
        }},
-      {"analyse", [&](const Context& c) { return outcome(anatomy::analyse(c, of.body.mesh, {of.profile})); }},
+      {"analyze", [&](const Context& c) { return outcome(anatomy::analyze(c, of.body.mesh, {of.profile})); }},
       {"enclose_parts",
        [&](const Context& c) { return outcome(fitting::enclose_parts(c, of.skin, fitting::kAllParts)); }},
       {"fit",

@@ -1,5 +1,5 @@
 #include <bodice/anatomy/anatomy.hpp>
-#include <bodice/engine/catch_cancelled.hpp>
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/fins.hpp>
 
@@ -70,7 +70,7 @@ engine::Result<Anatomy> understand(const engine::Context& context, const Skin& s
   Landmarks marks = find_landmarks(context, skin, coordinates);
   const SecondWays second = ask_second_ways(context, skin, coordinates, marks);
   weigh(second, marks);
-  if (const auto spoilt = spoilt_by_welds(skin, coordinates, marks, second)) return *spoilt;
+  if (const auto spoiled = spoiled_by_welds(skin, coordinates, marks, second)) return *spoiled;
   anatomy.stature_m = find_stature(skin, ends, marks);
   anatomy.up = upwards(skin, marks);
   anatomy.landmarks = as_list(skin, ends, marks);
@@ -135,7 +135,7 @@ geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
   return kept;
 }
 
-engine::Result<Anatomy> analyse_mesh(const engine::Context& context, const geometry::TriMesh& mesh,
+engine::Result<Anatomy> analyze_mesh(const engine::Context& context, const geometry::TriMesh& mesh,
                                      const Options& options) {
   Anatomy anatomy;
   StageTimer skin_timer(context, anatomy.stages, "skin");
@@ -148,11 +148,11 @@ engine::Result<Anatomy> analyse_mesh(const engine::Context& context, const geome
 
 }  // namespace
 
-engine::Result<Anatomy> analyse(const engine::Context& context, const geometry::TriMesh& mesh,
+engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& mesh,
                                 const Options& options) {
   if (mesh.empty()) return no_body("the mesh has no triangles.");
-  return engine::catch_cancelled("The analysis of the body",
-                                 [&] { return analyse_mesh(context, mesh, options); });
+  return engine::catch_canceled("The analysis of the body",
+                                [&] { return analyze_mesh(context, mesh, options); });
 }
 
 }  // namespace bodice::anatomy

@@ -98,7 +98,7 @@ Vec3 foot_direction(const Vec3& radii, const Vec3& abs_y) {
 
 }  // namespace
 
-NearestPoint nearest_point(const Ellipsoid& ellipsoid, const Vec3& point) {
+ClosestPoint closest_point(const Ellipsoid& ellipsoid, const Vec3& point) {
   const Vec3 y = ellipsoid.axes.transpose() * (point - ellipsoid.center);
   const double size =
       std::max({ellipsoid.radii.maxCoeff(), y.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()});
@@ -110,7 +110,7 @@ NearestPoint nearest_point(const Ellipsoid& ellipsoid, const Vec3& point) {
   const Vec3 foot = radii.cwiseProduct(w);
   const Vec3 slope = w.cwiseQuotient(radii);
   const Vec3 normal = (slope / slope.cwiseAbs().maxCoeff()).normalized();
-  NearestPoint result;
+  ClosestPoint result;
   result.point = ellipsoid.center + ellipsoid.axes * (size * foot);
   result.normal = ellipsoid.axes * normal;
   // First-order insensitive to an error of the foot along the surface.

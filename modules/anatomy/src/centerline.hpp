@@ -8,7 +8,7 @@ namespace bodice::anatomy {
 
 /// Where a limb bends most, between two levels of the distance from its end.
 struct Bend {
-  float level = 0.0F;      ///< metres from the end of the limb
+  float level = 0.0F;      ///< meters from the end of the limb
   float angle_rad = 0.0F;  ///< between the limb's axes before and behind; 0 on a straight one
 };
 

@@ -10,15 +10,15 @@
 
 namespace bodice::engine {
 
-/// The Result that `work()` returns, or kCancelled where a checkpoint in it throws Cancelled: what each
+/// The Result that `work()` returns, or kCanceled where a checkpoint in it throws Canceled: what each
 /// public function that takes a Context and returns a Result ends with. `what` begins the sentence: "The fit"
-/// was cancelled.
+/// was canceled.
 template <class Work>
-std::invoke_result_t<Work> catch_cancelled(std::string_view what, Work&& work) {
+std::invoke_result_t<Work> catch_canceled(std::string_view what, Work&& work) {
   try {
     return std::forward<Work>(work)();
-  } catch (const Cancelled&) {
-    return Error{ErrorCode::kCancelled, std::string(what) + " was cancelled.", ""};
+  } catch (const Canceled&) {
+    return Error{ErrorCode::kCanceled, std::string(what) + " was canceled.", ""};
   }
 }
 

@@ -1,4 +1,4 @@
-// Differs from the paper's section 4: the nearest point of the union, or of its corrected surface, instead of
+// Differs from the paper's section 4: the closest point of the union, or of its corrected surface, instead of
 // the central ray of one ellipsoid; where a particle came from decides between the sides of a limb; where two
 // limbs leave no room for the clearance it rests midway, still outside of both.
 #include <cmath>
@@ -24,7 +24,7 @@ void correct_velocity(const Halfspaces& contact, double friction, Vec3& velocity
       speed > friction * impulse ? Vec3(along * (1.0 - friction * impulse / speed)) : Vec3(Vec3::Zero());
 }
 
-/// The place as it is stored. Through memory, since g++ 12 vectorises a pair of casts to float and back into
+/// The place as it is stored. Through memory, since g++ 12 vectorizes a pair of casts to float and back into
 /// none.
 Vec3 stored(const Vec3& x) {
   const auto rounded = [](double v) {
@@ -200,13 +200,13 @@ class Resolver {
     field_.visit_near(
         x, [&] { return within_m; },
         [&](std::size_t k, const UnionField::Plane&) {
-          const geometry::NearestPoint at = geometry::nearest_point(field_.shape(k), x);
+          const geometry::ClosestPoint at = geometry::closest_point(field_.shape(k), x);
           if (at.signed_distance <= within_m) result.add({at.normal, 0.0});
         });
     return result.size() > 0 ? result : single(near_.at(x).gradient);
   }
 
-  /// Along normals, and along the axes: in a fold a ray along a normal may graze another surface for metres.
+  /// Along normals, and along the axes: in a fold a ray along a normal may graze another surface for meters.
   /// What was settled is where surfaces meet, and stays if it is about as near.
   void leave_along_rays(Way& way) {
     const auto follow = [&](const Vec3& direction) {
@@ -268,14 +268,14 @@ class Resolver {
   Vec3 judged_ = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< of the last stored_distance()
   double judged_m_ = 0.0;
   Halfspaces contact_;
-  bool chance_ = false;  ///< x_ is clear, but not the nearest place that is
+  bool chance_ = false;  ///< x_ is clear, but not the closest place that is
   ParticleReport report_;
 };
 
 }  // namespace
 
-ParticleReport resolve_nearest(const UnionField& field, const ReliefTables* relief, double clearance_m,
-                               const ResolveOptions& options, ParticleState& particle) {
+ParticleReport resolve_closest_point(const UnionField& field, const ReliefTables* relief, double clearance_m,
+                                     const ResolveOptions& options, ParticleState& particle) {
   return Resolver(field, relief, clearance_m, options, particle).run();
 }
 
