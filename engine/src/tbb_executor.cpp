@@ -25,7 +25,7 @@ class TbbExecutor final : public Executor {
  public:
   explicit TbbExecutor(int concurrency) : arena_(concurrency) {
     if (concurrency > tbb::info::default_concurrency()) {
-      more_workers_.emplace(tbb::global_control::max_allowed_parallelizm,
+      more_workers_.emplace(tbb::global_control::max_allowed_parallelism,
                             std::max(concurrency, kProcessLimit));
     }
     arena_.initialize();
