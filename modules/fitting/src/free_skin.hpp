@@ -25,7 +25,7 @@ class FreeSkin {
   bool wanted(body::Part part) const { return ((source_.parts >> static_cast<int>(part)) & 1u) != 0; }
 
   /// Nearest free skin within a distance, unsigned.
-  std::optional<geometry::SurfacePoint> nearest_within(const Vec3& point, double max_distance_m) const {
+  std::optional<geometry::SurfacePoint> closest_point_within(const Vec3& point, double max_distance_m) const {
     return distance_->closest_point_within(point, max_distance_m);
   }
   body::Part part(const geometry::SurfacePoint& hit) const;
