@@ -9,6 +9,8 @@ namespace {
 constexpr int kSuper = 3;  // samples a pixel and axis
 constexpr float kMargin = 0.05f;
 constexpr float kInsideOfCloth = 0.55f;
+constexpr float kEdge = 0.35f;                // brightness of an edge
+constexpr float kEdgeWidth = 0.5f * kSuper;   // half its thickness, samples
 constexpr float kGroundLine = 0.6f * kSuper;  // half its thickness, samples
 
 View panel_view(const geometry::Box& box, Side side, int width, int height) {
@@ -135,6 +137,7 @@ class Panel {
       normal = -normal;
       color *= kInsideOfCloth;
     }
+    if (actor.edges && drawn.flat.distance_to_edges(w) < kEdgeWidth) color *= kEdge;
     return lighting_.shade(mix(actor.positions), normal, view_.toward_eye, color);
   }
 

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include <png.h>
+#include <bodice/engine/write_file.hpp>
 
 namespace bodice::io {
 
@@ -18,6 +19,14 @@ std::vector<std::byte> encode_png(const Image& image) {
   if (!png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr)) return {};
   bytes.resize(size);
   return bytes;
+}
+
+engine::Result<void> write_png(const Image& image, const std::filesystem::path& file) {
+  const std::vector<std::byte> png = encode_png(image);
+  if (png.empty())
+    return engine::Error{engine::ErrorCode::kWriteFailed,
+                         "'" + file.string() + "' could not be encoded as PNG.", "Use a smaller picture."};
+  return engine::write_file(file, png);
 }
 
 }  // namespace bodice::io

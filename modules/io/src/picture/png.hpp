@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
+
+#include <bodice/engine/result.hpp>
 
 namespace bodice::io {
 
@@ -14,5 +17,8 @@ struct Image {
 
 /// The image as a PNG file's bytes; empty where libpng refuses.
 std::vector<std::byte> encode_png(const Image& image);
+
+/// Writes the image; the file appears whole or not at all. Fails with kWriteFailed.
+engine::Result<void> write_png(const Image& image, const std::filesystem::path& file);
 
 }  // namespace bodice::io

@@ -42,7 +42,7 @@ struct DepthBuffer {
   std::vector<float> depth;
 };
 
-/// A projected triangle: barycentric weights of a place in the picture.
+/// A projected triangle: barycentric weights of a point in the picture.
 struct FlatTriangle {
   Vec3f a, b, c;
   float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());  ///< twice, signed
@@ -51,6 +51,15 @@ struct FlatTriangle {
     const float wb = ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / area;
     const float wc = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
     return {1.0f - wb - wc, wb, wc};
+  }
+
+  /// Distance in the picture from the point with weights `w` to the nearest edge, in pixels.
+  float distance_to_edges(const Vec3f& w) const {
+    const auto length = [](const Vec3f& p, const Vec3f& q) {
+      return std::hypot(q.x() - p.x(), q.y() - p.y());
+    };
+    const float heights[] = {w[0] / length(b, c), w[1] / length(c, a), w[2] / length(a, b)};
+    return std::abs(area) * std::min({heights[0], heights[1], heights[2]});
   }
 };
 

@@ -36,12 +36,14 @@ Actor make_actor(const geometry::TriMesh& mesh, const Vec3f& color, bool two_sid
 
 Lighting::Lighting(const std::vector<Actor>& actors, const geometry::Box& box, const View& eye)
     : view_(light_view(box, eye)), shadow_(view_), bias_(kShadowBiasPixels) {
-  for (const Actor& actor : actors)
+  for (const Actor& actor : actors) {
+    if (!actor.casts_shadow) continue;
     for (const auto& [a, b, c] : actor.triangles)
       draw_triangle(shadow_,
                     {view_.project(actor.positions[a]), view_.project(actor.positions[b]),
                      view_.project(actor.positions[c])},
                     [](std::size_t) {});
+  }
 }
 
 float Lighting::lit(const Vec3f& point, const Vec3f& normal) const {

@@ -13,6 +13,8 @@ struct Actor {
   std::vector<Vec3f> colors;              ///< #V, linear light 0..1
   std::vector<geometry::Triangle> triangles;
   bool two_sided = false;  ///< cloth: the inside is seen, darker
+  bool edges = false;      ///< the triangles' edges are drawn, darker
+  bool casts_shadow = true;
 };
 
 Actor make_actor(const geometry::TriMesh& mesh, const Vec3f& color, bool two_sided);

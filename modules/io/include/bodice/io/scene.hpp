@@ -27,6 +27,7 @@ struct Scene {
   std::span<const body::Part> part;  ///< #V of the body, or empty
   const proxy::BodyProxy* proxy = nullptr;
   const proxy::ProxySurface* surface = nullptr;  ///< of the proxy: pictures show it for the ellipsoids
+  std::span<const geometry::Vec3> landmarks;     ///< points that write_stages_picture() marks
   std::vector<GarmentTrack> garments;
   geometry::Frame frame;  ///< of the input: what is written is in it
 };
@@ -48,5 +49,11 @@ struct PictureOptions {
 /// column for the front and the side view. Software-rendered.
 engine::Result<void> write_picture(const Scene& scene, std::span<const std::size_t> frames,
                                    const std::filesystem::path& file, const PictureOptions& options = {});
+
+/// One PNG, a row of front views that shows how a body is processed: its mesh, its landmarks, its parts, its
+/// ellipsoids, and its garments at their last frame; what the scene lacks is left out. `options` gives the
+/// size of a view. Fails with kInvalidArgument when the scene has no body.
+engine::Result<void> write_stages_picture(const Scene& scene, const std::filesystem::path& file,
+                                          const PictureOptions& options = {});
 
 }  // namespace bodice::io
