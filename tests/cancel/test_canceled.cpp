@@ -77,7 +77,7 @@ int cancel_everywhere(const std::string& name, const Call& call) {
     CHECK_NOTHROW(result = call(executor.context()));
     if (result.ok()) break;
     REQUIRE(result.error().code == ErrorCode::kCanceled);
-    CHECK(result.error().message.find("ancelled") != std::string::npos);  // or "Canceled at 'task'."
+    CHECK(result.error().message.find("anceled") != std::string::npos);  // or "Canceled at 'task'."
     ++reached;
   }
   return reached;
