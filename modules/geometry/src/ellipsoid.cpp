@@ -16,7 +16,9 @@ Vec3 to_local(const Ellipsoid& ellipsoid, const Vec3& point) {
 
 std::array<int, 3> axes_by_radius(const Vec3& radii) {
   std::array<int, 3> axes = {0, 1, 2};
-  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return radii[a] > radii[b]; });
+  // std::stable_sort would allocate, and moving a collider to a new pose must not.
+  std::sort(axes.begin(), axes.end(),
+            [&](int a, int b) { return radii[a] != radii[b] ? radii[a] > radii[b] : a < b; });
   return axes;
 }
 
