@@ -104,7 +104,7 @@ void accelerate(const Environment& environment, const Air& air, float substep_s,
     const Float4 vx = load(&p.vx[i]), vy = load(&p.vy[i]), vz = load(&p.vz[i]);
     const Float4 rx = load(&air.wind_x[i]) - vx, ry = load(&air.wind_y[i]) - vy,
                  rz = load(&air.wind_z[i]) - vz;
-    const Float4 speed = root(rx * rx + ry * ry + rz * rz);
+    const Float4 speed = square_root(rx * rx + ry * ry + rz * rz);
     // dv/dt = k |r| r, implicit in r: the share k / (1 + k) of the relative velocity is taken over.
     const Float4 rate = pressure * load(&air.area_m2[i]) * speed * load(&p.inverse_mass[i]);
     const Float4 along = rate * kTangentCoefficient / (1.0f + rate * kTangentCoefficient);

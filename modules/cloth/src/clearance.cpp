@@ -97,7 +97,7 @@ bool may_touch(const Particles& p, std::size_t begin, std::size_t end, Clearance
                  dz = load(&p.z[i]) - load(&p.old_z[i]);
     longest2 = max(longest2, dx * dx + dy * dy + dz * dz);
   }
-  const Float4 longest = root(longest2);
+  const Float4 longest = square_root(longest2);
   free_m -= c.slope * std::max({longest[0], longest[1], longest[2], longest[3]});
   return !(free_m > 0.0f);
 }

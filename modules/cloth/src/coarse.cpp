@@ -30,7 +30,7 @@ bool pull_pack(CoarseLevel& level, std::size_t pack) {
   if (!any(longer)) return false;
   const Float4 wa = weights(at_a[0], at_a[1], at_a[2], at_a[3]);
   const Float4 wb = weights(at_b[0], at_b[1], at_b[2], at_b[3]);
-  const Float4 length = root(length2 + kTinyLength2);
+  const Float4 length = square_root(length2 + kTinyLength2);
   const Float4 scale = longer ? (length - limit) / (length * (wa + wb + kTinyWeight)) : splat(0.0f);
   const Float4 to_a = scale * wa, to_b = scale * wb;
   for (std::size_t k = 0; k < kTiePack; ++k) {

@@ -115,7 +115,7 @@ bool take_four(Particles& p, std::size_t i) {
   Float4 x = load(point[0]), y = load(point[1]), z = load(point[2]), weight = load(point[3]);
   transpose(x, y, z, weight);
   const Float4 sum = x + y + z, none = sum - sum;
-  if (lanes(none == splat(0.0f)) != 0xFu) return false;
+  if (lane_bits(none == splat(0.0f)) != 0xFu) return false;
   store(&p.x[i], x), store(&p.y[i], y), store(&p.z[i], z);
   return true;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <bodice/geometry/detail/morton.hpp>
+
 #include "schedule.hpp"
 
 namespace bodice::cloth {
@@ -12,13 +14,6 @@ namespace {
 // No particle is lighter than this share of the mean: one sliver triangle must not make a particle that the
 // others throw about.
 constexpr double kMassFloor = 1e-4;
-
-std::uint32_t spread_bits(std::uint32_t v) {  // 10 bits to every third bit
-  v = (v | (v << 16)) & 0x030000FFu;
-  v = (v | (v << 8)) & 0x0300F00Fu;
-  v = (v | (v << 4)) & 0x030C30C3u;
-  return (v | (v << 2)) & 0x09249249u;
-}
 
 std::vector<double> vertex_masses(const geometry::TriMesh& mesh, double density) {
   std::vector<double> mass(mesh.positions.size(), 0.0);
@@ -38,12 +33,11 @@ std::vector<Index> morton_order(const std::vector<Vec3>& positions) {
   const double side = box.size().maxCoeff();
   std::vector<std::pair<std::uint32_t, Index>> keyed(positions.size());
   for (Index i = 0; i < positions.size(); ++i) {
-    std::uint32_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) {
+    const auto cell = [&](int axis) {
       const double t = side > 0.0 ? (positions[i][axis] - box.low[axis]) / side : 0.0;
-      code |= spread_bits(static_cast<std::uint32_t>(std::clamp(t, 0.0, 1.0) * 1023.0)) << axis;
-    }
-    keyed[i] = {code, i};
+      return static_cast<std::uint32_t>(std::clamp(t, 0.0, 1.0) * 1023.0);
+    };
+    keyed[i] = {geometry::morton_code(cell(0), cell(1), cell(2)), i};
   }
   std::sort(keyed.begin(), keyed.end());
   std::vector<Index> order;

@@ -75,7 +75,7 @@ std::uint64_t near_ones(const PointRun& points, std::size_t first, Float4 x, Flo
   for (std::size_t k = 0; k < count; k += 4) {
     const Float4 dx = load(&points.x[first + k]) - x, dy = load(&points.y[first + k]) - y,
                  dz = load(&points.z[first + k]) - z;
-    near |= std::uint64_t{lanes(dx * dx + dy * dy + dz * dz <= reach2)} << k;
+    near |= std::uint64_t{lane_bits(dx * dx + dy * dy + dz * dz <= reach2)} << k;
   }
   return count < kMasked ? near & ((std::uint64_t{1} << count) - 1) : near;
 }
@@ -134,7 +134,7 @@ unsigned too_near(const Particles& p, const ClosePairs::Four& close, std::size_t
   for (std::size_t k = 0; k < 4; ++k) d[k] = at - load(p.point[close.with[k]]);
   transpose(d[0], d[1], d[2], d[3]);
   const Float4 keep_m = load(close.keep_m);
-  const unsigned near = lanes(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < keep_m * keep_m);
+  const unsigned near = lane_bits(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < keep_m * keep_m);
   return taken < 4 ? near & ((1u << taken) - 1) : near;
 }
 

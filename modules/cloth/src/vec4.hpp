@@ -1,20 +1,21 @@
-// Four floats at a time in the compiler's own vector type: SSE on any x86-64, NEON on ARM, nothing to
-// dispatch. A particle is one load, where separate arrays cost four gathers.
+// Particles as four floats: a particle is one load, where separate arrays would cost four gathers.
 #pragma once
 
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
+#include <bodice/geometry/detail/float4.hpp>
 
 namespace bodice::cloth {
 
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = int __attribute__((vector_size(16)));
+using geometry::any;
+using geometry::Float4;
+using geometry::Int4;
+using geometry::lane_bits;
+using geometry::max;
+using geometry::min;
+using geometry::square_root;
 
 /// A particle as the constraints see it.
 struct alignas(16) Point {
@@ -57,35 +58,6 @@ inline Float4 splat(float s) {
 /// x, y, z; zero in place of the weight.
 inline Float4 xyz(Float4 v) {
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(v) & Int4{-1, -1, -1, 0});
-}
-
-inline Float4 max(Float4 a, Float4 b) {
-  return a > b ? a : b;
-}
-
-inline Float4 min(Float4 a, Float4 b) {
-  return a < b ? a : b;
-}
-
-/// A bit a lane that is true.
-inline unsigned lanes(Int4 truth) {
-#if defined(__SSE2__)
-  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(truth)));
-#else
-  return (truth[0] & 1u) | (truth[1] & 2u) | (truth[2] & 4u) | (truth[3] & 8u);
-#endif
-}
-inline bool any(Int4 truth) {
-  return lanes(truth) != 0;
-}
-
-/// std::sqrt would keep errno, and with it one lane at a time.
-inline Float4 root(Float4 v) {
-#if defined(__SSE2__)
-  return _mm_sqrt_ps(v);
-#else
-  return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
-#endif
 }
 
 inline void transpose(Float4& a, Float4& b, Float4& c, Float4& d) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <bodice/geometry/detail/morton.hpp>
+
 #include "tolerances.hpp"
 
 namespace bodice::collision {
@@ -12,14 +14,6 @@ namespace bodice::collision {
 namespace {
 
 constexpr int kDigitBits = 9;
-
-/// Spreads the low ten bits so that two zeros follow each.
-std::uint32_t spread_bits(std::uint32_t v) {
-  v = (v | (v << 16)) & 0x030000FFu;
-  v = (v | (v << 8)) & 0x0300F00Fu;
-  v = (v | (v << 4)) & 0x030C30C3u;
-  return (v | (v << 2)) & 0x09249249u;
-}
 
 /// Cells along one axis.
 struct Range {
@@ -57,7 +51,7 @@ void sort(const Particles& particles, std::size_t begin, int digits, Order o) {
   const Range x(px, count, bits), y(py, count, bits), z(pz, count, bits);
   for (std::size_t i = 0; i < count; ++i) {
     o.order[i] = static_cast<std::uint32_t>(begin + i);
-    o.key[i] = spread_bits(x.cell(px[i])) | spread_bits(y.cell(py[i])) << 1 | spread_bits(z.cell(pz[i])) << 2;
+    o.key[i] = geometry::morton_code(x.cell(px[i]), y.cell(py[i]), z.cell(pz[i]));
   }
   for (int digit = 0; digit < digits; ++digit) {
     std::array<std::uint32_t, 1u << kDigitBits> start{};

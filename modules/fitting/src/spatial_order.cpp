@@ -4,23 +4,16 @@
 #include <array>
 #include <utility>
 
+#include <bodice/geometry/detail/morton.hpp>
+
 namespace bodice::fitting {
 namespace {
-
-/// The low ten bits, two zeros after each.
-std::uint32_t spread_bits(std::uint32_t v) {
-  v &= 0x3ff;
-  v = (v | v << 16) & 0x030000ff;
-  v = (v | v << 8) & 0x0300f00f;
-  v = (v | v << 4) & 0x030c30c3;
-  return (v | v << 2) & 0x09249249;
-}
 
 using Coded = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // code, index
 
 /// By codes of 30 bits, ten at a time; those alike stay in their order.
 void sort_by_digits(Coded& coded) {
-  constexpr int kBits = 10;
+  constexpr int kBits = geometry::kMortonBits;
   Coded sorted(coded.size());
   for (int shift = 0; shift < 3 * kBits; shift += kBits) {
     std::array<std::uint32_t, (1u << kBits) + 1> next{};
@@ -41,12 +34,10 @@ std::vector<std::uint32_t> spatial_order(std::span<const geometry::Vec3> points)
   Coded code_of;
   code_of.reserve(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    std::uint32_t code = 0;
-    for (int j = 0; j < 3; ++j) {
-      const double cell = std::clamp((points[i][j] - box.low[j]) * scale[j], 0.0, 1023.0);
-      code |= spread_bits(static_cast<std::uint32_t>(cell)) << j;
-    }
-    code_of.emplace_back(code, i);
+    const auto cell = [&](int j) {
+      return static_cast<std::uint32_t>(std::clamp((points[i][j] - box.low[j]) * scale[j], 0.0, 1023.0));
+    };
+    code_of.emplace_back(geometry::morton_code(cell(0), cell(1), cell(2)), i);
   }
   sort_by_digits(code_of);
   std::vector<std::uint32_t> order;

@@ -38,7 +38,7 @@ struct FloatQuery {
   Float4 box_distances2(const BvhNode& node) const {
     Float4 sum{};
     for (int k = 0; k < 3; ++k) {
-      const Float4 gap = larger(larger(node.low[k] - p[k], p[k] - node.high[k]), Float4{});
+      const Float4 gap = max(Float4{}, max(p[k] - node.high[k], node.low[k] - p[k]));
       sum += gap * gap;
     }
     return sum;
@@ -49,7 +49,7 @@ struct FloatQuery {
 bool visit_leaf(const Bvh& bvh, const LeafTriangles& leaf, const FloatQuery& q, float reach2,
                 const Vec3& query, BvhHit& best) {
   bool nearer = false;
-  unsigned near = bits(leaf.distances2(q.p) <= reach2) & ((1u << leaf.count) - 1);
+  unsigned near = lane_bits(leaf.distances2(q.p) <= reach2) & ((1u << leaf.count) - 1);
   for (; near != 0; near &= near - 1) {
     const std::uint32_t i = leaf.first + static_cast<std::uint32_t>(std::countr_zero(near));
     const BvhTriangle& t = bvh.triangles[i];
@@ -83,7 +83,7 @@ BvhHit nearest_triangle(const Bvh& bvh, const Vec3& query, double limit2) {
     const BvhNode& node = bvh.nodes[top.child];
     const Float4 distance2 = q.box_distances2(node);
     const int base = depth;
-    for (unsigned near = bits(distance2 <= reach2); near != 0; near &= near - 1) {
+    for (unsigned near = lane_bits(distance2 <= reach2); near != 0; near &= near - 1) {
       const int i = std::countr_zero(near);
       int at = depth++;  // insertion sort: the nearest child ends on top
       for (; at > base && stack[at - 1].distance2 < distance2[i]; --at) stack[at] = stack[at - 1];

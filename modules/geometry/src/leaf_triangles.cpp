@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastHeight = 1e-6;
 
 Float4 unit_interval(Float4 t) {
-  return smaller(larger(Float4{}, t), Float4{} + 1.0f);
+  return min(max(t, Float4{}), Float4{} + 1.0f);
 }
 
 Float4 squared_norm(Float4 x, Float4 y) {
@@ -47,9 +47,9 @@ Float4 LeafTriangles::distances2(const std::array<float, 3>& point) const {
   const Float4 bu = u - bx, bc = cx - bx;  // from b, and from b to c
   const Float4 on_ac = unit_interval((u * cx + v * cy) * per_ac2);
   const Float4 on_bc = unit_interval((bu * bc + v * cy) * per_bc2);
-  const Float4 to_edges = smaller(
-      squared_norm(u - larger(Float4{}, smaller(u, bx)), v),
-      smaller(squared_norm(u - on_ac * cx, v - on_ac * cy), squared_norm(bu - on_bc * bc, v - on_bc * cy)));
+  const Float4 to_edges =
+      min(squared_norm(u - max(min(u, bx), Float4{}), v),
+          min(squared_norm(u - on_ac * cx, v - on_ac * cy), squared_norm(bu - on_bc * bc, v - on_bc * cy)));
   const Int4 above = (v >= 0.0f) & (u * cy >= v * cx) & (v * bc >= bu * cy);
   return (above ? Float4{} : to_edges) + w * w;
 }

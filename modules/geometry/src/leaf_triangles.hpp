@@ -4,9 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include <bodice/geometry/detail/float4.hpp>
 #include <bodice/geometry/types.hpp>
-
-#include "float4.hpp"
 
 namespace bodice::geometry {
 

@@ -82,7 +82,7 @@ FarFields far_fields(const DipoleNode& node, const std::array<float, 3>& q, floa
   const Float4 distance2 = x * x + y * y + z * z;
   const Float4 flux = x * node.area[0] + y * node.area[1] + z * node.area[2];
   const Float4 excess = distance2 - far_ratio2 * node.radius2;
-  return {flux / (distance2 * square_root(distance2)), 15u & ~bits(excess > 0.0f)};
+  return {flux / (distance2 * square_root(distance2)), 15u & ~lane_bits(excess > 0.0f)};
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ HWY_INLINE Lanes without_weight(Lanes v) {
   return xyz(v);
 }
 HWY_INLINE Lanes square_root(Lanes v) {
-  return root(v);
+  return geometry::square_root(v);
 }
 HWY_INLINE void transpose_blocks(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
   transpose(a, b, c, d);

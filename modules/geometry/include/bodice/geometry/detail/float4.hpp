@@ -1,39 +1,50 @@
-// Four floats at a time in the compiler's own vector type: SSE on any x86-64, NEON on ARM.
+// Four floats at a time in the compiler's own vector type: SSE on any x86-64, NEON on ARM, nothing to
+// dispatch.
 #pragma once
 
 #include <cmath>
 
-#if defined(__SSE__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
 namespace bodice::geometry {
 
+/// Four floats, one a lane.
 using Float4 = float __attribute__((vector_size(16)));
+/// Four integers; as the result of a comparison, -1 in each lane where it holds and 0 elsewhere.
 using Int4 = int __attribute__((vector_size(16)));
 
-inline Float4 smaller(Float4 a, Float4 b) {
+/// The smaller value of each lane; b where the two are equal or one is NaN.
+inline Float4 min(Float4 a, Float4 b) {
   return a < b ? a : b;
 }
-inline Float4 larger(Float4 a, Float4 b) {
-  return a < b ? b : a;
+/// The larger value of each lane; b where the two are equal or one is NaN.
+inline Float4 max(Float4 a, Float4 b) {
+  return a > b ? a : b;
 }
 
+/// The square root of each lane. A loop over std::sqrt would set errno, and so take one lane at a time.
 inline Float4 square_root(Float4 a) {
-#if defined(__SSE__)
+#if defined(__SSE2__)
   return reinterpret_cast<Float4>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
 #else
   return Float4{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 #endif
 }
 
-/// Bit i: whether lane i of a comparison holds.
-inline unsigned bits(Int4 mask) {
-#if defined(__SSE__)
-  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+/// Bit i is set where lane i of a comparison holds.
+inline unsigned lane_bits(Int4 holds) {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(holds)));
 #else
-  return (mask[0] & 1u) | (mask[1] & 2u) | (mask[2] & 4u) | (mask[3] & 8u);
+  return (holds[0] & 1u) | (holds[1] & 2u) | (holds[2] & 4u) | (holds[3] & 8u);
 #endif
+}
+
+/// Whether any lane of a comparison holds.
+inline bool any(Int4 holds) {
+  return lane_bits(holds) != 0;
 }
 
 }  // namespace bodice::geometry
