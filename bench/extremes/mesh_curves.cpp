@@ -63,7 +63,7 @@ double geodesic_error(const Place& place, geodesic::Method method) {
       sheet.triangles.push_back({a, c, b});
       sheet.triangles.push_back({b, c, d});
     }
-  const auto edges = geodesic::mesh_edges(sheet);
+  const auto edges = geometry::mesh_edges(sheet);
   const auto field = geodesic::DistanceSolver({}, sheet, edges, method).distances_from(0);
   double worst = 0.0;
   for (std::size_t v = 1; v < truth.size(); ++v)

@@ -31,7 +31,7 @@ constexpr std::array<geometry::Index, 4> kSources{0, 2500, 7000, 11000};
 
 struct Yardstick {
   geometry::TriMesh mesh;
-  geodesic::MeshEdges edges;
+  geometry::MeshEdges edges;
   std::vector<std::vector<double>> exact;
   double exact_ms = 0.0;  ///< a source
 };
@@ -40,7 +40,7 @@ struct Yardstick {
 const Yardstick& yardstick() {
   static const Yardstick made = [] {
     Yardstick y{body_mesh(kBody), {}, {}, 0.0};
-    y.edges = geodesic::mesh_edges(y.mesh);
+    y.edges = geometry::mesh_edges(y.mesh);
     const auto begin = std::chrono::steady_clock::now();
     for (const geometry::Index source : kSources)
       y.exact.push_back(bench::exact_distances(y.mesh, y.edges, source));
@@ -88,7 +88,7 @@ void binary_heap(benchmark::State& state, Metric metric) {
 void building(benchmark::State& state, Metric metric) {
   const Yardstick& y = yardstick();
   for (auto _ : state)
-    benchmark::DoNotOptimize(geodesic::edge_graph({}, y.mesh, geodesic::mesh_edges(y.mesh), metric).mean);
+    benchmark::DoNotOptimize(geodesic::edge_graph({}, y.mesh, geometry::mesh_edges(y.mesh), metric).mean);
 }
 
 /// The yardstick itself; measured once.

@@ -13,10 +13,10 @@
 namespace bench {
 namespace {
 
-using bodice::geodesic::EdgesOfVertex;
-using bodice::geodesic::MeshEdges;
+using bodice::geometry::EdgesOfVertex;
 using bodice::geometry::Index;
 using bodice::geometry::kNoIndex;
+using bodice::geometry::MeshEdges;
 using bodice::geometry::TriMesh;
 using Vec2 = Eigen::Vector2d;
 
@@ -42,7 +42,7 @@ class Exact {
   Exact(const TriMesh& mesh, const MeshEdges& edges)
       : mesh_(mesh),
         edges_(edges),
-        around_(bodice::geodesic::edges_of_vertex(mesh.positions.size(), edges)),
+        around_(bodice::geometry::edges_of_vertex(mesh.positions.size(), edges)),
         distance_(mesh.positions.size(), kFar),
         angle_(mesh.positions.size(), 0.0) {
     for (const auto& t : mesh.triangles)

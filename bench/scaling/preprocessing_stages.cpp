@@ -39,7 +39,7 @@ Stage dijkstra_stage() {
             const auto body = make_body(size);
             const Context inline_context;
             const auto graph = std::make_shared<const geodesic::EdgeGraph>(geodesic::edge_graph(
-                inline_context, body->mesh, geodesic::mesh_edges(body->mesh), geodesic::Metric::kEdges));
+                inline_context, body->mesh, geometry::mesh_edges(body->mesh), geodesic::Metric::kEdges));
             std::vector<geometry::Index> sources;
             for (std::size_t i = 0; i < 16; ++i) {
               sources.push_back(static_cast<geometry::Index>(i * graph->vertex_count() / 16));

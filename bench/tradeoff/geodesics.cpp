@@ -38,7 +38,7 @@ bench::Table methods(const Setting& setting, const Subject& subject) {
       "geodesics", "One field from one source, against exact polyhedral distances.",
       {"method", "vertices", "mean_%", "max_%", "max_mm", "field_us", "times_the_papers_timed"});
   const geometry::TriMesh& mesh = subject.skin.input.skin;
-  const geodesic::MeshEdges edges = geodesic::mesh_edges(mesh);
+  const geometry::MeshEdges edges = geometry::mesh_edges(mesh);
   const std::size_t sources = setting.by_effort<std::size_t>(1, 1, 3);
   std::vector<geometry::Index> source;
   std::vector<std::vector<double>> exact;

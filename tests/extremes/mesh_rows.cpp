@@ -52,7 +52,7 @@ std::string check_distance(const TriMesh& mesh) {
 }
 
 std::string check_geodesics(const TriMesh& mesh, geodesic::Method method) {
-  const auto edges = geodesic::mesh_edges(mesh);
+  const auto edges = geometry::mesh_edges(mesh);
   const geodesic::DistanceSolver solver({}, mesh, edges, method);
   const auto field = solver.distances_from(0);
   if (field.size() != mesh.positions.size() || field[0] != 0.0f) return "no distance of 0 at the source";

@@ -31,7 +31,7 @@ geometry::TriMesh mesh_of(fuzz::Bytes& in) {
 }
 
 void use_repaired(const geometry::TriMesh& mesh) {
-  const auto edges = geodesic::mesh_edges(mesh);
+  const auto edges = geometry::mesh_edges(mesh);
   for (const auto method :
        {geodesic::Method::kEdges, geodesic::Method::kUnfolded, geodesic::Method::kFastMarching}) {
     const geodesic::DistanceSolver solver({}, mesh, edges, method);

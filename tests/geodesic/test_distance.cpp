@@ -12,7 +12,7 @@ using geodesic::Metric;
 namespace {
 
 geodesic::EdgeGraph graph_of(const geometry::TriMesh& mesh, Metric metric) {
-  return geodesic::edge_graph({}, mesh, geodesic::mesh_edges(mesh), metric);
+  return geodesic::edge_graph({}, mesh, geometry::mesh_edges(mesh), metric);
 }
 
 /// Worst and mean relative error against great circles, beyond a tenth of the way round.
@@ -136,7 +136,7 @@ TEST_CASE("any number of workers gives the same bits") {
     context.executor = executor.get();
     CHECK(geodesic::distances_each(context, graph, sources) == serial);
     CHECK(graph_of(mesh, Metric::kUnfolded).links.size() ==
-          geodesic::edge_graph(context, mesh, geodesic::mesh_edges(mesh), Metric::kUnfolded).links.size());
+          geodesic::edge_graph(context, mesh, geometry::mesh_edges(mesh), Metric::kUnfolded).links.size());
   }
 }
 

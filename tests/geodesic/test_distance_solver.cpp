@@ -14,7 +14,7 @@ using geodesic::Method;
 namespace {
 
 geodesic::Field distances(const geometry::TriMesh& mesh, Method method, geometry::Index source) {
-  const auto edges = geodesic::mesh_edges(mesh);
+  const auto edges = geometry::mesh_edges(mesh);
   return DistanceSolver({}, mesh, edges, method).distances_from(source);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("several seeds give the nearest, and other pieces stay unreachable") {
   const auto n = static_cast<geometry::Index>(mesh.positions.size());
   for (const auto& p : shapes::grid(2).positions) mesh.positions.push_back(p + geometry::Vec3(9, 0, 0));
   for (auto t : shapes::grid(2).triangles) mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
-  const auto edges = geodesic::mesh_edges(mesh);
+  const auto edges = geometry::mesh_edges(mesh);
   const DistanceSolver solver({}, mesh, edges, Method::kFastMarching);
   const std::array<geodesic::Seed, 3> seeds{{{0, 0.0F}, {168, 0.25F}, {99999, 0.0F}}};
   const auto field = solver.distances(seeds);

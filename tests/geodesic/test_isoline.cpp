@@ -18,7 +18,7 @@ std::vector<float> heights(const geometry::TriMesh& mesh) {
 
 TEST_CASE("levels of height on a sphere are circles of known girth and center") {
   const auto mesh = shapes::sphere(5);
-  const auto edges = geodesic::mesh_edges(mesh);
+  const auto edges = geometry::mesh_edges(mesh);
   const auto z = heights(mesh);
   const std::array<float, 4> levels{0.5F, -0.9F, 0.1F, 0.0F};  // unsorted, and 0 meets vertices exactly
   const auto lines = geodesic::isolines(mesh, edges, z, levels);
@@ -35,7 +35,7 @@ TEST_CASE("levels of height on a sphere are circles of known girth and center") 
 
 TEST_CASE("consecutive points of a loop share a triangle") {
   const auto mesh = shapes::sphere(3);
-  const auto edges = geodesic::mesh_edges(mesh);
+  const auto edges = geometry::mesh_edges(mesh);
   const float level = 0.3F;
   const auto loop = geodesic::isolines(mesh, edges, heights(mesh), {&level, 1})[0][0];
   for (std::size_t i = 0; i < loop.edges.size(); ++i) {
@@ -50,7 +50,7 @@ TEST_CASE("a curve that meets a hole is open, and runs from border to border") {
   std::vector<float> x;
   for (const auto& p : mesh.positions) x.push_back(static_cast<float>(p.x()));
   const float level = 0.4F;
-  const auto lines = geodesic::isolines(mesh, geodesic::mesh_edges(mesh), x, {&level, 1})[0];
+  const auto lines = geodesic::isolines(mesh, geometry::mesh_edges(mesh), x, {&level, 1})[0];
   REQUIRE(lines.size() == 1);
   CHECK(!lines[0].closed);
   CHECK(lines[0].girth_m == doctest::Approx(1.0));
@@ -62,12 +62,12 @@ TEST_CASE("two separate loops of one level are two curves") {
   std::vector<float> field;
   for (const auto& p : mesh.positions) field.push_back(static_cast<float>(std::abs(p.z())));
   const float level = 0.5F;
-  CHECK(geodesic::isolines(mesh, geodesic::mesh_edges(mesh), field, {&level, 1})[0].size() == 2);
+  CHECK(geodesic::isolines(mesh, geometry::mesh_edges(mesh), field, {&level, 1})[0].size() == 2);
 }
 
 TEST_CASE("levels outside the field, no levels and unreachable corners give no curve") {
   const auto mesh = shapes::sphere(2);
-  const auto edges = geodesic::mesh_edges(mesh);
+  const auto edges = geometry::mesh_edges(mesh);
   const std::array<float, 2> outside{-3.0F, 7.0F};
   for (const auto& lines : geodesic::isolines(mesh, edges, heights(mesh), outside)) CHECK(lines.empty());
   CHECK(geodesic::isolines(mesh, edges, heights(mesh), {}).empty());

@@ -128,7 +128,7 @@ engine::Result<Anatomy> understand_apart(const engine::Context& context, const S
 
 /// The tips of fins are no ends of a body, and ways along them lead across it. All vertices stay.
 geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
-  const std::vector<bool> fin = geometry::find_fins(mesh, geometry::build_adjacency(mesh));
+  const std::vector<bool> fin = geometry::find_fins(mesh, geometry::mesh_edges(mesh));
   geometry::TriMesh kept{mesh.positions, {}};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     if (!fin[t]) kept.triangles.push_back(mesh.triangles[t]);

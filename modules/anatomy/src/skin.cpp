@@ -6,7 +6,7 @@
 namespace bodice::anatomy {
 
 Skin make_skin(const engine::Context& context, const geometry::TriMesh& mesh) {
-  Skin skin{mesh, geodesic::mesh_edges(mesh), {}, {}, 0, 0, 0};
+  Skin skin{mesh, geometry::mesh_edges(mesh), {}, {}, 0, 0, 0};
   geometry::Components pieces;
   engine::parallel_for(context, 2, 1, [&](std::size_t task, std::size_t) {
     if (task == 0) skin.graph = geodesic::edge_graph(context, mesh, skin.edges, geodesic::Metric::kUnfolded);

@@ -9,7 +9,7 @@ namespace bodice::anatomy {
 /// outlive it.
 struct Skin {
   const geometry::TriMesh& mesh;
-  geodesic::MeshEdges edges;
+  geometry::MeshEdges edges;
   geodesic::EdgeGraph graph;
   std::vector<geometry::Index> component;  ///< #V; 0 is the body's own
   std::size_t components = 0;              ///< vertices without triangles are some of them

@@ -9,7 +9,7 @@ using geometry::kNoIndex;
 /// The corners of all triangles, joined where triangles share an edge; path-halving union-find.
 class Fans {
  public:
-  Fans(const geometry::TriMesh& mesh, const geodesic::MeshEdges& edges)
+  Fans(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges)
       : mesh_(mesh), root_(3 * mesh.triangles.size()) {
     for (std::size_t c = 0; c < root_.size(); ++c) root_[c] = static_cast<Index>(c);
     for (std::size_t e = 0; e < edges.ends.size(); ++e) {

@@ -5,7 +5,7 @@
 namespace bodice::geodesic {
 
 /// Distances by a front that crosses triangles. O(#F log #V).
-Field fast_marching(const geometry::TriMesh& mesh, const MeshEdges& edges, const EdgesOfVertex& around,
-                    std::span<const Seed> seeds);
+Field fast_marching(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges,
+                    const geometry::EdgesOfVertex& around, std::span<const Seed> seeds);
 
 }  // namespace bodice::geodesic

@@ -19,11 +19,11 @@ struct Piece {
 
 }  // namespace
 
-std::vector<bool> find_fins(const TriMesh& mesh, const Adjacency& adjacency) {
+std::vector<bool> find_fins(const TriMesh& mesh, const MeshEdges& edges) {
   const auto count = static_cast<Index>(mesh.triangles.size());
   DisjointSets sets(count);
-  for (const Edge& edge : adjacency.edges)
-    if (edge.triangle_count == 2) sets.unite(edge.triangle[0], edge.triangle[1]);
+  for (Index e = 0; e < edges.ends.size(); ++e)
+    if (edges.joins_two(e)) sets.unite(edges.triangles[e][0], edges.triangles[e][1]);
 
   std::vector<Piece> pieces(count);
   double area = 0.0;
@@ -33,10 +33,10 @@ std::vector<bool> find_fins(const TriMesh& mesh, const Adjacency& adjacency) {
     piece.area += of_triangle;
     area += of_triangle;
     ++piece.triangles;
-    for (const Index e : adjacency.edge_of_triangle[t]) {
-      if (e == kNoIndex) continue;
-      piece.open |= adjacency.edges[e].boundary();
-      piece.hangs |= !adjacency.edges[e].manifold();
+    for (const Index e : edges.of_triangle[t]) {
+      if (edges.is_loop(e)) continue;
+      piece.open |= edges.triangle_count[e] == 1;
+      piece.hangs |= edges.triangle_count[e] > 2;
     }
   }
   const auto largest = std::max_element(pieces.begin(), pieces.end(),

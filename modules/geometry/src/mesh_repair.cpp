@@ -6,8 +6,8 @@
 
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
-#include <bodice/geometry/adjacency.hpp>
 #include <bodice/geometry/fins.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
 
 #include "orient.hpp"
 #include "weld.hpp"
@@ -49,9 +49,9 @@ class Repair {
                    "Check that the file holds a surface of triangles or polygons."};
     context.cancel.check();
     compact();
-    Adjacency adjacency = build_adjacency(out_.mesh);
-    if (options_.drop_fins && drop_fins(adjacency)) adjacency = build_adjacency(out_.mesh);
-    orient_and_count(adjacency);
+    MeshEdges edges = mesh_edges(out_.mesh);
+    if (options_.drop_fins && drop_fins(edges)) edges = mesh_edges(out_.mesh);
+    orient_and_count(edges);
     warn();
     return std::move(out_);
   }
@@ -157,26 +157,24 @@ class Repair {
   }
 
   /// True if there were any. Beyond them nothing can hang on anything: once is enough.
-  bool drop_fins(const Adjacency& adjacency) {
-    const std::vector<bool> fin = find_fins(out_.mesh, adjacency);
+  bool drop_fins(const MeshEdges& edges) {
+    const std::vector<bool> fin = find_fins(out_.mesh, edges);
     counts_.fins = std::erase_if(kept_, [&](Index t) { return fin[out_.triangle_of_input[t]]; });
     if (counts_.fins > 0) compact();
     return counts_.fins > 0;
   }
 
-  void orient_and_count(const Adjacency& adjacency) {
+  void orient_and_count(const MeshEdges& edges) {
     RepairReport& report = out_.report;
     report.dropped_vertices = static_cast<std::size_t>(
         std::count(out_.vertex_of_input.begin(), out_.vertex_of_input.end(), kNoIndex));
     report.dropped_triangles = input_.triangles.size() - out_.mesh.triangles.size();
-    for (const Edge& edge : adjacency.edges) {
-      report.boundary_edges += edge.boundary();
-      report.non_manifold_edges += !edge.manifold();
-    }
-    report.euler_characteristic = euler_characteristic(out_.mesh, adjacency);
+    report.boundary_edges = edges.boundary;
+    report.non_manifold_edges = edges.non_manifold;
+    report.euler_characteristic = euler_characteristic(out_.mesh, edges);
     report.components = connected_components(out_.mesh).area.size();
     if (!options_.orient) return;
-    const Orientation orientation = choose_orientation(out_.mesh, adjacency);
+    const Orientation orientation = choose_orientation(out_.mesh, edges);
     for (std::size_t t = 0; t < out_.mesh.triangles.size(); ++t)
       if (orientation.flip[t]) std::swap(out_.mesh.triangles[t][1], out_.mesh.triangles[t][2]);
     report.flipped_triangles = orientation.flipped;

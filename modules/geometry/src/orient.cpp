@@ -10,28 +10,28 @@ namespace {
 constexpr double kFlatPatch = 1e-6;
 
 /// Whether two triangles run along a shared edge in opposite directions, as consistent neighbors do.
-bool consistent(const Triangle& a, const Triangle& b, const Edge& edge) {
+bool consistent(const Triangle& a, const Triangle& b, const MeshEdges::Ends& ends) {
   auto forward = [&](const Triangle& t) {
     for (int k = 0; k < 3; ++k)
-      if (t[k] == edge.vertex[0] && t[(k + 1) % 3] == edge.vertex[1]) return true;
+      if (t[k] == ends[0] && t[(k + 1) % 3] == ends[1]) return true;
     return false;
   };
   return forward(a) != forward(b);
 }
 
 /// The triangles reachable from `seed`, with flips relative to it.
-std::vector<Index> grow_patch(const TriMesh& mesh, const Adjacency& adjacency, Index seed,
+std::vector<Index> grow_patch(const TriMesh& mesh, const MeshEdges& edges, Index seed,
                               std::vector<bool>& seen, std::vector<bool>& flip) {
   std::vector<Index> patch{seed};
   seen[seed] = true;
   for (std::size_t next = 0; next < patch.size(); ++next) {
     const Index t = patch[next];
     for (int k = 0; k < 3; ++k) {
-      const Index other = adjacency.across(t, k);
+      const Index other = edges.across(t, k);
       if (other == kNoIndex || seen[other]) continue;
       seen[other] = true;
-      const Edge& edge = adjacency.edges[adjacency.edge_of_triangle[t][k]];
-      const bool agree = consistent(mesh.triangles[t], mesh.triangles[other], edge);
+      const MeshEdges::Ends& ends = edges.ends[edges.of_triangle[t][k]];
+      const bool agree = consistent(mesh.triangles[t], mesh.triangles[other], ends);
       flip[other] = agree ? flip[t] : !flip[t];
       patch.push_back(other);
     }
@@ -64,21 +64,21 @@ bool inward(const TriMesh& mesh, const std::vector<Index>& patch, const std::vec
 
 }  // namespace
 
-Orientation choose_orientation(const TriMesh& mesh, const Adjacency& adjacency) {
+Orientation choose_orientation(const TriMesh& mesh, const MeshEdges& edges) {
   const std::size_t count = mesh.triangles.size();
   Orientation result{std::vector<bool>(count, false)};
   std::vector<bool> seen(count, false);
   for (Index seed = 0; seed < count; ++seed) {
     if (seen[seed]) continue;
-    const std::vector<Index> patch = grow_patch(mesh, adjacency, seed, seen, result.flip);
+    const std::vector<Index> patch = grow_patch(mesh, edges, seed, seen, result.flip);
     if (!inward(mesh, patch, result.flip)) continue;
     for (Index t : patch) result.flip[t] = !result.flip[t];
   }
   for (bool flip : result.flip) result.flipped += flip;
-  for (const Edge& edge : adjacency.edges) {
-    if (edge.triangle_count != 2) continue;
-    const auto [a, b] = edge.triangle;
-    const bool agree = consistent(mesh.triangles[a], mesh.triangles[b], edge);
+  for (Index e = 0; e < edges.ends.size(); ++e) {
+    if (!edges.joins_two(e)) continue;
+    const auto [a, b] = edges.triangles[e];
+    const bool agree = consistent(mesh.triangles[a], mesh.triangles[b], edges.ends[e]);
     result.conflicts += agree != (result.flip[a] == result.flip[b]);
   }
   return result;

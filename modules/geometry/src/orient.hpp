@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <bodice/geometry/adjacency.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::geometry {
@@ -15,6 +15,6 @@ struct Orientation {
 
 /// Chooses the winding of each patch (triangles joined by edges of two) so that neighbors agree and its
 /// signed volume is positive; a patch too flat to enclose anything keeps the winding of its majority. O(#F).
-Orientation choose_orientation(const TriMesh& mesh, const Adjacency& adjacency);
+Orientation choose_orientation(const TriMesh& mesh, const MeshEdges& edges);
 
 }  // namespace bodice::geometry

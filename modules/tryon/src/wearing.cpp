@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include <bodice/geometry/adjacency.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
 namespace bodice::tryon {
@@ -47,7 +47,7 @@ std::vector<Piece> find_pieces(const geometry::TriMesh& mesh, const geometry::Co
     piece.top = std::max(piece.top, height_of(mesh.positions[v], body));
     piece.worn = piece.worn || body.distance->closest_point_within(mesh.positions[v], near_m).has_value();
   }
-  for (std::vector<Index>& rim : geometry::boundary_loops(mesh, geometry::build_adjacency(mesh))) {
+  for (std::vector<Index>& rim : geometry::boundary_loops(mesh, geometry::mesh_edges(mesh))) {
     double height = 0.0;
     for (const Index v : rim) height += height_of(mesh.positions[v], body);
     height /= static_cast<double>(rim.size());

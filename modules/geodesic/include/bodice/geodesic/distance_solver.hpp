@@ -17,11 +17,14 @@ enum class Method {
 /// compile. Const calls may run at the same time.
 class DistanceSolver {
  public:
-  DistanceSolver(const engine::Context& context, const geometry::TriMesh& mesh, const MeshEdges& edges,
-                 Method method);
-  DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const MeshEdges&, Method) = delete;
-  DistanceSolver(const engine::Context&, const geometry::TriMesh&, const MeshEdges&&, Method) = delete;
-  DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const MeshEdges&&, Method) = delete;
+  DistanceSolver(const engine::Context& context, const geometry::TriMesh& mesh,
+                 const geometry::MeshEdges& edges, Method method);
+  DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const geometry::MeshEdges&,
+                 Method) = delete;
+  DistanceSolver(const engine::Context&, const geometry::TriMesh&, const geometry::MeshEdges&&,
+                 Method) = delete;
+  DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const geometry::MeshEdges&&,
+                 Method) = delete;
 
   /// #V, meters; kUnreachable where no source leads. Sources outside the mesh are ignored.
   Field distances(std::span<const Seed> seeds) const;
@@ -29,10 +32,10 @@ class DistanceSolver {
 
  private:
   const geometry::TriMesh& mesh_;
-  const MeshEdges& edges_;
+  const geometry::MeshEdges& edges_;
   Method method_;
-  EdgeGraph graph_;       ///< Dijkstra's; empty for fast marching
-  EdgesOfVertex around_;  ///< fast marching's; empty for Dijkstra
+  EdgeGraph graph_;                 ///< Dijkstra's; empty for fast marching
+  geometry::EdgesOfVertex around_;  ///< fast marching's; empty for Dijkstra
 };
 
 }  // namespace bodice::geodesic

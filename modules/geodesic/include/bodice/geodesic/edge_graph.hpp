@@ -2,7 +2,7 @@
 #pragma once
 
 #include <bodice/engine/context.hpp>
-#include <bodice/geodesic/mesh_edges.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
 
 namespace bodice::geodesic {
 
@@ -29,8 +29,8 @@ struct EdgeGraph {
 
 /// Lengths that are zero or not finite are raised to a millionth of the mean edge, so that every path has a
 /// length. O(#V + #F).
-EdgeGraph edge_graph(const engine::Context& context, const geometry::TriMesh& mesh, const MeshEdges& edges,
-                     Metric metric);
+EdgeGraph edge_graph(const engine::Context& context, const geometry::TriMesh& mesh,
+                     const geometry::MeshEdges& edges, Metric metric);
 
 /// Adds two-way links, for instance across the gap between two pieces of one body. O(#links).
 struct Bridge {

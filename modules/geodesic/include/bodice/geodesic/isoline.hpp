@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include <bodice/geodesic/mesh_edges.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
 
 namespace bodice::geodesic {
 
@@ -20,7 +20,7 @@ struct Isoline {
 /// at a level count as above it; triangles with an unreachable corner carry no curve. O(#F + length of the
 /// curves). Based on: the paper, eq. (2): v4 = v1 + (level - g1) / (g2 - g1) (v2 - v1), on every edge that
 /// crosses.
-std::vector<std::vector<Isoline>> isolines(const geometry::TriMesh& mesh, const MeshEdges& edges,
+std::vector<std::vector<Isoline>> isolines(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges,
                                            std::span<const float> field, std::span<const float> levels);
 
 }  // namespace bodice::geodesic

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include <bodice/geometry/adjacency.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
 
 namespace bodice::geometry {
 
@@ -11,6 +11,6 @@ namespace bodice::geometry {
 /// a piece that hangs on such an edge, is open on another, and is a few triangles or next to nothing of
 /// the area. A wall inside the skin has no open edge, and a head or hand beyond a wall is larger: both stay,
 /// and so does the largest piece. O(#F).
-std::vector<bool> find_fins(const TriMesh& mesh, const Adjacency& adjacency);
+std::vector<bool> find_fins(const TriMesh& mesh, const MeshEdges& edges);
 
 }  // namespace bodice::geometry

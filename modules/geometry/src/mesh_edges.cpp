@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <span>
 
-#include <bodice/geodesic/mesh_edges.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::geometry {
 namespace {
 
-using geometry::Index;
-using geometry::kNoIndex;
-
+/// One side of a triangle, seen from its lower end.
 struct Side {
   Index high;
   Index triangle;
@@ -21,7 +19,7 @@ struct Sides {
   std::vector<Side> side;
 };
 
-Sides sides_by_lower_end(const geometry::TriMesh& mesh) {
+Sides sides_by_lower_end(const TriMesh& mesh) {
   Sides sides;
   sides.offset.assign(mesh.positions.size() + 1, 0);
   for (const auto& t : mesh.triangles)
@@ -39,24 +37,26 @@ Sides sides_by_lower_end(const geometry::TriMesh& mesh) {
 
 using Run = std::span<const Side>;
 
-/// The sides of one edge, in the order of their triangles.
+/// Adds the edge whose sides are given in the order of their triangles.
 void add_edge(MeshEdges& edges, Index low, Run sides) {
   const auto e = static_cast<Index>(edges.ends.size());
   edges.ends.push_back({low, sides[0].high});
   edges.triangles.push_back({sides[0].triangle, sides.size() > 1 ? sides[1].triangle : kNoIndex});
   for (const Side& side : sides) edges.of_triangle[side.triangle][side.corner] = e;
+  edges.triangle_count.push_back(static_cast<Index>(sides.size()));
   edges.boundary += sides.size() == 1;
   edges.non_manifold += sides.size() > 2;
 }
 
 }  // namespace
 
-MeshEdges mesh_edges(const geometry::TriMesh& mesh) {
+MeshEdges mesh_edges(const TriMesh& mesh) {
   Sides sides = sides_by_lower_end(mesh);
   MeshEdges edges;
   edges.of_triangle.resize(mesh.triangles.size());
   edges.ends.reserve(mesh.triangles.size() * 3 / 2 + 1);
   edges.triangles.reserve(edges.ends.capacity());
+  edges.triangle_count.reserve(edges.ends.capacity());
   for (std::size_t low = 0; low < mesh.positions.size(); ++low) {
     const auto begin = sides.side.begin() + sides.offset[low],
                end = sides.side.begin() + sides.offset[low + 1];
@@ -85,4 +85,4 @@ EdgesOfVertex edges_of_vertex(std::size_t vertices, const MeshEdges& edges) {
   return around;
 }
 
-}  // namespace bodice::geodesic
+}  // namespace bodice::geometry
