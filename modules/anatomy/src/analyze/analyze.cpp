@@ -1,0 +1,158 @@
+#include <bodice/anatomy/anatomy.hpp>
+#include <bodice/engine/catch_canceled.hpp>
+#include <bodice/engine/stage_timer.hpp>
+#include <bodice/geometry/fins.hpp>
+
+#include "check/diagnostics.hpp"
+#include "check/fused_limbs.hpp"
+#include "landmarks/landmarks.hpp"
+#include "landmarks/stature.hpp"
+#include "segment/segment.hpp"
+#include "skin/halve_edges.hpp"
+#include "skin/split_pinches.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using engine::Error;
+using engine::ErrorCode;
+using engine::StageTimer;
+using engine::Warning;
+using geometry::Vec3;
+
+/// Above this the five ends do not lie as a body's do.
+constexpr double kWorstMisfit = 3.0;
+
+Error no_body(const std::string& why) {
+  return {ErrorCode::kUnusableGeometry, "No human body can be made out: " + why,
+          "Give one closed skin with a head, two arms and two legs."};
+}
+
+Vec3 upwards(const Skin& skin, const Landmarks& marks) {
+  const Vec3 up = marks.neck_place - skin.mesh.positions[marks.perineum];
+  const double length = up.norm();
+  return length > 0.0 ? Vec3(up / length) : Vec3(Vec3::UnitY());
+}
+
+/// Each confidence after what the second way says; at the distance that is called a contradiction, half is
+/// left.
+void weigh(const SecondWays& second, Landmarks& marks) {
+  constexpr double kNothingLeft = 1.5;
+  const auto after = [](double& confidence, double apart, double contradiction) {
+    confidence = agreed(confidence, apart, kNothingLeft * contradiction);
+  };
+  after(marks.crown_confidence, second.crown, kCrownApart);
+  after(marks.neck.confidence, second.neck, kNeckApart);
+  after(marks.perineum_confidence, second.perineum, kPerineumApart);
+  for (int side = 0; side < 2; ++side) {
+    after(marks.fingertip_confidence[side], second.fingertip[side], kFingertipApart);
+    after(marks.elbow[side].confidence, second.elbow[side], kElbowApart);
+    after(marks.armpit_confidence[side], second.armpit[side], kArmpitApart);
+    after(marks.armpit_confidence[side], second.armpits, kArmpitsDiffer);
+    after(marks.knee[side].confidence, second.knee[side], kKneeApart);
+    after(marks.toe_confidence[side], second.toe[side], kToeApart);
+  }
+}
+
+engine::Result<Anatomy> understand(const engine::Context& context, const Skin& skin, const Options& options,
+                                   Anatomy anatomy) {
+  StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
+  const std::optional<EndPoints> found = find_end_points(context, skin);
+  geodesic_timer.stop();
+  if (!found) return no_body("its skin has no five ends far from each other.");
+  if (found->misfit > kWorstMisfit)
+    return no_body("its five ends do not lie at the distances of a head, two hands and two feet.");
+
+  StageTimer anatomy_timer(context, anatomy.stages, "anatomy");
+  const Sides sides = find_sides(context, skin, *found);
+  const BodyEnds ends = in_body_order(*found, sides);
+  const BodyCoordinates coordinates(context, skin, ends);
+  Landmarks marks = find_landmarks(context, skin, coordinates);
+  const SecondWays second = ask_second_ways(context, skin, coordinates, marks);
+  weigh(second, marks);
+  if (const auto spoiled = spoiled_by_welds(skin, coordinates, marks, second)) return *spoiled;
+  anatomy.stature_m = find_stature(skin, ends, marks);
+  anatomy.up = upwards(skin, marks);
+  anatomy.landmarks = as_list(skin, ends, marks);
+  anatomy_timer.stop();
+
+  StageTimer segment_timer(context, anatomy.stages, "segment");
+  anatomy.part = segment(context, skin, coordinates);
+  segment_timer.stop();
+  anatomy.warnings =
+      diagnose(skin, *found, sides, coordinates, marks, second, options.profile, anatomy.stature_m);
+  return anatomy;
+}
+
+/// Back from a skin with more vertices, `origin` of each of them, to the one that was given.
+void forget_added(const std::vector<geometry::Index>& origin, std::size_t vertices, Anatomy& anatomy) {
+  anatomy.part.resize(vertices);
+  for (body::Landmark& mark : anatomy.landmarks)
+    if (mark.vertex != geometry::kNoIndex && mark.vertex >= vertices)
+      mark.vertex = origin[mark.vertex - vertices];
+}
+
+engine::Result<Anatomy> understand_fine(const engine::Context& context, const Skin& skin,
+                                        const Options& options, Anatomy anatomy) {
+  const std::size_t vertices = skin.mesh.positions.size();
+  if (vertices > kCoarse || vertices < kNoBody) return understand(context, skin, options, std::move(anatomy));
+  StageTimer finer_timer(context, anatomy.stages, "finer skin");
+  const FinerSkin finer = halve_edges(skin);
+  Skin fine = make_skin(context, finer.mesh);
+  fine.open_edges = skin.open_edges;
+  finer_timer.stop();
+  auto result = understand(context, fine, options, std::move(anatomy));
+  if (result.ok()) forget_added(finer.origin, vertices, *result);
+  return result;
+}
+
+Warning touches(std::size_t vertices) {
+  return {"skin-touches", "",
+          "The skin touches itself in " + std::to_string(vertices) +
+              " welded vertices; they were taken apart, so that no way along the skin leads across.",
+          "Weld less, or move the parts that touch apart."};
+}
+
+engine::Result<Anatomy> understand_apart(const engine::Context& context, const Skin& skin,
+                                         const Options& options, Anatomy anatomy) {
+  SplitSkin split;
+  if (!surely_unpinched(skin)) split = split_pinches(skin);
+  if (split.origin.empty()) return understand_fine(context, skin, options, std::move(anatomy));
+  const Skin apart = make_skin(context, split.mesh);
+  auto result = understand_fine(context, apart, options, std::move(anatomy));
+  if (!result.ok()) return result;
+  forget_added(split.origin, skin.mesh.positions.size(), *result);
+  result->warnings.push_back(touches(split.origin.size()));
+  return result;
+}
+
+/// The tips of fins are no ends of a body, and ways along them lead across it. All vertices stay.
+geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
+  const std::vector<bool> fin = geometry::find_fins(mesh, geometry::mesh_edges(mesh));
+  geometry::TriMesh kept{mesh.positions, {}};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (!fin[t]) kept.triangles.push_back(mesh.triangles[t]);
+  return kept;
+}
+
+engine::Result<Anatomy> analyze_mesh(const engine::Context& context, const geometry::TriMesh& mesh,
+                                     const Options& options) {
+  Anatomy anatomy;
+  StageTimer skin_timer(context, anatomy.stages, "skin");
+  const Skin skin = make_skin(context, mesh);
+  skin_timer.stop();
+  if (skin.edges.non_manifold == 0) return understand_apart(context, skin, options, std::move(anatomy));
+  const geometry::TriMesh clean = without_fins(mesh);
+  return understand_apart(context, make_skin(context, clean), options, std::move(anatomy));
+}
+
+}  // namespace
+
+engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& mesh,
+                                const Options& options) {
+  if (mesh.empty()) return no_body("the mesh has no triangles.");
+  return engine::catch_canceled("The analysis of the body",
+                                [&] { return analyze_mesh(context, mesh, options); });
+}
+
+}  // namespace bodice::anatomy

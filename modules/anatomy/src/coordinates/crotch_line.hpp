@@ -1,0 +1,25 @@
+// The line between the legs.
+#pragma once
+
+#include <optional>
+
+#include "coordinates/body_coordinates.hpp"
+
+namespace bodice::anatomy {
+
+/// Equally spaced points of the line on which both feet are equally far, around the place where it passes
+/// nearest to another: from the front of the body over the crotch to its back.
+struct CrotchLine {
+  static constexpr int kReach = 12;          ///< points on either side of the middle one
+  static constexpr double kSpacing = 0.015;  ///< of the size, along the line
+
+  std::array<geometry::Vec3, 2 * kReach + 1> point{};
+
+  const geometry::Vec3& at(int i) const { return point[static_cast<std::size_t>(kReach + i)]; }
+};
+
+/// Smoothed over some two spacings. Empty where a hole or a weld cuts the line. O(#V + #F).
+std::optional<CrotchLine> crotch_line(const Skin& skin, const BodyCoordinates& coordinates,
+                                      const geometry::Vec3& middle);
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,18 @@
+// The middle of the body: where left and right are equally far.
+#pragma once
+
+#include "extremities/body_extremities.hpp"
+
+namespace bodice::anatomy {
+
+struct Midline {
+  SkinPoint front;  ///< of the chest: the middle of the way from hand to hand over the breastbone
+  SkinPoint back;   ///< the same over the back
+};
+
+Midline find_midline(const Skin& skin, const BodyEnds& ends);
+
+/// Distances from a point on an edge.
+geodesic::Field distances_from(const Skin& skin, const SkinPoint& point);
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,43 @@
+#include "coordinates/shoulder_level.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bodice::anatomy {
+namespace {
+
+/// Where arms are, and within it the upper arm, from fingertip to fingertip.
+constexpr float kFrom = 0.20F, kTo = 0.60F, kUpperArmFrom = 0.27F, kUpperArmTo = 0.35F, kWidensFrom = 0.32F;
+constexpr std::size_t kSteps = 40;
+/// A loop through the armpit is this many times the girth of the upper arm: it takes in the shoulder, and the
+/// first of chest and back.
+constexpr float kWider = 1.7F;
+/// A loop that widens elsewhere is not at an armpit.
+constexpr float kLeast = 0.36F, kMost = 0.50F;
+
+float upper_arm_girth(const GirthProfile& profile, float hands_apart) {
+  std::vector<float> girths;
+  for (std::size_t i = 0; i < kSteps; ++i)
+    if (profile.level(i) > kUpperArmFrom * hands_apart && profile.level(i) < kUpperArmTo * hands_apart)
+      girths.push_back(profile.girth_m[i]);
+  const auto middle = girths.begin() + static_cast<std::ptrdiff_t>(girths.size() / 2);
+  std::nth_element(girths.begin(), middle, girths.end());
+  return *middle;
+}
+
+}  // namespace
+
+float shoulder_level(const Skin& skin, std::span<const float> from_hand, float hands_apart) {
+  if (!(hands_apart > 0.0F) || !std::isfinite(hands_apart)) return 0.0F;
+  const GirthProfile profile = girth_profile(skin, from_hand, kFrom * hands_apart, kTo * hands_apart, kSteps);
+  const float wanted = kWider * upper_arm_girth(profile, hands_apart);
+  for (std::size_t i = 1; i < kSteps; ++i) {
+    const float before = profile.girth_m[i - 1], here = profile.girth_m[i];
+    if (profile.level(i) < kWidensFrom * hands_apart || !(here > wanted)) continue;
+    const float back = here > before ? std::min(1.0F, (here - wanted) / (here - before)) : 0.0F;
+    return std::clamp(profile.level(i) - back * profile.step, kLeast * hands_apart, kMost * hands_apart);
+  }
+  return 0.0F;
+}
+
+}  // namespace bodice::anatomy

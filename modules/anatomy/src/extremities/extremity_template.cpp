@@ -1,0 +1,90 @@
+#include "extremities/extremity_template.hpp"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace bodice::anatomy {
+namespace {
+
+constexpr int kPairs = 10;
+using Pairs = Eigen::Matrix<double, kPairs, 1>;
+
+/// The ten pairs of ends in a fixed order.
+constexpr std::array<std::array<int, 2>, kPairs> kPairOf{
+    {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
+
+/// Mean distances along the skin as ratios to stature, over adults of many builds and poses.
+Pairs template_distances() {
+  constexpr double head_hand = 0.65, head_foot = 1.09, hands = 0.95, feet = 1.09, hand_foot = 1.19;
+  return Pairs{head_hand, head_hand, head_foot, head_foot, hands,
+               hand_foot, hand_foot, hand_foot, hand_foot, feet};
+}
+
+/// One independent way in which bodies and poses differ: what it adds to each distance, at one deviation.
+Pairs mode(double deviation, const std::array<double, kEndCount>& of_end, double trunk = 0.0) {
+  Pairs m;
+  for (int p = 0; p < kPairs; ++p) {
+    const auto [a, b] = kPairOf[p];
+    const bool along_trunk = (a < kFootA) != (b < kFootA);
+    m[p] = deviation * (of_end[a] + of_end[b] + (along_trunk ? trunk : 0.0));
+  }
+  return m;
+}
+
+/// Deviations as ratios to stature. Children: larger heads, shorter legs. Poses stretch single limbs.
+Eigen::Matrix<double, kPairs, kPairs> precision() {
+  constexpr double head = 0.05, arms = 0.05, legs = 0.07, trunk = 0.06, one_limb = 0.03, noise = 0.025;
+  Eigen::Matrix<double, kPairs, kPairs> spread =
+      noise * noise * Eigen::Matrix<double, kPairs, kPairs>::Identity();
+  const auto add = [&](const Pairs& m) { spread += m * m.transpose(); };
+  add(mode(head, {1, 0, 0, 0, 0}));
+  add(mode(arms, {0, 1, 1, 0, 0}));
+  add(mode(legs, {0, 0, 0, 1, 1}));
+  add(mode(trunk, {0, 0, 0, 0, 0}, 1.0));
+  for (int end = kHandA; end < kEndCount; ++end) {
+    std::array<double, kEndCount> one{};
+    one[end] = 1.0;
+    add(mode(one_limb, one));
+  }
+  return spread.inverse();
+}
+
+/// Ends are further out than their neighbors (toe and heel, fingertip and thumb), so of two equal fits the
+/// one whose ends are further apart is the right one.
+constexpr double kFartherIsBetter = 4.0;
+
+}  // namespace
+
+std::optional<EndMatch> match_ends(std::span<const float> apart, std::size_t n) {
+  const Pairs expected = template_distances();
+  const Eigen::Matrix<double, kPairs, kPairs> weight = precision();
+  std::optional<EndMatch> best;
+  double best_score = 0.0, longest = 0.0;
+  for (const float d : apart)
+    if (std::isfinite(d)) longest = std::max(longest, static_cast<double>(d));
+  if (!(longest > 0.0)) return std::nullopt;
+  const auto consider = [&](const std::array<std::size_t, kEndCount>& pick) {
+    Pairs d;
+    for (int p = 0; p < kPairs; ++p)
+      d[p] = static_cast<double>(apart[pick[kPairOf[p][0]] * n + pick[kPairOf[p][1]]]) / longest;
+    const Pairs wd = weight * d;
+    const double scale = wd.dot(expected) / wd.dot(d);
+    if (!(scale > 0.0)) return;
+    const Pairs residual = scale * d - expected;
+    const double misfit = std::sqrt(std::max(0.0, residual.dot(weight * residual)) / kPairs);
+    const double score = misfit - kFartherIsBetter * d.mean();
+    if (best && score >= best_score) return;
+    best = EndMatch{pick, misfit, longest / scale};
+    best_score = score;
+  };
+  for (std::size_t h = 0; h < n; ++h)
+    for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t b = a + 1; b < n; ++b)
+        for (std::size_t c = 0; c < n; ++c)
+          for (std::size_t d = c + 1; d < n; ++d)
+            if (a != h && b != h && c != h && d != h && c != a && c != b && d != a && d != b)
+              consider({h, a, b, c, d});
+  return best;
+}
+
+}  // namespace bodice::anatomy

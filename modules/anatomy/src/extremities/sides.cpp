@@ -1,0 +1,128 @@
+#include "extremities/sides.hpp"
+
+#include <cmath>
+#include <complex>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "skin/curve.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using geodesic::Field;
+using geodesic::Isoline;
+using geometry::Index;
+using geometry::Vec3;
+
+/// Where around a leg is read, as parts of the way from toe to perineum: the calf and the knee.
+constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
+constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as parts of that way
+
+/// What a meter through space counts against one along the skin: 8 takes the front of a pointed foot's ankle,
+/// 2 that of an obese runner's.
+constexpr float kThroughSpace = 4.0F;
+
+/// No way along the skin is longer than over the toe: nothing that is asked for lies farther than the sum of
+/// two distances from the toe, and what an edge adds at either end.
+float over_the_toe(const Skin& skin, float first, float second) {
+  return first + second + 2.0F * skin.graph.longest;
+}
+
+/// Distances from the loop around the calf at a level of the distance from the toe, which only the foot
+/// needs.
+Field distances_from_calf(const Skin& skin, const Field& from_toe, float level, float foot) {
+  std::vector<geodesic::Seed> seeds;
+  for (const auto& [a, b] : skin.edges.ends) {
+    if ((from_toe[a] < level) == (from_toe[b] < level)) continue;
+    const Index above = from_toe[a] < level ? b : a;
+    seeds.push_back({above, from_toe[above] - level});
+  }
+  return geodesic::distances_within(skin.graph, seeds, over_the_toe(skin, level, foot));
+}
+
+/// The heel is the dead end of the foot: the ways toe - heel - head and, twice, toe - heel - calf are long. A
+/// bent knee shortens the first over the back of the leg, a pointed foot the second; on a foot that is not
+/// pointed, the heel also lies farther from the toe through space than the front of the ankle does.
+Index find_heel(const Skin& skin, const EndPoints& ends, End foot, float leg) {
+  const Field from_calf = distances_from_calf(skin, ends.field[foot], kCalf * leg, kHeelTo * leg);
+  const Vec3& toe = skin.mesh.positions[ends.vertex[foot]];
+  Index heel = ends.vertex[foot];
+  float most = -1.0F;
+  for (std::size_t v = 0; v < ends.field[foot].size(); ++v) {
+    if (!(ends.field[foot][v] > kHeelFrom * leg && ends.field[foot][v] < kHeelTo * leg)) continue;
+    const auto through_space = static_cast<float>((skin.mesh.positions[v] - toe).norm());
+    const float detour = 3.0F * ends.field[foot][v] + ends.field[kHead][v] + 2.0F * from_calf[v] +
+                         kThroughSpace * through_space;
+    if (detour > most) {
+      most = detour;
+      heel = static_cast<Index>(v);
+    }
+  }
+  return heel;
+}
+
+/// The direction around the loop in which the field is least: minus the first harmonic over arc length.
+std::complex<double> least_direction(const Skin& skin, const Isoline& loop, const Field& field) {
+  std::complex<double> harmonic = 0.0;
+  double along = 0.0;
+  const std::size_t n = loop.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = (loop.points[i] - loop.points[(i + n - 1) % n]).norm();
+    const double after = (loop.points[(i + 1) % n] - loop.points[i]).norm();
+    along += before;
+    const double angle = 2.0 * M_PI * along / loop.girth_m;
+    harmonic -=
+        0.5 * (before + after) * static_cast<double>(value_at(skin, loop, i, field)) * std::polar(1.0, angle);
+  }
+  return harmonic / (loop.girth_m * loop.girth_m);
+}
+
+/// Sine of the angle from `first` to `second` around the loop, seen from the trunk.
+double signed_turn(std::complex<double> first, std::complex<double> second) {
+  const double size = std::abs(first) * std::abs(second);
+  return size > 0.0 ? std::imag(second * std::conj(first)) / size : 0.0;
+}
+
+/// Mean over the loops of what `reads` says, for levels of the field that rises toward the trunk. The lower
+/// a loop, the more it counts: a bent knee disturbs those near it.
+template <class Reads>
+double mean_over_loops(const Skin& skin, const Field& field, const std::array<float, kReadAt.size()>& levels,
+                       Reads reads) {
+  double sum = 0.0, all = 0.0;
+  const auto loops = geodesic::isolines(skin.mesh, skin.edges, field, levels);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    const auto weight = static_cast<double>(loops.size() - i);
+    all += weight;
+    if (const Isoline* loop = widest_closed(loops[i])) sum += weight * reads(*loop);
+  }
+  return sum / all;
+}
+
+/// Positive if the leg is the body's left: seen from the trunk, inner follows back counter-clockwise. Reads
+/// the back from the heel, on loops at equal distance from the toe.
+double leftness(const Skin& skin, const EndPoints& ends, End foot, End other) {
+  const float leg = 0.5F * ends.feet_apart();
+  const geodesic::Seed from{find_heel(skin, ends, foot, leg), 0.0F};
+  const Field heel = geodesic::distances_within(skin.graph, {&from, 1},
+                                                over_the_toe(skin, kHeelTo * leg, kReadAt.back() * leg));
+  std::array<float, kReadAt.size()> levels{};
+  for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = kReadAt[i] * leg;
+  return mean_over_loops(skin, ends.field[foot], levels, [&](const Isoline& loop) {
+    return turning(skin, loop, ends.field[foot]) *
+           signed_turn(least_direction(skin, loop, heel), least_direction(skin, loop, ends.field[other]));
+  });
+}
+
+}  // namespace
+
+Sides find_sides(const engine::Context& context, const Skin& skin, const EndPoints& ends) {
+  std::array<double, 2> left{};
+  engine::parallel_for(context, 2, 1, [&](std::size_t i, std::size_t) {
+    left[i] = i == 0 ? leftness(skin, ends, kFootA, kFootB) : leftness(skin, ends, kFootB, kFootA);
+  });
+  const double difference = left[0] - left[1];
+  return {difference >= 0.0, std::min(1.0, 0.5 * std::abs(difference))};
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,16 @@
+// Which side of the body is its left.
+#pragma once
+
+#include "extremities/extremities.hpp"
+
+namespace bodice::anatomy {
+
+struct Sides {
+  bool a_is_left = true;
+  double confidence = 0.0;  ///< 0..1
+};
+
+/// Reads the order front, outer, back, inner around each leg on the oriented skin, which no pose changes.
+Sides find_sides(const engine::Context& context, const Skin& skin, const EndPoints& ends);
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,94 @@
+#include "landmarks/armpit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "skin/nearest_signature.hpp"
+#include "skin/soft_position.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using geometry::Index;
+
+/// The armpit lies this far from its own hand, of hand to hand.
+constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
+/// It is near the level where the arm widens (of hand to hand), and near the shortest way from hand to foot.
+constexpr float kNearShoulder = 0.075F, kArmpitDetour = 1.13F;
+/// The ways around the chest that count for one side lie beyond its forearm, nearer to its own hand, and
+/// under the arm: ways over the neck are shorter on heavy bodies.
+constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
+constexpr float kLeastHalfChest = 0.02F;  // of the size
+/// A place this far from the best one is another, of the size: more than a landmark's bar, less than from the
+/// armpit to the top of the shoulder, to the chest or to the back, which are its rivals.
+constexpr double kElsewhere = 0.06;
+
+/// Half the girth of the chest on one side: the shortest way from the midline's front to its back under the
+/// arm, of the size.
+float half_chest(const BodyCoordinates& coordinates, int side) {
+  const BodyEnds& ends = coordinates.ends();
+  const geodesic::Field &own = *ends.from_hand[side], &other = *ends.from_hand[1 - side];
+  float least = 0.0F;
+  for (std::size_t v = 0; v < own.size(); ++v) {
+    if (!(own[v] > kChestFrom * ends.hands_apart && own[v] < kOwnSide * other[v])) continue;
+    const CoordinateArray x = coordinates.at(v, side);
+    if (!(x[kHandFootDetour] < kUnderArm)) continue;
+    const float around = x[kFromFront] + x[kFromBack];
+    if (least == 0.0F || around < least) least = around;
+  }
+  return std::max(least, kLeastHalfChest);
+}
+
+/// What tells how the armpit's coordinates lie on this body.
+std::array<float, 6> measures_of(const BodyCoordinates& coordinates, float half) {
+  const BodyEnds& ends = coordinates.ends();
+  const float size = coordinates.size_m();
+  return {half,
+          ends.hands_apart / size,
+          ends.feet_apart / size,
+          coordinates.from_perineum()[ends.head] / size,
+          coordinates.from_front()[ends.head] / size,
+          coordinates.from_back()[ends.head] / size};
+}
+
+}  // namespace
+
+SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
+                        int side) {
+  const float half = half_chest(coordinates, side);
+  const auto expected = kArmpit.expected(measures_of(coordinates, half));
+  const auto distance2 = [&](std::size_t v) {
+    const CoordinateArray x = coordinates.at(v, side);
+    return kArmpit.distance2(
+        {x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack], x[kFromPerineum],
+         x[kPastShoulder], (x[kFromFront] - x[kFromBack]) / half, (x[kFromFront] + x[kFromBack]) / half,
+         x[kHandFootDetour], x[kOtherFoot], x[kHeadHandDetour], x[kHeadFootDetour], x[kFromHead]},
+        expected);
+  };
+  const geodesic::Field& own = *coordinates.ends().from_hand[side];
+  const float apart = coordinates.ends().hands_apart;
+  const auto may_be = [&](std::size_t v) {
+    if (!(own[v] > kArmpitFrom * apart && own[v] < kArmpitTo * apart)) return false;
+    const CoordinateArray x = coordinates.at(v, side);
+    return std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
+  };
+  const NearestSignature found =
+      nearest_signature(context, coordinates.from_perineum().size(), may_be, distance2);
+  const float least2 = found.misfit * found.misfit;
+  const geometry::Vec3 place =
+      soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(coordinates.size_m()),
+                 [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
+  const double elsewhere = kElsewhere * static_cast<double>(coordinates.size_m());
+  const auto may_be_rival = [&](std::size_t v) {
+    const auto& p = skin.mesh.positions;
+    return may_be(v) && (p[v] - p[found.vertex]).squaredNorm() > elsewhere * elsewhere;
+  };
+  const NearestSignature rival =
+      nearest_signature(context, coordinates.from_perineum().size(), may_be_rival, distance2);
+  const float lead =
+      may_be_rival(rival.vertex) ? rival.misfit - found.misfit : std::numeric_limits<float>::infinity();
+  return {place, found.vertex, found.misfit, lead};
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,18 @@
+// The borders of the parts, as they run on bodies of one build.
+#pragma once
+
+#include "coordinates/body_coordinates.hpp"
+
+namespace bodice::anatomy {
+
+struct BordersOfBuild {
+  Border neck, shoulder, knee, hip, waist;
+};
+
+/// A belly, heavy thighs and thick shoulders lengthen some ways along the skin and not others, so that one
+/// sum of distances is level with a joint on slim bodies and far from it on heavy ones: what a border counts
+/// each distance for follows eight lengths of the whole body. Landmarks read the borders as they are for all
+/// builds, to which their own corrections were fitted. O(1).
+BordersOfBuild borders_of_build(const BodyCoordinates& coordinates);
+
+}  // namespace bodice::anatomy

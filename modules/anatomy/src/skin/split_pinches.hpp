@@ -1,0 +1,23 @@
+// Skins that touch themselves in single vertices.
+#pragma once
+
+#include "skin/skin.hpp"
+
+namespace bodice::anatomy {
+
+/// A skin in which a vertex that joins separate fans of triangles (a hand that touches a thigh, welded) is
+/// one vertex a fan, so that no way along the skin leads through the pinch.
+struct SplitSkin {
+  geometry::TriMesh mesh;               ///< the input's vertices first; the copies behind them
+  std::vector<geometry::Index> origin;  ///< #copies: the vertex that each copy stands for
+};
+
+/// No copies if there is no pinch, or where edges are shared by more
+/// than two triangles. O(#F).
+SplitSkin split_pinches(const Skin& skin);
+
+/// True if the numbers of vertices, edges and triangles are those of closed pieces without a pinch: then
+/// there is no need to look for one.
+bool surely_unpinched(const Skin& skin);
+
+}  // namespace bodice::anatomy
