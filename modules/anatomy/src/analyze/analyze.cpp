@@ -36,44 +36,44 @@ Vec3 upwards(const Skin& skin, const Landmarks& marks) {
 
 /// Each confidence after what the second way says; at the distance that is called a contradiction, half is
 /// left.
-void weigh(const SecondWays& second, Landmarks& marks) {
+void weigh(const CrossCheck& second, Landmarks& marks) {
   constexpr double kNothingLeft = 1.5;
   const auto after = [](double& confidence, double apart, double contradiction) {
-    confidence = agreed(confidence, apart, kNothingLeft * contradiction);
+    confidence = checked_confidence(confidence, apart, kNothingLeft * contradiction);
   };
-  after(marks.crown_confidence, second.crown, kCrownApart);
-  after(marks.neck.confidence, second.neck, kNeckApart);
-  after(marks.perineum_confidence, second.perineum, kPerineumApart);
+  after(marks.crown_confidence, second.crown, kMaxCrownDifference);
+  after(marks.neck.confidence, second.neck, kMaxNeckDifference);
+  after(marks.perineum_confidence, second.perineum, kMaxPerineumDifference);
   for (int side = 0; side < 2; ++side) {
-    after(marks.fingertip_confidence[side], second.fingertip[side], kFingertipApart);
-    after(marks.elbow[side].confidence, second.elbow[side], kElbowApart);
-    after(marks.armpit_confidence[side], second.armpit[side], kArmpitApart);
-    after(marks.armpit_confidence[side], second.armpits, kArmpitsDiffer);
-    after(marks.knee[side].confidence, second.knee[side], kKneeApart);
-    after(marks.toe_confidence[side], second.toe[side], kToeApart);
+    after(marks.fingertip_confidence[side], second.fingertip[side], kMaxFingertipDifference);
+    after(marks.elbow[side].confidence, second.elbow[side], kMaxElbowDifference);
+    after(marks.armpit_confidence[side], second.armpit[side], kMaxArmpitDifference);
+    after(marks.armpit_confidence[side], second.armpits, kMaxArmpitAsymmetry);
+    after(marks.knee[side].confidence, second.knee[side], kMaxKneeDifference);
+    after(marks.toe_confidence[side], second.toe[side], kMaxToeDifference);
   }
 }
 
 engine::Result<Anatomy> understand(const engine::Context& context, const Skin& skin, const Options& options,
                                    Anatomy anatomy) {
   StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
-  const std::optional<EndPoints> found = find_end_points(context, skin);
+  const std::optional<Extremities> found = find_extremities(context, skin);
   geodesic_timer.stop();
   if (!found) return no_body("its skin has no five ends far from each other.");
-  if (found->misfit > kWorstMisfit)
+  if (found->mahalanobis > kWorstMisfit)
     return no_body("its five ends do not lie at the distances of a head, two hands and two feet.");
 
   StageTimer anatomy_timer(context, anatomy.stages, "anatomy");
   const Sides sides = find_sides(context, skin, *found);
-  const BodyEnds ends = in_body_order(*found, sides);
-  const BodyCoordinates coordinates(context, skin, ends);
+  const BodyExtremities tips = in_body_order(*found, sides);
+  const BodyCoordinates coordinates(context, skin, tips);
   Landmarks marks = find_landmarks(context, skin, coordinates);
-  const SecondWays second = ask_second_ways(context, skin, coordinates, marks);
+  const CrossCheck second = cross_check(context, skin, coordinates, marks);
   weigh(second, marks);
-  if (const auto spoiled = spoiled_by_welds(skin, coordinates, marks, second)) return *spoiled;
-  anatomy.stature_m = find_stature(skin, ends, marks);
+  if (const auto spoiled = fused_limbs_error(skin, coordinates, marks, second)) return *spoiled;
+  anatomy.stature_m = find_stature(skin, tips, marks);
   anatomy.up = upwards(skin, marks);
-  anatomy.landmarks = as_list(skin, ends, marks);
+  anatomy.landmarks = as_list(skin, tips, marks);
   anatomy_timer.stop();
 
   StageTimer segment_timer(context, anatomy.stages, "segment");

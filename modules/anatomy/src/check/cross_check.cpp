@@ -29,7 +29,7 @@ float narrowest_level(const GirthProfile& profile) {
 }
 
 double neck_apart(const Skin& skin, const BodyCoordinates& coordinates, const Landmarks& marks) {
-  const geodesic::Field& from_head = *coordinates.ends().from_head;
+  const geodesic::Field& from_head = *coordinates.extremities().from_head;
   const float size = coordinates.size_m();
   const float level =
       narrowest_level(girth_profile(skin, from_head, kNeckFrom * size, kNeckTo * size, kSteps));
@@ -49,33 +49,33 @@ double perineum_apart(const Skin& skin, const BodyCoordinates& coordinates) {
 double armpit_apart(const BodyCoordinates& coordinates, const Landmarks& marks, int side) {
   const float level = coordinates.shoulder_level_m(side);
   if (!(level > 0.0F)) return -1.0;
-  const float found = (*coordinates.ends().from_hand[side])[marks.armpit[side]];
+  const float found = (*coordinates.extremities().from_hand[side])[marks.armpit[side]];
   return static_cast<double>(std::abs(found - level) / coordinates.size_m());
 }
 
 /// Arms are of one length; a shrug or a twist changes the ways along them by half of what is a contradiction.
 double armpits_differ(const BodyCoordinates& coordinates, const Landmarks& marks) {
-  const BodyEnds& ends = coordinates.ends();
-  const float left = (*ends.from_hand[0])[marks.armpit[0]], right = (*ends.from_hand[1])[marks.armpit[1]];
+  const BodyExtremities& tips = coordinates.extremities();
+  const float left = (*tips.from_hand[0])[marks.armpit[0]], right = (*tips.from_hand[1])[marks.armpit[1]];
   return static_cast<double>(std::abs(left - right) / coordinates.size_m());
 }
 
 }  // namespace
 
-SecondWays ask_second_ways(const engine::Context& context, const Skin& skin,
+CrossCheck cross_check(const engine::Context& context, const Skin& skin,
                            const BodyCoordinates& coordinates, const Landmarks& marks) {
-  SecondWays second;
+  CrossCheck second;
   engine::parallel_for(context, 2, 1, [&](std::size_t task, std::size_t) {
     if (task == 0) second.neck = neck_apart(skin, coordinates, marks);
     if (task == 1) second.perineum = perineum_apart(skin, coordinates);
   });
-  ask_second_places(context, skin, coordinates, marks, second);
+  cross_check_positions(context, skin, coordinates, marks, second);
   for (int side = 0; side < 2; ++side) second.armpit[side] = armpit_apart(coordinates, marks, side);
   second.armpits = armpits_differ(coordinates, marks);
   return second;
 }
 
-double agreed(double confidence, double apart, double most) {
+double checked_confidence(double confidence, double apart, double most) {
   if (!(apart >= 0.0)) return 0.5 * confidence;
   const double off = std::min(1.0, apart / most);
   return confidence * (1.0 - off * off);

@@ -52,17 +52,17 @@ double joint_apart(const Skin& skin, const BodyCoordinates& coordinates, const L
 
 }  // namespace
 
-void ask_second_places(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
-                       const Landmarks& marks, SecondWays& second) {
-  const BodyEnds& ends = coordinates.ends();
+void cross_check_positions(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
+                       const Landmarks& marks, CrossCheck& second) {
+  const BodyExtremities& tips = coordinates.extremities();
   const float size = coordinates.size_m();
   const auto& p = skin.mesh.positions;
   constexpr std::size_t kTasks = 4;  // hands and feet of both sides
   engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
     const int side = static_cast<int>(task % 2);
     const bool arm = task < 2;
-    const Field& field = arm ? *ends.from_hand[side] : *ends.from_foot[side];
-    const Index end = arm ? ends.hand[side] : ends.foot[side];
+    const Field& field = arm ? *tips.from_hand[side] : *tips.from_foot[side];
+    const Index end = arm ? tips.hand[side] : tips.foot[side];
     (arm ? second.fingertip : second.toe)[side] =
         end_apart(skin, coordinates, field, p[end], kNearEnd * size);
     const Limb limb = arm ? Limb{field, field[marks.armpit[side]], kElbowFrom, kElbowTo, kElbowShare}
@@ -70,7 +70,7 @@ void ask_second_places(const engine::Context& context, const Skin& skin, const B
     (arm ? second.elbow : second.knee)[side] =
         joint_apart(skin, coordinates, limb, arm ? marks.elbow[side] : marks.knee[side]);
   });
-  second.crown = end_apart(skin, coordinates, *ends.from_head, marks.crown_place, kNearCrown * size);
+  second.crown = end_apart(skin, coordinates, *tips.from_head, marks.crown_place, kNearCrown * size);
 }
 
 }  // namespace bodice::anatomy

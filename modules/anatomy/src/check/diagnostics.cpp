@@ -37,25 +37,25 @@ void check_surface(const Skin& skin, std::vector<Warning>& warnings) {
 void check_welds(const BodyCoordinates& coordinates, std::vector<Warning>& warnings) {
   constexpr std::array<const char*, 2> forearm{"forearm_l", "forearm_r"};
   for (int side = 0; side < 2; ++side)
-    if (hand_meets_leg(coordinates, side))
+    if (hand_fused_to_leg(coordinates, side))
       warnings.push_back(
           {"hand-fused-to-leg", forearm[side],
            "The way along the skin from this hand to its foot is too short.",
            "Separate the hand from the thigh, or give a pose with the arms away from the body."});
-  if (legs_meet(coordinates))
+  if (legs_fused(coordinates))
     warnings.push_back({"legs-fused", "thigh_l", "The way along the skin from foot to foot is too short.",
                         "Separate the legs, or give a pose with the legs apart."});
 }
 
-void check_symmetry(const BodyEnds& ends, double size, std::vector<Warning>& warnings) {
+void check_symmetry(const BodyExtremities& tips, double size, std::vector<Warning>& warnings) {
   const auto differ = [&](const auto& vertex) {
-    return std::abs(static_cast<double>((*ends.from_head)[vertex[0]]) -
-                    static_cast<double>((*ends.from_head)[vertex[1]])) > kAsymmetry * size;
+    return std::abs(static_cast<double>((*tips.from_head)[vertex[0]]) -
+                    static_cast<double>((*tips.from_head)[vertex[1]])) > kAsymmetry * size;
   };
-  if (differ(ends.hand))
+  if (differ(tips.hand))
     warnings.push_back({"arms-differ", "upper_arm_l", "One arm is much longer along the skin than the other.",
                         "Check for a missing hand or an arm welded to the body."});
-  if (differ(ends.foot))
+  if (differ(tips.foot))
     warnings.push_back({"legs-differ", "thigh_l", "One leg is much longer along the skin than the other.",
                         "Check for a missing foot or legs welded together."});
 }
@@ -73,30 +73,30 @@ void check_places(const Landmarks& marks, std::vector<Warning>& warnings) {
 }
 
 /// Two independent ways that contradict each other: the first is used, and the reader is told.
-void check_second_ways(const SecondWays& second, std::vector<Warning>& warnings) {
+void check_second_ways(const CrossCheck& second, std::vector<Warning>& warnings) {
   const auto differ = [&](double apart, double most, const char* code, const char* part, const char* text) {
     if (apart > most)
       warnings.push_back(
           {code, part, text, "Check this border in the result; welded or touching parts often cause it."});
   };
-  differ(second.neck, kNeckApart, "neck-disagrees", "head",
+  differ(second.neck, kMaxNeckDifference, "neck-disagrees", "head",
          "The neck's border and its narrowest place lie far from each other.");
-  differ(second.perineum, kPerineumApart, "perineum-disagrees", "thigh_l",
+  differ(second.perineum, kMaxPerineumDifference, "perineum-disagrees", "thigh_l",
          "The perineum and the place where the legs join along the skin lie far from each other.");
-  differ(second.crown, kCrownApart, "crown-disagrees", "head",
+  differ(second.crown, kMaxCrownDifference, "crown-disagrees", "head",
          "The top of the head and the place of the head that is farthest from the perineum lie apart.");
   constexpr std::array<const char*, 2> upper_arm{"upper_arm_l", "upper_arm_r"},
       forearm{"forearm_l", "forearm_r"}, thigh{"thigh_l", "thigh_r"}, calf{"calf_l", "calf_r"};
   for (int side = 0; side < 2; ++side) {
-    differ(second.armpit[side], kArmpitApart, "armpit-disagrees", upper_arm[side],
+    differ(second.armpit[side], kMaxArmpitDifference, "armpit-disagrees", upper_arm[side],
            "The armpit and the place where the arm widens into the trunk lie far from each other.");
-    differ(second.elbow[side], kElbowApart, "elbow-disagrees", upper_arm[side],
+    differ(second.elbow[side], kMaxElbowDifference, "elbow-disagrees", upper_arm[side],
            "The elbow's border and the bend or the middle of the arm lie far from each other.");
-    differ(second.fingertip[side], kFingertipApart, "fingertip-disagrees", forearm[side],
+    differ(second.fingertip[side], kMaxFingertipDifference, "fingertip-disagrees", forearm[side],
            "The fingertip and the place of the hand that is farthest from the trunk lie apart.");
-    differ(second.knee[side], kKneeApart, "knee-disagrees", thigh[side],
+    differ(second.knee[side], kMaxKneeDifference, "knee-disagrees", thigh[side],
            "The knee's border and the bend or the middle of the leg lie far from each other.");
-    differ(second.toe[side], kToeApart, "toe-disagrees", calf[side],
+    differ(second.toe[side], kMaxToeDifference, "toe-disagrees", calf[side],
            "The tip of the foot and the place of the foot that is farthest from the trunk lie apart.");
   }
 }
@@ -106,7 +106,7 @@ void check_second_ways(const SecondWays& second, std::vector<Warning>& warnings)
 constexpr double kFootAlongSkin = 0.07, kLegSpread = 0.08, kArmSpread = 0.08;
 
 /// The survey is a cross-check only: children and cartoon figures differ from it and are still understood.
-void check_proportions(const BodyEnds& ends, const Landmarks& marks, const body::ProportionProfile& profile,
+void check_proportions(const BodyExtremities& tips, const Landmarks& marks, const body::ProportionProfile& profile,
                        double stature, std::vector<Warning>& warnings) {
   const body::Proportions survey = profile.either();
   if (!(survey.crotch_height > 0.0) || !(stature > 0.0)) return;
@@ -120,28 +120,28 @@ void check_proportions(const BodyEnds& ends, const Landmarks& marks, const body:
            "Nothing to do for a child or a stylised figure; else check the landmarks."});
   };
   for (int side = 0; side < 2; ++side) {
-    compare(static_cast<double>((*ends.from_foot[side])[marks.perineum]),
+    compare(static_cast<double>((*tips.from_foot[side])[marks.perineum]),
             survey.crotch_height + kFootAlongSkin, kLegSpread, thigh[side], "length of this leg");
-    compare(static_cast<double>((*ends.from_hand[side])[marks.armpit[side]]), survey.fingertip_to_armpit,
+    compare(static_cast<double>((*tips.from_hand[side])[marks.armpit[side]]), survey.fingertip_to_armpit,
             kArmSpread, upper_arm[side], "length of this arm");
   }
 }
 
 }  // namespace
 
-std::vector<Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
+std::vector<Warning> diagnose(const Skin& skin, const Extremities& found, const Sides& sides,
                               const BodyCoordinates& coordinates, const Landmarks& marks,
-                              const SecondWays& second, const body::ProportionProfile& profile,
+                              const CrossCheck& second, const body::ProportionProfile& profile,
                               double stature) {
   std::vector<Warning> warnings;
   const auto size = static_cast<double>(coordinates.size_m());
   check_surface(skin, warnings);
   check_welds(coordinates, warnings);
-  check_symmetry(coordinates.ends(), size, warnings);
+  check_symmetry(coordinates.extremities(), size, warnings);
   check_places(marks, warnings);
   check_second_ways(second, warnings);
-  check_proportions(coordinates.ends(), marks, profile, stature, warnings);
-  if (found.misfit > kFairMisfit)
+  check_proportions(coordinates.extremities(), marks, profile, stature, warnings);
+  if (found.mahalanobis > kFairMisfit)
     warnings.push_back({"unusual-body", "", "The ends of the body lie at unusual distances from each other.",
                         "Check the landmarks: welded, missing or very long limbs change these distances."});
   if (sides.confidence < kUncertainSides)

@@ -9,9 +9,9 @@
 
 namespace bodice::anatomy {
 
-std::vector<engine::Warning> diagnose(const Skin& skin, const EndPoints& found, const Sides& sides,
+std::vector<engine::Warning> diagnose(const Skin& skin, const Extremities& found, const Sides& sides,
                                       const BodyCoordinates& coordinates, const Landmarks& marks,
-                                      const SecondWays& second, const body::ProportionProfile& profile,
+                                      const CrossCheck& second, const body::ProportionProfile& profile,
                                       double stature);
 
 }  // namespace bodice::anatomy

@@ -14,38 +14,38 @@ bool doubted(double confidence, double apart, double contradiction) {
   return confidence < kUncertain || apart > contradiction;
 }
 
-int places_in_doubt(const Landmarks& marks, const SecondWays& second) {
-  int count = 2 * doubted(marks.neck.confidence, second.neck, kNeckApart) +
-              doubted(marks.perineum_confidence, second.perineum, kPerineumApart);
+int places_in_doubt(const Landmarks& marks, const CrossCheck& second) {
+  int count = 2 * doubted(marks.neck.confidence, second.neck, kMaxNeckDifference) +
+              doubted(marks.perineum_confidence, second.perineum, kMaxPerineumDifference);
   for (int side = 0; side < 2; ++side)
-    count += doubted(marks.armpit_confidence[side], second.armpit[side], kArmpitApart) +
-             doubted(marks.elbow[side].confidence, second.elbow[side], kElbowApart) +
-             doubted(marks.knee[side].confidence, second.knee[side], kKneeApart);
+    count += doubted(marks.armpit_confidence[side], second.armpit[side], kMaxArmpitDifference) +
+             doubted(marks.elbow[side].confidence, second.elbow[side], kMaxElbowDifference) +
+             doubted(marks.knee[side].confidence, second.knee[side], kMaxKneeDifference);
   return count;
 }
 
 std::string what_meets(const BodyCoordinates& coordinates) {
-  const bool hands = hand_meets_leg(coordinates, 0) || hand_meets_leg(coordinates, 1);
-  if (hands && legs_meet(coordinates)) return "a hand touches a leg and where the legs touch";
+  const bool hands = hand_fused_to_leg(coordinates, 0) || hand_fused_to_leg(coordinates, 1);
+  if (hands && legs_fused(coordinates)) return "a hand touches a leg and where the legs touch";
   if (hands) return "a hand touches a leg";
-  return legs_meet(coordinates) ? "the legs touch" : "limbs touch";
+  return legs_fused(coordinates) ? "the legs touch" : "limbs touch";
 }
 
 }  // namespace
 
-bool hand_meets_leg(const BodyCoordinates& coordinates, int side) {
-  const BodyEnds& ends = coordinates.ends();
-  return static_cast<double>((*ends.from_hand[side])[ends.foot[side]]) <
+bool hand_fused_to_leg(const BodyCoordinates& coordinates, int side) {
+  const BodyExtremities& tips = coordinates.extremities();
+  return static_cast<double>((*tips.from_hand[side])[tips.foot[side]]) <
          kHandToFoot * static_cast<double>(coordinates.size_m());
 }
 
-bool legs_meet(const BodyCoordinates& coordinates) {
-  return static_cast<double>(coordinates.ends().feet_apart) <
+bool legs_fused(const BodyCoordinates& coordinates) {
+  return static_cast<double>(coordinates.extremities().feet_apart) <
          kFootToFoot * static_cast<double>(coordinates.size_m());
 }
 
-std::optional<engine::Error> spoiled_by_welds(const Skin& skin, const BodyCoordinates& coordinates,
-                                              const Landmarks& marks, const SecondWays& second) {
+std::optional<engine::Error> fused_limbs_error(const Skin& skin, const BodyCoordinates& coordinates,
+                                              const Landmarks& marks, const CrossCheck& second) {
   if (skin.handles < 1 || places_in_doubt(marks, second) < kSpoilt) return std::nullopt;
   return engine::Error{engine::ErrorCode::kUnusableGeometry,
                        "The skin is fused where " + what_meets(coordinates) +

@@ -42,100 +42,100 @@ SkinPoint half_way(const Skin& skin, const Field& from, Index to) {
 
 }  // namespace
 
-BodyCoordinates::BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyEnds& ends)
-    : ends_(ends) {
+BodyCoordinates::BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyExtremities& tips)
+    : tips_(tips) {
   measure_lengths();
   constexpr std::size_t kTasks = 4;  // the midline, the merge of the legs, two shoulders
   engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
     if (task == 0) find_middle(skin);
-    if (task == 1) merge_ = find_leg_merge(skin, ends);
-    if (task >= 2) shoulder_[task - 2] = shoulder_level(skin, *ends.from_hand[task - 2], ends.hands_apart);
+    if (task == 1) merge_ = find_leg_merge(skin, tips);
+    if (task >= 2) shoulder_[task - 2] = shoulder_level(skin, *tips.from_hand[task - 2], tips.hands_apart);
   });
   engine::parallel_for(context, 2, 1, [&](std::size_t i, std::size_t) {
     (i == 0 ? from_front_ : from_back_) = distances_from(skin, i == 0 ? midline_.front : midline_.back);
   });
   find_perineum(context, skin);
   from_perineum_ = geodesic::distances_from(skin.graph, perineum_);
-  trunk_ = from_perineum_[ends.head];
+  trunk_ = from_perineum_[tips.head];
 }
 
 void BodyCoordinates::find_middle(const Skin& skin) {
-  midline_ = find_midline(skin, ends_);
+  midline_ = find_midline(skin, tips_);
   midline_found_ = midline_.front.found() && midline_.back.found();
-  if (!midline_.front.found()) midline_.front = half_way(skin, *ends_.from_hand[0], ends_.hand[1]);
+  if (!midline_.front.found()) midline_.front = half_way(skin, *tips_.from_hand[0], tips_.hand[1]);
   if (!midline_.back.found()) midline_.back = midline_.front;
 }
 
 void BodyCoordinates::measure_lengths() {
-  size_ = (ends_.head_to_feet + ends_.feet_apart) / kSizeToStature;
+  size_ = (tips_.head_to_feet + tips_.feet_apart) / kSizeToStature;
   for (int side = 0; side < 2; ++side) {
-    head_to_hand_[side] = (*ends_.from_head)[ends_.hand[side]];
-    head_to_foot_[side] = (*ends_.from_head)[ends_.foot[side]];
-    hand_to_foot_[side] = (*ends_.from_hand[side])[ends_.foot[side]];
+    head_to_hand_[side] = (*tips_.from_head)[tips_.hand[side]];
+    head_to_foot_[side] = (*tips_.from_head)[tips_.foot[side]];
+    hand_to_foot_[side] = (*tips_.from_hand[side])[tips_.foot[side]];
   }
 }
 
 void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& skin) {
-  const Field &left_hand = *ends_.from_hand[0], &right_hand = *ends_.from_hand[1], &head = *ends_.from_head;
-  const Field &left_foot = *ends_.from_foot[0], &right_foot = *ends_.from_foot[1];
-  const float tilt = left_hand[ends_.head] - right_hand[ends_.head];
+  const Field &left_hand = *tips_.from_hand[0], &right_hand = *tips_.from_hand[1], &head = *tips_.from_head;
+  const Field &left_foot = *tips_.from_foot[0], &right_foot = *tips_.from_foot[1];
+  const float tilt = left_hand[tips_.head] - right_hand[tips_.head];
   const bool merged = merge_.at.found();
-  const float half_way = merged ? merge_.distance : 0.5F * ends_.feet_apart;
+  const float half_way = merged ? merge_.distance : 0.5F * tips_.feet_apart;
   merge_front_ = merged ? value_at(skin, merge_.at, from_front_) : kUsualMergeFront * size_;
   merge_back_ = merged ? value_at(skin, merge_.at, from_back_) : kUsualMergeBack * size_;
   const auto expected = kPerineum.expected(
-      {ends_.feet_apart / size_, ends_.hands_apart / size_, merge_front_ / size_, merge_back_ / size_});
+      {tips_.feet_apart / size_, tips_.hands_apart / size_, merge_front_ / size_, merge_back_ / size_});
   const auto distance2 = [&](std::size_t v) {
     return kPerineum.distance2(
         {(left_foot[v] + right_foot[v]) / (2.0F * half_way),
-         (left_foot[v] - right_foot[v]) / ends_.feet_apart,
-         (left_hand[v] - right_hand[v] - tilt) / ends_.hands_apart, from_front_[v] / size_,
+         (left_foot[v] - right_foot[v]) / tips_.feet_apart,
+         (left_hand[v] - right_hand[v] - tilt) / tips_.hands_apart, from_front_[v] / size_,
          from_back_[v] / size_, 0.5F * (merge_back_ - merge_front_ - from_back_[v] + from_front_[v]) / size_,
-         0.5F * (left_hand[v] + right_hand[v]) / ends_.hands_apart, head[v] / size_,
+         0.5F * (left_hand[v] + right_hand[v]) / tips_.hands_apart, head[v] / size_,
          0.5F * ((head[v] + left_foot[v]) / head_to_foot_[0] + (head[v] + right_foot[v]) / head_to_foot_[1])},
         expected);
   };
   const auto may_be = [&](std::size_t v) {
     const float feet = left_foot[v] + right_foot[v];
-    return feet > 2.0F * kPerineumFrom * ends_.feet_apart && feet < 2.0F * kPerineumTo * ends_.feet_apart;
+    return feet > 2.0F * kPerineumFrom * tips_.feet_apart && feet < 2.0F * kPerineumTo * tips_.feet_apart;
   };
   const NearestSignature best = nearest_signature(context, left_foot.size(), may_be, distance2);
   const auto before_it = [&](std::size_t v) {
     return may_be(v) && from_front_[v] < from_front_[best.vertex] - kInFront * size_;
   };
   const NearestSignature front = nearest_signature(context, left_foot.size(), before_it, distance2);
-  if (before_it(front.vertex)) perineum_lead_ = front.misfit - best.misfit;
-  const NearestSignature found = perineum_lead_ < kFoldLead ? front : best;
-  const float least2 = found.misfit * found.misfit;
-  perineum_place_ = soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(size_), [&](Index v) {
+  if (before_it(front.vertex)) perineum_margin_ = front.mahalanobis - best.mahalanobis;
+  const NearestSignature found = perineum_margin_ < kFoldMargin ? front : best;
+  const float least2 = found.mahalanobis * found.mahalanobis;
+  perineum_position_ = soft_position(skin, found.vertex, kSoftRadius * static_cast<double>(size_), [&](Index v) {
     return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F;
   });
-  perineum_ = vertex_near(skin, perineum_place_, found.vertex);
-  perineum_misfit_ = found.misfit;
+  perineum_ = vertex_near(skin, perineum_position_, found.vertex);
+  perineum_mahalanobis_ = found.mahalanobis;
 }
 
 bool BodyCoordinates::on_head(std::size_t v) const {
-  return (*ends_.from_head)[v] < kHeadReach * size_ && kNeck(at(v, 0)) > 0.0F;
+  return (*tips_.from_head)[v] < kHeadReach * size_ && kNeck(at(v, 0)) > 0.0F;
 }
 
 CoordinateArray BodyCoordinates::at(std::size_t v, int side) const {
-  const float head = (*ends_.from_head)[v];
-  const std::array<float, 2> hand{(*ends_.from_hand[0])[v], (*ends_.from_hand[1])[v]};
-  const std::array<float, 2> foot{(*ends_.from_foot[0])[v], (*ends_.from_foot[1])[v]};
-  const float shoulder = shoulder_[side] > 0.0F ? shoulder_[side] : kUsualShoulder * ends_.hands_apart;
+  const float head = (*tips_.from_head)[v];
+  const std::array<float, 2> hand{(*tips_.from_hand[0])[v], (*tips_.from_hand[1])[v]};
+  const std::array<float, 2> foot{(*tips_.from_foot[0])[v], (*tips_.from_foot[1])[v]};
+  const float shoulder = shoulder_[side] > 0.0F ? shoulder_[side] : kUsualShoulder * tips_.hands_apart;
   CoordinateArray x{};
   x[kFromHead] = head / size_;
-  x[kOwnHand] = hand[side] / ends_.hands_apart;
-  x[kOtherHand] = hand[1 - side] / ends_.hands_apart;
-  x[kOwnFoot] = foot[side] / ends_.feet_apart;
-  x[kOtherFoot] = foot[1 - side] / ends_.feet_apart;
+  x[kOwnHand] = hand[side] / tips_.hands_apart;
+  x[kOtherHand] = hand[1 - side] / tips_.hands_apart;
+  x[kOwnFoot] = foot[side] / tips_.feet_apart;
+  x[kOtherFoot] = foot[1 - side] / tips_.feet_apart;
   x[kFromFront] = from_front_[v] / size_;
   x[kFromBack] = from_back_[v] / size_;
   x[kFromPerineum] = from_perineum_[v] / trunk_;
   x[kHandFootDetour] = (hand[side] + foot[side]) / hand_to_foot_[side];
   x[kHeadHandDetour] = 0.5F * ((head + hand[0]) / head_to_hand_[0] + (head + hand[1]) / head_to_hand_[1]);
   x[kHeadFootDetour] = 0.5F * ((head + foot[0]) / head_to_foot_[0] + (head + foot[1]) / head_to_foot_[1]);
-  x[kPastShoulder] = (hand[side] - shoulder) / ends_.hands_apart;
+  x[kPastShoulder] = (hand[side] - shoulder) / tips_.hands_apart;
   return x;
 }
 

@@ -13,25 +13,25 @@ namespace bodice::anatomy {
 /// The fold of a heavy seat looks like a perineum, too. Where it fits best, a place in front of it fits by
 /// less than this many deviations worse, and is taken; of 2,100 rig-skinned and made bodies the five that the
 /// fold misled led by 2.7 or less, and all others but one by 3.2 or more.
-inline constexpr float kFoldLead = 2.9F;
+inline constexpr float kFoldMargin = 2.9F;
 
 class BodyCoordinates {
  public:
   /// Keeps references to the fields of `ends`. Finds the perineum and measures from it and from the midline.
-  BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyEnds& ends);
+  BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyExtremities& tips);
 
   /// side 0: seen from the body's left, 1: from its right.
   CoordinateArray at(std::size_t vertex, int side) const;
   /// Meters that count as one in the distance from an end.
   float unit_of(Coordinate end) const {
     if (end == kFromHead) return size_;
-    return end == kOwnHand || end == kOtherHand ? ends_.hands_apart : ends_.feet_apart;
+    return end == kOwnHand || end == kOtherHand ? tips_.hands_apart : tips_.feet_apart;
   }
   geometry::Index perineum() const { return perineum_; }
-  const geometry::Vec3& perineum_place() const { return perineum_place_; }
-  float perineum_misfit() const { return perineum_misfit_; }
+  const geometry::Vec3& perineum_position() const { return perineum_position_; }
+  float perineum_mahalanobis() const { return perineum_mahalanobis_; }
   /// How many deviations more the best place in front of the one that fits best is off.
-  float perineum_lead() const { return perineum_lead_; }
+  float perineum_margin() const { return perineum_margin_; }
   /// Above the border of the neck.
   bool on_head(std::size_t vertex) const;
   const geodesic::Field& from_front() const { return from_front_; }
@@ -46,7 +46,7 @@ class BodyCoordinates {
   float back_to_merge_m() const { return merge_back_; }
   /// About the stature.
   float size_m() const { return size_; }
-  const BodyEnds& ends() const { return ends_; }
+  const BodyExtremities& extremities() const { return tips_; }
   const Midline& midline() const { return midline_; }
   const LegMerge& leg_merge() const { return merge_; }
   /// Where the loop around the arm widens, meters from the fingertip; 0 if it does not. See shoulder_level.
@@ -57,14 +57,14 @@ class BodyCoordinates {
   void measure_lengths();
   void find_perineum(const engine::Context& context, const Skin& skin);
 
-  const BodyEnds& ends_;
+  const BodyExtremities& tips_;
   Midline midline_;
   LegMerge merge_;
   geodesic::Field from_front_, from_back_, from_perineum_;
   geometry::Index perineum_ = geometry::kNoIndex;
-  geometry::Vec3 perineum_place_ = geometry::Vec3::Zero();
-  float perineum_misfit_ = 0.0F;
-  float perineum_lead_ = std::numeric_limits<float>::infinity();
+  geometry::Vec3 perineum_position_ = geometry::Vec3::Zero();
+  float perineum_mahalanobis_ = 0.0F;
+  float perineum_margin_ = std::numeric_limits<float>::infinity();
   float size_ = 0.0F;
   float trunk_ = 0.0F, merge_front_ = 0.0F, merge_back_ = 0.0F;
   std::array<float, 2> head_to_hand_{}, head_to_foot_{}, hand_to_foot_{}, shoulder_{};

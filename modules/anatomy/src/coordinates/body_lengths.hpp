@@ -29,13 +29,13 @@ struct Shift {
 };
 
 inline BodyLengths body_lengths(const BodyCoordinates& coordinates) {
-  const BodyEnds& ends = coordinates.ends();
+  const BodyExtremities& tips = coordinates.extremities();
   const auto of_size = [&](float length_m) {
     return static_cast<double>(length_m) / static_cast<double>(coordinates.size_m());
   };
-  return {of_size(ends.hands_apart), of_size(ends.head_to_feet),
-          of_size(0.5F * ((*ends.from_head)[ends.hand[0]] + (*ends.from_head)[ends.hand[1]])),
-          of_size(coordinates.from_front()[ends.head]), of_size(coordinates.from_back()[ends.head])};
+  return {of_size(tips.hands_apart), of_size(tips.head_to_feet),
+          of_size(0.5F * ((*tips.from_head)[tips.hand[0]] + (*tips.from_head)[tips.hand[1]])),
+          of_size(coordinates.from_front()[tips.head]), of_size(coordinates.from_back()[tips.head])};
 }
 
 }  // namespace bodice::anatomy

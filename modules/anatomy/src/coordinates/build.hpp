@@ -12,15 +12,15 @@ namespace bodice::anatomy {
 using Build = std::array<float, 8>;
 
 inline Build build_of(const BodyCoordinates& coordinates) {
-  const BodyEnds& ends = coordinates.ends();
-  Build build{ends.hands_apart,
-              ends.feet_apart,
+  const BodyExtremities& tips = coordinates.extremities();
+  Build build{tips.hands_apart,
+              tips.feet_apart,
               coordinates.trunk_m(),
               coordinates.front_to_merge_m(),
               coordinates.back_to_merge_m(),
-              coordinates.from_front()[ends.head],
-              coordinates.from_back()[ends.head],
-              0.5F * ((*ends.from_head)[ends.hand[0]] + (*ends.from_head)[ends.hand[1]])};
+              coordinates.from_front()[tips.head],
+              coordinates.from_back()[tips.head],
+              0.5F * ((*tips.from_head)[tips.hand[0]] + (*tips.from_head)[tips.hand[1]])};
   for (float& length : build) length /= coordinates.size_m();
   return build;
 }

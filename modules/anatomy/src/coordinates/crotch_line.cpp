@@ -59,10 +59,10 @@ std::optional<Half> walk(const Isoline& line, std::size_t from, int way, double 
   return half;
 }
 
-std::vector<Isoline> lines_between_feet(const Skin& skin, const BodyEnds& ends) {
+std::vector<Isoline> lines_between_feet(const Skin& skin, const BodyExtremities& tips) {
   Field nearer_left(skin.mesh.positions.size());
   for (std::size_t v = 0; v < nearer_left.size(); ++v)
-    nearer_left[v] = (*ends.from_foot[0])[v] - (*ends.from_foot[1])[v];
+    nearer_left[v] = (*tips.from_foot[0])[v] - (*tips.from_foot[1])[v];
   const float zero = 0.0F;
   return geodesic::isolines(skin.mesh, skin.edges, nearer_left, {&zero, 1})[0];
 }
@@ -87,7 +87,7 @@ void smooth(CrotchLine& line) {
 
 std::optional<CrotchLine> crotch_line(const Skin& skin, const BodyCoordinates& coordinates,
                                       const Vec3& middle) {
-  const std::vector<Isoline> lines = lines_between_feet(skin, coordinates.ends());
+  const std::vector<Isoline> lines = lines_between_feet(skin, coordinates.extremities());
   const Nearest nearest = closest_point(lines, middle);
   const double step = CrotchLine::kSpacing * static_cast<double>(coordinates.size_m());
   constexpr int kReach = CrotchLine::kReach;

@@ -9,8 +9,8 @@ namespace bodice::anatomy {
 using geometry::Index;
 using geometry::Vec3;
 
-LegMerge find_leg_merge(const Skin& skin, const BodyEnds& ends) {
-  const geodesic::Field &left = *ends.from_foot[0], &right = *ends.from_foot[1];
+LegMerge find_leg_merge(const Skin& skin, const BodyExtremities& tips) {
+  const geodesic::Field &left = *tips.from_foot[0], &right = *tips.from_foot[1];
   LegMerge merge;
   for (std::size_t e = 0; e < skin.edges.ends.size(); ++e) {
     const auto [a, b] = skin.edges.ends[e];

@@ -13,6 +13,6 @@ struct LegMerge {
 };
 
 /// at.found() is false where no way leads from foot to foot. O(#E).
-LegMerge find_leg_merge(const Skin& skin, const BodyEnds& ends);
+LegMerge find_leg_merge(const Skin& skin, const BodyExtremities& tips);
 
 }  // namespace bodice::anatomy

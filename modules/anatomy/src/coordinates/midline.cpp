@@ -41,20 +41,20 @@ Vec3 rising(const Skin& skin, Index triangle, const Field& field) {
 
 /// Of left, up and outward on the midline two are known, so the third tells the chest (left = up x outward)
 /// from the back (left = outward x up).
-bool faces_front(const Skin& skin, const BodyEnds& ends, const Field& leftward, Index edge) {
+bool faces_front(const Skin& skin, const BodyExtremities& tips, const Field& leftward, Index edge) {
   const Index triangle = skin.edges.triangles[edge][0];
-  const Vec3 up = -rising(skin, triangle, *ends.from_head);
+  const Vec3 up = -rising(skin, triangle, *tips.from_head);
   return rising(skin, triangle, leftward).dot(up.cross(geometry::area_vector(skin.mesh, triangle))) > 0.0;
 }
 
 /// On chest and back, the points of the midline that are nearest to the hands.
-void find_front_and_back(const Skin& skin, const BodyEnds& ends, Midline& middle) {
-  const Field leftward = difference(*ends.from_hand[1], *ends.from_hand[0]);
+void find_front_and_back(const Skin& skin, const BodyExtremities& tips, Midline& middle) {
+  const Field leftward = difference(*tips.from_hand[1], *tips.from_hand[0]);
   float least_front = 0.0F, least_back = 0.0F;
   for (const Isoline& line : zero_lines(skin, leftward))
     for (std::size_t i = 0; i < line.points.size(); ++i) {
-      const bool front = faces_front(skin, ends, leftward, line.edges[i]);
-      const float hands = value_at(skin, line, i, *ends.from_hand[0]);
+      const bool front = faces_front(skin, tips, leftward, line.edges[i]);
+      const float hands = value_at(skin, line, i, *tips.from_hand[0]);
       float& least = front ? least_front : least_back;
       SkinPoint& best = front ? middle.front : middle.back;
       if (best.found() && hands >= least) continue;
@@ -65,9 +65,9 @@ void find_front_and_back(const Skin& skin, const BodyEnds& ends, Midline& middle
 
 }  // namespace
 
-Midline find_midline(const Skin& skin, const BodyEnds& ends) {
+Midline find_midline(const Skin& skin, const BodyExtremities& tips) {
   Midline middle;
-  find_front_and_back(skin, ends, middle);
+  find_front_and_back(skin, tips, middle);
   return middle;
 }
 

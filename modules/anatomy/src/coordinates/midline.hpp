@@ -10,7 +10,7 @@ struct Midline {
   SkinPoint back;   ///< the same over the back
 };
 
-Midline find_midline(const Skin& skin, const BodyEnds& ends);
+Midline find_midline(const Skin& skin, const BodyExtremities& tips);
 
 /// Distances from a point on an edge.
 geodesic::Field distances_from(const Skin& skin, const SkinPoint& point);

@@ -5,7 +5,7 @@
 namespace bodice::anatomy {
 
 /// The ends in the body's own order: index 0 left, 1 right.
-struct BodyEnds {
+struct BodyExtremities {
   geometry::Index head = 0;
   std::array<geometry::Index, 2> hand{}, foot{};
   const geodesic::Field* from_head = nullptr;
@@ -14,6 +14,6 @@ struct BodyEnds {
 };
 
 /// Refers to the fields of `ends`.
-BodyEnds in_body_order(const EndPoints& ends, const Sides& sides);
+BodyExtremities in_body_order(const Extremities& tips, const Sides& sides);
 
 }  // namespace bodice::anatomy

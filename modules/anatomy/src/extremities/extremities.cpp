@@ -31,13 +31,13 @@ constexpr float kHeadHeight = 0.15F;
 /// The vertex within `radius` of `end` that is farthest from the ends in `from`, among those that `may` be
 /// it.
 template <class May>
-Index refine(const EndPoints& ends, End end, float radius, std::span<const End> from, May may) {
-  Index best = ends.vertex[end];
+Index refine(const Extremities& tips, Extremity end, float radius, std::span<const Extremity> from, May may) {
+  Index best = tips.vertex[end];
   float most = -1.0F;
-  for (std::size_t v = 0; v < ends.field[end].size(); ++v) {
-    if (!(ends.field[end][v] <= radius)) continue;
+  for (std::size_t v = 0; v < tips.field[end].size(); ++v) {
+    if (!(tips.field[end][v] <= radius)) continue;
     float sum = 0.0F;
-    for (const End f : from) sum += ends.field[f][v];
+    for (const Extremity f : from) sum += tips.field[f][v];
     if (sum > most && may(v)) {
       most = sum;
       best = static_cast<Index>(v);
@@ -47,20 +47,20 @@ Index refine(const EndPoints& ends, End end, float radius, std::span<const End> 
 }
 
 /// What may be of the head, by its distance from the candidate and from the hands.
-auto near_head(const EndPoints& ends, float size) {
-  const auto to_hand = [&ends](std::size_t v) {
-    return std::min(ends.field[kHandA][v], ends.field[kHandB][v]);
+auto near_head(const Extremities& tips, float size) {
+  const auto to_hand = [&tips](std::size_t v) {
+    return std::min(tips.field[kHandA][v], tips.field[kHandB][v]);
   };
-  const float least = kOffArms * to_hand(ends.vertex[kHead]);
-  return [&ends, size, to_hand, least](std::size_t v) {
-    return ends.field[kHead][v] <= kHeadBall * size && to_hand(v) >= least;
+  const float least = kOffArms * to_hand(tips.vertex[kHead]);
+  return [&tips, size, to_hand, least](std::size_t v) {
+    return tips.field[kHead][v] <= kHeadBall * size && to_hand(v) >= least;
   };
 }
 
 /// The head as a ball: what lies no nearer to the feet than a head's height below its far end.
-Ball head_ball(const Skin& skin, const EndPoints& ends, float size) {
-  const auto reach = [&](std::size_t v) { return 0.5F * (ends.field[kFootA][v] + ends.field[kFootB][v]); };
-  const auto near = near_head(ends, size);
+Ball head_ball(const Skin& skin, const Extremities& tips, float size) {
+  const auto reach = [&](std::size_t v) { return 0.5F * (tips.field[kFootA][v] + tips.field[kFootB][v]); };
+  const auto near = near_head(tips, size);
   float top = 0.0F;
   for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v)
     if (near(v)) top = std::max(top, reach(v));
@@ -68,30 +68,30 @@ Ball head_ball(const Skin& skin, const EndPoints& ends, float size) {
   return ball_of(skin, in_head);
 }
 
-void refine_all(const engine::Context& context, const Skin& skin, float size, EndPoints& ends) {
-  constexpr std::array<End, 2> feet{kFootA, kFootB};
-  constexpr std::array<End, 1> head{kHead};
-  const Ball ball = head_ball(skin, ends, size);
-  const auto near = near_head(ends, size);
+void refine_all(const engine::Context& context, const Skin& skin, float size, Extremities& tips) {
+  constexpr std::array<Extremity, 2> feet{kFootA, kFootB};
+  constexpr std::array<Extremity, 1> head{kHead};
+  const Ball ball = head_ball(skin, tips, size);
+  const auto near = near_head(tips, size);
   const auto outer = [&](std::size_t v) {
     return near(v) && (skin.mesh.positions[v] - ball.center).norm() >= kOuterHead * ball.radius;
   };
-  std::array<Index, kEndCount> refined{};
-  for (int e = 0; e < kEndCount; ++e)
-    refined[e] = e == kHead ? refine(ends, kHead, kHeadBall * size, feet, outer)
-                            : refine(ends, static_cast<End>(e), kRefineRadius * size, head,
+  std::array<Index, kExtremityCount> refined{};
+  for (int e = 0; e < kExtremityCount; ++e)
+    refined[e] = e == kHead ? refine(tips, kHead, kHeadBall * size, feet, outer)
+                            : refine(tips, static_cast<Extremity>(e), kRefineRadius * size, head,
                                      [](std::size_t) { return true; });
   std::vector<Index> moved;
   std::vector<int> which;
-  for (int e = 0; e < kEndCount; ++e)
-    if (refined[e] != ends.vertex[e]) {
+  for (int e = 0; e < kExtremityCount; ++e)
+    if (refined[e] != tips.vertex[e]) {
       moved.push_back(refined[e]);
       which.push_back(e);
     }
   std::vector<Field> fields = geodesic::distances_each(context, skin.graph, moved);
   for (std::size_t i = 0; i < moved.size(); ++i) {
-    ends.vertex[which[i]] = moved[i];
-    ends.field[which[i]] = std::move(fields[i]);
+    tips.vertex[which[i]] = moved[i];
+    tips.field[which[i]] = std::move(fields[i]);
   }
 }
 
@@ -107,34 +107,34 @@ std::vector<float> distances_between(const FarthestPoints& points) {
 
 /// An arm's way to the leg of its own side is shorter. Sums over both sides cancel what a pose does to one
 /// limb.
-void pair_sides(EndPoints& ends, float size) {
-  const float same = ends.between(kHandA, kFootA) + ends.between(kHandB, kFootB);
-  const float cross = ends.between(kHandA, kFootB) + ends.between(kHandB, kFootA);
-  ends.side_margin = static_cast<double>(std::abs(cross - same) / size);
+void pair_sides(Extremities& tips, float size) {
+  const float same = tips.between(kHandA, kFootA) + tips.between(kHandB, kFootB);
+  const float cross = tips.between(kHandA, kFootB) + tips.between(kHandB, kFootA);
+  tips.side_margin = static_cast<double>(std::abs(cross - same) / size);
   if (same <= cross) return;
-  std::swap(ends.vertex[kHandA], ends.vertex[kHandB]);
-  std::swap(ends.field[kHandA], ends.field[kHandB]);
+  std::swap(tips.vertex[kHandA], tips.vertex[kHandB]);
+  std::swap(tips.field[kHandA], tips.field[kHandB]);
 }
 
 }  // namespace
 
-std::optional<EndPoints> find_end_points(const engine::Context& context, const Skin& skin) {
+std::optional<Extremities> find_extremities(const engine::Context& context, const Skin& skin) {
   FarthestPoints c = farthest_points(context, skin, kCandidates);
   const std::size_t n = c.vertex.size();
-  if (n < kEndCount) return std::nullopt;
-  const std::optional<EndMatch> match = match_ends(distances_between(c), n);
+  if (n < kExtremityCount) return std::nullopt;
+  const std::optional<TemplateMatch> match = match_template(distances_between(c), n);
   if (!match) return std::nullopt;
-  EndPoints ends;
-  for (int e = 0; e < kEndCount; ++e) {
-    ends.vertex[e] = c.vertex[match->candidate[e]];
-    ends.field[e] = std::move(c.field[match->candidate[e]]);
-    if (ends.field[e].empty()) ends.field[e] = geodesic::distances_from(skin.graph, ends.vertex[e]);
+  Extremities tips;
+  for (int e = 0; e < kExtremityCount; ++e) {
+    tips.vertex[e] = c.vertex[match->candidate[e]];
+    tips.field[e] = std::move(c.field[match->candidate[e]]);
+    if (tips.field[e].empty()) tips.field[e] = geodesic::distances_from(skin.graph, tips.vertex[e]);
   }
-  ends.misfit = match->misfit;
+  tips.mahalanobis = match->mahalanobis;
   const auto size = static_cast<float>(match->size_m);
-  refine_all(context, skin, size, ends);
-  pair_sides(ends, size);
-  return ends;
+  refine_all(context, skin, size, tips);
+  pair_sides(tips, size);
+  return tips;
 }
 
 }  // namespace bodice::anatomy

@@ -8,23 +8,23 @@
 
 namespace bodice::anatomy {
 
-enum End { kHead, kHandA, kHandB, kFootA, kFootB };
-inline constexpr int kEndCount = 5;
+enum Extremity { kHead, kHandA, kHandB, kFootA, kFootB };
+inline constexpr int kExtremityCount = 5;
 
 /// Hand A is on the side of foot A; which of the two sides is left is decided elsewhere.
-struct EndPoints {
-  std::array<geometry::Index, kEndCount> vertex{};
-  std::array<geodesic::Field, kEndCount> field;  ///< distance of every vertex from each end, meters
-  double misfit = 0.0;                           ///< of their distances to those of a body; below 1 is good
+struct Extremities {
+  std::array<geometry::Index, kExtremityCount> vertex{};
+  std::array<geodesic::Field, kExtremityCount> field;  ///< distance of every vertex from each end, meters
+  double mahalanobis = 0.0;                           ///< of their distances to those of a body; below 1 is good
   double side_margin = 0.0;  ///< how clearly hands and feet pair, relative to the body's size
 
-  float between(End a, End b) const { return field[a][vertex[b]]; }
+  float between(Extremity a, Extremity b) const { return field[a][vertex[b]]; }
   float hands_apart() const { return between(kHandA, kHandB); }
   float feet_apart() const { return between(kFootA, kFootB); }
   float head_to_feet() const { return 0.5F * (between(kHead, kFootA) + between(kHead, kFootB)); }
 };
 
 /// Empty when the skin has no five ends at the distances that a body's have.
-std::optional<EndPoints> find_end_points(const engine::Context& context, const Skin& skin);
+std::optional<Extremities> find_extremities(const engine::Context& context, const Skin& skin);
 
 }  // namespace bodice::anatomy

@@ -21,7 +21,7 @@ Pairs template_distances() {
 }
 
 /// One independent way in which bodies and poses differ: what it adds to each distance, at one deviation.
-Pairs mode(double deviation, const std::array<double, kEndCount>& of_end, double trunk = 0.0) {
+Pairs mode(double deviation, const std::array<double, kExtremityCount>& of_end, double trunk = 0.0) {
   Pairs m;
   for (int p = 0; p < kPairs; ++p) {
     const auto [a, b] = kPairOf[p];
@@ -41,8 +41,8 @@ Eigen::Matrix<double, kPairs, kPairs> precision() {
   add(mode(arms, {0, 1, 1, 0, 0}));
   add(mode(legs, {0, 0, 0, 1, 1}));
   add(mode(trunk, {0, 0, 0, 0, 0}, 1.0));
-  for (int end = kHandA; end < kEndCount; ++end) {
-    std::array<double, kEndCount> one{};
+  for (int end = kHandA; end < kExtremityCount; ++end) {
+    std::array<double, kExtremityCount> one{};
     one[end] = 1.0;
     add(mode(one_limb, one));
   }
@@ -55,15 +55,15 @@ constexpr double kFartherIsBetter = 4.0;
 
 }  // namespace
 
-std::optional<EndMatch> match_ends(std::span<const float> apart, std::size_t n) {
+std::optional<TemplateMatch> match_template(std::span<const float> apart, std::size_t n) {
   const Pairs expected = template_distances();
   const Eigen::Matrix<double, kPairs, kPairs> weight = precision();
-  std::optional<EndMatch> best;
+  std::optional<TemplateMatch> best;
   double best_score = 0.0, longest = 0.0;
   for (const float d : apart)
     if (std::isfinite(d)) longest = std::max(longest, static_cast<double>(d));
   if (!(longest > 0.0)) return std::nullopt;
-  const auto consider = [&](const std::array<std::size_t, kEndCount>& pick) {
+  const auto consider = [&](const std::array<std::size_t, kExtremityCount>& pick) {
     Pairs d;
     for (int p = 0; p < kPairs; ++p)
       d[p] = static_cast<double>(apart[pick[kPairOf[p][0]] * n + pick[kPairOf[p][1]]]) / longest;
@@ -71,10 +71,10 @@ std::optional<EndMatch> match_ends(std::span<const float> apart, std::size_t n) 
     const double scale = wd.dot(expected) / wd.dot(d);
     if (!(scale > 0.0)) return;
     const Pairs residual = scale * d - expected;
-    const double misfit = std::sqrt(std::max(0.0, residual.dot(weight * residual)) / kPairs);
-    const double score = misfit - kFartherIsBetter * d.mean();
+    const double mahalanobis = std::sqrt(std::max(0.0, residual.dot(weight * residual)) / kPairs);
+    const double score = mahalanobis - kFartherIsBetter * d.mean();
     if (best && score >= best_score) return;
-    best = EndMatch{pick, misfit, longest / scale};
+    best = TemplateMatch{pick, mahalanobis, longest / scale};
     best_score = score;
   };
   for (std::size_t h = 0; h < n; ++h)

@@ -44,15 +44,15 @@ Field distances_from_calf(const Skin& skin, const Field& from_toe, float level, 
 /// The heel is the dead end of the foot: the ways toe - heel - head and, twice, toe - heel - calf are long. A
 /// bent knee shortens the first over the back of the leg, a pointed foot the second; on a foot that is not
 /// pointed, the heel also lies farther from the toe through space than the front of the ankle does.
-Index find_heel(const Skin& skin, const EndPoints& ends, End foot, float leg) {
-  const Field from_calf = distances_from_calf(skin, ends.field[foot], kCalf * leg, kHeelTo * leg);
-  const Vec3& toe = skin.mesh.positions[ends.vertex[foot]];
-  Index heel = ends.vertex[foot];
+Index find_heel(const Skin& skin, const Extremities& tips, Extremity foot, float leg) {
+  const Field from_calf = distances_from_calf(skin, tips.field[foot], kCalf * leg, kHeelTo * leg);
+  const Vec3& toe = skin.mesh.positions[tips.vertex[foot]];
+  Index heel = tips.vertex[foot];
   float most = -1.0F;
-  for (std::size_t v = 0; v < ends.field[foot].size(); ++v) {
-    if (!(ends.field[foot][v] > kHeelFrom * leg && ends.field[foot][v] < kHeelTo * leg)) continue;
+  for (std::size_t v = 0; v < tips.field[foot].size(); ++v) {
+    if (!(tips.field[foot][v] > kHeelFrom * leg && tips.field[foot][v] < kHeelTo * leg)) continue;
     const auto through_space = static_cast<float>((skin.mesh.positions[v] - toe).norm());
-    const float detour = 3.0F * ends.field[foot][v] + ends.field[kHead][v] + 2.0F * from_calf[v] +
+    const float detour = 3.0F * tips.field[foot][v] + tips.field[kHead][v] + 2.0F * from_calf[v] +
                          kThroughSpace * through_space;
     if (detour > most) {
       most = detour;
@@ -101,25 +101,25 @@ double mean_over_loops(const Skin& skin, const Field& field, const std::array<fl
 
 /// Positive if the leg is the body's left: seen from the trunk, inner follows back counter-clockwise. Reads
 /// the back from the heel, on loops at equal distance from the toe.
-double leftness(const Skin& skin, const EndPoints& ends, End foot, End other) {
-  const float leg = 0.5F * ends.feet_apart();
-  const geodesic::Seed from{find_heel(skin, ends, foot, leg), 0.0F};
+double leftness(const Skin& skin, const Extremities& tips, Extremity foot, Extremity other) {
+  const float leg = 0.5F * tips.feet_apart();
+  const geodesic::Seed from{find_heel(skin, tips, foot, leg), 0.0F};
   const Field heel = geodesic::distances_within(skin.graph, {&from, 1},
                                                 over_the_toe(skin, kHeelTo * leg, kReadAt.back() * leg));
   std::array<float, kReadAt.size()> levels{};
   for (std::size_t i = 0; i < levels.size(); ++i) levels[i] = kReadAt[i] * leg;
-  return mean_over_loops(skin, ends.field[foot], levels, [&](const Isoline& loop) {
-    return turning(skin, loop, ends.field[foot]) *
-           signed_turn(least_direction(skin, loop, heel), least_direction(skin, loop, ends.field[other]));
+  return mean_over_loops(skin, tips.field[foot], levels, [&](const Isoline& loop) {
+    return turning(skin, loop, tips.field[foot]) *
+           signed_turn(least_direction(skin, loop, heel), least_direction(skin, loop, tips.field[other]));
   });
 }
 
 }  // namespace
 
-Sides find_sides(const engine::Context& context, const Skin& skin, const EndPoints& ends) {
+Sides find_sides(const engine::Context& context, const Skin& skin, const Extremities& tips) {
   std::array<double, 2> left{};
   engine::parallel_for(context, 2, 1, [&](std::size_t i, std::size_t) {
-    left[i] = i == 0 ? leftness(skin, ends, kFootA, kFootB) : leftness(skin, ends, kFootB, kFootA);
+    left[i] = i == 0 ? leftness(skin, tips, kFootA, kFootB) : leftness(skin, tips, kFootB, kFootA);
   });
   const double difference = left[0] - left[1];
   return {difference >= 0.0, std::min(1.0, 0.5 * std::abs(difference))};

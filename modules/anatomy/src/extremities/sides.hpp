@@ -11,6 +11,6 @@ struct Sides {
 };
 
 /// Reads the order front, outer, back, inner around each leg on the oriented skin, which no pose changes.
-Sides find_sides(const engine::Context& context, const Skin& skin, const EndPoints& ends);
+Sides find_sides(const engine::Context& context, const Skin& skin, const Extremities& tips);
 
 }  // namespace bodice::anatomy

@@ -27,7 +27,7 @@ constexpr double kElsewhere = 0.06;
 /// Half the girth of the chest on one side: the shortest way from the midline's front to its back under the
 /// arm, of the size.
 float half_chest(const BodyCoordinates& coordinates, int side) {
-  const BodyEnds& ends = coordinates.ends();
+  const BodyExtremities& ends = coordinates.extremities();
   const geodesic::Field &own = *ends.from_hand[side], &other = *ends.from_hand[1 - side];
   float least = 0.0F;
   for (std::size_t v = 0; v < own.size(); ++v) {
@@ -42,7 +42,7 @@ float half_chest(const BodyCoordinates& coordinates, int side) {
 
 /// What tells how the armpit's coordinates lie on this body.
 std::array<float, 6> measures_of(const BodyCoordinates& coordinates, float half) {
-  const BodyEnds& ends = coordinates.ends();
+  const BodyExtremities& ends = coordinates.extremities();
   const float size = coordinates.size_m();
   return {half,
           ends.hands_apart / size,
@@ -66,8 +66,8 @@ SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const 
          x[kHandFootDetour], x[kOtherFoot], x[kHeadHandDetour], x[kHeadFootDetour], x[kFromHead]},
         expected);
   };
-  const geodesic::Field& own = *coordinates.ends().from_hand[side];
-  const float apart = coordinates.ends().hands_apart;
+  const geodesic::Field& own = *coordinates.extremities().from_hand[side];
+  const float apart = coordinates.extremities().hands_apart;
   const auto may_be = [&](std::size_t v) {
     if (!(own[v] > kArmpitFrom * apart && own[v] < kArmpitTo * apart)) return false;
     const CoordinateArray x = coordinates.at(v, side);
@@ -75,9 +75,9 @@ SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const 
   };
   const NearestSignature found =
       nearest_signature(context, coordinates.from_perineum().size(), may_be, distance2);
-  const float least2 = found.misfit * found.misfit;
+  const float least2 = found.mahalanobis * found.mahalanobis;
   const geometry::Vec3 place =
-      soft_place(skin, found.vertex, kPlaceRadius * static_cast<double>(coordinates.size_m()),
+      soft_position(skin, found.vertex, kSoftRadius * static_cast<double>(coordinates.size_m()),
                  [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
   const double elsewhere = kElsewhere * static_cast<double>(coordinates.size_m());
   const auto may_be_rival = [&](std::size_t v) {
@@ -87,8 +87,8 @@ SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const 
   const NearestSignature rival =
       nearest_signature(context, coordinates.from_perineum().size(), may_be_rival, distance2);
   const float lead =
-      may_be_rival(rival.vertex) ? rival.misfit - found.misfit : std::numeric_limits<float>::infinity();
-  return {place, found.vertex, found.misfit, lead};
+      may_be_rival(rival.vertex) ? rival.mahalanobis - found.mahalanobis : std::numeric_limits<float>::infinity();
+  return {place, found.vertex, found.mahalanobis, lead};
 }
 
 }  // namespace bodice::anatomy

@@ -55,7 +55,7 @@ Ball head_ball(const Skin& skin, const BodyCoordinates& coordinates) {
 }
 
 Crown find_crown(const Skin& skin, const BodyCoordinates& coordinates, const Girth& neck, const Ball& head) {
-  const BodyEnds& ends = coordinates.ends();
+  const BodyExtremities& ends = coordinates.extremities();
   const float size = coordinates.size_m();
   const Field &left = *ends.from_foot[0], &right = *ends.from_foot[1];
   const auto score = [&](Index v) {
@@ -80,7 +80,7 @@ Crown find_crown(const Skin& skin, const BodyCoordinates& coordinates, const Gir
   const auto dome = [&](Index v) {
     return coordinates.on_head(v) ? std::max(0.0F, kDome - (most - score(v))) : 0.0F;
   };
-  crown.place = soft_place(skin, crown.vertex, static_cast<double>(kDomeRadius * size), dome) +
+  crown.place = soft_position(skin, crown.vertex, static_cast<double>(kDomeRadius * size), dome) +
                 head_shift(coordinates, neck, head);
   crown.vertex = vertex_near(skin, crown.place, crown.vertex);
   return crown;

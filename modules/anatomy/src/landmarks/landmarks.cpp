@@ -63,7 +63,7 @@ float mean_on(const Skin& skin, const Isoline& loop, const Field& field) {
   return sum / static_cast<float>(loop.points.size());
 }
 
-const Field& from_end(const BodyEnds& ends, Coordinate end, int side) {
+const Field& from_end(const BodyExtremities& ends, Coordinate end, int side) {
   if (end == kFromHead) return *ends.from_head;
   return end == kOwnHand ? *ends.from_hand[side] : *ends.from_foot[side];
 }
@@ -72,7 +72,7 @@ const Field& from_end(const BodyEnds& ends, Coordinate end, int side) {
 Girth border_loop(const Skin& skin, const BodyCoordinates& coordinates, const Border& border, float beyond,
                   int side, Coordinate end, float reach) {
   constexpr float kOutside = -1e-6F;
-  const Field& from = from_end(coordinates.ends(), end, side);
+  const Field& from = from_end(coordinates.extremities(), end, side);
   const float no_neighbor = reach * coordinates.unit_of(end) + 2.0F * skin.graph.longest;
   Field score(skin.mesh.positions.size(), kOutside);
   for (std::size_t v = 0; v < score.size(); ++v) {
@@ -105,11 +105,11 @@ body::Landmark at_place(const geometry::Vec3& place, Index v, double confidence)
 }
 
 /// The front of a foot is blunt: what is nearly as far from the head as its farthest vertex has a share.
-geometry::Vec3 toe_place(const Skin& skin, const BodyEnds& ends, int side) {
+geometry::Vec3 toe_place(const Skin& skin, const BodyExtremities& ends, int side) {
   const float blunt = kBlunt * ends.head_to_feet;
   const geodesic::Field &own = *ends.from_foot[side], &other = *ends.from_foot[1 - side];
   const float tip = (*ends.from_head)[ends.foot[side]];
-  return soft_place(skin, ends.foot[side], static_cast<double>(kToes * ends.head_to_feet), [&](Index v) {
+  return soft_position(skin, ends.foot[side], static_cast<double>(kToes * ends.head_to_feet), [&](Index v) {
     return own[v] < other[v] ? std::max(0.0F, blunt - std::abs(tip - (*ends.from_head)[v])) : 0.0F;
   });
 }
@@ -124,10 +124,10 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
                          const BodyCoordinates& coordinates) {
   Landmarks marks;
   marks.perineum = coordinates.perineum();
-  marks.perineum_place = coordinates.perineum_place();
-  const double no_fold = std::abs(static_cast<double>(coordinates.perineum_lead() - kFoldLead));
+  marks.perineum_place = coordinates.perineum_position();
+  const double no_fold = std::abs(static_cast<double>(coordinates.perineum_margin() - kFoldMargin));
   marks.perineum_confidence =
-      confidence_of(static_cast<double>(coordinates.perineum_misfit()), kHopelessPerineum) *
+      confidence_of(static_cast<double>(coordinates.perineum_mahalanobis()), kHopelessPerineum) *
       std::min(1.0, no_fold / kClearlyNoFold);
   constexpr std::size_t kTasks = 7;  // the neck, and elbow, knee and armpit of both sides
   engine::parallel_for(context, kTasks, 1, [&](std::size_t task, std::size_t) {
@@ -150,7 +150,7 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
   marks.crown_place = crown.place;
   marks.neck_place = neck_joint(skin, coordinates, marks, head);
   const auto& positions = skin.mesh.positions;
-  const BodyEnds& ends = coordinates.ends();
+  const BodyExtremities& ends = coordinates.extremities();
   for (int side = 0; side < 2; ++side) {
     marks.elbow_place[side] =
         elbow_joint(coordinates, marks.elbow[side], marks.armpit_place[side], positions[ends.hand[side]]);
@@ -166,7 +166,7 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
   return marks;
 }
 
-std::vector<body::Landmark> as_list(const Skin& skin, const BodyEnds& ends, const Landmarks& marks) {
+std::vector<body::Landmark> as_list(const Skin& skin, const BodyExtremities& ends, const Landmarks& marks) {
   std::vector<body::Landmark> list{
       at_place(marks.crown_place, marks.crown, marks.crown_confidence),
       at_place(marks.neck_place, marks.neck.vertex, marks.neck.confidence),

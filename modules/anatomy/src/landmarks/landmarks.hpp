@@ -38,6 +38,6 @@ Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
                          const BodyCoordinates& coordinates);
 
 /// In the order of LandmarkId.
-std::vector<body::Landmark> as_list(const Skin& skin, const BodyEnds& ends, const Landmarks& marks);
+std::vector<body::Landmark> as_list(const Skin& skin, const BodyExtremities& ends, const Landmarks& marks);
 
 }  // namespace bodice::anatomy

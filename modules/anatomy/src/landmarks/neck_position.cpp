@@ -41,8 +41,8 @@ NeckMeasures measures_of(const BodyCoordinates& coordinates, const Landmarks& ma
                  of_size(marks.neck.level_m),
                  (left - right).norm() / size,
                  (0.5 * (left + right) - marks.neck_place).norm() / size,
-                 of_size(coordinates.ends().hands_apart),
-                 of_size(coordinates.ends().feet_apart)};
+                 of_size(coordinates.extremities().hands_apart),
+                 of_size(coordinates.extremities().feet_apart)};
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x[i], kLeast[i], kMost[i]);
   return x;
 }
@@ -56,7 +56,7 @@ Vec3 neck_by_measures(const Skin& skin, const BodyCoordinates& coordinates, cons
   const NeckMeasures x = measures_of(coordinates, marks);
   const double upwards = kUp(x), forwards = kForward(x);
   if (!std::isfinite(upwards + forwards)) return marks.neck_place;
-  const Vec3 up = (marks.neck_place - coordinates.perineum_place()).normalized();
+  const Vec3 up = (marks.neck_place - coordinates.perineum_position()).normalized();
   const Vec3 through = coordinates.midline().front.position - coordinates.midline().back.position;
   const Vec3 forward = (through - through.dot(up) * up).normalized();
   return marks.neck_place + size * (std::clamp(upwards, -kFarthest, kFarthest) * up +

@@ -113,7 +113,7 @@ EvenMeasures even_measures(const BodyCoordinates& coordinates, const Trunk& trun
                  heavy * ups * ups};
   std::size_t next = kOfThighs;
   for (const float length : build_of(coordinates)) x[next++] = static_cast<double>(length);
-  for (const Vec3& place : {coordinates.leg_merge().at.position, coordinates.perineum_place()}) {
+  for (const Vec3& place : {coordinates.leg_merge().at.position, coordinates.perineum_position()}) {
     x[next++] = trunk.place(place).y();
     x[next++] = trunk.place(place).z();
   }
@@ -136,7 +136,7 @@ OddMeasures odd_measures(const BodyCoordinates& coordinates, const Trunk& trunk,
                 ahead * thighs.mean(kAhead),
                 up * thighs.mean(kUp),
                 trunk.place(coordinates.leg_merge().at.position).x(),
-                trunk.place(coordinates.perineum_place()).x(),
+                trunk.place(coordinates.perineum_position()).x(),
                 0.5 * (trunk.place(middle.front.position).x() + trunk.place(middle.back.position).x())};
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x[i], -kMostOdd[i], kMostOdd[i]);
   return x;

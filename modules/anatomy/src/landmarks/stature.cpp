@@ -12,7 +12,7 @@ constexpr double kHeadFeet = 0.258, kFeet = 0.346, kHands = -0.166, kHeadHands =
 /// A body stands when its toes are this level and its height is this near to the estimate, of the stature.
 constexpr double kLevelToes = 0.04, kNearEstimate = 0.07;
 
-double estimate(const BodyEnds& ends) {
+double estimate(const BodyExtremities& ends) {
   const double head_hands = 0.5 * (static_cast<double>((*ends.from_head)[ends.hand[0]]) +
                                    static_cast<double>((*ends.from_head)[ends.hand[1]]));
   return kHeadFeet * static_cast<double>(ends.head_to_feet) + kFeet * static_cast<double>(ends.feet_apart) +
@@ -21,7 +21,7 @@ double estimate(const BodyEnds& ends) {
 
 }  // namespace
 
-double find_stature(const Skin& skin, const BodyEnds& ends, const Landmarks& marks) {
+double find_stature(const Skin& skin, const BodyExtremities& ends, const Landmarks& marks) {
   const double stature = estimate(ends);
   const auto& p = skin.mesh.positions;
   const Vec3 axis = p[ends.head] - 0.5 * (marks.knee_place[0] + marks.knee_place[1]);

@@ -118,7 +118,7 @@ Border on_build(Border border, const FollowsBuild& follows, const Build& off) {
 
 }  // namespace
 
-BordersOfBuild borders_of_build(const BodyCoordinates& coordinates) {
+PartBorders part_borders(const BodyCoordinates& coordinates) {
   const Build off = deviations(build_of(coordinates));
   return {on_build(kNeck, kNeckFollows, off), on_build(kShoulder, kShoulderFollows, off),
           on_build(kKnee, kKneeFollows, off), on_build(kHip, kHipFollows, off),

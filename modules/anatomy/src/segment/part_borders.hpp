@@ -5,7 +5,7 @@
 
 namespace bodice::anatomy {
 
-struct BordersOfBuild {
+struct PartBorders {
   Border neck, shoulder, knee, hip, waist;
 };
 
@@ -13,6 +13,6 @@ struct BordersOfBuild {
 /// sum of distances is level with a joint on slim bodies and far from it on heavy ones: what a border counts
 /// each distance for follows eight lengths of the whole body. Landmarks read the borders as they are for all
 /// builds, to which their own corrections were fitted. O(1).
-BordersOfBuild borders_of_build(const BodyCoordinates& coordinates);
+PartBorders part_borders(const BodyCoordinates& coordinates);
 
 }  // namespace bodice::anatomy

@@ -37,8 +37,8 @@ Part on_side(Part left, int side) {
 }
 
 /// How much nearer the head lies to the left hand than to the right, of hand to hand.
-float tilt_of(const BodyEnds& ends) {
-  return ((*ends.from_hand[1])[ends.head] - (*ends.from_hand[0])[ends.head]) / ends.hands_apart;
+float tilt_of(const BodyExtremities& tips) {
+  return ((*tips.from_hand[1])[tips.head] - (*tips.from_hand[0])[tips.head]) / tips.hands_apart;
 }
 
 /// How much nearer a place lies to the foot of a leg than to the other, of foot to foot; less if the hands
@@ -49,7 +49,7 @@ float lead_of_foot(const CoordinateArray& x, float tilt) {
 }
 
 /// `tilt`: as tilt_of() tells.
-Part part_of(const BodyCoordinates& coordinates, const BordersOfBuild& border, float tilt, std::size_t v) {
+Part part_of(const BodyCoordinates& coordinates, const PartBorders& border, float tilt, std::size_t v) {
   const CoordinateArray x[2] = {coordinates.at(v, 0), coordinates.at(v, 1)};
   const float neck = border.neck(x[0]);
   if (x[0][kFromHead] < kHeadReach && neck > 0.0F) return Part::kHead;
@@ -87,13 +87,13 @@ void attach_pieces(const engine::Context& context, const Skin& skin, std::vector
 std::vector<Part> segment(const engine::Context& context, const Skin& skin,
                           const BodyCoordinates& coordinates) {
   std::vector<Part> part(skin.mesh.positions.size());
-  const BordersOfBuild border = borders_of_build(coordinates);
-  const float tilt = tilt_of(coordinates.ends());
+  const PartBorders border = part_borders(coordinates);
+  const float tilt = tilt_of(coordinates.extremities());
   engine::parallel_for(context, part.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
       if (skin.component[v] == 0) part[v] = part_of(coordinates, border, tilt, v);
   });
-  absorb_islands(skin, part);
+  absorb_small_components(skin, part);
   attach_pieces(context, skin, part);
   return part;
 }

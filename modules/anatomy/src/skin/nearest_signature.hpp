@@ -9,11 +9,11 @@
 namespace bodice::anatomy {
 
 /// How far around the best vertex its neighbors share in the place, of the size.
-inline constexpr double kPlaceRadius = 0.05;
+inline constexpr double kSoftRadius = 0.05;
 
 struct NearestSignature {
   geometry::Index vertex = 0;
-  float misfit = std::numeric_limits<float>::infinity();  ///< in deviations among bodies
+  float mahalanobis = std::numeric_limits<float>::infinity();  ///< in deviations among bodies
 };
 
 /// The vertex with the least distance2(v) among those that may be it; the lowest among equals. If none may,
@@ -30,15 +30,15 @@ NearestSignature nearest_signature(const engine::Context& context, std::size_t c
           for (std::size_t v = begin; v < end; ++v) {
             if (!allowed(v)) continue;
             const float d = distance2(v);
-            if (d < best.misfit) best = {static_cast<geometry::Index>(v), d};
+            if (d < best.mahalanobis) best = {static_cast<geometry::Index>(v), d};
           }
           return best;
         },
-        [](NearestSignature a, NearestSignature b) { return b.misfit < a.misfit ? b : a; });
+        [](NearestSignature a, NearestSignature b) { return b.mahalanobis < a.mahalanobis ? b : a; });
   };
   NearestSignature best = search(may);
-  if (!std::isfinite(best.misfit)) best = search([](std::size_t) { return true; });
-  best.misfit = std::sqrt(best.misfit);
+  if (!std::isfinite(best.mahalanobis)) best = search([](std::size_t) { return true; });
+  best.mahalanobis = std::sqrt(best.mahalanobis);
   return best;
 }
 

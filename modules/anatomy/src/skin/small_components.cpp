@@ -48,7 +48,7 @@ Part taken_by(Part own, const Tally& around) {
 
 }  // namespace
 
-void absorb_islands(const Skin& skin, std::vector<Part>& part) {
+void absorb_small_components(const Skin& skin, std::vector<Part>& part) {
   Patches patches(skin, part);
   std::array<Index, body::kPartCount> largest;
   largest.fill(geometry::kNoIndex);

@@ -8,6 +8,6 @@ namespace bodice::anatomy {
 
 /// Keeps the largest patch of each part; every smaller one takes the part that surrounds most of it, one of
 /// the trunk the other half of its level where that touches it. O(#E).
-void absorb_islands(const Skin& skin, std::vector<body::Part>& part);
+void absorb_small_components(const Skin& skin, std::vector<body::Part>& part);
 
 }  // namespace bodice::anatomy

@@ -11,7 +11,7 @@ namespace bodice::anatomy {
 /// from vertex to vertex as the best one does, and hardly depends on how fine the mesh is. Only triangles
 /// with all corners within `radius` meters take part; the vertex itself if none has weight. O(#F).
 template <class Weight>
-geometry::Vec3 soft_place(const Skin& skin, geometry::Index vertex, double radius, Weight weight) {
+geometry::Vec3 soft_position(const Skin& skin, geometry::Index vertex, double radius, Weight weight) {
   const auto& positions = skin.mesh.positions;
   const geometry::Vec3 center = positions[vertex];
   const auto near = [&](geometry::Index v) {
