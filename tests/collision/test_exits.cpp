@@ -1,9 +1,9 @@
 // The ways out for what iteration does not settle: along a ray, and back along the path.
 #include <doctest/doctest.h>
 
-#include "exits.hpp"
+#include "exact/ray_exits.hpp"
+#include "model/tolerances.hpp"
 #include "scenes.hpp"
-#include "tolerances.hpp"
 
 using namespace bodice;
 using namespace bodice::collision;

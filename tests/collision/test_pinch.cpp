@@ -3,9 +3,9 @@
 
 #include <bodice/proxy/proxy_distance.hpp>
 
+#include "exact/cutting_planes.hpp"
+#include "model/tolerances.hpp"
 #include "scenes.hpp"
-#include "settle.hpp"
-#include "tolerances.hpp"
 
 using namespace bodice;
 using namespace bodice::collision;

@@ -1,0 +1,139 @@
+#include "collider/block_io.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "model/tolerances.hpp"
+
+namespace bodice::collision {
+
+namespace {
+
+void copy_lanes(const float* from, const std::uint32_t* index, std::size_t begin, int count, float* to) {
+  if (!index) {
+    std::memcpy(to, from + begin, static_cast<std::size_t>(count) * sizeof(float));
+    return;
+  }
+  for (int lane = 0; lane < count; ++lane) to[lane] = from[index[lane]];
+}
+
+/// No NaN, no Inf and nothing too far; without a branch, so that it compiles to vector code.
+bool all_near(const float* values, int count) {
+  int outside = 0;
+  for (int lane = 0; lane < count; ++lane) outside += !(std::abs(values[lane]) < kFarthest);
+  return outside == 0;
+}
+
+bool usable_lane(const Gathering& block, int lane) {
+  bool usable = true;
+  for (const float* values : {block.x, block.y, block.z}) usable &= std::abs(values[lane]) < kFarthest;
+  for (const float* values : {block.vx, block.vy, block.vz})
+    if (block.has_velocity) usable &= std::isfinite(values[lane]);
+  return usable;
+}
+
+bool finite_lane(const Gathering& block, int lane) {
+  bool finite = true;
+  for (const float* values : {block.x, block.y, block.z}) finite &= std::isfinite(values[lane]);
+  for (const float* values : {block.vx, block.vy, block.vz})
+    if (block.has_velocity) finite &= std::isfinite(values[lane]);
+  return finite;
+}
+
+void move_lane(int from, int to, Gathered& g) {
+  Gathering& b = g.batch;
+  for (float* values : {b.x, b.y, b.z, b.vx, b.vy, b.vz, b.sx, b.sy, b.sz}) values[to] = values[from];
+  g.index[to] = g.index[from];
+}
+
+/// Takes the lanes out that floats cannot handle; the others close up.
+void drop_unusable(Gathered& g) {
+  int kept = 0;
+  for (int lane = 0; lane < g.batch.count; ++lane) {
+    if (usable_lane(g.batch, lane))
+      move_lane(lane, kept++, g);
+    else if (finite_lane(g.batch, lane))
+      g.far[g.far_count++] = g.index[lane];
+    else
+      ++g.not_finite;
+  }
+  g.batch.count = kept;
+}
+
+/// A safe position that is not usable counts as none: the particle's own place says nothing.
+void mend_safe(Gathering& block) {
+  for (int lane = 0; lane < block.count; ++lane) {
+    bool usable = true;
+    for (const float* values : {block.sx, block.sy, block.sz}) usable &= std::abs(values[lane]) < kFarthest;
+    if (usable) continue;
+    block.sx[lane] = block.x[lane];
+    block.sy[lane] = block.y[lane];
+    block.sz[lane] = block.z[lane];
+  }
+}
+
+/// Repeats the last lane up to a whole block, so that no lane that is read holds anything unset.
+void pad(Gathering& block) {
+  const int last = block.count - 1;
+  const int end = (block.count + kBlock - 1) / kBlock * kBlock;
+  for (int lane = block.count; lane < end; ++lane) {
+    for (float* values : {block.x, block.y, block.z}) values[lane] = values[last];
+    for (float* values : {block.vx, block.vy, block.vz})
+      if (block.has_velocity) values[lane] = values[last];
+    for (float* values : {block.sx, block.sy, block.sz})
+      if (block.has_safe) values[lane] = values[last];
+  }
+}
+
+}  // namespace
+
+void gather(const Particles& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
+            Gathered& out) {
+  Gathering& block = out.batch;
+  const int count = block.count = static_cast<int>(end - begin);
+  block.has_velocity = particles.vx != nullptr;
+  block.has_safe = particles.safe_x != nullptr;
+  out.far_count = 0;
+  out.not_finite = 0;
+  for (int lane = 0; lane < count; ++lane)
+    out.index[lane] =
+        index ? index[lane] : static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(lane);
+  copy_lanes(particles.x, index, begin, count, block.x);
+  copy_lanes(particles.y, index, begin, count, block.y);
+  copy_lanes(particles.z, index, begin, count, block.z);
+  bool near = all_near(block.x, count) && all_near(block.y, count) && all_near(block.z, count);
+  if (block.has_velocity) {
+    copy_lanes(particles.vx, index, begin, count, block.vx);
+    copy_lanes(particles.vy, index, begin, count, block.vy);
+    copy_lanes(particles.vz, index, begin, count, block.vz);
+    near = near && all_near(block.vx, count) && all_near(block.vy, count) && all_near(block.vz, count);
+  }
+  if (block.has_safe) {
+    copy_lanes(particles.safe_x, index, begin, count, block.sx);
+    copy_lanes(particles.safe_y, index, begin, count, block.sy);
+    copy_lanes(particles.safe_z, index, begin, count, block.sz);
+    if (!all_near(block.sx, count) || !all_near(block.sy, count) || !all_near(block.sz, count))
+      mend_safe(block);
+  }
+  if (!near) drop_unusable(out);
+  if (block.count > 0) pad(block);
+}
+
+void scatter(const Gathered& gathered, const BatchResponse& response, const Particles& particles) {
+  for (int k = 0; k < response.count; ++k) {
+    const std::uint32_t i = gathered.index[response.lane[k]];
+    particles.x[i] = response.x[k];
+    particles.y[i] = response.y[k];
+    particles.z[i] = response.z[k];
+  }
+  if (!gathered.batch.has_velocity) return;
+  for (int k = 0; k < response.count; ++k) {
+    const std::uint32_t i = gathered.index[response.lane[k]];
+    particles.vx[i] = response.vx[k];
+    particles.vy[i] = response.vy[k];
+    particles.vz[i] = response.vz[k];
+  }
+}
+
+}  // namespace bodice::collision

@@ -1,0 +1,232 @@
+#include <bodice/collision/collider.hpp>
+
+#include <algorithm>
+#include <atomic>
+
+#include <Eigen/LU>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "collider/collider_impl.hpp"
+
+namespace bodice::collision {
+
+using geometry::Vec3;
+
+namespace {
+
+/// Sums of integers and maxima: the same for any order of the blocks.
+class SharedReport {
+ public:
+  void add(const ContactReport& block) {
+    // Held for a few nanoseconds, once a task.
+    while (busy_.test_and_set(std::memory_order_acquire)) {
+    }
+    total_.add(block);
+    busy_.clear(std::memory_order_release);
+  }
+  const ContactReport& total() const { return total_; }
+
+ private:
+  std::atomic_flag busy_;
+  ContactReport total_;
+};
+
+/// Calls work(begin, end, sequence) for every `size` particles of [begin, end).
+template <class Work>
+void by_blocks(std::size_t begin, std::size_t end, int size, const Sequence& sequence, Work&& work) {
+  for (std::size_t at = begin; at < end; at += static_cast<std::size_t>(size))
+    work(at, std::min(at + static_cast<std::size_t>(size), end), sequence);
+}
+
+/// The same for all particles, with what is remembered of them (null: nothing), and done(task's result) for
+/// each task.
+template <class Result, class Work, class Done>
+void by_tasks(const engine::Context& context, const Particles& particles, Memory* memory, int size,
+              Work&& work, Done&& done) {
+  if (memory) memory->order.refresh(particles);
+  engine::parallel_for(context, particles.count, TaskOrder::kMost, [&](std::size_t begin, std::size_t end) {
+    Result result;
+    const auto some = [&](std::size_t from, std::size_t to, const Sequence& sequence) {
+      work(from, to, sequence, result);
+    };
+    if (memory) {
+      by_blocks(begin, end, size, {memory->order.order(), 0, memory}, some);
+    } else {
+      const TaskOrder own(particles, begin, end);
+      by_blocks(begin, end, size, {own.order(), begin, nullptr}, some);
+    }
+    done(result);
+  });
+}
+
+/// Fillets gain nothing from many blocks at a time: each has its own candidates.
+int batch_of(const ResolveOptions& options, bool relief) {
+  return !relief && options.blend_m > 0.0f ? kBlock : kBatch;
+}
+
+/// Lengths and coefficients that are none do no harm: NaN says nothing, and less than nothing is nothing.
+ResolveOptions usable(ResolveOptions options) {
+  if (!std::isfinite(options.thickness_m)) options.thickness_m = 0.0f;
+  constexpr float kSticks = 1e6f;  // more is no different, but for infinity times zero
+  options.friction = options.friction > 0.0f ? std::min(options.friction, kSticks) : 0.0f;
+  if (!(options.blend_m > 0.0f && std::isfinite(options.blend_m))) options.blend_m = 0.0f;
+  options.max_push_m = std::isnan(options.max_push_m) ? std::numeric_limits<float>::infinity()
+                                                      : std::max(0.0f, options.max_push_m);
+  return options;
+}
+
+bool is_ellipsoid(const geometry::Ellipsoid& e) {
+  constexpr double kAxesTolerance = 1e-6;  // what a chain of bones in float leaves
+  if (!e.center.allFinite() || !e.axes.allFinite() || !e.radii.allFinite()) return false;
+  const double skew = (e.axes.transpose() * e.axes - geometry::Mat3::Identity()).cwiseAbs().maxCoeff();
+  return e.radii.minCoeff() > 0.0 && skew <= kAxesTolerance && e.axes.determinant() > 0.0;
+}
+
+}  // namespace
+
+void ContactReport::add(const ContactReport& other) {
+  contacts += other.contacts;
+  for (int i = 0; i < body::kPartCount; ++i) contacts_by_part[i] += other.contacts_by_part[i];
+  unresolved += other.unresolved;
+  pending += other.pending;
+  wrong_side += other.wrong_side;
+  fallbacks += other.fallbacks;
+  pinched += other.pinched;
+  judged_exactly += other.judged_exactly;
+  not_finite += other.not_finite;
+  max_iterations = std::max(max_iterations, other.max_iterations);
+  deepest_m = std::max(deepest_m, other.deepest_m);
+}
+
+Collider::Collider(const proxy::BodyProxy& proxy) : impl_(std::make_unique<Impl>(proxy)) {}
+Collider::~Collider() = default;
+Collider::Collider(Collider&&) noexcept = default;
+Collider& Collider::operator=(Collider&&) noexcept = default;
+
+const Vec3& Collider::origin() const noexcept {
+  return impl_->origin;
+}
+
+std::size_t Collider::size() const noexcept {
+  return impl_->field.size();
+}
+
+bool Collider::has_relief() const noexcept {
+  return impl_->tables() != nullptr;
+}
+
+std::uint64_t Collider::proxy_hash() const noexcept {
+  return impl_->proxy_hash;
+}
+
+std::uint64_t Collider::poses() const noexcept {
+  return impl_->poses;
+}
+
+bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
+  if (shapes.size() != impl_->shapes.size() || !std::ranges::all_of(shapes, is_ellipsoid)) return false;
+  double travel_m = 0.0;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const std::uint32_t at = impl_->internal[k];
+    geometry::Ellipsoid now = shapes[k];
+    now.center -= impl_->origin;
+    impl_->motion[at] = motion_between(impl_->shapes[at], now, dt_s);
+    impl_->carriers[at] = carrier_between(impl_->shapes[at], now);
+    travel_m = std::max(travel_m, travel_between(impl_->shapes[at], now));
+    impl_->shapes[at] = now;
+  }
+  impl_->poses += travel_m > 0.0;
+  impl_->moving = dt_s > 0.0;
+  impl_->moved_dt_s = dt_s;
+  impl_->travel_m = static_cast<float>(1.001 * travel_m);
+  impl_->field.update(impl_->shapes);
+  impl_->baked.update(impl_->shapes);
+  return true;
+}
+
+Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point) const noexcept {
+  if (!impl_->moving || ellipsoid >= impl_->motion.size()) return Vec3::Zero();
+  return impl_->motion[impl_->internal[ellipsoid]].at(local_point);
+}
+
+Contact Collider::query(const float (&local_point)[3], const QueryOptions& options) const noexcept {
+  float x = local_point[0], y = local_point[1], z = local_point[2];
+  Contact contact;
+  impl_->query_some({1, &x, &y, &z}, 0, 1, {}, options, {&contact, 1});
+  return contact;
+}
+
+void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+                     const QueryOptions& options) const {
+  impl_->query(context, particles, contacts, options, nullptr);
+}
+
+void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
+                     Workspace& workspace, const QueryOptions& options) const {
+  impl_->query(context, particles, contacts, options, workspace.memory_.get());
+}
+
+std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
+                                std::span<Contact> contacts) const noexcept {
+  const Vec3 p(double{local_point[0]}, double{local_point[1]}, double{local_point[2]});
+  if (!p.allFinite()) return 0;
+  std::size_t found = 0;
+  const auto nearer = [](const Contact& a, const Contact& b) {
+    return a.signed_distance < b.signed_distance;
+  };
+  for (std::uint32_t k = 0; k < impl_->field.size(); ++k) {
+    const geometry::ClosestPoint at = geometry::closest_point(impl_->field.shape(k), p);
+    ReliefSample sample{at.signed_distance, at.normal, k};
+    if (impl_->relief) sample = correct(impl_->field, *impl_->relief, k, at);
+    const Contact contact = impl_->make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), k);
+    if (contact.signed_distance > within_m) continue;
+    // Insertion into the sorted front part; the farthest drops out when it is full.
+    const std::size_t kept = std::min(found++, contacts.size());
+    const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kept);
+    const auto place = std::upper_bound(contacts.begin(), end, contact, nearer);
+    if (place == contacts.end()) continue;
+    std::move_backward(place, kept < contacts.size() ? end : end - 1, kept < contacts.size() ? end + 1 : end);
+    *place = contact;
+  }
+  return found;
+}
+
+ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
+                                const ResolveOptions& options) const {
+  return impl_->resolve(context, particles, usable(options), nullptr);
+}
+
+ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
+                                const ResolveOptions& options, Workspace& workspace) const {
+  return impl_->resolve(context, particles, usable(options), workspace.memory_.get());
+}
+
+void Collider::Impl::query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
+                           const QueryOptions& options, Memory* memory) const {
+  struct Nothing {};
+  Particles particles = all;
+  particles.count = std::min(all.count, contacts.size());
+  recall(particles, memory);
+  by_tasks<Nothing>(
+      context, particles, memory, kBatch,
+      [&](std::size_t begin, std::size_t end, const Sequence& sequence, Nothing&) {
+        query_some(particles, begin, end, sequence, options, contacts);
+      },
+      [](const Nothing&) {});
+}
+
+ContactReport Collider::Impl::resolve(const engine::Context& context, const Particles& particles,
+                                      const ResolveOptions& options, Memory* memory) const {
+  SharedReport total;
+  recall(particles, memory);
+  by_tasks<ContactReport>(
+      context, particles, memory, batch_of(options, relief.has_value()),
+      [&](std::size_t begin, std::size_t end, const Sequence& sequence, ContactReport& report) {
+        resolve_some(particles, begin, end, sequence, options, report);
+      },
+      [&](const ContactReport& report) { total.add(report); });
+  return total.total();
+}
+
+}  // namespace bodice::collision

@@ -1,0 +1,251 @@
+#include "collider/collider_impl.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "model/tolerances.hpp"
+
+namespace bodice::collision {
+
+using geometry::Vec3;
+
+namespace {
+
+Vec3 middle_of(const proxy::BodyProxy& proxy) {
+  geometry::Box box;
+  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) {
+    const geometry::Box one = geometry::bounding_box(e.shape);
+    box.extend(one.low);
+    box.extend(one.high);
+  }
+  return box.empty() ? Vec3(Vec3::Zero()) : box.center();
+}
+
+/// Halves the span across its longest side until groups are left; equal centers keep their order, so that
+/// the lowest index still wins a tie between identical ellipsoids.
+void halve(std::span<std::uint32_t> order, std::span<const proxy::ProxyEllipsoid> ellipsoids) {
+  if (order.size() <= kGroup) {
+    std::sort(order.begin(), order.end());
+    return;
+  }
+  const auto center = [&](std::uint32_t k) -> const Vec3& { return ellipsoids[k].shape.center; };
+  geometry::Box box;
+  for (const std::uint32_t k : order) box.extend(center(k));
+  int axis = 0;
+  (box.high - box.low).maxCoeff(&axis);
+  const std::size_t half = (order.size() / 2 + kGroup - 1) / kGroup * kGroup;
+  const auto key = [&](std::uint32_t k) { return std::pair(center(k)[axis], k); };
+  std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  halve(order.first(half), ellipsoids);
+  halve(order.subspan(half), ellipsoids);
+}
+
+/// Each group of consecutive ones are neighbors.
+std::vector<std::uint32_t> spatial_order(const proxy::BodyProxy& proxy) {
+  std::vector<std::uint32_t> order(proxy.ellipsoids().size());
+  std::iota(order.begin(), order.end(), 0u);
+  halve(order, proxy.ellipsoids());
+  return order;
+}
+
+std::vector<geometry::Ellipsoid> local_shapes(const Vec3& origin, const proxy::BodyProxy& proxy,
+                                              std::span<const std::uint32_t> order) {
+  std::vector<geometry::Ellipsoid> shapes;
+  shapes.reserve(order.size());
+  for (const std::uint32_t k : order) {
+    shapes.push_back(proxy.ellipsoids()[k].shape);
+    shapes.back().center -= origin;
+  }
+  return shapes;
+}
+
+Vec3 at(const float* x, const float* y, const float* z, std::size_t i) {
+  return {double{x[i]}, double{y[i]}, double{z[i]}};
+}
+
+ParticleState load(const Particles& particles, std::size_t i) {
+  ParticleState state;
+  state.position = at(particles.x, particles.y, particles.z, i);
+  state.velocity = Vec3::Zero();
+  state.safe = state.position;
+  state.has_velocity = particles.vx != nullptr;
+  if (state.has_velocity) state.velocity = at(particles.vx, particles.vy, particles.vz, i);
+  if (particles.safe_x) state.safe = at(particles.safe_x, particles.safe_y, particles.safe_z, i);
+  state.has_safe = particles.safe_x && state.safe.allFinite();
+  return state;
+}
+
+void store(const ParticleState& state, const Particles& particles, std::size_t i) {
+  particles.x[i] = static_cast<float>(state.position.x());
+  particles.y[i] = static_cast<float>(state.position.y());
+  particles.z[i] = static_cast<float>(state.position.z());
+  if (!state.has_velocity) return;
+  particles.vx[i] = static_cast<float>(state.velocity.x());
+  particles.vy[i] = static_cast<float>(state.velocity.y());
+  particles.vz[i] = static_cast<float>(state.velocity.z());
+}
+
+void count(const ParticleReport& particle, body::Part part, ContactReport& report) {
+  ++report.contacts;
+  ++report.contacts_by_part[static_cast<int>(part)];
+  report.unresolved += particle.outcome == Outcome::kUnresolved;
+  report.pending += particle.outcome == Outcome::kPending;
+  report.wrong_side += particle.wrong_side;
+  report.fallbacks += particle.fallback;
+  report.pinched += particle.pinched;
+  report.max_iterations = std::max(report.max_iterations, static_cast<std::uint32_t>(particle.iterations));
+  report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
+}
+
+/// Contacts by part. Neighbors are mostly of one part: what is stored at each waits for the one before.
+class PartCount {
+ public:
+  explicit PartCount(ContactReport& report) : report_(report) {}
+  ~PartCount() { store(); }
+  PartCount(const PartCount&) = delete;
+  PartCount& operator=(const PartCount&) = delete;
+
+  void add(body::Part part) {
+    if (part != part_) store();
+    part_ = part;
+    ++run_;
+  }
+
+ private:
+  void store() {
+    report_.contacts_by_part[static_cast<int>(part_)] += run_;
+    run_ = 0;
+  }
+
+  ContactReport& report_;
+  body::Part part_{};
+  std::uint64_t run_ = 0;
+};
+
+template <class Work>
+void for_lanes(const LaneBits& lanes, int count, Work&& work) {
+  for (int begin = 0; begin < count; begin += kBlock)
+    for (std::uint64_t left = lanes.from(begin); left != 0; left &= left - 1)
+      work(begin + std::countr_zero(left));
+}
+
+}  // namespace
+
+Collider::Impl::Impl(const proxy::BodyProxy& proxy)
+    : proxy_hash(proxy.hash()),
+      origin(middle_of(proxy)),
+      original(spatial_order(proxy)),
+      margin_m(proxy.margin_m()),
+      shapes(local_shapes(origin, proxy, original)),
+      field(shapes),
+      baked(shapes, original) {
+  if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy, original);
+  internal.resize(original.size());
+  for (std::uint32_t k = 0; k < original.size(); ++k) internal[original[k]] = k;
+  for (const std::uint32_t k : original) part.push_back(proxy.ellipsoids()[k].part);
+  motion.resize(shapes.size());
+  carriers.resize(shapes.size());
+}
+
+Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec3& normal,
+                                     std::uint32_t ellipsoid) const {
+  Contact contact;
+  const double signed_distance = distance_m - margin_m;
+  const Vec3 point = p - signed_distance * normal;
+  contact.signed_distance = static_cast<float>(signed_distance);
+  for (int axis = 0; axis < 3; ++axis) {
+    contact.point[axis] = static_cast<float>(point[axis]);
+    contact.normal[axis] = static_cast<float>(normal[axis]);
+  }
+  contact.ellipsoid = ellipsoid < original.size() ? original[ellipsoid] : kNoEllipsoid;
+  return contact;
+}
+
+Contact Collider::Impl::exact_contact(const Vec3& p) const {
+  if (!p.allFinite() || field.size() == 0) return no_contact();
+  if (relief) {
+    const ReliefSample sample = relief_sample(field, *relief, p);
+    return make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), sample.owner);
+  }
+  const Owner owner = field.owner(p, std::numeric_limits<double>::infinity());
+  return make_contact(p, owner.at.signed_distance, owner.at.normal, owner.ellipsoid);
+}
+
+void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i,
+                                     const ResolveOptions& options, ContactReport& report) const {
+  ++report.judged_exactly;
+  ParticleState state = load(particles, i);
+  const double clearance_m = margin_m + double{options.thickness_m};
+  if (moving) {
+    const Owner carrier = field.owner(state.position, std::numeric_limits<double>::infinity());
+    state.surface_velocity = motion[carrier.ellipsoid].at(state.position);
+    // Where the safe position is now, had it stuck to the body.
+    state.carriers = carriers;
+    state.before = state.safe;
+    state.safe = state.path_start(carrier.ellipsoid);
+  }
+  ParticleReport one;
+  if (options.response == Response::kPaper)
+    one = resolve_paper(field, clearance_m, state);
+  else
+    one = resolve_closest_point(field, tables(), clearance_m, options, state);
+  if (one.outcome == Outcome::kClear) return;
+  store(state, particles, i);
+  count(one, part[one.ellipsoid], report);
+}
+
+void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
+                                  const Sequence& sequence, const ResolveOptions& options,
+                                  ContactReport& report) const {
+  Gathered gathered;
+  gather(particles, sequence.from(begin), begin, end, gathered);
+  if (field.size() == 0) {
+    report.not_finite += gathered.not_finite;
+    return;
+  }
+  Gathering& batch = gathered.batch;
+  batch.keeping = keeping_of(particles, begin, end, sequence.memory);
+  batch.ahead = ahead_of(particles, end, sequence, nullptr);
+  const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
+                            static_cast<float>(kCertificate * field.size_m()),
+                            options.friction,
+                            options.max_push_m,
+                            moving ? motion.data() : nullptr,
+                            static_cast<float>(moved_dt_s),
+                            moving ? travel_m : 0.0f,
+                            options.blend_m};
+  BatchResponse response;
+  const bool settled = batch.count == 0 || (options.response == Response::kClosestPoint &&
+                                            resolve_batch(baked, tables(), clearance, batch, response));
+  if (!settled && options.response == Response::kClosestPoint && end - begin > kBlock) {
+    // Too many ellipsoids near for a batch may do for its blocks.
+    for (std::size_t from = begin; from < end; from += kBlock)
+      resolve_some(particles, from, std::min(from + kBlock, end), sequence, options, report);
+    return;
+  }
+  report.not_finite += gathered.not_finite;
+  for (int i = 0; i < gathered.far_count; ++i) resolve_exactly(particles, gathered.far[i], options, report);
+  if (!settled) {
+    for (int lane = 0; lane < batch.count; ++lane)
+      resolve_exactly(particles, gathered.index[lane], options, report);
+    return;
+  }
+  Memory* const memory = sequence.memory;
+  for (std::size_t block = 0; memory && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
+    memory->order.note_radius(begin / kBlock + block, response.radius_m[block]);
+  scatter(gathered, response, particles);
+  PartCount parts(report);
+  for (int k = 0; k < response.count; ++k) parts.add(part[static_cast<std::size_t>(response.owner[k])]);
+  report.deepest_m = std::max(report.deepest_m, response.deepest_m);
+  report.contacts += static_cast<std::uint64_t>(response.count);
+  report.pending += static_cast<std::uint64_t>(response.pending);
+  report.max_iterations = std::max(report.max_iterations, response.iterations);
+  for_lanes(response.hard, batch.count,
+            [&](int lane) { resolve_exactly(particles, gathered.index[lane], options, report); });
+}
+
+}  // namespace bodice::collision

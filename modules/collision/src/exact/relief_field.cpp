@@ -1,0 +1,118 @@
+// Based on: Zina H. Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014.
+// (the octahedral map; the chain rule through it and through the foot is derived below)
+#include "exact/relief_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bodice::collision {
+
+using geometry::Vec3;
+
+namespace {
+
+double sign_of(double v) {
+  return v < 0.0 ? -1.0 : 1.0;
+}
+
+/// Slopes on the octahedral square (gx, gy) to slopes over w: s = |w_x| + |w_y| + |w_z|, q = w.xy / s,
+/// dq_i / dw_j = (delta_ij - q_i sign_j) / s; the lower half is q with its halves swapped and mirrored.
+Vec3 from_square(const Vec3& w, double gx, double gy) {
+  const double s = w.cwiseAbs().sum();
+  const Vec3 sign(sign_of(w.x()), sign_of(w.y()), sign_of(w.z()));
+  if (w.z() < 0.0) {
+    std::swap(gx, gy);
+    gx *= -sign.x() * sign.y();
+    gy *= -sign.x() * sign.y();
+  }
+  const double radial = (gx * w.x() + gy * w.y()) / s;
+  return (Vec3(gx, gy, 0.0) - radial * sign) / s;
+}
+
+}  // namespace
+
+TableValue read_table(const ReliefTables& relief, const BakedTable& table, const Vec3& w) {
+  const double s = w.cwiseAbs().sum();
+  double px = w.x() / s, py = w.y() / s;
+  if (w.z() < 0.0) {
+    const double folded = (1.0 - std::abs(py)) * sign_of(px);
+    py = (1.0 - std::abs(px)) * sign_of(py);
+    px = folded;
+  }
+  const double half = 0.5 * (table.nodes - 1);
+  const double column = (px + 1.0) * half, row = (py + 1.0) * half;
+  const int i = std::clamp(static_cast<int>(column), 0, table.nodes - 2);
+  const int j = std::clamp(static_cast<int>(row), 0, table.nodes - 2);
+  const double u = column - i, v = row - j;
+  const std::uint8_t* upper = relief.texels.data() + table.first_byte + 2 * (j * table.nodes + i);
+  const std::uint8_t* lower = upper + 2 * table.nodes;
+  auto read = [&](int byte, double& value, double& gx, double& gy) {
+    const double p00 = upper[byte], p10 = upper[byte + 2], p01 = lower[byte], p11 = lower[byte + 2];
+    value = (1 - v) * ((1 - u) * p00 + u * p10) + v * ((1 - u) * p01 + u * p11);
+    gx = half * ((1 - v) * (p10 - p00) + v * (p11 - p01));
+    gy = half * ((1 - u) * (p01 - p00) + u * (p11 - p10));
+  };
+  TableValue result;
+  double h, hx, hy, a, ax, ay;
+  read(0, h, hx, hy);
+  read(1, a, ax, ay);
+  const double h_scale = double{table.h_scale_m}, a_scale = double{table.a_scale};
+  result.h_m = double{table.h_offset_m} + h_scale * h;
+  result.a_per_m = double{table.a_offset} + a_scale * a;
+  result.h_slope = from_square(w, h_scale * hx, h_scale * hy);
+  result.a_slope = from_square(w, a_scale * ax, a_scale * ay);
+  return result;
+}
+
+ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
+                     const geometry::ClosestPoint& at) {
+  const BakedTable& table = relief.tables[k];
+  ReliefSample sample{at.signed_distance, at.normal, k};
+  if (table.nodes < 2) return sample;
+  const geometry::Ellipsoid& shape = field.shape(k);
+  const Vec3 foot = shape.axes.transpose() * (at.point - shape.center);
+  const Vec3 w = foot.cwiseQuotient(shape.radii).normalized();
+  const TableValue value = read_table(relief, table, w);
+  const double clamped = std::clamp(at.signed_distance, -double{relief.in_m}, double{relief.out_m});
+  sample.distance_m -= value.h_m + value.a_per_m * clamped;
+  // f = r w and y = f + d n with n = (w / r) / |w / r|: hence e = r^2 + t with t = d / |w / r|, and
+  // dw = (r / e) dy - (w / e) dt with dt such that |w| stays 1.
+  const double t = at.signed_distance / w.cwiseQuotient(shape.radii).norm();
+  const double least = 1e-9 * shape.radii.minCoeff() * shape.radii.minCoeff();
+  const Vec3 e = (shape.radii.cwiseAbs2().array() + t).max(least).matrix();
+  const Vec3 slope = value.h_slope + clamped * value.a_slope;
+  const Vec3 we = w.cwiseQuotient(e);
+  const Vec3 rest = slope - w * (slope.dot(we) / w.dot(we));
+  const double along = clamped == at.signed_distance ? 1.0 - value.a_per_m : 1.0;
+  sample.gradient = along * at.normal - shape.axes * shape.radii.cwiseQuotient(e).cwiseProduct(rest);
+  return sample;
+}
+
+ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, const Vec3& p) {
+  const Owner owner = field.owner(p, std::numeric_limits<double>::infinity());
+  ReliefSample result{owner.at.signed_distance, owner.at.normal, owner.ellipsoid};
+  if (owner.ellipsoid == kNoEllipsoid) {
+    result.distance_m = std::numeric_limits<double>::infinity();
+    return result;
+  }
+  const double least = owner.at.signed_distance, blend = double{relief.blend_m};
+  double weights = 0.0, distance = 0.0;
+  Vec3 gradient = Vec3::Zero();
+  const auto add = [&](std::size_t k, const UnionField::Plane&) {
+    const geometry::ClosestPoint at = geometry::closest_point(field.shape(k), p);
+    const double root = 1.0 - (at.signed_distance - least) / blend;
+    if (!(root > 0.0)) return;
+    const ReliefSample one = correct(field, relief, static_cast<std::uint32_t>(k), at);
+    weights += root * root;
+    distance += root * root * one.distance_m;
+    gradient += root * root * one.gradient;
+  };
+  field.visit_near(
+      p, [&] { return least + blend; }, add);
+  result.distance_m = distance / weights;
+  result.gradient = gradient / weights;
+  return result;
+}
+
+}  // namespace bodice::collision

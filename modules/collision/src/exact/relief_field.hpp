@@ -1,0 +1,29 @@
+// The corrected distance F of relief.hpp in double precision: the exact side's judge for proxies with tables.
+#pragma once
+
+#include "exact/union_field.hpp"
+#include "model/relief_tables.hpp"
+
+namespace bodice::collision {
+
+/// h and a of one table at a unit direction, and their slopes there.
+struct TableValue {
+  double h_m = 0.0, a_per_m = 0.0;
+  geometry::Vec3 h_slope = geometry::Vec3::Zero(), a_slope = geometry::Vec3::Zero();  ///< d / dw
+};
+TableValue read_table(const ReliefTables& relief, const BakedTable& table, const geometry::Vec3& w);
+
+struct ReliefSample {
+  double distance_m = 0.0;                            ///< F, without margin
+  geometry::Vec3 gradient = geometry::Vec3::UnitX();  ///< of F with the weights held
+  std::uint32_t owner = kNoEllipsoid;
+};
+
+/// F_k of one ellipsoid at a point, given the ellipsoid's closest point to it.
+ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
+                     const geometry::ClosestPoint& at);
+
+/// F at p. No owner, and +infinity, for a proxy without ellipsoids. Cost: O(#ellipsoids).
+ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, const geometry::Vec3& p);
+
+}  // namespace bodice::collision

@@ -1,2 +1,0 @@
-#define BODICE_KERNEL_TARGET HWY_AVX3
-#include "simd/kernel-inl.hpp"

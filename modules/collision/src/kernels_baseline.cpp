@@ -1,9 +1,0 @@
-// The compiler's own baseline, where none of the other files is for it.
-#include "simd/kernel_targets.hpp"
-// The instruction set must be known before it can be compared.
-#include <hwy/detect_targets.h>
-
-#if HWY_STATIC_TARGET & ~(HWY_SCALAR | HWY_SSE4 | HWY_AVX2 | HWY_AVX3 | HWY_NEON)
-#define BODICE_KERNEL_TARGET HWY_STATIC_TARGET
-#include "simd/kernel-inl.hpp"
-#endif

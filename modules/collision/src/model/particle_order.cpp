@@ -1,0 +1,133 @@
+#include "model/particle_order.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <bodice/geometry/detail/morton.hpp>
+
+#include "model/tolerances.hpp"
+
+namespace bodice::collision {
+
+namespace {
+
+constexpr int kDigitBits = 9;
+
+/// Cells along one axis.
+struct Range {
+  float low = 0.0f, last, scale = 0.0f;
+
+  Range(const float* values, std::size_t count, int bits) : last(static_cast<float>((1 << bits) - 1)) {
+    float least = std::numeric_limits<float>::max(), largest = -least;
+    for (std::size_t i = 0; i < count; ++i) {
+      // Values that are not finite, or absurd, do not stretch the grid.
+      const float v = std::abs(values[i]) < kFarthest ? values[i] : least;
+      least = std::min(least, v);
+      largest = std::max(largest, std::abs(values[i]) < kFarthest ? v : largest);
+    }
+    low = least;
+    if (largest > least) scale = last / (largest - least);
+  }
+
+  std::uint32_t cell(float v) const {
+    const float at = (v - low) * scale;
+    // Also false for NaN.
+    return at > 0.0f ? static_cast<std::uint32_t>(std::min(at, last)) : 0u;
+  }
+};
+
+struct Order {
+  std::span<std::uint32_t> order, key, other_order, other_key;
+};
+
+/// The indices of particles [begin, begin + size) along a Z-order curve of 2^(3 bits) cells; `digits` of
+/// kDigitBits take them. By radix, least digit first: stable, so that equal keys keep the caller's order.
+void sort(const Particles& particles, std::size_t begin, int digits, Order o) {
+  const std::size_t count = o.order.size();
+  const int bits = digits * kDigitBits / 3;
+  const float *px = particles.x + begin, *py = particles.y + begin, *pz = particles.z + begin;
+  const Range x(px, count, bits), y(py, count, bits), z(pz, count, bits);
+  for (std::size_t i = 0; i < count; ++i) {
+    o.order[i] = static_cast<std::uint32_t>(begin + i);
+    o.key[i] = geometry::morton_code(x.cell(px[i]), y.cell(py[i]), z.cell(pz[i]));
+  }
+  for (int digit = 0; digit < digits; ++digit) {
+    std::array<std::uint32_t, 1u << kDigitBits> start{};
+    const auto digit_of = [&](std::uint32_t key) {
+      return key >> digit * kDigitBits & ((1u << kDigitBits) - 1);
+    };
+    for (const std::uint32_t key : o.key) ++start[digit_of(key)];
+    std::exclusive_scan(start.begin(), start.end(), start.begin(), 0u);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t to = start[digit_of(o.key[i])]++;
+      o.other_key[to] = o.key[i];
+      o.other_order[to] = o.order[i];
+    }
+    std::swap(o.key, o.other_key);
+    std::swap(o.order, o.other_order);
+  }
+  if (digits % 2 != 0) std::copy(o.order.begin(), o.order.end(), o.other_order.begin());
+}
+
+/// Whether particles half a block apart in the arrays are about as far from each other as any two.
+bool scattered(const Particles& particles, std::size_t begin, std::size_t end) {
+  if (end - begin < 4 * kBlock) return false;
+  const std::size_t far = (end - begin) / 2;
+  double near_sum = 0.0, far_sum = 0.0;
+  const auto distance = [&](std::size_t i, std::size_t j) {
+    return std::abs(particles.x[i] - particles.x[j]) + std::abs(particles.y[i] - particles.y[j]) +
+           std::abs(particles.z[i] - particles.z[j]);
+  };
+  for (std::size_t i = begin; i < begin + far; i += kBlock / 4) {
+    near_sum += double{distance(i, i + kBlock / 2)};
+    far_sum += double{distance(i, i + far)};
+  }
+  return near_sum > kScattered * far_sum;  // not so if any is NaN
+}
+
+/// Sum over the blocks of their boxes' sides; `order` may be empty: as they are stored.
+double spread_of(const Particles& particles, std::span<const std::uint32_t> order) {
+  double sum = 0.0;
+  for (std::size_t begin = 0; begin < particles.count; begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, particles.count);
+    for (const float* values : {particles.x, particles.y, particles.z}) {
+      float low = kFarthest, high = -kFarthest;
+      for (std::size_t i = begin; i < end; ++i) {
+        const float v = values[order.empty() ? i : order[i]];
+        if (!(std::abs(v) < kFarthest)) continue;
+        low = std::min(low, v);
+        high = std::max(high, v);
+      }
+      sum += double{std::max(0.0f, high - low)};
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+void ParticleOrder::refresh(const Particles& particles) {
+  const std::size_t count = particles.count;
+  const bool changed = order_.size() != count;
+  const double spread = std::accumulate(radius_m_.begin(), radius_m_.end(), 0.0);
+  if (!changed && spread_when_sorted_m_ < 0.0) spread_when_sorted_m_ = spread;
+  if (!changed && spread <= kSortAgain * spread_when_sorted_m_) return;
+  for (std::vector<std::uint32_t>* values : {&order_, &other_order_, &key_, &other_key_})
+    values->resize(count);
+  radius_m_.assign((count + kBlock - 1) / kBlock, 0.0f);
+  spread_when_sorted_m_ = -1.0;
+  sort(particles, 0, 3, {order_, key_, other_order_, other_key_});
+  const double as_sorted = spread_of(particles, order_);
+  stored_ = spread_of(particles, {}) <= kStoredWell * as_sorted;
+}
+
+TaskOrder::TaskOrder(const Particles& particles, std::size_t begin, std::size_t end) {
+  if (!scattered(particles, begin, end)) return;
+  count_ = end - begin;
+  const auto some = [this](std::uint32_t* values) { return std::span(values, count_); };
+  sort(particles, begin, 2, {some(order_), some(key_), some(other_order_), some(other_key_)});
+}
+
+}  // namespace bodice::collision

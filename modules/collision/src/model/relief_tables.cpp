@@ -1,0 +1,148 @@
+#include "model/relief_tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include <bodice/proxy/proxy_distance.hpp>
+
+namespace bodice::collision {
+
+namespace {
+
+/// The order in which BakedEllipsoid stores the axes, inverted.
+void find_sorted_axes(const geometry::Vec3& radii, std::int32_t (&sorted_axis)[3]) {
+  const std::array<int, 3> axes = geometry::axes_by_radius(radii);
+  for (int i = 0; i < 3; ++i) sorted_axis[axes[i]] = i;
+}
+
+/// The texels of a table, scaled.
+class Heights {
+ public:
+  Heights(const proxy::BodyProxy& proxy, const proxy::ReliefTable& table, const proxy::ReliefReach& reach)
+      : texels_(proxy.texels().subspan(table.first_texel)), table_(table), reach_(reach) {}
+
+  /// The farthest distance d at which d - h - a clamp(d, -in, out) / out is zero or less, of one texel.
+  double zero_m(int column, int row) const {
+    const proxy::ReliefTexel& t =
+        texels_[static_cast<std::size_t>(row) * table_.nodes_per_side + static_cast<std::size_t>(column)];
+    const double h = double{table_.h_offset_m} + double{table_.h_scale_m} * t.h / 255.0;
+    const double a = slope(t);
+    if (a >= kSteepest) return h + a * std::max(reach_.in_m, reach_.out_m);
+    const double between = h / (1.0 - a);
+    if (between > reach_.out_m) return h + a * reach_.out_m;
+    return between < -reach_.in_m ? h - a * reach_.in_m : between;
+  }
+  /// The steepest that is below kSteepest, and the steepest of either sign.
+  std::pair<double, double> steepest() const {
+    double rising = 0.0, any = 0.0;
+    const std::size_t count = std::size_t{table_.nodes_per_side} * table_.nodes_per_side;
+    for (const proxy::ReliefTexel& t : texels_.first(count)) {
+      const double a = slope(t);
+      if (a < kSteepest) rising = std::max(rising, a);
+      any = std::max(any, std::abs(a));
+    }
+    return {rising, any};
+  }
+
+ private:
+  static constexpr double kSteepest = 0.9;  // of steeper ones, where the clamp ends them
+
+  double slope(const proxy::ReliefTexel& t) const {
+    return (double{table_.a_offset} + double{table_.a_scale} * t.a / 255.0) / reach_.out_m;
+  }
+
+  std::span<const proxy::ReliefTexel> texels_;
+  const proxy::ReliefTable& table_;
+  const proxy::ReliefReach& reach_;
+};
+
+/// Whether an interval comes to the negative (or positive) half of the axis; what only touches it counts.
+bool comes_to(bool negative, double low, double high) {
+  constexpr double kTouching = 1e-4;
+  return negative ? low < kTouching : high > -kTouching;
+}
+
+/// Between nodes both numbers are bilinear, so that F_k is not below the least that a corner of the cell
+/// would make it.
+OctantReach reach_of(const Heights& heights, int nodes) {
+  OctantReach result;
+  std::fill(std::begin(result.at_zero_m), std::end(result.at_zero_m), -std::numeric_limits<float>::max());
+  const auto place = [&](int i) { return 2.0 * i / (nodes - 1) - 1.0; };
+  for (int row = 0; row + 1 < nodes; ++row)
+    for (int column = 0; column + 1 < nodes; ++column) {
+      const double x[2] = {place(column), place(column + 1)}, y[2] = {place(row), place(row + 1)};
+      const auto zero_m = static_cast<float>(
+          std::max({heights.zero_m(column, row), heights.zero_m(column + 1, row),
+                    heights.zero_m(column, row + 1), heights.zero_m(column + 1, row + 1)}));
+      // z is positive where |x| + |y| < 1.
+      double z[2] = {1.0, 1.0};
+      for (const auto* side : {x, y}) {
+        const double low = std::abs(side[0]), high = std::abs(side[1]);
+        z[0] -= std::max(low, high);
+        z[1] -= side[0] < 0.0 && side[1] > 0.0 ? 0.0 : std::min(low, high);
+      }
+      for (int octant = 0; octant < 8; ++octant)
+        if (comes_to(octant & 1, x[0], x[1]) && comes_to(octant & 2, y[0], y[1]) &&
+            comes_to(octant & 4, z[0], z[1]))
+          result.at_zero_m[octant] = std::max(result.at_zero_m[octant], zero_m);
+    }
+  const auto [rising, any] = heights.steepest();
+  result.rise = static_cast<float>(1.0 / (1.0 - rising));
+  result.fall = static_cast<float>(1.0 / (1.0 + any));
+  return result;
+}
+
+OctantReach farthest_of(const std::vector<OctantReach>& reaches) {
+  OctantReach result = reaches.front();
+  for (const OctantReach& reach : reaches) {
+    for (int i = 0; i < 8; ++i) result.at_zero_m[0] = std::max(result.at_zero_m[0], reach.at_zero_m[i]);
+    result.rise = std::max(result.rise, reach.rise);
+    result.fall = std::min(result.fall, reach.fall);
+  }
+  std::fill(std::begin(result.at_zero_m), std::end(result.at_zero_m), result.at_zero_m[0]);
+  return result;
+}
+
+}  // namespace
+
+ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order) {
+  const proxy::ReliefReach reach = proxy::relief_reach(proxy.stature_m());
+  in_m = static_cast<float>(reach.in_m);
+  out_m = static_cast<float>(reach.out_m);
+  blend_m = static_cast<float>(reach.blend_m);
+  texels.reserve(2 * proxy.texels().size() + 4);
+  for (const proxy::ReliefTexel& t : proxy.texels()) {
+    texels.push_back(t.h);
+    texels.push_back(t.a);
+  }
+  texels.resize(texels.size() + 16);
+  for (const std::uint32_t k : order) {
+    const proxy::ReliefTable& from = proxy.relief()[k];
+    BakedTable table;
+    find_sorted_axes(proxy.ellipsoids()[k].shape.radii, table.sorted_axis);
+    if (from.nodes_per_side == 0) {
+      tables.push_back(table);  // flat: of two nodes and no height
+      reaches.emplace_back();
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis) sorted_axes = sorted_axes && table.sorted_axis[axis] == axis;
+    table.first_byte = static_cast<std::int32_t>(2 * from.first_texel);
+    table.nodes = from.nodes_per_side;
+    table.h_scale_m = from.h_scale_m / 255.0f;
+    table.h_offset_m = from.h_offset_m;
+    table.a_scale = from.a_scale / 255.0f / out_m;
+    table.a_offset = from.a_offset / out_m;
+    tables.push_back(table);
+    const float h = std::max(from.h_offset_m, from.h_offset_m + from.h_scale_m);
+    const float a = std::max(std::abs(from.a_offset), std::abs(from.a_offset + from.a_scale));
+    reaches.push_back(reach_of(Heights(proxy, from, reach), from.nodes_per_side));
+    highest_m = std::max(highest_m, h + a * std::max(in_m, out_m) / out_m);
+  }
+  farthest = farthest_of(reaches);
+}
+
+}  // namespace bodice::collision

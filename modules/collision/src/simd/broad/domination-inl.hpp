@@ -1,0 +1,332 @@
+// Which ellipsoids can be the nearest of some place in a box, for the boxes of pieces of a batch. With d_j
+// convex and the tangent plane of another ellipsoid k below d_k, d_j minus the plane is convex, so that it is
+// largest at a corner of the box: if j is nearer than k's plane at all eight, k is nowhere the nearest.
+#if defined(BODICE_COLLISION_NEAR_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_NEAR_INL_
+#undef BODICE_COLLISION_NEAR_INL_
+#else
+#define BODICE_COLLISION_NEAR_INL_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "simd/broad/tangent_candidates-inl.hpp"
+#include "simd/ellipsoid/columns-inl.hpp"
+#include "simd/math/pack-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+constexpr int kBlocks = kBatch / kBlock;
+constexpr int kCorners = 8, kRivals = 2;
+constexpr float kNoLimit = 1e30f;
+static_assert(kRivals * kCorners % kWidth == 0);
+static_assert(kGroup % kWidth == 0);
+
+/// Consecutive lanes of a batch and their box.
+struct Piece {
+  Extent box;
+  int begin, end;
+};
+
+struct Near {
+  int count = 0;
+  alignas(64) std::int32_t index[kMaxCandidates + 16];
+};
+
+/// The numbers of some ellipsoids, one a lane.
+struct BallLanes {
+  V3 a0, a1, a2, offset, inverse_radius;
+};
+
+/// `row` reads the members of BallMap by their number.
+template <class Row>
+HWY_INLINE BallLanes ball_lanes(Row&& row) {
+  const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
+  return {row3(0), row3(3), row3(6), row3(kBallOffset), row3(kBallInverse)};
+}
+
+/// Where points are when the ellipsoids are unit balls.
+HWY_INLINE V3 in_ball(const BallLanes& e, V3 p) {
+  const auto row = [&](V3 a, V offset) {
+    return hn::MulAdd(a.x, p.x, hn::MulAdd(a.y, p.y, hn::MulAdd(a.z, p.z, offset)));
+  };
+  return {row(e.a0, e.offset.x), row(e.a1, e.offset.y), row(e.a2, e.offset.z)};
+}
+
+/// rounding_over() each piece.
+struct PieceRounding {
+  float m[kBlocks];
+
+  HWY_INLINE PieceRounding(const Piece* pieces, int count) {
+    for (int i = 0; i < count; ++i) m[i] = rounding_over(pieces[i].box);
+  }
+};
+
+/// Where candidates are looked for: in the proxy's ellipsoids [begin, end), of which groups whose boxes are
+/// too far from the places' box are passed over,
+struct Everything {
+  const Baked& baked;
+  int begin, end;  ///< begin is the first of a group
+
+  explicit Everything(const Baked& b) : Everything(b, 0, static_cast<int>(b.size())) {}
+  Everything(const Baked& b, int first, int last) : baked(b), begin(first), end(last) {}
+
+  /// Of the nearest group.
+  HWY_INLINE float least_gap(const Extent& box) const {
+    V least = all(1e30f);
+    for_groups([&](int group) { least = hn::Min(least, gap(box, group)); });
+    return hn::GetLane(hn::MinOfLanes(f, least));
+  }
+  /// Calls work(index of the first ellipsoid) for each vector that may come within `within_m` of the box.
+  template <class Work>
+  HWY_INLINE void for_vectors(const Extent& box, float within_m, Work&& work) const {
+    const V limit = all(std::max(0.0f, within_m) + baked.rounding_m + rounding_over(box));
+    for_groups([&](int group) {
+      const std::uint64_t near = bits(hn::Le(gap(box, group), limit));
+      for (std::uint64_t left = near; left != 0; left &= left - 1) {
+        const int first = (group + std::countr_zero(left)) * kGroup;
+        for (int k = first; k < std::min(first + kGroup, end); k += kWidth) work(k);
+      }
+    });
+  }
+  HWY_INLINE BallLanes balls(int k) const {
+    return ball_lanes([&](int i) { return hn::LoadU(f, baked.cull.ball[i].data() + k); });
+  }
+  /// The first in the lower half of a vector wider than a box has corners, the second in the upper.
+  HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
+    const auto one = [&](std::int32_t k) { return broadcast(baked.ellipsoids[static_cast<std::size_t>(k)]); };
+    if constexpr (kWidth <= kCorners) return one(first);
+    return select(hn::FirstN(f, kCorners), one(first), one(second));
+  }
+
+ private:
+  template <class Work>
+  HWY_INLINE void for_groups(Work&& work) const {
+    for (int group = begin / kGroup; group * kGroup < end; group += kWidth) work(group);
+  }
+  HWY_INLINE V gap(const Extent& box, int group) const {
+    return box_distance(baked.cull.group_low, baked.cull.group_high, box, static_cast<std::size_t>(group));
+  }
+};
+
+/// or in the columns of several blocks.
+template <int kTables>
+struct AmongColumns {
+  const Columns& columns;
+  int end = columns.count();
+
+  HWY_INLINE float least_gap(const Extent&) const { return 0.0f; }
+  template <class Work>
+  HWY_INLINE void for_vectors(const Extent&, float, Work&& work) const {
+    for (int k = 0; k < end; k += kWidth) work(k);
+  }
+  HWY_INLINE BallLanes balls(int k) const {
+    return ball_lanes([&](int i) { return hn::LoadU(f, columns.row(Columns::kBall + i) + k); });
+  }
+  HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
+    const VI lower = hn::Set(I(), first), upper = hn::Set(I(), second);
+    return shape_of<kTables>(columns, hn::IfThenElse(hn::FirstN(I(), kCorners), lower, upper));
+  }
+};
+
+/// The plane that bounds the distances to ellipsoid k + lane from below: base + slope . (p - middle), base
+/// being the first-order distance at the middle; NaN at a center: no bound.
+struct Planes {
+  V base, scale;
+  V3 u;
+};
+
+HWY_INLINE Planes planes_at(const BallLanes& e, V3 middle) {
+  const V3 u = in_ball(e, middle);
+  const V3 v = {hn::Mul(u.x, e.inverse_radius.x), hn::Mul(u.y, e.inverse_radius.y),
+                hn::Mul(u.z, e.inverse_radius.z)};
+  const V square = dot(u, u), scale = inverse_sqrt(dot(v, v));
+  return {hn::Mul(hn::NegMulAdd(square, inverse_sqrt(square), square), scale), scale, u};
+}
+
+HWY_INLINE V3 slope_of(const BallLanes& e, const Planes& at) {
+  return scaled(along(along(scaled(e.a0, at.u.x), at.u.y, e.a1), at.u.z, e.a2), at.scale);
+}
+
+/// Two ellipsoids that are probably the nearest of a box, and their exact distances at its corners.
+struct Rivals {
+  std::int32_t index[kRivals];
+  alignas(64) float distance[kRivals * kCorners];
+};
+
+/// Per lane, the ellipsoid of the least distance at the middle.
+struct LaneLeast {
+  V distance;
+  VI index;
+};
+
+/// The least of all lanes, and the least of the other lanes: good enough for a rival.
+HWY_INLINE void pick_rivals(LaneLeast least, Rivals& out) {
+  alignas(64) std::int32_t index[kWidth];
+  hn::Store(least.index, I(), index);
+  for (std::int32_t& rival : out.index) {
+    const V lowest = hn::MinOfLanes(f, least.distance);
+    const M which = hn::Eq(least.distance, lowest);
+    const auto lane = hn::FindFirstTrue(f, which);
+    rival = index[lane < 0 ? 0 : lane];
+    least.distance = hn::IfThenElse(which, all(1e30f), least.distance);
+  }
+}
+
+/// Of all boxes, which `around` contains.
+template <class Source>
+HWY_INLINE void find_rivals(const Source& source, const Extent& around, const Piece* pieces, int count,
+                            Rivals* out) {
+  LaneLeast least[kBlocks];
+  for (LaneLeast& l : least) l = {all(1e30f), hn::Zero(I())};
+  const VI end = hn::Set(I(), source.end);
+  source.for_vectors(around, source.least_gap(around), [&](int k) {
+    const BallLanes lanes = source.balls(k);
+    const VI index = lanes_from(k);
+    const M real = hn::RebindMask(f, hn::Lt(index, end));
+    for (int i = 0; i < count; ++i) {
+      const V distance = planes_at(lanes, broadcast3(pieces[i].box.middle)).base;
+      const M nearer = hn::And(real, hn::Lt(distance, least[i].distance));
+      least[i].distance = hn::IfThenElse(nearer, distance, least[i].distance);
+      least[i].index = hn::IfThenElse(hn::RebindMask(I(), nearer), index, least[i].index);
+    }
+  });
+  for (int i = 0; i < count; ++i) pick_rivals(least[i], out[i]);
+}
+
+/// Corners [i, i + kWidth) of the box, once for each rival.
+HWY_INLINE V3 corners(const Extent& e, int i) {
+  alignas(64) static constexpr float kSide[3][kRivals * kCorners] = {
+      {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1},
+      {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1},
+      {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1}};
+  const V3 middle = broadcast3(e.middle), half = broadcast3(e.half);
+  return {hn::MulAdd(half.x, hn::Load(f, kSide[0] + i), middle.x),
+          hn::MulAdd(half.y, hn::Load(f, kSide[1] + i), middle.y),
+          hn::MulAdd(half.z, hn::Load(f, kSide[2] + i), middle.z)};
+}
+
+template <class Source>
+HWY_INLINE void measure_corners(const Source& source, const Piece* pieces, int count, Rivals* rivals) {
+  constexpr int kEach = kRivals * kCorners / kWidth;
+  const int vectors = count * kEach;
+  for (int from = 0; from < vectors; from += kTogether) {
+    Shape shapes[kTogether];
+    V3 places[kTogether];
+    Foot feet[kTogether];
+    float* to[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const int which = std::min(from + v, vectors - 1), piece = which / kEach;
+      const int i = which % kEach * kWidth;
+      const std::int32_t* const index = rivals[piece].index;
+      shapes[v] = source.shapes(index[i / kCorners], index[kRivals - 1]);
+      places[v] = corners(pieces[piece].box, i);
+      to[v] = rivals[piece].distance + i;
+    }
+    feet_of(shapes, places, feet);
+    for (int v = 0; v < kTogether; ++v) hn::Store(feet[v].distance, f, to[v]);
+  }
+}
+
+/// By convexity the first rival is nowhere in the boxes farther than this.
+HWY_INLINE float farthest(const Rivals* rivals, int count) {
+  float most = -1e30f;
+  for (int i = 0; i < count; ++i)
+    for (int corner = 0; corner < kCorners; ++corner) most = std::max(most, rivals[i].distance[corner]);
+  return most;
+}
+
+/// Ellipsoids that no rival beats by more than `beyond` at every corner.
+HWY_INLINE M unbeaten(const Planes& at, V3 slope, V3 half, const Rivals& rivals, V beyond) {
+  const V3 reach = {hn::Mul(slope.x, half.x), hn::Mul(slope.y, half.y), hn::Mul(slope.z, half.z)};
+  const V x[2] = {hn::Sub(at.base, reach.x), hn::Add(at.base, reach.x)};
+  V lead[kRivals] = {all(1e30f), all(1e30f)};
+  for (int corner = 0; corner < kCorners; ++corner) {
+    const V xy = corner & 2 ? hn::Add(x[corner & 1], reach.y) : hn::Sub(x[corner & 1], reach.y);
+    const V plane = corner & 4 ? hn::Add(xy, reach.z) : hn::Sub(xy, reach.z);
+    for (int r = 0; r < kRivals; ++r)
+      lead[r] = hn::Min(lead[r], hn::Sub(plane, all(rivals.distance[r * kCorners + corner])));
+  }
+  return hn::Not(hn::And(hn::Gt(hn::Max(lead[0], lead[1]), beyond), hn::Eq(at.base, at.base)));
+}
+
+/// For each piece all ellipsoids of the source, of those within `within_m` of `around`, that keep(bounds,
+/// planes at its middle, piece) keeps, by rising index; false if they are more than kMaxCandidates.
+template <class Source, class Keep>
+HWY_INLINE bool collect_near(const Source& source, const Extent& around, float within_m, const Piece* pieces,
+                             int count, Near* out, Keep&& keep) {
+  for (int i = 0; i < count; ++i) out[i].count = 0;
+  const VI end = hn::Set(I(), source.end);
+  bool fits = true;
+  source.for_vectors(around, within_m, [&](int k) {
+    const BallLanes lanes = source.balls(k);
+    const VI index = lanes_from(k);
+    const M real = hn::RebindMask(f, hn::Lt(index, end));
+    for (int i = 0; i < count; ++i) {
+      Near& to = out[i];
+      const M kept = hn::And(real, keep(lanes, planes_at(lanes, broadcast3(pieces[i].box.middle)), i));
+      const Pack pack(kept);
+      pack.store(index, to.index + to.count);
+      to.count += pack.count();
+      // What comes after a list that is full is written over its end.
+      fits = fits && to.count <= kMaxCandidates;
+      to.count = std::min(to.count, kMaxCandidates);
+    }
+  });
+  return fits;
+}
+
+/// Whether ellipsoids may come within the limit of some place in the box.
+HWY_INLINE M not_beyond(const Planes& at, V3 slope, V3 half, V limit) {
+  // Not above, rather than below: a plane that is NaN bounds nothing.
+  return hn::Not(hn::Gt(hn::Sub(at.base, dot(absolute(slope), half)), limit));
+}
+
+/// For each piece all ellipsoids of the source that its rivals do not keep from being the nearest of a place
+/// in its box, or within `beyond_m` of the nearest, and that may come within `limit_m` of such a place
+/// (kNoLimit: any), by rising index; false if they are more than kMaxCandidates. The boxes lie in `around`.
+template <bool kLimited, class Source>
+HWY_INLINE bool collect_unbeaten(const Source& source, const Extent& around, const Piece* pieces, int count,
+                                 const Rivals* rivals, float beyond_m, float limit_m, Near* out) {
+  const PieceRounding rounding(pieces, count);
+  const auto keep = [&](const BallLanes& lanes, const Planes& at, int i) {
+    const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // a plane's and a rival's
+    const V3 slope = slope_of(lanes, at), half = broadcast3(pieces[i].box.half);
+    const M kept = unbeaten(at, slope, half, rivals[i], beyond);
+    if constexpr (!kLimited) return kept;
+    return hn::And(kept, not_beyond(at, slope, half, all(limit_m + rounding.m[i])));
+  };
+  const float within_m = farthest(rivals, count) + beyond_m;
+  return collect_near(source, around, kLimited ? std::min(within_m, limit_m) : within_m, pieces, count, out,
+                      keep);
+}
+
+template <bool kLimited, class Source>
+HWY_INLINE bool find_near(const Source& source, const Extent& around, const Piece* pieces, int count,
+                          float beyond_m, float limit_m, Near* out) {
+  Rivals rivals[kBlocks];
+  find_rivals(source, around, pieces, count, rivals);
+  measure_corners(source, pieces, count, rivals);
+  return collect_unbeaten<kLimited>(source, around, pieces, count, rivals, beyond_m, limit_m, out);
+}
+
+/// For each piece all ellipsoids of the source whose distance may be below the limit at some place in its
+/// box; false if they are more than kMaxCandidates.
+template <class Source>
+HWY_INLINE bool find_below(const Source& source, const Extent& around, const Piece* pieces, int count,
+                           float limit_m, Near* out) {
+  const PieceRounding rounding(pieces, count);
+  const auto keep = [&](const BallLanes& lanes, const Planes& at, int i) {
+    return not_beyond(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), all(limit_m + rounding.m[i]));
+  };
+  return collect_near(source, around, limit_m, pieces, count, out, keep);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,52 @@
+// What a query asks about only within a limit of the surface need look for.
+#if defined(BODICE_COLLISION_LIMITS_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_LIMITS_INL_
+#undef BODICE_COLLISION_LIMITS_INL_
+#else
+#define BODICE_COLLISION_LIMITS_INL_
+#endif
+
+#include "simd/broad/blocks-inl.hpp"
+#include "simd/ellipsoid/lowest_bounds-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+/// How far is asked for: from the surface, and what that is over the ellipsoids at most.
+struct Limits {
+  float surface_m, plain_m;
+
+  HWY_INLINE Limits(const Baked& baked, const ReliefTables* relief, float limit_m)
+      : surface_m(limit_m + 4.0f * baked.rounding_m), plain_m(surface_m) {
+    if (!relief) return;
+    plain_m = relief->farthest.at_zero_m[0] + relief->farthest.shift_m(surface_m);
+  }
+  /// The same of bounds.
+  HWY_INLINE float of_bounds(const Baked& baked) const {
+    return hn::GetLane(bound_limit(baked, all(plain_m), 0.0f));
+  }
+};
+
+/// share() among what may come within the limits; false also if a place is too far for floats.
+template <class Work>
+HWY_INLINE bool share_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch,
+                             float beyond_m, const Limits& limits, Lists& lists, Work&& work) {
+  const Blocks blocks(batch);
+  if (!blocks.near) return false;
+  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
+  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen feet a
+  // block.
+  const bool close = limits.plain_m <= blocks.pieces[0].box.radius;
+  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
+                        Near* found) {
+    const float below_m = limits.plain_m + beyond_m;
+    if (close) return find_below(source, around, pieces, count, below_m, found);
+    return find_near<true>(source, around, pieces, count, beyond_m, below_m, found);
+  };
+  return share(baked, relief, blocks.pieces, blocks.count, lists, find, work);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

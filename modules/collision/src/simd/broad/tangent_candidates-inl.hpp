@@ -1,0 +1,224 @@
+// Which ellipsoids a block of particles can meet.
+// Since the signed distance to a convex body is convex, its tangent plane at the block's middle q bounds it
+// from below everywhere: d_k(p) >= d_k(q) + n_k . (p - q).
+#if defined(BODICE_COLLISION_CULL_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_CULL_INL_
+#undef BODICE_COLLISION_CULL_INL_
+#else
+#define BODICE_COLLISION_CULL_INL_
+#endif
+
+#include <cstring>
+
+#include "model/batch.hpp"
+#include "model/tolerances.hpp"
+#include "simd/ellipsoid/closest_point-inl.hpp"
+#include "simd/math/pack-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+/// Ellipsoids near a block and their tangent planes at its middle.
+struct Candidates {
+  int count = 0;
+  alignas(64) std::int32_t index[kMaxCandidates + 16];
+  alignas(64) float distance[kMaxCandidates + 16];
+  alignas(64) float nx[kMaxCandidates + 16], ny[kMaxCandidates + 16], nz[kMaxCandidates + 16];
+  float middle[3];
+  float slack_m = 0.0f;   ///< what distances and planes are off by over the block
+  float radius_m = 0.0f;  ///< of the block
+  float reach_m = 0.0f;   ///< pushes up to this long meet no ellipsoid that is not among them
+};
+
+struct Extent {
+  float middle[3], half[3];
+  float radius;
+};
+
+HWY_INLINE void extend(V3& low, V3& high, V3 p) {
+  low = {hn::Min(low.x, p.x), hn::Min(low.y, p.y), hn::Min(low.z, p.z)};
+  high = {hn::Max(high.x, p.x), hn::Max(high.y, p.y), hn::Max(high.z, p.z)};
+}
+
+HWY_INLINE Extent extent_between(V3 low, V3 high) {
+  const float lows[3] = {hn::GetLane(hn::MinOfLanes(f, low.x)), hn::GetLane(hn::MinOfLanes(f, low.y)),
+                         hn::GetLane(hn::MinOfLanes(f, low.z))};
+  const float highs[3] = {hn::GetLane(hn::MaxOfLanes(f, high.x)), hn::GetLane(hn::MaxOfLanes(f, high.y)),
+                          hn::GetLane(hn::MaxOfLanes(f, high.z))};
+  Extent e;
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    e.middle[axis] = 0.5f * lows[axis] + 0.5f * highs[axis];
+    e.half[axis] = 0.5f * highs[axis] - 0.5f * lows[axis];
+    sum += e.half[axis] * e.half[axis];
+  }
+  e.radius = std::sqrt(sum);
+  return e;
+}
+
+/// The smallest box around both.
+HWY_INLINE Extent united(const Extent& a, const Extent& b) {
+  Extent e;
+  float sum = 0.0f;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float low = std::min(a.middle[axis] - a.half[axis], b.middle[axis] - b.half[axis]);
+    const float high = std::max(a.middle[axis] + a.half[axis], b.middle[axis] + b.half[axis]);
+    e.middle[axis] = 0.5f * low + 0.5f * high;
+    e.half[axis] = 0.5f * high - 0.5f * low;
+    sum += e.half[axis] * e.half[axis];
+  }
+  e.radius = std::sqrt(sum);
+  return e;
+}
+
+HWY_INLINE Extent grown(Extent e, float by_m) {
+  float sum = 0.0f;
+  for (float& half : e.half) {
+    half += by_m;
+    sum += half * half;
+  }
+  e.radius = std::sqrt(sum);
+  return e;
+}
+
+/// Whether the second lies in the first.
+HWY_INLINE bool holds(const Extent& a, const Extent& b) {
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis)
+    inside = inside && std::abs(b.middle[axis] - a.middle[axis]) + b.half[axis] <= a.half[axis];
+  return inside;
+}
+
+/// The box of places; `near` tells whether all are within kFarthest, which NaN is not.
+HWY_INLINE Extent extent_of_lanes(const float* x, const float* y, const float* z, int count, bool& near) {
+  const auto load = [&](int i) { return V3{hn::LoadU(f, x + i), hn::LoadU(f, y + i), hn::LoadU(f, z + i)}; };
+  V3 low = load(0), high = low;
+  M within = hn::FirstN(f, kWidth);
+  for (int i = 0; i < count; i += kWidth) {
+    const V3 p = load(i), size = absolute(p);
+    extend(low, high, p);
+    const V most = all(kFarthest);
+    within =
+        hn::And(within, hn::And(hn::Lt(size.x, most), hn::And(hn::Lt(size.y, most), hn::Lt(size.z, most))));
+  }
+  near = hn::AllTrue(f, within);
+  return extent_between(low, high);
+}
+
+/// The box of the particles and, where they have any, of the paths from their safe positions.
+HWY_INLINE Extent extent_of(const Gathering& block) {
+  const int width = static_cast<int>(hn::Lanes(f));
+  V3 low = load3(block.x, block.y, block.z), high = low;
+  for (int i = width; i < block.count; i += width)
+    extend(low, high, load3(block.x + i, block.y + i, block.z + i));
+  for (int i = 0; block.has_safe && i < block.count; i += width)
+    extend(low, high, load3(block.sx + i, block.sy + i, block.sz + i));
+  return extent_between(low, high);
+}
+
+/// What the plane of an ellipsoid, or a distance to it, is off by over the box, however small the ellipsoid.
+HWY_INLINE float rounding_over(const Extent& box) {
+  const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
+  return 2.0f * static_cast<float>(kFloatRounding) * (away + box.radius);
+}
+
+using Corner = std::vector<float>[3];
+
+/// Distance from the block's box to the boxes [k, k + kWidth).
+HWY_INLINE V box_distance(const Corner& low, const Corner& high, const Extent& e, std::size_t k) {
+  V sum = hn::Zero(f);
+  for (int axis = 0; axis < 3; ++axis) {
+    const V below = hn::Sub(hn::LoadU(f, low[axis].data() + k), all(e.middle[axis] + e.half[axis]));
+    const V above = hn::Sub(all(e.middle[axis] - e.half[axis]), hn::LoadU(f, high[axis].data() + k));
+    const V outside = hn::Max(hn::Zero(f), hn::Max(below, above));
+    sum = hn::MulAdd(outside, outside, sum);
+  }
+  return hn::Sqrt(sum);
+}
+
+/// The same to ellipsoids [k, k + kWidth).
+HWY_INLINE V box_distance(const CullArrays& cull, const Extent& e, std::size_t k) {
+  return box_distance(cull.low, cull.high, e, k);
+}
+
+/// Exact distance and normal, at the block's middle, of the ellipsoids whose boxes are within `window` of the
+/// block's; false if they are too many. `least` receives the least distance, or 1e30.
+HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Candidates& out, float& least) {
+  const std::size_t width = hn::Lanes(f);
+  const V3 middle = broadcast3(e.middle);
+  V lowest = all(1e30f);
+  std::memcpy(out.middle, e.middle, sizeof(out.middle));
+  out.count = 0;
+  for (std::size_t k = 0; k < baked.cull.shortest.size(); k += width) {
+    // Inside a box its distance is zero, whatever the depth.
+    const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
+    if (hn::AllFalse(f, near)) continue;
+    if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
+    const Shape shape = consecutive(baked.cull, k);
+    const Foot foot = foot_of(shape, middle);
+    const V3 normal = normal_of(shape, foot);
+    lowest = hn::Min(lowest, hn::IfThenElse(near, foot.distance, all(1e30f)));
+    const VI index = lanes_from(static_cast<int>(k));
+    const int at = out.count;
+    const Pack pack(near);
+    pack.store(foot.distance, out.distance + at);
+    pack.store(normal.x, out.nx + at);
+    pack.store(normal.y, out.ny + at);
+    pack.store(normal.z, out.nz + at);
+    pack.store(index, out.index + at);
+    out.count += pack.count();
+  }
+  least = hn::GetLane(hn::MinOfLanes(f, lowest));
+  return true;
+}
+
+/// Keeps the candidates whose tangent plane comes within `window` of some place of the block's box, and puts
+/// the one nearest to its middle first.
+HWY_INLINE void keep_within(const Extent& e, float window, Candidates& c) {
+  int kept = 0, nearest = 0;
+  for (int i = 0; i < c.count; ++i) {
+    const float reach =
+        std::abs(c.nx[i]) * e.half[0] + std::abs(c.ny[i]) * e.half[1] + std::abs(c.nz[i]) * e.half[2];
+    if (c.distance[i] - reach > window) continue;
+    c.index[kept] = c.index[i];
+    c.distance[kept] = c.distance[i];
+    c.nx[kept] = c.nx[i];
+    c.ny[kept] = c.ny[i];
+    c.nz[kept] = c.nz[i];
+    if (c.distance[kept] < c.distance[nearest]) nearest = kept;
+    ++kept;
+  }
+  c.count = kept;
+  if (nearest == 0) return;
+  std::swap(c.index[0], c.index[nearest]);
+  std::swap(c.distance[0], c.distance[nearest]);
+  std::swap(c.nx[0], c.nx[nearest]);
+  std::swap(c.ny[0], c.ny[nearest]);
+  std::swap(c.nz[0], c.nz[nearest]);
+}
+
+/// All ellipsoids that a particle of the block is below the clearance of, or can be pushed into.
+HWY_INLINE bool cull_for_response(const Baked& baked, const Gathering& block, float clearance_m,
+                                  Candidates& out) {
+  const Extent e = extent_of(block);
+  out.radius_m = e.radius;
+  const float slack = out.slack_m = baked.rounding_m + rounding_over(e);
+  float least;
+  if (!tangents(baked, e, clearance_m + slack, out, least)) return false;
+  const float depth = clearance_m + slack - (least - e.radius);
+  if (out.count == 0 || depth <= 0.0f) {
+    out.count = 0;
+    return true;
+  }
+  // A push can be longer than the depth where surfaces meet; the exact side takes what is longer than this.
+  out.reach_m = 1.5f * depth;
+  const float window = clearance_m + out.reach_m + slack;
+  if (!tangents(baked, e, window, out, least)) return false;
+  keep_within(e, window, out);
+  return true;
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

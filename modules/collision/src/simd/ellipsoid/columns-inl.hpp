@@ -1,0 +1,177 @@
+// A different ellipsoid a lane: those of a block as the columns of a small table, read by permutation.
+// Sixteen gathers of memory take several times as long as the foot that they are for.
+#if defined(BODICE_COLLISION_LOOKUP_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_LOOKUP_INL_
+#undef BODICE_COLLISION_LOOKUP_INL_
+#else
+#define BODICE_COLLISION_LOOKUP_INL_
+#endif
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "model/batch.hpp"
+#include "simd/ellipsoid/closest_point-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+#if HWY_TARGET == HWY_SCALAR
+/// Copies kFloats numbers of each of four structures into a column each.
+template <int kFloats, int kStride>
+HWY_INLINE void put_four(const float* const (&from)[4], float* to) {
+  for (int i = 0; i < kFloats; ++i)
+    for (int c = 0; c < 4; ++c) to[i * kStride + c] = from[c][i];
+}
+#else
+template <int kFloats, int kStride>
+HWY_INLINE void put_four(const float* const (&from)[4], float* to) {
+  constexpr hn::FixedTag<float, 4> four;
+  static_assert(kFloats % 4 == 0);
+  for (int i = 0; i < kFloats; i += 4) {
+    const auto a = hn::LoadU(four, from[0] + i), b = hn::LoadU(four, from[1] + i);
+    const auto c = hn::LoadU(four, from[2] + i), d = hn::LoadU(four, from[3] + i);
+    const auto ac = hn::InterleaveLower(four, a, c), bd = hn::InterleaveLower(four, b, d);
+    const auto ac2 = hn::InterleaveUpper(four, a, c), bd2 = hn::InterleaveUpper(four, b, d);
+    float* const row = to + i * kStride;
+    hn::StoreU(hn::InterleaveLower(four, ac, bd), four, row);
+    hn::StoreU(hn::InterleaveUpper(four, ac, bd), four, row + kStride);
+    hn::StoreU(hn::InterleaveLower(four, ac2, bd2), four, row + 2 * kStride);
+    hn::StoreU(hn::InterleaveUpper(four, ac2, bd2), four, row + 3 * kStride);
+  }
+}
+#endif
+
+/// The candidates of some blocks, a column each; rows are the members of BakedEllipsoid, of BakedTable
+/// (relief only) and of BallMap, all as floats or the bits of integers.
+class Columns {
+ public:
+  static constexpr int kBallRows = sizeof(BallMap) / sizeof(float);
+  static constexpr int kTable = kBakedFloats, kBall = kTable + kTableFloats, kRows = kBall + kBallRows;
+  static constexpr int kName = kBakedFloats - 1, kBallName = kBall + kBallRows - 1;
+  /// Which rows are filled beside those of tables.
+  enum class Rows { kAll, kFeet, kBalls };
+
+  HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
+                       int count, Rows rows = Rows::kAll) {
+    count_ = count;
+    ellipsoids_ = ellipsoids;
+    if (count <= kPad)
+      fill_by<kPad>(baked, relief, rows);
+    else if (count <= 2 * kPad)
+      fill_by<2 * kPad>(baked, relief, rows);
+    else
+      fill_by<kWidest>(baked, relief, rows);
+  }
+  int count() const { return count_; }
+  /// Of the proxy's, which column i holds.
+  std::size_t ellipsoid(int i) const { return static_cast<std::size_t>(ellipsoids_[i]); }
+  const std::int32_t* ellipsoids() const { return ellipsoids_; }
+  const float* row(int i) const { return values_ + i * stride_; }
+
+ private:
+  static constexpr int kPad = 16;
+  // Not a power of two: rows of one column would share their few places in the cache.
+  static constexpr int kWidest = kMaxCandidates + kPad;
+
+  // The stride is a constant, so that the copies become plain moves.
+  template <int kStride>
+  HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, Rows rows) {
+    stride_ = kStride;
+    for (int c = 0; c < count_; c += 4) {
+      if (rows != Rows::kBalls) put<kStride>(baked.ellipsoids, c, values_);
+      if (relief) put<kStride>(relief->tables, c, values_ + kTable * kStride);
+      if (rows != Rows::kFeet) put<kStride>(baked.balls, c, values_ + kBall * kStride);
+    }
+  }
+  /// Columns [c, c + 4), those beyond the last as the last.
+  template <int kStride, class Member>
+  HWY_INLINE void put(const std::vector<Member>& members, int c, float* to) {
+    const auto numbers = [&](int i) {
+      return reinterpret_cast<const float*>(&members[ellipsoid(std::min(c + i, count_ - 1))]);
+    };
+    put_four<sizeof(Member) / sizeof(float), kStride>({numbers(0), numbers(1), numbers(2), numbers(3)},
+                                                      to + c);
+  }
+
+  alignas(64) float values_[kRows * kWidest];
+  const std::int32_t* ellipsoids_ = nullptr;
+  int stride_ = 0, count_ = 0;
+};
+
+/// Vectors of columns that permutations read, and so many columns; more are read by gathers, which a single
+/// lane does not need.
+constexpr int kMostTables = kWidth < 16 ? 4 : 2;
+constexpr int kPermuted = kWidth == 1 ? kMaxCandidates : kMostTables * kWidth;
+
+/// Reads the columns' rows by lane. kTables: vectors that a row takes, 1, 2 or kMostTables; 0: more.
+template <int kTables>
+class Lookup {
+ public:
+#if HWY_TARGET == HWY_SCALAR
+  explicit HWY_INLINE Lookup(VI column) : column_(hn::GetLane(column)) {}
+  HWY_INLINE V operator()(const float* row) const {
+    return all(row[column_]);
+  }
+
+ private:
+  std::int32_t column_;
+#else
+  explicit HWY_INLINE Lookup(VI column)
+      : column_(column), index_(hn::IndicesFromVec(f, hn::And(column, hn::Set(I(), kWidth - 1)))) {
+    for (int t = 1; t < kTables; ++t)
+      beyond_[t - 1] = hn::RebindMask(f, hn::Gt(column, hn::Set(I(), t * kWidth - 1)));
+  }
+  HWY_INLINE V operator()(const float* row) const {
+    if constexpr (kTables == 0) return hn::GatherIndex(f, row, column_);
+#if HWY_TARGET == HWY_AVX3
+    // One instruction, which Highway 1.0 has no name for.
+    if constexpr (kTables == 2)
+      return V{_mm512_permutex2var_ps(hn::Load(f, row).raw, column_.raw, hn::Load(f, row + kWidth).raw)};
+#endif
+    V value = hn::TableLookupLanes(hn::Load(f, row), index_);
+    for (int t = 1; t < kTables; ++t)
+      value =
+          hn::IfThenElse(beyond_[t - 1], hn::TableLookupLanes(hn::Load(f, row + t * kWidth), index_), value);
+    return value;
+  }
+
+ private:
+  VI column_;
+  decltype(hn::IndicesFromVec(f, VI())) index_;
+  M beyond_[kTables > 1 ? kTables - 1 : 1];
+#endif
+};
+
+template <int kTables>
+HWY_INLINE Shape shape_of(const Columns& columns, VI column) {
+  const Lookup<kTables> at(column);
+  const auto row = [&](int i) { return at(columns.row(i)); };
+  const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
+  return {row3(0), row3(3), row3(6), row3(9), row(12), row(13), row(14), row(15), row(16), row(17), row(18)};
+}
+
+template <int kTables>
+HWY_INLINE VI names_of(const Columns& columns, VI column) {
+  return hn::BitCast(I(), Lookup<kTables>(column)(columns.row(Columns::kName)));
+}
+
+/// Calls work with the number of tables as a constant.
+template <class Work>
+HWY_INLINE void with_tables(const Columns& columns, Work&& work) {
+  if constexpr (kWidth == 1) return work(std::integral_constant<int, 0>());
+  if (columns.count() <= kWidth)
+    work(std::integral_constant<int, 1>());
+  else if (columns.count() <= 2 * kWidth)
+    work(std::integral_constant<int, 2>());
+  else if (kMostTables > 2 && columns.count() <= kPermuted)
+    work(std::integral_constant<int, kMostTables>());
+  else
+    work(std::integral_constant<int, 0>());
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,110 @@
+// One answer a particle, out of those of its ellipsoids.
+#if defined(BODICE_COLLISION_COMBINE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_COMBINE_INL_
+#undef BODICE_COLLISION_COMBINE_INL_
+#else
+#define BODICE_COLLISION_COMBINE_INL_
+#endif
+
+#include <bit>
+#include <cstring>
+
+#include "simd/broad/blocks-inl.hpp"
+#include "simd/narrow/pairs-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+using Batched = Answers<kBatch>;
+
+/// Plain ellipsoids: the nearest; of equals, that of the lowest index.
+HWY_INLINE void combine_nearest(const Pairs& pairs, Batched& out) {
+  const auto& a = pairs.answers;
+  for (int i = 0; i < pairs.count; ++i) {
+    // Without a branch: which of two neighbors is the nearer cannot be foretold.
+    const int lane = pairs.lane[i];
+    const float d = a.distance[i], least = out.distance[lane];
+    const bool nearer = (d < least) | ((d == least) & (a.name[i] < out.name[lane]));
+    out.distance[lane] = nearer ? d : least;
+    out.gx[lane] = nearer ? a.gx[i] : out.gx[lane];
+    out.gy[lane] = nearer ? a.gy[i] : out.gy[lane];
+    out.gz[lane] = nearer ? a.gz[i] : out.gz[lane];
+    out.name[lane] = nearer ? a.name[i] : out.name[lane];
+  }
+}
+
+/// Of each lane that one of its pairs is nearer to: that distance, and the name of the nearest.
+HWY_INLINE void find_nearer(const Pairs& pairs, float* least, Batched& out) {
+  const auto& a = pairs.answers;
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    const V first = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
+    const M maybe = hn::And(hn::Le(hn::Load(f, a.distance + i), first), lanes_below(i, pairs.count));
+    // Few, as bounds tell the nearest nearly always; a lane may be among them more than once.
+    for (std::uint64_t left = bits(maybe); left != 0; left &= left - 1) {
+      const int k = i + std::countr_zero(left), lane = pairs.lane[k];
+      const bool farther = a.distance[k] > least[lane];
+      if (farther || (a.distance[k] == least[lane] && a.name[k] > out.name[lane])) continue;
+      least[lane] = a.distance[k];
+      out.name[lane] = a.name[k];
+    }
+  }
+}
+
+/// Weighted numbers, the four of a lane side by side, so that adding those of a pair takes one instruction.
+struct alignas(64) WeightedRows {
+  static constexpr int kNumbers = 4;  // value and gradient
+  float row[Pairs::kSize * kNumbers];
+  float weight[Pairs::kSize];
+
+  template <int kSize>
+  HWY_INLINE void put(const Answers<kSize>& of, V weights, int i) {
+    const auto weighted = [&](const float* values) { return hn::Mul(hn::Load(f, values + i), weights); };
+    hn::Store(weights, f, weight + i);
+    hn::StoreInterleaved4(weighted(of.value), weighted(of.gx), weighted(of.gy), weighted(of.gz), f,
+                          row + kNumbers * i);
+  }
+  HWY_INLINE void add(int lane, const WeightedRows& other, int i) {
+    weight[lane] += other.weight[i];
+    float* const to = row + kNumbers * lane;
+    const float* const from = other.row + kNumbers * i;
+#if HWY_TARGET == HWY_SCALAR
+    for (int k = 0; k < kNumbers; ++k) to[k] += from[k];
+#else
+    constexpr hn::FixedTag<float, kNumbers> four;
+    hn::Store(hn::Add(hn::Load(four, to), hn::Load(four, from)), four, to);
+#endif
+  }
+};
+
+/// Relief, for the lanes [begin, end): all within the blending of the nearest, weighted; distance and
+/// unit gradient of the blend, the name of the nearest; `value` becomes the gradient's length.
+HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, const Pairs& pairs,
+                                Batched& out) {
+  alignas(64) float least[kBatch];
+  WeightedRows sums, of_pairs;
+  const V per_blend = all(1.0f / relief.blend_m);
+  std::memcpy(least + begin, out.distance + begin, static_cast<std::size_t>(end - begin) * sizeof(float));
+  find_nearer(pairs, least, out);
+  for (int i = begin; i < end; i += kWidth)
+    sums.put(out, blend_weight(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend), i);
+  for (int i = 0; i < pairs.count; i += kWidth) {
+    const V near = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
+    of_pairs.put(pairs.answers, blend_weight(hn::Load(f, pairs.answers.distance + i), near, per_blend), i);
+  }
+  for (int i = 0; i < pairs.count; ++i) sums.add(pairs.lane[i], of_pairs, i);
+  for (int i = begin; i < end; i += kWidth) {
+    V value;
+    V3 sum;
+    hn::LoadInterleaved4(f, sums.row + WeightedRows::kNumbers * i, value, sum.x, sum.y, sum.z);
+    const V per_weight = reciprocal(hn::Load(f, sums.weight + i));
+    hn::Store(hn::Mul(value, per_weight), f, out.distance + i);
+    const V norm2 = dot(sum, sum), per_norm = inverse_sqrt(hn::Max(norm2, all(kLeastNorm2)));
+    store3(scaled(sum, per_norm), out.gx + i, out.gy + i, out.gz + i);
+    hn::Store(hn::Mul(hn::Mul(norm2, per_norm), per_weight), f, out.value + i);
+  }
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,109 @@
+// From lanes to the caller's contacts.
+#if defined(BODICE_COLLISION_CONTACTS_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_CONTACTS_INL_
+#undef BODICE_COLLISION_CONTACTS_INL_
+#else
+#define BODICE_COLLISION_CONTACTS_INL_
+#endif
+
+#include <algorithm>
+
+#include "model/batch.hpp"
+#include "simd/math/vec3-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+static_assert(sizeof(Contact) == 8 * sizeof(float));
+
+#if HWY_TARGET != HWY_SCALAR
+/// Rows of four numbers out of four columns: row k of each block of four particles.
+HWY_INLINE void rows_of_four(V a, V b, V c, V d, V (&row)[4]) {
+  const V ac = hn::InterleaveLower(f, a, c), bd = hn::InterleaveLower(f, b, d);
+  const V ac2 = hn::InterleaveUpper(f, a, c), bd2 = hn::InterleaveUpper(f, b, d);
+  row[0] = hn::InterleaveLower(f, ac, bd);
+  row[1] = hn::InterleaveUpper(f, ac, bd);
+  row[2] = hn::InterleaveLower(f, ac2, bd2);
+  row[3] = hn::InterleaveUpper(f, ac2, bd2);
+}
+#endif
+
+/// One a lane.
+struct ContactLanes {
+  V distance;
+  V3 point, normal;
+  VI name;
+};
+
+/// Stores them, the first where `to(0)` points: transposed in registers, a contact or half of one a store.
+template <class To>
+HWY_INLINE void store_contacts(const ContactLanes& c, To&& to) {
+  const auto floats = [&](int lane) { return &to(lane)->signed_distance; };
+  const V name = hn::BitCast(f, c.name);
+#if HWY_TARGET == HWY_SCALAR
+  const V values[8] = {c.distance, c.point.x, c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, name};
+  for (int i = 0; i < 8; ++i) floats(0)[i] = hn::GetLane(values[i]);
+#else
+  V first[4], second[4];
+  rows_of_four(c.distance, c.point.x, c.point.y, c.point.z, first);
+  rows_of_four(c.normal.x, c.normal.y, c.normal.z, name, second);
+  for (int k = 0; k < 4; ++k) {
+    if constexpr (kWidth == 4) {
+      hn::StoreU(first[k], f, floats(k));
+      hn::StoreU(second[k], f, floats(k) + 4);
+    } else {
+      const V even = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(second[k]), first[k]);
+      const V odd = hn::OddEvenBlocks(second[k], hn::SwapAdjacentBlocks(first[k]));
+      if constexpr (kWidth == 8) {
+        hn::StoreU(even, f, floats(k));
+        hn::StoreU(odd, f, floats(4 + k));
+      } else {
+        const hn::Half<F> half;
+        hn::StoreU(hn::LowerHalf(half, even), half, floats(k));
+        hn::StoreU(hn::LowerHalf(half, odd), half, floats(4 + k));
+        hn::StoreU(hn::UpperHalf(half, even), half, floats(8 + k));
+        hn::StoreU(hn::UpperHalf(half, odd), half, floats(12 + k));
+      }
+    }
+  }
+#endif
+}
+
+/// What is farther than was asked for is told nothing.
+HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
+  const Contact none = no_contact();
+  const M told = hn::Le(c.distance, all(within_m));
+  c.distance = hn::IfThenElse(told, c.distance, all(none.signed_distance));
+  c.point = select(told, c.point, broadcast3(none.point));
+  c.normal = select(told, c.normal, broadcast3(none.normal));
+  c.name = hn::IfThenElse(hn::RebindMask(I(), told), c.name,
+                          hn::Set(I(), static_cast<std::int32_t>(none.ellipsoid)));
+}
+
+HWY_INLINE Contact& contact_of(const QueryBatch& batch, int lane) {
+  return batch.contacts[batch.index ? batch.index[lane] : static_cast<std::uint32_t>(lane)];
+}
+
+/// Those of the lanes [i, i + kWidth) that are below the end.
+HWY_INLINE void write_contacts(const ContactLanes& c, const QueryBatch& batch, int i, int end) {
+  if (end - i < kWidth) {
+    alignas(64) Contact last[kWidth];
+    store_contacts(c, [&](int lane) { return last + lane; });
+    for (int lane = i; lane < end; ++lane) contact_of(batch, lane) = last[lane - i];
+  } else if (batch.index) {
+    store_contacts(c, [&](int lane) { return batch.contacts + batch.index[i + lane]; });
+  } else {
+    store_contacts(c, [&](int lane) { return batch.contacts + i + lane; });
+  }
+}
+
+/// For the lanes [begin, end).
+HWY_INLINE void write_none(const QueryBatch& batch, int begin, int end) {
+  const Contact none = no_contact();
+  for (int lane = begin; lane < end; ++lane) contact_of(batch, lane) = none;
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,192 @@
+// The proxy's distance at every particle of a batch, to first order: the ellipsoid whose first-order distance
+// is the least, and the plane that touches it where one step of Newton's leads from there. A foot takes twice
+// as long, and telling for certain which of two ellipsoids is the nearer as long again.
+// Based on: Gabriel Taubin. Distance Approximations for Rasterizing Implicit Curves. ACM TOG 13(1), 1994, for
+// the first-order distance (|u|^2 - 1) / |grad |u|^2|, u the place where the ellipsoid is the unit ball.
+#if defined(BODICE_COLLISION_FIRST_ORDER_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_FIRST_ORDER_INL_
+#undef BODICE_COLLISION_FIRST_ORDER_INL_
+#else
+#define BODICE_COLLISION_FIRST_ORDER_INL_
+#endif
+
+#include "simd/broad/cached_candidates-inl.hpp"
+#include "simd/broad/limits-inl.hpp"
+#include "simd/ellipsoid/relief_table-inl.hpp"
+#include "simd/narrow/contacts-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+constexpr float kMostSlope2 = 1e37f;
+
+HWY_INLINE V within_range(V slope2) {
+  return hn::Min(hn::Max(slope2, all(kLeastSlope2)), all(kMostSlope2));
+}
+
+/// Twice the first-order distance of one ellipsoid, meters, to the share kEstimate of itself. Not above
+/// lower_bound(), an estimate of a root cheaper, and a little better at telling the nearest.
+HWY_INLINE V twice_first_order(const BallMap& e, V3 p) {
+  const V3 u = in_ball(e, p);
+  const V excess = hn::MulAdd(u.x, u.x, hn::MulAdd(u.y, u.y, hn::MulSub(u.z, u.z, all(1.0f))));
+  return hn::Mul(excess, estimated_inverse_sqrt(within_range(slope_square(e, u))));
+}
+
+/// A plane that touches an ellipsoid, one problem a lane.
+struct Tangent {
+  V distance;  ///< of the particle, meters: not above that to the ellipsoid, but for rounding
+  V3 normal;   ///< outward, unit, local frame
+  V3 w;        ///< where it touches: direction on the unit sphere, axes of the proxy
+  V3 shrink;   ///< r_j^2 / (t + r_j^2), t as one step has it
+};
+
+/// Along the shortest axis, the last of equals.
+HWY_INLINE V3 shortest_axis(const BallLanes& e) {
+  const V3 i = e.inverse_radius;
+  const V one = all(1.0f);
+  const M z = hn::Ge(i.z, hn::Max(i.x, i.y)), y = hn::AndNot(z, hn::Ge(i.y, i.x));
+  return {hn::IfThenElseZero(hn::Not(hn::Or(z, y)), one), hn::IfThenElseZero(y, one),
+          hn::IfThenElseZero(z, one)};
+}
+
+/// The quotients r_j^2 / (t + r_j^2) to first order, t by one step on |w|^2 from the surface, t = 0.
+HWY_INLINE V3 shrink_of(const BallLanes& e, V3 u, V square) {
+  const V3 i = e.inverse_radius;
+  const V3 v = {hn::Mul(u.x, i.x), hn::Mul(u.y, i.y), hn::Mul(u.z, i.z)};
+  const V excess = hn::Mul(all(0.5f), hn::Sub(square, all(1.0f)));
+  const V t = hn::Mul(excess, estimated_reciprocal(within_range(dot(v, v))));
+  const auto quotient = [&](V inverse) {
+    return hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Mul(t, inverse), inverse, all(1.0f)));
+  };
+  return {quotient(i.x), quotient(i.y), quotient(i.z)};
+}
+
+/// In the direction w = diag(r / (t + r^2)) y of the foot. Any unit w has the distance (w . u - 1) / |grad|
+/// to its plane, so that what w is off by counts by its square. Several vectors in step, as feet_of().
+template <int kCount>
+HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount], Tangent (&out)[kCount]) {
+  V3 u[kCount];
+  M center[kCount], any = hn::FirstN(f, 0);
+#pragma GCC unroll 4
+  for (int k = 0; k < kCount; ++k) {
+    u[k] = in_ball(e[k], p[k]);
+    const V square = dot(u[k], u[k]);
+    const V3 shrink = out[k].shrink = shrink_of(e[k], u[k], square);
+    out[k].w = {hn::Mul(u[k].x, shrink.x), hn::Mul(u[k].y, shrink.y), hn::Mul(u[k].z, shrink.z)};
+    center[k] = hn::Lt(square, all(kLeastSquare));
+    any = hn::Or(any, center[k]);
+  }
+  if (HWY_UNLIKELY(!hn::AllFalse(f, any)))
+    for (int k = 0; k < kCount; ++k) out[k].w = select(center[k], shortest_axis(e[k]), out[k].w);
+#pragma GCC unroll 4
+  for (int k = 0; k < kCount; ++k) {
+    const V3 w = out[k].w = scaled(out[k].w, inverse_sqrt(dot(out[k].w, out[k].w)));
+    const V3 slope = along(along(scaled(e[k].a0, w.x), w.y, e[k].a1), w.z, e[k].a2);
+    const V per_slope = inverse_sqrt(dot(slope, slope));
+    out[k].distance = hn::Mul(hn::Sub(dot(w, u[k]), all(1.0f)), per_slope);
+    out[k].normal = scaled(slope, per_slope);
+  }
+}
+
+/// The ellipsoid's own table on top, unblended: as corrected(), with t and quotients as the tangent has them.
+HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BallLanes& e,
+                        Tangent& at) {
+  constexpr float kMostShrink = 1e6f;  // next to the center
+  const V3 i = e.inverse_radius, w = absolute(at.w), signs = signs_of(at.w);
+  const Correction by = correction(relief, table, {w, signs}, at.distance);
+  const auto limited = [](V shrink) { return hn::Min(shrink, all(kMostShrink)); };
+  const V3 shrink = {limited(at.shrink.x), limited(at.shrink.y), limited(at.shrink.z)};
+  const V3 we = {hn::Mul(w.x, hn::Mul(hn::Mul(i.x, i.x), shrink.x)),
+                 hn::Mul(w.y, hn::Mul(hn::Mul(i.y, i.y), shrink.y)),
+                 hn::Mul(w.z, hn::Mul(hn::Mul(i.z, i.z), shrink.z))};
+  const V ratio = hn::Mul(dot(by.slope, we), reciprocal(within_range(dot(w, we))));
+  const V3 octant = {hn::Mul(shrink.x, hn::NegMulAdd(w.x, ratio, by.slope.x)),
+                     hn::Mul(shrink.y, hn::NegMulAdd(w.y, ratio, by.slope.y)),
+                     hn::Mul(shrink.z, hn::NegMulAdd(w.z, ratio, by.slope.z))};
+  const V3 side = with_signs(octant, signs);
+  const V3 gradient =
+      scaled(at.normal, by.along_normal) - along(along(scaled(e.a0, side.x), side.y, e.a1), side.z, e.a2);
+  at.distance = hn::Sub(at.distance, by.value);
+  at.normal = scaled(gradient, inverse_sqrt(within_range(dot(gradient, gradient))));
+}
+
+template <int kTables>
+HWY_INLINE BallLanes balls_of(const Columns& columns, VI column) {
+  const Lookup<kTables> at(column);
+  return ball_lanes([&](int i) { return at(columns.row(Columns::kBall + i)); });
+}
+
+/// Vectors of particles in step. What a vector needs beside its ellipsoid is little, so that narrow ones
+/// share the reading of each by more.
+constexpr int kAtOnce = kWidth < 16 ? 4 : 2;
+static_assert(KeptBatch::kSpan % (kAtOnce * kWidth) == 0);
+
+/// The contacts of one piece.
+template <int kTables, bool kRelief>
+HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                           const Piece& piece, const Near& near, const Columns& columns) {
+  const V margin = all(batch.margin_m);
+  const bool limited = batch.limited();
+  for (int from = piece.begin; from < piece.end; from += kAtOnce * kWidth) {
+    V3 p[kAtOnce];
+    V least[kAtOnce];
+    load_step(batch, from, p);
+    for (V& l : least) l = all(kNoLimit);
+    for (int i = 0; i < near.count; ++i) {
+      const BallMap& e = baked.balls[columns.ellipsoid(near.index[i])];
+      const VI rank = hn::Set(I(), near.index[i]);
+      for (int v = 0; v < kAtOnce; ++v)
+        least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
+    }
+    VI column[kAtOnce];
+    BallLanes e[kAtOnce];
+    Tangent at[kAtOnce];
+#pragma GCC unroll 4
+    for (int v = 0; v < kAtOnce; ++v) {
+      column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
+      e[v] = balls_of<kTables>(columns, column[v]);
+    }
+    tangents_of(e, p, at);
+#pragma GCC unroll 4
+    for (int v = 0; v < kAtOnce; ++v)
+      if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v]), e[v], at[v]);
+    for (int v = 0; v < kAtOnce; ++v) {
+      const V d = hn::Sub(at[v].distance, margin);
+      const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBallName));
+      ContactLanes c = {d, along(p[v], hn::Neg(d), at[v].normal), at[v].normal, hn::BitCast(I(), name)};
+      if (limited) hide_beyond(batch.within_m, c);
+      write_contacts(c, batch, from + v * kWidth, piece.end);
+    }
+  }
+}
+
+/// False, and contacts are as they were or done, if a place is too far for floats or too many ellipsoids are
+/// near.
+inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
+  Lists lists;
+  const Limits limits(baked, relief, std::min(batch.within_m + batch.margin_m, kNoLimit));
+  const float rounding_m = 4.0f * baked.rounding_m;
+  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
+                        const Near* near) {
+    for (int i = 0; i < count; ++i)
+      if (near[i].count == 0)
+        write_none(batch, pieces[i].begin, pieces[i].end);
+      else if (relief)
+        tell_piece<tables(), true>(baked, relief, batch, pieces[i], near[i], columns);
+      else
+        tell_piece<tables(), false>(baked, relief, batch, pieces[i], near[i], columns);
+    return true;
+  };
+  // What is kept serves exact queries, too, which blend.
+  const float blend_m = relief ? relief->blend_m : 0.0f;
+  if (is_kept(baked, relief, blend_m + rounding_m, batch, lists))
+    return share_kept(baked, relief, batch, rounding_m, limits.of_bounds(baked), Columns::Rows::kBalls, lists,
+                      work);
+  if (batch.limited()) write_none(batch, 0, batch.count);  // what has no candidates is not come back to
+  return share_within(baked, relief, batch, rounding_m, limits, lists, work);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,111 @@
+// Pairs of a particle and an ellipsoid, each evaluated exactly, a whole vector of them at a time.
+#if defined(BODICE_COLLISION_PAIRS_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_PAIRS_INL_
+#undef BODICE_COLLISION_PAIRS_INL_
+#else
+#define BODICE_COLLISION_PAIRS_INL_
+#endif
+
+#include <cstdint>
+
+#include "model/batch.hpp"
+#include "simd/ellipsoid/columns-inl.hpp"
+#include "simd/ellipsoid/relief_table-inl.hpp"
+#include "simd/math/pack-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+/// What one ellipsoid says about each of kSize particles.
+template <int kSize>
+struct alignas(64) Answers {
+  float distance[kSize];  ///< to the ellipsoid, meters
+  float value[kSize];     ///< relief only: the corrected distance, meters
+  float gx[kSize], gy[kSize],
+      gz[kSize];             ///< its gradient: the unit normal without relief
+  std::int32_t name[kSize];  ///< the proxy's index of the ellipsoid
+};
+
+/// The answers to one vector of particles, each about the ellipsoid of its column.
+struct Answer {
+  V distance, value;
+  V3 gradient;
+  VI name;
+};
+
+/// Several vectors in step.
+template <int kTables, int kCount>
+HWY_INLINE void answer_each(const ReliefTables* relief, const Columns& columns, const VI (&column)[kCount],
+                            const V3 (&p)[kCount], Answer (&out)[kCount]) {
+  Shape shape[kCount];
+  Foot foot[kCount];
+  for (int i = 0; i < kCount; ++i) shape[i] = shape_of<kTables>(columns, column[i]);
+  feet_of(shape, p, foot);
+  for (int i = 0; i < kCount; ++i) {
+    const VI name = names_of<kTables>(columns, column[i]);
+    if (relief) {
+      const TableLanes table = table_of<kTables>(columns, column[i]);
+      const Corrected one =
+          corrected(*relief, table, shape[i], foot[i], [&] { return axes_of<kTables>(columns, column[i]); });
+      out[i] = {foot[i].distance, one.value, one.gradient, name};
+    } else {
+      out[i] = {foot[i].distance, foot[i].distance, normal_of(shape[i], foot[i]), name};
+    }
+  }
+}
+
+template <int kSize>
+HWY_INLINE void put(const Answer& a, bool relief, Answers<kSize>& to, int i) {
+  hn::Store(a.distance, f, to.distance + i);
+  if (relief) hn::Store(a.value, f, to.value + i);
+  store3(a.gradient, to.gx + i, to.gy + i, to.gz + i);
+  hn::Store(a.name, I(), to.name + i);
+}
+
+/// Of some blocks that share columns.
+struct Pairs {
+  static constexpr int kCapacity = 1024;
+  static constexpr int kSize = kCapacity + 32;
+  alignas(64) std::int32_t lane[kSize];
+  alignas(64) std::int32_t column[kSize];
+  Answers<kSize> answers;
+  int count = 0;
+
+  bool fit(int vectors) const { return count + vectors * kWidth <= kCapacity; }
+  /// The lanes of `mask`, each with its column.
+  HWY_INLINE void add(M mask, VI lanes, VI columns) {
+    const Pack pack(mask);
+    pack.store(lanes, lane + count);
+    pack.store(columns, column + count);
+    count += pack.count();
+  }
+};
+
+template <int kTables>
+HWY_INLINE void answer_pairs(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch,
+                             Pairs& pairs) {
+  if (pairs.count == 0) return;
+  // What the last vectors hold beyond the count must be valid pairs, too.
+  for (int v = 0; v < kTogether; ++v) {
+    hn::StoreU(hn::Set(I(), pairs.lane[0]), I(), pairs.lane + pairs.count + v * kWidth);
+    hn::StoreU(hn::Zero(I()), I(), pairs.column + pairs.count + v * kWidth);
+  }
+  for (int from = 0; from < pairs.count; from += kTogether * kWidth) {
+    VI column[kTogether];
+    V3 p[kTogether];
+    Answer answers[kTogether];
+    for (int v = 0; v < kTogether; ++v) {
+      const VI lane = hn::Load(I(), pairs.lane + from + v * kWidth);
+      column[v] = hn::Load(I(), pairs.column + from + v * kWidth);
+      p[v] = {hn::GatherIndex(f, batch.x, lane), hn::GatherIndex(f, batch.y, lane),
+              hn::GatherIndex(f, batch.z, lane)};
+    }
+    answer_each<kTables>(relief, columns, column, p, answers);
+    for (int v = 0; v < kTogether; ++v) put(answers[v], relief != nullptr, pairs.answers, from + v * kWidth);
+  }
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,145 @@
+// Particles on their way out: all that were reached, and those of them that a round pushes, closed up.
+#if defined(BODICE_COLLISION_PUSHED_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_PUSHED_INL_
+#undef BODICE_COLLISION_PUSHED_INL_
+#else
+#define BODICE_COLLISION_PUSHED_INL_
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+#include "model/batch.hpp"
+#include "simd/broad/blocks-inl.hpp"
+#include "simd/math/pack-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+/// The particles that were reached on their way out, an array a number.
+struct alignas(64) Way {
+  std::int32_t owner[kBatch];                   ///< where it began; internal index, -1: no contact
+  float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
+  float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< contact planes
+  float n2x[kBatch], n2y[kBatch], n2z[kBatch];
+  float n3x[kBatch], n3y[kBatch], n3z[kBatch];
+  float offset1[kBatch], offset2[kBatch], offset3[kBatch];
+  std::int32_t of2[kBatch], of3[kBatch];  ///< whose planes the second and third are; -1: not in force
+  LaneBits open;                          ///< not settled
+  std::uint32_t rounds = 0;
+
+  /// Of the second and third planes the rest means nothing then.
+  HWY_INLINE void clear_others() {
+    for (std::int32_t* values : {of2, of3}) std::memset(values, 0xFF, sizeof(of2));
+  }
+};
+
+struct Below;
+
+/// Where a push leads, and the plain ellipsoids that it puts clear of; -1: none, or not for certain.
+struct Push {
+  V3 to;
+  VI clear1, clear2, clear3;
+};
+
+/// The lanes that were pushed in a round, closed up.
+struct alignas(64) Pushed {
+  static constexpr int kSize = kBatch + 16;
+  float x[kSize], y[kSize], z[kSize];
+  std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];  ///< as a Push has them
+  std::int32_t lane[kSize];                                  ///< among those that were reached
+  int count = 0;
+
+  /// After the first push, out of the ellipsoids `owner`.
+  HWY_INLINE void add(M which, VI lanes, V3 p, VI owner) {
+    const Pack pack(which);
+    pack.store(p.x, x + count);
+    pack.store(p.y, y + count);
+    pack.store(p.z, z + count);
+    pack.store(owner, clear1 + count);
+    pack.store(lanes, lane + count);
+    count += pack.count();
+  }
+  /// Once all are added.
+  HWY_INLINE void close() {
+    std::memset(clear2, 0xFF, sizeof(clear2));
+    std::memset(clear3, 0xFF, sizeof(clear3));
+    pad();
+  }
+  /// Lanes [i, i + kWidth) of those that are pushed once more: what they were is overwritten.
+  HWY_INLINE void put(const Push& push, int i) {
+    store3(push.to, x + i, y + i, z + i);
+    hn::Store(push.clear1, I(), clear1 + i);
+    hn::Store(push.clear2, I(), clear2 + i);
+    hn::Store(push.clear3, I(), clear3 + i);
+  }
+  /// Once all are put.
+  HWY_INLINE void close(const Below& below);
+
+ private:
+  /// Repeats the last up to a whole block.
+  HWY_INLINE void pad() {
+    if (count == 0) return;
+    const int end = (count + kBlock - 1) / kBlock * kBlock;
+    for (float* values : {x, y, z}) std::fill(values + count, values + end, values[count - 1]);
+    for (std::int32_t* values : {clear1, clear2, clear3})
+      std::fill(values + count, values + end, values[count - 1]);
+  }
+};
+
+/// Lanes of `Pushed` that are still below the clearance, closed up: where they are in it, and among those
+/// that were reached.
+struct alignas(64) Below {
+  std::int32_t at[kBatch + 16], lane[kBatch + 16];
+  int count = 0;
+
+  HWY_INLINE Below(const float* distance, float limit_m, const Pushed& pushed) {
+    for (int i = 0; i < pushed.count; i += kWidth) {
+      const M below = hn::And(lanes_below(i, pushed.count), hn::Lt(hn::Load(f, distance + i), all(limit_m)));
+      const Pack pack(below);
+      pack.store(lanes_from(i), at + count);
+      pack.store(hn::Load(I(), pushed.lane + i), lane + count);
+      count += pack.count();
+    }
+  }
+};
+
+HWY_INLINE void Pushed::close(const Below& below) {
+  count = below.count;
+  std::copy_n(below.lane, below.count, lane);
+  pad();
+}
+
+HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
+  return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
+}
+
+/// Stores the lanes of a mask at their own indices.
+class Scatter {
+ public:
+  HWY_INLINE Scatter(M which, VI at) : pack_(which) { pack_.store(at, at_); }
+  HWY_INLINE void store(V value, float* to) const { store_as(value, to); }
+  HWY_INLINE void store(VI value, std::int32_t* to) const { store_as(value, to); }
+  HWY_INLINE void store(V3 value, float* x, float* y, float* z) const {
+    store(value.x, x);
+    store(value.y, y);
+    store(value.z, z);
+  }
+
+ private:
+  template <class Vector, class T>
+  HWY_INLINE void store_as(Vector value, T* to) const {
+    alignas(64) T values[kWidth];
+    pack_.store(value, values);
+    for (int i = 0; i < pack_.count(); ++i) to[at_[i]] = values[i];
+  }
+
+  Pack pack_;
+  alignas(64) std::int32_t at_[kWidth];
+};
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,317 @@
+// The nearest response for a batch: a query where the particles are, a push of those below the clearance, and
+// queries where they have come to until all are clear. What three half-spaces, or a few steps of Newton, do
+// not settle goes to the exact side.
+#if defined(BODICE_COLLISION_RESOLVE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_RESOLVE_INL_
+#undef BODICE_COLLISION_RESOLVE_INL_
+#else
+#define BODICE_COLLISION_RESOLVE_INL_
+#endif
+
+#include "simd/response/cutting_planes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace bodice::collision::HWY_NAMESPACE {
+
+// Pushes longer than this many depths come from surfaces that nearly face each other: for the exact side.
+constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
+// A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
+constexpr float kShortPath = static_cast<float>(kLongPath);
+constexpr float kOvershootOfStep = static_cast<float>(kStepOvershoot);
+
+/// A plane of the contact at x, which is there only if x lies on it; elsewhere its normal is zero, and it
+/// holds no velocity back.
+HWY_INLINE Plane touching(const Plane& plane, M in_force, V3 x, float within_m, M& there) {
+  there = hn::And(in_force, hn::Ge(plane.missing(x), all(-within_m)));
+  const V zero = hn::Zero(f);
+  return {select(there, plane.n, {zero, zero, zero}), zero};
+}
+
+HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, const float* offset, int i,
+                          const std::int32_t* of, V3 x, float within_m, M& there) {
+  const Plane plane = {load3(nx + i, ny + i, nz + i), hn::Load(f, offset + i)};
+  const M in_force = hn::RebindMask(f, hn::Gt(hn::Load(I(), of + i), hn::Set(I(), -1)));
+  return touching(plane, in_force, x, within_m, there);
+}
+
+/// The nearest velocity into none of the contact's planes at x. The first may have been left behind, too, but
+/// on a bent surface, which has but one: its normal at x.
+HWY_INLINE V3 along_contact(const Way& way, int i, V3 x, bool bent, float slack_m, V3 v) {
+  const V3 n = load3(way.n1x + i, way.n1y + i, way.n1z + i);
+  if (bent) return along(v, hn::Max(hn::Neg(dot(n, v)), hn::Zero(f)), n);
+  M one, two, three;
+  const float within_m = 4.0f * slack_m;
+  const Plane pushed_first = {n, hn::Load(f, way.offset1 + i)};
+  const Plane first = touching(pushed_first, hn::FirstN(f, kWidth), x, within_m, one);
+  const Plane second = touching(way.n2x, way.n2y, way.n2z, way.offset2, i, way.of2, x, within_m, two);
+  const Plane third = touching(way.n3x, way.n3y, way.n3z, way.offset3, i, way.of3, x, within_m, three);
+  const V3 of_two = project(first, second, two, v);
+  if (hn::AllFalse(f, three)) return of_two;
+  const V zero = hn::Zero(f);
+  const V3 of_other = project(first, third, three, v);
+  const V3 of_three =
+      select(hn::Le(third.missing(of_two), zero), of_two, project(first, second, third, v, zero));
+  return select(three, select(two, of_three, of_other), of_two);
+}
+
+/// Inward velocity removed, the rest slowed by Coulomb friction, restitution 0.
+HWY_INLINE V3 corrected_velocity(V3 along_surface, float friction, V3 v) {
+  const V3 change = along_surface - v;
+  const V impulse2 = dot(change, change), speed2 = dot(along_surface, along_surface);
+  const V ratio = hn::Sqrt(hn::Div(impulse2, hn::Max(speed2, all(1e-30f))));
+  return scaled(along_surface, hn::Max(hn::Zero(f), hn::NegMulAdd(all(friction), ratio, all(1.0f))));
+}
+
+/// Velocity of the body's material at x, carried by ellipsoid `owner`; lanes without owner read the first.
+HWY_INLINE V3 surface_velocity(const SurfaceMotion* motion, VI owner, V3 x) {
+  constexpr int kStride = sizeof(SurfaceMotion) / sizeof(float);
+  const VI at = hn::Mul(hn::Max(owner, hn::Zero(I())), hn::Set(I(), kStride));
+  const float* base = motion->turn;  // turn, then shift, without padding
+  const V3 r0 = {hn::GatherIndex(f, base, at), hn::GatherIndex(f, base + 1, at),
+                 hn::GatherIndex(f, base + 2, at)};
+  const V3 r1 = {hn::GatherIndex(f, base + 3, at), hn::GatherIndex(f, base + 4, at),
+                 hn::GatherIndex(f, base + 5, at)};
+  const V3 r2 = {hn::GatherIndex(f, base + 6, at), hn::GatherIndex(f, base + 7, at),
+                 hn::GatherIndex(f, base + 8, at)};
+  const V3 shift = {hn::GatherIndex(f, base + 9, at), hn::GatherIndex(f, base + 10, at),
+                    hn::GatherIndex(f, base + 11, at)};
+  return V3{dot(r0, x), dot(r1, x), dot(r2, x)} + shift;
+}
+
+/// Paths, relative to the ellipsoid that owns the place, longer than the limit. Without an owner any
+/// ellipsoid may have come past.
+HWY_INLINE M is_long(V3 path, const Clearance& clearance, V3 p, VI owner, float limit_m) {
+  V limit = all(limit_m);
+  if (clearance.motion) {
+    const V3 carried = scaled(surface_velocity(clearance.motion, owner, p), all(clearance.dt_s));
+    const M owned = hn::RebindMask(f, hn::Gt(owner, hn::Set(I(), -1)));
+    path = select(owned, path - carried, path);
+    limit = hn::IfThenElse(owned, limit, all(std::max(0.0f, limit_m - clearance.travel_m)));
+  }
+  return hn::Ge(dot(path, path), hn::Mul(limit, limit));
+}
+
+/// The particles that came far, as if without an owner.
+HWY_INLINE void find_far(const Gathering& batch, const Clearance& clearance, float short_path_m,
+                         LaneBits& out) {
+  const float travel_m = clearance.motion ? clearance.travel_m : 0.0f;
+  const V limit = all(std::max(0.0f, short_path_m - travel_m));
+  for (int i = 0; i < batch.count; i += kWidth) {
+    const V3 path =
+        load3(batch.x + i, batch.y + i, batch.z + i) - load3(batch.sx + i, batch.sy + i, batch.sz + i);
+    const M far = hn::Ge(dot(path, path), hn::Mul(limit, limit));
+    out.add(bits(hn::And(far, lanes_below(i, batch.count))), i);
+  }
+}
+
+/// Of particles with these lanes, -1: none; undoing a particle's own path is not a push.
+HWY_INLINE V3 safe_of(const Gathering& batch, VI lanes) {
+  return gather3(batch.sx, batch.sy, batch.sz, hn::Max(lanes, hn::Zero(I())));
+}
+
+/// Calls work with each lane of the mask that is a particle's, and whether it is in `which`.
+template <class Work>
+HWY_INLINE void for_particles(M mask, M which, const std::int32_t* lane, Work&& work) {
+  const std::uint64_t chosen = bits(which);
+  for (std::uint64_t left = bits(mask); left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    work(lane[k], (chosen >> k & 1) != 0);
+  }
+}
+
+/// Least radius of the ellipsoids whose boxes are within `window` of the block's box, which includes the
+/// particles' paths; 1e30 if there are none.
+HWY_INLINE float shortest_radius(const Baked& baked, const Extent& e, float window) {
+  V least = all(1e30f);
+  for (std::size_t k = 0; k < baked.cull.shortest.size(); k += kWidth) {
+    const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
+    least = hn::Min(least, hn::IfThenElse(near, hn::LoadU(f, baked.cull.shortest.data() + k), all(1e30f)));
+  }
+  return hn::GetLane(hn::MinOfLanes(f, least));
+}
+
+/// The first push of those particles that are below the clearance and have not come far; `contacts` gets a
+/// bit for each.
+HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float short_path_m,
+                           const Reached& reached, const Batched& found, int i, Way& way, Pushed& pushed,
+                           LaneBits& contacts, BatchResponse& out) {
+  const Clearance& clearance = surface.clearance;
+  const V3 p = load3(reached.x + i, reached.y + i, reached.z + i);
+  const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
+  const V distance = hn::Load(f, found.distance + i);
+  const VI lanes = hn::Load(I(), reached.lane + i);
+  M contact = hn::And(hn::RebindMask(f, hn::Gt(lanes, hn::Set(I(), -1))),
+                      hn::Lt(distance, all(clearance.distance_m)));
+  const VI name = hn::IfThenElseZero(hn::RebindMask(I(), contact), hn::Load(I(), found.name + i));
+  const VI nearest_one = hn::GatherIndex(I(), surface.baked.internal.data(), name);
+  const VI owner = hn::IfThenElse(hn::RebindMask(I(), contact), nearest_one, hn::Set(I(), -1));
+  if (batch.has_safe) {
+    const M far = is_long(p - safe_of(batch, lanes), clearance, p, owner, short_path_m);
+    for_particles(contact, far, reached.lane + i, [&](int lane, bool is) { out.hard.set(lane, is); });
+    contact = hn::AndNot(far, contact);
+  }
+  hn::Store(owner, I(), way.owner + i);
+  store3(normal, way.n1x + i, way.n1y + i, way.n1z + i);
+  const V target = surface.bent() ? all(surface.target_m()) : plain_target(surface, owner);
+  const V short_by = hn::Sub(target, distance);
+  const V over = all(surface.relief ? kOvershootOfStep : 0.0f);
+  const V beyond = hn::MulAdd(over, hn::Max(short_by, hn::Zero(f)), target);
+  const V3 x = surface.bent() ? newton_step(p, distance, normal, hn::Load(f, found.value + i), beyond)
+                              : along(p, short_by, normal);
+  store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
+  hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
+  contacts.add(bits(contact), i);
+  pushed.add(contact, lanes_from(i), x, owner);
+}
+
+HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
+  const std::uint64_t shifted = lanes.from(i);
+  std::uint8_t bytes[8];
+  std::memcpy(bytes, &shifted, sizeof(bytes));
+  return hn::LoadMaskBits(f, bytes);
+}
+
+/// The velocity that a contact leaves.
+HWY_INLINE V3 velocity_after(const Surface& surface, const Gathering& batch, const Way& way, int i, VI lanes,
+                             VI owner, V3 p, V3 position) {
+  const Clearance& clearance = surface.clearance;
+  const V3 v = gather3(batch.vx, batch.vy, batch.vz, hn::Max(lanes, hn::Zero(I())));
+  V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
+  if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
+  const V3 relative = v - body;
+  const V3 along_surface = along_contact(way, i, position, surface.bent(), clearance.slack_m, relative);
+  return corrected_velocity(along_surface, clearance.friction, relative) + body;
+}
+
+/// Writes one vector of contacts: place, velocity, and what is told about it.
+HWY_INLINE void finish(const Surface& surface, float reach_m, const Reached& reached, const Batched& found,
+                       const Way& way, M contact, int i, const Gathering& batch, V& deepest,
+                       BatchResponse& out) {
+  const Clearance& clearance = surface.clearance;
+  const VI lanes = hn::Load(I(), reached.lane + i);
+  const V3 p = load3(reached.x + i, reached.y + i, reached.z + i);
+  const V3 settled = load3(way.x + i, way.y + i, way.z + i);
+  const V3 push = settled - p;
+  const V length2 = dot(push, push);
+  const V depth = hn::Sub(all(clearance.distance_m), hn::Load(f, found.distance + i));
+  const VI owner = hn::Load(I(), way.owner + i);
+  const V longest = hn::Min(all(reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
+  const M hard = hn::And(contact, hn::Or(hn::Gt(length2, hn::Mul(longest, longest)), mask_of(way.open, i)));
+  for_particles(hard, hard, reached.lane + i, [&](int lane, bool) { out.hard.set(lane, true); });
+  contact = hn::AndNot(hard, contact);
+  V limit = all(clearance.max_push_m);
+  if (batch.has_safe) {
+    const V3 path = p - safe_of(batch, lanes);
+    limit = hn::Add(limit, hn::Sqrt(dot(path, path)));
+  }
+  const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
+  V3 position = settled;
+  if (!hn::AllFalse(f, pending)) {
+    const V share = hn::Div(limit, hn::Sqrt(hn::Max(length2, all(1e-30f))));
+    position = select(pending, along(p, share, push), settled);
+  }
+  const Pack pack(contact);
+  const auto store = [&](V3 v, float* x, float* y, float* z) {
+    pack.store(v.x, x + out.count);
+    pack.store(v.y, y + out.count);
+    pack.store(v.z, z + out.count);
+  };
+  store(position, out.x, out.y, out.z);
+  if (batch.has_velocity)
+    store(velocity_after(surface, batch, way, i, lanes, owner, p, settled), out.vx, out.vy, out.vz);
+  pack.store(lanes, out.lane + out.count);
+  pack.store(owner, out.owner + out.count);
+  out.count += pack.count();
+  out.pending += static_cast<int>(hn::CountTrue(f, pending));
+  deepest = hn::Max(deepest, hn::IfThenElseZero(contact, depth));
+}
+
+/// The batch against one surface; pushes longer than `reach_m` are for the exact side.
+HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m, const Gathering& batch,
+                           BatchResponse& out) {
+  Reached reached;
+  Batched found;
+  QueryBatch query = places(batch.x, batch.y, batch.z, batch.count);
+  query.keeping = batch.keeping;
+  query.ahead = batch.ahead;
+  Way way;
+  Pushed pushed;
+  LaneBits contacts;
+  way.clear_others();
+  std::copy_n(out.radius_m, kBlocks, query.radius_m);
+  if (!measure_first(surface, query, reached, found)) return false;
+  std::copy_n(query.radius_m, kBlocks, out.radius_m);
+  if (batch.has_safe) find_far(batch, surface.clearance, short_path_m, out.hard);
+  for (int i = 0; i < reached.count; i += kWidth)
+    push_first(surface, batch, short_path_m, reached, found, i, way, pushed, contacts, out);
+  if (contacts.none()) return true;
+  if (!settle(surface, reached, batch.has_velocity, pushed, way)) return false;
+  V deepest = hn::Zero(f);
+  for (int i = 0; i < reached.count; i += kWidth) {
+    const M contact = mask_of(contacts, i);
+    if (hn::AllFalse(f, contact)) continue;
+    finish(surface, reach_m, reached, found, way, contact, i, batch, deepest, out);
+  }
+  out.deepest_m = hn::GetLane(hn::MaxOfLanes(f, deepest));
+  out.iterations = std::max(1u, way.rounds);
+  return true;
+}
+
+/// Half the diagonal of each block's box.
+HWY_INLINE void note_radii(const Gathering& batch, BatchResponse& out) {
+  for (int begin = 0; begin < batch.count; begin += kBlock) {
+    bool near;
+    const int count = std::min(kBlock, batch.count - begin);
+    out.radius_m[begin / kBlock] =
+        extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, count, near).radius;
+  }
+}
+
+/// The batch against plain ellipsoids or relief.
+HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
+                              const Gathering& batch, BatchResponse& out) {
+  float shortest_m = 0.0f;
+  // What is kept tells by itself that nothing is near, and nobody asks how long a path may be.
+  if (!batch.keeping.batch || batch.has_safe) {
+    const Extent e = extent_of(batch);
+    const float bulge_m = relief ? relief->highest_m + relief->blend_m : 0.0f;
+    const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
+    shortest_m = shortest_radius(
+        baked, e, clearance.distance_m + bulge_m + travel_m + baked.rounding_m + rounding_over(e));
+    if (shortest_m >= 1e30f) {
+      note_radii(batch, out);
+      return true;
+    }
+  }
+  Scratch scratch;
+  const Surface surface{baked, relief, clearance, nullptr, scratch};
+  return resolve_on(surface, kShortPath * shortest_m, 1e30f, batch, out);
+}
+
+/// The batch against the smooth union of the ellipsoids.
+HWY_INLINE bool resolve_filleted(const Baked& baked, const Clearance& clearance, const Gathering& batch,
+                                 BatchResponse& out) {
+  note_radii(batch, out);
+  const Extent e = extent_of(batch);
+  const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
+  const float window_m = clearance.distance_m + 2.0f * clearance.blend_m + travel_m;
+  const float shortest_m = shortest_radius(baked, e, window_m + baked.rounding_m + rounding_over(e));
+  if (shortest_m >= 1e30f) return true;
+  Candidates candidates;
+  if (!cull_for_response(baked, batch, window_m, candidates)) return false;
+  if (candidates.count == 0) return true;
+  Scratch scratch;
+  const Surface surface{baked, nullptr, clearance, &candidates, scratch};
+  return resolve_on(surface, kShortPath * shortest_m, candidates.reach_m, batch, out);
+}
+
+HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
+                              const Gathering& batch, BatchResponse& out) {
+  if (!relief && clearance.blend_m > 0.0f) return resolve_filleted(baked, clearance, batch, out);
+  return resolve_sharp(baked, relief, clearance, batch, out);
+}
+
+}  // namespace bodice::collision::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
