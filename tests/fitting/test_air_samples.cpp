@@ -3,8 +3,8 @@
 
 #include <bodice/geometry/mesh_distance.hpp>
 
-#include "air_samples.hpp"
 #include "shapes.hpp"
+#include "skin/air_samples.hpp"
 
 using namespace bodice;
 using geometry::Vec3;

@@ -11,8 +11,8 @@
 #include <bodice/geometry/sampling.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
-#include "cover.hpp"
-#include "cover_pieces.hpp"
+#include "cover/cover.hpp"
+#include "cover/cover_pieces.hpp"
 #include "shapes.hpp"
 
 using namespace bodice;

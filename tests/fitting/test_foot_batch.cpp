@@ -10,7 +10,7 @@
 
 #include <bodice/engine/random.hpp>
 
-#include "foot_batch.hpp"
+#include "base/closest_point_batch.hpp"
 
 using namespace bodice;
 using fitting::FootEllipsoid;

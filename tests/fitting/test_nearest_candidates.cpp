@@ -11,7 +11,7 @@
 
 #include <bodice/engine/random.hpp>
 
-#include "nearest_candidates.hpp"
+#include "tight/nearest_candidates.hpp"
 
 using namespace bodice;
 using fitting::FootEllipsoid;

@@ -4,7 +4,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
-#include "relief_holes.hpp"
+#include "relief/relief_holes.hpp"
 #include "shapes.hpp"
 
 using namespace bodice;

@@ -3,8 +3,8 @@
 
 #include <bodice/engine/random.hpp>
 
-#include "relocation.hpp"
 #include "shapes.hpp"
+#include "tight/split_and_merge.hpp"
 
 using namespace bodice;
 using fitting::TightProblem;

@@ -9,9 +9,9 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 
-#include "interior_grid.hpp"
+#include "base/interior_grid.hpp"
+#include "cover/triangle_levels.hpp"
 #include "shapes.hpp"
-#include "triangle_levels.hpp"
 
 using namespace bodice;
 using geometry::Ellipsoid;

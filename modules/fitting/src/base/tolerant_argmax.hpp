@@ -1,0 +1,20 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace bodice::fitting {
+
+/// The first value that is the largest up to a relative 1e-4, the size if none is positive. Left and right of
+/// a body are alike: which of them is split first must not hang on the rounding of its coordinates, nor on
+/// the tolerance of enclosing ellipsoids.
+inline std::size_t tolerant_argmax(std::span<const double> values) {
+  constexpr double kTie = 1e-4;
+  double most = 0.0;
+  for (const double v : values) most = std::max(most, v);
+  const auto is_largest = [&](double v) { return v > 0.0 && v >= (1.0 - kTie) * most; };
+  return static_cast<std::size_t>(std::ranges::find_if(values, is_largest) - values.begin());
+}
+
+}  // namespace bodice::fitting

@@ -1,0 +1,176 @@
+#include "fit/measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+#include <bodice/fitting/enclose_parts.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/geometry/sampling.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
+
+#include "base/ellipsoid_surface.hpp"
+#include "base/interior_grid.hpp"
+
+namespace bodice::fitting {
+namespace {
+
+constexpr std::size_t kSurfaceSamples = 6000;  // of the proxy's surface, shared by area
+constexpr std::size_t kSkinSamples = 4000;
+constexpr std::size_t kInteriorSamples = 3000;
+constexpr std::size_t kGrain = 64;
+
+struct GapProbe {
+  SurfaceProbe at;
+  std::uint32_t ellipsoid = 0;
+  double gap_m = -1.0;  ///< negative: not on the union's surface
+};
+
+std::vector<GapProbe> gap_probes(const proxy::BodyProxy::Data& proxy) {
+  double total = 0.0;
+  for (const auto& e : proxy.ellipsoids) total += surface_area(e.shape.radii);
+  std::vector<GapProbe> probes;
+  for (std::uint32_t k = 0; k < proxy.ellipsoids.size(); ++k) {
+    const geometry::Ellipsoid& e = proxy.ellipsoids[k].shape;
+    const int n = std::max(24, static_cast<int>(kSurfaceSamples * surface_area(e.radii) / total));
+    for (const SurfaceProbe& at : probe_surface(e, n)) probes.push_back({at, k});
+  }
+  return probes;
+}
+
+/// Moves a probe onto F = 0 along the gradient; false if it does not settle or another ellipsoid owns it.
+bool settle(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double tolerance_m) {
+  constexpr int kSteps = 8;
+  for (int step = 0; step < kSteps; ++step) {
+    const proxy::ProxyDistance f = proxy::proxy_distance(proxy, probe.at.point);
+    if (std::abs(f.distance) <= tolerance_m) return f.owner == probe.ellipsoid;
+    if (step == 0 && proxy.relief.empty() && f.distance < -proxy.margin_m - tolerance_m) return false;
+    probe.at.point -= f.distance * f.normal;
+  }
+  return false;
+}
+
+/// Ellipsoids about the parts that were not asked for.
+std::vector<geometry::Ellipsoid> about_others(const engine::Context& context, const LabeledSkin& skin,
+                                              std::uint32_t parts) {
+  std::vector<geometry::Ellipsoid> shapes;
+  if ((parts & kAllParts) == kAllParts) return shapes;
+  const auto others = enclose_parts(context, skin, kAllParts & ~parts);
+  if (!others) return shapes;  // no skin is theirs
+  for (const proxy::ProxyEllipsoid& e : others->ellipsoids()) shapes.push_back(e.shape);
+  return shapes;
+}
+
+/// Whether the body goes on where the proxy ends, in a part that was not asked for: an end like that stands
+/// for no skin, and its way to the nearest is no gap. It lies inside the body, in that part or beside it with
+/// the skin to its side.
+bool is_cut(const proxy::BodyProxy::Data& proxy, const geometry::SurfacePoint& skin, const Vec3& at,
+            const std::vector<geometry::Ellipsoid>& others) {
+  constexpr double kBeside = 1.5 * 1.5;  // of the radii that hold the part
+  constexpr double kAhead = 0.5;         // cosine: the skin is where the surface looks
+  const Vec3 to_skin = skin.point - at;
+  if (others.empty() || to_skin.dot(skin.normal) <= 0.0) return false;
+  double nearest = kBeside;
+  for (const geometry::Ellipsoid& shape : others) nearest = std::min(nearest, geometry::level(shape, at));
+  if (nearest < 1.0) return true;
+  return nearest < kBeside &&
+         proxy::proxy_distance(proxy, at).normal.dot(to_skin.stableNormalized()) < kAhead;
+}
+
+Spread gaps(const std::vector<GapProbe>& probes, const proxy::BodyProxy::Data& proxy, int part) {
+  std::vector<std::pair<double, double>> values;
+  for (const GapProbe& p : probes)
+    if (p.gap_m >= 0.0 && (part < 0 || static_cast<int>(proxy.ellipsoids[p.ellipsoid].part) == part))
+      values.emplace_back(p.gap_m, p.at.area);
+  return spread_of(std::move(values));
+}
+
+void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
+                  const LabeledSkin& skin, std::uint32_t parts, double tolerance_m, FitAccuracy& accuracy) {
+  const auto samples = geometry::sample_surface(skin.mesh, kSkinSamples, 1);
+  std::vector<double> outside(samples.size(), -1.0);
+  engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const geometry::Index corner = skin.mesh.triangles[samples[i].triangle][0];
+      if ((parts >> static_cast<int>(skin.part[corner])) & 1u)
+        outside[i] = std::max(0.0, proxy::proxy_distance(proxy, samples[i].point).distance);
+    }
+  });
+  double counted = 0.0, uncovered = 0.0;
+  for (const double depth : outside) {
+    if (depth < 0.0) continue;
+    counted += 1.0;
+    uncovered += depth > tolerance_m;
+    accuracy.skin_outside_depth_m =
+        std::max(accuracy.skin_outside_depth_m, depth > tolerance_m ? depth : 0.0);
+  }
+  accuracy.skin_outside_percent = counted > 0.0 ? 100.0 * uncovered / counted : 0.0;
+}
+
+/// Of the points of an interior grid, those that a wanted part's skin is nearest to.
+void measure_interior(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
+                      const LabeledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts,
+                      FitAccuracy& accuracy) {
+  const double volume = std::abs(geometry::signed_volume(skin.mesh));
+  const std::vector<Vec3> grid = interior_grid(skin.mesh, std::cbrt(volume / kInteriorSamples));
+  std::vector<std::int8_t> state(grid.size(), -1);
+  const bool all_parts = parts == kAllParts;
+  engine::parallel_for(context, grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto hit =
+          all_parts ? std::nullopt : distance.closest_point_within(grid[i], 10.0 * skin.stature_m);
+      if (!all_parts && !hit) continue;
+      const auto part = hit ? static_cast<int>(skin.part[skin.mesh.triangles[hit->triangle][0]]) : 0;
+      if (all_parts || ((parts >> part) & 1u))
+        state[i] = proxy::proxy_distance(proxy, grid[i]).distance <= 0.0;
+    }
+  });
+  const auto inside = std::count_if(state.begin(), state.end(), [](std::int8_t s) { return s >= 0; });
+  const auto covered = std::count(state.begin(), state.end(), std::int8_t{1});
+  accuracy.interior_covered_percent =
+      inside > 0 ? 100.0 * static_cast<double>(covered) / static_cast<double>(inside) : 100.0;
+}
+
+}  // namespace
+
+Spread spread_of(std::vector<std::pair<double, double>> values) {
+  Spread spread;
+  double total = 0.0;
+  for (const auto& [value, weight] : values) {
+    total += weight;
+    spread.mean += weight * value;
+    spread.max = std::max(spread.max, value);
+  }
+  if (!(total > 0.0)) return spread;
+  spread.mean /= total;
+  std::sort(values.begin(), values.end());
+  double running = 0.0;
+  for (const auto& [value, weight] : values) {
+    running += weight;
+    spread.p95 = value;
+    if (running >= 0.95 * total) break;
+  }
+  return spread;
+}
+
+Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy, const LabeledSkin& skin,
+                 const geometry::MeshDistance& distance, std::uint32_t parts) {
+  const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometer: below it is on the surface
+  std::vector<GapProbe> probes = gap_probes(proxy);
+  const std::vector<geometry::Ellipsoid> others = about_others(context, skin, parts);
+  engine::parallel_for(context, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (settle(proxy, probes[i], tolerance_m))
+        if (const auto hit = distance.closest_point_within(probes[i].at.point, 10.0 * skin.stature_m);
+            hit && !is_cut(proxy, *hit, probes[i].at.point, others))
+          probes[i].gap_m = std::abs(hit->signed_distance);
+  });
+  Measured result;
+  result.accuracy.gap_m = gaps(probes, proxy, -1);
+  for (int part = 0; part < body::kPartCount; ++part) result.gap_of_part[part] = gaps(probes, proxy, part);
+  measure_skin(context, proxy, skin, parts, tolerance_m, result.accuracy);
+  measure_interior(context, proxy, skin, distance, parts, result.accuracy);
+  return result;
+}
+
+}  // namespace bodice::fitting

@@ -1,0 +1,75 @@
+#include "fit/part_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "cluster/refinement.hpp"
+
+namespace bodice::fitting {
+namespace {
+
+constexpr std::size_t kGrain = 512;
+
+/// Of a vertex: the ellipsoid of its part that is nearest along its ray.
+struct Nearest {
+  double distance_m = std::numeric_limits<double>::infinity();
+  std::size_t ellipsoid = 0;
+};
+
+using OfParts = std::array<std::vector<std::size_t>, body::kPartCount>;
+
+std::vector<Nearest> find_nearest(const engine::Context& context, const LabeledSkin& skin,
+                                  std::span<const proxy::ProxyEllipsoid> ellipsoids, const OfParts& of_part) {
+  std::vector<Nearest> nearest(skin.part.size());
+  engine::parallel_for(context, nearest.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      for (const std::size_t k : of_part[static_cast<int>(skin.part[v])]) {
+        const double d = radial_distance(ellipsoids[k].shape, skin.mesh.positions[v]);
+        if (d < nearest[v].distance_m) nearest[v] = {d, k};
+      }
+  });
+  return nearest;
+}
+
+}  // namespace
+
+std::vector<PartFit> part_fits(const engine::Context& context, const LabeledSkin& skin,
+                               std::span<const proxy::ProxyEllipsoid> ellipsoids, const Measured& measured,
+                               std::uint32_t parts) {
+  std::vector<double> sum(ellipsoids.size(), 0.0), count(ellipsoids.size(), 0.0);
+  std::array<PartFit, body::kPartCount> all{};
+  OfParts of_part;
+  for (std::size_t k = 0; k < ellipsoids.size(); ++k)
+    of_part[static_cast<int>(ellipsoids[k].part)].push_back(k);
+  const std::vector<Nearest> nearest = find_nearest(context, skin, ellipsoids, of_part);
+  for (std::size_t v = 0; v < skin.part.size(); ++v) {
+    ++all[static_cast<int>(skin.part[v])].vertices;
+    if (std::isinf(nearest[v].distance_m)) continue;
+    sum[nearest[v].ellipsoid] += nearest[v].distance_m;
+    count[nearest[v].ellipsoid] += 1.0;
+  }
+  std::vector<PartFit> result;
+  for (int part = 0; part < body::kPartCount; ++part) {
+    PartFit& fit = all[part];
+    if (fit.vertices == 0 || !((parts >> part) & 1u)) continue;
+    fit.part = static_cast<body::Part>(part);
+    fit.ellipsoids = of_part[part].size();
+    double vertices = 0.0;
+    for (const std::size_t k : of_part[part]) {
+      if (count[k] == 0.0) continue;
+      fit.radial_error_mean_m += sum[k];
+      vertices += count[k];
+      fit.radial_error_max_m = std::max(fit.radial_error_max_m, sum[k] / count[k]);
+    }
+    if (vertices > 0.0) fit.radial_error_mean_m /= vertices;
+    fit.gap_m = measured.gap_of_part[part];
+    result.push_back(fit);
+  }
+  return result;
+}
+
+}  // namespace bodice::fitting

@@ -1,0 +1,39 @@
+#include "fit/uniform_offset.hpp"
+
+#include <cmath>
+
+namespace bodice::fitting {
+namespace {
+
+constexpr double kNearEnough = 1.10;
+constexpr double kMostSlack = 3.0;  // a limb that gets its first ellipsoid takes away up to 2.5 times
+constexpr int kSteps = 10;
+
+proxy::BodyProxy::Data grown_by(proxy::BodyProxy::Data data, double length_m) {
+  for (auto& e : data.ellipsoids) e.shape.radii.array() += length_m;
+  return data;
+}
+
+}  // namespace
+
+void spend_slack(const engine::Context& context, const LabeledSkin& skin, std::uint32_t parts,
+                 double target_m, proxy::BodyProxy::Data& data, Measured& measured) {
+  const double gap_m = measured.accuracy.gap_m.mean;
+  if (!(kNearEnough * gap_m < target_m && target_m < kMostSlack * gap_m)) return;
+  // Half of a tight surface lies under the skin: the gap grows at first less than the ellipsoids do.
+  double low = 0.0, high = 2.0 * target_m;
+  for (int step = 0; step < kSteps; ++step) {
+    const double length_m = 0.5 * (low + high);
+    const proxy::BodyProxy::Data grown = grown_by(data, length_m);
+    const Measured now = measure(context, grown, skin, *skin.distance, parts);
+    const double reached_m = now.accuracy.gap_m.mean;
+    if (reached_m < kNearEnough * target_m && target_m < kNearEnough * reached_m) {
+      data = grown;
+      measured = now;
+      return;
+    }
+    (reached_m < target_m ? low : high) = length_m;
+  }
+}
+
+}  // namespace bodice::fitting

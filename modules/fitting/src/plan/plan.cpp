@@ -1,0 +1,205 @@
+#include "plan/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "relief/relief_fit.hpp"
+
+namespace bodice::fitting {
+namespace {
+
+using proxy::Tier;
+
+constexpr int kMostAttempts = 9;
+constexpr double kNearEnough = 1.10;
+constexpr double kFewestToStart = 8.0;  // with fewer than the body has limbs the law does not hold
+/// Solid: of more, each grows by so much to leave no hole beside the next that the gap gets wider again.
+constexpr int kMostSolid = 200;
+constexpr int kFewestInBudget = 16;  // fewer take as long: they are asked a register at a time
+/// Fractions of stature. Below the first, plain ellipsoids take more work and time a particle than relief.
+constexpr double kFinestPlain = 1.6e-3 / 1.7;
+constexpr double kFinestOf32 = 0.75e-3 / 1.7, kFinestOf55 = 0.40e-3 / 1.7;
+
+/// gap = at_89 * stature * (89 / count)^power: where the search starts. `bench/fit --laws` prints the
+/// constants anew.
+struct Law {
+  double at_89, power;
+};
+
+Law law_of(Tier tier) {
+  switch (tier) {
+    case Tier::kPaper:
+      return {0.0060, 0.5};
+    case Tier::kSolid:
+      return {0.0060, 0.5};
+    case Tier::kTight:
+      return {0.00060, 1.0};
+    case Tier::kRelief:
+      return {0.00013, 0.7};
+  }
+  return {0.0060, 0.5};
+}
+
+/// Of relief's gap at a fixed count, by bytes.
+constexpr double kReliefPower = 0.6;
+
+std::size_t least_bytes(int count) {
+  return static_cast<std::size_t>(count) * (15 * sizeof(float) + sizeof(proxy::ReliefTable) + 2 * 8 * 8);
+}
+
+int relief_count(double target_m, double stature_m, int most) {
+  const double target = target_m / stature_m;
+  return std::min(most, target > kFinestOf32 ? 32 : target > kFinestOf55 ? 55 : kDefaultEllipsoids);
+}
+
+/// The most accurate plan that the budget has time for.
+Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double stature_m) {
+  Plan best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Tier candidate : {Tier::kTight, Tier::kRelief}) {
+    const Tier t = tier.value_or(candidate);
+    const int largest = t == Tier::kRelief ? kDefaultEllipsoids : kMostEllipsoids;
+    const int wanted = std::max(kFewestInBudget, count_within_budget(t, budget_us));
+    const int count = std::min({most, largest, wanted});
+    const double gap = predicted_gap_m(t, count, stature_m);
+    if (predicted_frame_us(t, count) > kBudgetKeptTo * budget_us && std::isfinite(least)) continue;
+    if (gap < least) best = {t, count, kReliefBytes}, least = gap;
+  }
+  return best;
+}
+
+}  // namespace
+
+double predicted_frame_us(Tier tier, int ellipsoids) {
+  // Nanoseconds a particle times ten; `bench/tradeoff --only laws` measures the constants anew.
+  return tier == Tier::kRelief ? 10.0 * (9.7 + 0.224 * ellipsoids) : 10.0 * (6.2 + 0.12 * ellipsoids);
+}
+
+int count_within_budget(Tier tier, double budget_us) {
+  int count = 1;
+  while (count < kMostEllipsoids && predicted_frame_us(tier, count + 1) <= budget_us) ++count;
+  return count;
+}
+
+double predicted_gap_m(Tier tier, int ellipsoids, double stature_m) {
+  const Law law = law_of(tier);
+  return law.at_89 * stature_m * std::pow(89.0 / std::max(1, ellipsoids), law.power);
+}
+
+Dial::Dial(const FitOptions& options, double stature_m)
+    : target_m_(options.target_error_m),
+      most_(options.max_ellipsoids.value_or(kMostEllipsoids)),
+      tier_is_free_(!options.tier) {
+  plan_ = {options.tier.value_or(Tier::kRelief), std::min(most_, kDefaultEllipsoids), kReliefBytes};
+  if (options.max_ellipsoids) plan_.count = *options.max_ellipsoids;
+  if (options.mu_torso_m) {  // they stop the split, not a count
+    if (tier_is_free_) plan_.tier = Tier::kPaper;
+    plan_.count = most_ = options.max_ellipsoids.value_or(10 * kMostEllipsoids);
+  }
+  if (options.budget_us) {
+    plan_ = plan_within(*options.budget_us, options.tier, most_, stature_m);
+    most_ = plan_.count;
+    tier_is_free_ = false;
+  }
+  if (plan_.tier == Tier::kSolid && !options.mu_torso_m) {
+    most_ = std::min(most_, kMostSolid);
+    plan_.count = std::min(plan_.count, most_);
+  }
+  if (!target_m_) return;
+  if (tier_is_free_ && *target_m_ > kFinestPlain * stature_m) plan_.tier = Tier::kTight;
+  if (plan_.tier == Tier::kRelief) {
+    plan_.count = relief_count(*target_m_, stature_m, most_);
+    const double ratio = predicted_gap_m(Tier::kRelief, plan_.count, stature_m) / *target_m_;
+    resize(static_cast<double>(kReliefBytes) * std::pow(ratio, 1.0 / kReliefPower));
+  } else {
+    const Law law = law_of(plan_.tier);
+    const double count = 89.0 * std::pow(law.at_89 * stature_m / *target_m_, 1.0 / law.power);
+    resize(plan_.tier == Tier::kTight ? std::max(kFewestToStart, count) : count);
+  }
+}
+
+bool Dial::reached(double gap_m) const {
+  return !target_m_ || (gap_m < kNearEnough * *target_m_ && *target_m_ < kNearEnough * gap_m);
+}
+
+double Dial::size() const {
+  return plan_.tier == Tier::kRelief ? static_cast<double>(plan_.relief_bytes) : plan_.count;
+}
+
+/// Along the power law through the nearest tries on either side of the target, or, while there are none on
+/// the other side, through the last try with a power between its own and the tier's.
+double Dial::wanted_size(double gap_m) const {
+  double power = plan_.tier == Tier::kRelief ? kReliefPower : law_of(plan_.tier).power;
+  const Try* other = nullptr;
+  const auto off = [&](const Try& t) { return std::abs(std::log(t.gap_m / *target_m_)); };
+  for (const Try& t : tries_) {
+    if (t.size == size()) continue;
+    const bool opposite = (t.gap_m > *target_m_) != (gap_m > *target_m_);
+    const bool other_is_opposite = other && (other->gap_m > *target_m_) != (gap_m > *target_m_);
+    if (!other || (opposite && !other_is_opposite) || (opposite == other_is_opposite && off(t) < off(*other)))
+      other = &t;
+  }
+  if (other) {
+    const double slope = -std::log(gap_m / other->gap_m) / std::log(size() / other->size);
+    if (std::isfinite(slope)) power = std::clamp(slope, 0.3 * power, 3.0 * power);
+  }
+  return size() * std::pow(gap_m / *target_m_, 1.0 / power);
+}
+
+bool Dial::known(double wanted) const {
+  return std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) { return t.size == wanted; });
+}
+
+/// False if nothing changes, or if it has been tried.
+bool Dial::resize(double wanted) {
+  const Plan before = plan_;
+  if (plan_.tier == Tier::kRelief) {
+    const double least = static_cast<double>(std::min(least_bytes(plan_.count), kReliefBytes));
+    plan_.relief_bytes =
+        static_cast<std::size_t>(std::clamp(wanted, least, static_cast<double>(kReliefBytes)));
+  } else {
+    plan_.count = static_cast<int>(std::lround(std::clamp(wanted, 1.0, static_cast<double>(most_))));
+  }
+  if (!known(size())) return true;
+  plan_ = before;
+  return false;
+}
+
+/// A count next to the last one, where the power law asks for one that has been tried.
+bool Dial::step(double gap_m) {
+  return plan_.tier != Tier::kRelief && resize(plan_.count + (gap_m > *target_m_ ? 1 : -1));
+}
+
+/// Relief whose tables are as large or as small as they get: other ellipsoids.
+bool Dial::recount(double gap_m) {
+  if (plan_.tier != Tier::kRelief) return false;
+  const int count = gap_m > *target_m_ ? std::min(most_, kDefaultEllipsoids) : std::max(8, plan_.count / 2);
+  if (count == plan_.count) return false;
+  plan_.count = count;
+  tries_.clear();
+  plan_.relief_bytes = 0;
+  const double full = 0.5 * static_cast<double>(kReliefBytes);
+  return resize(gap_m > *target_m_ ? full : 4.0 * static_cast<double>(least_bytes(count)));
+}
+
+/// Between the tries that enclose the target, and at most twice or half the last size: a fit of very few
+/// ellipsoids follows no law.
+double Dial::bounded(double wanted) const {
+  if (plan_.tier == Tier::kRelief) return wanted;
+  double low = 1.0, high = most_;
+  for (const Try& t : tries_) {
+    if (t.gap_m > *target_m_) low = std::max(low, t.size + 1.0);
+    if (t.gap_m <= *target_m_) high = std::min(high, t.size - 1.0);
+  }
+  wanted = std::clamp(wanted, 0.5 * size(), 2.0 * size());
+  return low <= high ? std::clamp(wanted, low, high) : wanted;
+}
+
+bool Dial::correct(double gap_m) {
+  if (reached(gap_m) || ++attempts_ >= kMostAttempts || !(gap_m > 0.0)) return false;
+  tries_.push_back({size(), gap_m});
+  return resize(bounded(wanted_size(gap_m))) || step(gap_m) || recount(gap_m);
+}
+
+}  // namespace bodice::fitting

@@ -1,0 +1,128 @@
+#include "tiers/relief.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <bodice/engine/clock.hpp>
+#include <bodice/engine/stage_timer.hpp>
+
+#include "relief/relief_fit.hpp"
+#include "relief/relief_holes.hpp"
+
+namespace bodice::fitting {
+namespace {
+
+constexpr double kNoTimeLimit_s = 1e6;
+/// First tables that are usable soon, and say where more texels pay; then those that last.
+constexpr std::size_t kFirstNormals = 8000, kNormals = 28000;
+constexpr int kFirstPerNormal = 3, kPerNormal = 4;
+constexpr int kFirstSteps = 16, kSteps = 24;
+/// Of stature: turns most misses of a tenth of a millimeter into hits.
+constexpr double kMargin = 0.1e-3 / 1.7;
+/// Of stature: finds every hole between ellipsoids that a thumb fits into.
+constexpr double kInsideSpacing = 0.010 / 1.7;
+/// Leaks that are looked at more closely; posed bodies whose limbs interpenetrate have hundreds.
+constexpr std::size_t kMostPlaces = 2000;
+/// Of stature: skin this deep, reported so little inside or outside, is looked at more closely.
+constexpr double kHoleDepth = 7e-3 / 1.7, kHoleMargin = 2e-3 / 1.7;
+
+/// The same ellipsoid, its axes by falling radius: tables over those are read the fastest.
+geometry::Ellipsoid with_sorted_axes(const geometry::Ellipsoid& e) {
+  const std::array<int, 3> order = geometry::axes_by_radius(e.radii);
+  geometry::Ellipsoid sorted = e;
+  sorted.radii = e.radii(order);
+  sorted.axes = e.axes(Eigen::all, order);
+  if (sorted.axes.determinant() < 0.0) sorted.axes.col(2) = -sorted.axes.col(2);
+  return sorted;
+}
+
+}  // namespace
+
+ReliefTables::ReliefTables(const engine::Context& context, const SkinSource& source,
+                           proxy::BodyProxy::Data& data)
+    : context_(context), skin_(context, source), data_(data) {
+  data_.tier = proxy::Tier::kRelief;
+  data_.stature_m = source.skin.stature_m;
+  data_.frame = source.skin.frame;
+  data_.margin_m = kMargin * data_.stature_m;
+  for (proxy::ProxyEllipsoid& e : data_.ellipsoids) e.shape = with_sorted_axes(e.shape);
+}
+
+std::vector<ReliefSample> ReliefTables::samples(const ReliefSampling& sampling, double spacing_m) const {
+  auto samples = sample_along_normals(context_, skin_, sampling);
+  if (spacing_m > 0.0) {
+    const double reach_m = proxy::relief_reach(data_.stature_m).in_m;
+    const auto inside = sample_inside(context_, skin_, spacing_m, reach_m);
+    samples.insert(samples.end(), inside.begin(), inside.end());
+  }
+  return samples;
+}
+
+ReliefAnswers ReliefTables::ask(std::span<const ReliefSample> samples) const {
+  return find_answers(context_, samples, data_.ellipsoids, proxy::relief_reach(data_.stature_m));
+}
+
+ReliefAnswers ReliefTables::ask_around(std::span<const std::uint32_t> leaks) {
+  std::vector<Vec3> places =
+      find_holes(context_, skin_, data_, kHoleDepth * data_.stature_m, kHoleMargin * data_.stature_m);
+  for (const std::uint32_t leak : leaks) places.push_back(samples_[leak].point);
+  places.resize(std::min(places.size(), kMostPlaces));
+  const auto more = sample_around(context_, skin_, places, kInsideSpacing * data_.stature_m,
+                                  proxy::relief_reach(data_.stature_m).in_m);
+  samples_.insert(samples_.end(), more.begin(), more.end());
+  return ask(more);
+}
+
+void ReliefTables::fit_first(std::size_t bytes) {
+  const std::size_t ellipsoids = data_.ellipsoids.size();
+  const double reach_m = proxy::relief_reach(data_.stature_m).out_m;
+  ReliefAnswers answers = ask(samples({kFirstNormals, kFirstPerNormal, reach_m, 21}, 0.0));
+  const auto sides = equal_sides(ellipsoids, texels_within(ellipsoids, bytes));
+  error_ = fit_tables(context_, answers, sides, kFirstSteps, data_);
+}
+
+void ReliefTables::fit(std::size_t bytes) {
+  const double reach_m = proxy::relief_reach(data_.stature_m).out_m;
+  if (samples_.empty()) {
+    samples_ = samples({kNormals, kPerNormal, reach_m, 22}, kInsideSpacing * data_.stature_m);
+    answers_ = ask(samples_);
+  }
+  const auto sides = shared_sides(error_, texels_within(data_.ellipsoids.size(), bytes));
+  const auto look_closer = [&](std::span<const std::uint32_t> leaks) { return ask_around(leaks); };
+  fit_tables(context_, answers_, sides, kSteps, data_, look_closer);
+}
+
+ReliefRun::ReliefRun(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,
+                     const Plan& plan, std::vector<engine::StageTime>& stages)
+    : context_(context), stages_(stages), count_(plan.count) {
+  const double budget_s = options.time_budget_s.value_or(kNoTimeLimit_s);
+  const std::int64_t deadline =
+      context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(budget_s, kNoTimeLimit_s));
+  engine::StageTimer tight(context, stages, "tight");
+  source_ = std::make_unique<SkinSource>(make_skin_source(context, skin, options.parts));
+  draft_ = fit_tight(context, *source_, options, plan.count, 0.5 * budget_s);
+  tight.stop();
+  if (draft_.data.ellipsoids.empty()) return;
+  engine::StageTimer relief(context, stages, "relief");
+  if (texels_within(draft_.data.ellipsoids.size(), share_of(plan.relief_bytes)) == 0) return;
+  draft_.data.stature_m = skin.stature_m;
+  draft_.data.frame = skin.frame;
+  tables_ = std::make_unique<ReliefTables>(context, *source_, draft_.data);
+  tables_->fit_first(share_of(plan.relief_bytes));
+  if (options.on_improved)
+    if (auto proxy = proxy::BodyProxy::make(draft_.data)) options.on_improved(*proxy);
+  if (context.clock->now_ns() < deadline) tables_->fit(share_of(plan.relief_bytes));
+}
+
+std::size_t ReliefRun::share_of(std::size_t bytes) const {
+  if (draft_.parts == kAllParts) return bytes;
+  return bytes * draft_.data.ellipsoids.size() / static_cast<std::size_t>(count_);
+}
+
+void ReliefRun::resize(std::size_t bytes) {
+  if (!tables_ || texels_within(draft_.data.ellipsoids.size(), share_of(bytes)) == 0) return;
+  engine::StageTimer relief(context_, stages_, "relief");
+  tables_->fit(share_of(bytes));
+}
+
+}  // namespace bodice::fitting

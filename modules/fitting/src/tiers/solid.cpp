@@ -1,0 +1,173 @@
+// Every part for itself, from its own skin alone: medial clusters, a short descent, and growth until each of
+// its triangles is held whole. Then the inside of the whole body, which no part can see alone.
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/scaling.hpp"
+#include "cluster/cluster_items.hpp"
+#include "cover/cover.hpp"
+#include "skin/medial_initialization.hpp"
+#include "skin/part_skin.hpp"
+#include "tiers/tiers.hpp"
+#include "tight/descent.hpp"
+
+namespace bodice::fitting {
+namespace {
+
+constexpr double kOverStepOfFew = 1.3;  // so few steps must settle
+constexpr int kIterations = 9;          // too few for a move of ellipsoids elsewhere to pay
+/// Of the scaled body: with so few samples and ellipsoids a region, choosing candidates again costs more than
+/// keeping all that may ever be near.
+constexpr double kMostMotion = 0.3;
+constexpr int kCandidates = 6;            // of a sample: more change nothing but the time
+constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
+constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
+constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
+constexpr double kGrowFirst_mm = 2.0;     // before any ellipsoid has to grow more for its triangles
+/// Up to so many in a region, growth after a descent may cost more than enclosing clusters of triangles.
+constexpr int kFewEllipsoids = 2;
+
+std::vector<int> shares_by_demand(const std::vector<PartSkin>& skins, int count, double stature_m) {
+  std::vector<double> need(skins.size(), 0.0);
+  for (std::size_t r = 0; r < skins.size(); ++r)
+    for (const InscribedBall& ball : skins[r].balls) need[r] += demand(ball, stature_m);
+  std::vector<int> share(skins.size(), 1);
+  for (int left = count - static_cast<int>(skins.size()); left > 0; --left) {
+    std::size_t best = 0;
+    for (std::size_t r = 1; r < share.size(); ++r)
+      if (need[r] / (share[r] + 0.5) > need[best] / (share[best] + 0.5)) best = r;
+    ++share[best];
+  }
+  return share;
+}
+
+/// Ellipsoids that follow one region's skin, in meters.
+std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const LabeledSkin& skin,
+                                          const std::vector<PartSkin>& skins, std::size_t r, int count) {
+  auto ellipsoids = start_from_balls(context, skins[r].balls, count, skin.stature_m);
+  const Scaling scaling(skin);
+  const TightLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
+  const std::vector<DistanceSample> samples = part_samples(skins, r, skin.stature_m);
+  TightProblem problem(samples, scaling, loss, kMostMotion, kCandidates);
+  std::vector<geometry::Ellipsoid> shapes;
+  for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
+  if (shapes.empty()) return ellipsoids;
+  descend(context, problem, shapes,
+          {.iterations = kIterations, .relocate = false, .over_step = kOverStepOfFew});
+  for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = scaling.out(shapes[k]);
+  take_parts(problem, ellipsoids);
+  return ellipsoids;
+}
+
+/// A region too small to have samples: one ellipsoid around its vertices, by the closing cover.
+proxy::ProxyEllipsoid speck(const Items& items, const Region& region, double stature_m) {
+  proxy::ProxyEllipsoid e;
+  e.part = items.part[region.items.front()];
+  e.shape.center = items.where[region.items.front()];
+  e.shape.radii.setConstant(kLeastRadius * stature_m);
+  return e;
+}
+
+FittedRegion cover_region(const engine::Context& context, const LabeledSkin& skin, const Items& items,
+                          const Region& region, std::vector<proxy::ProxyEllipsoid> ellipsoids) {
+  if (ellipsoids.empty()) ellipsoids.push_back(speck(items, region, skin.stature_m));
+  std::vector<geometry::Ellipsoid> shapes;
+  const double first = kGrowFirst_mm * Scaling(skin).mm();
+  for (const auto& e : ellipsoids)
+    shapes.push_back({e.shape.center, e.shape.axes, e.shape.radii.array() + first});
+  std::vector<Index> triangles;
+  for (const Index i : region.items) triangles.push_back(items.triangle[i]);
+  cover_triangles(context, skin.mesh, triangles, shapes);
+  for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
+  return {std::move(ellipsoids), {}};
+}
+
+/// Enclosing ellipsoids of bisected clusters of whole triangles.
+FittedRegion enclose_region(const engine::Context& context, const Items& items, const Region& region,
+                            int count, double stature_m) {
+  Region from = region;
+  if (static_cast<int>(from.seeds.size()) > count) from.seeds = {items.where[region.items.front()]};
+  Refinement refinement(context, items, from, refine_options(stature_m));
+  refinement.run(0.0, static_cast<std::size_t>(count));
+  FittedRegion fitted;
+  for (const Cluster& c : refinement.clusters()) fitted.ellipsoids.push_back({c.ellipsoid, c.part});
+  return fitted;
+}
+
+double total_volume(const FittedRegion& fitted) {
+  double sum = 0.0;
+  for (const auto& e : fitted.ellipsoids) sum += geometry::volume(e.shape);
+  return sum;
+}
+
+InteriorColumns columns_of(const LabeledSkin& skin) {
+  return interior_columns(skin.mesh, kColumnSpacing * skin.stature_m);
+}
+
+/// Fills in the columns of the inside, if they are asked for, while the skin is sampled.
+engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& context,
+                                                        const LabeledSkin& skin, const Items& items,
+                                                        const std::vector<Region>& regions, int count,
+                                                        const FitOptions& options, InteriorColumns* columns) {
+  std::vector<PartSkin> skins;
+  RegionTasks tasks{.verb = "cover"};
+  tasks.parts = options.parts;
+  tasks.on_part = options.on_part;
+  tasks.share = [&](const engine::Context& inner) {
+    const std::size_t samples = kSamplesEach * static_cast<std::size_t>(count);
+    engine::parallel_for(inner, columns ? 2 : 1, 1, [&](std::size_t job, std::size_t) {
+      if (job == 0)
+        skins = sample_parts(inner, skin, regions, std::clamp<std::size_t>(samples, 1500, 20000));
+      else
+        *columns = columns_of(skin);
+    });
+    return shares_by_demand(skins, count, skin.stature_m);
+  };
+  tasks.fit = [&](const engine::Context& inner, const Region& region, int share) {
+    const auto r = static_cast<std::size_t>(&region - regions.data());
+    std::vector<proxy::ProxyEllipsoid> ellipsoids;
+    if (!skins[r].balls.empty()) ellipsoids = follow(inner, skin, skins, r, share);
+    FittedRegion covered = cover_region(inner, skin, items, region, std::move(ellipsoids));
+    if (share > kFewEllipsoids) return covered;
+    FittedRegion enclosed = enclose_region(inner, items, region, share, skin.stature_m);
+    return total_volume(enclosed) < total_volume(covered) ? enclosed : covered;
+  };
+  return run_region_tasks(context, regions, tasks);
+}
+
+void close_inside(const engine::Context& context, const LabeledSkin& skin, const InteriorColumns& columns,
+                  std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
+  std::vector<geometry::Ellipsoid> shapes;
+  for (const auto& e : ellipsoids) shapes.push_back(e.shape);
+  cover_interior(context, columns, *skin.distance, shapes);
+  for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
+}
+
+}  // namespace
+
+engine::Result<Draft> fit_solid(const engine::Context& context, const LabeledSkin& skin,
+                                const FitOptions& options, int count) {
+  const Items items = triangle_items(context, skin);
+  const std::vector<Region> regions = make_regions(items, count);
+  const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
+  Draft draft;
+  draft.data.tier = proxy::Tier::kSolid;
+  // The inside of a body of some regions only is not its own to cover.
+  draft.parts = fitted_parts(regions, options.parts);
+  const bool whole = draft.parts == fitted_parts(regions, kAllParts);
+  InteriorColumns columns;
+  if (whole && mu.given()) columns = columns_of(skin);
+  const auto fitted =
+      mu.given() ? refine_regions(context, items, regions, refine_options(skin.stature_m), mu, count, options)
+                 : cover_regions(context, skin, items, regions, count, options, whole ? &columns : nullptr);
+  if (!fitted) return fitted.error();
+  if (mu.given()) report_thresholds(regions, *fitted, mu, draft);
+  for (const FittedRegion& f : *fitted)
+    draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());
+  if (whole) close_inside(context, skin, columns, draft.data.ellipsoids);
+  return draft;
+}
+
+}  // namespace bodice::fitting
