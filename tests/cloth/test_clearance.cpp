@@ -7,7 +7,7 @@
 
 #include <bodice/engine/random.hpp>
 
-#include "clearance.hpp"
+#include "contact/clearance_cache.hpp"
 #include "fixtures.hpp"
 
 using namespace bodice;

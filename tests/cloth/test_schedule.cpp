@@ -5,9 +5,9 @@
 #include <array>
 #include <set>
 
-#include "bend.hpp"
+#include "constraints/bend.hpp"
+#include "constraints/stretch.hpp"
 #include "fixtures.hpp"
-#include "stretch.hpp"
 
 using namespace bodice;
 using namespace bodice_test;

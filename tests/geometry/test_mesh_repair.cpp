@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <bodice/engine/random.hpp>
-#include <bodice/geometry/adjacency.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 #include <bodice_test/data.hpp>
 #include <bodice_test/extremes.hpp>

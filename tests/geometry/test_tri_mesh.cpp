@@ -2,7 +2,6 @@
 
 #include <numbers>
 
-#include <bodice/geometry/adjacency.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 #include <bodice_test/shapes.hpp>
 

@@ -62,8 +62,8 @@ double armpits_differ(const BodyCoordinates& coordinates, const Landmarks& marks
 
 }  // namespace
 
-CrossCheck cross_check(const engine::Context& context, const Skin& skin,
-                           const BodyCoordinates& coordinates, const Landmarks& marks) {
+CrossCheck cross_check(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
+                       const Landmarks& marks) {
   CrossCheck second;
   engine::parallel_for(context, 2, 1, [&](std::size_t task, std::size_t) {
     if (task == 0) second.neck = neck_apart(skin, coordinates, marks);

@@ -16,8 +16,8 @@ struct CrossCheck {
   std::array<double, 2> elbow{-1.0, -1.0}, knee{-1.0, -1.0};     ///< bend of the limb's axis, or proportion
 };
 
-CrossCheck cross_check(const engine::Context& context, const Skin& skin,
-                           const BodyCoordinates& coordinates, const Landmarks& marks);
+CrossCheck cross_check(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
+                       const Landmarks& marks);
 
 /// A first answer's confidence after the second: apart by this much or more (of the size) leaves nothing; no
 /// second answer halves it.
@@ -26,8 +26,9 @@ double checked_confidence(double confidence, double apart, double most);
 /// Apart by this much, of the size, the two ways contradict each other. The neck's two ways mean its joint
 /// and its narrowest place, which lie some 4 % apart. Each bound is passed by one of a hundred or fewer
 /// places that are right.
-inline constexpr double kMaxNeckDifference = 0.10, kMaxPerineumDifference = 0.085, kMaxArmpitDifference = 0.08, kMaxCrownDifference = 0.06,
-                        kMaxArmpitAsymmetry = 0.08, kMaxFingertipDifference = 0.02, kMaxToeDifference = 0.035, kMaxElbowDifference = 0.07,
+inline constexpr double kMaxNeckDifference = 0.10, kMaxPerineumDifference = 0.085,
+                        kMaxArmpitDifference = 0.08, kMaxCrownDifference = 0.06, kMaxArmpitAsymmetry = 0.08,
+                        kMaxFingertipDifference = 0.02, kMaxToeDifference = 0.035, kMaxElbowDifference = 0.07,
                         kMaxKneeDifference = 0.038;
 /// Below this confidence a place is named in a warning.
 inline constexpr double kUncertain = 0.35;

@@ -52,8 +52,8 @@ double joint_apart(const Skin& skin, const BodyCoordinates& coordinates, const L
 
 }  // namespace
 
-void cross_check_positions(const engine::Context& context, const Skin& skin, const BodyCoordinates& coordinates,
-                       const Landmarks& marks, CrossCheck& second) {
+void cross_check_positions(const engine::Context& context, const Skin& skin,
+                           const BodyCoordinates& coordinates, const Landmarks& marks, CrossCheck& second) {
   const BodyExtremities& tips = coordinates.extremities();
   const float size = coordinates.size_m();
   const auto& p = skin.mesh.positions;

@@ -106,8 +106,9 @@ void check_second_ways(const CrossCheck& second, std::vector<Warning>& warnings)
 constexpr double kFootAlongSkin = 0.07, kLegSpread = 0.08, kArmSpread = 0.08;
 
 /// The survey is a cross-check only: children and cartoon figures differ from it and are still understood.
-void check_proportions(const BodyExtremities& tips, const Landmarks& marks, const body::ProportionProfile& profile,
-                       double stature, std::vector<Warning>& warnings) {
+void check_proportions(const BodyExtremities& tips, const Landmarks& marks,
+                       const body::ProportionProfile& profile, double stature,
+                       std::vector<Warning>& warnings) {
   const body::Proportions survey = profile.either();
   if (!(survey.crotch_height > 0.0) || !(stature > 0.0)) return;
   constexpr std::array<const char*, 2> thigh{"thigh_l", "thigh_r"}, upper_arm{"upper_arm_l", "upper_arm_r"};

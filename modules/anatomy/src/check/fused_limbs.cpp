@@ -45,7 +45,7 @@ bool legs_fused(const BodyCoordinates& coordinates) {
 }
 
 std::optional<engine::Error> fused_limbs_error(const Skin& skin, const BodyCoordinates& coordinates,
-                                              const Landmarks& marks, const CrossCheck& second) {
+                                               const Landmarks& marks, const CrossCheck& second) {
   if (skin.handles < 1 || places_in_doubt(marks, second) < kSpoilt) return std::nullopt;
   return engine::Error{engine::ErrorCode::kUnusableGeometry,
                        "The skin is fused where " + what_meets(coordinates) +

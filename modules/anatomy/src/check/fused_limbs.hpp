@@ -16,6 +16,6 @@ bool legs_fused(const BodyCoordinates& coordinates);
 /// The sentence that names what is fused, if that leaves no usable answer: a weld where limbs merely touch
 /// spoils few places, one far from the trunk moves ends, middle and most of the borders.
 std::optional<engine::Error> fused_limbs_error(const Skin& skin, const BodyCoordinates& coordinates,
-                                              const Landmarks& marks, const CrossCheck& second);
+                                               const Landmarks& marks, const CrossCheck& second);
 
 }  // namespace bodice::anatomy

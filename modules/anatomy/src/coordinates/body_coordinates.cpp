@@ -42,7 +42,8 @@ SkinPoint half_way(const Skin& skin, const Field& from, Index to) {
 
 }  // namespace
 
-BodyCoordinates::BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyExtremities& tips)
+BodyCoordinates::BodyCoordinates(const engine::Context& context, const Skin& skin,
+                                 const BodyExtremities& tips)
     : tips_(tips) {
   measure_lengths();
   constexpr std::size_t kTasks = 4;  // the midline, the merge of the legs, two shoulders
@@ -107,9 +108,9 @@ void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& 
   if (before_it(front.vertex)) perineum_margin_ = front.mahalanobis - best.mahalanobis;
   const NearestSignature found = perineum_margin_ < kFoldMargin ? front : best;
   const float least2 = found.mahalanobis * found.mahalanobis;
-  perineum_position_ = soft_position(skin, found.vertex, kSoftRadius * static_cast<double>(size_), [&](Index v) {
-    return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F;
-  });
+  perineum_position_ =
+      soft_position(skin, found.vertex, kSoftRadius * static_cast<double>(size_),
+                    [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
   perineum_ = vertex_near(skin, perineum_position_, found.vertex);
   perineum_mahalanobis_ = found.mahalanobis;
 }

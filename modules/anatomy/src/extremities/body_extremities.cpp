@@ -6,8 +6,10 @@ BodyExtremities in_body_order(const Extremities& tips, const Sides& sides) {
   BodyExtremities body;
   body.head = tips.vertex[kHead];
   body.from_head = &tips.field[kHead];
-  const std::array<Extremity, 2> hand = sides.a_is_left ? std::array{kHandA, kHandB} : std::array{kHandB, kHandA};
-  const std::array<Extremity, 2> foot = sides.a_is_left ? std::array{kFootA, kFootB} : std::array{kFootB, kFootA};
+  const std::array<Extremity, 2> hand =
+      sides.a_is_left ? std::array{kHandA, kHandB} : std::array{kHandB, kHandA};
+  const std::array<Extremity, 2> foot =
+      sides.a_is_left ? std::array{kFootA, kFootB} : std::array{kFootB, kFootA};
   for (int side = 0; side < 2; ++side) {
     body.hand[side] = tips.vertex[hand[side]];
     body.foot[side] = tips.vertex[foot[side]];

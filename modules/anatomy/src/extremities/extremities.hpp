@@ -15,7 +15,7 @@ inline constexpr int kExtremityCount = 5;
 struct Extremities {
   std::array<geometry::Index, kExtremityCount> vertex{};
   std::array<geodesic::Field, kExtremityCount> field;  ///< distance of every vertex from each end, meters
-  double mahalanobis = 0.0;                           ///< of their distances to those of a body; below 1 is good
+  double mahalanobis = 0.0;  ///< of their distances to those of a body; below 1 is good
   double side_margin = 0.0;  ///< how clearly hands and feet pair, relative to the body's size
 
   float between(Extremity a, Extremity b) const { return field[a][vertex[b]]; }

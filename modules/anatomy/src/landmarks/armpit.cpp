@@ -78,7 +78,7 @@ SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const 
   const float least2 = found.mahalanobis * found.mahalanobis;
   const geometry::Vec3 place =
       soft_position(skin, found.vertex, kSoftRadius * static_cast<double>(coordinates.size_m()),
-                 [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
+                    [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
   const double elsewhere = kElsewhere * static_cast<double>(coordinates.size_m());
   const auto may_be_rival = [&](std::size_t v) {
     const auto& p = skin.mesh.positions;
@@ -86,8 +86,8 @@ SignedPlace find_armpit(const engine::Context& context, const Skin& skin, const 
   };
   const NearestSignature rival =
       nearest_signature(context, coordinates.from_perineum().size(), may_be_rival, distance2);
-  const float lead =
-      may_be_rival(rival.vertex) ? rival.mahalanobis - found.mahalanobis : std::numeric_limits<float>::infinity();
+  const float lead = may_be_rival(rival.vertex) ? rival.mahalanobis - found.mahalanobis
+                                                : std::numeric_limits<float>::infinity();
   return {place, found.vertex, found.mahalanobis, lead};
 }
 

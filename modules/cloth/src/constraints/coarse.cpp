@@ -1,0 +1,143 @@
+// Based on: Matthias Mueller. Hierarchical Position Based Dynamics. 2008.
+// Differs: nodes carry the mass of all that they stand for, so that momentum is kept; their constraints only
+// pull (limits along the cloth), so that folds stay free; the corrections, not the positions, are
+// interpolated.
+#include "constraints/coarse.hpp"
+
+#include <atomic>
+#include <span>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+// Four ties; true if one was too long.
+bool pull_pack(CoarseLevel& level, std::size_t pack) {
+  const std::size_t first = pack * kTiePack;
+  const Index *a = &level.ties.a[first], *b = &level.ties.b[first];
+  Float4 at_a[kTiePack], at_b[kTiePack], d[kTiePack];
+  for (std::size_t k = 0; k < kTiePack; ++k) {
+    at_a[k] = load(level.at[a[k]]), at_b[k] = load(level.at[b[k]]);
+    d[k] = xyz(at_a[k] - at_b[k]);
+  }
+  Float4 x = d[0], y = d[1], z = d[2], none = d[3];
+  transpose(x, y, z, none);
+  const Float4 length2 = x * x + y * y + z * z, limit = load(&level.ties.limit_m[first]);
+  const auto longer = length2 > limit * limit;
+  if (!any(longer)) return false;
+  const Float4 wa = weights(at_a[0], at_a[1], at_a[2], at_a[3]);
+  const Float4 wb = weights(at_b[0], at_b[1], at_b[2], at_b[3]);
+  const Float4 length = square_root(length2 + kTinyLength2);
+  const Float4 scale = longer ? (length - limit) / (length * (wa + wb + kTinyWeight)) : splat(0.0f);
+  const Float4 to_a = scale * wa, to_b = scale * wb;
+  for (std::size_t k = 0; k < kTiePack; ++k) {
+    store(level.at[a[k]], at_a[k] - to_a[k] * d[k]);
+    store(level.at[b[k]], at_b[k] + to_b[k] * d[k]);
+  }
+  return true;
+}
+
+// One sweep over all ties; true if one was too long.
+bool pull(const engine::Context& context, CoarseLevel& level) {
+  const Schedule& schedule = level.ties.schedule;
+  std::atomic<bool> pulled{false};
+  auto note = [&](bool longer) {
+    if (longer && !pulled.load(std::memory_order_relaxed)) pulled.store(true, std::memory_order_relaxed);
+  };
+  engine::parallel_for(context, schedule.block_begin.size() - 1, 1, [&](std::size_t block, std::size_t) {
+    bool longer = false;
+    for (std::size_t pack = schedule.block_begin[block]; pack < schedule.block_begin[block + 1]; ++pack)
+      longer = pull_pack(level, pack) || longer;
+    note(longer);
+  });
+  for_each_across(context, schedule, [&](std::size_t begin, std::size_t end) {
+    bool longer = false;
+    for (std::size_t pack = begin; pack < end; ++pack) longer = pull_pack(level, pack) || longer;
+    note(longer);
+  });
+  return pulled.load();
+}
+
+// What the nodes' displacements come to at particle i.
+Float4 carried(const CoarseLevel& level, std::size_t i) {
+  const Parents& parents = level.parents[i];
+  Float4 sum = splat(0.0f);
+  for (std::size_t k = 0; k < kParents; ++k) sum += parents.share[k] * load(level.move[parents.node[k]]);
+  return sum;
+}
+
+// Where the levels before have brought particle i.
+Float4 moved_to(std::span<const CoarseLevel* const> moved, const Particles& p, std::size_t i) {
+  Float4 at = load(p.point[i]);
+  if (p.point[i].weight == 0.0f) return at;
+  for (const CoarseLevel* level : moved) at += carried(*level, i);
+  return at;
+}
+
+void load_nodes(const engine::Context& context, std::span<const CoarseLevel* const> moved, const Particles& p,
+                CoarseLevel& level) {
+  engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      const Float4 from = moved_to(moved, p, level.node[n]);
+      store(level.move[n], from);
+      level.at[n].x = from[0], level.at[n].y = from[1], level.at[n].z = from[2];
+    }
+  });
+}
+
+void to_displacements(const engine::Context& context, CoarseLevel& level) {
+  engine::parallel_for(context, level.node.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n)
+      store(level.move[n], xyz(load(level.at[n]) - load(level.move[n])));
+  });
+}
+
+// The inverse of what node n carries; one that nothing moves has none.
+float inverse_mass(const Particles& p, const CoarseLevel& level, std::size_t n) {
+  if (!(p.point[level.node[n]].weight > 0.0f)) return 0.0f;
+  float mass = 0.0f;
+  for (Index k = level.child_begin[n]; k < level.child_begin[n + 1]; ++k) {
+    const auto [i, share] = level.child[k];
+    const float weight = p.point[i].weight;
+    mass += share * (weight > 0.0f ? 1.0f / weight : kPinnedMass * p.mass[i]);
+  }
+  return 1.0f / mass;
+}
+
+}  // namespace
+
+void update_weights(const engine::Context& context, const Particles& p, std::vector<CoarseLevel>& levels) {
+  for (CoarseLevel& level : levels) {
+    const std::size_t nodes = level.node.size();
+    const std::size_t grain = 1 + nodes * kParticleGrain / level.child.size();
+    engine::parallel_for(context, nodes, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) level.at[n].weight = inverse_mass(p, level, n);
+    });
+  }
+}
+
+// A finer level's nodes start where the coarser ones bring them; the particles follow all levels at once.
+void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& p) {
+  const CoarseLevel* moved[kMostLevels] = {};
+  std::size_t count = 0;
+  for (CoarseLevel& level : levels) {
+    load_nodes(context, {moved, count}, p, level);
+    bool pulled = false;
+    for (int sweep = 0; sweep < level.sweeps; ++sweep) {
+      if (!pull(context, level)) break;  // all within their limits: a further sweep would find the same
+      pulled = true;
+    }
+    if (!pulled) continue;
+    to_displacements(context, level);
+    moved[count++] = &level;
+  }
+  if (count == 0) return;
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) store(p.point[i], moved_to({moved, count}, p, i));
+  });
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,105 @@
+#include "contact/clearance_cache.hpp"
+
+#include <algorithm>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+/// Meters of distance that a meter of travel takes off at most, beyond a rise at once.
+struct Steepness {
+  float slope, rise_m;
+};
+constexpr Steepness kPlain = {1.0f, 0.0f};
+// Tables of relief are steep in places. On five made bodies (seeds 0, 3, 5, 7 and 11, three poses) 1.4
+// million ways each of 0.5 to 40 mm toward the surface took at most 2.3 mm more than twice their length.
+constexpr Steepness kRelief = {2.0f, 3e-3f};
+// Travel asked for, in that expected: constraints pull some particles faster than gravity does.
+constexpr float kSpare = 2.0f;
+constexpr double kFar_m = 1e6;
+// Where fewer clusters are far, asking costs more than it spares; how many frames to wait then.
+constexpr std::size_t kWorthAsking = 8;
+constexpr int kWait = 15;
+
+/// How far from the body it matters how far.
+struct Reach {
+  float touch_m = 0.0f;  // nearer may touch without a way
+  float free_m = 0.0f;   // beyond
+};
+
+// Distances of the particles [begin, end), whole clusters, and what each cluster may travel.
+void ask_run(const collision::Collider& body, const Reach& reach, std::size_t begin, std::size_t end,
+             Particles& p, Clearance& c) {
+  if (begin == end) return;
+  const engine::Context alone{.executor = &engine::inline_executor()};
+  const collision::Particles run{.count = end - begin, .x = &p.x[begin], .y = &p.y[begin], .z = &p.z[begin]};
+  body.query(alone, run, std::span(c.nearest).subspan(begin, end - begin),
+             {.within_m = reach.touch_m + reach.free_m});
+  for (std::size_t i = begin; i < end; ++i) {
+    float& free_m = c.free_m[i / kCluster];
+    free_m =
+        std::min(i % kCluster == 0 ? reach.free_m : free_m, c.nearest[i].signed_distance - reach.touch_m);
+  }
+}
+
+// Those of which one touched are near, and need no asking.
+void ask(const engine::Context& context, const collision::Collider& body, const Reach& reach,
+         std::span<const std::uint8_t> touching, Particles& p, Clearance& c) {
+  engine::parallel_for(context, p.count(), kCluster * 16, [&](std::size_t begin, std::size_t end) {
+    std::size_t first = begin;  // of the run so far
+    for (std::size_t from = begin; from < end; from += kCluster) {
+      const std::size_t to = std::min(from + kCluster, end);
+      if (std::ranges::count(touching.subspan(from, to - from), 0) == static_cast<std::ptrdiff_t>(to - from))
+        continue;
+      ask_run(body, reach, first, from, p, c);
+      c.free_m[from / kCluster] = 0.0f;
+      first = to;
+    }
+    ask_run(body, reach, first, end, p, c);
+  });
+}
+
+}  // namespace
+
+Clearance make_clearance(std::size_t particles) {
+  Clearance c;
+  c.free_m.assign(engine::block_count(particles, kCluster), 0.0f);
+  c.nearest.resize(particles);
+  return c;
+}
+
+void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
+                     double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
+                     Particles& particles, Clearance& c) {
+  const bool wait = c.frames_without > 0 && --c.frames_without > 0;
+  if (wait || still_body == nullptr) {
+    std::ranges::fill(c.free_m, 0.0f);
+    return;
+  }
+  const Steepness& steepness = still_body->has_relief() ? kRelief : kPlain;
+  const Reach reach = {static_cast<float>(thickness_m) + steepness.rise_m,
+                       kSpare * steepness.slope * static_cast<float>(std::min(kFar_m, travel_m))};
+  c.slope = steepness.slope;
+  ask(context, *still_body, reach, touching, particles, c);
+  const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });
+  if (static_cast<std::size_t>(far) * kWorthAsking < c.free_m.size()) c.frames_without = kWait;
+}
+
+bool may_touch(const Particles& p, std::size_t begin, std::size_t end, Clearance& c) {
+  float& free_m = c.free_m[begin / kCluster];
+  if (!(free_m > 0.0f)) return true;
+  Float4 longest2 = splat(0.0f);
+  for (std::size_t i = begin; i < end; i += 4) {
+    const Float4 dx = load(&p.x[i]) - load(&p.old_x[i]), dy = load(&p.y[i]) - load(&p.old_y[i]),
+                 dz = load(&p.z[i]) - load(&p.old_z[i]);
+    longest2 = max(longest2, dx * dx + dy * dy + dz * dz);
+  }
+  const Float4 longest = square_root(longest2);
+  free_m -= c.slope * std::max({longest[0], longest[1], longest[2], longest[3]});
+  return !(free_m > 0.0f);
+}
+
+}  // namespace bodice::cloth

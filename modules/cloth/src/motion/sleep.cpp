@@ -1,0 +1,84 @@
+#include "motion/sleep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+constexpr float kSlow_m_s = 0.010f;    // slower than this is resting: a sixth of a millimeter a frame
+constexpr float kWaking_m_s = 0.050f;  // a neighbor faster than this wakes
+constexpr float kQuiet_s = 0.5f;       // longer than the turning point of any swing that one can see
+// Who keeps this near to a place trembles; a drift as slow as resting leaves it in half of the time.
+constexpr float kTremble_m = 0.5f * kSlow_m_s * kQuiet_s;
+
+bool stays(const Particles& p, std::size_t i, const Point& place) {
+  const float dx = p.x[i] - place.x, dy = p.y[i] - place.y, dz = p.z[i] - place.z;
+  return dx * dx + dy * dy + dz * dz < kTremble_m * kTremble_m;
+}
+
+// Speeds of particles [begin, end) over the frame; returns the largest.
+float find_speeds(const Particles& p, std::size_t begin, std::size_t end, float per_s, Sleep& sleep) {
+  float fastest = 0.0f;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
+                dz = p.z[i] - sleep.start_z[i];
+    sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
+    sleep.stays[i] = stays(p, i, sleep.place[i]);
+    fastest = std::max(fastest, sleep.speed[i]);
+  }
+  return fastest;
+}
+
+bool woken(const Ring& ring, std::size_t i, const Sleep& sleep) {
+  return std::ranges::any_of(ring.of(i),
+                             [&](Index j) { return sleep.speed[j] > kWaking_m_s && !sleep.stays[j]; });
+}
+
+}  // namespace
+
+Sleep make_sleep(std::size_t particles) {
+  Sleep s;
+  for (auto* a : {&s.start_x, &s.start_y, &s.start_z, &s.speed, &s.quiet_s}) a->assign(particles, 0.0f);
+  s.place.assign(particles, Point{}), s.stays.assign(particles, 0);
+  return s;
+}
+
+bool sleeps(const Sleep& sleep, std::size_t particle) {
+  return sleep.quiet_s[particle] >= kQuiet_s;
+}
+
+void begin_sleep_frame(const Particles& p, std::size_t begin, std::size_t end, Sleep& sleep) {
+  const auto first = static_cast<std::ptrdiff_t>(begin), last = static_cast<std::ptrdiff_t>(end);
+  std::copy(p.x.begin() + first, p.x.begin() + last, sleep.start_x.begin() + first);
+  std::copy(p.y.begin() + first, p.y.begin() + last, sleep.start_y.begin() + first);
+  std::copy(p.z.begin() + first, p.z.begin() + last, sleep.start_z.begin() + first);
+}
+
+float end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& p,
+                      Sleep& sleep) {
+  const auto per_s = static_cast<float>(1.0 / frame_s);
+  const float fastest = engine::ordered_reduce(
+      context, p.count(), reduce_grain(p.count()), 0.0f,
+      [&](std::size_t begin, std::size_t end) { return find_speeds(p, begin, end, per_s, sleep); },
+      [](float a, float b) { return std::max(a, b); });
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const bool quiet = (sleep.speed[i] < kSlow_m_s || sleep.stays[i]) && !woken(ring, i, sleep);
+      sleep.quiet_s[i] = quiet ? std::min(kQuiet_s, sleep.quiet_s[i] + static_cast<float>(frame_s)) : 0.0f;
+      if (!quiet || !sleep.stays[i]) sleep.place[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
+      if (sleeps(sleep, i)) p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
+    }
+  });
+  return fastest;
+}
+
+void wake_all(Sleep& sleep) {
+  std::fill(sleep.quiet_s.begin(), sleep.quiet_s.end(), 0.0f);
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,176 @@
+// One frame: substeps of predict, solve, contact.
+// Based on: Miles Macklin, Kier Storey, Michelle Lu, Pierre Terdiman, Nuttapong Chentanez, Stefan Jeschke,
+// Matthias Mueller. Small Steps in Physics Simulation. 2019. - algorithm 1
+// Differs: coarse levels too. With several sweeps a substep each gets its share of the compliance instead
+// of a stored multiplier: soft constraints sum to the same force, stiff ones do not feel it.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+#include "motion/predict.hpp"
+#include "solver/quality_controller.hpp"
+#include "solver/state.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+double fastest(const engine::Context& context, const Particles& p) {
+  const float v2 = engine::ordered_reduce(
+      context, p.count(), reduce_grain(p.count()), 0.0f,
+      [&](std::size_t begin, std::size_t end) {
+        float most = 0.0f;
+        for (std::size_t i = begin; i < end; ++i)
+          most = std::max(most, p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i]);
+        return most;
+      },
+      [](float a, float b) { return std::max(a, b); });
+  return static_cast<double>(std::sqrt(v2));
+}
+
+// Who takes part in this frame: pinned and sleeping particles have no weight. True if that changed.
+bool load_points(const Sleep& sleep, std::size_t begin, std::size_t end, Particles& p) {
+  bool changed = false;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float weight = sleeps(sleep, i) ? 0.0f : p.inverse_mass[i];
+    changed = changed || weight != p.point[i].weight;
+    p.point[i] = {p.x[i], p.y[i], p.z[i], weight};
+  }
+  return changed;
+}
+
+void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
+  Particles& p = s.particles;
+  update_air(context, s.options.environment, s.options.seed, s.time_s, p, s.air);
+  std::atomic<bool> changed{false};
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    if (load_points(s.sleep, begin, end, p)) changed.store(true, std::memory_order_relaxed);
+    begin_sleep_frame(p, begin, end, s.sleep);
+  });
+  if (changed.load()) update_weights(context, p, s.coarse);
+  aim_pins(s.pins, plan.simulated_s, p);
+  if (s.options.self_collision && !(plan.limits & kNoSelfContact))
+    find_close_pairs(context, s.ring, p, s.self);
+}
+
+void solve_block(std::size_t block, bool bend, float inverse_h2, Patch& patch, State& s) {
+  if (bend) solve_bend_block(s.bend, block, inverse_h2, patch);
+  solve_stretch_block(s.stretch, block, inverse_h2, patch);
+}
+
+// Prediction and one sweep over the constraints inside blocks: a block's worker does both, while its patch of
+// cloth is at hand.
+std::uint32_t predict_and_sweep(const engine::Context& context, const Plan& plan, bool bend, float inverse_h2,
+                                State& s) {
+  const Prediction how = {plan.substep_s, static_cast<float>(s.fabric.damping_per_s),
+                          s.max_travel_m / plan.substep_s};
+  std::atomic<std::uint32_t> limits{0};
+  const std::size_t size = block_size(s.particles.count());
+  engine::parallel_for(context, s.particles.count(), size, [&](std::size_t begin, std::size_t end) {
+    Patch patch;
+    limits.fetch_or(predict(s.options.environment, s.air, how, begin, end, s.particles, patch.at),
+                    std::memory_order_relaxed);
+    solve_block(begin / size, bend, inverse_h2, patch, s);
+    std::copy_n(patch.at, end - begin, &s.particles.point[begin]);
+  });
+  return limits.load();
+}
+
+void sweep(const engine::Context& context, bool bend, float inverse_h2, State& s) {
+  const std::size_t size = block_size(s.particles.count());
+  engine::parallel_for(context, s.particles.count(), size, [&](std::size_t begin, std::size_t end) {
+    Patch patch;
+    std::copy_n(&s.particles.point[begin], end - begin, patch.at);
+    solve_block(begin / size, bend, inverse_h2, patch, s);
+    std::copy_n(patch.at, end - begin, &s.particles.point[begin]);
+  });
+}
+
+FrameShare share(int substep, const Plan& plan) {
+  const auto all = static_cast<float>(plan.substeps);
+  return {static_cast<float>(substep) / all, static_cast<float>(substep + 1) / all};
+}
+
+std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
+                          const Plan& plan, int substep, State& s) {
+  Particles& p = s.particles;
+  std::swap(p.x, p.old_x), std::swap(p.y, p.old_y), std::swap(p.z, p.old_z);
+  const bool bend = !(plan.limits & kBendingHalved) || substep % 2 == 0;
+  const float inverse_h2 = static_cast<float>(s.options.iterations) / (plan.substep_s * plan.substep_s);
+  std::uint32_t limits = 0;
+  for (int iteration = 0; iteration < s.options.iterations; ++iteration) {
+    if (iteration == 0)
+      limits |= predict_and_sweep(context, plan, bend, inverse_h2, s);
+    else
+      sweep(context, bend, inverse_h2, s);
+    if (bend) solve_bend_across(context, s.bend, inverse_h2, p);
+    solve_stretch_across(context, s.stretch, inverse_h2, p);
+  }
+  solve_coarse(context, s.coarse, p);
+  if (s.options.self_collision && !(plan.limits & kNoSelfContact))
+    push_apart(context, s.contacts.touching, static_cast<float>(s.fabric.friction), plan.substep_s, s.self,
+               p);
+  return limits | meet_body(context, collider, s.options, static_cast<float>(s.fabric.friction),
+                            {plan.substep_s, share(substep, plan)}, s.contacts, p);
+}
+
+void end_frame(const engine::Context& context, const Plan& plan, State& s) {
+  const Environment& e = s.options.environment;
+  Particles& p = s.particles;
+  settle_pins(s.pins, p);
+  const float fastest_m_s = end_sleep_frame(context, s.ring, plan.simulated_s, p, s.sleep);
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) p.point[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};
+  });
+  s.self.travel_m += plan.simulated_s * static_cast<double>(fastest_m_s);
+  if (e.gust > 0.0 && e.wind_m_s != Vec3::Zero()) wake_all(s.sleep);  // the air never rests
+  s.time_s += plan.simulated_s;
+}
+
+// A body that moved or changed may have taken a sleeper's support away. Whether it moved.
+bool meet_collider(const collision::Collider* collider, State& s) {
+  const Vec3 before = s.particles.origin;
+  if (collider != nullptr) rebase(s.particles, collider->origin());
+  const bool moved = collider != nullptr && moves(*collider);
+  // An address alone does not tell: a better proxy may be put in place of one.
+  const std::uint64_t proxy_hash = collider != nullptr ? collider->proxy_hash() : 0;
+  // Nor do speeds: a pose that was taken in no time has none.
+  const std::uint64_t poses = collider != nullptr ? collider->poses() : 0;
+  if (moved || collider != s.last_collider || proxy_hash != s.last_proxy_hash || poses != s.last_poses ||
+      before != s.particles.origin)
+    wake_all(s.sleep);
+  if (collider == nullptr) std::ranges::fill(s.contacts.touching, std::uint8_t{0});
+  s.last_collider = collider;
+  s.last_proxy_hash = proxy_hash;
+  s.last_poses = poses;
+  return moved;
+}
+
+}  // namespace
+
+FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
+                    State& s) {
+  const std::int64_t start_ns = context.clock->now_ns();
+  const bool moved = meet_collider(collider, s);
+  const Plan plan = plan_frame(s.options, dt_s, fastest(context, s.particles),
+                               static_cast<double>(s.max_travel_m), s.budget.level);
+  FrameReport report;
+  report.substeps = plan.substeps;
+  report.simulated_s = plan.simulated_s;
+  report.limits = plan.limits;
+  if (plan.substeps > 0) begin_frame(context, plan, s);
+  begin_contact_frame(context, plan.substeps > 0 ? collider : nullptr, moved, s.options, dt_s, plan.travel_m,
+                      s.particles, s.contacts);
+  for (int substep = 0; substep < plan.substeps; ++substep)
+    report.limits |= run_substep(context, collider, plan, substep, s);
+  report_contacts(s.contacts, report);
+  if (plan.substeps > 0) end_frame(context, plan, s);
+  measure(context, s, report);
+  report.frame_us = 1e-3 * static_cast<double>(context.clock->now_ns() - start_ns);
+  learn(s.options, report.frame_us, s.budget);
+  return report;
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/check_options.hpp"
+#include "solver/state.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+// Share of the strain limit that coarse limits allow: distances along edges are 2 % too long as it is.
+constexpr double kCoarseSlack = 0.25;
+
+// Of the longest travel in a substep. A garment a meter across: 5 mm, within the radius of fingers.
+constexpr float kFollowed = 0.1f;
+
+// Layers keep this share of the median edge apart: below 0.71 a particle passes through the middle of a quad.
+constexpr double kSelfRadius = 0.75;
+
+// Particles in Morton order; the map from vertices follows.
+void reorder(WeldedGarment& garment) {
+  const std::vector<Index> order = morton_order(garment.mesh.positions);
+  std::vector<Index> place(order.size());
+  std::vector<Vec3> positions;
+  for (Index i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+    positions.push_back(garment.mesh.positions[order[i]]);
+  }
+  garment.mesh.positions = std::move(positions);
+  for (Triangle& t : garment.mesh.triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
+  for (Index& p : garment.particle_of_vertex) p = p == geometry::kNoIndex ? p : place[p];
+}
+
+Pins make_pins(const WeldedGarment& garment, std::span<const Index> pinned,
+               std::vector<engine::Warning>& warnings) {
+  Pins pins;
+  std::size_t unknown = 0;
+  for (const Index v : pinned) {
+    const bool known =
+        v < garment.particle_of_vertex.size() && garment.particle_of_vertex[v] != geometry::kNoIndex;
+    pins.particle.push_back(known ? garment.particle_of_vertex[v] : geometry::kNoIndex);
+    pins.to.push_back(known ? garment.mesh.positions[pins.particle.back()] : Vec3(Vec3::Zero()));
+    if (!known) ++unknown;
+  }
+  if (unknown > 0) {
+    warnings.push_back({"garment-pins-dropped", "garment",
+                        std::to_string(unknown) + " pins name a vertex that does not exist or was dropped.",
+                        ""});
+  }
+  return pins;
+}
+
+std::vector<bool> pinned_particles(const Pins& pins, std::size_t particles) {
+  std::vector<bool> out(particles, false);
+  for (const Index p : pins.particle) {
+    if (p != geometry::kNoIndex) out[p] = true;
+  }
+  return out;
+}
+
+// Where a dropped vertex is reported: its input place, or the garment's center if that is not finite.
+std::vector<Vec3> resting_places(const geometry::TriMesh& garment, const geometry::TriMesh& particles) {
+  const Vec3 center = geometry::bounding_box(particles.positions).center();
+  std::vector<Vec3> out = garment.positions;
+  for (Vec3& p : out) p = p.allFinite() ? p : center;
+  return out;
+}
+
+}  // namespace
+
+engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<const Index> pinned,
+                                 const Fabric& fabric, const SolverOptions& options) {
+  if (auto good = check(fabric); !good) return good.error();
+  if (auto good = check(options); !good) return good.error();
+  auto welded = weld(garment);
+  if (!welded) return welded.error();
+  reorder(*welded);
+  State s;
+  s.fabric = fabric;
+  s.options = options;
+  s.warnings = std::move(welded->warnings);
+  const geometry::TriMesh& mesh = welded->mesh;
+  s.pins = make_pins(*welded, pinned, s.warnings);
+  s.particles = make_particles(mesh, fabric.density_kg_m2, pinned_particles(s.pins, mesh.positions.size()));
+  const Topology topology = find_topology(mesh);
+  s.stretch = make_stretch(mesh, topology, fabric, s.particles);
+  s.bend = make_bend(mesh, topology, fabric, s.particles);
+  s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
+  update_weights({}, s.particles, s.coarse);  // from here on, whenever somebody falls asleep or wakes
+  s.air = make_air(mesh);
+  s.ring = make_ring(mesh, topology);
+  s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
+  s.sleep = make_sleep(s.particles.count());
+  s.contacts = make_contacts(s.particles.count());
+  s.scratch.resize(s.stretch.slots());
+  s.selection = make_selection(std::max(s.stretch.slots(), s.particles.count()));
+  s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
+  s.contacts.carry.followed_m = kFollowed * s.max_travel_m;
+  s.input = resting_places(garment, mesh);
+  s.particle_of_vertex = std::move(welded->particle_of_vertex);
+  return s;
+}
+
+}  // namespace bodice::cloth

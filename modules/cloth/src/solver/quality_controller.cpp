@@ -1,0 +1,55 @@
+#include "solver/quality_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bodice::cloth {
+namespace {
+
+/// A frame shorter than this moves nothing that floats could tell, and the inverse square of its substeps
+/// would overflow.
+constexpr double kLeastFrame_s = 1e-15;
+constexpr int kWorstLevel = 3;
+constexpr int kGoodFrames = 60;
+constexpr int kFewestSubsteps = 2;
+
+std::uint32_t dropped(int level) {
+  return (level >= 1 ? kNoSelfContact : 0u) | (level >= 2 ? kBendingHalved : 0u) |
+         (level >= 3 ? kSubstepsHalved : 0u);
+}
+
+}  // namespace
+
+Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s, double max_travel_m,
+                int level) {
+  Plan plan;
+  if (!(dt_s >= kLeastFrame_s)) {
+    plan.limits = dt_s > 0.0 ? kTimeCut : 0u;
+    return plan;
+  }
+  plan.simulated_s = std::min(dt_s, kMaxSubsteps * kMaxSubstep_s);
+  plan.limits = dropped(level) | (plan.simulated_s < dt_s ? kTimeCut : 0u);
+  const int asked = level >= 3 ? std::max(kFewestSubsteps, options.substeps / 2) : options.substeps;
+  plan.travel_m =
+      plan.simulated_s * (top_speed_m_s + plan.simulated_s * options.environment.gravity_m_s2.norm());
+  const double wanted =
+      std::max({static_cast<double>(asked), std::ceil(plan.simulated_s / kMaxSubstep_s - 1e-9),
+                std::ceil(plan.travel_m / max_travel_m)});
+  plan.substeps = static_cast<int>(std::min(wanted, static_cast<double>(kMaxSubsteps)));
+  if (plan.substeps > asked) plan.limits |= kMoreSubsteps;
+  plan.substep_s = static_cast<float>(plan.simulated_s / plan.substeps);
+  return plan;
+}
+
+void learn(const SolverOptions& options, double frame_us, Budget& budget) {
+  if (!(options.budget_us > 0.0)) return;
+  budget.good_frames = frame_us < 0.5 * options.budget_us ? budget.good_frames + 1 : 0;
+  if (frame_us > options.budget_us) {
+    budget.level = std::min(kWorstLevel, budget.level + 1);
+  } else if (budget.good_frames >= kGoodFrames) {
+    budget.level = std::max(0, budget.level - 1);
+    budget.good_frames = 0;
+  }
+}
+
+}  // namespace bodice::cloth

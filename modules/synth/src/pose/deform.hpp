@@ -1,0 +1,15 @@
+// Carries the skin from the rest pose to another.
+#pragma once
+
+#include <bodice/engine/context.hpp>
+
+#include "mesh/weights.hpp"
+#include "pose/pose.hpp"
+
+namespace bodice::synth {
+
+/// Blends the bones' motions of each point as dual quaternions, so that bends and twists do not collapse.
+std::vector<Vec3> deform(const engine::Context& context, const std::vector<Vec3>& rest,
+                         const std::vector<BoneWeights>& weights, const BoneTransforms& bones);
+
+}  // namespace bodice::synth

@@ -1,0 +1,29 @@
+// What is known of a posed body because it was made: parts, landmarks, joints.
+#pragma once
+
+#include <bodice/synth/body.hpp>
+
+#include "mesh/weights.hpp"
+#include "pose/pose.hpp"
+
+namespace bodice::synth {
+
+struct Posed {
+  const Figure& figure;
+  const PatchMesh& mesh;
+  const std::vector<geometry::Triangle>& triangles;
+  const std::vector<Vec3>& rest;            ///< #V
+  const std::vector<BoneWeights>& weights;  ///< #V
+  const std::vector<Vec3>& posed;           ///< #V
+  const BoneTransforms& bones;
+};
+
+/// The part whose bones carry most of each vertex; the trunk is cut at chest, waist and middle.
+std::vector<body::Part> true_parts(const Posed& body);
+
+/// All of LandmarkId, in that order. Neck, elbows and knees are their joints.
+std::vector<body::Landmark> true_landmarks(const Posed& body);
+
+std::vector<Joint> true_joints(const Figure& figure, const BoneTransforms& bones);
+
+}  // namespace bodice::synth
