@@ -5,7 +5,7 @@
 namespace bodice::geodesic {
 
 DistanceSolver::DistanceSolver(const engine::Context& context, const geometry::TriMesh& mesh,
-                               const MeshEdges& edges, Method method)
+                               const geometry::MeshEdges& edges, Method method)
     : mesh_(mesh), edges_(edges), method_(method) {
   if (method == Method::kFastMarching)
     around_ = edges_of_vertex(mesh.positions.size(), edges);

@@ -18,7 +18,7 @@ constexpr std::size_t kGrain = 4096;
 /// A zero-length link would let the queue revisit a vertex without progress.
 constexpr double kShortestRelative = 1e-6;
 
-Index opposite(const geometry::Triangle& t, const MeshEdges::Ends& ends) {
+Index opposite(const geometry::Triangle& t, const geometry::MeshEdges::Ends& ends) {
   for (const Index v : t)
     if (v != ends[0] && v != ends[1]) return v;
   return kNoIndex;
@@ -34,7 +34,7 @@ Flat lay_flat(const Vec3& a, const Vec3& hinge, double hinge_length, const Vec3&
 }
 
 /// The straight line between the two corners that face an edge, if it stays inside the two triangles.
-std::optional<Bridge> across(const geometry::TriMesh& mesh, const MeshEdges& edges, std::size_t e) {
+std::optional<Bridge> across(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges, std::size_t e) {
   const auto [f, g] = edges.triangles[e];
   if (g == kNoIndex) return std::nullopt;
   const Index p = opposite(mesh.triangles[f], edges.ends[e]);
@@ -54,7 +54,7 @@ std::optional<Bridge> across(const geometry::TriMesh& mesh, const MeshEdges& edg
 }
 
 std::vector<Bridge> two_way_links(const engine::Context& context, const geometry::TriMesh& mesh,
-                                  const MeshEdges& edges, Metric metric) {
+                                  const geometry::MeshEdges& edges, Metric metric) {
   const std::size_t per_edge = metric == Metric::kUnfolded ? 2 : 1;
   std::vector<Bridge> links(per_edge * edges.ends.size());
   engine::parallel_for(context, edges.ends.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -99,8 +99,8 @@ EdgeGraph compress(std::size_t vertices, const std::vector<Bridge>& bridges) {
 
 }  // namespace
 
-EdgeGraph edge_graph(const engine::Context& context, const geometry::TriMesh& mesh, const MeshEdges& edges,
-                     Metric metric) {
+EdgeGraph edge_graph(const engine::Context& context, const geometry::TriMesh& mesh,
+                     const geometry::MeshEdges& edges, Metric metric) {
   return compress(mesh.positions.size(), two_way_links(context, mesh, edges, metric));
 }
 

@@ -46,7 +46,8 @@ std::optional<Vec2> third_corner(double length, double from_first, double from_s
 
 class Front {
  public:
-  Front(const geometry::TriMesh& mesh, const MeshEdges& edges, const EdgesOfVertex& around)
+  Front(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges,
+        const geometry::EdgesOfVertex& around)
       : mesh_(mesh),
         edges_(edges),
         around_(around),
@@ -139,8 +140,8 @@ class Front {
 
   using Entry = std::pair<float, Index>;
   const geometry::TriMesh& mesh_;
-  const MeshEdges& edges_;
-  const EdgesOfVertex& around_;
+  const geometry::MeshEdges& edges_;
+  const geometry::EdgesOfVertex& around_;
   Field field_;
   std::vector<char> settled_;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
@@ -148,8 +149,8 @@ class Front {
 
 }  // namespace
 
-Field fast_marching(const geometry::TriMesh& mesh, const MeshEdges& edges, const EdgesOfVertex& around,
-                    std::span<const Seed> seeds) {
+Field fast_marching(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges,
+                    const geometry::EdgesOfVertex& around, std::span<const Seed> seeds) {
   return Front(mesh, edges, around).run(seeds);
 }
 

@@ -54,7 +54,7 @@ Crossed crossed_triangles(const geometry::TriMesh& mesh, std::span<const float> 
 
 class Tracer {
  public:
-  Tracer(const geometry::TriMesh& mesh, const MeshEdges& edges, std::span<const float> field)
+  Tracer(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges, std::span<const float> field)
       : mesh_(mesh), edges_(edges), field_(field), done_(mesh.triangles.size(), 0) {}
 
   std::vector<Isoline> trace(float level, std::span<const Index> triangles) {
@@ -129,7 +129,7 @@ class Tracer {
   }
 
   const geometry::TriMesh& mesh_;
-  const MeshEdges& edges_;
+  const geometry::MeshEdges& edges_;
   std::span<const float> field_;
   std::vector<char> done_;
   float level_ = 0.0F;
@@ -137,7 +137,7 @@ class Tracer {
 
 }  // namespace
 
-std::vector<std::vector<Isoline>> isolines(const geometry::TriMesh& mesh, const MeshEdges& edges,
+std::vector<std::vector<Isoline>> isolines(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges,
                                            std::span<const float> field, std::span<const float> levels) {
   std::vector<std::vector<Isoline>> result(levels.size());
   if (levels.empty()) return result;
