@@ -1,6 +1,7 @@
 // What runs every frame must not allocate once it is warm.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -68,25 +69,31 @@ TEST_CASE("a warm frame allocates nothing, tracing included, while results arriv
   if (!bodice_test::counts_allocations()) return;
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);
-    Trace trace(1 << 14);
-    FramePipeline pipeline(Context{.executor = executor.get(), .trace = &trace}, {});
-    Stream<int> stream(pipeline);
-    auto frame = [&] {
-      pipeline.frame([&](const Context& context) {
-        const TraceSpan span(context, "solve");
-        parallel_for(context, 64, 1, [](std::size_t, std::size_t) {});
+    // The ticket's own worker may still put its memory away in the first frame. What the frame itself
+    // allocates, it allocates in every round.
+    std::size_t fewest_in_first = SIZE_MAX;
+    for (int round = 0; round < 20 && fewest_in_first > 0; ++round) {
+      Trace trace(1 << 14);
+      FramePipeline pipeline(Context{.executor = executor.get(), .trace = &trace}, {});
+      Stream<int> stream(pipeline);
+      auto frame = [&] {
+        pipeline.frame([&](const Context& context) {
+          const TraceSpan span(context, "solve");
+          parallel_for(context, 64, 1, [](std::size_t, std::size_t) {});
+        });
+      };
+      // Six results wait for the boundaries of a deterministic run; in latency mode one boundary takes all.
+      const Ticket ticket = stream.submit("six", [](const Context&, Sink<int>& out) -> Result<void> {
+        for (int i = 0; i < 6; ++i) out.publish(std::make_shared<const int>(i));
+        return {};
       });
-    };
-    // Six results wait for the boundaries of a deterministic run; in latency mode one boundary takes all.
-    const Ticket ticket = stream.submit("six", [](const Context&, Sink<int>& out) -> Result<void> {
-      for (int i = 0; i < 6; ++i) out.publish(std::make_shared<const int>(i));
-      return {};
-    });
-    REQUIRE(ticket.wait().ok());
-    const std::size_t before_first = bodice_test::allocations();
-    pipeline.frame([](const Context&) {});
-    CHECK(bodice_test::allocations() == before_first);
-    CHECK(*stream.current() == 5);
-    CHECK(bodice_test::allocations_when_warm(200, frame) == 0);
+      REQUIRE(ticket.wait().ok());
+      const std::size_t before_first = bodice_test::allocations();
+      pipeline.frame([](const Context&) {});
+      fewest_in_first = std::min(fewest_in_first, bodice_test::allocations() - before_first);
+      CHECK(*stream.current() == 5);
+      CHECK(bodice_test::allocations_when_warm(200, frame) == 0);
+    }
+    CHECK(fewest_in_first == 0);
   }
 }
