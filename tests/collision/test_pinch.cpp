@@ -193,12 +193,12 @@ TEST_CASE(
   const double near_m = 0.1 + kClearance_m - kDepth_m;
   const Vec3 p(1e-5, std::sqrt(near_m * near_m - 0.1015 * 0.1015), 0.0);
   NearField near(field, nullptr, 0.0, kClearance_m + 1e-6);
-  near.expect(p, 0.0);
-  const Settled settled = settle(near, p, near.at(p), kClearance_m, 1e-7, kLongestPush * kDepth_m);
-  CHECK_FALSE(settled.clear);
-  CHECK(settled.set_back);
-  CHECK(settled.at.distance_m > kClearance_m - 0.3 * kDepth_m);
-  CHECK(settled.rounds <= 4);
+  near.prepare(p, 0.0);
+  const PushResult pushed = push_by_planes(near, p, near.at(p), kClearance_m, 1e-7, kLongestPush * kDepth_m);
+  CHECK_FALSE(pushed.clear);
+  CHECK(pushed.set_back);
+  CHECK(pushed.sample.distance_m > kClearance_m - 0.3 * kDepth_m);
+  CHECK(pushed.rounds <= 4);
 }
 
 TEST_CASE("without a bound the same particle leaves the fold for certain") {

@@ -21,19 +21,19 @@ void copy_lanes(const float* from, const std::uint32_t* index, std::size_t begin
 /// No NaN, no Inf and nothing too far; without a branch, so that it compiles to vector code.
 bool all_near(const float* values, int count) {
   int outside = 0;
-  for (int lane = 0; lane < count; ++lane) outside += !(std::abs(values[lane]) < kFarthest);
+  for (int lane = 0; lane < count; ++lane) outside += !(std::abs(values[lane]) < kFarthest_m);
   return outside == 0;
 }
 
-bool usable_lane(const Gathering& block, int lane) {
+bool usable_lane(const ParticleBatch& block, int lane) {
   bool usable = true;
-  for (const float* values : {block.x, block.y, block.z}) usable &= std::abs(values[lane]) < kFarthest;
+  for (const float* values : {block.x, block.y, block.z}) usable &= std::abs(values[lane]) < kFarthest_m;
   for (const float* values : {block.vx, block.vy, block.vz})
     if (block.has_velocity) usable &= std::isfinite(values[lane]);
   return usable;
 }
 
-bool finite_lane(const Gathering& block, int lane) {
+bool finite_lane(const ParticleBatch& block, int lane) {
   bool finite = true;
   for (const float* values : {block.x, block.y, block.z}) finite &= std::isfinite(values[lane]);
   for (const float* values : {block.vx, block.vy, block.vz})
@@ -41,14 +41,14 @@ bool finite_lane(const Gathering& block, int lane) {
   return finite;
 }
 
-void move_lane(int from, int to, Gathered& g) {
-  Gathering& b = g.batch;
+void move_lane(int from, int to, GatheredBatch& g) {
+  ParticleBatch& b = g.batch;
   for (float* values : {b.x, b.y, b.z, b.vx, b.vy, b.vz, b.sx, b.sy, b.sz}) values[to] = values[from];
   g.index[to] = g.index[from];
 }
 
 /// Takes the lanes out that floats cannot handle; the others close up.
-void drop_unusable(Gathered& g) {
+void drop_unusable(GatheredBatch& g) {
   int kept = 0;
   for (int lane = 0; lane < g.batch.count; ++lane) {
     if (usable_lane(g.batch, lane))
@@ -62,10 +62,10 @@ void drop_unusable(Gathered& g) {
 }
 
 /// A safe position that is not usable counts as none: the particle's own place says nothing.
-void mend_safe(Gathering& block) {
+void mend_safe(ParticleBatch& block) {
   for (int lane = 0; lane < block.count; ++lane) {
     bool usable = true;
-    for (const float* values : {block.sx, block.sy, block.sz}) usable &= std::abs(values[lane]) < kFarthest;
+    for (const float* values : {block.sx, block.sy, block.sz}) usable &= std::abs(values[lane]) < kFarthest_m;
     if (usable) continue;
     block.sx[lane] = block.x[lane];
     block.sy[lane] = block.y[lane];
@@ -74,7 +74,7 @@ void mend_safe(Gathering& block) {
 }
 
 /// Repeats the last lane up to a whole block, so that no lane that is read holds anything unset.
-void pad(Gathering& block) {
+void pad(ParticleBatch& block) {
   const int last = block.count - 1;
   const int end = (block.count + kBlock - 1) / kBlock * kBlock;
   for (int lane = block.count; lane < end; ++lane) {
@@ -89,8 +89,8 @@ void pad(Gathering& block) {
 }  // namespace
 
 void gather(const Particles& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
-            Gathered& out) {
-  Gathering& block = out.batch;
+            GatheredBatch& out) {
+  ParticleBatch& block = out.batch;
   const int count = block.count = static_cast<int>(end - begin);
   block.has_velocity = particles.vx != nullptr;
   block.has_safe = particles.safe_x != nullptr;
@@ -120,7 +120,7 @@ void gather(const Particles& particles, const std::uint32_t* index, std::size_t 
   if (block.count > 0) pad(block);
 }
 
-void scatter(const Gathered& gathered, const BatchResponse& response, const Particles& particles) {
+void scatter(const GatheredBatch& gathered, const BatchResponse& response, const Particles& particles) {
   for (int k = 0; k < response.count; ++k) {
     const std::uint32_t i = gathered.index[response.lane[k]];
     particles.x[i] = response.x[k];

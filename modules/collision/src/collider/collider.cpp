@@ -34,7 +34,8 @@ class SharedReport {
 
 /// Calls work(begin, end, sequence) for every `size` particles of [begin, end).
 template <class Work>
-void by_blocks(std::size_t begin, std::size_t end, int size, const Sequence& sequence, Work&& work) {
+void for_batches(std::size_t begin, std::size_t end, int size, const ParticleSequence& sequence,
+                 Work&& work) {
   for (std::size_t at = begin; at < end; at += static_cast<std::size_t>(size))
     work(at, std::min(at + static_cast<std::size_t>(size), end), sequence);
 }
@@ -42,31 +43,31 @@ void by_blocks(std::size_t begin, std::size_t end, int size, const Sequence& seq
 /// The same for all particles, with what is remembered of them (null: nothing), and done(task's result) for
 /// each task.
 template <class Result, class Work, class Done>
-void by_tasks(const engine::Context& context, const Particles& particles, Memory* memory, int size,
-              Work&& work, Done&& done) {
-  if (memory) memory->order.refresh(particles);
+void for_tasks(const engine::Context& context, const Particles& particles, WorkspaceData* workspace, int size,
+               Work&& work, Done&& done) {
+  if (workspace) workspace->order.refresh(particles);
   engine::parallel_for(context, particles.count, TaskOrder::kMost, [&](std::size_t begin, std::size_t end) {
     Result result;
-    const auto some = [&](std::size_t from, std::size_t to, const Sequence& sequence) {
+    const auto some = [&](std::size_t from, std::size_t to, const ParticleSequence& sequence) {
       work(from, to, sequence, result);
     };
-    if (memory) {
-      by_blocks(begin, end, size, {memory->order.order(), 0, memory}, some);
+    if (workspace) {
+      for_batches(begin, end, size, {workspace->order.order(), 0, workspace}, some);
     } else {
       const TaskOrder own(particles, begin, end);
-      by_blocks(begin, end, size, {own.order(), begin, nullptr}, some);
+      for_batches(begin, end, size, {own.order(), begin, nullptr}, some);
     }
     done(result);
   });
 }
 
 /// Fillets gain nothing from many blocks at a time: each has its own candidates.
-int batch_of(const ResolveOptions& options, bool relief) {
+int batch_size(const ResolveOptions& options, bool relief) {
   return !relief && options.blend_m > 0.0f ? kBlock : kBatch;
 }
 
 /// Lengths and coefficients that are none do no harm: NaN says nothing, and less than nothing is nothing.
-ResolveOptions usable(ResolveOptions options) {
+ResolveOptions sanitized(ResolveOptions options) {
   if (!std::isfinite(options.thickness_m)) options.thickness_m = 0.0f;
   constexpr float kSticks = 1e6f;  // more is no different, but for infinity times zero
   options.friction = options.friction > 0.0f ? std::min(options.friction, kSticks) : 0.0f;
@@ -128,11 +129,11 @@ bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
   if (shapes.size() != impl_->shapes.size() || !std::ranges::all_of(shapes, is_ellipsoid)) return false;
   double travel_m = 0.0;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
-    const std::uint32_t at = impl_->internal[k];
+    const std::uint32_t at = impl_->internal_index[k];
     geometry::Ellipsoid now = shapes[k];
     now.center -= impl_->origin;
     impl_->motion[at] = motion_between(impl_->shapes[at], now, dt_s);
-    impl_->carriers[at] = carrier_between(impl_->shapes[at], now);
+    impl_->affine_motions[at] = affine_motion_between(impl_->shapes[at], now);
     travel_m = std::max(travel_m, travel_between(impl_->shapes[at], now));
     impl_->shapes[at] = now;
   }
@@ -147,13 +148,13 @@ bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
 
 Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point) const noexcept {
   if (!impl_->moving || ellipsoid >= impl_->motion.size()) return Vec3::Zero();
-  return impl_->motion[impl_->internal[ellipsoid]].at(local_point);
+  return impl_->motion[impl_->internal_index[ellipsoid]].at(local_point);
 }
 
 Contact Collider::query(const float (&local_point)[3], const QueryOptions& options) const noexcept {
   float x = local_point[0], y = local_point[1], z = local_point[2];
   Contact contact;
-  impl_->query_some({1, &x, &y, &z}, 0, 1, {}, options, {&contact, 1});
+  impl_->query_range({1, &x, &y, &z}, 0, 1, {}, options, {&contact, 1});
   return contact;
 }
 
@@ -164,7 +165,7 @@ void Collider::query(const engine::Context& context, const Particles& particles,
 
 void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
                      Workspace& workspace, const QueryOptions& options) const {
-  impl_->query(context, particles, contacts, options, workspace.memory_.get());
+  impl_->query(context, particles, contacts, options, workspace.data_.get());
 }
 
 std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
@@ -194,36 +195,36 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options) const {
-  return impl_->resolve(context, particles, usable(options), nullptr);
+  return impl_->resolve(context, particles, sanitized(options), nullptr);
 }
 
 ContactReport Collider::resolve(const engine::Context& context, const Particles& particles,
                                 const ResolveOptions& options, Workspace& workspace) const {
-  return impl_->resolve(context, particles, usable(options), workspace.memory_.get());
+  return impl_->resolve(context, particles, sanitized(options), workspace.data_.get());
 }
 
 void Collider::Impl::query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
-                           const QueryOptions& options, Memory* memory) const {
+                           const QueryOptions& options, WorkspaceData* workspace) const {
   struct Nothing {};
   Particles particles = all;
   particles.count = std::min(all.count, contacts.size());
-  recall(particles, memory);
-  by_tasks<Nothing>(
-      context, particles, memory, kBatch,
-      [&](std::size_t begin, std::size_t end, const Sequence& sequence, Nothing&) {
-        query_some(particles, begin, end, sequence, options, contacts);
+  begin_call(particles, workspace);
+  for_tasks<Nothing>(
+      context, particles, workspace, kBatch,
+      [&](std::size_t begin, std::size_t end, const ParticleSequence& sequence, Nothing&) {
+        query_range(particles, begin, end, sequence, options, contacts);
       },
       [](const Nothing&) {});
 }
 
 ContactReport Collider::Impl::resolve(const engine::Context& context, const Particles& particles,
-                                      const ResolveOptions& options, Memory* memory) const {
+                                      const ResolveOptions& options, WorkspaceData* workspace) const {
   SharedReport total;
-  recall(particles, memory);
-  by_tasks<ContactReport>(
-      context, particles, memory, batch_of(options, relief.has_value()),
-      [&](std::size_t begin, std::size_t end, const Sequence& sequence, ContactReport& report) {
-        resolve_some(particles, begin, end, sequence, options, report);
+  begin_call(particles, workspace);
+  for_tasks<ContactReport>(
+      context, particles, workspace, batch_size(options, relief.has_value()),
+      [&](std::size_t begin, std::size_t end, const ParticleSequence& sequence, ContactReport& report) {
+        resolve_range(particles, begin, end, sequence, options, report);
       },
       [&](const ContactReport& report) { total.add(report); });
   return total.total();

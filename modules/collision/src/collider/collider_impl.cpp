@@ -138,17 +138,17 @@ void for_lanes(const LaneBits& lanes, int count, Work&& work) {
 Collider::Impl::Impl(const proxy::BodyProxy& proxy)
     : proxy_hash(proxy.hash()),
       origin(middle_of(proxy)),
-      original(spatial_order(proxy)),
+      proxy_index(spatial_order(proxy)),
       margin_m(proxy.margin_m()),
-      shapes(local_shapes(origin, proxy, original)),
+      shapes(local_shapes(origin, proxy, proxy_index)),
       field(shapes),
-      baked(shapes, original) {
-  if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy, original);
-  internal.resize(original.size());
-  for (std::uint32_t k = 0; k < original.size(); ++k) internal[original[k]] = k;
-  for (const std::uint32_t k : original) part.push_back(proxy.ellipsoids()[k].part);
+      baked(shapes, proxy_index) {
+  if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy, proxy_index);
+  internal_index.resize(proxy_index.size());
+  for (std::uint32_t k = 0; k < proxy_index.size(); ++k) internal_index[proxy_index[k]] = k;
+  for (const std::uint32_t k : proxy_index) part.push_back(proxy.ellipsoids()[k].part);
   motion.resize(shapes.size());
-  carriers.resize(shapes.size());
+  affine_motions.resize(shapes.size());
 }
 
 Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec3& normal,
@@ -161,7 +161,7 @@ Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec
     contact.point[axis] = static_cast<float>(point[axis]);
     contact.normal[axis] = static_cast<float>(normal[axis]);
   }
-  contact.ellipsoid = ellipsoid < original.size() ? original[ellipsoid] : kNoEllipsoid;
+  contact.ellipsoid = ellipsoid < proxy_index.size() ? proxy_index[ellipsoid] : kNoEllipsoid;
   return contact;
 }
 
@@ -181,12 +181,12 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   ParticleState state = load(particles, i);
   const double clearance_m = margin_m + double{options.thickness_m};
   if (moving) {
-    const Owner carrier = field.owner(state.position, std::numeric_limits<double>::infinity());
-    state.surface_velocity = motion[carrier.ellipsoid].at(state.position);
+    const Owner owner = field.owner(state.position, std::numeric_limits<double>::infinity());
+    state.surface_velocity = motion[owner.ellipsoid].at(state.position);
     // Where the safe position is now, had it stuck to the body.
-    state.carriers = carriers;
-    state.before = state.safe;
-    state.safe = state.path_start(carrier.ellipsoid);
+    state.affine_motions = affine_motions;
+    state.safe_before = state.safe;
+    state.safe = state.path_start(owner.ellipsoid);
   }
   ParticleReport one;
   if (options.response == Response::kPaper)
@@ -198,33 +198,33 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   count(one, part[one.ellipsoid], report);
 }
 
-void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin, std::size_t end,
-                                  const Sequence& sequence, const ResolveOptions& options,
-                                  ContactReport& report) const {
-  Gathered gathered;
+void Collider::Impl::resolve_range(const Particles& particles, std::size_t begin, std::size_t end,
+                                   const ParticleSequence& sequence, const ResolveOptions& options,
+                                   ContactReport& report) const {
+  GatheredBatch gathered;
   gather(particles, sequence.from(begin), begin, end, gathered);
   if (field.size() == 0) {
     report.not_finite += gathered.not_finite;
     return;
   }
-  Gathering& batch = gathered.batch;
-  batch.keeping = keeping_of(particles, begin, end, sequence.memory);
-  batch.ahead = ahead_of(particles, end, sequence, nullptr);
-  const Clearance clearance{static_cast<float>(margin_m) + options.thickness_m,
-                            static_cast<float>(kCertificate * field.size_m()),
-                            options.friction,
-                            options.max_push_m,
-                            moving ? motion.data() : nullptr,
-                            static_cast<float>(moved_dt_s),
-                            moving ? travel_m : 0.0f,
-                            options.blend_m};
+  ParticleBatch& batch = gathered.batch;
+  batch.cache = cache_access_of(particles, begin, end, sequence.workspace);
+  batch.next_batch = next_batch_of(particles, end, sequence, nullptr);
+  const ResponseParameters parameters{static_cast<float>(margin_m) + options.thickness_m,
+                                      static_cast<float>(kCertificate * field.size_m()),
+                                      options.friction,
+                                      options.max_push_m,
+                                      moving ? motion.data() : nullptr,
+                                      static_cast<float>(moved_dt_s),
+                                      moving ? travel_m : 0.0f,
+                                      options.blend_m};
   BatchResponse response;
   const bool settled = batch.count == 0 || (options.response == Response::kClosestPoint &&
-                                            resolve_batch(baked, tables(), clearance, batch, response));
+                                            resolve_batch(baked, tables(), parameters, batch, response));
   if (!settled && options.response == Response::kClosestPoint && end - begin > kBlock) {
     // Too many ellipsoids near for a batch may do for its blocks.
     for (std::size_t from = begin; from < end; from += kBlock)
-      resolve_some(particles, from, std::min(from + kBlock, end), sequence, options, report);
+      resolve_range(particles, from, std::min(from + kBlock, end), sequence, options, report);
     return;
   }
   report.not_finite += gathered.not_finite;
@@ -234,9 +234,9 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
       resolve_exactly(particles, gathered.index[lane], options, report);
     return;
   }
-  Memory* const memory = sequence.memory;
-  for (std::size_t block = 0; memory && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
-    memory->order.note_radius(begin / kBlock + block, response.radius_m[block]);
+  WorkspaceData* const workspace = sequence.workspace;
+  for (std::size_t block = 0; workspace && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
+    workspace->order.note_radius(begin / kBlock + block, response.radius_m[block]);
   scatter(gathered, response, particles);
   PartCount parts(report);
   for (int k = 0; k < response.count; ++k) parts.add(part[static_cast<std::size_t>(response.owner[k])]);
@@ -244,7 +244,7 @@ void Collider::Impl::resolve_some(const Particles& particles, std::size_t begin,
   report.contacts += static_cast<std::uint64_t>(response.count);
   report.pending += static_cast<std::uint64_t>(response.pending);
   report.max_iterations = std::max(report.max_iterations, response.iterations);
-  for_lanes(response.hard, batch.count,
+  for_lanes(response.left_to_exact, batch.count,
             [&](int lane) { resolve_exactly(particles, gathered.index[lane], options, report); });
 }
 

@@ -11,23 +11,23 @@ namespace bodice::collision {
 
 namespace {
 
-/// A batch of places and whose they are.
-struct alignas(64) Places {
+/// A batch of positions and whose they are.
+struct alignas(64) Positions {
   float x[kBatch], y[kBatch], z[kBatch];
   std::uint32_t index[kBatch];
   int count = 0;
 };
 
-void copy(const float* from, const Places& places, std::size_t begin, bool in_order, float* to) {
+void copy(const float* from, const Positions& positions, std::size_t begin, bool in_order, float* to) {
   if (in_order) {
-    std::memcpy(to, from + begin, static_cast<std::size_t>(places.count) * sizeof(float));
+    std::memcpy(to, from + begin, static_cast<std::size_t>(positions.count) * sizeof(float));
     return;
   }
-  for (int i = 0; i < places.count; ++i) to[i] = from[places.index[i]];
+  for (int i = 0; i < positions.count; ++i) to[i] = from[positions.index[i]];
 }
 
-void collect(const Particles& particles, const Sequence& sequence, std::size_t begin, std::size_t end,
-             Places& out) {
+void gather_positions(const Particles& particles, const ParticleSequence& sequence, std::size_t begin,
+                      std::size_t end, Positions& out) {
   out.count = static_cast<int>(end - begin);
   if (sequence.stored())
     std::iota(out.index, out.index + out.count, static_cast<std::uint32_t>(begin));
@@ -39,70 +39,72 @@ void collect(const Particles& particles, const Sequence& sequence, std::size_t b
 }
 
 /// Also false for NaN. Without branches, for loops of vectors.
-bool near(const Places& places, int i) {
-  const int x = std::abs(places.x[i]) < kFarthest, y = std::abs(places.y[i]) < kFarthest,
-            z = std::abs(places.z[i]) < kFarthest;
+bool near(const Positions& positions, int i) {
+  const int x = std::abs(positions.x[i]) < kFarthest_m, y = std::abs(positions.y[i]) < kFarthest_m,
+            z = std::abs(positions.z[i]) < kFarthest_m;
   return (x & y & z) != 0;
 }
 
 /// Takes out what floats cannot handle, calling `other` for it; the rest closes up.
 template <class Other>
-void keep_near(Places& places, Other&& other) {
+void drop_far(Positions& positions, Other&& other) {
   int kept = 0;
-  for (int i = 0; i < places.count; ++i) {
-    if (!near(places, i)) {
+  for (int i = 0; i < positions.count; ++i) {
+    if (!near(positions, i)) {
       other(i);
       continue;
     }
-    places.x[kept] = places.x[i];
-    places.y[kept] = places.y[i];
-    places.z[kept] = places.z[i];
-    places.index[kept++] = places.index[i];
+    positions.x[kept] = positions.x[i];
+    positions.y[kept] = positions.y[i];
+    positions.z[kept] = positions.z[i];
+    positions.index[kept++] = positions.index[i];
   }
-  places.count = kept;
+  positions.count = kept;
 }
 
 /// Repeats the last place up to a whole block.
-void pad(Places& places) {
-  const int end = (places.count + kBlock - 1) / kBlock * kBlock;
-  for (float* values : {places.x, places.y, places.z})
-    std::fill(values + places.count, values + end, values[places.count - 1]);
+void pad(Positions& positions) {
+  const int end = (positions.count + kBlock - 1) / kBlock * kBlock;
+  for (float* values : {positions.x, positions.y, positions.z})
+    std::fill(values + positions.count, values + end, values[positions.count - 1]);
 }
 
 /// Place i only.
-void take(const Places& places, int i, Places& out) {
-  out.x[0] = places.x[i];
-  out.y[0] = places.y[i];
-  out.z[0] = places.z[i];
-  out.index[0] = places.index[i];
+void take(const Positions& positions, int i, Positions& out) {
+  out.x[0] = positions.x[i];
+  out.y[0] = positions.y[i];
+  out.z[0] = positions.z[i];
+  out.index[0] = positions.index[i];
   out.count = 1;
   pad(out);
 }
 
 }  // namespace
 
-bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, Memory* memory) const {
+bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, WorkspaceData* workspace) const {
   if (!query_batch(baked, tables(), batch)) return false;
   const std::size_t blocks = static_cast<std::size_t>((batch.count + kBlock - 1) / kBlock);
-  for (std::size_t i = 0; memory && i < blocks; ++i) memory->order.note_radius(block + i, batch.radius_m[i]);
+  for (std::size_t i = 0; workspace && i < blocks; ++i)
+    workspace->order.note_radius(block + i, batch.radius_m[i]);
   return true;
 }
 
-Keeping Collider::Impl::keeping_of(const Particles& particles, std::size_t begin, std::size_t end,
-                                   Memory* memory) const {
-  if (!memory || (end - begin != kBatch && end != particles.count) || begin % kBatch != 0) return {};
+CacheAccess Collider::Impl::cache_access_of(const Particles& particles, std::size_t begin, std::size_t end,
+                                            WorkspaceData* workspace) const {
+  if (!workspace || (end - begin != kBatch && end != particles.count) || begin % kBatch != 0) return {};
   const auto share = [&](double of_size) { return static_cast<float>(of_size * field.size_m()); };
-  return {&memory->candidates.batch(begin / kBatch), memory->candidates.traveled_m(), share(kLeastReach),
-          share(kMostReach)};
+  return {&workspace->candidates.batch(begin / kBatch), workspace->candidates.traveled_m(),
+          share(kLeastReach), share(kMostReach)};
 }
 
-Ahead Collider::Impl::ahead_of(const Particles& particles, std::size_t begin, const Sequence& sequence,
-                               Contact* contacts) {
-  Ahead next;
+NextBatch Collider::Impl::next_batch_of(const Particles& particles, std::size_t begin,
+                                        const ParticleSequence& sequence, Contact* contacts) {
+  NextBatch next;
   const std::size_t last = sequence.stored() ? particles.count : sequence.first + sequence.order.size();
   if (begin >= last) return next;
   next.count = static_cast<int>(std::min<std::size_t>(kBatch, last - begin));
-  if (sequence.memory && begin % kBatch == 0) next.kept = &sequence.memory->candidates.batch(begin / kBatch);
+  if (sequence.workspace && begin % kBatch == 0)
+    next.cached = &sequence.workspace->candidates.batch(begin / kBatch);
   next.index = sequence.from(begin);
   next.contacts = contacts && sequence.stored() ? contacts + begin : contacts;
   if (!sequence.stored()) return next;
@@ -112,9 +114,9 @@ Ahead Collider::Impl::ahead_of(const Particles& particles, std::size_t begin, co
   return next;
 }
 
-void Collider::Impl::query_some(const Particles& particles, std::size_t begin, std::size_t end,
-                                const Sequence& sequence, const QueryOptions& options,
-                                std::span<Contact> contacts) const {
+void Collider::Impl::query_range(const Particles& particles, std::size_t begin, std::size_t end,
+                                 const ParticleSequence& sequence, const QueryOptions& options,
+                                 std::span<Contact> contacts) const {
   const int all = static_cast<int>(end - begin);
   QueryBatch batch{.x = particles.x + begin,
                    .y = particles.y + begin,
@@ -126,42 +128,43 @@ void Collider::Impl::query_some(const Particles& particles, std::size_t begin, s
                    .accuracy = options.accuracy,
                    .contacts = contacts.data() + begin,
                    .radius_m = {},
-                   .keeping = keeping_of(particles, begin, end, sequence.memory)};
-  batch.ahead = ahead_of(particles, end, sequence, contacts.data());
+                   .cache = cache_access_of(particles, begin, end, sequence.workspace)};
+  batch.next_batch = next_batch_of(particles, end, sequence, contacts.data());
   const bool in_place = sequence.stored() && all == kBatch;
-  if (in_place && field.size() > 0 && query_kernel(batch, begin / kBlock, sequence.memory)) return;
-  Places places;
-  collect(particles, sequence, begin, end, places);
+  if (in_place && field.size() > 0 && query_kernel(batch, begin / kBlock, sequence.workspace)) return;
+  Positions positions;
+  gather_positions(particles, sequence, begin, end, positions);
   const auto exactly = [&](int i) {
-    const Contact found = exact_contact({double{places.x[i]}, double{places.y[i]}, double{places.z[i]}});
-    contacts[places.index[i]] = found.signed_distance <= options.within_m ? found : no_contact();
+    const Contact found =
+        exact_contact({double{positions.x[i]}, double{positions.y[i]}, double{positions.z[i]}});
+    contacts[positions.index[i]] = found.signed_distance <= options.within_m ? found : no_contact();
   };
   if (field.size() == 0) {
-    for (int i = 0; i < places.count; ++i) exactly(i);
+    for (int i = 0; i < positions.count; ++i) exactly(i);
     return;
   }
   batch.contacts = contacts.data();
   const auto kernel = [&](int from, int count) {
-    batch.x = places.x + from, batch.y = places.y + from, batch.z = places.z + from;
-    batch.index = places.index + from;
+    batch.x = positions.x + from, batch.y = positions.y + from, batch.z = positions.z + from;
+    batch.index = positions.index + from;
     batch.count = count;
-    return query_kernel(batch, (begin + static_cast<std::size_t>(from)) / kBlock, sequence.memory);
+    return query_kernel(batch, (begin + static_cast<std::size_t>(from)) / kBlock, sequence.workspace);
   };
-  pad(places);
-  if (!in_place && kernel(0, places.count)) return;
-  batch.keeping = {};
-  batch.ahead = {};
-  // Too many ellipsoids near for a batch may do for its blocks; or some places are too far for floats.
-  keep_near(places, exactly);
-  if (places.count == 0) return;
-  pad(places);
-  for (int from = 0; from < places.count; from += kBlock) {
-    const int to = std::min(from + kBlock, places.count);
+  pad(positions);
+  if (!in_place && kernel(0, positions.count)) return;
+  batch.cache = {};
+  batch.next_batch = {};
+  // Too many ellipsoids near for a batch may do for its blocks; or some positions are too far for floats.
+  drop_far(positions, exactly);
+  if (positions.count == 0) return;
+  pad(positions);
+  for (int from = 0; from < positions.count; from += kBlock) {
+    const int to = std::min(from + kBlock, positions.count);
     if (kernel(from, to - from)) continue;
     // Whether floats answer a particle must not depend on its neighbors.
     for (int i = from; i < to; ++i) {
-      Places alone;
-      take(places, i, alone);
+      Positions alone;
+      take(positions, i, alone);
       batch.x = alone.x, batch.y = alone.y, batch.z = alone.z;
       batch.index = alone.index;
       batch.count = 1;

@@ -2,7 +2,7 @@
 
 namespace bodice::collision {
 
-Workspace::Workspace() : memory_(std::make_unique<Memory>()) {}
+Workspace::Workspace() : data_(std::make_unique<WorkspaceData>()) {}
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;

@@ -6,9 +6,9 @@
 
 namespace bodice::collision {
 
-struct Memory {
+struct WorkspaceData {
   ParticleOrder order;
-  KeptCandidates candidates;
+  CandidateCache candidates;
 };
 
 }  // namespace bodice::collision

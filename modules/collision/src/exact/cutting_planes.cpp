@@ -21,7 +21,7 @@ namespace {
 /// The planes in force and whose they are.
 class Planes {
  public:
-  Planes(bool bent, double target_m) : bent_(bent), target_m_(target_m) {}
+  Planes(bool nonconvex, double target_m) : nonconvex_(nonconvex), target_m_(target_m) {}
 
   const Halfspaces& halfspaces() const { return planes_; }
 
@@ -38,10 +38,10 @@ class Planes {
   }
 
   /// Where the blend of surfaces that face each other is flat, each of them has its say.
-  void put(const Vec3& x, const ReliefSample& sample, std::span<const NearField::Share> shares) {
-    if (shares.size() < 2 || sample.gradient.norm() >= kFacing) return put(x, sample);
-    for (const NearField::Share& share : shares)
-      if (share.sample.distance_m < target_m_) put(x, share.sample);
+  void put(const Vec3& x, const ReliefSample& sample, std::span<const NearField::Term> terms) {
+    if (terms.size() < 2 || sample.gradient.norm() >= kFacing) return put(x, sample);
+    for (const NearField::Term& term : terms)
+      if (term.sample.distance_m < target_m_) put(x, term.sample);
   }
 
   /// The planes that x lies on.
@@ -57,7 +57,7 @@ class Planes {
 
   /// The place of this owner's older plane, a free one, or that of the plane which x is farthest beyond.
   int slot(std::uint32_t owner, const Vec3& x) const {
-    for (int i = 0; bent_ && i < planes_.size(); ++i)
+    for (int i = 0; nonconvex_ && i < planes_.size(); ++i)
       if (owner_[i] == owner) return i;
     if (!planes_.full()) return planes_.size();
     int idle = 0;
@@ -66,7 +66,7 @@ class Planes {
     return idle;
   }
 
-  bool bent_;
+  bool nonconvex_;
   double target_m_;
   Halfspaces planes_;
   std::uint32_t owner_[Halfspaces::kCapacity] = {};
@@ -74,41 +74,41 @@ class Planes {
 
 }  // namespace
 
-Settled settle(NearField& near, const Vec3& p, const ReliefSample& start, double clearance_m,
-               double overshoot_m, double longest_m) {
+PushResult push_by_planes(NearField& near, const Vec3& p, const ReliefSample& start, double clearance_m,
+                          double overshoot_m, double longest_m) {
   const double target_m = clearance_m + overshoot_m;
-  Planes planes(near.bent(), target_m);
-  Settled best{p, start, {}, 0, start.distance_m >= clearance_m};
+  Planes planes(near.nonconvex(), target_m);
+  PushResult best{p, start, {}, 0, start.distance_m >= clearance_m};
   // Most pushes are about as long as the depth; a longer one costs another search.
-  near.expect(p, std::min(longest_m, kUsualPush * (target_m - start.distance_m)));
-  ReliefSample here = near.bent() ? near.at(p) : start;
+  near.prepare(p, std::min(longest_m, kUsualPush * (target_m - start.distance_m)));
+  ReliefSample here = near.nonconvex() ? near.at(p) : start;
   Vec3 x = p;
   double last_set_back_m = -std::numeric_limits<double>::infinity();
-  while (best.rounds < kSettleRounds && !best.clear) {
+  while (best.rounds < kPlaneRounds && !best.clear) {
     ++best.rounds;
-    planes.put(x, here, near.shares());
+    planes.put(x, here, near.terms());
     // The closest point to p diverges where a surface bends within its depth; a step from x does not.
-    const Vec3 base = near.bent() && best.rounds > kNearestRounds ? x : p;
+    const Vec3 base = near.nonconvex() && best.rounds > kNearestRounds ? x : p;
     const double left_m = std::max(0.0, longest_m - (base - p).norm());
     const auto next = planes.halfspaces().least_violating(base, left_m, 0.1 * overshoot_m);
     x = next.x;
     here = near.at(x);
-    const bool better = here.distance_m > best.at.distance_m;
-    if (better) best.place = x, best.at = here, best.set_back = next.short_by_m > 0.0;
+    const bool better = here.distance_m > best.sample.distance_m;
+    if (better) best.position = x, best.sample = here, best.set_back = next.set_back_m > 0.0;
     best.clear = here.distance_m >= clearance_m;
-    if (!(next.short_by_m > 0.0)) continue;
+    if (!(next.set_back_m > 0.0)) continue;
     // As good as planned, or no better than the one before, because it may not be farther.
-    const double enough_m = kMidway * next.short_by_m, planned_m = target_m - next.short_by_m;
+    const double enough_m = kMidway * next.set_back_m, planned_m = target_m - next.set_back_m;
     if (std::abs(here.distance_m - planned_m) < enough_m) break;
     if (std::abs(here.distance_m - last_set_back_m) < enough_m) break;
     last_set_back_m = here.distance_m;
   }
   // Between two surfaces a particle that is as good as midway stays, so that it does not creep.
   const double missing_m = clearance_m - start.distance_m;
-  if (!best.clear && best.at.distance_m - start.distance_m < kMidway * missing_m)
-    best.place = p, best.at = start;
-  best.contact = planes.touching(best.place, 2.0 * overshoot_m);
-  if (best.contact.size() == 0) best.contact.add({best.at.gradient.stableNormalized(), 0.0});
+  if (!best.clear && best.sample.distance_m - start.distance_m < kMidway * missing_m)
+    best.position = p, best.sample = start;
+  best.contact = planes.touching(best.position, 2.0 * overshoot_m);
+  if (best.contact.size() == 0) best.contact.add({best.sample.gradient.stableNormalized(), 0.0});
   return best;
 }
 

@@ -6,19 +6,19 @@
 
 namespace bodice::collision {
 
-struct Settled {
-  geometry::Vec3 place;
-  ReliefSample at;     ///< there
-  Halfspaces contact;  ///< the surfaces that hold it
+struct PushResult {
+  geometry::Vec3 position;
+  ReliefSample sample;  ///< there
+  Halfspaces contact;   ///< the surfaces that hold it
   int rounds = 0;
-  bool clear = false;     ///< at.distance_m >= the clearance
+  bool clear = false;     ///< sample.distance_m >= the clearance
   bool set_back = false;  ///< a place between planes that are set back: if it is clear, by chance
 };
 
 /// `start` is near.at(p). `overshoot_m` beyond the clearance is aimed at; no place farther than `longest_m`
-/// is taken. At most kSettleRounds evaluations. A place that is not clear is the best that was seen: midway
+/// is taken. At most kPlaneRounds evaluations. A place that is not clear is the best that was seen: midway
 /// where two surfaces face each other, or p itself.
-Settled settle(NearField& near, const geometry::Vec3& p, const ReliefSample& start, double clearance_m,
-               double overshoot_m, double longest_m);
+PushResult push_by_planes(NearField& near, const geometry::Vec3& p, const ReliefSample& start,
+                          double clearance_m, double overshoot_m, double longest_m);
 
 }  // namespace bodice::collision

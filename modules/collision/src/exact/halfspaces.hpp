@@ -48,7 +48,7 @@ class Halfspaces {
 
   /// The closest point of the intersection to `p`, each plane to `tolerance_m`; nothing if the intersection
   /// is empty or so far off that the planes are as good as parallel.
-  std::optional<geometry::Vec3> nearest(const geometry::Vec3& p, double tolerance_m) const {
+  std::optional<geometry::Vec3> closest_point(const geometry::Vec3& p, double tolerance_m) const {
     if (largest_gap_m(p) <= tolerance_m) return p;
     // Whatever set of planes gives multipliers >= 0 and a point in all half-spaces gives the nearest.
     for (int i = 0; i < size_; ++i)
@@ -66,30 +66,30 @@ class Halfspaces {
   }
 
   /// The nearest velocity that goes into none of them: the same in the cone of the planes through the origin.
-  geometry::Vec3 nearest_velocity(const geometry::Vec3& v) const {
+  geometry::Vec3 closest_velocity(const geometry::Vec3& v) const {
     Halfspaces cone = *this;
     for (int i = 0; i < size_; ++i) cone.items_[i].offset_m = 0.0;
-    return cone.nearest(v, kVelocityRounding * v.norm()).value_or(geometry::Vec3::Zero());
+    return cone.closest_point(v, kVelocityRounding * v.norm()).value_or(geometry::Vec3::Zero());
   }
 
-  struct Place {
+  struct RelaxedPoint {
     geometry::Vec3 x;
-    double short_by_m;  ///< by how much the planes had to be set back; zero: all are kept
+    double set_back_m;  ///< by how much the planes had to be set back; zero: all are kept
   };
 
   /// The place within `longest_m` of p that is in all half-spaces, or misses them by as little as can be:
   /// midway between planes that face each other.
-  Place least_violating(const geometry::Vec3& p, double longest_m, double tolerance_m) const {
-    const auto reach = [&](double back_m) -> std::optional<geometry::Vec3> {
-      const auto x = lowered(back_m).nearest(p, tolerance_m);
+  RelaxedPoint least_violating(const geometry::Vec3& p, double longest_m, double tolerance_m) const {
+    const auto within_limit = [&](double back_m) -> std::optional<geometry::Vec3> {
+      const auto x = lowered(back_m).closest_point(p, tolerance_m);
       return x && (*x - p).norm() <= longest_m ? x : std::nullopt;
     };
-    if (const auto x = reach(0.0)) return {*x, 0.0};
+    if (const auto x = within_limit(0.0)) return {*x, 0.0};
     double low = 0.0, high = largest_gap_m(p);  // set back by so much, p itself will do
-    Place best{p, high};
+    RelaxedPoint best{p, high};
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
-      const auto x = reach(middle);
+      const auto x = within_limit(middle);
       if (x) best = {*x, middle};
       (x ? high : low) = middle;
     }

@@ -14,38 +14,39 @@ double NearField::window_m() const {
   return below_m_ + bulge_m_ + blend_m_;
 }
 
-void NearField::expect(const Vec3& center, double radius_m) {
+void NearField::prepare(const Vec3& center, double radius_m) {
   center_ = center;
   radius_m_ = radius_m;
   candidate_count_ = 0;
-  crowded_ = false;
+  overflow_ = false;
   shortest_m_ = std::numeric_limits<double>::infinity();
   const double within_m = window_m() + radius_m;
   field_.visit_near(
       center, [&] { return within_m; },
       [&](std::size_t k, const UnionField::Plane& plane) {
-        if (crowded_) return;
+        if (overflow_) return;
         shortest_m_ = std::min(shortest_m_, field_.shape(k).radii.minCoeff());
-        crowded_ = candidate_count_ == kMost;
-        if (!crowded_) candidates_[candidate_count_++] = {static_cast<std::uint32_t>(k), plane};
+        overflow_ = candidate_count_ == kCapacity;
+        if (!overflow_) candidates_[candidate_count_++] = {static_cast<std::uint32_t>(k), plane};
       });
 }
 
-void NearField::meet(std::uint32_t k, const Vec3& x) {
+void NearField::evaluate(std::uint32_t k, const Vec3& x) {
   const ClosestPoint at = geometry::closest_point(field_.shape(k), x);
   least_m_ = std::min(least_m_, at.signed_distance);
   // What lies beyond the blending is dropped when room is needed; the window only shrinks.
-  if (foot_count_ == kMost) {
+  if (evaluated_count_ == kCapacity) {
     const double last_m = least_m_ + blend_m_;
-    const auto kept =
-        std::remove_if(feet_, feet_ + foot_count_, [&](const Foot& f) { return f.distance_m > last_m; });
-    foot_count_ = static_cast<int>(kept - feet_);
+    const auto kept = std::remove_if(evaluated_, evaluated_ + evaluated_count_,
+                                     [&](const Evaluated& f) { return f.distance_m > last_m; });
+    evaluated_count_ = static_cast<int>(kept - evaluated_);
   }
-  if (foot_count_ < kMost) feet_[foot_count_++] = {k, at.signed_distance, at.point, at.normal};
+  if (evaluated_count_ < kCapacity)
+    evaluated_[evaluated_count_++] = {k, at.signed_distance, at.point, at.normal};
 }
 
-void NearField::collect_near(const Vec3& x) {
-  double bounds[kMost];
+void NearField::evaluate_candidates(const Vec3& x) {
+  double bounds[kCapacity];
   int first = 0;
   for (int i = 0; i < candidate_count_; ++i) {
     const UnionField::Plane& plane = candidates_[i].plane;
@@ -53,15 +54,15 @@ void NearField::collect_near(const Vec3& x) {
     if (bounds[i] < bounds[first]) first = i;
   }
   if (candidate_count_ == 0 || bounds[first] >= window_m()) return;
-  meet(candidates_[first].ellipsoid, x);
+  evaluate(candidates_[first].ellipsoid, x);
   for (int i = 0; i < candidate_count_; ++i)
-    if (i != first && bounds[i] <= least_m_ + blend_m_) meet(candidates_[i].ellipsoid, x);
+    if (i != first && bounds[i] <= least_m_ + blend_m_) evaluate(candidates_[i].ellipsoid, x);
 }
 
-void NearField::collect_all(const Vec3& x) {
+void NearField::evaluate_all(const Vec3& x) {
   field_.visit_near(
       x, [&] { return least_m_ + blend_m_; },
-      [&](std::size_t k, const UnionField::Plane&) { meet(static_cast<std::uint32_t>(k), x); });
+      [&](std::size_t k, const UnionField::Plane&) { evaluate(static_cast<std::uint32_t>(k), x); });
 }
 
 /// Newton on a convex function of the root, from above.
@@ -69,8 +70,8 @@ double NearField::smooth_root_m() const {
   double root = least_m_;
   for (int step = 0; step < kRootSteps; ++step) {
     double sum = -1.0, slope = 0.0;
-    for (int i = 0; i < foot_count_; ++i) {
-      const double u = std::max(0.0, 1.0 - (feet_[i].distance_m - root) / blend_m_);
+    for (int i = 0; i < evaluated_count_; ++i) {
+      const double u = std::max(0.0, 1.0 - (evaluated_[i].distance_m - root) / blend_m_);
       sum += u * u;
       slope += u;
     }
@@ -86,9 +87,11 @@ double NearField::weight_root(double distance_m, double root_m) const {
   return distance_m <= least_m_ ? 1.0 : 0.0;
 }
 
-ReliefSample NearField::share_of(const Foot& foot) const {
-  if (relief_) return correct(field_, *relief_, foot.ellipsoid, {foot.point, foot.normal, foot.distance_m});
-  return {foot.distance_m, foot.normal, foot.ellipsoid};
+ReliefSample NearField::corrected_sample(const Evaluated& evaluated) const {
+  if (relief_)
+    return correct(field_, *relief_, evaluated.ellipsoid,
+                   {evaluated.point, evaluated.normal, evaluated.distance_m});
+  return {evaluated.distance_m, evaluated.normal, evaluated.ellipsoid};
 }
 
 /// Relief averages the corrected distances of those that are nearest; a smooth union takes its root.
@@ -97,22 +100,22 @@ ReliefSample NearField::blend() {
   const bool smooth = !relief_ && blend_m_ > 0.0;
   const double root_m = smooth ? smooth_root_m() : least_m_;
   double weights = 0.0, distance = 0.0;
-  for (int i = 0; i < foot_count_; ++i) {
-    const Foot& foot = feet_[i];
-    const double root = weight_root(foot.distance_m, root_m);
+  for (int i = 0; i < evaluated_count_; ++i) {
+    const Evaluated& evaluated = evaluated_[i];
+    const double root = weight_root(evaluated.distance_m, root_m);
     if (!(root > 0.0)) continue;
-    const bool owns = foot.distance_m == least_m_ && result.owner == kNoEllipsoid;
-    if (!bent() && !owns) continue;
+    const bool owns = evaluated.distance_m == least_m_ && result.owner == kNoEllipsoid;
+    if (!nonconvex() && !owns) continue;
     const double weight = smooth ? root : root * root;
-    const ReliefSample one = share_of(foot);
+    const ReliefSample one = corrected_sample(evaluated);
     weights += weight;
     distance += weight * one.distance_m;
     result.gradient += weight * one.gradient;
-    if (owns) result.owner = foot.ellipsoid;
-    Share& slot = shares_[std::min(share_count_, kShares - 1)];
+    if (owns) result.owner = evaluated.ellipsoid;
+    Term& slot = terms_[std::min(term_count_, kMaxTerms - 1)];
     slot = {weight, one};
-    share_count_ = std::min(share_count_ + 1, kShares);
-    if (owns) std::swap(shares_[0], slot);
+    term_count_ = std::min(term_count_ + 1, kMaxTerms);
+    if (owns) std::swap(terms_[0], slot);
   }
   if (result.owner == kNoEllipsoid) return result;
   result.distance_m = smooth ? root_m : distance / weights;
@@ -123,18 +126,18 @@ ReliefSample NearField::blend() {
 ReliefSample NearField::at(const Vec3& x) {
   ++evaluations_;
   const double away_m = (x - center_).norm();
-  if (!(away_m <= radius_m_)) expect(x, std::max(radius_m_, 0.5 * away_m));
-  foot_count_ = share_count_ = 0;
+  if (!(away_m <= radius_m_)) prepare(x, std::max(radius_m_, 0.5 * away_m));
+  evaluated_count_ = term_count_ = 0;
   least_m_ = std::numeric_limits<double>::infinity();
-  if (crowded_) {
+  if (overflow_) {
     least_m_ = window_m();
-    collect_all(x);
-    if (foot_count_ == 0) return {below_m_, Vec3::Zero(), kNoEllipsoid};
+    evaluate_all(x);
+    if (evaluated_count_ == 0) return {below_m_, Vec3::Zero(), kNoEllipsoid};
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < foot_count_; ++i) least = std::min(least, feet_[i].distance_m);
+    for (int i = 0; i < evaluated_count_; ++i) least = std::min(least, evaluated_[i].distance_m);
     least_m_ = least;
   } else {
-    collect_near(x);
+    evaluate_candidates(x);
   }
   return blend();
 }

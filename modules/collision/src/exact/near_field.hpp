@@ -28,48 +28,48 @@ class NearField {
   /// How far the surface may lie outside of the plain ellipsoids; zero: it is theirs, convex piece by piece.
   double bulge_m() const { return bulge_m_; }
   double blend_m() const { return blend_m_; }
-  bool bent() const { return relief_ != nullptr || blend_m_ > 0.0; }
+  bool nonconvex() const { return relief_ != nullptr || blend_m_ > 0.0; }
 
   /// What is asked next lies within `radius_m` of `center`; elsewhere is allowed and costs another search.
-  void expect(const geometry::Vec3& center, double radius_m);
+  void prepare(const geometry::Vec3& center, double radius_m);
 
   /// The distance at x, if it is less than below_m; else no owner and at least below_m.
   ReliefSample at(const geometry::Vec3& x);
 
   /// One ellipsoid's share of the last answer.
-  struct Share {
+  struct Term {
     double weight;
     ReliefSample sample;
   };
-  /// At most kShares of the last answer, that of the owner first. Relief blends them; plain ellipsoids have
+  /// At most kMaxTerms of the last answer, that of the owner first. Relief blends them; plain ellipsoids have
   /// one.
-  std::span<const Share> shares() const { return {shares_, static_cast<std::size_t>(share_count_)}; }
+  std::span<const Term> terms() const { return {terms_, static_cast<std::size_t>(term_count_)}; }
 
   /// Least radius of the ellipsoids around; infinite if there are none.
   double shortest_radius_m() const { return shortest_m_; }
   int evaluations() const { return evaluations_; }
 
  private:
-  static constexpr int kMost = 160, kShares = 6, kRootSteps = 24;
+  static constexpr int kCapacity = 160, kMaxTerms = 6, kRootSteps = 24;
 
   struct Candidate {
     std::uint32_t ellipsoid;
     UnionField::Plane plane;  ///< at the center
   };
-  struct Foot {  // without initializers: most of so many are never met
+  struct Evaluated {  // without initializers: most of so many are never met
     std::uint32_t ellipsoid;
     double distance_m;
     geometry::Vec3 point, normal;
   };
 
   double window_m() const;
-  void collect_near(const geometry::Vec3& x);
-  void collect_all(const geometry::Vec3& x);
-  void meet(std::uint32_t k, const geometry::Vec3& x);
+  void evaluate_candidates(const geometry::Vec3& x);
+  void evaluate_all(const geometry::Vec3& x);
+  void evaluate(std::uint32_t k, const geometry::Vec3& x);
   ReliefSample blend();
   double smooth_root_m() const;
   double weight_root(double distance_m, double root_m) const;
-  ReliefSample share_of(const Foot& foot) const;
+  ReliefSample corrected_sample(const Evaluated& evaluated) const;
 
   const UnionField& field_;
   const ReliefTables* relief_;
@@ -77,14 +77,14 @@ class NearField {
   geometry::Vec3 center_ = geometry::Vec3::Zero();
   double radius_m_ = -1.0;
   double shortest_m_ = 0.0;
-  Candidate candidates_[kMost];
+  Candidate candidates_[kCapacity];
   int candidate_count_ = 0;
-  bool crowded_ = false;  ///< more than kMost: every answer looks at the whole union
-  Foot feet_[kMost];
-  int foot_count_ = 0;
+  bool overflow_ = false;  ///< more than kCapacity: every answer looks at the whole union
+  Evaluated evaluated_[kCapacity];
+  int evaluated_count_ = 0;
   double least_m_ = 0.0;
-  Share shares_[kShares];
-  int share_count_ = 0;
+  Term terms_[kMaxTerms];
+  int term_count_ = 0;
   int evaluations_ = 0;
 };
 

@@ -40,8 +40,8 @@ constexpr int kLeaveSteps = 4;  // Newton from outside: each halves the rest at 
 
 /// Where the ray leaves the ellipsoid that is so much larger in proportion that it holds all places nearer
 /// than the clearance.
-std::optional<double> leave_enlarged(const Ellipsoid& e, const Vec3& x, const Vec3& direction,
-                                     double clearance_m) {
+std::optional<double> exit_of_enlarged(const Ellipsoid& e, const Vec3& x, const Vec3& direction,
+                                       double clearance_m) {
   const double share = 1.0 / (1.0 + std::max(0.0, clearance_m) / e.radii.minCoeff());
   const Vec3 b = (e.axes.transpose() * direction).cwiseQuotient(e.radii);
   const auto inside = inside_ball(share * to_unit_ball(e, x), share * b);
@@ -50,14 +50,14 @@ std::optional<double> leave_enlarged(const Ellipsoid& e, const Vec3& x, const Ve
 }
 
 /// The ray parameter where a particle at x, inside ellipsoid k or too near it, has left it and its clearance.
-double leave(const UnionField& field, const Owner& owner, const Vec3& x, const Vec3& direction,
-             double clearance_m, double nudge_m) {
+double exit_parameter(const UnionField& field, const Owner& owner, const Vec3& x, const Vec3& direction,
+                      double clearance_m, double nudge_m) {
   const double gap = clearance_m - owner.at.signed_distance;
   const double slope = owner.at.normal.dot(direction);
   const Ellipsoid& e = field.shape(owner.ellipsoid);
   // Convexity: the tangent's root lies at or beyond the distance's root, hence outside.
   double t = slope > kFlatSlope ? gap / slope : std::numeric_limits<double>::infinity();
-  t = std::min(t, leave_enlarged(e, x, direction, clearance_m).value_or(t));
+  t = std::min(t, exit_of_enlarged(e, x, direction, clearance_m).value_or(t));
   if (!std::isfinite(t)) return gap + nudge_m;
   // From outside, convexity again: a tangent's root lies before the place and not before the distance's root.
   for (int step = 0; step < kLeaveSteps; ++step) {
@@ -80,7 +80,7 @@ std::optional<Vec3> exit_along_ray(const UnionField& field, const Vec3& p, const
   for (std::size_t step = 0; step < limit && !((x - p).norm() > longest_m); ++step) {
     const Owner owner = field.owner(x, clearance_m);
     if (owner.ellipsoid == kNoEllipsoid) return x;
-    x += leave(field, owner, x, direction, clearance_m, nudge_m) * direction;
+    x += exit_parameter(field, owner, x, direction, clearance_m, nudge_m) * direction;
   }
   return std::nullopt;
 }
@@ -97,7 +97,7 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
   for (int step = 0; step < kEntrySteps; ++step) {
     double advance = length - t;
     entry.ellipsoid = kNoEllipsoid;
-    const auto meet = [&](std::size_t k, const UnionField::Plane&) {
+    const auto visit = [&](std::size_t k, const UnionField::Plane&) {
       const ClosestPoint at = geometry::closest_point(field.shape(k), entry.point);
       const double slope = at.normal.dot(direction);
       // Convexity again: before the tangent's root the distance is above the clearance.
@@ -107,7 +107,7 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
       entry.ellipsoid = static_cast<std::uint32_t>(k);
     };
     field.visit_near(
-        entry.point, [&] { return advance + clearance_m; }, meet);
+        entry.point, [&] { return advance + clearance_m; }, visit);
     if (entry.ellipsoid == kNoEllipsoid) return std::nullopt;
     if (advance <= arrived) return entry;
     t += advance;

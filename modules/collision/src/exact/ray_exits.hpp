@@ -32,9 +32,9 @@ std::optional<Entry> first_entry(const UnionField& field, const geometry::Vec3& 
 /// The same for a surface that bulges out of the plain ellipsoids by up to `bulge_m` and is not convex
 /// (relief, fillets): steps of half the distance, and of kPathStep where that is less. What is thinner along
 /// the path is stepped over; the place found is clear.
-std::optional<Entry> first_bent_entry(NearField& near, const UnionField& field, double bulge_m,
-                                      const geometry::Vec3& safe, const geometry::Vec3& p,
-                                      double clearance_m);
+std::optional<Entry> first_nonconvex_entry(NearField& near, const UnionField& field, double bulge_m,
+                                           const geometry::Vec3& safe, const geometry::Vec3& p,
+                                           double clearance_m);
 
 /// The ellipsoid that the path from the particle's safe position to `end` passed through, as that ellipsoid
 /// sees it, and out again at a place where its surface has turned by more than 60 degrees: less is a particle

@@ -1,5 +1,5 @@
 // Based on: Zina H. Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014.
-// (the octahedral map; the chain rule through it and through the foot is derived below)
+// (the octahedral map; the chain rule through it and through the on_surface is derived below)
 #include "exact/relief_field.hpp"
 
 #include <algorithm>
@@ -71,8 +71,8 @@ ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::u
   ReliefSample sample{at.signed_distance, at.normal, k};
   if (table.nodes < 2) return sample;
   const geometry::Ellipsoid& shape = field.shape(k);
-  const Vec3 foot = shape.axes.transpose() * (at.point - shape.center);
-  const Vec3 w = foot.cwiseQuotient(shape.radii).normalized();
+  const Vec3 on_surface = shape.axes.transpose() * (at.point - shape.center);
+  const Vec3 w = on_surface.cwiseQuotient(shape.radii).normalized();
   const TableValue value = read_table(relief, table, w);
   const double clamped = std::clamp(at.signed_distance, -double{relief.in_m}, double{relief.out_m});
   sample.distance_m -= value.h_m + value.a_per_m * clamped;

@@ -1,5 +1,5 @@
 // One particle against the union, in double precision: the module's definition of both responses. The
-// kernels settle the common case in floats and hand over what is left.
+// kernels push_by_planes the common case in floats and hand over what is left.
 #pragma once
 
 #include <span>
@@ -26,11 +26,13 @@ struct ParticleState {
   geometry::Vec3 surface_velocity = geometry::Vec3::Zero();  ///< of the body where the particle is
   bool has_velocity = false;
   bool has_safe = false;
-  std::span<const Carrier> carriers;               ///< one an ellipsoid; empty: the body rests
-  geometry::Vec3 before = geometry::Vec3::Zero();  ///< the safe position as it was before the body moved
+  std::span<const AffineMotion> affine_motions;         ///< one an ellipsoid; empty: the body rests
+  geometry::Vec3 safe_before = geometry::Vec3::Zero();  ///< the safe position as it was before the body moved
 
   /// Where the path begins as ellipsoid k sees it.
-  geometry::Vec3 path_start(std::size_t k) const { return carriers.empty() ? safe : carriers[k].now(before); }
+  geometry::Vec3 path_start(std::size_t k) const {
+    return affine_motions.empty() ? safe : affine_motions[k].apply(safe_before);
+  }
 };
 
 /// What happened to one particle.

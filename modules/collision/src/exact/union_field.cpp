@@ -54,12 +54,12 @@ Owner UnionField::owner(const Vec3& p, double below_m) const {
     std::size_t k;
     double m;
   };
-  constexpr int kMost = 64;
-  Bound bounds[kMost];
+  constexpr int kCapacity = 64;
+  Bound bounds[kCapacity];
   int count = 0, first = 0;
   Owner best;
   double least = below_m, within = below_m;
-  const auto meet = [&](std::size_t k) {
+  const auto evaluate = [&](std::size_t k) {
     const geometry::ClosestPoint at = geometry::closest_point(shapes_[k], p);
     const bool tie = at.signed_distance == least && best.ellipsoid != kNoEllipsoid && k < best.ellipsoid;
     if (!(at.signed_distance < least || tie)) return;
@@ -70,16 +70,16 @@ Owner UnionField::owner(const Vec3& p, double below_m) const {
   visit_near(
       p, [&] { return within; },
       [&](std::size_t k, const Plane& bound) {
-        if (count == kMost) return meet(k);
+        if (count == kCapacity) return evaluate(k);
         within = std::min(within, upper_bound(k, p));
         bounds[count] = {k, bound.distance_m};
         if (bound.distance_m < bounds[first].m) first = count;
         ++count;
       });
   // That of the least bound leaves few others.
-  if (count > 0) meet(bounds[first].k);
+  if (count > 0) evaluate(bounds[first].k);
   for (int i = 0; i < count; ++i)
-    if (i != first && bounds[i].m <= least) meet(bounds[i].k);
+    if (i != first && bounds[i].m <= least) evaluate(bounds[i].k);
   return best;
 }
 

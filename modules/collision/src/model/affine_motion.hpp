@@ -6,18 +6,18 @@
 
 namespace bodice::collision {
 
-struct Carrier {
-  geometry::Mat3 turn = geometry::Mat3::Identity();
-  geometry::Vec3 shift = geometry::Vec3::Zero();
+struct AffineMotion {
+  geometry::Mat3 linear = geometry::Mat3::Identity();
+  geometry::Vec3 translation = geometry::Vec3::Zero();
 
-  geometry::Vec3 now(const geometry::Vec3& before) const { return turn * before + shift; }
+  geometry::Vec3 apply(const geometry::Vec3& before) const { return linear * before + translation; }
 };
 
 /// A material point keeps its place in the ellipsoid's frame, in shares of the radii.
-inline Carrier carrier_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now) {
-  const geometry::Mat3 turn =
+inline AffineMotion affine_motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now) {
+  const geometry::Mat3 linear =
       now.axes * now.radii.cwiseQuotient(before.radii).asDiagonal() * before.axes.transpose();
-  return {turn, now.center - turn * before.center};
+  return {linear, now.center - linear * before.center};
 }
 
 }  // namespace bodice::collision

@@ -61,11 +61,11 @@ BallMap grown(BallMap ball) {
 
 }  // namespace
 
-Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32_t>& names_of_shapes)
-    : names(names_of_shapes.begin(), names_of_shapes.end()) {
-  internal.resize(names.size());
-  for (std::size_t k = 0; k < names.size(); ++k)
-    internal[static_cast<std::size_t>(names[k])] = static_cast<std::int32_t>(k);
+Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32_t>& proxy_indices)
+    : proxy_index(proxy_indices.begin(), proxy_indices.end()) {
+  internal_index.resize(proxy_index.size());
+  for (std::size_t k = 0; k < proxy_index.size(); ++k)
+    internal_index[static_cast<std::size_t>(proxy_index[k])] = static_cast<std::int32_t>(k);
   const std::size_t padded = (shapes.size() + kPad - 1) / kPad * kPad;
   // The padding is beyond every window.
   const float nowhere = std::numeric_limits<float>::max();
@@ -98,7 +98,7 @@ void Baked::update(const std::vector<Ellipsoid>& shapes) {
     const auto values = std::bit_cast<std::array<float, kBakedFloats>>(ellipsoids[k]);
     for (std::size_t i = 0; i < kShapeFloats; ++i) cull.baked[i][k] = values[i];
     balls[k] = bake_ball(shapes[k]);
-    ellipsoids[k].name = balls[k].name = names[k];
+    ellipsoids[k].proxy_index = balls[k].proxy_index = proxy_index[k];
     bounds[k] = grown(balls[k]);
     const float* const ball = balls[k].to_ball;  // the members follow each other without padding
     for (std::size_t i = 0; i < kBallFloats; ++i) cull.ball[i][k] = ball[i];

@@ -17,19 +17,19 @@ struct BakedEllipsoid {
   float gap0, gap1;          ///< 1 - radius2^2 and radius1^2 - radius2^2: how far from being a sphere
   float inverse1, inverse2;  ///< 1 / radius1, 1 / radius2
   float longest_m;           ///< r0
-  std::int32_t name;         ///< the proxy's index
+  std::int32_t proxy_index;  ///< the proxy's index
 };
 inline constexpr int kBakedFloats = sizeof(BakedEllipsoid) / sizeof(float);
-inline constexpr int kShapeFloats = kBakedFloats - 1;  ///< without the name
+inline constexpr int kShapeFloats = kBakedFloats - 1;  ///< without the proxy_index
 
 /// One ellipsoid as the unit ball: u = to_ball p + offset is where p is then.
 struct alignas(64) BallMap {
-  float to_ball[9];         ///< diag(1 / r) R^T, 1/meters
-  float offset[3];          ///< - to_ball c
-  float inverse_radius[3];  ///< 1/meters
-  std::int32_t name;        ///< the proxy's index
+  float to_ball[9];          ///< diag(1 / r) R^T, 1/meters
+  float offset[3];           ///< - to_ball c
+  float inverse_radius[3];   ///< 1/meters
+  std::int32_t proxy_index;  ///< the proxy's index
 };
-inline constexpr int kBallFloats = 15, kBallOffset = 9, kBallInverse = 12;  ///< without the name
+inline constexpr int kBallFloats = 15, kBallOffset = 9, kBallInverse = 12;  ///< without the proxy_index
 
 /// The same, and boxes and inner balls, one array a number, for sixteen ellipsoids at a time; padded to kPad
 /// with boxes infinitely far away. Neighbors in space should be neighbors here.
@@ -48,7 +48,7 @@ inline constexpr int kGroup = 16;
 struct Baked {
   static constexpr std::size_t kPad = kGroup;
 
-  Baked(const std::vector<geometry::Ellipsoid>& shapes, const std::vector<std::uint32_t>& names_of_shapes);
+  Baked(const std::vector<geometry::Ellipsoid>& shapes, const std::vector<std::uint32_t>& proxy_indices);
   /// Rewrites everything for other shapes of the same number; allocates nothing.
   void update(const std::vector<geometry::Ellipsoid>& shapes);
 
@@ -56,9 +56,9 @@ struct Baked {
 
   std::vector<BakedEllipsoid> ellipsoids;
   std::vector<BallMap> balls;
-  std::vector<BallMap> bounds;         ///< of the ellipsoids grown by kBoundGrowth
-  std::vector<std::int32_t> names;     ///< the proxy's index of each
-  std::vector<std::int32_t> internal;  ///< the inverse: where an index of the proxy is kept
+  std::vector<BallMap> bounds;               ///< of the ellipsoids grown by kBoundGrowth
+  std::vector<std::int32_t> proxy_index;     ///< the proxy's index of each
+  std::vector<std::int32_t> internal_index;  ///< the inverse: where an index of the proxy is kept
   CullArrays cull;
   float rounding_m = 0.0f;  ///< what float arithmetic can be off by at the union's size
 };

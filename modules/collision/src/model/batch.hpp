@@ -19,22 +19,22 @@ inline constexpr int kBatch = 256;
 /// Ellipsoids near a block; where more are, the exact side works.
 inline constexpr int kMaxCandidates = 256;
 
-struct KeptBatch;
+struct CachedBatch;
 
 /// What is kept about a batch from call to call.
-struct Keeping {
-  KeptBatch* batch = nullptr;  ///< null: nothing
-  double traveled_m = 0.0;     ///< length of the proxy's way
+struct CacheAccess {
+  CachedBatch* batch = nullptr;  ///< null: nothing
+  double traveled_m = 0.0;       ///< length of the proxy's way
   float least_reach_m = 0.0f, most_reach_m = 0.0f;
 };
 
 /// What the next batch will read and write, so that it is in the cache by then.
-struct Ahead {
+struct NextBatch {
   const float *x = nullptr, *y = nullptr, *z = nullptr;  ///< of places that lie in a row; else null
   Contact* contacts = nullptr;                           ///< null: none are written
   const std::uint32_t* index = nullptr;                  ///< into contacts; null: in a row as well
   int count = 0;
-  const KeptBatch* kept = nullptr;
+  const CachedBatch* cached = nullptr;
 };
 
 /// What a query reads and writes.
@@ -47,8 +47,8 @@ struct QueryBatch {
   Accuracy accuracy = Accuracy::kExact;
   Contact* contacts;                ///< of the whole call
   float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal; below zero: not measured
-  Keeping keeping = {};
-  Ahead ahead = {};
+  CacheAccess cache = {};
+  NextBatch next_batch = {};
 
   bool limited() const { return within_m != std::numeric_limits<float>::infinity(); }
 };
@@ -62,21 +62,21 @@ inline Contact no_contact() {
 }
 
 /// Particles of some blocks, gathered; up to a whole block lanes beyond `count` repeat the last one.
-struct alignas(64) Gathering {
+struct alignas(64) ParticleBatch {
   float x[kBatch], y[kBatch], z[kBatch];     ///< meters, local frame
   float vx[kBatch], vy[kBatch], vz[kBatch];  ///< meters a second, if has_velocity
   float sx[kBatch], sy[kBatch], sz[kBatch];  ///< meters, last safe positions, if has_safe
   int count = 0;
   bool has_velocity = false;
   bool has_safe = false;
-  Keeping keeping = {};
-  Ahead ahead = {};
+  CacheAccess cache = {};
+  NextBatch next_batch = {};
 };
 
 /// What a response asks of the kernel.
-struct Clearance {
-  float distance_m;  ///< margin + thickness: where the particles are put
-  float slack_m;     ///< how far beyond, so that rounding does not put them below
+struct ResponseParameters {
+  float clearance_m;  ///< margin + thickness: where the particles are put
+  float slack_m;      ///< how far beyond, so that rounding does not put them below
   float friction;
   float max_push_m;
   const SurfaceMotion* motion;  ///< an ellipsoid; null: the body rests
@@ -110,7 +110,7 @@ struct alignas(64) BatchResponse {
   float vx[kSize], vy[kSize], vz[kSize];  ///< meters a second, if has_velocity
   int count = 0;
   int pending = 0;               ///< of those: held back by max_push_m
-  LaneBits hard;                 ///< not settled and not among them: for the exact side
+  LaneBits left_to_exact;        ///< not settled and not among them: for the exact side
   std::uint32_t iterations = 0;  ///< most pushes
   float deepest_m = 0.0f;        ///< below the clearance before the response
   /// A block: half its box's diagonal; below zero: not measured.

@@ -24,7 +24,7 @@ double farthest_travel(std::span<const Ellipsoid> before, std::span<const Ellips
 
 }  // namespace
 
-bool KeptBatch::renew(float least_reach_m, float most_reach_m) {
+bool CachedBatch::begin_refresh(float least_reach_m, float most_reach_m) {
   if (rest > 0) {
     --rest;
     return false;
@@ -42,19 +42,19 @@ bool KeptBatch::renew(float least_reach_m, float most_reach_m) {
   return true;
 }
 
-void KeptCandidates::forget() {
-  for (KeptBatch& batch : batches_) batch.count = 0;
+void CandidateCache::clear() {
+  for (CachedBatch& batch : batches_) batch.count = 0;
   traveled_m_ = 0.0;
 }
 
-void KeptCandidates::begin(std::size_t particles, std::span<const Ellipsoid> shapes, float beyond_m) {
+void CandidateCache::begin_call(std::size_t particles, std::span<const Ellipsoid> shapes, float beyond_m) {
   batches_.resize((particles + kBatch - 1) / kBatch);
   const bool same_number = shapes_.size() == shapes.size();
   if (same_number && beyond_m == beyond_m_ &&
       std::memcmp(shapes.data(), shapes_.data(), shapes.size_bytes()) == 0)
     return;
   if (same_number) traveled_m_ += kWidened * farthest_travel(shapes_, shapes);
-  if (!same_number || beyond_m != beyond_m_ || !std::isfinite(traveled_m_)) forget();
+  if (!same_number || beyond_m != beyond_m_ || !std::isfinite(traveled_m_)) clear();
   shapes_.assign(shapes.begin(), shapes.end());
   beyond_m_ = beyond_m;
 }

@@ -23,9 +23,9 @@ struct Range {
     float least = std::numeric_limits<float>::max(), largest = -least;
     for (std::size_t i = 0; i < count; ++i) {
       // Values that are not finite, or absurd, do not stretch the grid.
-      const float v = std::abs(values[i]) < kFarthest ? values[i] : least;
+      const float v = std::abs(values[i]) < kFarthest_m ? values[i] : least;
       least = std::min(least, v);
-      largest = std::max(largest, std::abs(values[i]) < kFarthest ? v : largest);
+      largest = std::max(largest, std::abs(values[i]) < kFarthest_m ? v : largest);
     }
     low = least;
     if (largest > least) scale = last / (largest - least);
@@ -93,10 +93,10 @@ double spread_of(const Particles& particles, std::span<const std::uint32_t> orde
   for (std::size_t begin = 0; begin < particles.count; begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, particles.count);
     for (const float* values : {particles.x, particles.y, particles.z}) {
-      float low = kFarthest, high = -kFarthest;
+      float low = kFarthest_m, high = -kFarthest_m;
       for (std::size_t i = begin; i < end; ++i) {
         const float v = values[order.empty() ? i : order[i]];
-        if (!(std::abs(v) < kFarthest)) continue;
+        if (!(std::abs(v) < kFarthest_m)) continue;
         low = std::min(low, v);
         high = std::max(high, v);
       }

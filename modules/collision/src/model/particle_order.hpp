@@ -12,7 +12,7 @@
 
 namespace bodice::collision {
 
-struct Memory;
+struct WorkspaceData;
 
 class ParticleOrder {
  public:
@@ -53,10 +53,10 @@ class TaskOrder {
 };
 
 /// In which order particles are worked on.
-struct Sequence {
+struct ParticleSequence {
   std::span<const std::uint32_t> order;  ///< of particles first, first + 1, ...; empty: as they are stored
   std::size_t first = 0;
-  Memory* memory = nullptr;  ///< of the set of particles, or null
+  WorkspaceData* workspace = nullptr;  ///< of the set of particles, or null
 
   bool stored() const { return order.empty(); }
   std::size_t operator[](std::size_t i) const { return stored() ? i : order[i - first]; }

@@ -8,8 +8,8 @@ using geometry::Vec3;
 Vec3 SurfaceMotion::at(const Vec3& x) const {
   Vec3 velocity;
   for (int row = 0; row < 3; ++row)
-    velocity[row] = double{turn[3 * row]} * x[0] + double{turn[3 * row + 1]} * x[1] +
-                    double{turn[3 * row + 2]} * x[2] + double{shift[row]};
+    velocity[row] = double{linear[3 * row]} * x[0] + double{linear[3 * row + 1]} * x[1] +
+                    double{linear[3 * row + 2]} * x[2] + double{translation[row]};
   return velocity;
 }
 
@@ -23,12 +23,12 @@ SurfaceMotion motion_between(const geometry::Ellipsoid& before, const geometry::
   if (!(dt_s > 0.0)) return motion;
   // x_before = c' + R' diag(r' / r) R^T (x - c);  velocity = (x - x_before) / dt
   const Mat3 back = before.axes * before.radii.cwiseQuotient(now.radii).asDiagonal() * now.axes.transpose();
-  const Mat3 turn = (Mat3::Identity() - back) / dt_s;
-  const Vec3 shift = (back * now.center - before.center) / dt_s;
+  const Mat3 linear = (Mat3::Identity() - back) / dt_s;
+  const Vec3 translation = (back * now.center - before.center) / dt_s;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
-      motion.turn[3 * row + column] = static_cast<float>(turn(row, column));
-    motion.shift[row] = static_cast<float>(shift[row]);
+      motion.linear[3 * row + column] = static_cast<float>(linear(row, column));
+    motion.translation[row] = static_cast<float>(translation[row]);
   }
   return motion;
 }

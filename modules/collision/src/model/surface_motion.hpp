@@ -7,10 +7,10 @@
 
 namespace bodice::collision {
 
-/// Velocity of the material at x carried by one ellipsoid: turn x + shift, meters a second.
+/// Velocity of the material at x carried by one ellipsoid: linear x + translation, meters a second.
 struct SurfaceMotion {
-  float turn[9] = {};
-  float shift[3] = {};
+  float linear[9] = {};
+  float translation[3] = {};
 
   geometry::Vec3 at(const geometry::Vec3& x) const;
 };

@@ -23,7 +23,7 @@ inline constexpr float kBoundGrowth = 5.5e-4f;
 
 /// What the float solver's closest point and distance may be off by, share of the longest radius (or of the
 /// distance from the center): nearly twice the worst of 120 million random cases (`response nearest`).
-inline constexpr double kFootError = 1e-6;
+inline constexpr double kClosestPointError = 1e-6;
 
 /// Cosine below which a ray runs along a surface rather than out of it.
 inline constexpr double kFlatSlope = 1e-3;
@@ -44,7 +44,7 @@ inline constexpr double kUsualPush = 1.5;
 
 /// Rounds of cutting planes a particle: a body's creases join two or three ellipsoids, a bent surface takes
 /// Newton two or three steps.
-inline constexpr int kSettleRounds = 10;
+inline constexpr int kPlaneRounds = 10;
 
 /// Of these the first look for the closest place even on a bent surface.
 inline constexpr int kNearestRounds = 3;
@@ -86,7 +86,7 @@ inline constexpr int kExitHalvings = 20;
 
 /// Coordinates beyond this, meters, are not sorted with the rest and go to the exact side: their squares must
 /// stay in float range over the smallest radius that a proxy may have.
-inline constexpr float kFarthest = 1e9f;
+inline constexpr float kFarthest_m = 1e9f;
 
 /// Distance of particles half a block apart, relative to that of any two of a task, from which on sorting the
 /// task by place pays: in no order it is 1, along a curve through space a quarter.

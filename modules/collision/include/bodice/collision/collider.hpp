@@ -105,7 +105,7 @@ class Workspace {
 
  private:
   friend class Collider;
-  std::unique_ptr<struct Memory> memory_;
+  std::unique_ptr<struct WorkspaceData> data_;
 };
 
 /// A proxy baked for queries: floats in a local frame, boxes for culling. Thread-safe but for move_to().

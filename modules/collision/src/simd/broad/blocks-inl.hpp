@@ -1,10 +1,10 @@
 // A batch against a proxy of any size: what fits into the kernel's lists together is done together, the rest
 // block by block, step by step, or for some ellipsoids at a time.
-#if defined(BODICE_COLLISION_SHARE_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_SHARE_INL_
-#undef BODICE_COLLISION_SHARE_INL_
+#if defined(BODICE_COLLISION_BLOCKS_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_BLOCKS_INL_
+#undef BODICE_COLLISION_BLOCKS_INL_
 #else
-#define BODICE_COLLISION_SHARE_INL_
+#define BODICE_COLLISION_BLOCKS_INL_
 #endif
 
 #include <algorithm>
@@ -17,18 +17,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kStep = kTogether * kWidth;  // lanes that are worked on together
+constexpr int kStep = kVectorsInStep * kWidth;  // lanes that are worked on together
 
 /// The same lanes of the next batch, a few at a time: asked for all at once, it would hold up what this batch
 /// reads. Inlined, since g++ takes a call of what only prefetches for one without effect.
 template <int kLanes>
-HWY_INLINE void prefetch_step(const Ahead& next, int from, bool contacts) {
+HWY_INLINE void prefetch_step(const NextBatch& next, int from, bool contacts) {
   constexpr int kLine = 64 / sizeof(float);
-  for (int i = from; next.kept && i < from + kLanes; i += kLine) {
-    hwy::Prefetch(next.kept->x + i);
-    hwy::Prefetch(next.kept->y + i);
-    hwy::Prefetch(next.kept->z + i);
-    hwy::Prefetch(next.kept->slack_m[0] + i);
+  for (int i = from; next.cached && i < from + kLanes; i += kLine) {
+    hwy::Prefetch(next.cached->x + i);
+    hwy::Prefetch(next.cached->y + i);
+    hwy::Prefetch(next.cached->z + i);
+    hwy::Prefetch(next.cached->slack_m[0] + i);
   }
   if (from + kLanes > next.count) return;
   for (int i = from; next.x && i < from + kLanes; i += kLine) {
@@ -47,8 +47,8 @@ HWY_INLINE void prefetch_step(const Ahead& next, int from, bool contacts) {
 template <int kCount>
 HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kCount]) {
   // To first order the steps store contacts themselves, and would wait for others.
-  prefetch_step<kCount * kWidth>(batch.ahead, from,
-                                 batch.ahead.contacts && batch.accuracy == Accuracy::kExact);
+  prefetch_step<kCount * kWidth>(batch.next_batch, from,
+                                 batch.next_batch.contacts && batch.accuracy == Accuracy::kExact);
   for (int v = 0; v < kCount; ++v) {
     const int i = from + v * kWidth;
     p[v] = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
@@ -56,8 +56,8 @@ HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kCount]) {
 }
 
 /// Of its lanes, in whole steps.
-HWY_INLINE int end_of(const Piece& piece) {
-  return piece.begin + (piece.end - piece.begin + kStep - 1) / kStep * kStep;
+HWY_INLINE int end_of(const LaneRange& range) {
+  return range.begin + (range.end - range.begin + kStep - 1) / kStep * kStep;
 }
 
 /// Those of the lanes from i on that are below the end.
@@ -65,141 +65,146 @@ HWY_INLINE M lanes_below(int i, int end) {
   return hn::FirstN(f, static_cast<std::size_t>(std::max(0, end - i)));
 }
 
-/// Candidates that all blocks of a batch bound rather than tell which of them may be theirs.
+/// TangentCandidates that all blocks of a batch bound rather than tell which of them may be theirs.
 constexpr int kFew = kWidth / 2;
 
-struct Lists {
+struct BroadPhaseLists {
   Columns columns, alone;
-  Near near, of_piece[kBlocks], of_alone, of_span[KeptBatch::kSpans];
+  CandidateList of_all, of_range[kBlocks], of_alone, of_span[CachedBatch::kSpans];
   /// Meters around the places of a call within which the next may ask again; share() alone reads it.
   float room_m = 0.0f;
-  Extent covered;       ///< the columns hold all candidates of places in it,
+  Aabb covered;         ///< the columns hold all candidates of places in it,
   bool covers = false;  ///< if so
 };
 
 /// Every column, for a block that does not share them.
-HWY_INLINE void choose_all(const Columns& columns, Near& out) {
+HWY_INLINE void list_every_column(const Columns& columns, CandidateList& out) {
   out.count = columns.count();
   for (int i = 0; i < out.count; i += kWidth) hn::Store(lanes_from(i), I(), out.index + i);
 }
 
-/// All columns for one piece.
+/// All columns for one range.
 template <class Work>
-HWY_INLINE bool work_alone(const Piece& piece, const Columns& columns, Near& list, Work&& work) {
+HWY_INLINE bool work_on_range(const LaneRange& range, const Columns& columns, CandidateList& list,
+                              Work&& work) {
   bool fits = false;
-  choose_all(columns, list);
-  with_tables(columns, [&](auto tables) { fits = work(tables, columns, &piece, 1, &list); });
+  list_every_column(columns, list);
+  with_tables(columns, [&](auto tables) { fits = work(tables, columns, &range, 1, &list); });
   return fits;
 }
 
-/// Finds the candidates of some pieces at once, and among them those of each: `find` (a source, the box
-/// around, pieces, their number, lists out). Then calls `work` (number of tables, columns, pieces, their
+/// Finds the candidates of some ranges at once, and among them those of each: `find` (a source, the box
+/// around, ranges, their number, lists out). Then calls `work` (number of tables, columns, ranges, their
 /// number, their lists) on all, if their candidates fit into two vectors, or on each. False if either has no
 /// room.
 template <class Find, class Work>
-HWY_INLINE bool share(const Baked& baked, const ReliefTables* relief, const Piece* pieces, int count,
-                      Lists& s, Find&& find, Work&& work) {
-  Piece around = pieces[0];
-  for (int i = 1; i < count; ++i) around.box = united(around.box, pieces[i].box);
+HWY_INLINE bool with_candidates(const Baked& baked, const ReliefTables* relief, const LaneRange* ranges,
+                                int count, BroadPhaseLists& s, Find&& find, Work&& work) {
+  LaneRange around = ranges[0];
+  for (int i = 1; i < count; ++i) around.box = united(around.box, ranges[i].box);
   s.covers = false;
   if (s.room_m > 0.0f) around.box = grown(around.box, s.room_m);
-  if (!find(Everything(baked), around.box, &around, 1, &s.near)) return false;
-  if (s.near.count == 0) return true;
-  s.columns.fill(baked, relief, s.near.index, s.near.count);
+  if (!find(AllEllipsoids(baked), around.box, &around, 1, &s.of_all)) return false;
+  if (s.of_all.count == 0) return true;
+  s.columns.fill(baked, relief, s.of_all.index, s.of_all.count);
   s.covered = around.box;
-  s.covers = s.room_m > 0.0f && s.near.count <= 2 * kWidth;
-  if (count == 1) return work_alone(pieces[0], s.columns, s.of_piece[0], work);
+  s.covers = s.room_m > 0.0f && s.of_all.count <= 2 * kWidth;
+  if (count == 1) return work_on_range(ranges[0], s.columns, s.of_range[0], work);
   bool fits = false;
-  if (s.near.count <= 2 * kWidth) {
+  if (s.of_all.count <= 2 * kWidth) {
     with_tables(s.columns, [&](auto tables) {
-      if (s.near.count <= kFew)
-        for (int i = 0; i < count; ++i) choose_all(s.columns, s.of_piece[i]);
+      if (s.of_all.count <= kFew)
+        for (int i = 0; i < count; ++i) list_every_column(s.columns, s.of_range[i]);
       else
-        (void)find(AmongColumns<tables()>{s.columns}, around.box, pieces, count, s.of_piece);
-      fits = work(tables, s.columns, pieces, count, s.of_piece);
+        (void)find(ColumnEllipsoids<tables()>{s.columns}, around.box, ranges, count, s.of_range);
+      fits = work(tables, s.columns, ranges, count, s.of_range);
     });
     return fits;
   }
-  if (!find(AmongColumns<0>{s.columns}, around.box, pieces, count, s.of_piece)) return false;
+  if (!find(ColumnEllipsoids<0>{s.columns}, around.box, ranges, count, s.of_range)) return false;
   for (int i = 0; i < count; ++i) {
-    Near& list = s.of_piece[i];
+    CandidateList& list = s.of_range[i];
     if (list.count == 0) continue;
-    for (int k = 0; k < list.count; ++k) list.index[k] = s.near.index[list.index[k]];
+    for (int k = 0; k < list.count; ++k) list.index[k] = s.of_all.index[list.index[k]];
     s.alone.fill(baked, relief, list.index, list.count);
-    if (!work_alone(pieces[i], s.alone, s.of_alone, work)) return false;
+    if (!work_on_range(ranges[i], s.alone, s.of_alone, work)) return false;
   }
   return true;
 }
 
-/// The same among the candidates of the call before, if they are those of a box that holds the pieces.
+/// The same among the candidates of the call before, if they are those of a box that holds the ranges.
 template <class Work>
-HWY_INLINE bool share_again(const Piece* pieces, int count, Lists& s, Work&& work) {
+HWY_INLINE bool with_previous_candidates(const LaneRange* ranges, int count, BroadPhaseLists& s,
+                                         Work&& work) {
   if (!s.covers) return false;
   for (int i = 0; i < count; ++i)
-    if (!holds(s.covered, pieces[i].box)) return false;
-  Piece all = pieces[0];
-  all.end = pieces[count - 1].end;
-  return work_alone(all, s.columns, s.of_alone, work);
+    if (!contains(s.covered, ranges[i].box)) return false;
+  LaneRange all = ranges[0];
+  all.end = ranges[count - 1].end;
+  return work_on_range(all, s.columns, s.of_alone, work);
 }
 
-/// One piece and any number of plain ellipsoids, as many at a time as there is room for: `find` (a source,
+/// One range and any number of plain ellipsoids, as many at a time as there is room for: `find` (a source,
 /// the list out), `work` as above.
 template <class Find, class Work>
-HWY_INLINE void in_parts(const Baked& baked, const Piece& piece, Lists& s, Find&& find, Work&& work) {
+HWY_INLINE void in_parts(const Baked& baked, const LaneRange& range, BroadPhaseLists& s, Find&& find,
+                         Work&& work) {
   constexpr int kPart = kMaxCandidates;
   static_assert(kPart % kGroup == 0);
   const int end = static_cast<int>(baked.size());
   for (int k = 0; k < end; k += kPart) {
-    find(Everything(baked, k, std::min(k + kPart, end)), &s.near);
-    if (s.near.count == 0) continue;
-    s.columns.fill(baked, nullptr, s.near.index, s.near.count);
-    (void)work_alone(piece, s.columns, s.of_alone, work);
+    find(AllEllipsoids(baked, k, std::min(k + kPart, end)), &s.of_all);
+    if (s.of_all.count == 0) continue;
+    s.columns.fill(baked, nullptr, s.of_all.index, s.of_all.count);
+    (void)work_on_range(range, s.columns, s.of_alone, work);
   }
 }
 
-HWY_INLINE QueryBatch places(const float* x, const float* y, const float* z, int count) {
+HWY_INLINE QueryBatch batch_at(const float* x, const float* y, const float* z, int count) {
   return {.x = x,
           .y = y,
           .z = z,
           .index = nullptr,
           .count = count,
           .margin_m = 0.0f,
-          .within_m = kNoLimit,
+          .within_m = kNoLimit_m,
           .contacts = nullptr,
           .radius_m = {},
-          .keeping = {}};
+          .cache = {}};
 }
 
-/// `near` tells whether all are within kFarthest, which NaN is not.
-HWY_INLINE Piece piece_of(const QueryBatch& batch, int begin, int end, bool& near) {
-  return {extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, end - begin, near), begin, end};
+/// `in_float_range` tells whether all are within kFarthest_m, which NaN is not.
+HWY_INLINE LaneRange range_of(const QueryBatch& batch, int begin, int end, bool& in_float_range) {
+  return {aabb_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, end - begin, in_float_range),
+          begin, end};
 }
 
 /// The blocks of a batch.
 struct Blocks {
-  Piece pieces[kBlocks];
+  LaneRange ranges[kBlocks];
   int count = 0;
-  bool near = true;  ///< no place is too far for floats
+  bool in_float_range = true;  ///< no place is too far for floats
 
   explicit HWY_INLINE Blocks(const QueryBatch& batch) {
     for (int begin = 0; begin < batch.count; begin += kBlock) {
-      bool all_near = false;
-      pieces[count++] = piece_of(batch, begin, std::min(begin + kBlock, batch.count), all_near);
-      near = near && all_near;
+      bool these_in_range = false;
+      ranges[count++] = range_of(batch, begin, std::min(begin + kBlock, batch.count), these_in_range);
+      in_float_range = in_float_range && these_in_range;
     }
   }
 };
 
-/// What fits together is done together: `work` (pieces, their number); what does not, block by block, then
-/// step by step; what even then has no room is left to `last` (a piece), which may give up.
+/// What fits together is done together: `work` (ranges, their number); what does not, block by block, then
+/// step by step; what even then has no room is left to `last` (a range), which may give up.
 template <class Work, class Last>
-HWY_INLINE bool together_or_apart(const QueryBatch& batch, const Blocks& blocks, Work&& work, Last&& last) {
-  if (work(blocks.pieces, blocks.count)) return true;
+HWY_INLINE bool with_fallback(const QueryBatch& batch, const Blocks& blocks, Work&& work, Last&& last) {
+  if (work(blocks.ranges, blocks.count)) return true;
   for (int i = 0; i < blocks.count; ++i) {
-    if (blocks.count > 1 && work(blocks.pieces + i, 1)) continue;
-    for (int begin = blocks.pieces[i].begin; begin < blocks.pieces[i].end; begin += kStep) {
-      bool near = false;
-      const Piece step = piece_of(batch, begin, std::min(begin + kStep, blocks.pieces[i].end), near);
+    if (blocks.count > 1 && work(blocks.ranges + i, 1)) continue;
+    for (int begin = blocks.ranges[i].begin; begin < blocks.ranges[i].end; begin += kStep) {
+      bool in_float_range = false;
+      const LaneRange step =
+          range_of(batch, begin, std::min(begin + kStep, blocks.ranges[i].end), in_float_range);
       if (!work(&step, 1) && !last(step)) return false;
     }
   }

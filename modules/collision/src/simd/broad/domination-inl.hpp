@@ -1,11 +1,11 @@
-// Which ellipsoids can be the nearest of some place in a box, for the boxes of pieces of a batch. With d_j
+// Which ellipsoids can be the nearest of some place in a box, for the boxes of ranges of a batch. With d_j
 // convex and the tangent plane of another ellipsoid k below d_k, d_j minus the plane is convex, so that it is
 // largest at a corner of the box: if j is nearer than k's plane at all eight, k is nowhere the nearest.
-#if defined(BODICE_COLLISION_NEAR_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_NEAR_INL_
-#undef BODICE_COLLISION_NEAR_INL_
+#if defined(BODICE_COLLISION_DOMINATION_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_DOMINATION_INL_
+#undef BODICE_COLLISION_DOMINATION_INL_
 #else
-#define BODICE_COLLISION_NEAR_INL_
+#define BODICE_COLLISION_DOMINATION_INL_
 #endif
 
 #include <algorithm>
@@ -21,18 +21,18 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kBlocks = kBatch / kBlock;
-constexpr int kCorners = 8, kRivals = 2;
-constexpr float kNoLimit = 1e30f;
-static_assert(kRivals * kCorners % kWidth == 0);
+constexpr int kCorners = 8, kDominators = 2;
+constexpr float kNoLimit_m = 1e30f;
+static_assert(kDominators * kCorners % kWidth == 0);
 static_assert(kGroup % kWidth == 0);
 
 /// Consecutive lanes of a batch and their box.
-struct Piece {
-  Extent box;
+struct LaneRange {
+  Aabb box;
   int begin, end;
 };
 
-struct Near {
+struct CandidateList {
   int count = 0;
   alignas(64) std::int32_t index[kMaxCandidates + 16];
 };
@@ -57,33 +57,33 @@ HWY_INLINE V3 in_ball(const BallLanes& e, V3 p) {
   return {row(e.a0, e.offset.x), row(e.a1, e.offset.y), row(e.a2, e.offset.z)};
 }
 
-/// rounding_over() each piece.
-struct PieceRounding {
+/// rounding_over() each range.
+struct RangeRounding {
   float m[kBlocks];
 
-  HWY_INLINE PieceRounding(const Piece* pieces, int count) {
-    for (int i = 0; i < count; ++i) m[i] = rounding_over(pieces[i].box);
+  HWY_INLINE RangeRounding(const LaneRange* ranges, int count) {
+    for (int i = 0; i < count; ++i) m[i] = rounding_over(ranges[i].box);
   }
 };
 
 /// Where candidates are looked for: in the proxy's ellipsoids [begin, end), of which groups whose boxes are
-/// too far from the places' box are passed over,
-struct Everything {
+/// too far from the points' box are passed over,
+struct AllEllipsoids {
   const Baked& baked;
   int begin, end;  ///< begin is the first of a group
 
-  explicit Everything(const Baked& b) : Everything(b, 0, static_cast<int>(b.size())) {}
-  Everything(const Baked& b, int first, int last) : baked(b), begin(first), end(last) {}
+  explicit AllEllipsoids(const Baked& b) : AllEllipsoids(b, 0, static_cast<int>(b.size())) {}
+  AllEllipsoids(const Baked& b, int first, int last) : baked(b), begin(first), end(last) {}
 
   /// Of the nearest group.
-  HWY_INLINE float least_gap(const Extent& box) const {
+  HWY_INLINE float least_gap(const Aabb& box) const {
     V least = all(1e30f);
     for_groups([&](int group) { least = hn::Min(least, gap(box, group)); });
     return hn::GetLane(hn::MinOfLanes(f, least));
   }
   /// Calls work(index of the first ellipsoid) for each vector that may come within `within_m` of the box.
   template <class Work>
-  HWY_INLINE void for_vectors(const Extent& box, float within_m, Work&& work) const {
+  HWY_INLINE void for_vectors(const Aabb& box, float within_m, Work&& work) const {
     const V limit = all(std::max(0.0f, within_m) + baked.rounding_m + rounding_over(box));
     for_groups([&](int group) {
       const std::uint64_t near = bits(hn::Le(gap(box, group), limit));
@@ -108,20 +108,20 @@ struct Everything {
   HWY_INLINE void for_groups(Work&& work) const {
     for (int group = begin / kGroup; group * kGroup < end; group += kWidth) work(group);
   }
-  HWY_INLINE V gap(const Extent& box, int group) const {
+  HWY_INLINE V gap(const Aabb& box, int group) const {
     return box_distance(baked.cull.group_low, baked.cull.group_high, box, static_cast<std::size_t>(group));
   }
 };
 
 /// or in the columns of several blocks.
 template <int kTables>
-struct AmongColumns {
+struct ColumnEllipsoids {
   const Columns& columns;
   int end = columns.count();
 
-  HWY_INLINE float least_gap(const Extent&) const { return 0.0f; }
+  HWY_INLINE float least_gap(const Aabb&) const { return 0.0f; }
   template <class Work>
-  HWY_INLINE void for_vectors(const Extent&, float, Work&& work) const {
+  HWY_INLINE void for_vectors(const Aabb&, float, Work&& work) const {
     for (int k = 0; k < end; k += kWidth) work(k);
   }
   HWY_INLINE BallLanes balls(int k) const {
@@ -135,12 +135,12 @@ struct AmongColumns {
 
 /// The plane that bounds the distances to ellipsoid k + lane from below: base + slope . (p - middle), base
 /// being the first-order distance at the middle; NaN at a center: no bound.
-struct Planes {
+struct BoundPlanes {
   V base, scale;
   V3 u;
 };
 
-HWY_INLINE Planes planes_at(const BallLanes& e, V3 middle) {
+HWY_INLINE BoundPlanes planes_at(const BallLanes& e, V3 middle) {
   const V3 u = in_ball(e, middle);
   const V3 v = {hn::Mul(u.x, e.inverse_radius.x), hn::Mul(u.y, e.inverse_radius.y),
                 hn::Mul(u.z, e.inverse_radius.z)};
@@ -148,59 +148,59 @@ HWY_INLINE Planes planes_at(const BallLanes& e, V3 middle) {
   return {hn::Mul(hn::NegMulAdd(square, inverse_sqrt(square), square), scale), scale, u};
 }
 
-HWY_INLINE V3 slope_of(const BallLanes& e, const Planes& at) {
-  return scaled(along(along(scaled(e.a0, at.u.x), at.u.y, e.a1), at.u.z, e.a2), at.scale);
+HWY_INLINE V3 slope_of(const BallLanes& e, const BoundPlanes& at) {
+  return scaled(add_scaled(add_scaled(scaled(e.a0, at.u.x), at.u.y, e.a1), at.u.z, e.a2), at.scale);
 }
 
 /// Two ellipsoids that are probably the nearest of a box, and their exact distances at its corners.
-struct Rivals {
-  std::int32_t index[kRivals];
-  alignas(64) float distance[kRivals * kCorners];
+struct Dominators {
+  std::int32_t index[kDominators];
+  alignas(64) float distance[kDominators * kCorners];
 };
 
 /// Per lane, the ellipsoid of the least distance at the middle.
-struct LaneLeast {
+struct LeastPerLane {
   V distance;
   VI index;
 };
 
-/// The least of all lanes, and the least of the other lanes: good enough for a rival.
-HWY_INLINE void pick_rivals(LaneLeast least, Rivals& out) {
+/// The least of all lanes, and the least of the other lanes: good enough for a dominator.
+HWY_INLINE void pick_dominators(LeastPerLane least, Dominators& out) {
   alignas(64) std::int32_t index[kWidth];
   hn::Store(least.index, I(), index);
-  for (std::int32_t& rival : out.index) {
+  for (std::int32_t& dominator : out.index) {
     const V lowest = hn::MinOfLanes(f, least.distance);
     const M which = hn::Eq(least.distance, lowest);
     const auto lane = hn::FindFirstTrue(f, which);
-    rival = index[lane < 0 ? 0 : lane];
+    dominator = index[lane < 0 ? 0 : lane];
     least.distance = hn::IfThenElse(which, all(1e30f), least.distance);
   }
 }
 
 /// Of all boxes, which `around` contains.
 template <class Source>
-HWY_INLINE void find_rivals(const Source& source, const Extent& around, const Piece* pieces, int count,
-                            Rivals* out) {
-  LaneLeast least[kBlocks];
-  for (LaneLeast& l : least) l = {all(1e30f), hn::Zero(I())};
+HWY_INLINE void find_dominators(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
+                                Dominators* out) {
+  LeastPerLane least[kBlocks];
+  for (LeastPerLane& l : least) l = {all(1e30f), hn::Zero(I())};
   const VI end = hn::Set(I(), source.end);
   source.for_vectors(around, source.least_gap(around), [&](int k) {
     const BallLanes lanes = source.balls(k);
     const VI index = lanes_from(k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int i = 0; i < count; ++i) {
-      const V distance = planes_at(lanes, broadcast3(pieces[i].box.middle)).base;
+      const V distance = planes_at(lanes, broadcast3(ranges[i].box.middle)).base;
       const M nearer = hn::And(real, hn::Lt(distance, least[i].distance));
       least[i].distance = hn::IfThenElse(nearer, distance, least[i].distance);
       least[i].index = hn::IfThenElse(hn::RebindMask(I(), nearer), index, least[i].index);
     }
   });
-  for (int i = 0; i < count; ++i) pick_rivals(least[i], out[i]);
+  for (int i = 0; i < count; ++i) pick_dominators(least[i], out[i]);
 }
 
-/// Corners [i, i + kWidth) of the box, once for each rival.
-HWY_INLINE V3 corners(const Extent& e, int i) {
-  alignas(64) static constexpr float kSide[3][kRivals * kCorners] = {
+/// Corners [i, i + kWidth) of the box, once for each dominator.
+HWY_INLINE V3 corners(const Aabb& e, int i) {
+  alignas(64) static constexpr float kSide[3][kDominators * kCorners] = {
       {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1},
       {-1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1, -1, -1, 1, 1},
       {-1, -1, -1, -1, 1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1}};
@@ -211,54 +211,55 @@ HWY_INLINE V3 corners(const Extent& e, int i) {
 }
 
 template <class Source>
-HWY_INLINE void measure_corners(const Source& source, const Piece* pieces, int count, Rivals* rivals) {
-  constexpr int kEach = kRivals * kCorners / kWidth;
+HWY_INLINE void measure_corners(const Source& source, const LaneRange* ranges, int count,
+                                Dominators* dominators) {
+  constexpr int kEach = kDominators * kCorners / kWidth;
   const int vectors = count * kEach;
-  for (int from = 0; from < vectors; from += kTogether) {
-    Shape shapes[kTogether];
-    V3 places[kTogether];
-    Foot feet[kTogether];
-    float* to[kTogether];
-    for (int v = 0; v < kTogether; ++v) {
-      const int which = std::min(from + v, vectors - 1), piece = which / kEach;
+  for (int from = 0; from < vectors; from += kVectorsInStep) {
+    Shape shapes[kVectorsInStep];
+    V3 points[kVectorsInStep];
+    ClosestPointLanes closest[kVectorsInStep];
+    float* to[kVectorsInStep];
+    for (int v = 0; v < kVectorsInStep; ++v) {
+      const int which = std::min(from + v, vectors - 1), range = which / kEach;
       const int i = which % kEach * kWidth;
-      const std::int32_t* const index = rivals[piece].index;
-      shapes[v] = source.shapes(index[i / kCorners], index[kRivals - 1]);
-      places[v] = corners(pieces[piece].box, i);
-      to[v] = rivals[piece].distance + i;
+      const std::int32_t* const index = dominators[range].index;
+      shapes[v] = source.shapes(index[i / kCorners], index[kDominators - 1]);
+      points[v] = corners(ranges[range].box, i);
+      to[v] = dominators[range].distance + i;
     }
-    feet_of(shapes, places, feet);
-    for (int v = 0; v < kTogether; ++v) hn::Store(feet[v].distance, f, to[v]);
+    closest_points(shapes, points, closest);
+    for (int v = 0; v < kVectorsInStep; ++v) hn::Store(closest[v].distance, f, to[v]);
   }
 }
 
-/// By convexity the first rival is nowhere in the boxes farther than this.
-HWY_INLINE float farthest(const Rivals* rivals, int count) {
+/// By convexity the first dominator is nowhere in the boxes farther than this.
+HWY_INLINE float farthest_corner_m(const Dominators* dominators, int count) {
   float most = -1e30f;
   for (int i = 0; i < count; ++i)
-    for (int corner = 0; corner < kCorners; ++corner) most = std::max(most, rivals[i].distance[corner]);
+    for (int corner = 0; corner < kCorners; ++corner) most = std::max(most, dominators[i].distance[corner]);
   return most;
 }
 
-/// Ellipsoids that no rival beats by more than `beyond` at every corner.
-HWY_INLINE M unbeaten(const Planes& at, V3 slope, V3 half, const Rivals& rivals, V beyond) {
+/// Ellipsoids that no dominator beats by more than `beyond` at every corner.
+HWY_INLINE M not_dominated(const BoundPlanes& at, V3 slope, V3 half, const Dominators& dominators, V beyond) {
   const V3 reach = {hn::Mul(slope.x, half.x), hn::Mul(slope.y, half.y), hn::Mul(slope.z, half.z)};
   const V x[2] = {hn::Sub(at.base, reach.x), hn::Add(at.base, reach.x)};
-  V lead[kRivals] = {all(1e30f), all(1e30f)};
+  V lead[kDominators] = {all(1e30f), all(1e30f)};
   for (int corner = 0; corner < kCorners; ++corner) {
     const V xy = corner & 2 ? hn::Add(x[corner & 1], reach.y) : hn::Sub(x[corner & 1], reach.y);
     const V plane = corner & 4 ? hn::Add(xy, reach.z) : hn::Sub(xy, reach.z);
-    for (int r = 0; r < kRivals; ++r)
-      lead[r] = hn::Min(lead[r], hn::Sub(plane, all(rivals.distance[r * kCorners + corner])));
+    for (int r = 0; r < kDominators; ++r)
+      lead[r] = hn::Min(lead[r], hn::Sub(plane, all(dominators.distance[r * kCorners + corner])));
   }
   return hn::Not(hn::And(hn::Gt(hn::Max(lead[0], lead[1]), beyond), hn::Eq(at.base, at.base)));
 }
 
-/// For each piece all ellipsoids of the source, of those within `within_m` of `around`, that keep(bounds,
-/// planes at its middle, piece) keeps, by rising index; false if they are more than kMaxCandidates.
+/// For each range all ellipsoids of the source, of those within `within_m` of `around`, that keep(bounds,
+/// planes at its middle, range) keeps, by rising index; false if they are more than kMaxCandidates.
 template <class Source, class Keep>
-HWY_INLINE bool collect_near(const Source& source, const Extent& around, float within_m, const Piece* pieces,
-                             int count, Near* out, Keep&& keep) {
+HWY_INLINE bool collect_candidates(const Source& source, const Aabb& around, float within_m,
+                                   const LaneRange* ranges, int count, CandidateList* out, Keep&& keep) {
   for (int i = 0; i < count; ++i) out[i].count = 0;
   const VI end = hn::Set(I(), source.end);
   bool fits = true;
@@ -267,9 +268,9 @@ HWY_INLINE bool collect_near(const Source& source, const Extent& around, float w
     const VI index = lanes_from(k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int i = 0; i < count; ++i) {
-      Near& to = out[i];
-      const M kept = hn::And(real, keep(lanes, planes_at(lanes, broadcast3(pieces[i].box.middle)), i));
-      const Pack pack(kept);
+      CandidateList& to = out[i];
+      const M chosen = hn::And(real, keep(lanes, planes_at(lanes, broadcast3(ranges[i].box.middle)), i));
+      const Pack pack(chosen);
       pack.store(index, to.index + to.count);
       to.count += pack.count();
       // What comes after a list that is full is written over its end.
@@ -281,49 +282,50 @@ HWY_INLINE bool collect_near(const Source& source, const Extent& around, float w
 }
 
 /// Whether ellipsoids may come within the limit of some place in the box.
-HWY_INLINE M not_beyond(const Planes& at, V3 slope, V3 half, V limit) {
+HWY_INLINE M not_beyond(const BoundPlanes& at, V3 slope, V3 half, V limit) {
   // Not above, rather than below: a plane that is NaN bounds nothing.
   return hn::Not(hn::Gt(hn::Sub(at.base, dot(absolute(slope), half)), limit));
 }
 
-/// For each piece all ellipsoids of the source that its rivals do not keep from being the nearest of a place
-/// in its box, or within `beyond_m` of the nearest, and that may come within `limit_m` of such a place
-/// (kNoLimit: any), by rising index; false if they are more than kMaxCandidates. The boxes lie in `around`.
+/// For each range all ellipsoids of the source that its dominators do not keep from being the nearest of a
+/// place in its box, or within `beyond_m` of the nearest, and that may come within `limit_m` of such a place
+/// (kNoLimit_m: any), by rising index; false if they are more than kMaxCandidates. The boxes lie in `around`.
 template <bool kLimited, class Source>
-HWY_INLINE bool collect_unbeaten(const Source& source, const Extent& around, const Piece* pieces, int count,
-                                 const Rivals* rivals, float beyond_m, float limit_m, Near* out) {
-  const PieceRounding rounding(pieces, count);
-  const auto keep = [&](const BallLanes& lanes, const Planes& at, int i) {
-    const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // a plane's and a rival's
-    const V3 slope = slope_of(lanes, at), half = broadcast3(pieces[i].box.half);
-    const M kept = unbeaten(at, slope, half, rivals[i], beyond);
-    if constexpr (!kLimited) return kept;
-    return hn::And(kept, not_beyond(at, slope, half, all(limit_m + rounding.m[i])));
+HWY_INLINE bool collect_not_dominated(const Source& source, const Aabb& around, const LaneRange* ranges,
+                                      int count, const Dominators* dominators, float beyond_m, float limit_m,
+                                      CandidateList* out) {
+  const RangeRounding rounding(ranges, count);
+  const auto keep = [&](const BallLanes& lanes, const BoundPlanes& at, int i) {
+    const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // a plane's and a dominator's
+    const V3 slope = slope_of(lanes, at), half = broadcast3(ranges[i].box.half);
+    const M chosen = not_dominated(at, slope, half, dominators[i], beyond);
+    if constexpr (!kLimited) return chosen;
+    return hn::And(chosen, not_beyond(at, slope, half, all(limit_m + rounding.m[i])));
   };
-  const float within_m = farthest(rivals, count) + beyond_m;
-  return collect_near(source, around, kLimited ? std::min(within_m, limit_m) : within_m, pieces, count, out,
-                      keep);
+  const float within_m = farthest_corner_m(dominators, count) + beyond_m;
+  return collect_candidates(source, around, kLimited ? std::min(within_m, limit_m) : within_m, ranges, count,
+                            out, keep);
 }
 
 template <bool kLimited, class Source>
-HWY_INLINE bool find_near(const Source& source, const Extent& around, const Piece* pieces, int count,
-                          float beyond_m, float limit_m, Near* out) {
-  Rivals rivals[kBlocks];
-  find_rivals(source, around, pieces, count, rivals);
-  measure_corners(source, pieces, count, rivals);
-  return collect_unbeaten<kLimited>(source, around, pieces, count, rivals, beyond_m, limit_m, out);
+HWY_INLINE bool find_candidates(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
+                                float beyond_m, float limit_m, CandidateList* out) {
+  Dominators dominators[kBlocks];
+  find_dominators(source, around, ranges, count, dominators);
+  measure_corners(source, ranges, count, dominators);
+  return collect_not_dominated<kLimited>(source, around, ranges, count, dominators, beyond_m, limit_m, out);
 }
 
-/// For each piece all ellipsoids of the source whose distance may be below the limit at some place in its
+/// For each range all ellipsoids of the source whose distance may be below the limit at some place in its
 /// box; false if they are more than kMaxCandidates.
 template <class Source>
-HWY_INLINE bool find_below(const Source& source, const Extent& around, const Piece* pieces, int count,
-                           float limit_m, Near* out) {
-  const PieceRounding rounding(pieces, count);
-  const auto keep = [&](const BallLanes& lanes, const Planes& at, int i) {
-    return not_beyond(at, slope_of(lanes, at), broadcast3(pieces[i].box.half), all(limit_m + rounding.m[i]));
+HWY_INLINE bool find_candidates_below(const Source& source, const Aabb& around, const LaneRange* ranges,
+                                      int count, float limit_m, CandidateList* out) {
+  const RangeRounding rounding(ranges, count);
+  const auto keep = [&](const BallLanes& lanes, const BoundPlanes& at, int i) {
+    return not_beyond(at, slope_of(lanes, at), broadcast3(ranges[i].box.half), all(limit_m + rounding.m[i]));
   };
-  return collect_near(source, around, limit_m, pieces, count, out, keep);
+  return collect_candidates(source, around, limit_m, ranges, count, out, keep);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

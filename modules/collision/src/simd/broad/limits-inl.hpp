@@ -13,10 +13,10 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 /// How far is asked for: from the surface, and what that is over the ellipsoids at most.
-struct Limits {
+struct QueryLimits {
   float surface_m, plain_m;
 
-  HWY_INLINE Limits(const Baked& baked, const ReliefTables* relief, float limit_m)
+  HWY_INLINE QueryLimits(const Baked& baked, const ReliefTables* relief, float limit_m)
       : surface_m(limit_m + 4.0f * baked.rounding_m), plain_m(surface_m) {
     if (!relief) return;
     plain_m = relief->farthest.at_zero_m[0] + relief->farthest.shift_m(surface_m);
@@ -29,21 +29,22 @@ struct Limits {
 
 /// share() among what may come within the limits; false also if a place is too far for floats.
 template <class Work>
-HWY_INLINE bool share_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch,
-                             float beyond_m, const Limits& limits, Lists& lists, Work&& work) {
+HWY_INLINE bool with_limited_candidates(const Baked& baked, const ReliefTables* relief, QueryBatch& batch,
+                                        float beyond_m, const QueryLimits& limits, BroadPhaseLists& lists,
+                                        Work&& work) {
   const Blocks blocks(batch);
-  if (!blocks.near) return false;
-  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.pieces[i].box.radius;
-  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen feet a
+  if (!blocks.in_float_range) return false;
+  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.ranges[i].box.radius;
+  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen closest a
   // block.
-  const bool close = limits.plain_m <= blocks.pieces[0].box.radius;
-  const auto find = [&](const auto& source, const Extent& around, const Piece* pieces, int count,
-                        Near* found) {
+  const bool close = limits.plain_m <= blocks.ranges[0].box.radius;
+  const auto find = [&](const auto& source, const Aabb& around, const LaneRange* ranges, int count,
+                        CandidateList* found) {
     const float below_m = limits.plain_m + beyond_m;
-    if (close) return find_below(source, around, pieces, count, below_m, found);
-    return find_near<true>(source, around, pieces, count, beyond_m, below_m, found);
+    if (close) return find_candidates_below(source, around, ranges, count, below_m, found);
+    return find_candidates<true>(source, around, ranges, count, beyond_m, below_m, found);
   };
-  return share(baked, relief, blocks.pieces, blocks.count, lists, find, work);
+  return with_candidates(baked, relief, blocks.ranges, blocks.count, lists, find, work);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -1,11 +1,11 @@
 // Which ellipsoids a block of particles can meet.
 // Since the signed distance to a convex body is convex, its tangent plane at the block's middle q bounds it
 // from below everywhere: d_k(p) >= d_k(q) + n_k . (p - q).
-#if defined(BODICE_COLLISION_CULL_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_CULL_INL_
-#undef BODICE_COLLISION_CULL_INL_
+#if defined(BODICE_COLLISION_TANGENT_CANDIDATES_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_TANGENT_CANDIDATES_INL_
+#undef BODICE_COLLISION_TANGENT_CANDIDATES_INL_
 #else
-#define BODICE_COLLISION_CULL_INL_
+#define BODICE_COLLISION_TANGENT_CANDIDATES_INL_
 #endif
 
 #include <cstring>
@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 /// Ellipsoids near a block and their tangent planes at its middle.
-struct Candidates {
+struct TangentCandidates {
   int count = 0;
   alignas(64) std::int32_t index[kMaxCandidates + 16];
   alignas(64) float distance[kMaxCandidates + 16];
@@ -30,7 +30,7 @@ struct Candidates {
   float reach_m = 0.0f;   ///< pushes up to this long meet no ellipsoid that is not among them
 };
 
-struct Extent {
+struct Aabb {
   float middle[3], half[3];
   float radius;
 };
@@ -40,12 +40,12 @@ HWY_INLINE void extend(V3& low, V3& high, V3 p) {
   high = {hn::Max(high.x, p.x), hn::Max(high.y, p.y), hn::Max(high.z, p.z)};
 }
 
-HWY_INLINE Extent extent_between(V3 low, V3 high) {
+HWY_INLINE Aabb aabb_between(V3 low, V3 high) {
   const float lows[3] = {hn::GetLane(hn::MinOfLanes(f, low.x)), hn::GetLane(hn::MinOfLanes(f, low.y)),
                          hn::GetLane(hn::MinOfLanes(f, low.z))};
   const float highs[3] = {hn::GetLane(hn::MaxOfLanes(f, high.x)), hn::GetLane(hn::MaxOfLanes(f, high.y)),
                           hn::GetLane(hn::MaxOfLanes(f, high.z))};
-  Extent e;
+  Aabb e;
   float sum = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     e.middle[axis] = 0.5f * lows[axis] + 0.5f * highs[axis];
@@ -57,8 +57,8 @@ HWY_INLINE Extent extent_between(V3 low, V3 high) {
 }
 
 /// The smallest box around both.
-HWY_INLINE Extent united(const Extent& a, const Extent& b) {
-  Extent e;
+HWY_INLINE Aabb united(const Aabb& a, const Aabb& b) {
+  Aabb e;
   float sum = 0.0f;
   for (int axis = 0; axis < 3; ++axis) {
     const float low = std::min(a.middle[axis] - a.half[axis], b.middle[axis] - b.half[axis]);
@@ -71,7 +71,7 @@ HWY_INLINE Extent united(const Extent& a, const Extent& b) {
   return e;
 }
 
-HWY_INLINE Extent grown(Extent e, float by_m) {
+HWY_INLINE Aabb grown(Aabb e, float by_m) {
   float sum = 0.0f;
   for (float& half : e.half) {
     half += by_m;
@@ -82,42 +82,43 @@ HWY_INLINE Extent grown(Extent e, float by_m) {
 }
 
 /// Whether the second lies in the first.
-HWY_INLINE bool holds(const Extent& a, const Extent& b) {
+HWY_INLINE bool contains(const Aabb& a, const Aabb& b) {
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis)
     inside = inside && std::abs(b.middle[axis] - a.middle[axis]) + b.half[axis] <= a.half[axis];
   return inside;
 }
 
-/// The box of places; `near` tells whether all are within kFarthest, which NaN is not.
-HWY_INLINE Extent extent_of_lanes(const float* x, const float* y, const float* z, int count, bool& near) {
+/// The box of places; `in_float_range` tells whether all are within kFarthest_m, which NaN is not.
+HWY_INLINE Aabb aabb_of_lanes(const float* x, const float* y, const float* z, int count,
+                              bool& in_float_range) {
   const auto load = [&](int i) { return V3{hn::LoadU(f, x + i), hn::LoadU(f, y + i), hn::LoadU(f, z + i)}; };
   V3 low = load(0), high = low;
   M within = hn::FirstN(f, kWidth);
   for (int i = 0; i < count; i += kWidth) {
     const V3 p = load(i), size = absolute(p);
     extend(low, high, p);
-    const V most = all(kFarthest);
+    const V most = all(kFarthest_m);
     within =
         hn::And(within, hn::And(hn::Lt(size.x, most), hn::And(hn::Lt(size.y, most), hn::Lt(size.z, most))));
   }
-  near = hn::AllTrue(f, within);
-  return extent_between(low, high);
+  in_float_range = hn::AllTrue(f, within);
+  return aabb_between(low, high);
 }
 
 /// The box of the particles and, where they have any, of the paths from their safe positions.
-HWY_INLINE Extent extent_of(const Gathering& block) {
+HWY_INLINE Aabb aabb_of(const ParticleBatch& block) {
   const int width = static_cast<int>(hn::Lanes(f));
   V3 low = load3(block.x, block.y, block.z), high = low;
   for (int i = width; i < block.count; i += width)
     extend(low, high, load3(block.x + i, block.y + i, block.z + i));
   for (int i = 0; block.has_safe && i < block.count; i += width)
     extend(low, high, load3(block.sx + i, block.sy + i, block.sz + i));
-  return extent_between(low, high);
+  return aabb_between(low, high);
 }
 
 /// What the plane of an ellipsoid, or a distance to it, is off by over the box, however small the ellipsoid.
-HWY_INLINE float rounding_over(const Extent& box) {
+HWY_INLINE float rounding_over(const Aabb& box) {
   const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
   return 2.0f * static_cast<float>(kFloatRounding) * (away + box.radius);
 }
@@ -125,7 +126,7 @@ HWY_INLINE float rounding_over(const Extent& box) {
 using Corner = std::vector<float>[3];
 
 /// Distance from the block's box to the boxes [k, k + kWidth).
-HWY_INLINE V box_distance(const Corner& low, const Corner& high, const Extent& e, std::size_t k) {
+HWY_INLINE V box_distance(const Corner& low, const Corner& high, const Aabb& e, std::size_t k) {
   V sum = hn::Zero(f);
   for (int axis = 0; axis < 3; ++axis) {
     const V below = hn::Sub(hn::LoadU(f, low[axis].data() + k), all(e.middle[axis] + e.half[axis]));
@@ -137,13 +138,14 @@ HWY_INLINE V box_distance(const Corner& low, const Corner& high, const Extent& e
 }
 
 /// The same to ellipsoids [k, k + kWidth).
-HWY_INLINE V box_distance(const CullArrays& cull, const Extent& e, std::size_t k) {
+HWY_INLINE V box_distance(const CullArrays& cull, const Aabb& e, std::size_t k) {
   return box_distance(cull.low, cull.high, e, k);
 }
 
 /// Exact distance and normal, at the block's middle, of the ellipsoids whose boxes are within `window` of the
 /// block's; false if they are too many. `least` receives the least distance, or 1e30.
-HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Candidates& out, float& least) {
+HWY_INLINE bool collect_tangents(const Baked& baked, const Aabb& e, float window, TangentCandidates& out,
+                                 float& least) {
   const std::size_t width = hn::Lanes(f);
   const V3 middle = broadcast3(e.middle);
   V lowest = all(1e30f);
@@ -155,13 +157,13 @@ HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Cand
     if (hn::AllFalse(f, near)) continue;
     if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
     const Shape shape = consecutive(baked.cull, k);
-    const Foot foot = foot_of(shape, middle);
-    const V3 normal = normal_of(shape, foot);
-    lowest = hn::Min(lowest, hn::IfThenElse(near, foot.distance, all(1e30f)));
+    const ClosestPointLanes closest = closest_point(shape, middle);
+    const V3 normal = normal_of(shape, closest);
+    lowest = hn::Min(lowest, hn::IfThenElse(near, closest.distance, all(1e30f)));
     const VI index = lanes_from(static_cast<int>(k));
     const int at = out.count;
     const Pack pack(near);
-    pack.store(foot.distance, out.distance + at);
+    pack.store(closest.distance, out.distance + at);
     pack.store(normal.x, out.nx + at);
     pack.store(normal.y, out.ny + at);
     pack.store(normal.z, out.nz + at);
@@ -174,21 +176,21 @@ HWY_INLINE bool tangents(const Baked& baked, const Extent& e, float window, Cand
 
 /// Keeps the candidates whose tangent plane comes within `window` of some place of the block's box, and puts
 /// the one nearest to its middle first.
-HWY_INLINE void keep_within(const Extent& e, float window, Candidates& c) {
-  int kept = 0, nearest = 0;
+HWY_INLINE void drop_beyond_window(const Aabb& e, float window, TangentCandidates& c) {
+  int count = 0, nearest = 0;
   for (int i = 0; i < c.count; ++i) {
     const float reach =
         std::abs(c.nx[i]) * e.half[0] + std::abs(c.ny[i]) * e.half[1] + std::abs(c.nz[i]) * e.half[2];
     if (c.distance[i] - reach > window) continue;
-    c.index[kept] = c.index[i];
-    c.distance[kept] = c.distance[i];
-    c.nx[kept] = c.nx[i];
-    c.ny[kept] = c.ny[i];
-    c.nz[kept] = c.nz[i];
-    if (c.distance[kept] < c.distance[nearest]) nearest = kept;
-    ++kept;
+    c.index[count] = c.index[i];
+    c.distance[count] = c.distance[i];
+    c.nx[count] = c.nx[i];
+    c.ny[count] = c.ny[i];
+    c.nz[count] = c.nz[i];
+    if (c.distance[count] < c.distance[nearest]) nearest = count;
+    ++count;
   }
-  c.count = kept;
+  c.count = count;
   if (nearest == 0) return;
   std::swap(c.index[0], c.index[nearest]);
   std::swap(c.distance[0], c.distance[nearest]);
@@ -198,13 +200,13 @@ HWY_INLINE void keep_within(const Extent& e, float window, Candidates& c) {
 }
 
 /// All ellipsoids that a particle of the block is below the clearance of, or can be pushed into.
-HWY_INLINE bool cull_for_response(const Baked& baked, const Gathering& block, float clearance_m,
-                                  Candidates& out) {
-  const Extent e = extent_of(block);
+HWY_INLINE bool cull_for_response(const Baked& baked, const ParticleBatch& block, float clearance_m,
+                                  TangentCandidates& out) {
+  const Aabb e = aabb_of(block);
   out.radius_m = e.radius;
   const float slack = out.slack_m = baked.rounding_m + rounding_over(e);
   float least;
-  if (!tangents(baked, e, clearance_m + slack, out, least)) return false;
+  if (!collect_tangents(baked, e, clearance_m + slack, out, least)) return false;
   const float depth = clearance_m + slack - (least - e.radius);
   if (out.count == 0 || depth <= 0.0f) {
     out.count = 0;
@@ -213,8 +215,8 @@ HWY_INLINE bool cull_for_response(const Baked& baked, const Gathering& block, fl
   // A push can be longer than the depth where surfaces meet; the exact side takes what is longer than this.
   out.reach_m = 1.5f * depth;
   const float window = clearance_m + out.reach_m + slack;
-  if (!tangents(baked, e, window, out, least)) return false;
-  keep_within(e, window, out);
+  if (!collect_tangents(baked, e, window, out, least)) return false;
+  drop_beyond_window(e, window, out);
   return true;
 }
 

@@ -30,9 +30,9 @@ bool query_first_order(const Baked& baked, const ReliefTables* relief, QueryBatc
   return query_first_order_lanes(baked, relief, batch);
 }
 
-bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-             const Gathering& batch, BatchResponse& out) {
-  return resolve_lanes(baked, relief, clearance, batch, out);
+bool resolve(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
+             const ParticleBatch& batch, BatchResponse& out) {
+  return resolve_lanes(baked, relief, parameters, batch, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

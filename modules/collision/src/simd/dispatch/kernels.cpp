@@ -14,8 +14,8 @@ namespace bodice::collision::HWY_NAMESPACE {
 bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 bool query_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 bool query_first_order(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
-bool resolve(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-             const Gathering& batch, BatchResponse& out);
+bool resolve(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
+             const ParticleBatch& batch, BatchResponse& out);
 
 const char* target() {
   return hwy::TargetName(HWY_TARGET);
@@ -46,9 +46,9 @@ bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& bat
   return HWY_DYNAMIC_DISPATCH(query)(baked, relief, batch);
 }
 
-bool resolve_batch(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                   const Gathering& batch, BatchResponse& out) {
-  return HWY_DYNAMIC_DISPATCH(resolve)(baked, relief, clearance, batch, out);
+bool resolve_batch(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
+                   const ParticleBatch& batch, BatchResponse& out) {
+  return HWY_DYNAMIC_DISPATCH(resolve)(baked, relief, parameters, batch, out);
 }
 
 const char* kernel_target() {

@@ -9,14 +9,14 @@
 namespace bodice::collision {
 
 /// Fills in the contacts of the batch; false, and some left as they were, if too many ellipsoids are near or
-/// a place is not within kFarthest.
+/// a place is not within kFarthest_m.
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 
 /// The nearest response; false if too many ellipsoids are near for the kernel.
-bool resolve_batch(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                   const Gathering& batch, BatchResponse& out);
+bool resolve_batch(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
+                   const ParticleBatch& batch, BatchResponse& out);
 
-/// The name of the instruction set in use.
+/// The proxy_index of the instruction set in use.
 const char* kernel_target();
 
 }  // namespace bodice::collision

@@ -1,8 +1,9 @@
-// A lower bound of the distance to an ellipsoid at a seventh of the foot's cost.
+// A lower bound of the distance to an ellipsoid at a seventh of the closest's cost.
 // With k0 = |diag(1/r) R^T (p - c)|, a convex function of p that is 1 on the surface, and k1 / k0 = |grad
-// k0|: k0 at the foot is at least k0(p) + grad k0 . (foot - p), so that the distance outside is at least (k0
+// k0|: k0 at the closest is at least k0(p) + grad k0 . (closest - p), so that the distance outside is at
+// least (k0
 // - 1) k0 / k1; inside, a step of (1 - k0) k0 / k1 along the gradient reaches k0 >= 1, so that the depth is
-// at most that. Near the surface it is the distance to first order.
+// at most that. CandidateList the surface it is the distance to first order.
 // By the same inequality the ellipsoid lies behind the plane at L along the gradient from q, which bounds the
 // distance from below everywhere: d(p) >= L(q) + m(q) . (p - q), m the unit gradient.
 #if defined(BODICE_COLLISION_BOUND_INL_) == defined(HWY_TARGET_TOGGLE)

@@ -4,11 +4,11 @@
 // (Jorge J. More, Danny C. Sorensen. Computing a Trust Region Step. 1983), which is concave, so that every
 // step but the first comes from the left of the root, lengthened as Halley's; a lane stops by its own
 // residual, so that its result does not depend on its neighbors.
-#if defined(BODICE_COLLISION_FOOT_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_FOOT_INL_
-#undef BODICE_COLLISION_FOOT_INL_
+#if defined(BODICE_COLLISION_CLOSEST_POINT_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_CLOSEST_POINT_INL_
+#undef BODICE_COLLISION_CLOSEST_POINT_INL_
 #else
-#define BODICE_COLLISION_FOOT_INL_
+#define BODICE_COLLISION_CLOSEST_POINT_INL_
 #endif
 
 // Products that are added are written as fused, so that the compiler has no choice: a lane's result must not
@@ -64,10 +64,10 @@ HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
           field(c, 16, k), field(c, 17, k), field(c, 18, k)};
 }
 
-struct Foot {
+struct ClosestPointLanes {
   V distance;  ///< meters, negative inside
   V3 n;        ///< outward normal, as long as the longest radius, in the octant and axes of w
-  V3 w;        ///< direction of the foot on the unit sphere, first octant, axes by
+  V3 w;        ///< direction of the closest on the unit sphere, first octant, axes by
                ///< falling radius
   V3 y;        ///< the point in the ellipsoid's frame, in units of its longest radius,
                ///< signed
@@ -77,7 +77,7 @@ struct Foot {
 constexpr int kUsualSteps = 2;         // the one from the surface included: enough near limb-like shapes
 constexpr int kMaxSteps = 24;          // what 1:1000 can need
 constexpr int kHalleySteps = 4;        // then Newton, which cannot overshoot twice
-constexpr float kSettled = 1e-3f;      // of |w|^2 - 1, before the last correction, which squares it
+constexpr float kConverged = 1e-3f;    // of |w|^2 - 1, before the last correction, which squares it
 constexpr float kShortStep = 2e-2f;    // twice the share of u that the last correction may be
 constexpr float kRounding = 1e-6f;     // of |w|^2
 constexpr float kLeastHalley = 0.25f;  // the curvature may lengthen a step fourfold
@@ -147,11 +147,11 @@ HWY_INLINE V usual_root(const Secular& g, V u, V low) {
 
 /// Lanes that need another step; a lane judges by itself, so that its result does not depend on its
 /// neighbors.
-HWY_INLINE M unsettled(const Secular& g, V u, V low) {
+HWY_INLINE M needs_step(const Secular& g, V u, V low) {
   // Next to the focal ellipse of a thin shape all of w_z, and with it the normal, hangs on the last digits of
   // u that |w| hardly feels: there the step that is left must be short beside u, as far as |w| can tell.
   const V share = hn::Max(hn::Mul(all(kShortStep), hn::Mul(u, g.first)), all(kRounding));
-  const M off = hn::Gt(hn::Abs(hn::Sub(g.norm2, all(1.0f))), hn::Min(share, all(kSettled)));
+  const M off = hn::Gt(hn::Abs(hn::Sub(g.norm2, all(1.0f))), hn::Min(share, all(kConverged)));
   return hn::And(off, hn::Or(hn::Gt(u, low), hn::Gt(g.norm2, all(1.0f))));
 }
 
@@ -192,11 +192,11 @@ HWY_INLINE void refine(M active, const Shape& s, Search& search) {
       step_where<true>(active, search.a, s, search.low, search.u, search.at);
     else
       step_where<false>(active, search.a, s, search.low, search.u, search.at);
-    active = hn::And(active, unsettled(search.at, search.u, search.low));
+    active = hn::And(active, needs_step(search.at, search.u, search.low));
   }
 }
 
-/// The foot direction, first octant, its length 1 to first order; the root is brought up to date.
+/// The closest direction, first octant, its length 1 to first order; the root is brought up to date.
 HWY_INLINE V3 last_direction(Search& search) {
   const V one = all(1.0f);
   const Secular& g = search.at;
@@ -206,7 +206,7 @@ HWY_INLINE V3 last_direction(Search& search) {
   const V excess = hn::Mul(all(0.5f), hn::Sub(g.norm2, one));
   const V last =
       hn::IfThenZeroElse(medial, hn::Mul(excess, estimated_reciprocal(hn::Max(g.first, all(kLeastNorm2)))));
-  V3 w = along(g.w, hn::Neg(last), g.slope);
+  V3 w = add_scaled(g.w, hn::Neg(last), g.slope);
   search.u = hn::Add(search.u, last);
   if (hn::AllFalse(f, medial)) return w;
   const V across = hn::MulAdd(w.x, w.x, hn::Mul(w.y, w.y));
@@ -216,13 +216,13 @@ HWY_INLINE V3 last_direction(Search& search) {
 }
 
 /// From the direction to the distance and the normal; `y` is signed.
-HWY_INLINE void finish(const Shape& s, V3 y, Search& search, Foot& result) {
+HWY_INLINE void finish_point(const Shape& s, V3 y, Search& search, ClosestPointLanes& result) {
   result.y = y;
   const V3 raw = last_direction(search);
   result.u = search.u;
   const V3 g = {raw.x, hn::Mul(raw.y, s.inverse1), hn::Mul(raw.z, s.inverse2)};
   // Of w and of w / r side by side: the normal does not care how long w is. The last step has left of |w|^2 -
-  // 1 about kSettled squared, of which the expansion of 1 / |w| about 1 drops the square.
+  // 1 about kConverged squared, of which the expansion of 1 / |w| about 1 drops the square.
   const V inverse_norm = hn::NegMulAdd(all(0.5f), dot(raw, raw), all(1.5f));
   const V3 w = result.w = scaled(raw, inverse_norm);
   const V3 n = result.n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));
@@ -240,8 +240,8 @@ HWY_INLINE V3 out_of(const Shape& s, V3 v) {
 }
 
 /// Outward, unit, local frame of the collider.
-HWY_INLINE V3 normal_of(const Shape& s, const Foot& foot) {
-  return out_of(s, with_signs(foot.n, signs_of(foot.y)));
+HWY_INLINE V3 normal_of(const Shape& s, const ClosestPointLanes& closest) {
+  return out_of(s, with_signs(closest.n, signs_of(closest.y)));
 }
 
 template <bool kLast>
@@ -251,11 +251,11 @@ HWY_INLINE void usual_step(const Shape& s, Search& search) {
 }
 
 /// Vectors of problems that are worked on in step.
-constexpr int kTogether = 2;
+constexpr int kVectorsInStep = 2;
 
 /// Some vectors of problems, of which some lanes need more steps.
 template <int kCount>
-struct Unsettled {
+struct Unconverged {
   Shape shape[kCount];
   Search search[kCount];
   M active[kCount];
@@ -263,14 +263,15 @@ struct Unsettled {
 
 /// Not in line: what it works on must lie in memory, while that of all others can stay in registers.
 template <int kCount>
-HWY_NOINLINE void refine_each(Unsettled<kCount>& some) {
+HWY_NOINLINE void refine_each(Unconverged<kCount>& some) {
   for (int i = 0; i < kCount; ++i)
     if (!hn::AllFalse(f, some.active[i])) refine(some.active[i], some.shape[i], some.search[i]);
 }
 
 /// Several vectors of problems in step, since each waits for its own results most of the time.
 template <int kCount>
-HWY_INLINE void feet_of(const Shape (&s)[kCount], const V3 (&p)[kCount], Foot (&out)[kCount]) {
+HWY_INLINE void closest_points(const Shape (&s)[kCount], const V3 (&p)[kCount],
+                               ClosestPointLanes (&out)[kCount]) {
   V3 y[kCount];
   Search search[kCount];
 #pragma GCC unroll 4
@@ -287,11 +288,11 @@ HWY_INLINE void feet_of(const Shape (&s)[kCount], const V3 (&p)[kCount], Foot (&
   M active[kCount], any = hn::FirstN(f, 0);
 #pragma GCC unroll 4
   for (int i = 0; i < kCount; ++i) {
-    active[i] = unsettled(search[i].at, search[i].u, search[i].low);
+    active[i] = needs_step(search[i].at, search[i].u, search[i].low);
     any = hn::Or(any, active[i]);
   }
   if (!hn::AllFalse(f, any)) {
-    Unsettled<kCount> some;
+    Unconverged<kCount> some;
 #pragma GCC unroll 4
     for (int i = 0; i < kCount; ++i) {
       some.shape[i] = s[i];
@@ -303,15 +304,15 @@ HWY_INLINE void feet_of(const Shape (&s)[kCount], const V3 (&p)[kCount], Foot (&
     for (int i = 0; i < kCount; ++i) search[i] = some.search[i];
   }
 #pragma GCC unroll 4
-  for (int i = 0; i < kCount; ++i) finish(s[i], y[i], search[i], out[i]);
+  for (int i = 0; i < kCount; ++i) finish_point(s[i], y[i], search[i], out[i]);
 }
 
-HWY_INLINE Foot foot_of(const Shape& s, V3 p) {
+HWY_INLINE ClosestPointLanes closest_point(const Shape& s, V3 p) {
   const Shape shapes[1] = {s};
   const V3 points[1] = {p};
-  Foot foot[1];
-  feet_of(shapes, points, foot);
-  return foot[0];
+  ClosestPointLanes closest[1];
+  closest_points(shapes, points, closest);
+  return closest[0];
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

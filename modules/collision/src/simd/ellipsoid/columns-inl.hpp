@@ -1,10 +1,10 @@
 // A different ellipsoid a lane: those of a block as the columns of a small table, read by permutation.
-// Sixteen gathers of memory take several times as long as the foot that they are for.
-#if defined(BODICE_COLLISION_LOOKUP_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_LOOKUP_INL_
-#undef BODICE_COLLISION_LOOKUP_INL_
+// Sixteen gathers of memory take several times as long as the closest that they are for.
+#if defined(BODICE_COLLISION_COLUMNS_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_COLUMNS_INL_
+#undef BODICE_COLLISION_COLUMNS_INL_
 #else
-#define BODICE_COLLISION_LOOKUP_INL_
+#define BODICE_COLLISION_COLUMNS_INL_
 #endif
 
 #include <algorithm>
@@ -49,9 +49,9 @@ class Columns {
  public:
   static constexpr int kBallRows = sizeof(BallMap) / sizeof(float);
   static constexpr int kTable = kBakedFloats, kBall = kTable + kTableFloats, kRows = kBall + kBallRows;
-  static constexpr int kName = kBakedFloats - 1, kBallName = kBall + kBallRows - 1;
+  static constexpr int kProxyIndex = kBakedFloats - 1, kBallProxyIndex = kBall + kBallRows - 1;
   /// Which rows are filled beside those of tables.
-  enum class Rows { kAll, kFeet, kBalls };
+  enum class Rows { kAll, kShapes, kBalls };
 
   HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
                        int count, Rows rows = Rows::kAll) {
@@ -82,7 +82,7 @@ class Columns {
     for (int c = 0; c < count_; c += 4) {
       if (rows != Rows::kBalls) put<kStride>(baked.ellipsoids, c, values_);
       if (relief) put<kStride>(relief->tables, c, values_ + kTable * kStride);
-      if (rows != Rows::kFeet) put<kStride>(baked.balls, c, values_ + kBall * kStride);
+      if (rows != Rows::kShapes) put<kStride>(baked.balls, c, values_ + kBall * kStride);
     }
   }
   /// Columns [c, c + 4), those beyond the last as the last.
@@ -126,7 +126,7 @@ class Lookup {
   HWY_INLINE V operator()(const float* row) const {
     if constexpr (kTables == 0) return hn::GatherIndex(f, row, column_);
 #if HWY_TARGET == HWY_AVX3
-    // One instruction, which Highway 1.0 has no name for.
+    // One instruction, which Highway 1.0 has no proxy_index for.
     if constexpr (kTables == 2)
       return V{_mm512_permutex2var_ps(hn::Load(f, row).raw, column_.raw, hn::Load(f, row + kWidth).raw)};
 #endif
@@ -153,8 +153,8 @@ HWY_INLINE Shape shape_of(const Columns& columns, VI column) {
 }
 
 template <int kTables>
-HWY_INLINE VI names_of(const Columns& columns, VI column) {
-  return hn::BitCast(I(), Lookup<kTables>(column)(columns.row(Columns::kName)));
+HWY_INLINE VI proxy_indices_of(const Columns& columns, VI column) {
+  return hn::BitCast(I(), Lookup<kTables>(column)(columns.row(Columns::kProxyIndex)));
 }
 
 /// Calls work with the number of tables as a constant.

@@ -1,9 +1,9 @@
 // The few candidates of a particle whose first-order bounds are the lowest.
-#if defined(BODICE_COLLISION_LOWEST_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_LOWEST_INL_
-#undef BODICE_COLLISION_LOWEST_INL_
+#if defined(BODICE_COLLISION_LOWEST_BOUNDS_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_LOWEST_BOUNDS_INL_
+#undef BODICE_COLLISION_LOWEST_BOUNDS_INL_
 #else
-#define BODICE_COLLISION_LOWEST_INL_
+#define BODICE_COLLISION_LOWEST_BOUNDS_INL_
 #endif
 
 #include "model/batch.hpp"
@@ -24,21 +24,21 @@ HWY_INLINE V ranked(V bound, VI rank) {
 
 /// The lowest bounds of a vector of particles, rising, each with its candidate's rank in the low bits; of the
 /// last only the value matters: it tells whether those that are kept are all that count.
-template <int kKept>
-struct Lowest {
-  V bound[kKept + 1];
+template <int kLowest>
+struct LowestBounds {
+  V bound[kLowest + 1];
 
   HWY_INLINE void clear() {
     for (V& b : bound) b = hn::BitCast(f, hn::Set(I(), 0x71490000));  // 1e30, of rank 0
   }
   HWY_INLINE void add(V value, VI rank) {
     V next = ranked(value, rank);
-    for (int i = 0; i < kKept; ++i) {
+    for (int i = 0; i < kLowest; ++i) {
       const V higher = hn::Max(bound[i], next);
       bound[i] = hn::Min(bound[i], next);
       next = higher;
     }
-    bound[kKept] = hn::Min(bound[kKept], next);
+    bound[kLowest] = hn::Min(bound[kLowest], next);
   }
   HWY_INLINE VI rank(int i) const { return hn::And(hn::BitCast(I(), bound[i]), hn::Set(I(), kRankMask)); }
 };

@@ -1,9 +1,9 @@
-// Relief: the correction of one ellipsoid's distance and its gradient, one foot a lane.
-#if defined(BODICE_COLLISION_TABLE_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_TABLE_INL_
-#undef BODICE_COLLISION_TABLE_INL_
+// Relief: the correction of one ellipsoid's distance and its gradient, one closest a lane.
+#if defined(BODICE_COLLISION_RELIEF_TABLE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_RELIEF_TABLE_INL_
+#undef BODICE_COLLISION_RELIEF_TABLE_INL_
 #else
-#define BODICE_COLLISION_TABLE_INL_
+#define BODICE_COLLISION_RELIEF_TABLE_INL_
 #endif
 
 #include "model/relief_tables.hpp"
@@ -171,10 +171,10 @@ struct Corrected {
 
 /// The part of grad F_k that comes from h and a varying over the sphere, first octant: `slope` is d(h + a d)
 /// / dw.
-HWY_INLINE V3 tangential(const Shape& s, const Foot& foot, V3 slope) {
-  const V3 w = foot.w;
-  const V3 inverse = {reciprocal(hn::Add(foot.u, s.gap0)), reciprocal(hn::Add(foot.u, s.gap1)),
-                      reciprocal(foot.u)};
+HWY_INLINE V3 tangential(const Shape& s, const ClosestPointLanes& closest, V3 slope) {
+  const V3 w = closest.w;
+  const V3 inverse = {reciprocal(hn::Add(closest.u, s.gap0)), reciprocal(hn::Add(closest.u, s.gap1)),
+                      reciprocal(closest.u)};
   const V3 we = {hn::Mul(w.x, inverse.x), hn::Mul(w.y, inverse.y), hn::Mul(w.z, inverse.z)};
   const V ratio = hn::Mul(dot(slope, we), reciprocal(dot(w, we)));
   const V3 rest = {hn::NegMulAdd(w.x, ratio, slope.x), hn::NegMulAdd(w.y, ratio, slope.y),
@@ -197,19 +197,19 @@ HWY_INLINE AxisOrder axes_of(const Columns& columns, VI column) {
 /// `read_axes` tells the order of the axes; called only if they are not sorted.
 template <class ReadAxes>
 HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& table, const Shape& s,
-                               const Foot& foot, ReadAxes&& read_axes) {
-  const Direction at = {foot.w, signs_of(foot.y)};
+                               const ClosestPointLanes& closest, ReadAxes&& read_axes) {
+  const Direction at = {closest.w, signs_of(closest.y)};
   Correction by;
   if (relief.sorted_axes) {
-    by = correction(relief, table, at, foot.distance);
+    by = correction(relief, table, at, closest.distance);
   } else {
     const AxisOrder axes = read_axes();
-    by = correction(relief, table, {axes.to_proxy(at.w), axes.to_proxy(at.sign)}, foot.distance);
+    by = correction(relief, table, {axes.to_proxy(at.w), axes.to_proxy(at.sign)}, closest.distance);
     by.slope = axes.to_sorted(by.slope);
   }
   // The chain rule asks for the same 1 / r0 that the normal does.
-  const V3 gradient = scaled(foot.n, by.along_normal) - tangential(s, foot, by.slope);
-  return {hn::Sub(foot.distance, by.value), out_of(s, with_signs(gradient, at.sign))};
+  const V3 gradient = scaled(closest.n, by.along_normal) - tangential(s, closest, by.slope);
+  return {hn::Sub(closest.distance, by.value), out_of(s, with_signs(gradient, at.sign))};
 }
 
 /// An ellipsoid's share where several blend: (max(0, 1 - (d - least) / blend))^2

@@ -18,14 +18,14 @@ struct Plane {
   V3 n;
   V offset;
 
-  HWY_INLINE V missing(V3 x) const { return hn::Sub(offset, dot(n, x)); }
+  HWY_INLINE V gap(V3 x) const { return hn::Sub(offset, dot(n, x)); }
 };
 
 /// The closest point to p of both half-spaces, the second only where `two`: the four cases of the optimality
 /// conditions.
 HWY_INLINE V3 project(const Plane& a, const Plane& b, M two, V3 p) {
   const V zero = hn::Zero(f);
-  const V missing_a = a.missing(p), missing_b = hn::IfThenElse(two, b.missing(p), all(-1e30f));
+  const V missing_a = a.gap(p), missing_b = hn::IfThenElse(two, b.gap(p), all(-1e30f));
   const V cosine = hn::IfThenElse(two, dot(a.n, b.n), zero);
   const V sine2 = hn::Max(hn::NegMulAdd(cosine, cosine, all(1.0f)), all(1e-6f));
   const V rest_a = hn::NegMulAdd(cosine, missing_b, missing_a);
@@ -36,7 +36,7 @@ HWY_INLINE V3 project(const Plane& a, const Plane& b, M two, V3 p) {
   const V alone_b = hn::IfThenElse(only_a, zero, hn::Max(missing_b, zero));
   const V push_a = hn::IfThenElse(both, hn::Div(rest_a, sine2), alone_a);
   const V push_b = hn::IfThenElse(both, hn::Div(rest_b, sine2), alone_b);
-  return along(along(p, push_a, a.n), push_b, b.n);
+  return add_scaled(add_scaled(p, push_a, a.n), push_b, b.n);
 }
 
 HWY_INLINE V3 cross(V3 a, V3 b) {
@@ -54,9 +54,9 @@ HWY_INLINE V3 project(const Plane& a, const Plane& b, const Plane& c, V3 p, V sl
   const V volume = dot(a.n, bxc);
   const M flat = hn::Lt(hn::Abs(volume), all(kLeastVolume));
   const V inverse = hn::Div(all(1.0f), hn::IfThenElse(flat, all(kLeastVolume), volume));
-  const V3 sum = along(along(scaled(bxc, a.missing(p)), b.missing(p), cxa), c.missing(p), axb);
-  const V3 corner = along(p, inverse, sum);
-  return select(hn::Le(b.missing(ac), slack), ac, select(hn::Le(a.missing(bc), slack), bc, corner));
+  const V3 sum = add_scaled(add_scaled(scaled(bxc, a.gap(p)), b.gap(p), cxa), c.gap(p), axb);
+  const V3 corner = add_scaled(p, inverse, sum);
+  return select(hn::Le(b.gap(ac), slack), ac, select(hn::Le(a.gap(bc), slack), bc, corner));
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -97,7 +97,7 @@ HWY_INLINE V if_signed(V sign, V yes, V no) {
   return hn::BitCast(f, hn::IfNegativeThenElse(word(sign), word(yes), word(no)));
 }
 /// a + s b
-HWY_INLINE V3 along(V3 a, V s, V3 b) {
+HWY_INLINE V3 add_scaled(V3 a, V s, V3 b) {
   return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
 }
 HWY_INLINE V3 select(M m, V3 yes, V3 no) {

@@ -15,27 +15,27 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-using Batched = Answers<kBatch>;
+using BatchResults = ResultRows<kBatch>;
 
 /// Plain ellipsoids: the nearest; of equals, that of the lowest index.
-HWY_INLINE void combine_nearest(const Pairs& pairs, Batched& out) {
-  const auto& a = pairs.answers;
+HWY_INLINE void combine_nearest(const Pairs& pairs, BatchResults& out) {
+  const auto& a = pairs.results;
   for (int i = 0; i < pairs.count; ++i) {
     // Without a branch: which of two neighbors is the nearer cannot be foretold.
     const int lane = pairs.lane[i];
     const float d = a.distance[i], least = out.distance[lane];
-    const bool nearer = (d < least) | ((d == least) & (a.name[i] < out.name[lane]));
+    const bool nearer = (d < least) | ((d == least) & (a.proxy_index[i] < out.proxy_index[lane]));
     out.distance[lane] = nearer ? d : least;
     out.gx[lane] = nearer ? a.gx[i] : out.gx[lane];
     out.gy[lane] = nearer ? a.gy[i] : out.gy[lane];
     out.gz[lane] = nearer ? a.gz[i] : out.gz[lane];
-    out.name[lane] = nearer ? a.name[i] : out.name[lane];
+    out.proxy_index[lane] = nearer ? a.proxy_index[i] : out.proxy_index[lane];
   }
 }
 
-/// Of each lane that one of its pairs is nearer to: that distance, and the name of the nearest.
-HWY_INLINE void find_nearer(const Pairs& pairs, float* least, Batched& out) {
-  const auto& a = pairs.answers;
+/// Of each lane that one of its pairs is nearer to: that distance, and the proxy_index of the nearest.
+HWY_INLINE void find_nearer(const Pairs& pairs, float* least, BatchResults& out) {
+  const auto& a = pairs.results;
   for (int i = 0; i < pairs.count; i += kWidth) {
     const V first = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
     const M maybe = hn::And(hn::Le(hn::Load(f, a.distance + i), first), lanes_below(i, pairs.count));
@@ -43,9 +43,9 @@ HWY_INLINE void find_nearer(const Pairs& pairs, float* least, Batched& out) {
     for (std::uint64_t left = bits(maybe); left != 0; left &= left - 1) {
       const int k = i + std::countr_zero(left), lane = pairs.lane[k];
       const bool farther = a.distance[k] > least[lane];
-      if (farther || (a.distance[k] == least[lane] && a.name[k] > out.name[lane])) continue;
+      if (farther || (a.distance[k] == least[lane] && a.proxy_index[k] > out.proxy_index[lane])) continue;
       least[lane] = a.distance[k];
-      out.name[lane] = a.name[k];
+      out.proxy_index[lane] = a.proxy_index[k];
     }
   }
 }
@@ -57,7 +57,7 @@ struct alignas(64) WeightedRows {
   float weight[Pairs::kSize];
 
   template <int kSize>
-  HWY_INLINE void put(const Answers<kSize>& of, V weights, int i) {
+  HWY_INLINE void put(const ResultRows<kSize>& of, V weights, int i) {
     const auto weighted = [&](const float* values) { return hn::Mul(hn::Load(f, values + i), weights); };
     hn::Store(weights, f, weight + i);
     hn::StoreInterleaved4(weighted(of.value), weighted(of.gx), weighted(of.gy), weighted(of.gz), f,
@@ -77,9 +77,9 @@ struct alignas(64) WeightedRows {
 };
 
 /// Relief, for the lanes [begin, end): all within the blending of the nearest, weighted; distance and
-/// unit gradient of the blend, the name of the nearest; `value` becomes the gradient's length.
+/// unit gradient of the blend, the proxy_index of the nearest; `value` becomes the gradient's length.
 HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, const Pairs& pairs,
-                                Batched& out) {
+                                BatchResults& out) {
   alignas(64) float least[kBatch];
   WeightedRows sums, of_pairs;
   const V per_blend = all(1.0f / relief.blend_m);
@@ -89,7 +89,7 @@ HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, 
     sums.put(out, blend_weight(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend), i);
   for (int i = 0; i < pairs.count; i += kWidth) {
     const V near = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
-    of_pairs.put(pairs.answers, blend_weight(hn::Load(f, pairs.answers.distance + i), near, per_blend), i);
+    of_pairs.put(pairs.results, blend_weight(hn::Load(f, pairs.results.distance + i), near, per_blend), i);
   }
   for (int i = 0; i < pairs.count; ++i) sums.add(pairs.lane[i], of_pairs, i);
   for (int i = begin; i < end; i += kWidth) {

@@ -32,21 +32,22 @@ HWY_INLINE void rows_of_four(V a, V b, V c, V d, V (&row)[4]) {
 struct ContactLanes {
   V distance;
   V3 point, normal;
-  VI name;
+  VI proxy_index;
 };
 
 /// Stores them, the first where `to(0)` points: transposed in registers, a contact or half of one a store.
 template <class To>
 HWY_INLINE void store_contacts(const ContactLanes& c, To&& to) {
   const auto floats = [&](int lane) { return &to(lane)->signed_distance; };
-  const V name = hn::BitCast(f, c.name);
+  const V proxy_index = hn::BitCast(f, c.proxy_index);
 #if HWY_TARGET == HWY_SCALAR
-  const V values[8] = {c.distance, c.point.x, c.point.y, c.point.z, c.normal.x, c.normal.y, c.normal.z, name};
+  const V values[8] = {c.distance, c.point.x,  c.point.y,  c.point.z,
+                       c.normal.x, c.normal.y, c.normal.z, proxy_index};
   for (int i = 0; i < 8; ++i) floats(0)[i] = hn::GetLane(values[i]);
 #else
   V first[4], second[4];
   rows_of_four(c.distance, c.point.x, c.point.y, c.point.z, first);
-  rows_of_four(c.normal.x, c.normal.y, c.normal.z, name, second);
+  rows_of_four(c.normal.x, c.normal.y, c.normal.z, proxy_index, second);
   for (int k = 0; k < 4; ++k) {
     if constexpr (kWidth == 4) {
       hn::StoreU(first[k], f, floats(k));
@@ -69,15 +70,15 @@ HWY_INLINE void store_contacts(const ContactLanes& c, To&& to) {
 #endif
 }
 
-/// What is farther than was asked for is told nothing.
+/// What is farther than was asked for is within nothing.
 HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
   const Contact none = no_contact();
-  const M told = hn::Le(c.distance, all(within_m));
-  c.distance = hn::IfThenElse(told, c.distance, all(none.signed_distance));
-  c.point = select(told, c.point, broadcast3(none.point));
-  c.normal = select(told, c.normal, broadcast3(none.normal));
-  c.name = hn::IfThenElse(hn::RebindMask(I(), told), c.name,
-                          hn::Set(I(), static_cast<std::int32_t>(none.ellipsoid)));
+  const M within = hn::Le(c.distance, all(within_m));
+  c.distance = hn::IfThenElse(within, c.distance, all(none.signed_distance));
+  c.point = select(within, c.point, broadcast3(none.point));
+  c.normal = select(within, c.normal, broadcast3(none.normal));
+  c.proxy_index = hn::IfThenElse(hn::RebindMask(I(), within), c.proxy_index,
+                                 hn::Set(I(), static_cast<std::int32_t>(none.ellipsoid)));
 }
 
 HWY_INLINE Contact& contact_of(const QueryBatch& batch, int lane) {

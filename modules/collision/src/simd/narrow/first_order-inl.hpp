@@ -1,8 +1,8 @@
 // The proxy's distance at every particle of a batch, to first order: the ellipsoid whose first-order distance
-// is the least, and the plane that touches it where one step of Newton's leads from there. A foot takes twice
-// as long, and telling for certain which of two ellipsoids is the nearer as long again.
-// Based on: Gabriel Taubin. Distance Approximations for Rasterizing Implicit Curves. ACM TOG 13(1), 1994, for
-// the first-order distance (|u|^2 - 1) / |grad |u|^2|, u the place where the ellipsoid is the unit ball.
+// is the least, and the plane that touches it where one step of Newton's leads from there. A closest takes
+// twice as long, and telling for certain which of two ellipsoids is the nearer as long again. Based on:
+// Gabriel Taubin. Distance Approximations for Rasterizing Implicit Curves. ACM TOG 13(1), 1994, for the
+// first-order distance (|u|^2 - 1) / |grad |u|^2|, u the place where the ellipsoid is the unit ball.
 #if defined(BODICE_COLLISION_FIRST_ORDER_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_FIRST_ORDER_INL_
 #undef BODICE_COLLISION_FIRST_ORDER_INL_
@@ -61,8 +61,9 @@ HWY_INLINE V3 shrink_of(const BallLanes& e, V3 u, V square) {
   return {quotient(i.x), quotient(i.y), quotient(i.z)};
 }
 
-/// In the direction w = diag(r / (t + r^2)) y of the foot. Any unit w has the distance (w . u - 1) / |grad|
-/// to its plane, so that what w is off by counts by its square. Several vectors in step, as feet_of().
+/// In the direction w = diag(r / (t + r^2)) y of the closest. Any unit w has the distance (w . u - 1) /
+/// |grad| to its plane, so that what w is off by counts by its square. Several vectors in step, as
+/// closest_points().
 template <int kCount>
 HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount], Tangent (&out)[kCount]) {
   V3 u[kCount];
@@ -81,7 +82,7 @@ HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount],
 #pragma GCC unroll 4
   for (int k = 0; k < kCount; ++k) {
     const V3 w = out[k].w = scaled(out[k].w, inverse_sqrt(dot(out[k].w, out[k].w)));
-    const V3 slope = along(along(scaled(e[k].a0, w.x), w.y, e[k].a1), w.z, e[k].a2);
+    const V3 slope = add_scaled(add_scaled(scaled(e[k].a0, w.x), w.y, e[k].a1), w.z, e[k].a2);
     const V per_slope = inverse_sqrt(dot(slope, slope));
     out[k].distance = hn::Mul(hn::Sub(dot(w, u[k]), all(1.0f)), per_slope);
     out[k].normal = scaled(slope, per_slope);
@@ -104,8 +105,8 @@ HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, con
                      hn::Mul(shrink.y, hn::NegMulAdd(w.y, ratio, by.slope.y)),
                      hn::Mul(shrink.z, hn::NegMulAdd(w.z, ratio, by.slope.z))};
   const V3 side = with_signs(octant, signs);
-  const V3 gradient =
-      scaled(at.normal, by.along_normal) - along(along(scaled(e.a0, side.x), side.y, e.a1), side.z, e.a2);
+  const V3 gradient = scaled(at.normal, by.along_normal) -
+                      add_scaled(add_scaled(scaled(e.a0, side.x), side.y, e.a1), side.z, e.a2);
   at.distance = hn::Sub(at.distance, by.value);
   at.normal = scaled(gradient, inverse_sqrt(within_range(dot(gradient, gradient))));
 }
@@ -118,44 +119,45 @@ HWY_INLINE BallLanes balls_of(const Columns& columns, VI column) {
 
 /// Vectors of particles in step. What a vector needs beside its ellipsoid is little, so that narrow ones
 /// share the reading of each by more.
-constexpr int kAtOnce = kWidth < 16 ? 4 : 2;
-static_assert(KeptBatch::kSpan % (kAtOnce * kWidth) == 0);
+constexpr int kVectorsAtOnce = kWidth < 16 ? 4 : 2;
+static_assert(CachedBatch::kSpan % (kVectorsAtOnce * kWidth) == 0);
 
-/// The contacts of one piece.
+/// The contacts of one range.
 template <int kTables, bool kRelief>
-HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                           const Piece& piece, const Near& near, const Columns& columns) {
+HWY_INLINE void write_range(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                            const LaneRange& range, const CandidateList& candidates, const Columns& columns) {
   const V margin = all(batch.margin_m);
   const bool limited = batch.limited();
-  for (int from = piece.begin; from < piece.end; from += kAtOnce * kWidth) {
-    V3 p[kAtOnce];
-    V least[kAtOnce];
+  for (int from = range.begin; from < range.end; from += kVectorsAtOnce * kWidth) {
+    V3 p[kVectorsAtOnce];
+    V least[kVectorsAtOnce];
     load_step(batch, from, p);
-    for (V& l : least) l = all(kNoLimit);
-    for (int i = 0; i < near.count; ++i) {
-      const BallMap& e = baked.balls[columns.ellipsoid(near.index[i])];
-      const VI rank = hn::Set(I(), near.index[i]);
-      for (int v = 0; v < kAtOnce; ++v)
+    for (V& l : least) l = all(kNoLimit_m);
+    for (int i = 0; i < candidates.count; ++i) {
+      const BallMap& e = baked.balls[columns.ellipsoid(candidates.index[i])];
+      const VI rank = hn::Set(I(), candidates.index[i]);
+      for (int v = 0; v < kVectorsAtOnce; ++v)
         least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
     }
-    VI column[kAtOnce];
-    BallLanes e[kAtOnce];
-    Tangent at[kAtOnce];
+    VI column[kVectorsAtOnce];
+    BallLanes e[kVectorsAtOnce];
+    Tangent at[kVectorsAtOnce];
 #pragma GCC unroll 4
-    for (int v = 0; v < kAtOnce; ++v) {
+    for (int v = 0; v < kVectorsAtOnce; ++v) {
       column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
       e[v] = balls_of<kTables>(columns, column[v]);
     }
     tangents_of(e, p, at);
 #pragma GCC unroll 4
-    for (int v = 0; v < kAtOnce; ++v)
+    for (int v = 0; v < kVectorsAtOnce; ++v)
       if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v]), e[v], at[v]);
-    for (int v = 0; v < kAtOnce; ++v) {
+    for (int v = 0; v < kVectorsAtOnce; ++v) {
       const V d = hn::Sub(at[v].distance, margin);
-      const V name = Lookup<kTables>(column[v])(columns.row(Columns::kBallName));
-      ContactLanes c = {d, along(p[v], hn::Neg(d), at[v].normal), at[v].normal, hn::BitCast(I(), name)};
+      const V proxy_index = Lookup<kTables>(column[v])(columns.row(Columns::kBallProxyIndex));
+      ContactLanes c = {d, add_scaled(p[v], hn::Neg(d), at[v].normal), at[v].normal,
+                        hn::BitCast(I(), proxy_index)};
       if (limited) hide_beyond(batch.within_m, c);
-      write_contacts(c, batch, from + v * kWidth, piece.end);
+      write_contacts(c, batch, from + v * kWidth, range.end);
     }
   }
 }
@@ -163,27 +165,27 @@ HWY_INLINE void tell_piece(const Baked& baked, const ReliefTables* relief, const
 /// False, and contacts are as they were or done, if a place is too far for floats or too many ellipsoids are
 /// near.
 inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
-  Lists lists;
-  const Limits limits(baked, relief, std::min(batch.within_m + batch.margin_m, kNoLimit));
+  BroadPhaseLists lists;
+  const QueryLimits limits(baked, relief, std::min(batch.within_m + batch.margin_m, kNoLimit_m));
   const float rounding_m = 4.0f * baked.rounding_m;
-  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
-                        const Near* near) {
+  const auto work = [&](auto tables, const Columns& columns, const LaneRange* ranges, int count,
+                        const CandidateList* candidates) {
     for (int i = 0; i < count; ++i)
-      if (near[i].count == 0)
-        write_none(batch, pieces[i].begin, pieces[i].end);
+      if (candidates[i].count == 0)
+        write_none(batch, ranges[i].begin, ranges[i].end);
       else if (relief)
-        tell_piece<tables(), true>(baked, relief, batch, pieces[i], near[i], columns);
+        write_range<tables(), true>(baked, relief, batch, ranges[i], candidates[i], columns);
       else
-        tell_piece<tables(), false>(baked, relief, batch, pieces[i], near[i], columns);
+        write_range<tables(), false>(baked, relief, batch, ranges[i], candidates[i], columns);
     return true;
   };
   // What is kept serves exact queries, too, which blend.
   const float blend_m = relief ? relief->blend_m : 0.0f;
-  if (is_kept(baked, relief, blend_m + rounding_m, batch, lists))
-    return share_kept(baked, relief, batch, rounding_m, limits.of_bounds(baked), Columns::Rows::kBalls, lists,
-                      work);
+  if (use_cache(baked, relief, blend_m + rounding_m, batch, lists))
+    return with_cached_candidates(baked, relief, batch, rounding_m, limits.of_bounds(baked),
+                                  Columns::Rows::kBalls, lists, work);
   if (batch.limited()) write_none(batch, 0, batch.count);  // what has no candidates is not come back to
-  return share_within(baked, relief, batch, rounding_m, limits, lists, work);
+  return with_limited_candidates(baked, relief, batch, rounding_m, limits, lists, work);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

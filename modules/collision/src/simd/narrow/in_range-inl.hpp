@@ -1,11 +1,11 @@
 // The proxy's distance at those particles of a batch that are within a limit of its surface: bounds tell most
 // of the others, what is left closes up across the batch, so that only it is paid for, a whole vector at a
-// time. The answers have the same bits as without a limit.
-#if defined(BODICE_COLLISION_WITHIN_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_WITHIN_INL_
-#undef BODICE_COLLISION_WITHIN_INL_
+// time. The results have the same bits as without a limit.
+#if defined(BODICE_COLLISION_IN_RANGE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_IN_RANGE_INL_
+#undef BODICE_COLLISION_IN_RANGE_INL_
 #else
-#define BODICE_COLLISION_WITHIN_INL_
+#define BODICE_COLLISION_IN_RANGE_INL_
 #endif
 
 #include "simd/broad/limits-inl.hpp"
@@ -16,11 +16,11 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 /// Particles of a batch that may be within the limit, closed up; each run of those that were found together
 /// starts at a whole step, behind repetitions of the one before.
-struct alignas(64) Reached {
-  static constexpr int kMostKept = 3, kSize = kBatch + 2 * kStep;
+struct alignas(64) InRange {
+  static constexpr int kMaxBounds = 3, kSize = kBatch + 2 * kStep;
   float x[kSize], y[kSize], z[kSize];
-  float bound[kMostKept + 1][kSize];  ///< as Lowest has them
-  std::int32_t lane[kSize];           ///< in the batch; -1: a repetition
+  float bound[kMaxBounds + 1][kSize];  ///< as LowestBounds has them
+  std::int32_t lane[kSize];            ///< in the batch; -1: a repetition
   int count = 0;
   LaneBits which;  ///< of the batch
 
@@ -29,32 +29,32 @@ struct alignas(64) Reached {
     which = {};
   }
   /// Of the batch's lanes [first, first + kWidth).
-  template <int kKept>
-  HWY_INLINE void add(M mask, int first, V3 p, const Lowest<kKept>& lowest) {
+  template <int kLowest>
+  HWY_INLINE void add(M mask, int first, V3 p, const LowestBounds<kLowest>& lowest) {
     const Pack pack(mask);
     which.add(bits(mask), first);
     pack.store(p.x, x + count);
     pack.store(p.y, y + count);
     pack.store(p.z, z + count);
-    for (int i = 0; i <= kKept; ++i) pack.store(lowest.bound[i], bound[i] + count);
+    for (int i = 0; i <= kLowest; ++i) pack.store(lowest.bound[i], bound[i] + count);
     pack.store(lanes_from(first), lane + count);
     count += pack.count();
   }
   /// Fills up to a whole step; `from` is where the run starts.
-  template <int kKept>
+  template <int kLowest>
   HWY_INLINE void pad(int from) {
     if (count == from) return;
     const int last = count - 1, end = from + (count - from + kStep - 1) / kStep * kStep;
     for (; count < end; ++count) {
       for (float* values : {x, y, z}) values[count] = values[last];
-      for (int i = 0; i <= kKept; ++i) bound[i][count] = bound[i][last];
+      for (int i = 0; i <= kLowest; ++i) bound[i][count] = bound[i][last];
       lane[count] = -1;
     }
   }
-  template <int kKept>
-  HWY_INLINE Lowest<kKept> lowest(int i) const {
-    Lowest<kKept> result;
-    for (int k = 0; k <= kKept; ++k) result.bound[k] = hn::Load(f, bound[k] + i);
+  template <int kLowest>
+  HWY_INLINE LowestBounds<kLowest> lowest(int i) const {
+    LowestBounds<kLowest> result;
+    for (int k = 0; k <= kLowest; ++k) result.bound[k] = hn::Load(f, bound[k] + i);
     return result;
   }
 };
@@ -68,9 +68,10 @@ HWY_INLINE VI octant_of(V3 u) {
 }
 
 /// The bounds of the columns' ellipsoids above which they leave no particle within the limit, by octants.
-class Reaches {
+class OctantLimits {
  public:
-  HWY_INLINE Reaches(const Baked& baked, const ReliefTables& relief, float limit_m, const Columns& columns) {
+  HWY_INLINE OctantLimits(const Baked& baked, const ReliefTables& relief, float limit_m,
+                          const Columns& columns) {
     for (int i = 0; i < columns.count(); ++i) {
       const OctantReach& reach = relief.reaches[columns.ellipsoid(i)];
       const BakedEllipsoid& e = baked.ellipsoids[columns.ellipsoid(i)];
@@ -110,129 +111,135 @@ class Reaches {
 };
 
 /// Bounds as bound_vectors() has them; `within` becomes those particles that an ellipsoid leaves within.
-template <int kKept>
-HWY_INLINE void bound_reached(const Baked& baked, const Columns& columns, const Near& near,
-                              const Reaches& reaches, const V3 (&p)[kTogether],
-                              Lowest<kKept> (&out)[kTogether], M (&within)[kTogether]) {
-  for (int v = 0; v < kTogether; ++v) out[v].clear(), within[v] = hn::FirstN(f, 0);
-  for (int i = 0; i < near.count; ++i) {
-    const std::int32_t column = near.index[i];
+template <int kLowest>
+HWY_INLINE void bound_by_octant(const Baked& baked, const Columns& columns, const CandidateList& candidates,
+                                const OctantLimits& octant_limits, const V3 (&p)[kVectorsInStep],
+                                LowestBounds<kLowest> (&out)[kVectorsInStep], M (&within)[kVectorsInStep]) {
+  for (int v = 0; v < kVectorsInStep; ++v) out[v].clear(), within[v] = hn::FirstN(f, 0);
+  for (int i = 0; i < candidates.count; ++i) {
+    const std::int32_t column = candidates.index[i];
     const BallMap& e = baked.bounds[columns.ellipsoid(column)];
     const VI rank = hn::Set(I(), column);
-    for (int v = 0; v < kTogether; ++v) {
+    for (int v = 0; v < kVectorsInStep; ++v) {
       const V3 u = in_ball(e, p[v]);
       const V bound = bound_in_ball(e, u);
       out[v].add(bound, rank);
-      within[v] = hn::Or(within[v], hn::Le(bound, reaches(column, octant_of(u))));
+      within[v] = hn::Or(within[v], hn::Le(bound, octant_limits(column, octant_of(u))));
     }
   }
 }
 
-/// The particles of a piece that may be within the limit. `reaches` is not null with relief.
-template <int kKept>
-HWY_INLINE void reach(const Baked& baked, const QueryBatch& batch, float limit_m, const Reaches* reaches,
-                      const Piece& piece, const Near& near, const Columns& columns, Reached& out) {
+/// The particles of a range that may be within the limit. `octant_limits` is not null with relief.
+template <int kLowest>
+HWY_INLINE void collect_in_range(const Baked& baked, const QueryBatch& batch, float limit_m,
+                                 const OctantLimits* octant_limits, const LaneRange& range,
+                                 const CandidateList& candidates, const Columns& columns, InRange& out) {
   const V limit = bound_limit(baked, all(limit_m), 0.0f);
-  for (int from = piece.begin; from < piece.end; from += kStep) {
-    V3 p[kTogether];
-    Lowest<kKept> lowest[kTogether];
-    M within[kTogether];
+  for (int from = range.begin; from < range.end; from += kStep) {
+    V3 p[kVectorsInStep];
+    LowestBounds<kLowest> lowest[kVectorsInStep];
+    M within[kVectorsInStep];
     load_step(batch, from, p);
-    if (reaches) {
-      bound_reached(baked, columns, near, *reaches, p, lowest, within);
+    if (octant_limits) {
+      bound_by_octant(baked, columns, candidates, *octant_limits, p, lowest, within);
     } else {
-      bound_vectors(baked, columns, near, p, lowest);
-      for (int v = 0; v < kTogether; ++v) within[v] = hn::Not(hn::Gt(lowest[v].bound[0], limit));
+      bound_vectors(baked, columns, candidates, p, lowest);
+      for (int v = 0; v < kVectorsInStep; ++v) within[v] = hn::Not(hn::Gt(lowest[v].bound[0], limit));
     }
-    for (int v = 0; v < kTogether; ++v) {
+    for (int v = 0; v < kVectorsInStep; ++v) {
       const int i = from + v * kWidth;
-      out.add(hn::And(within[v], lanes_below(i, piece.end)), i, p[v], lowest[v]);
+      out.add(hn::And(within[v], lanes_below(i, range.end)), i, p[v], lowest[v]);
     }
   }
 }
 
-/// The first answers to the particles [begin, reached.count); false if there is no room for what they leave
+/// The first results to the particles [begin, in_range.count); false if there is no room for what they leave
 /// open.
-template <int kKept, int kTables>
-HWY_INLINE bool answer_reached(const Baked& baked, const ReliefTables* relief, float limit_m,
-                               const Reached& reached, const QueryBatch& at, int begin,
-                               const Columns& columns, Open& open, Batched& out) {
+template <int kLowest, int kTables>
+HWY_INLINE bool evaluate_in_range(const Baked& baked, const ReliefTables* relief, float limit_m,
+                                  const InRange& in_range, const QueryBatch& at, int begin,
+                                  const Columns& columns, Open& open, BatchResults& out) {
   const float beyond_m = relief ? relief->blend_m : 0.0f;
-  for (int from = begin; from < reached.count; from += kStep) {
-    V3 p[kTogether];
-    VI first[kTogether];
-    Answer answers[kTogether];
-    for (int v = 0; v < kTogether; ++v) {
+  for (int from = begin; from < in_range.count; from += kStep) {
+    V3 p[kVectorsInStep];
+    VI first[kVectorsInStep];
+    Result results[kVectorsInStep];
+    for (int v = 0; v < kVectorsInStep; ++v) {
       const int i = from + v * kWidth;
-      p[v] = load3(reached.x + i, reached.y + i, reached.z + i);
-      first[v] = reached.lowest<kKept>(i).rank(0);
+      p[v] = load3(in_range.x + i, in_range.y + i, in_range.z + i);
+      first[v] = in_range.lowest<kLowest>(i).rank(0);
     }
-    answer_each<kTables>(relief, columns, first, p, answers);
-    if (!make_room<kTables>((kKept - 1) * kTogether, relief, columns, at, open.pairs, out)) return false;
-    for (int v = 0; v < kTogether; ++v) {
+    evaluate_each<kTables>(relief, columns, first, p, results);
+    if (!make_room<kTables>((kLowest - 1) * kVectorsInStep, relief, columns, at, open.pairs, out))
+      return false;
+    for (int v = 0; v < kVectorsInStep; ++v) {
       const int i = from + v * kWidth;
-      put(answers[v], relief != nullptr, out, i);
-      const V least = hn::Min(answers[v].distance, all(limit_m));
-      const auto real = hn::RebindMask(f, hn::Gt(hn::Load(I(), reached.lane + i), hn::Set(I(), -1)));
-      open.add<kKept, 1>(real, reached.lowest<kKept>(i), bound_limit(baked, least, beyond_m), lanes_from(i));
+      put(results[v], relief != nullptr, out, i);
+      const V least = hn::Min(results[v].distance, all(limit_m));
+      const auto real = hn::RebindMask(f, hn::Gt(hn::Load(I(), in_range.lane + i), hn::Set(I(), -1)));
+      open.add<kLowest, 1>(real, in_range.lowest<kLowest>(i), bound_limit(baked, least, beyond_m),
+                           lanes_from(i));
     }
   }
   return true;
 }
 
-/// Some pieces of the batch whose candidates are the columns.
-template <int kKept, int kTables>
-HWY_INLINE bool within_of(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                          const Limits& limits, const Piece* pieces, int count, const Near* near,
-                          const Columns& columns, Reached& reached, Open& open, Batched& out) {
-  const int begin = reached.count;
-  const auto reach_each = [&](const Reaches* reaches) {
+/// Some ranges of the batch whose candidates are the columns.
+template <int kLowest, int kTables>
+HWY_INLINE bool evaluate_limited(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
+                                 const QueryLimits& limits, const LaneRange* ranges, int count,
+                                 const CandidateList* candidates, const Columns& columns, InRange& in_range,
+                                 Open& open, BatchResults& out) {
+  const int begin = in_range.count;
+  const auto collect_each = [&](const OctantLimits* octant_limits) {
     for (int i = 0; i < count; ++i)
-      if (near[i].count > 0)
-        reach<kKept>(baked, batch, limits.plain_m, reaches, pieces[i], near[i], columns, reached);
+      if (candidates[i].count > 0)
+        collect_in_range<kLowest>(baked, batch, limits.plain_m, octant_limits, ranges[i], candidates[i],
+                                  columns, in_range);
   };
   if (relief) {
-    const Reaches reaches(baked, *relief, limits.surface_m, columns);
-    reach_each(&reaches);
+    const OctantLimits octant_limits(baked, *relief, limits.surface_m, columns);
+    collect_each(&octant_limits);
   } else {
-    reach_each(nullptr);
+    collect_each(nullptr);
   }
-  if (reached.count == begin) return true;
-  reached.pad<kKept>(begin);
-  const QueryBatch at = places(reached.x, reached.y, reached.z, reached.count);
+  if (in_range.count == begin) return true;
+  in_range.pad<kLowest>(begin);
+  const QueryBatch at = batch_at(in_range.x, in_range.y, in_range.z, in_range.count);
   open.pairs.count = open.count = 0;
-  if (!answer_reached<kKept, kTables>(baked, relief, limits.plain_m, reached, at, begin, columns, open, out))
+  if (!evaluate_in_range<kLowest, kTables>(baked, relief, limits.plain_m, in_range, at, begin, columns, open,
+                                           out))
     return false;
   if (!collect_rest<kTables>(baked, relief, columns, at, open, out)) return false;
   flush<kTables>(relief, columns, at, open.pairs, out);
-  if (relief) combine_blended(*relief, begin, reached.count, open.pairs, out);
+  if (relief) combine_blended(*relief, begin, in_range.count, open.pairs, out);
   return true;
 }
 
-/// Distance, unit gradient and owner of every particle that is reached, as `reached` numbers them: all that
+/// Distance, unit gradient and owner of every particle that is in_range, as `in_range` numbers them: all that
 /// are within limit_m of the surface, and some others. False if there is no room, or a place too far for
 /// floats.
-inline bool nearest_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, float limit_m,
-                           Scratch& scratch, Reached& reached, Batched& out) {
-  const Limits limits(baked, relief, limit_m);
+inline bool nearest_in_range(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, float limit_m,
+                             Scratch& scratch, InRange& in_range, BatchResults& out) {
+  const QueryLimits limits(baked, relief, limit_m);
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
-  const auto work = [&](auto tables, const Columns& columns, const Piece* pieces, int count,
-                        const Near* lists) {
+  const auto work = [&](auto tables, const Columns& columns, const LaneRange* ranges, int count,
+                        const CandidateList* lists) {
     Open& open = scratch.open;
     if (relief)
-      return within_of<3, tables()>(baked, relief, batch, limits, pieces, count, lists, columns, reached,
-                                    open, out);
-    return within_of<2, tables()>(baked, nullptr, batch, limits, pieces, count, lists, columns, reached, open,
-                                  out);
+      return evaluate_limited<3, tables()>(baked, relief, batch, limits, ranges, count, lists, columns,
+                                           in_range, open, out);
+    return evaluate_limited<2, tables()>(baked, nullptr, batch, limits, ranges, count, lists, columns,
+                                         in_range, open, out);
   };
-  reached.clear();
-  if (is_kept(baked, relief, beyond_m, batch, scratch.lists)) {
-    if (share_kept(baked, relief, batch, beyond_m, limits.of_bounds(baked), Columns::Rows::kFeet,
-                   scratch.lists, work))
+  in_range.clear();
+  if (use_cache(baked, relief, beyond_m, batch, scratch.lists)) {
+    if (with_cached_candidates(baked, relief, batch, beyond_m, limits.of_bounds(baked),
+                               Columns::Rows::kShapes, scratch.lists, work))
       return true;
-    reached.clear();
+    in_range.clear();
   }
-  return share_within(baked, relief, batch, beyond_m, limits, scratch.lists, work);
+  return with_limited_candidates(baked, relief, batch, beyond_m, limits, scratch.lists, work);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

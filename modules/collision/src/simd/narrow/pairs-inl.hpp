@@ -18,48 +18,48 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 /// What one ellipsoid says about each of kSize particles.
 template <int kSize>
-struct alignas(64) Answers {
+struct alignas(64) ResultRows {
   float distance[kSize];  ///< to the ellipsoid, meters
   float value[kSize];     ///< relief only: the corrected distance, meters
   float gx[kSize], gy[kSize],
-      gz[kSize];             ///< its gradient: the unit normal without relief
-  std::int32_t name[kSize];  ///< the proxy's index of the ellipsoid
+      gz[kSize];                    ///< its gradient: the unit normal without relief
+  std::int32_t proxy_index[kSize];  ///< the proxy's index of the ellipsoid
 };
 
-/// The answers to one vector of particles, each about the ellipsoid of its column.
-struct Answer {
+/// The results to one vector of particles, each about the ellipsoid of its column.
+struct Result {
   V distance, value;
   V3 gradient;
-  VI name;
+  VI proxy_index;
 };
 
 /// Several vectors in step.
 template <int kTables, int kCount>
-HWY_INLINE void answer_each(const ReliefTables* relief, const Columns& columns, const VI (&column)[kCount],
-                            const V3 (&p)[kCount], Answer (&out)[kCount]) {
+HWY_INLINE void evaluate_each(const ReliefTables* relief, const Columns& columns, const VI (&column)[kCount],
+                              const V3 (&p)[kCount], Result (&out)[kCount]) {
   Shape shape[kCount];
-  Foot foot[kCount];
+  ClosestPointLanes closest[kCount];
   for (int i = 0; i < kCount; ++i) shape[i] = shape_of<kTables>(columns, column[i]);
-  feet_of(shape, p, foot);
+  closest_points(shape, p, closest);
   for (int i = 0; i < kCount; ++i) {
-    const VI name = names_of<kTables>(columns, column[i]);
+    const VI proxy_index = proxy_indices_of<kTables>(columns, column[i]);
     if (relief) {
       const TableLanes table = table_of<kTables>(columns, column[i]);
-      const Corrected one =
-          corrected(*relief, table, shape[i], foot[i], [&] { return axes_of<kTables>(columns, column[i]); });
-      out[i] = {foot[i].distance, one.value, one.gradient, name};
+      const Corrected one = corrected(*relief, table, shape[i], closest[i],
+                                      [&] { return axes_of<kTables>(columns, column[i]); });
+      out[i] = {closest[i].distance, one.value, one.gradient, proxy_index};
     } else {
-      out[i] = {foot[i].distance, foot[i].distance, normal_of(shape[i], foot[i]), name};
+      out[i] = {closest[i].distance, closest[i].distance, normal_of(shape[i], closest[i]), proxy_index};
     }
   }
 }
 
 template <int kSize>
-HWY_INLINE void put(const Answer& a, bool relief, Answers<kSize>& to, int i) {
+HWY_INLINE void put(const Result& a, bool relief, ResultRows<kSize>& to, int i) {
   hn::Store(a.distance, f, to.distance + i);
   if (relief) hn::Store(a.value, f, to.value + i);
   store3(a.gradient, to.gx + i, to.gy + i, to.gz + i);
-  hn::Store(a.name, I(), to.name + i);
+  hn::Store(a.proxy_index, I(), to.proxy_index + i);
 }
 
 /// Of some blocks that share columns.
@@ -68,7 +68,7 @@ struct Pairs {
   static constexpr int kSize = kCapacity + 32;
   alignas(64) std::int32_t lane[kSize];
   alignas(64) std::int32_t column[kSize];
-  Answers<kSize> answers;
+  ResultRows<kSize> results;
   int count = 0;
 
   bool fit(int vectors) const { return count + vectors * kWidth <= kCapacity; }
@@ -82,26 +82,27 @@ struct Pairs {
 };
 
 template <int kTables>
-HWY_INLINE void answer_pairs(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch,
-                             Pairs& pairs) {
+HWY_INLINE void evaluate_pairs(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch,
+                               Pairs& pairs) {
   if (pairs.count == 0) return;
   // What the last vectors hold beyond the count must be valid pairs, too.
-  for (int v = 0; v < kTogether; ++v) {
+  for (int v = 0; v < kVectorsInStep; ++v) {
     hn::StoreU(hn::Set(I(), pairs.lane[0]), I(), pairs.lane + pairs.count + v * kWidth);
     hn::StoreU(hn::Zero(I()), I(), pairs.column + pairs.count + v * kWidth);
   }
-  for (int from = 0; from < pairs.count; from += kTogether * kWidth) {
-    VI column[kTogether];
-    V3 p[kTogether];
-    Answer answers[kTogether];
-    for (int v = 0; v < kTogether; ++v) {
+  for (int from = 0; from < pairs.count; from += kVectorsInStep * kWidth) {
+    VI column[kVectorsInStep];
+    V3 p[kVectorsInStep];
+    Result results[kVectorsInStep];
+    for (int v = 0; v < kVectorsInStep; ++v) {
       const VI lane = hn::Load(I(), pairs.lane + from + v * kWidth);
       column[v] = hn::Load(I(), pairs.column + from + v * kWidth);
       p[v] = {hn::GatherIndex(f, batch.x, lane), hn::GatherIndex(f, batch.y, lane),
               hn::GatherIndex(f, batch.z, lane)};
     }
-    answer_each<kTables>(relief, columns, column, p, answers);
-    for (int v = 0; v < kTogether; ++v) put(answers[v], relief != nullptr, pairs.answers, from + v * kWidth);
+    evaluate_each<kTables>(relief, columns, column, p, results);
+    for (int v = 0; v < kVectorsInStep; ++v)
+      put(results[v], relief != nullptr, pairs.results, from + v * kWidth);
   }
 }
 

@@ -1,11 +1,11 @@
 // Pushes until nothing is below the clearance. Plain ellipsoids are convex: each that a place is below the
 // clearance of adds the half-space beyond its tangent plane, and a point in all of them is clear of all of
 // those ellipsoids. On relief and fillets it is Newton's method along the gradient.
-#if defined(BODICE_COLLISION_SETTLE_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_SETTLE_INL_
-#undef BODICE_COLLISION_SETTLE_INL_
+#if defined(BODICE_COLLISION_CUTTING_PLANES_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_CUTTING_PLANES_INL_
+#undef BODICE_COLLISION_CUTTING_PLANES_INL_
 #else
-#define BODICE_COLLISION_SETTLE_INL_
+#define BODICE_COLLISION_CUTTING_PLANES_INL_
 #endif
 
 #include "model/tolerances.hpp"
@@ -21,61 +21,63 @@ namespace bodice::collision::HWY_NAMESPACE {
 constexpr int kPlainRounds = 6;
 constexpr int kReliefRounds = 6;
 constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
-constexpr float kFoot = static_cast<float>(kFootError);
+constexpr float kSolverError = static_cast<float>(kClosestPointError);
 
 /// What is asked about every place: the proxy's distance, or that of the smooth union.
 struct Surface {
   const Baked& baked;
   const ReliefTables* relief;
-  const Clearance& clearance;
-  const Candidates* filleted;  ///< of the block; null: creases stay sharp, or relief blends
+  const ResponseParameters& parameters;
+  const TangentCandidates* filleted;  ///< of the block; null: creases stay sharp, or relief blends
   Scratch& scratch;
 
-  bool bent() const { return relief != nullptr || filleted != nullptr; }
-  /// Where pushes aim at. A bent surface turns between steps; a share of the blending more lets Newton arrive
-  /// from below.
+  bool nonconvex() const { return relief != nullptr || filleted != nullptr; }
+  /// Where pushes aim at. A nonconvex surface turns between steps; a share of the blending more lets Newton
+  /// arrive from below.
   float target_m() const {
-    const float least_m = clearance.distance_m + clearance.slack_m;
+    const float least_m = parameters.clearance_m + parameters.slack_m;
     if (relief) return least_m + kOvershoot * relief->blend_m;
     if (!filleted) return least_m;
     constexpr float kFillet = static_cast<float>(kFilletOvershoot);
-    return least_m + std::min(kOvershoot * clearance.blend_m, kFillet * clearance.slack_m);
+    return least_m + std::min(kOvershoot * parameters.blend_m, kFillet * parameters.slack_m);
   }
 };
 
-/// Beyond the clearance by what a foot may be off by, so that its ellipsoid need not be measured again;
+/// Beyond the clearance by what a closest may be off by, so that its ellipsoid need not be measured again;
 /// `owner` may be -1.
 HWY_INLINE V plain_target(const Surface& surface, VI owner) {
   constexpr int kStride = kBakedFloats;
   const VI at = hn::Mul(hn::Max(owner, hn::Zero(I())), hn::Set(I(), kStride));
   const V longest = hn::GatherIndex(f, &surface.baked.ellipsoids.data()->longest_m, at);
-  const float clearance_m = surface.clearance.distance_m;
-  return hn::MulAdd(all(kFoot), hn::Add(longest, all(std::max(0.0f, clearance_m))), all(surface.target_m()));
+  const float clearance_m = surface.parameters.clearance_m;
+  return hn::MulAdd(all(kSolverError), hn::Add(longest, all(std::max(0.0f, clearance_m))),
+                    all(surface.target_m()));
 }
 
-HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch, Batched& out) {
-  const Clearance& c = surface.clearance;
+HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch, BatchResults& out) {
+  const ResponseParameters& c = surface.parameters;
   for (int i = 0; i < batch.count; i += kWidth) {
     const V3 p = load3(batch.x + i, batch.y + i, batch.z + i);
     const Sample s =
-        smooth_distance(surface.baked, c.blend_m, *surface.filleted, p, all(c.distance_m + c.blend_m));
+        smooth_distance(surface.baked, c.blend_m, *surface.filleted, p, all(c.clearance_m + c.blend_m));
     hn::Store(s.distance, f, out.distance + i);
     hn::Store(hn::Sqrt(dot(s.gradient, s.gradient)), f, out.value + i);
     store3(unit(s.gradient), out.gx + i, out.gy + i, out.gz + i);
     const VI owner = hn::Max(s.owner, hn::Zero(I()));
-    hn::Store(hn::GatherIndex(I(), surface.baked.names.data(), owner), I(), out.name + i);
+    hn::Store(hn::GatherIndex(I(), surface.baked.proxy_index.data(), owner), I(), out.proxy_index + i);
   }
 }
 
-/// Distance, unit gradient, its length and the name of the owner at each place; false if there is no room.
-HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, Batched& out) {
+/// Distance, unit gradient, its length and the proxy_index of the owner at each place; false if there is no
+/// room.
+HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, BatchResults& out) {
   if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out);
   measure_filleted(surface, batch, out);
   return true;
 }
 
 /// Every particle of the batch.
-HWY_INLINE void reach_all(const QueryBatch& batch, Reached& out) {
+HWY_INLINE void take_all(const QueryBatch& batch, InRange& out) {
   out.count = (batch.count + kStep - 1) / kStep * kStep;
   for (int i = 0; i < out.count; i += kWidth) {
     const auto there = hn::RebindMask(I(), lanes_below(i, batch.count));
@@ -86,99 +88,101 @@ HWY_INLINE void reach_all(const QueryBatch& batch, Reached& out) {
 }
 
 /// The same where the particles begin, of those that may be below the clearance at least.
-HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, Reached& reached, Batched& out) {
-  const float limit_m = surface.clearance.distance_m;
+HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, InRange& in_range,
+                              BatchResults& out) {
+  const float limit_m = surface.parameters.clearance_m;
   if (!surface.filleted &&
-      nearest_within(surface.baked, surface.relief, batch, limit_m, surface.scratch, reached, out))
+      nearest_in_range(surface.baked, surface.relief, batch, limit_m, surface.scratch, in_range, out))
     return true;
-  reach_all(batch, reached);
-  if (surface.bent()) return measure(surface, batch, out);
+  take_all(batch, in_range);
+  if (surface.nonconvex()) return measure(surface, batch, out);
   // More ellipsoids are near than there is room for at once.
   alignas(64) std::int32_t none[kBatch];
   std::memset(none, 0xFF, sizeof(none));
-  const Placed placed{batch, none, none, none};
-  return nearest_others(surface.baked, placed, limit_m, surface.scratch, out);
+  const ClearedPositions cleared{batch, none, none, none};
+  return nearest_others(surface.baked, cleared, limit_m, surface.scratch, out);
 }
 
 /// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.
-HWY_INLINE bool measure_again(const Surface& surface, const Pushed& pushed, Batched& out) {
-  QueryBatch batch = places(pushed.x, pushed.y, pushed.z, pushed.count);
-  if (surface.bent()) return measure(surface, batch, out);
-  const Placed placed{batch, pushed.clear1, pushed.clear2, pushed.clear3};
-  return nearest_others(surface.baked, placed, surface.clearance.distance_m, surface.scratch, out);
+HWY_INLINE bool measure_again(const Surface& surface, const PushedLanes& pushed, BatchResults& out) {
+  QueryBatch batch = batch_at(pushed.x, pushed.y, pushed.z, pushed.count);
+  if (surface.nonconvex()) return measure(surface, batch, out);
+  const ClearedPositions cleared{batch, pushed.clear1, pushed.clear2, pushed.clear3};
+  return nearest_others(surface.baked, cleared, surface.parameters.clearance_m, surface.scratch, out);
 }
 
 /// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
 HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
-  return along(x, hn::Mul(hn::Sub(target, distance), reciprocal(hn::Max(slope, all(0.5f)))), normal);
+  return add_scaled(x, hn::Mul(hn::Sub(target, distance), reciprocal(hn::Max(slope, all(0.5f)))), normal);
 }
 
 /// The first and the latest plane in force of the lanes `at`; the latest only where `two`.
-struct InForce {
+struct ActivePlanes {
   Plane first, latest;
-  VI of_latest;
+  VI latest_ellipsoid;
   M two;
 };
 
 /// Most are pushed into a second ellipsoid, few into a third: without lanes that have two planes the second
 /// and third are not read.
-HWY_INLINE InForce in_force(const Way& way, VI at) {
+HWY_INLINE ActivePlanes active_planes(const PushState& state, VI at) {
   const VI none = hn::Set(I(), -1);
-  const Plane first = {gather3(way.n1x, way.n1y, way.n1z, at), hn::GatherIndex(f, way.offset1, at)};
-  const VI of2 = hn::GatherIndex(I(), way.of2, at);
-  const M two = hn::RebindMask(f, hn::Gt(of2, none));
+  const Plane first = {gather3(state.n1x, state.n1y, state.n1z, at), hn::GatherIndex(f, state.offset1, at)};
+  const VI ellipsoid2 = hn::GatherIndex(I(), state.ellipsoid2, at);
+  const M two = hn::RebindMask(f, hn::Gt(ellipsoid2, none));
   if (hn::AllFalse(f, two)) return {first, first, none, two};
-  const VI of3 = hn::GatherIndex(I(), way.of3, at);
-  const M three = hn::RebindMask(f, hn::Gt(of3, none));
+  const VI ellipsoid3 = hn::GatherIndex(I(), state.ellipsoid3, at);
+  const M three = hn::RebindMask(f, hn::Gt(ellipsoid3, none));
   const Plane latest = {
-      select(three, gather3(way.n3x, way.n3y, way.n3z, at), gather3(way.n2x, way.n2y, way.n2z, at)),
-      hn::IfThenElse(three, hn::GatherIndex(f, way.offset3, at), hn::GatherIndex(f, way.offset2, at))};
-  return {first, latest, hn::IfThenElse(hn::RebindMask(I(), three), of3, of2), two};
+      select(three, gather3(state.n3x, state.n3y, state.n3z, at),
+             gather3(state.n2x, state.n2y, state.n2z, at)),
+      hn::IfThenElse(three, hn::GatherIndex(f, state.offset3, at), hn::GatherIndex(f, state.offset2, at))};
+  return {first, latest, hn::IfThenElse(hn::RebindMask(I(), three), ellipsoid3, ellipsoid2), two};
 }
 
-/// A plane of the lanes `which`, whose indices are `at` (zero elsewhere), and the closest place beyond it and
-/// those before; of these the first and the latest stay in force.
-HWY_INLINE Push add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI whose,
-                          const Reached& reached, Way& way) {
-  const V slack = all(surface.clearance.slack_m);
+/// A plane of the lanes `which`, newest_ellipsoid indices are `at` (zero elsewhere), and the closest place
+/// beyond it and those before; of these the first and the latest stay in force.
+HWY_INLINE Push add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI newest_ellipsoid,
+                          const InRange& in_range, PushState& state) {
+  const V slack = all(surface.parameters.slack_m);
   const VI none = hn::Set(I(), -1);
-  const auto [first, latest, of_latest, two] = in_force(way, at);
+  const auto [first, latest, latest_ellipsoid, two] = active_planes(state, at);
   const M third = hn::And(two, which);
-  const V3 p = gather3(reached.x, reached.y, reached.z, at);
+  const V3 p = gather3(in_range.x, in_range.y, in_range.z, at);
   V3 next = project(first, newest, hn::FirstN(f, kWidth), p);
-  V behind = hn::Max(first.missing(next), newest.missing(next));
+  V behind = hn::Max(first.gap(next), newest.gap(next));
   const Scatter scatter(which, at);
   const auto put_second = [&](const Plane& plane, VI of) {
-    scatter.store(plane.n, way.n2x, way.n2y, way.n2z);
-    scatter.store(plane.offset, way.offset2);
-    scatter.store(of, way.of2);
+    scatter.store(plane.n, state.n2x, state.n2y, state.n2z);
+    scatter.store(plane.offset, state.offset2);
+    scatter.store(of, state.ellipsoid2);
   };
   VI clear3 = none;
   if (hn::AllFalse(f, third)) {
-    put_second(newest, whose);
+    put_second(newest, newest_ellipsoid);
   } else {
     next = select(two, project(first, latest, newest, p, slack), next);
     put_second({select(two, latest.n, newest.n), hn::IfThenElse(two, latest.offset, newest.offset)},
-               hn::IfThenElse(hn::RebindMask(I(), two), of_latest, whose));
+               hn::IfThenElse(hn::RebindMask(I(), two), latest_ellipsoid, newest_ellipsoid));
     const Scatter scatter_third(third, at);
-    scatter_third.store(newest.n, way.n3x, way.n3y, way.n3z);
-    scatter_third.store(newest.offset, way.offset3);
-    scatter_third.store(whose, way.of3);
-    behind = hn::Max(hn::Max(first.missing(next), newest.missing(next)),
-                     hn::IfThenElse(two, latest.missing(next), all(-1e30f)));
-    clear3 = hn::IfThenElse(hn::RebindMask(I(), two), of_latest, none);
+    scatter_third.store(newest.n, state.n3x, state.n3y, state.n3z);
+    scatter_third.store(newest.offset, state.offset3);
+    scatter_third.store(newest_ellipsoid, state.ellipsoid3);
+    behind = hn::Max(hn::Max(first.gap(next), newest.gap(next)),
+                     hn::IfThenElse(two, latest.gap(next), all(-1e30f)));
+    clear3 = hn::IfThenElse(hn::RebindMask(I(), two), latest_ellipsoid, none);
   }
-  scatter.store(next, way.x, way.y, way.z);
+  scatter.store(next, state.x, state.y, state.z);
   // Planes that are nearly parallel meet far away, if at all: there all are measured again.
   const auto certain = hn::RebindMask(I(), hn::Le(behind, slack));
-  return {next, hn::IfThenElse(certain, hn::GatherIndex(I(), way.owner, at), none),
-          hn::IfThenElse(certain, whose, none), hn::IfThenElse(certain, clear3, none)};
+  return {next, hn::IfThenElse(certain, hn::GatherIndex(I(), state.owner, at), none),
+          hn::IfThenElse(certain, newest_ellipsoid, none), hn::IfThenElse(certain, clear3, none)};
 }
 
 /// Another push for those that the last query found below: a vector of them, from the i-th on. They close up:
 /// each was in `pushed` at or behind where it is put.
-HWY_INLINE void push_again(const Surface& surface, const Reached& reached, const Batched& found,
-                           const Below& below, int i, Pushed& pushed, Way& way) {
+HWY_INLINE void push_again(const Surface& surface, const InRange& in_range, const BatchResults& found,
+                           const LanesBelow& below, int i, PushedLanes& pushed, PushState& state) {
   const M which = lanes_below(i, below.count);
   const auto real = hn::RebindMask(I(), which);
   const VI at = hn::IfThenElseZero(real, hn::Load(I(), below.at + i));
@@ -186,46 +190,47 @@ HWY_INLINE void push_again(const Surface& surface, const Reached& reached, const
   const V distance = hn::GatherIndex(f, found.distance, at);
   const V3 normal = gather3(found.gx, found.gy, found.gz, at);
   const V3 x = gather3(pushed.x, pushed.y, pushed.z, at);
-  if (surface.bent()) {
+  if (surface.nonconvex()) {
     const V slope = hn::GatherIndex(f, found.value, at);
     const V3 next = newton_step(x, distance, normal, slope, all(surface.target_m()));
-    Scatter(which, lane).store(next, way.x, way.y, way.z);
+    Scatter(which, lane).store(next, state.x, state.y, state.z);
     const VI none = hn::Set(I(), -1);
     return pushed.put({next, none, none, none}, i);
   }
-  const VI name = hn::GatherIndex(I(), found.name, at);
-  const VI newest = hn::GatherIndex(I(), surface.baked.internal.data(), name);
+  const VI proxy_index = hn::GatherIndex(I(), found.proxy_index, at);
+  const VI newest = hn::GatherIndex(I(), surface.baked.internal_index.data(), proxy_index);
   const V offset = hn::Add(dot(normal, x), hn::Sub(plain_target(surface, newest), distance));
-  pushed.put(add_plane(surface, which, lane, {normal, offset}, newest, reached, way), i);
+  pushed.put(add_plane(surface, which, lane, {normal, offset}, newest, in_range, state), i);
 }
 
-/// The last normals of a bent surface are those that velocities are judged by.
-HWY_INLINE void keep_normals(const Pushed& pushed, const Batched& found, Way& way) {
+/// The last normals of a nonconvex surface are those that velocities are judged by.
+HWY_INLINE void store_normals(const PushedLanes& pushed, const BatchResults& found, PushState& state) {
   for (int i = 0; i < pushed.count; ++i) {
     const int lane = pushed.lane[i];
-    way.n1x[lane] = found.gx[i];
-    way.n1y[lane] = found.gy[i];
-    way.n1z[lane] = found.gz[i];
+    state.n1x[lane] = found.gx[i];
+    state.n1y[lane] = found.gy[i];
+    state.n1z[lane] = found.gz[i];
   }
 }
 
-/// Pushes the lanes of `pushed`, whose first push is done, until all are clear; false if the kernel has no
-/// room.
-HWY_INLINE bool settle(const Surface& surface, const Reached& reached, bool has_velocity, Pushed& pushed,
-                       Way& way) {
-  const auto most = static_cast<std::uint32_t>(surface.bent() ? kReliefRounds : kPlainRounds);
-  Batched found;
+/// Pushes the lanes of `pushed`, newest_ellipsoid first push is done, until all are clear; false if the
+/// kernel has no room.
+HWY_INLINE bool push_until_clear(const Surface& surface, const InRange& in_range, bool has_velocity,
+                                 PushedLanes& pushed, PushState& state) {
+  const auto most = static_cast<std::uint32_t>(surface.nonconvex() ? kReliefRounds : kPlainRounds);
+  BatchResults found;
   pushed.close();
   // On relief the first push leads to the surface, and the next are a correction.
   surface.scratch.lists.room_m = surface.relief ? surface.relief->blend_m : 0.0f;
-  for (way.rounds = 0; pushed.count > 0 && way.rounds < most; ++way.rounds) {
+  for (state.rounds = 0; pushed.count > 0 && state.rounds < most; ++state.rounds) {
     if (!measure_again(surface, pushed, found)) return false;
-    if (surface.bent() && has_velocity) keep_normals(pushed, found, way);
-    const Below below(found.distance, surface.clearance.distance_m, pushed);
-    for (int i = 0; i < below.count; i += kWidth) push_again(surface, reached, found, below, i, pushed, way);
+    if (surface.nonconvex() && has_velocity) store_normals(pushed, found, state);
+    const LanesBelow below(found.distance, surface.parameters.clearance_m, pushed);
+    for (int i = 0; i < below.count; i += kWidth)
+      push_again(surface, in_range, found, below, i, pushed, state);
     pushed.close(below);
   }
-  for (int i = 0; i < pushed.count; ++i) way.open.add(1, pushed.lane[i]);
+  for (int i = 0; i < pushed.count; ++i) state.open.add(1, pushed.lane[i]);
   return true;
 }
 

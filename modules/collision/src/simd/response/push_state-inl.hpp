@@ -1,9 +1,9 @@
-// Particles on their way out: all that were reached, and those of them that a round pushes, closed up.
-#if defined(BODICE_COLLISION_PUSHED_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_PUSHED_INL_
-#undef BODICE_COLLISION_PUSHED_INL_
+// Particles on their state out: all that were in_range, and those of them that a round pushes, closed up.
+#if defined(BODICE_COLLISION_PUSH_STATE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_PUSH_STATE_INL_
+#undef BODICE_COLLISION_PUSH_STATE_INL_
 #else
-#define BODICE_COLLISION_PUSHED_INL_
+#define BODICE_COLLISION_PUSH_STATE_INL_
 #endif
 
 #include <algorithm>
@@ -17,25 +17,26 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The particles that were reached on their way out, an array a number.
-struct alignas(64) Way {
-  std::int32_t owner[kBatch];                   ///< where it began; internal index, -1: no contact
+/// The particles that were in_range on their state out, an array a number.
+struct alignas(64) PushState {
+  std::int32_t owner[kBatch];                   ///< where it began; internal_index index, -1: no contact
   float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
   float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< contact planes
   float n2x[kBatch], n2y[kBatch], n2z[kBatch];
   float n3x[kBatch], n3y[kBatch], n3z[kBatch];
   float offset1[kBatch], offset2[kBatch], offset3[kBatch];
-  std::int32_t of2[kBatch], of3[kBatch];  ///< whose planes the second and third are; -1: not in force
-  LaneBits open;                          ///< not settled
+  std::int32_t ellipsoid2[kBatch],
+      ellipsoid3[kBatch];  ///< newest_ellipsoid planes the second and third are; -1: not in force
+  LaneBits open;           ///< not pushed_to
   std::uint32_t rounds = 0;
 
   /// Of the second and third planes the rest means nothing then.
   HWY_INLINE void clear_others() {
-    for (std::int32_t* values : {of2, of3}) std::memset(values, 0xFF, sizeof(of2));
+    for (std::int32_t* values : {ellipsoid2, ellipsoid3}) std::memset(values, 0xFF, sizeof(ellipsoid2));
   }
 };
 
-struct Below;
+struct LanesBelow;
 
 /// Where a push leads, and the plain ellipsoids that it puts clear of; -1: none, or not for certain.
 struct Push {
@@ -44,11 +45,11 @@ struct Push {
 };
 
 /// The lanes that were pushed in a round, closed up.
-struct alignas(64) Pushed {
+struct alignas(64) PushedLanes {
   static constexpr int kSize = kBatch + 16;
   float x[kSize], y[kSize], z[kSize];
   std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];  ///< as a Push has them
-  std::int32_t lane[kSize];                                  ///< among those that were reached
+  std::int32_t lane[kSize];                                  ///< among those that were in_range
   int count = 0;
 
   /// After the first push, out of the ellipsoids `owner`.
@@ -75,7 +76,7 @@ struct alignas(64) Pushed {
     hn::Store(push.clear3, I(), clear3 + i);
   }
   /// Once all are put.
-  HWY_INLINE void close(const Below& below);
+  HWY_INLINE void close(const LanesBelow& below);
 
  private:
   /// Repeats the last up to a whole block.
@@ -88,13 +89,13 @@ struct alignas(64) Pushed {
   }
 };
 
-/// Lanes of `Pushed` that are still below the clearance, closed up: where they are in it, and among those
-/// that were reached.
-struct alignas(64) Below {
+/// Lanes of `PushedLanes` that are still below the clearance, closed up: where they are in it, and among
+/// those that were in_range.
+struct alignas(64) LanesBelow {
   std::int32_t at[kBatch + 16], lane[kBatch + 16];
   int count = 0;
 
-  HWY_INLINE Below(const float* distance, float limit_m, const Pushed& pushed) {
+  HWY_INLINE LanesBelow(const float* distance, float limit_m, const PushedLanes& pushed) {
     for (int i = 0; i < pushed.count; i += kWidth) {
       const M below = hn::And(lanes_below(i, pushed.count), hn::Lt(hn::Load(f, distance + i), all(limit_m)));
       const Pack pack(below);
@@ -105,7 +106,7 @@ struct alignas(64) Below {
   }
 };
 
-HWY_INLINE void Pushed::close(const Below& below) {
+HWY_INLINE void PushedLanes::close(const LanesBelow& below) {
   count = below.count;
   std::copy_n(below.lane, below.count, lane);
   pad();

@@ -1,6 +1,6 @@
 // The nearest response for a batch: a query where the particles are, a push of those below the clearance, and
 // queries where they have come to until all are clear. What three half-spaces, or a few steps of Newton, do
-// not settle goes to the exact side.
+// not push_until_clear goes to the exact side.
 #if defined(BODICE_COLLISION_RESOLVE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_RESOLVE_INL_
 #undef BODICE_COLLISION_RESOLVE_INL_
@@ -21,8 +21,8 @@ constexpr float kOvershootOfStep = static_cast<float>(kStepOvershoot);
 
 /// A plane of the contact at x, which is there only if x lies on it; elsewhere its normal is zero, and it
 /// holds no velocity back.
-HWY_INLINE Plane touching(const Plane& plane, M in_force, V3 x, float within_m, M& there) {
-  there = hn::And(in_force, hn::Ge(plane.missing(x), all(-within_m)));
+HWY_INLINE Plane touching(const Plane& plane, M active, V3 x, float within_m, M& there) {
+  there = hn::And(active, hn::Ge(plane.gap(x), all(-within_m)));
   const V zero = hn::Zero(f);
   return {select(there, plane.n, {zero, zero, zero}), zero};
 }
@@ -30,27 +30,28 @@ HWY_INLINE Plane touching(const Plane& plane, M in_force, V3 x, float within_m, 
 HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, const float* offset, int i,
                           const std::int32_t* of, V3 x, float within_m, M& there) {
   const Plane plane = {load3(nx + i, ny + i, nz + i), hn::Load(f, offset + i)};
-  const M in_force = hn::RebindMask(f, hn::Gt(hn::Load(I(), of + i), hn::Set(I(), -1)));
-  return touching(plane, in_force, x, within_m, there);
+  const M active = hn::RebindMask(f, hn::Gt(hn::Load(I(), of + i), hn::Set(I(), -1)));
+  return touching(plane, active, x, within_m, there);
 }
 
 /// The nearest velocity into none of the contact's planes at x. The first may have been left behind, too, but
-/// on a bent surface, which has but one: its normal at x.
-HWY_INLINE V3 along_contact(const Way& way, int i, V3 x, bool bent, float slack_m, V3 v) {
-  const V3 n = load3(way.n1x + i, way.n1y + i, way.n1z + i);
-  if (bent) return along(v, hn::Max(hn::Neg(dot(n, v)), hn::Zero(f)), n);
+/// on a nonconvex surface, which has but one: its normal at x.
+HWY_INLINE V3 closest_velocity(const PushState& state, int i, V3 x, bool nonconvex, float slack_m, V3 v) {
+  const V3 n = load3(state.n1x + i, state.n1y + i, state.n1z + i);
+  if (nonconvex) return add_scaled(v, hn::Max(hn::Neg(dot(n, v)), hn::Zero(f)), n);
   M one, two, three;
   const float within_m = 4.0f * slack_m;
-  const Plane pushed_first = {n, hn::Load(f, way.offset1 + i)};
+  const Plane pushed_first = {n, hn::Load(f, state.offset1 + i)};
   const Plane first = touching(pushed_first, hn::FirstN(f, kWidth), x, within_m, one);
-  const Plane second = touching(way.n2x, way.n2y, way.n2z, way.offset2, i, way.of2, x, within_m, two);
-  const Plane third = touching(way.n3x, way.n3y, way.n3z, way.offset3, i, way.of3, x, within_m, three);
+  const Plane second =
+      touching(state.n2x, state.n2y, state.n2z, state.offset2, i, state.ellipsoid2, x, within_m, two);
+  const Plane third =
+      touching(state.n3x, state.n3y, state.n3z, state.offset3, i, state.ellipsoid3, x, within_m, three);
   const V3 of_two = project(first, second, two, v);
   if (hn::AllFalse(f, three)) return of_two;
   const V zero = hn::Zero(f);
   const V3 of_other = project(first, third, three, v);
-  const V3 of_three =
-      select(hn::Le(third.missing(of_two), zero), of_two, project(first, second, third, v, zero));
+  const V3 of_three = select(hn::Le(third.gap(of_two), zero), of_two, project(first, second, third, v, zero));
   return select(three, select(two, of_three, of_other), of_two);
 }
 
@@ -66,35 +67,35 @@ HWY_INLINE V3 corrected_velocity(V3 along_surface, float friction, V3 v) {
 HWY_INLINE V3 surface_velocity(const SurfaceMotion* motion, VI owner, V3 x) {
   constexpr int kStride = sizeof(SurfaceMotion) / sizeof(float);
   const VI at = hn::Mul(hn::Max(owner, hn::Zero(I())), hn::Set(I(), kStride));
-  const float* base = motion->turn;  // turn, then shift, without padding
+  const float* base = motion->linear;  // linear, then translation, without padding
   const V3 r0 = {hn::GatherIndex(f, base, at), hn::GatherIndex(f, base + 1, at),
                  hn::GatherIndex(f, base + 2, at)};
   const V3 r1 = {hn::GatherIndex(f, base + 3, at), hn::GatherIndex(f, base + 4, at),
                  hn::GatherIndex(f, base + 5, at)};
   const V3 r2 = {hn::GatherIndex(f, base + 6, at), hn::GatherIndex(f, base + 7, at),
                  hn::GatherIndex(f, base + 8, at)};
-  const V3 shift = {hn::GatherIndex(f, base + 9, at), hn::GatherIndex(f, base + 10, at),
-                    hn::GatherIndex(f, base + 11, at)};
-  return V3{dot(r0, x), dot(r1, x), dot(r2, x)} + shift;
+  const V3 translation = {hn::GatherIndex(f, base + 9, at), hn::GatherIndex(f, base + 10, at),
+                          hn::GatherIndex(f, base + 11, at)};
+  return V3{dot(r0, x), dot(r1, x), dot(r2, x)} + translation;
 }
 
 /// Paths, relative to the ellipsoid that owns the place, longer than the limit. Without an owner any
 /// ellipsoid may have come past.
-HWY_INLINE M is_long(V3 path, const Clearance& clearance, V3 p, VI owner, float limit_m) {
+HWY_INLINE M is_long_path(V3 path, const ResponseParameters& parameters, V3 p, VI owner, float limit_m) {
   V limit = all(limit_m);
-  if (clearance.motion) {
-    const V3 carried = scaled(surface_velocity(clearance.motion, owner, p), all(clearance.dt_s));
+  if (parameters.motion) {
+    const V3 carried = scaled(surface_velocity(parameters.motion, owner, p), all(parameters.dt_s));
     const M owned = hn::RebindMask(f, hn::Gt(owner, hn::Set(I(), -1)));
     path = select(owned, path - carried, path);
-    limit = hn::IfThenElse(owned, limit, all(std::max(0.0f, limit_m - clearance.travel_m)));
+    limit = hn::IfThenElse(owned, limit, all(std::max(0.0f, limit_m - parameters.travel_m)));
   }
   return hn::Ge(dot(path, path), hn::Mul(limit, limit));
 }
 
 /// The particles that came far, as if without an owner.
-HWY_INLINE void find_far(const Gathering& batch, const Clearance& clearance, float short_path_m,
-                         LaneBits& out) {
-  const float travel_m = clearance.motion ? clearance.travel_m : 0.0f;
+HWY_INLINE void find_long_paths(const ParticleBatch& batch, const ResponseParameters& parameters,
+                                float short_path_m, LaneBits& out) {
+  const float travel_m = parameters.motion ? parameters.travel_m : 0.0f;
   const V limit = all(std::max(0.0f, short_path_m - travel_m));
   for (int i = 0; i < batch.count; i += kWidth) {
     const V3 path =
@@ -105,7 +106,7 @@ HWY_INLINE void find_far(const Gathering& batch, const Clearance& clearance, flo
 }
 
 /// Of particles with these lanes, -1: none; undoing a particle's own path is not a push.
-HWY_INLINE V3 safe_of(const Gathering& batch, VI lanes) {
+HWY_INLINE V3 safe_positions_of(const ParticleBatch& batch, VI lanes) {
   return gather3(batch.sx, batch.sy, batch.sz, hn::Max(lanes, hn::Zero(I())));
 }
 
@@ -119,9 +120,9 @@ HWY_INLINE void for_particles(M mask, M which, const std::int32_t* lane, Work&& 
   }
 }
 
-/// Least radius of the ellipsoids whose boxes are within `window` of the block's box, which includes the
-/// particles' paths; 1e30 if there are none.
-HWY_INLINE float shortest_radius(const Baked& baked, const Extent& e, float window) {
+/// Least radius of the ellipsoids newest_ellipsoid boxes are within `window` of the block's box, which
+/// includes the particles' paths; 1e30 if there are none.
+HWY_INLINE float shortest_radius(const Baked& baked, const Aabb& e, float window) {
   V least = all(1e30f);
   for (std::size_t k = 0; k < baked.cull.shortest.size(); k += kWidth) {
     const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
@@ -132,34 +133,36 @@ HWY_INLINE float shortest_radius(const Baked& baked, const Extent& e, float wind
 
 /// The first push of those particles that are below the clearance and have not come far; `contacts` gets a
 /// bit for each.
-HWY_INLINE void push_first(const Surface& surface, const Gathering& batch, float short_path_m,
-                           const Reached& reached, const Batched& found, int i, Way& way, Pushed& pushed,
-                           LaneBits& contacts, BatchResponse& out) {
-  const Clearance& clearance = surface.clearance;
-  const V3 p = load3(reached.x + i, reached.y + i, reached.z + i);
+HWY_INLINE void push_first(const Surface& surface, const ParticleBatch& batch, float short_path_m,
+                           const InRange& in_range, const BatchResults& found, int i, PushState& state,
+                           PushedLanes& pushed, LaneBits& contacts, BatchResponse& out) {
+  const ResponseParameters& parameters = surface.parameters;
+  const V3 p = load3(in_range.x + i, in_range.y + i, in_range.z + i);
   const V3 normal = load3(found.gx + i, found.gy + i, found.gz + i);
   const V distance = hn::Load(f, found.distance + i);
-  const VI lanes = hn::Load(I(), reached.lane + i);
+  const VI lanes = hn::Load(I(), in_range.lane + i);
   M contact = hn::And(hn::RebindMask(f, hn::Gt(lanes, hn::Set(I(), -1))),
-                      hn::Lt(distance, all(clearance.distance_m)));
-  const VI name = hn::IfThenElseZero(hn::RebindMask(I(), contact), hn::Load(I(), found.name + i));
-  const VI nearest_one = hn::GatherIndex(I(), surface.baked.internal.data(), name);
+                      hn::Lt(distance, all(parameters.clearance_m)));
+  const VI proxy_index =
+      hn::IfThenElseZero(hn::RebindMask(I(), contact), hn::Load(I(), found.proxy_index + i));
+  const VI nearest_one = hn::GatherIndex(I(), surface.baked.internal_index.data(), proxy_index);
   const VI owner = hn::IfThenElse(hn::RebindMask(I(), contact), nearest_one, hn::Set(I(), -1));
   if (batch.has_safe) {
-    const M far = is_long(p - safe_of(batch, lanes), clearance, p, owner, short_path_m);
-    for_particles(contact, far, reached.lane + i, [&](int lane, bool is) { out.hard.set(lane, is); });
+    const M far = is_long_path(p - safe_positions_of(batch, lanes), parameters, p, owner, short_path_m);
+    for_particles(contact, far, in_range.lane + i,
+                  [&](int lane, bool is) { out.left_to_exact.set(lane, is); });
     contact = hn::AndNot(far, contact);
   }
-  hn::Store(owner, I(), way.owner + i);
-  store3(normal, way.n1x + i, way.n1y + i, way.n1z + i);
-  const V target = surface.bent() ? all(surface.target_m()) : plain_target(surface, owner);
+  hn::Store(owner, I(), state.owner + i);
+  store3(normal, state.n1x + i, state.n1y + i, state.n1z + i);
+  const V target = surface.nonconvex() ? all(surface.target_m()) : plain_target(surface, owner);
   const V short_by = hn::Sub(target, distance);
   const V over = all(surface.relief ? kOvershootOfStep : 0.0f);
   const V beyond = hn::MulAdd(over, hn::Max(short_by, hn::Zero(f)), target);
-  const V3 x = surface.bent() ? newton_step(p, distance, normal, hn::Load(f, found.value + i), beyond)
-                              : along(p, short_by, normal);
-  store3(select(contact, x, p), way.x + i, way.y + i, way.z + i);
-  hn::Store(hn::Add(dot(normal, p), short_by), f, way.offset1 + i);
+  const V3 x = surface.nonconvex() ? newton_step(p, distance, normal, hn::Load(f, found.value + i), beyond)
+                                   : add_scaled(p, short_by, normal);
+  store3(select(contact, x, p), state.x + i, state.y + i, state.z + i);
+  hn::Store(hn::Add(dot(normal, p), short_by), f, state.offset1 + i);
   contacts.add(bits(contact), i);
   pushed.add(contact, lanes_from(i), x, owner);
 }
@@ -172,43 +175,44 @@ HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
 }
 
 /// The velocity that a contact leaves.
-HWY_INLINE V3 velocity_after(const Surface& surface, const Gathering& batch, const Way& way, int i, VI lanes,
-                             VI owner, V3 p, V3 position) {
-  const Clearance& clearance = surface.clearance;
+HWY_INLINE V3 velocity_after(const Surface& surface, const ParticleBatch& batch, const PushState& state,
+                             int i, VI lanes, VI owner, V3 p, V3 position) {
+  const ResponseParameters& parameters = surface.parameters;
   const V3 v = gather3(batch.vx, batch.vy, batch.vz, hn::Max(lanes, hn::Zero(I())));
   V3 body = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
-  if (clearance.motion) body = surface_velocity(clearance.motion, owner, p);
+  if (parameters.motion) body = surface_velocity(parameters.motion, owner, p);
   const V3 relative = v - body;
-  const V3 along_surface = along_contact(way, i, position, surface.bent(), clearance.slack_m, relative);
-  return corrected_velocity(along_surface, clearance.friction, relative) + body;
+  const V3 along_surface =
+      closest_velocity(state, i, position, surface.nonconvex(), parameters.slack_m, relative);
+  return corrected_velocity(along_surface, parameters.friction, relative) + body;
 }
 
 /// Writes one vector of contacts: place, velocity, and what is told about it.
-HWY_INLINE void finish(const Surface& surface, float reach_m, const Reached& reached, const Batched& found,
-                       const Way& way, M contact, int i, const Gathering& batch, V& deepest,
-                       BatchResponse& out) {
-  const Clearance& clearance = surface.clearance;
-  const VI lanes = hn::Load(I(), reached.lane + i);
-  const V3 p = load3(reached.x + i, reached.y + i, reached.z + i);
-  const V3 settled = load3(way.x + i, way.y + i, way.z + i);
-  const V3 push = settled - p;
+HWY_INLINE void write_responses(const Surface& surface, float reach_m, const InRange& in_range,
+                                const BatchResults& found, const PushState& state, M contact, int i,
+                                const ParticleBatch& batch, V& deepest, BatchResponse& out) {
+  const ResponseParameters& parameters = surface.parameters;
+  const VI lanes = hn::Load(I(), in_range.lane + i);
+  const V3 p = load3(in_range.x + i, in_range.y + i, in_range.z + i);
+  const V3 pushed_to = load3(state.x + i, state.y + i, state.z + i);
+  const V3 push = pushed_to - p;
   const V length2 = dot(push, push);
-  const V depth = hn::Sub(all(clearance.distance_m), hn::Load(f, found.distance + i));
-  const VI owner = hn::Load(I(), way.owner + i);
-  const V longest = hn::Min(all(reach_m), hn::MulAdd(all(kLongestPush), depth, all(clearance.slack_m)));
-  const M hard = hn::And(contact, hn::Or(hn::Gt(length2, hn::Mul(longest, longest)), mask_of(way.open, i)));
-  for_particles(hard, hard, reached.lane + i, [&](int lane, bool) { out.hard.set(lane, true); });
+  const V depth = hn::Sub(all(parameters.clearance_m), hn::Load(f, found.distance + i));
+  const VI owner = hn::Load(I(), state.owner + i);
+  const V longest = hn::Min(all(reach_m), hn::MulAdd(all(kLongestPush), depth, all(parameters.slack_m)));
+  const M hard = hn::And(contact, hn::Or(hn::Gt(length2, hn::Mul(longest, longest)), mask_of(state.open, i)));
+  for_particles(hard, hard, in_range.lane + i, [&](int lane, bool) { out.left_to_exact.set(lane, true); });
   contact = hn::AndNot(hard, contact);
-  V limit = all(clearance.max_push_m);
+  V limit = all(parameters.max_push_m);
   if (batch.has_safe) {
-    const V3 path = p - safe_of(batch, lanes);
+    const V3 path = p - safe_positions_of(batch, lanes);
     limit = hn::Add(limit, hn::Sqrt(dot(path, path)));
   }
   const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
-  V3 position = settled;
+  V3 position = pushed_to;
   if (!hn::AllFalse(f, pending)) {
     const V share = hn::Div(limit, hn::Sqrt(hn::Max(length2, all(1e-30f))));
-    position = select(pending, along(p, share, push), settled);
+    position = select(pending, add_scaled(p, share, push), pushed_to);
   }
   const Pack pack(contact);
   const auto store = [&](V3 v, float* x, float* y, float* z) {
@@ -218,7 +222,7 @@ HWY_INLINE void finish(const Surface& surface, float reach_m, const Reached& rea
   };
   store(position, out.x, out.y, out.z);
   if (batch.has_velocity)
-    store(velocity_after(surface, batch, way, i, lanes, owner, p, settled), out.vx, out.vy, out.vz);
+    store(velocity_after(surface, batch, state, i, lanes, owner, p, pushed_to), out.vx, out.vy, out.vz);
   pack.store(lanes, out.lane + out.count);
   pack.store(owner, out.owner + out.count);
   out.count += pack.count();
@@ -227,88 +231,90 @@ HWY_INLINE void finish(const Surface& surface, float reach_m, const Reached& rea
 }
 
 /// The batch against one surface; pushes longer than `reach_m` are for the exact side.
-HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m, const Gathering& batch,
-                           BatchResponse& out) {
-  Reached reached;
-  Batched found;
-  QueryBatch query = places(batch.x, batch.y, batch.z, batch.count);
-  query.keeping = batch.keeping;
-  query.ahead = batch.ahead;
-  Way way;
-  Pushed pushed;
+HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m,
+                           const ParticleBatch& batch, BatchResponse& out) {
+  InRange in_range;
+  BatchResults found;
+  QueryBatch query = batch_at(batch.x, batch.y, batch.z, batch.count);
+  query.cache = batch.cache;
+  query.next_batch = batch.next_batch;
+  PushState state;
+  PushedLanes pushed;
   LaneBits contacts;
-  way.clear_others();
+  state.clear_others();
   std::copy_n(out.radius_m, kBlocks, query.radius_m);
-  if (!measure_first(surface, query, reached, found)) return false;
+  if (!measure_first(surface, query, in_range, found)) return false;
   std::copy_n(query.radius_m, kBlocks, out.radius_m);
-  if (batch.has_safe) find_far(batch, surface.clearance, short_path_m, out.hard);
-  for (int i = 0; i < reached.count; i += kWidth)
-    push_first(surface, batch, short_path_m, reached, found, i, way, pushed, contacts, out);
+  if (batch.has_safe) find_long_paths(batch, surface.parameters, short_path_m, out.left_to_exact);
+  for (int i = 0; i < in_range.count; i += kWidth)
+    push_first(surface, batch, short_path_m, in_range, found, i, state, pushed, contacts, out);
   if (contacts.none()) return true;
-  if (!settle(surface, reached, batch.has_velocity, pushed, way)) return false;
+  if (!push_until_clear(surface, in_range, batch.has_velocity, pushed, state)) return false;
   V deepest = hn::Zero(f);
-  for (int i = 0; i < reached.count; i += kWidth) {
+  for (int i = 0; i < in_range.count; i += kWidth) {
     const M contact = mask_of(contacts, i);
     if (hn::AllFalse(f, contact)) continue;
-    finish(surface, reach_m, reached, found, way, contact, i, batch, deepest, out);
+    write_responses(surface, reach_m, in_range, found, state, contact, i, batch, deepest, out);
   }
   out.deepest_m = hn::GetLane(hn::MaxOfLanes(f, deepest));
-  out.iterations = std::max(1u, way.rounds);
+  out.iterations = std::max(1u, state.rounds);
   return true;
 }
 
 /// Half the diagonal of each block's box.
-HWY_INLINE void note_radii(const Gathering& batch, BatchResponse& out) {
+HWY_INLINE void note_radii(const ParticleBatch& batch, BatchResponse& out) {
   for (int begin = 0; begin < batch.count; begin += kBlock) {
-    bool near;
+    bool in_float_range;
     const int count = std::min(kBlock, batch.count - begin);
     out.radius_m[begin / kBlock] =
-        extent_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, count, near).radius;
+        aabb_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, count, in_float_range).radius;
   }
 }
 
 /// The batch against plain ellipsoids or relief.
-HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                              const Gathering& batch, BatchResponse& out) {
+HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief,
+                              const ResponseParameters& parameters, const ParticleBatch& batch,
+                              BatchResponse& out) {
   float shortest_m = 0.0f;
   // What is kept tells by itself that nothing is near, and nobody asks how long a path may be.
-  if (!batch.keeping.batch || batch.has_safe) {
-    const Extent e = extent_of(batch);
+  if (!batch.cache.batch || batch.has_safe) {
+    const Aabb e = aabb_of(batch);
     const float bulge_m = relief ? relief->highest_m + relief->blend_m : 0.0f;
-    const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
+    const float travel_m = batch.has_safe ? parameters.travel_m : 0.0f;
     shortest_m = shortest_radius(
-        baked, e, clearance.distance_m + bulge_m + travel_m + baked.rounding_m + rounding_over(e));
+        baked, e, parameters.clearance_m + bulge_m + travel_m + baked.rounding_m + rounding_over(e));
     if (shortest_m >= 1e30f) {
       note_radii(batch, out);
       return true;
     }
   }
   Scratch scratch;
-  const Surface surface{baked, relief, clearance, nullptr, scratch};
+  const Surface surface{baked, relief, parameters, nullptr, scratch};
   return resolve_on(surface, kShortPath * shortest_m, 1e30f, batch, out);
 }
 
 /// The batch against the smooth union of the ellipsoids.
-HWY_INLINE bool resolve_filleted(const Baked& baked, const Clearance& clearance, const Gathering& batch,
-                                 BatchResponse& out) {
+HWY_INLINE bool resolve_filleted(const Baked& baked, const ResponseParameters& parameters,
+                                 const ParticleBatch& batch, BatchResponse& out) {
   note_radii(batch, out);
-  const Extent e = extent_of(batch);
-  const float travel_m = batch.has_safe ? clearance.travel_m : 0.0f;
-  const float window_m = clearance.distance_m + 2.0f * clearance.blend_m + travel_m;
+  const Aabb e = aabb_of(batch);
+  const float travel_m = batch.has_safe ? parameters.travel_m : 0.0f;
+  const float window_m = parameters.clearance_m + 2.0f * parameters.blend_m + travel_m;
   const float shortest_m = shortest_radius(baked, e, window_m + baked.rounding_m + rounding_over(e));
   if (shortest_m >= 1e30f) return true;
-  Candidates candidates;
+  TangentCandidates candidates;
   if (!cull_for_response(baked, batch, window_m, candidates)) return false;
   if (candidates.count == 0) return true;
   Scratch scratch;
-  const Surface surface{baked, nullptr, clearance, &candidates, scratch};
+  const Surface surface{baked, nullptr, parameters, &candidates, scratch};
   return resolve_on(surface, kShortPath * shortest_m, candidates.reach_m, batch, out);
 }
 
-HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief, const Clearance& clearance,
-                              const Gathering& batch, BatchResponse& out) {
-  if (!relief && clearance.blend_m > 0.0f) return resolve_filleted(baked, clearance, batch, out);
-  return resolve_sharp(baked, relief, clearance, batch, out);
+HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief,
+                              const ResponseParameters& parameters, const ParticleBatch& batch,
+                              BatchResponse& out) {
+  if (!relief && parameters.blend_m > 0.0f) return resolve_filleted(baked, parameters, batch, out);
+  return resolve_sharp(baked, relief, parameters, batch, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -19,7 +19,7 @@ struct Sample {
 };
 
 /// The tangent-plane bound of candidate c at p.
-HWY_INLINE V tangent_bound(const Candidates& c, int i, V3 p) {
+HWY_INLINE V tangent_bound(const TangentCandidates& c, int i, V3 p) {
   const V3 offset = p - broadcast3(c.middle);
   return hn::MulAdd(
       all(c.nx[i]), offset.x,

@@ -1,12 +1,12 @@
 // The smooth union of plain ellipsoids, so that creases are filleted: the root F of
 //   sum_k max(0, 1 - (d_k - F) / blend)^2 = 1,
-// which is d where one ellipsoid is near, never above the least d_k, and whose gradient
+// which is d where one ellipsoid is near, never above the least d_k, and newest_ellipsoid gradient
 // sum u_k n_k / sum u_k, u_k = max(0, 1 - (d_k - F) / blend), is continuous.
-#if defined(BODICE_COLLISION_SMOOTH_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_SMOOTH_INL_
-#undef BODICE_COLLISION_SMOOTH_INL_
+#if defined(BODICE_COLLISION_SMOOTH_UNION_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_SMOOTH_UNION_INL_
+#undef BODICE_COLLISION_SMOOTH_UNION_INL_
 #else
-#define BODICE_COLLISION_SMOOTH_INL_
+#define BODICE_COLLISION_SMOOTH_UNION_INL_
 #endif
 
 #include "simd/response/sample-inl.hpp"
@@ -41,31 +41,33 @@ HWY_INLINE V smooth_root(const Blended& b, V least, V per_blend) {
   return hn::Min(root, least);
 }
 
-HWY_INLINE Sample smooth_distance(const Baked& baked, float blend_m, const Candidates& c, V3 p, V below) {
-  Blended near;
+HWY_INLINE Sample smooth_distance(const Baked& baked, float blend_m, const TangentCandidates& c, V3 p,
+                                  V below) {
+  Blended blended;
   const V slack = all(c.slack_m), blend = all(blend_m), per_blend = all(1.0f / blend_m);
   Sample best{below, {hn::Zero(f), hn::Zero(f), hn::Zero(f)}, hn::Set(I(), -1)};
   for (int i = 0; i < c.count; ++i) {
     const V window = hn::Add(best.distance, hn::Add(blend, slack));
     if (hn::AllTrue(f, hn::Gt(tangent_bound(c, i, p), window))) continue;
-    const Foot foot = foot_of(broadcast(baked.ellipsoids[static_cast<std::size_t>(c.index[i])]), p);
-    hn::Store(foot.distance, f, near.distance[near.count]);
-    near.of[near.count++] = c.index[i];
-    const M better = hn::Lt(foot.distance, best.distance);
-    best.distance = hn::IfThenElse(better, foot.distance, best.distance);
+    const ClosestPointLanes closest =
+        closest_point(broadcast(baked.ellipsoids[static_cast<std::size_t>(c.index[i])]), p);
+    hn::Store(closest.distance, f, blended.distance[blended.count]);
+    blended.of[blended.count++] = c.index[i];
+    const M better = hn::Lt(closest.distance, best.distance);
+    best.distance = hn::IfThenElse(better, closest.distance, best.distance);
     best.owner = hn::IfThenElse(hn::RebindMask(I(), better), hn::Set(I(), c.index[i]), best.owner);
   }
   const M owned = hn::RebindMask(f, hn::Gt(best.owner, hn::Set(I(), -1)));
-  const V root = smooth_root(near, best.distance, per_blend);
+  const V root = smooth_root(blended, best.distance, per_blend);
   V weights = hn::Zero(f);
   V3 gradient = {hn::Zero(f), hn::Zero(f), hn::Zero(f)};
-  for (int i = 0; i < near.count; ++i) {
-    const V over = hn::Sub(hn::Load(f, near.distance[i]), root);
+  for (int i = 0; i < blended.count; ++i) {
+    const V over = hn::Sub(hn::Load(f, blended.distance[i]), root);
     const V u = hn::Max(hn::Zero(f), hn::NegMulAdd(over, per_blend, all(1.0f)));
     if (hn::AllTrue(f, hn::Eq(u, hn::Zero(f)))) continue;
-    const Shape shape = broadcast(baked.ellipsoids[static_cast<std::size_t>(near.of[i])]);
+    const Shape shape = broadcast(baked.ellipsoids[static_cast<std::size_t>(blended.of[i])]);
     weights = hn::Add(weights, u);
-    gradient = along(gradient, u, normal_of(shape, foot_of(shape, p)));
+    gradient = add_scaled(gradient, u, normal_of(shape, closest_point(shape, p)));
   }
   const V inverse = hn::Div(all(1.0f), hn::Max(weights, all(1e-3f)));
   best.distance = hn::IfThenElse(owned, root, below);

@@ -18,10 +18,10 @@ constexpr int kSteps = 128;
 constexpr int kHalvings = 20;
 
 /// How far from x nothing can be nearer than the clearance.
-double free_way_m(NearField& near, const UnionField& field, double bulge_m, const Vec3& x, double distance_m,
-                  double clearance_m) {
+double free_path_m(NearField& near, const UnionField& field, double bulge_m, const Vec3& x, double distance_m,
+                   double clearance_m) {
   const double known_m = 0.5 * (distance_m - clearance_m);
-  if (near.shares().size() > 0) return known_m;
+  if (near.terms().size() > 0) return known_m;
   // Far off, the plain ellipsoids' distance is 1-Lipschitz and the surface adds no more than bulge_m.
   const Owner owner = field.owner(x, std::numeric_limits<double>::infinity());
   return std::max(known_m, owner.at.signed_distance - bulge_m - clearance_m);
@@ -29,8 +29,8 @@ double free_way_m(NearField& near, const UnionField& field, double bulge_m, cons
 
 }  // namespace
 
-std::optional<Entry> first_bent_entry(NearField& near, const UnionField& field, double bulge_m,
-                                      const Vec3& safe, const Vec3& p, double clearance_m) {
+std::optional<Entry> first_nonconvex_entry(NearField& near, const UnionField& field, double bulge_m,
+                                           const Vec3& safe, const Vec3& p, double clearance_m) {
   const double length = (p - safe).norm();
   if (!(length > 0.0)) return std::nullopt;
   const Vec3 direction = (p - safe) / length;
@@ -40,8 +40,8 @@ std::optional<Entry> first_bent_entry(NearField& near, const UnionField& field, 
   double t = 0.0;
   for (int step = 0; step < kSteps && t < length; ++step) {
     const Vec3 x = safe + t * direction;
-    const double way = free_way_m(near, field, bulge_m, x, here.distance_m, clearance_m);
-    double next = std::min(length, t + std::max(way, least_step));
+    const double free_m = free_path_m(near, field, bulge_m, x, here.distance_m, clearance_m);
+    double next = std::min(length, t + std::max(free_m, least_step));
     const ReliefSample there = near.at(safe + next * direction);
     if (there.distance_m >= clearance_m) {
       t = next;
