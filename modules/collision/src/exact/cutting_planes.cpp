@@ -1,8 +1,8 @@
 // Based on: J. E. Kelley. The Cutting-Plane Method for Solving Convex Programs. 1960.
-// Every place that is found below the clearance adds the half-space beyond its tangent plane; the next place
-// is the nearest in all of them. Plain ellipsoids are convex, so that a point in all half-spaces is outside
-// of all those ellipsoids, and a crease is met once and does not cycle.
-// Differs: with relief or fillets the newest plane of an ellipsoid replaces its older ones, which is Newton's
+// Every position that is found below the clearance adds the half-space beyond its tangent plane; the next
+// position is the closest point of their intersection. Plain ellipsoids are convex: a point in all
+// half-spaces is outside of all those ellipsoids, so that the iteration does not cycle in a crease.
+// Differs: with relief or fillets the newest plane of an ellipsoid replaces its older one, which is Newton's
 // method along one surface. Planes that face each other are set back until they meet.
 #include "exact/cutting_planes.hpp"
 
@@ -18,7 +18,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// The planes in force and whose they are.
+/// The cutting planes in force, each with the ellipsoid that it belongs to.
 class Planes {
  public:
   Planes(bool nonconvex, double target_m) : nonconvex_(nonconvex), target_m_(target_m) {}
@@ -37,7 +37,8 @@ class Planes {
     owner_[at] = sample.owner;
   }
 
-  /// Where the blend of surfaces that face each other is flat, each of them has its say.
+  /// Adds the plane of the blended surface. Where surfaces face each other their blend is flat, and the plane
+  /// of each surface is added instead.
   void put(const Vec3& x, const ReliefSample& sample, std::span<const NearField::Term> terms) {
     if (terms.size() < 2 || sample.gradient.norm() >= kFacing) return put(x, sample);
     for (const NearField::Term& term : terms)
@@ -55,7 +56,8 @@ class Planes {
  private:
   static constexpr double kLeastSlope = 0.5, kFacing = 0.5;
 
-  /// The place of this owner's older plane, a free one, or that of the plane which x is farthest beyond.
+  /// Index for a new plane: that of this owner's older plane, a free one, or that of the plane which x is
+  /// farthest beyond.
   int slot(std::uint32_t owner, const Vec3& x) const {
     for (int i = 0; nonconvex_ && i < planes_.size(); ++i)
       if (owner_[i] == owner) return i;
@@ -79,7 +81,7 @@ PushResult push_by_planes(NearField& near, const Vec3& p, const ReliefSample& st
   const double target_m = clearance_m + overshoot_m;
   Planes planes(near.nonconvex(), target_m);
   PushResult best{p, start, {}, 0, start.distance_m >= clearance_m};
-  // Most pushes are about as long as the depth; a longer one costs another search.
+  // Most pushes are about as long as the depth. A longer one costs another search for candidates.
   near.prepare(p, std::min(longest_m, kUsualPush * (target_m - start.distance_m)));
   ReliefSample here = near.nonconvex() ? near.at(p) : start;
   Vec3 x = p;
@@ -87,7 +89,7 @@ PushResult push_by_planes(NearField& near, const Vec3& p, const ReliefSample& st
   while (best.rounds < kPlaneRounds && !best.clear) {
     ++best.rounds;
     planes.put(x, here, near.terms());
-    // The closest point to p diverges where a surface bends within its depth; a step from x does not.
+    // The closest point to p diverges where a surface curves within its depth; a step from x does not.
     const Vec3 base = near.nonconvex() && best.rounds > kNearestRounds ? x : p;
     const double left_m = std::max(0.0, longest_m - (base - p).norm());
     const auto next = planes.halfspaces().least_violating(base, left_m, 0.1 * overshoot_m);
@@ -97,13 +99,14 @@ PushResult push_by_planes(NearField& near, const Vec3& p, const ReliefSample& st
     if (better) best.position = x, best.sample = here, best.set_back = next.set_back_m > 0.0;
     best.clear = here.distance_m >= clearance_m;
     if (!(next.set_back_m > 0.0)) continue;
-    // As good as planned, or no better than the one before, because it may not be farther.
+    // The iteration ends when the distance is as planned, or when it no longer improves because the push may
+    // not become longer.
     const double enough_m = kMidway * next.set_back_m, planned_m = target_m - next.set_back_m;
     if (std::abs(here.distance_m - planned_m) < enough_m) break;
     if (std::abs(here.distance_m - last_set_back_m) < enough_m) break;
     last_set_back_m = here.distance_m;
   }
-  // Between two surfaces a particle that is as good as midway stays, so that it does not creep.
+  // Between two surfaces a particle that is almost midway stays where it is, so that it does not creep.
   const double missing_m = clearance_m - start.distance_m;
   if (!best.clear && best.sample.distance_m - start.distance_m < kMidway * missing_m)
     best.position = p, best.sample = start;

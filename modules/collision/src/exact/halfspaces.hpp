@@ -1,5 +1,5 @@
-// A handful of half-spaces and the closest point of their intersection: what a contact with several
-// ellipsoids comes down to, for positions and (through the origin) for velocities.
+// Up to four half-spaces and the closest point of their intersection. A contact with several ellipsoids comes
+// down to this, for positions and, with planes through the origin, for velocities.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 
 namespace bodice::collision {
 
-/// { x : normal . x >= offset_m }, the normal of unit length.
+/// The half-space { x : normal . x >= offset_m }; the normal has unit length.
 struct Halfspace {
   geometry::Vec3 normal;
   double offset_m;
 
-  double gap_m(const geometry::Vec3& x) const { return offset_m - normal.dot(x); }  ///< > 0: x violates it
+  double gap_m(const geometry::Vec3& x) const { return offset_m - normal.dot(x); }  ///< > 0: violated
 };
 
-/// Up to four half-spaces: three fix a point of space, one more is being replaced.
+/// Up to four half-spaces: three determine a point, and a fourth is there while one is being replaced.
 class Halfspaces {
  public:
   static constexpr int kCapacity = 4;
@@ -34,7 +34,7 @@ class Halfspaces {
   }
   void replace(int i, const Halfspace& h) { items_[i] = h; }
 
-  /// All planes set back by `by_m`.
+  /// The same planes, each set back by `by_m`.
   Halfspaces lowered(double by_m) const {
     Halfspaces result = *this;
     for (int i = 0; i < size_; ++i) result.items_[i].offset_m -= by_m;
@@ -46,11 +46,12 @@ class Halfspaces {
     return largest;
   }
 
-  /// The closest point of the intersection to `p`, each plane to `tolerance_m`; nothing if the intersection
-  /// is empty or so far off that the planes are as good as parallel.
+  /// The closest point to `p` in all half-spaces, each kept to `tolerance_m`. Nothing if the intersection is
+  /// empty, or so far off that the planes are almost parallel.
   std::optional<geometry::Vec3> closest_point(const geometry::Vec3& p, double tolerance_m) const {
     if (largest_gap_m(p) <= tolerance_m) return p;
-    // Whatever set of planes gives multipliers >= 0 and a point in all half-spaces gives the nearest.
+    // Optimality conditions: the projection onto a subset of the planes is the closest point if its
+    // multipliers are >= 0 and it lies in all half-spaces.
     for (int i = 0; i < size_; ++i)
       if (const auto x = on_planes<1>({i}, p, tolerance_m)) return x;
     for (int i = 0; i < size_; ++i)
@@ -65,7 +66,8 @@ class Halfspaces {
     return std::nullopt;
   }
 
-  /// The nearest velocity that goes into none of them: the same in the cone of the planes through the origin.
+  /// The closest velocity that leads into none of the planes: the same problem with all planes through the
+  /// origin.
   geometry::Vec3 closest_velocity(const geometry::Vec3& v) const {
     Halfspaces cone = *this;
     for (int i = 0; i < size_; ++i) cone.items_[i].offset_m = 0.0;
@@ -74,18 +76,18 @@ class Halfspaces {
 
   struct RelaxedPoint {
     geometry::Vec3 x;
-    double set_back_m;  ///< by how much the planes had to be set back; zero: all are kept
+    double set_back_m;  ///< by how much the planes were set back; zero: all are kept
   };
 
-  /// The place within `longest_m` of p that is in all half-spaces, or misses them by as little as can be:
-  /// midway between planes that face each other.
+  /// The point within `longest_m` of p that lies in all half-spaces or violates them least: midway between
+  /// planes that face each other.
   RelaxedPoint least_violating(const geometry::Vec3& p, double longest_m, double tolerance_m) const {
     const auto within_limit = [&](double back_m) -> std::optional<geometry::Vec3> {
       const auto x = lowered(back_m).closest_point(p, tolerance_m);
       return x && (*x - p).norm() <= longest_m ? x : std::nullopt;
     };
     if (const auto x = within_limit(0.0)) return {*x, 0.0};
-    double low = 0.0, high = largest_gap_m(p);  // set back by so much, p itself will do
+    double low = 0.0, high = largest_gap_m(p);  // set back by `high`, the planes admit p itself
     RelaxedPoint best{p, high};
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
@@ -97,11 +99,13 @@ class Halfspaces {
   }
 
  private:
-  static constexpr int kHalvings = 6;  // a third of kMidway
-  /// Share of a speed by which a projection may miss its plane; with none every third one would be lost.
+  static constexpr int kHalvings = 6;  // gives a third of kMidway
+  /// Fraction of the speed by which a projected velocity may miss its plane; without it every third
+  /// projection would be rejected.
   static constexpr double kVelocityRounding = 1e-12;
 
-  /// The projection to the planes of `chosen`, if every one of them pushes and it lies in all half-spaces.
+  /// Projects p onto the planes of `chosen`; nothing unless each of them pushes and the result lies in all
+  /// half-spaces.
   template <int N>
   std::optional<geometry::Vec3> on_planes(const std::array<int, N>& chosen, const geometry::Vec3& p,
                                           double tolerance_m) const {

@@ -9,7 +9,8 @@ namespace bodice::collision {
 using geometry::ClosestPoint;
 using geometry::Vec3;
 
-/// Ellipsoids farther than this from a place neither own it below below_m nor blend into its owner.
+/// An ellipsoid farther than this from a point neither owns it at a distance below below_m_ nor blends with
+/// its owner.
 double NearField::window_m() const {
   return below_m_ + bulge_m_ + blend_m_;
 }
@@ -34,7 +35,8 @@ void NearField::prepare(const Vec3& center, double radius_m) {
 void NearField::evaluate(std::uint32_t k, const Vec3& x) {
   const ClosestPoint at = geometry::closest_point(field_.shape(k), x);
   least_m_ = std::min(least_m_, at.signed_distance);
-  // What lies beyond the blending is dropped when room is needed; the window only shrinks.
+  // A full list drops what lies beyond the blend radius of the least distance so far; that distance only
+  // falls, so nothing is lost.
   if (evaluated_count_ == kCapacity) {
     const double last_m = least_m_ + blend_m_;
     const auto kept = std::remove_if(evaluated_, evaluated_ + evaluated_count_,
@@ -65,7 +67,7 @@ void NearField::evaluate_all(const Vec3& x) {
       [&](std::size_t k, const UnionField::Plane&) { evaluate(static_cast<std::uint32_t>(k), x); });
 }
 
-/// Newton on a convex function of the root, from above.
+/// Newton's method from above on a convex function of the root.
 double NearField::smooth_root_m() const {
   double root = least_m_;
   for (int step = 0; step < kRootSteps; ++step) {
@@ -81,7 +83,7 @@ double NearField::smooth_root_m() const {
   return root;
 }
 
-/// Zero: the ellipsoid at this distance takes no part.
+/// Square root of an ellipsoid's blending weight; zero if it takes no part.
 double NearField::weight_root(double distance_m, double root_m) const {
   if (blend_m_ > 0.0) return std::max(0.0, 1.0 - (distance_m - root_m) / blend_m_);
   return distance_m <= least_m_ ? 1.0 : 0.0;
@@ -94,7 +96,7 @@ ReliefSample NearField::corrected_sample(const Evaluated& evaluated) const {
   return {evaluated.distance_m, evaluated.normal, evaluated.ellipsoid};
 }
 
-/// Relief averages the corrected distances of those that are nearest; a smooth union takes its root.
+/// Relief averages the corrected distances of the nearest ellipsoids; the smooth union takes its root.
 ReliefSample NearField::blend() {
   ReliefSample result{below_m_, Vec3::Zero(), kNoEllipsoid};
   const bool smooth = !relief_ && blend_m_ > 0.0;

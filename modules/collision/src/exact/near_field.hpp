@@ -1,9 +1,10 @@
-// The proxy's distance around one particle: the few ellipsoids that matter there are found once, with
-// planes that they lie behind, which bound them from below wherever the particle is moved to.
+// The proxy's distance around one particle in double precision. The few candidates there are found once, each
+// with a plane that it lies behind. The planes bound the candidates' distances from below wherever the
+// particle is moved to.
 //
-// Without relief, and with a blend radius, it is the smooth union: the root F of
+// Without relief and with a blend radius the distance is that of the smooth union, the root F of
 //   sum_k max(0, 1 - (d_k - F) / blend)^2 = 1
-// which is d where one ellipsoid is near, never above the least d_k, and has a continuous gradient.
+// It equals d where one ellipsoid is near, never exceeds the least d_k, and has a continuous gradient.
 #pragma once
 
 #include <span>
@@ -16,8 +17,8 @@ namespace bodice::collision {
 
 class NearField {
  public:
-  /// Values below `below_m` will be exact, others are only told apart from them. `relief` may be null: plain
-  /// ellipsoids, with fillets if `fillet_m` > 0.
+  /// Distances below `below_m` are exact; of all others it is only known that they are not below it. `relief`
+  /// may be null: the ellipsoids are plain then, with fillets if `fillet_m` > 0.
   NearField(const UnionField& field, const ReliefTables* relief, double fillet_m, double below_m)
       : field_(field),
         relief_(relief),
@@ -25,27 +26,29 @@ class NearField {
         bulge_m_(relief ? double{relief->highest_m} : fillet_m),
         below_m_(below_m) {}
 
-  /// How far the surface may lie outside of the plain ellipsoids; zero: it is theirs, convex piece by piece.
+  /// How far the surface may lie outside of the plain ellipsoids, meters. Zero: it consists of their convex
+  /// pieces.
   double bulge_m() const { return bulge_m_; }
   double blend_m() const { return blend_m_; }
   bool nonconvex() const { return relief_ != nullptr || blend_m_ > 0.0; }
 
-  /// What is asked next lies within `radius_m` of `center`; elsewhere is allowed and costs another search.
+  /// Finds the candidates for points within `radius_m` of `center`. Points elsewhere are allowed and cost
+  /// another search.
   void prepare(const geometry::Vec3& center, double radius_m);
 
-  /// The distance at x, if it is less than below_m; else no owner and at least below_m.
+  /// The distance at x if it is less than below_m; otherwise no owner and a distance of at least below_m.
   ReliefSample at(const geometry::Vec3& x);
 
-  /// One ellipsoid's share of the last answer.
+  /// Contribution of one ellipsoid to the last distance.
   struct Term {
     double weight;
     ReliefSample sample;
   };
-  /// At most kMaxTerms of the last answer, that of the owner first. Relief blends them; plain ellipsoids have
-  /// one.
+  /// At most kMaxTerms contributions to the last distance, the owner's first. Relief blends them; plain
+  /// ellipsoids have one.
   std::span<const Term> terms() const { return {terms_, static_cast<std::size_t>(term_count_)}; }
 
-  /// Least radius of the ellipsoids around; infinite if there are none.
+  /// Least radius of the candidates, meters; infinite if there are none.
   double shortest_radius_m() const { return shortest_m_; }
   int evaluations() const { return evaluations_; }
 
@@ -54,9 +57,9 @@ class NearField {
 
   struct Candidate {
     std::uint32_t ellipsoid;
-    UnionField::Plane plane;  ///< at the center
+    UnionField::Plane plane;  ///< its bound, taken at the center
   };
-  struct Evaluated {  // without initializers: most of so many are never met
+  struct Evaluated {  // has no initializers, since most of the array is never used
     std::uint32_t ellipsoid;
     double distance_m;
     geometry::Vec3 point, normal;
@@ -79,7 +82,7 @@ class NearField {
   double shortest_m_ = 0.0;
   Candidate candidates_[kCapacity];
   int candidate_count_ = 0;
-  bool overflow_ = false;  ///< more than kCapacity: every answer looks at the whole union
+  bool overflow_ = false;  ///< more than kCapacity candidates: every evaluation visits the whole union
   Evaluated evaluated_[kCapacity];
   int evaluated_count_ = 0;
   double least_m_ = 0.0;

@@ -1,7 +1,7 @@
 // Based on: John C. Hart. Sphere Tracing: A Geometric Method for the Antialiased Ray Tracing of Implicit
 // Surfaces. 1996.
-// Differs: half the distance a step, since relief steepens it; a least step instead of convergence, since all
-// that is asked is a clear place on this side.
+// Differs: a step is half the distance, since relief steepens it. A least step replaces convergence, since
+// only a clear point on this side of the surface is needed.
 #include <algorithm>
 #include <cmath>
 
@@ -17,12 +17,12 @@ namespace {
 constexpr int kSteps = 128;
 constexpr int kHalvings = 20;
 
-/// How far from x nothing can be nearer than the clearance.
+/// Length of a step from x along which the distance certainly stays above the clearance.
 double free_path_m(NearField& near, const UnionField& field, double bulge_m, const Vec3& x, double distance_m,
                    double clearance_m) {
   const double known_m = 0.5 * (distance_m - clearance_m);
   if (near.terms().size() > 0) return known_m;
-  // Far off, the plain ellipsoids' distance is 1-Lipschitz and the surface adds no more than bulge_m.
+  // Far off, the plain ellipsoids' distance is 1-Lipschitz and the surface lies at most bulge_m beyond them.
   const Owner owner = field.owner(x, std::numeric_limits<double>::infinity());
   return std::max(known_m, owner.at.signed_distance - bulge_m - clearance_m);
 }
@@ -59,7 +59,7 @@ std::optional<Entry> first_nonconvex_entry(NearField& near, const UnionField& fi
     return entry;
   }
   if (t >= length) return std::nullopt;
-  // Grazing a surface for a hundred steps: the particle stops there, clear.
+  // A path that grazes a surface for all steps ends where it is clear.
   return Entry{safe + t * direction, here.gradient.stableNormalized(), here.owner};
 }
 

@@ -14,9 +14,9 @@ using geometry::Vec3;
 
 namespace {
 
-constexpr int kEntrySteps = 48;  // Newton from outside: 5 to 8 steps, more where the path grazes
+constexpr int kEntrySteps = 48;  // Newton from outside takes 5 to 8 steps, more where the path grazes
 
-/// The point in the frame where the ellipsoid is the unit ball.
+/// The point in the frame in which the ellipsoid is the unit ball.
 Vec3 to_unit_ball(const Ellipsoid& e, const Vec3& p) {
   return (e.axes.transpose() * (p - e.center)).cwiseQuotient(e.radii);
 }
@@ -25,7 +25,7 @@ struct Interval {
   double begin, end;
 };
 
-/// Where a + t b lies in the unit ball; nothing if it never does.
+/// The interval of t in which a + t b lies in the unit ball; nothing if it never does.
 std::optional<Interval> inside_ball(const Vec3& a, const Vec3& b) {
   const double bb = b.squaredNorm();
   if (!(bb > 0.0)) return std::nullopt;
@@ -36,9 +36,9 @@ std::optional<Interval> inside_ball(const Vec3& a, const Vec3& b) {
   return Interval{middle - half, middle + half};
 }
 
-constexpr int kLeaveSteps = 4;  // Newton from outside: each halves the rest at least, most square it
+constexpr int kLeaveSteps = 4;  // Newton from outside: each step at least halves the rest, most square it
 
-/// Where the ray leaves the ellipsoid that is so much larger in proportion that it holds all places nearer
+/// Ray parameter at which the ray leaves an enlarged ellipsoid: scaled so that it contains every point nearer
 /// than the clearance.
 std::optional<double> exit_of_enlarged(const Ellipsoid& e, const Vec3& x, const Vec3& direction,
                                        double clearance_m) {
@@ -49,17 +49,19 @@ std::optional<double> exit_of_enlarged(const Ellipsoid& e, const Vec3& x, const 
   return inside->end;
 }
 
-/// The ray parameter where a particle at x, inside ellipsoid k or too near it, has left it and its clearance.
+/// Ray parameter at which a particle at x, inside the owner or too near it, has left the owner and its
+/// clearance.
 double exit_parameter(const UnionField& field, const Owner& owner, const Vec3& x, const Vec3& direction,
                       double clearance_m, double nudge_m) {
   const double gap = clearance_m - owner.at.signed_distance;
   const double slope = owner.at.normal.dot(direction);
   const Ellipsoid& e = field.shape(owner.ellipsoid);
-  // Convexity: the tangent's root lies at or beyond the distance's root, hence outside.
+  // By convexity the tangent's root lies at or beyond the root of the distance, hence outside.
   double t = slope > kFlatSlope ? gap / slope : std::numeric_limits<double>::infinity();
   t = std::min(t, exit_of_enlarged(e, x, direction, clearance_m).value_or(t));
   if (!std::isfinite(t)) return gap + nudge_m;
-  // From outside, convexity again: a tangent's root lies before the place and not before the distance's root.
+  // From outside, again by convexity, a tangent's root lies between the root of the distance and the current
+  // point.
   for (int step = 0; step < kLeaveSteps; ++step) {
     const ClosestPoint at = geometry::closest_point(e, x + t * direction);
     const double beyond = at.signed_distance - clearance_m, rise = at.normal.dot(direction);
@@ -75,7 +77,7 @@ std::optional<Vec3> exit_along_ray(const UnionField& field, const Vec3& p, const
                                    double clearance_m, double longest_m) {
   const double nudge_m = kCertificate * (field.size_m() + p.cwiseAbs().maxCoeff());
   Vec3 x = p;
-  // Each body costs one step to its far side and a few for the clearance.
+  // Each ellipsoid costs one step to its far side and a few for the clearance.
   const std::size_t limit = 8 * field.size() + 8;
   for (std::size_t step = 0; step < limit && !((x - p).norm() > longest_m); ++step) {
     const Owner owner = field.owner(x, clearance_m);
@@ -100,7 +102,7 @@ std::optional<Entry> first_entry(const UnionField& field, const Vec3& safe, cons
     const auto visit = [&](std::size_t k, const UnionField::Plane&) {
       const ClosestPoint at = geometry::closest_point(field.shape(k), entry.point);
       const double slope = at.normal.dot(direction);
-      // Convexity again: before the tangent's root the distance is above the clearance.
+      // By convexity the distance stays above the clearance before the tangent's root.
       if (slope >= 0.0 || at.signed_distance - clearance_m >= -slope * advance) return;
       advance = std::max(0.0, (at.signed_distance - clearance_m) / -slope);
       entry.normal = at.normal;
@@ -127,7 +129,7 @@ std::uint32_t passed_through(const UnionField& field, const ParticleState& parti
     const Vec3 a = to_unit_ball(e, from);
     const Vec3 b = to_unit_ball(e, to) - a;
     const auto inside = inside_ball(a, b);
-    // Both ends are known to lie outside; the slack is for paths that begin or end in contact.
+    // Both ends are known to lie outside; the slack admits paths that begin or end in contact.
     if (!inside || inside->begin < -kEndSlack || inside->end > 1.0 + kEndSlack) continue;
     const Vec3 in = (a + inside->begin * b).cwiseQuotient(e.radii).normalized();
     const Vec3 out = (a + inside->end * b).cwiseQuotient(e.radii).normalized();

@@ -1,5 +1,5 @@
-// Based on: Zina H. Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014.
-// (the octahedral map; the chain rule through it and through the on_surface is derived below)
+// Based on: Zina H. Cigolle et al. A Survey of Efficient Representations for Independent Unit Vectors. 2014
+// (the octahedral map). The chain rule through the map and through the closest point is derived below.
 #include "exact/relief_field.hpp"
 
 #include <algorithm>
@@ -16,8 +16,9 @@ double sign_of(double v) {
   return v < 0.0 ? -1.0 : 1.0;
 }
 
-/// Slopes on the octahedral square (gx, gy) to slopes over w: s = |w_x| + |w_y| + |w_z|, q = w.xy / s,
-/// dq_i / dw_j = (delta_ij - q_i sign_j) / s; the lower half is q with its halves swapped and mirrored.
+/// Converts slopes on the octahedral square (gx, gy) to slopes over w. With s = |w_x| + |w_y| + |w_z| and q =
+/// w.xy / s, dq_i / dw_j = (delta_ij - q_i sign_j) / s. In the lower half the coordinates of q are swapped
+/// and mirrored.
 Vec3 from_square(const Vec3& w, double gx, double gy) {
   const double s = w.cwiseAbs().sum();
   const Vec3 sign(sign_of(w.x()), sign_of(w.y()), sign_of(w.z()));
@@ -76,8 +77,8 @@ ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::u
   const TableValue value = read_table(relief, table, w);
   const double clamped = std::clamp(at.signed_distance, -double{relief.in_m}, double{relief.out_m});
   sample.distance_m -= value.h_m + value.a_per_m * clamped;
-  // f = r w and y = f + d n with n = (w / r) / |w / r|: hence e = r^2 + t with t = d / |w / r|, and
-  // dw = (r / e) dy - (w / e) dt with dt such that |w| stays 1.
+  // The closest point f = r w and the particle y = f + d n, n = (w / r) / |w / r|, give e = r^2 + t with t =
+  // d / |w / r|, and dw = (r / e) dy - (w / e) dt, where dt keeps |w| = 1.
   const double t = at.signed_distance / w.cwiseQuotient(shape.radii).norm();
   const double least = 1e-9 * shape.radii.minCoeff() * shape.radii.minCoeff();
   const Vec3 e = (shape.radii.cwiseAbs2().array() + t).max(least).matrix();

@@ -1,4 +1,5 @@
-// The corrected distance F of relief.hpp in double precision: the exact side's judge for proxies with tables.
+// The distance F corrected by relief (model/relief_tables.hpp) in double precision: the reference of the
+// exact side for proxies with tables.
 #pragma once
 
 #include "exact/union_field.hpp"
@@ -6,7 +7,7 @@
 
 namespace bodice::collision {
 
-/// h and a of one table at a unit direction, and their slopes there.
+/// Values h and a of one table at a unit direction, and their slopes there.
 struct TableValue {
   double h_m = 0.0, a_per_m = 0.0;
   geometry::Vec3 h_slope = geometry::Vec3::Zero(), a_slope = geometry::Vec3::Zero();  ///< d / dw
@@ -14,16 +15,17 @@ struct TableValue {
 TableValue read_table(const ReliefTables& relief, const BakedTable& table, const geometry::Vec3& w);
 
 struct ReliefSample {
-  double distance_m = 0.0;                            ///< F, without margin
-  geometry::Vec3 gradient = geometry::Vec3::UnitX();  ///< of F with the weights held
+  double distance_m = 0.0;                            ///< F, margin not subtracted
+  geometry::Vec3 gradient = geometry::Vec3::UnitX();  ///< gradient of F with the weights held constant
   std::uint32_t owner = kNoEllipsoid;
 };
 
-/// F_k of one ellipsoid at a point, given the ellipsoid's closest point to it.
+/// Corrected distance F_k of one ellipsoid at a point, given the ellipsoid's closest point to it.
 ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
                      const geometry::ClosestPoint& at);
 
-/// F at p. No owner, and +infinity, for a proxy without ellipsoids. Cost: O(#ellipsoids).
+/// Corrected distance F at p. For a proxy without ellipsoids there is no owner and the distance is +infinity.
+/// Cost: O(#ellipsoids).
 ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, const geometry::Vec3& p);
 
 }  // namespace bodice::collision

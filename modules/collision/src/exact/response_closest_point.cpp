@@ -1,6 +1,8 @@
-// Differs from the paper's section 4: the closest point of the union, or of its corrected surface, instead of
-// the central ray of one ellipsoid; where a particle came from decides between the sides of a limb; where two
-// limbs leave no room for the clearance it rests midway, still outside of both.
+// Differs from the paper's section 4 in three points:
+// - The target is the closest point of the union or of its corrected surface, not the exit of one central
+//   ray.
+// - The safe position decides between the sides of a limb.
+// - Where two limbs leave no room for the clearance, the particle rests midway, still outside of both.
 #include <cmath>
 #include <limits>
 
@@ -15,7 +17,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// Takes the inward part out of the velocity and slows the rest by Coulomb friction, restitution 0.
+/// Removes the inward part of the velocity and slows the rest by Coulomb friction; restitution is 0.
 void correct_velocity(const Halfspaces& contact, double friction, Vec3& velocity) {
   const Vec3 along = contact.closest_velocity(velocity);
   const double impulse = (along - velocity).norm();
@@ -24,8 +26,8 @@ void correct_velocity(const Halfspaces& contact, double friction, Vec3& velocity
       speed > friction * impulse ? Vec3(along * (1.0 - friction * impulse / speed)) : Vec3(Vec3::Zero());
 }
 
-/// The place as it is stored. Through memory, since g++ 12 vectorizes a pair of casts to float and back into
-/// none.
+/// The position as it will be stored, in float. It goes through memory, because g++ 12 optimizes a vectorized
+/// pair of casts to float and back away.
 Vec3 rounded_to_float(const Vec3& x) {
   const auto rounded = [](double v) {
     const volatile float narrow = static_cast<float>(v);
@@ -40,12 +42,12 @@ Halfspaces single(const Vec3& normal) {
   return result;
 }
 
-/// The particle goes to `x`, or as far on the exit as it may in this call.
+/// Moves the particle to `x`, or toward it as far as max_push_m allows.
 void move(const Vec3& x, const Halfspaces& contact, const ResolveOptions& options, ParticleReport& report,
           ParticleState& particle) {
   const Vec3 p = particle.position;
   const double push = (x - p).norm();
-  // Undoing the particle's own path is not a push.
+  // Undoing the particle's own path does not count as a push.
   const double own_path = particle.has_safe ? (p - particle.safe).norm() : 0.0;
   const double limit = double{options.max_push_m} + own_path;
   particle.position = x;
@@ -85,7 +87,7 @@ class Resolver {
     if (inside) push_from_start();
     const bool stuck = inside && !outside(x_);
     if (particle_.has_safe && (!inside || stuck || long_path())) return_to_entry(inside, stuck);
-    if (!inside && report_.ellipsoid == kNoEllipsoid) return report_;  // the path met nothing
+    if (!inside && report_.ellipsoid == kNoEllipsoid) return report_;  // the path reached no surface
     if (inside && (by_chance_ || !outside(x_))) take_shortest_exit();
     classify();
     move(x_, contact_, options_, report_, particle_);
@@ -93,7 +95,8 @@ class Resolver {
   }
 
  private:
-  /// If so, the path is taken as the ellipsoid sees it that was passed through.
+  /// Whether the path passed through an ellipsoid. If so, the safe position becomes the one relative to that
+  /// ellipsoid.
   bool passed_through_something() {
     const std::uint32_t through =
         particle_.has_safe ? passed_through(field_, particle_, p_) : std::uint32_t{kNoEllipsoid};
@@ -122,10 +125,11 @@ class Resolver {
     by_chance_ = pushed.clear && pushed.set_back;
   }
 
-  /// Back to where the path met the union, if leaving at x would be on another side, or inside.
+  /// Returns the particle to the point where its path entered the union, if x_ is on another side or still
+  /// inside.
   void return_to_entry(bool inside, bool stuck) {
     const double safe_clearance_m = std::min(clearance_m_, near_.at(particle_.safe).distance_m);
-    if (safe_clearance_m < surface_m_ - certificate_m_) return;  // the safe position is not
+    if (safe_clearance_m < surface_m_ - certificate_m_) return;  // the safe position is not outside
     const auto entry = near_.nonconvex() ? first_nonconvex_entry(near_, field_, near_.bulge_m(),
                                                                  particle_.safe, p_, safe_clearance_m)
                                          : first_entry(field_, particle_.safe, p_, safe_clearance_m);
@@ -141,8 +145,8 @@ class Resolver {
     if (!inside) report_.ellipsoid = entry->ellipsoid;
   }
 
-  /// What is left of the path beyond the entry, along the surface: a particle that is pulled through a limb
-  /// is held by it but not glued to it. The entry itself if that leads nowhere clear.
+  /// Slides from the entry along the surface by the rest of the path, so that a particle pulled through a
+  /// limb is held by it but not glued to it. Returns the entry itself if sliding leads to no clear point.
   Vec3 slide(const Entry& entry, double safe_clearance_m) {
     const Vec3 rest = p_ - entry.point;
     const Vec3 along = rest - entry.normal.dot(rest) * entry.normal;
@@ -156,25 +160,26 @@ class Resolver {
     return pushed.clear && reachable(pushed.position) ? pushed.position : entry.point;
   }
 
-  /// Whether the exit from the safe position leads there without passing through anything.
+  /// Whether the path from the safe position to x passes through no ellipsoid.
   bool reachable(const Vec3& x) const { return passed_through(field_, particle_, x) == kNoEllipsoid; }
 
-  /// The shortest exit out that was found.
+  /// The shortest exit found so far.
   struct Exit {
     Vec3 x = Vec3::Zero();
     double length_m = std::numeric_limits<double>::infinity();
-    const Halfspaces* contact = nullptr;  ///< if it is known
+    const Halfspaces* contact = nullptr;  ///< null: not known
   };
 
-  /// A exit through a limb counts as longer, by the size of all.
+  /// Takes x if it is nearer than the exit so far. A path through a limb counts as longer by the size of the
+  /// union.
   void take_shorter(Exit& exit, const Vec3& x, const Halfspaces* contact = nullptr) const {
     double length_m = (x - p_).norm();
     if (particle_.has_safe && length_m < exit.length_m && !reachable(x)) length_m += field_.size_m();
     if (length_m < exit.length_m) exit = {x, length_m, contact};
   }
 
-  /// What planes do not push_by_planes: a fold with no room in it, where a push that is bounded rests midway,
-  /// or a place deep between ellipsoids, which several ways lead out of for certain: the shortest.
+  /// Handles what cutting planes leave inside. In a fold without room a particle with a limited push rests
+  /// midway. A position deep between ellipsoids has several certain exits, of which the shortest is taken.
   void take_shortest_exit() {
     const bool fold = stored_distance(x_) > surface_m_ - kFoldDepth * field_.size_m();
     if (!by_chance_ && fold && std::isfinite(options_.max_push_m)) return;
@@ -182,7 +187,7 @@ class Resolver {
     Exit exit;
     const Halfspaces chance_contact = contact_;
     if (by_chance_) take_shorter(exit, x_, &chance_contact);
-    // A crease that is far for the depth is nearer than the other side of what faces it.
+    // A crease farther away than the usual push is still nearer than the far side of the facing surface.
     constexpr double kAnywhere = std::numeric_limits<double>::infinity();
     const PushResult far = push_by_planes(near_, p_, start_, clearance_m_, overshoot_m_, kAnywhere);
     if (far.clear) take_shorter(exit, far.position, &far.contact);
@@ -193,7 +198,7 @@ class Resolver {
     contact_ = exit.contact ? *exit.contact : touching(x_);
   }
 
-  /// The surfaces that hold a particle at x, which is clear.
+  /// The planes of the surfaces that hold a particle at x, which is clear.
   Halfspaces touching(const Vec3& x) {
     if (near_.nonconvex()) return single(near_.at(x).gradient.stableNormalized());
     Halfspaces result;
@@ -207,8 +212,9 @@ class Resolver {
     return result.size() > 0 ? result : single(near_.at(x).gradient);
   }
 
-  /// Along normals, and along the axes: in a fold a ray along a normal may graze another surface for meters.
-  /// What was pushed is where surfaces meet, and stays if it is about as near.
+  /// Tries the rays along the contact's normals and along the axes, since in a fold a ray along a normal may
+  /// graze another surface for meters. The exit so far is where surfaces meet, and stays unless a ray is much
+  /// shorter.
   void exit_along_rays(Exit& exit) {
     const auto follow = [&](const Vec3& direction) {
       if (const auto x = exit_along(direction, kMuchShorter * exit.length_m)) take_shorter(exit, *x);
@@ -218,8 +224,8 @@ class Resolver {
       for (const double sign : {-1.0, 1.0}) follow(sign * Vec3::Unit(axis));
   }
 
-  /// Towards where the plain ellipsoids are as far as the surface can bulge. They are convex, and planes
-  /// push_by_planes what a nonconvex surface does not.
+  /// Pushes to where the plain ellipsoids are as far as the surface can bulge. They are convex, so that
+  /// cutting planes succeed where the nonconvex surface defeats them.
   void exit_beyond_bulge(Exit& exit) {
     const double plain_m = clearance_m_ + near_.bulge_m();
     NearField plain(field_, nullptr, 0.0, plain_m + 2.0 * slack_m_);
@@ -231,7 +237,8 @@ class Resolver {
     if (far.clear) take_shorter(exit, halve_to_clear(far.position));
   }
 
-  /// May give up beyond `longest_m`. A nonconvex surface is left before the bulge around it.
+  /// Ray exit in this direction; nothing if it is longer than `longest_m`. From beyond the bulge of a
+  /// nonconvex surface it is brought back to the surface.
   std::optional<Vec3> exit_along(const Vec3& direction, double longest_m) {
     const auto far =
         exit_along_ray(field_, p_, direction, clearance_m_ + slack_m_ + near_.bulge_m(), longest_m);
@@ -239,7 +246,8 @@ class Resolver {
     return near_.nonconvex() ? halve_to_clear(*far) : Vec3(*far + slack_m_ * direction);
   }
 
-  /// On the exit to a place that is clear, where a nonconvex surface is left, by halving.
+  /// First clear point between the particle and `far`, found by bisection; it lies just beyond a nonconvex
+  /// surface.
   Vec3 halve_to_clear(const Vec3& far) {
     Vec3 in = p_, out = far;
     for (int i = 0; i < kExitHalvings && (out - in).norm() > overshoot_m_; ++i) {
@@ -249,7 +257,7 @@ class Resolver {
     return out + kBesideJump * field_.size_m() * (far - p_).stableNormalized();
   }
 
-  /// What counts is the place that is stored.
+  /// Sets the outcome, by the distance of the position that is stored.
   void classify() {
     const double distance_m = stored_distance(x_);
     report_.outcome = Outcome::kResolved;
@@ -268,10 +276,10 @@ class Resolver {
   ReliefSample start_;
   Vec3 x_ = Vec3::Zero();
   Vec3 stored_at_ =
-      Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< of the last stored_distance()
+      Vec3::Constant(std::numeric_limits<double>::quiet_NaN());  ///< argument of the last stored_distance()
   double stored_m_ = 0.0;
   Halfspaces contact_;
-  bool by_chance_ = false;  ///< x_ is clear, but not the closest place that is
+  bool by_chance_ = false;  ///< x_ is clear, but perhaps not the closest such point
   ParticleReport report_;
 };
 

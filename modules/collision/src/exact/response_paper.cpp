@@ -1,6 +1,7 @@
 // Based on: A Human-Clothing Collision Detection Method Based on Ellipsoid Fitting (postprint), section 4,
-// eq. (9) and the response's two stages.
-// Differs: a clearance may be kept beyond the surface, along the same ray; with none it is the paper.
+// eq. (9) and the two stages of its response.
+// Differs: a clearance may be kept beyond the surface, along the same ray; without one it is the paper's
+// response.
 #include <limits>
 
 #include "exact/response.hpp"

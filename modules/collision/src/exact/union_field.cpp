@@ -43,7 +43,7 @@ UnionField::Plane UnionField::plane(std::size_t k, const Vec3& p) const {
   return {level * (level - 1.0) / slope - kBoundRounding * size_m_, gradient / slope};
 }
 
-/// To the ball that the ellipsoid holds.
+/// Distance to the ball inside the ellipsoid, which bounds the distance from above.
 double UnionField::upper_bound(std::size_t k, const Vec3& p) const {
   const geometry::Ellipsoid& e = shapes_[k];
   return (p - e.center).norm() - e.radii.minCoeff() + kBoundRounding * size_m_;
@@ -76,7 +76,7 @@ Owner UnionField::owner(const Vec3& p, double below_m) const {
         if (bound.distance_m < bounds[first].m) first = count;
         ++count;
       });
-  // That of the least bound leaves few others.
+  // The candidate of the least bound leaves few others to evaluate.
   if (count > 0) evaluate(bounds[first].k);
   for (int i = 0; i < count; ++i)
     if (i != first && bounds[i].m <= least) evaluate(bounds[i].k);

@@ -1,5 +1,5 @@
-// The union of a proxy's ellipsoids in double precision: the exact side of the module, which judges what the
-// float kernels leave open.
+// The union of a proxy's ellipsoids in double precision. It is the base of the exact side, which handles what
+// the float kernels leave open.
 #pragma once
 
 #include <algorithm>
@@ -12,36 +12,37 @@
 
 namespace bodice::collision {
 
-/// The ellipsoid with the least signed distance to a point.
+/// The ellipsoid with the least signed distance to a point, and its closest point.
 struct Owner {
   std::uint32_t ellipsoid = kNoEllipsoid;
-  geometry::ClosestPoint at;  ///< on the ellipsoid itself, without margin
+  geometry::ClosestPoint at;  ///< on the ellipsoid itself, margin not subtracted
 };
 
-/// Immutable once built.
+/// Union distance of the ellipsoids, with boxes and bounds to find the few that matter. Thread-safe between
+/// updates.
 class UnionField {
  public:
-  /// Takes over the shapes, given in the local frame.
+  /// Takes the shapes, given in the local frame.
   explicit UnionField(std::vector<geometry::Ellipsoid> shapes);
-  /// Other shapes of the same number; allocates nothing.
+  /// Replaces the shapes by as many others; allocates nothing.
   void update(const std::vector<geometry::Ellipsoid>& shapes);
 
   std::size_t size() const { return shapes_.size(); }
-  /// Largest coordinate of the union's box: what rounding errors are relative to.
+  /// Largest coordinate of the union's box, meters; rounding errors are relative to it.
   double size_m() const { return size_m_; }
   const geometry::Ellipsoid& shape(std::size_t k) const { return shapes_[k]; }
   const geometry::Box& box(std::size_t k) const { return boxes_[k]; }
 
-  /// A plane that ellipsoid k lies behind: d(x) >= distance_m + normal . (x - p) for every x, by first order
-  /// (simd/bound-inl.hpp), at a tenth of the closest point's cost.
+  /// A plane that ellipsoid k lies behind: d(x) >= distance_m + normal . (x - p) for every x. The bound is of
+  /// first order (simd/ellipsoid/bound-inl.hpp) and costs a tenth of the closest point.
   struct Plane {
     double distance_m;
     geometry::Vec3 normal;
   };
   Plane plane(std::size_t k, const geometry::Vec3& p) const;
 
-  /// Calls visit(k, plane(k, p)), by rising k, for each ellipsoid that bounds do not tell to be farther from
-  /// p than limit(), which may shrink meanwhile.
+  /// Calls visit(k, plane(k, p)), by rising k, for each ellipsoid that bounds cannot prove to be farther from
+  /// p than limit(). The limit may shrink meanwhile.
   template <class Limit, class Visit>
   void visit_near(const geometry::Vec3& p, Limit&& limit, Visit&& visit) const {
     for (std::size_t group = 0; group < group_boxes_.size(); ++group) {
@@ -55,12 +56,12 @@ class UnionField {
     }
   }
 
-  /// argmin_k d_k(p) among those with d_k(p) < `below_m`; no ellipsoid if there is none. The lowest index
-  /// wins a tie.
+  /// The owner of p, argmin_k d_k(p), if d_k(p) < `below_m`; otherwise no ellipsoid. The lowest index wins a
+  /// tie.
   Owner owner(const geometry::Vec3& p, double below_m) const;
 
  private:
-  static constexpr std::size_t kGroup = 16;  ///< neighbors in space, as the shapes are ordered
+  static constexpr std::size_t kGroup = 16;  ///< the shapes' order makes a group neighbors in space
   static constexpr double kBoundRounding = 1e-12;
 
   /// Whether p is outside of the box and farther from it than the limit, which may be negative.
@@ -72,7 +73,7 @@ class UnionField {
   void bound();
 
   std::vector<geometry::Ellipsoid> shapes_;
-  std::vector<geometry::Mat3> to_unit_;  ///< shapes to the unit ball
+  std::vector<geometry::Mat3> to_unit_;  ///< maps each shape to the unit ball
   std::vector<geometry::Box> boxes_, group_boxes_;
   double size_m_ = 0.0;
 };

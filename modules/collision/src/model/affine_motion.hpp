@@ -1,5 +1,5 @@
-// Where an ellipsoid takes what is stuck to it from one pose to the next. Kept beside SurfaceMotion, which
-// holds the way back in floats for the kernels: here every particle asks all ellipsoids.
+// Affine motion of an ellipsoid from the last pose to this one, in double precision. SurfaceMotion holds the
+// inverse in floats for the kernels; the exact side needs this direction, for all ellipsoids.
 #pragma once
 
 #include <bodice/geometry/ellipsoid.hpp>
@@ -13,7 +13,7 @@ struct AffineMotion {
   geometry::Vec3 apply(const geometry::Vec3& before) const { return linear * before + translation; }
 };
 
-/// A material point keeps its place in the ellipsoid's frame, in shares of the radii.
+/// A material point keeps its coordinates in the ellipsoid's frame, in units of the radii.
 inline AffineMotion affine_motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now) {
   const geometry::Mat3 linear =
       now.axes * now.radii.cwiseQuotient(before.radii).asDiagonal() * before.axes.transpose();

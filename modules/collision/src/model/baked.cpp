@@ -67,7 +67,7 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32
   for (std::size_t k = 0; k < proxy_index.size(); ++k)
     internal_index[static_cast<std::size_t>(proxy_index[k])] = static_cast<std::int32_t>(k);
   const std::size_t padded = (shapes.size() + kPad - 1) / kPad * kPad;
-  // The padding is beyond every window.
+  // The padding is farther away than any search window.
   const float nowhere = std::numeric_limits<float>::max();
   ellipsoids.resize(shapes.size());
   balls.resize(shapes.size());
@@ -82,7 +82,7 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32
     cull.high[axis].assign(padded, nowhere);
   }
   cull.shortest.assign(padded, 0.0f);
-  const std::size_t groups = padded / kGroup + kPad;  // read a vector at a time from any of them
+  const std::size_t groups = padded / kGroup + kPad;  // vectors of groups are read from any index
   for (int axis = 0; axis < 3; ++axis) {
     cull.group_low[axis].assign(groups, nowhere);
     cull.group_high[axis].assign(groups, nowhere);

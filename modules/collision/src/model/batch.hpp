@@ -1,4 +1,4 @@
-// What the float kernels read and write: a batch of neighboring particles a call.
+// What the float kernels read and write: one batch of neighboring particles a call.
 #pragma once
 
 #include <cstdint>
@@ -10,50 +10,51 @@
 
 namespace bodice::collision {
 
-inline constexpr int kBlock = 64;  ///< particles a block: culling costs about as much as two of them
+inline constexpr int kBlock = 64;  ///< particles a block; its broad phase costs about as much as two of them
 
-/// Particles the kernels work on at a time: their blocks share candidates, and what first answers leave open
-/// shares vectors.
+/// Particles that one call of a kernel handles. Their blocks share candidates, and the pairs that the first
+/// evaluation leaves open fill vectors together.
 inline constexpr int kBatch = 256;
 
-/// Ellipsoids near a block; where more are, the exact side works.
+/// Largest number of candidates of a block; with more, a fallback is taken.
 inline constexpr int kMaxCandidates = 256;
 
 struct CachedBatch;
 
-/// What is kept about a batch from call to call.
+/// Access to the candidate cache of one batch.
 struct CacheAccess {
-  CachedBatch* batch = nullptr;  ///< null: nothing
-  double traveled_m = 0.0;       ///< length of the proxy's way
+  CachedBatch* batch = nullptr;  ///< null: no cache
+  double traveled_m = 0.0;       ///< CandidateCache::traveled_m()
   float least_reach_m = 0.0f, most_reach_m = 0.0f;
 };
 
-/// What the next batch will read and write, so that it is in the cache by then.
+/// What the next batch will read and write, so that it can be prefetched.
 struct NextBatch {
-  const float *x = nullptr, *y = nullptr, *z = nullptr;  ///< of places that lie in a row; else null
-  Contact* contacts = nullptr;                           ///< null: none are written
-  const std::uint32_t* index = nullptr;                  ///< into contacts; null: in a row as well
+  const float *x = nullptr, *y = nullptr, *z = nullptr;  ///< null unless its particles are consecutive
+  Contact* contacts = nullptr;                           ///< null: a response, which writes none
+  const std::uint32_t* index = nullptr;  ///< into contacts; null: they are consecutive as well
   int count = 0;
   const CachedBatch* cached = nullptr;
 };
 
-/// What a query reads and writes.
+/// Input and output of a query for one batch.
 struct QueryBatch {
-  const float *x, *y, *z;      ///< meters, local frame; repeated up to a whole block
-  const std::uint32_t* index;  ///< into contacts, a particle; null: in order
+  const float *x, *y, *z;      ///< meters, local frame; the last one is repeated to fill a block
+  const std::uint32_t* index;  ///< into contacts, one a particle; null: in order
   int count;                   ///< at most kBatch
   float margin_m;
-  float within_m;  ///< particles farther from the surface are told nothing
+  float within_m;  ///< contact distance: particles beyond it get no_contact()
   Accuracy accuracy = Accuracy::kExact;
-  Contact* contacts;                ///< of the whole call
-  float radius_m[kBatch / kBlock];  ///< out, a block: half its box's diagonal; below zero: not measured
+  Contact* contacts;  ///< those of the whole call
+  float
+      radius_m[kBatch / kBlock];  ///< out, one a block: half the diagonal of its box; negative: not measured
   CacheAccess cache = {};
   NextBatch next_batch = {};
 
   bool limited() const { return within_m != std::numeric_limits<float>::infinity(); }
 };
 
-/// What is told about a particle that is not finite, or is farther than was asked for.
+/// The contact of a particle that is not finite or is beyond the contact distance.
 inline Contact no_contact() {
   Contact contact;
   contact.signed_distance = std::numeric_limits<float>::infinity();
@@ -61,11 +62,12 @@ inline Contact no_contact() {
   return contact;
 }
 
-/// Particles of some blocks, gathered; up to a whole block lanes beyond `count` repeat the last one.
+/// Positions, velocities and safe positions of some blocks. Lanes beyond `count` repeat the last particle
+/// until the block is full.
 struct alignas(64) ParticleBatch {
   float x[kBatch], y[kBatch], z[kBatch];     ///< meters, local frame
   float vx[kBatch], vy[kBatch], vz[kBatch];  ///< meters a second, if has_velocity
-  float sx[kBatch], sy[kBatch], sz[kBatch];  ///< meters, last safe positions, if has_safe
+  float sx[kBatch], sy[kBatch], sz[kBatch];  ///< meters, safe positions, if has_safe
   int count = 0;
   bool has_velocity = false;
   bool has_safe = false;
@@ -73,25 +75,25 @@ struct alignas(64) ParticleBatch {
   NextBatch next_batch = {};
 };
 
-/// What a response asks of the kernel.
+/// Settings of a response as the kernel needs them.
 struct ResponseParameters {
-  float clearance_m;  ///< margin + thickness: where the particles are put
-  float slack_m;      ///< how far beyond, so that rounding does not put them below
+  float clearance_m;  ///< margin + thickness: distance at which particles are put
+  float slack_m;      ///< overshoot that keeps rounding from putting them below the clearance
   float friction;
   float max_push_m;
-  const SurfaceMotion* motion;  ///< an ellipsoid; null: the body rests
-  float dt_s = 0.0f;            ///< that the motion took
-  float travel_m = 0.0f;        ///< that no place of the body moved farther than
-  float blend_m = 0.0f;         ///< of the smooth union; zero: creases stay sharp
+  const SurfaceMotion* motion;  ///< one an ellipsoid; null: the body rests
+  float dt_s = 0.0f;            ///< duration of the last move, seconds
+  float travel_m = 0.0f;        ///< bound on the displacement of any point of the body in the last move
+  float blend_m = 0.0f;         ///< blend radius of the smooth union; zero: creases stay sharp
 };
 
-/// A bit a lane.
+/// A set of lanes of a batch, one bit each.
 struct LaneBits {
   static_assert(kBlock == 64);
   std::uint64_t word[kBatch / kBlock] = {};
 
   bool none() const { return (word[0] | word[1] | word[2] | word[3]) == 0; }
-  /// Lanes [lane, lane + 64 - lane % 64).
+  /// Bits of the lanes [lane, lane + 64 - lane % 64).
   std::uint64_t from(int lane) const { return word[lane / kBlock] >> lane % kBlock; }
   void add(std::uint64_t bits, int lane) { word[lane / kBlock] |= bits << lane % kBlock; }
   void set(int lane, bool to) {
@@ -100,20 +102,20 @@ struct LaneBits {
   }
 };
 
-/// What a response makes of a batch.
+/// Result of a response for one batch.
 struct alignas(64) BatchResponse {
-  static constexpr int kSize = kBatch + 16;  ///< whole vectors are written
-  /// Particles that were below the clearance, and where they are now: `count` of them, by rising lane.
+  static constexpr int kSize = kBatch + 16;  ///< room for whole vectors
+  /// The particles that were below the clearance and their new positions, `count` of them by rising lane.
   std::int32_t lane[kSize];
-  std::int32_t owner[kSize];              ///< the deepest ellipsoid
+  std::int32_t owner[kSize];              ///< the ellipsoid that each was deepest in
   float x[kSize], y[kSize], z[kSize];     ///< meters, local frame
   float vx[kSize], vy[kSize], vz[kSize];  ///< meters a second, if has_velocity
   int count = 0;
-  int pending = 0;               ///< of those: held back by max_push_m
-  LaneBits left_to_exact;        ///< not settled and not among them: for the exact side
-  std::uint32_t iterations = 0;  ///< most pushes
-  float deepest_m = 0.0f;        ///< below the clearance before the response
-  /// A block: half its box's diagonal; below zero: not measured.
+  int pending = 0;               ///< how many of these max_push_m held back
+  LaneBits left_to_exact;        ///< particles that the kernel could not settle; they are not among these
+  std::uint32_t iterations = 0;  ///< largest number of pushes of a particle
+  float deepest_m = 0.0f;        ///< largest depth below the clearance before the response
+  /// Half the diagonal of each block's box; negative: not measured.
   float radius_m[kBatch / kBlock] = {-1.0f, -1.0f, -1.0f, -1.0f};
 };
 

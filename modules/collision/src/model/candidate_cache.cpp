@@ -14,7 +14,7 @@ using geometry::Ellipsoid;
 
 static_assert(sizeof(Ellipsoid) == 15 * sizeof(double), "shapes are compared as bytes");
 
-constexpr double kWidened = 1.001;  // against the rounding of a step
+constexpr double kWidened = 1.001;  // covers the rounding of one step
 
 double farthest_travel(std::span<const Ellipsoid> before, std::span<const Ellipsoid> now) {
   double most_m = 0.0;

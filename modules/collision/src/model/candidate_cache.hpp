@@ -1,9 +1,10 @@
-// Candidates kept from call to call: which ellipsoids can be the nearest of some neighboring particles. A
-// distance changes by no more than its place moves, and by no more than the ellipsoid's material does. Hence
-// an ellipsoid that was farther than the nearest by some slack is not the nearest while place and material
-// together have come less far than half of that: answers among the others have the same bits as among all.
-// Kept is what has less slack than twice the reach (and relief's blending); asked is what has less than twice
-// the way so far, which is little at first.
+// The candidate cache: ellipsoids that can own a particle of a batch, stored from call to call.
+//
+// The distance to an ellipsoid changes by at most the displacement of the particle plus that of the
+// ellipsoid's material. An ellipsoid that is farther than the nearest one by `slack` therefore cannot become
+// the owner while the two displacements together (`moved`) stay below slack / 2. Stored are the candidates
+// with slack <= 2 reach + blend. Evaluated are those with slack <= 2 moved + blend, which are few at first.
+// The results have the same bits as among all ellipsoids while moved <= reach.
 #pragma once
 
 #include <cstdint>
@@ -16,30 +17,32 @@
 
 namespace bodice::collision {
 
-/// What is kept about a batch.
+/// Cached candidates of one batch.
 struct alignas(64) CachedBatch {
   static constexpr int kSpan = 32, kSpans = kBatch / kSpan;  ///< lanes that share candidates
-  static constexpr int kCapacity = 32;                       ///< candidates of all spans
-  static constexpr int kLeastUse = 2;                        ///< calls that pay for finding what is kept
-  static constexpr int kShortLife = 6, kLongLife = 40;       ///< calls: the reach grows or shrinks
-  static constexpr int kRest = 16;                           ///< calls that nothing is kept after a failure
-  static constexpr float kFar_m = 1e30f;                     ///< meters
+  static constexpr int kCapacity = 32;                       ///< candidates of all spans together
+  static constexpr int kLeastUse = 2;                        ///< calls that pay for finding the candidates
+  static constexpr int kShortLife = 6,
+                       kLongLife = 40;    ///< calls: after fewer the reach grows, after more it shrinks
+  static constexpr int kRest = 16;        ///< calls without a cache after a failure
+  static constexpr float kFar_m = 1e30f;  ///< meters
 
-  float x[kBatch], y[kBatch], z[kBatch];  ///< meters: where the particles were
-  float least_m[kSpans];                  ///< no place was nearer to an ellipsoid
-  /// By how much a candidate was farther than the nearest, at least; kFar_m: it is not near the span.
+  float x[kBatch], y[kBatch], z[kBatch];  ///< positions at the last refresh, meters
+  float least_m[kSpans];                  ///< lower bound of the span's distance to any ellipsoid
+  /// Lower bound of how much farther than the nearest ellipsoid a candidate was; kFar_m: not near the span.
   alignas(64) float slack_m[kSpans][kCapacity];
-  std::int32_t candidate[kCapacity];  ///< ellipsoids, rising
+  std::int32_t candidate[kCapacity];  ///< internal indices, rising
   int candidates = 0;
-  int count = 0;  ///< lanes; zero: nothing is kept
+  int count = 0;  ///< number of lanes; zero: nothing is cached
   float reach_m = 0.0f;
-  float moved_m = 0.0f;     ///< how far place and material have come together, at most
-  double traveled_m = 0.0;  ///< CandidateCache::traveled_m() then
-  int used = 0, rest = 0;   ///< calls
+  float moved_m = 0.0f;     ///< bound on the displacement of particles and material since the refresh
+  double traveled_m = 0.0;  ///< CandidateCache::traveled_m() at the refresh
+  int used = 0, rest = 0;   ///< numbers of calls
 
-  /// Chooses the reach of what is found next; false if nothing should be kept now.
+  /// Prepares a refresh and adapts the reach to the number of calls that the last candidates served. False if
+  /// the batch should do without a cache for now.
   bool begin_refresh(float least_reach_m, float most_reach_m);
-  /// What was found does not fit: to be left alone for some calls, then tried with less.
+  /// Stops caching for some calls because the candidates did not fit; the next attempt uses half the reach.
   void give_up() {
     count = 0;
     reach_m *= 0.5f;
@@ -47,15 +50,15 @@ struct alignas(64) CachedBatch {
   }
 };
 
-/// Of all batches of a set of particles, and the pose that the reaches count from.
+/// Cached candidates of all batches of a set of particles, and the pose from which displacements count.
 class CandidateCache {
  public:
-  /// Before the batches of a call: takes note of how far the proxy moved since the last. Allocates when the
-  /// particles become more. `beyond_m`: how much farther than the nearest an ellipsoid still counts.
+  /// Starts a call: adds the proxy's displacement since the last call. Allocates when the number of particles
+  /// grows. `beyond_m`: how much farther than the nearest an ellipsoid still counts.
   void begin_call(std::size_t particles, std::span<const geometry::Ellipsoid> shapes, float beyond_m);
 
   CachedBatch& batch(std::size_t i) { return batches_[i]; }
-  /// The length of the proxy's way: no material of it moved farther since.
+  /// Sum of the proxy's displacements: an upper bound on that of any material point.
   double traveled_m() const { return traveled_m_; }
 
  private:

@@ -15,14 +15,14 @@ namespace {
 
 constexpr int kDigitBits = 9;
 
-/// Cells along one axis.
+/// The cells of a grid along one axis.
 struct Range {
   float low = 0.0f, last, scale = 0.0f;
 
   Range(const float* values, std::size_t count, int bits) : last(static_cast<float>((1 << bits) - 1)) {
     float least = std::numeric_limits<float>::max(), largest = -least;
     for (std::size_t i = 0; i < count; ++i) {
-      // Values that are not finite, or absurd, do not stretch the grid.
+      // Values that are not finite, or absurdly large, do not stretch the grid.
       const float v = std::abs(values[i]) < kFarthest_m ? values[i] : least;
       least = std::min(least, v);
       largest = std::max(largest, std::abs(values[i]) < kFarthest_m ? v : largest);
@@ -33,7 +33,7 @@ struct Range {
 
   std::uint32_t cell(float v) const {
     const float at = (v - low) * scale;
-    // Also false for NaN.
+    // The comparison is false for NaN, too.
     return at > 0.0f ? static_cast<std::uint32_t>(std::min(at, last)) : 0u;
   }
 };
@@ -42,8 +42,9 @@ struct Order {
   std::span<std::uint32_t> order, key, other_order, other_key;
 };
 
-/// The indices of particles [begin, begin + size) along a Z-order curve of 2^(3 bits) cells; `digits` of
-/// kDigitBits take them. By radix, least digit first: stable, so that equal keys keep the caller's order.
+/// Sorts the particles [begin, begin + size) along a Z-order curve of 2^(3 bits) cells, in `digits` passes of
+/// kDigitBits. The radix sort starts at the least digit and is stable, so that equal keys keep the caller's
+/// order.
 void sort(const Particles& particles, std::size_t begin, int digits, Order o) {
   const std::size_t count = o.order.size();
   const int bits = digits * kDigitBits / 3;
@@ -84,10 +85,10 @@ bool scattered(const Particles& particles, std::size_t begin, std::size_t end) {
     near_sum += double{distance(i, i + kBlock / 2)};
     far_sum += double{distance(i, i + far)};
   }
-  return near_sum > kScattered * far_sum;  // not so if any is NaN
+  return near_sum > kScattered * far_sum;  // false if any is NaN
 }
 
-/// Sum over the blocks of their boxes' sides; `order` may be empty: as they are stored.
+/// Sum over the blocks of the sides of their boxes, meters. An empty `order` means the order of the arrays.
 double spread_of(const Particles& particles, std::span<const std::uint32_t> order) {
   double sum = 0.0;
   for (std::size_t begin = 0; begin < particles.count; begin += kBlock) {

@@ -1,5 +1,5 @@
-// A spatial order of particles: what makes the kernels' speed independent of the order in which the caller
-// stores them. Kept from call to call, or made anew for some thousand particles at a time.
+// A spatial order of particles, so that the kernels' speed does not depend on the order of the caller's
+// arrays. It is kept in a workspace, or made anew for a few thousand particles at a time.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ struct WorkspaceData;
 
 class ParticleOrder {
  public:
-  /// Sorts again if the number has changed or the blocks have come apart since the last sort.
+  /// Sorts again if the number of particles has changed or the blocks have spread since the last sort.
   void refresh(const Particles& particles);
 
-  /// Empty: as they are stored, which is about as good.
+  /// The order to visit particles in; empty if the order of the arrays is about as good.
   std::span<const std::uint32_t> order() const { return stored_ ? std::span<const std::uint32_t>() : order_; }
 
-  /// Written by whoever works on a block: the block's radius, meters, unless below zero. One writer a block.
+  /// Records a block's radius, meters; negative values are ignored. Only one thread may write a block.
   void note_radius(std::size_t block, float radius_m) {
     if (radius_m >= 0.0f) radius_m_[block] = radius_m;
   }
@@ -30,20 +30,20 @@ class ParticleOrder {
  private:
   std::vector<std::uint32_t> order_, other_order_;
   std::vector<std::uint32_t> key_, other_key_;
-  std::vector<float> radius_m_;  // a block
+  std::vector<float> radius_m_;  // one a block
   bool stored_ = false;
   double spread_when_sorted_m_ = -1;  // sum of the radii; negative: not measured yet
 };
 
-/// The particles of one task, in an order of their own where that pays.
+/// The order of the particles of one task, sorted where that pays.
 class TaskOrder {
  public:
-  static constexpr std::size_t kMost = 32 * kBlock;  ///< particles a task: some tens of microseconds
+  static constexpr std::size_t kMost = 32 * kBlock;  ///< tens of microseconds of work
 
-  /// Particles [begin, end), at most kMost.
+  /// Orders the particles [begin, end), at most kMost.
   TaskOrder(const Particles& particles, std::size_t begin, std::size_t end);
 
-  /// Empty: as they are stored.
+  /// The order to visit particles in; empty: the order of the arrays.
   std::span<const std::uint32_t> order() const { return {order_, count_}; }
 
  private:
@@ -52,15 +52,16 @@ class TaskOrder {
   std::size_t count_ = 0;
 };
 
-/// In which order particles are worked on.
+/// The order in which one task visits particles, and the workspace it belongs to.
 struct ParticleSequence {
-  std::span<const std::uint32_t> order;  ///< of particles first, first + 1, ...; empty: as they are stored
+  std::span<const std::uint32_t>
+      order;  ///< indices of the particles first, first + 1, ...; empty: the order of the arrays
   std::size_t first = 0;
-  WorkspaceData* workspace = nullptr;  ///< of the set of particles, or null
+  WorkspaceData* workspace = nullptr;  ///< may be null
 
   bool stored() const { return order.empty(); }
   std::size_t operator[](std::size_t i) const { return stored() ? i : order[i - first]; }
-  /// From the i-th on.
+  /// Indices from the i-th on; null: the order of the arrays.
   const std::uint32_t* from(std::size_t i) const { return stored() ? nullptr : order.data() + (i - first); }
 };
 

@@ -13,19 +13,19 @@ namespace bodice::collision {
 
 namespace {
 
-/// The order in which BakedEllipsoid stores the axes, inverted.
+/// For each axis of the proxy, its index in BakedEllipsoid.
 void find_sorted_axes(const geometry::Vec3& radii, std::int32_t (&sorted_axis)[3]) {
   const std::array<int, 3> axes = geometry::axes_by_radius(radii);
   for (int i = 0; i < 3; ++i) sorted_axis[axes[i]] = i;
 }
 
-/// The texels of a table, scaled.
+/// The texels of one table, scaled to meters.
 class Heights {
  public:
   Heights(const proxy::BodyProxy& proxy, const proxy::ReliefTable& table, const proxy::ReliefReach& reach)
       : texels_(proxy.texels().subspan(table.first_texel)), table_(table), reach_(reach) {}
 
-  /// The farthest distance d at which d - h - a clamp(d, -in, out) / out is zero or less, of one texel.
+  /// The largest distance d at which d - h - a clamp(d, -in, out) / out <= 0 for one texel.
   double zero_m(int column, int row) const {
     const proxy::ReliefTexel& t =
         texels_[static_cast<std::size_t>(row) * table_.nodes_per_side + static_cast<std::size_t>(column)];
@@ -36,7 +36,7 @@ class Heights {
     if (between > reach_.out_m) return h + a * reach_.out_m;
     return between < -reach_.in_m ? h - a * reach_.in_m : between;
   }
-  /// The steepest that is below kSteepest, and the steepest of either sign.
+  /// The largest slope below kSteepest, and the largest magnitude of all slopes.
   std::pair<double, double> steepest() const {
     double rising = 0.0, any = 0.0;
     const std::size_t count = std::size_t{table_.nodes_per_side} * table_.nodes_per_side;
@@ -49,7 +49,7 @@ class Heights {
   }
 
  private:
-  static constexpr double kSteepest = 0.9;  // of steeper ones, where the clamp ends them
+  static constexpr double kSteepest = 0.9;  // steeper ones are taken at the end of the clamp
 
   double slope(const proxy::ReliefTexel& t) const {
     return (double{table_.a_offset} + double{table_.a_scale} * t.a / 255.0) / reach_.out_m;
@@ -60,14 +60,14 @@ class Heights {
   const proxy::ReliefReach& reach_;
 };
 
-/// Whether an interval comes to the negative (or positive) half of the axis; what only touches it counts.
+/// Whether an interval reaches the negative (or positive) half of the axis; touching it counts.
 bool comes_to(bool negative, double low, double high) {
   constexpr double kTouching = 1e-4;
   return negative ? low < kTouching : high > -kTouching;
 }
 
-/// Between nodes both numbers are bilinear, so that F_k is not below the least that a corner of the cell
-/// would make it.
+/// Between nodes both numbers are bilinear, so that the largest value at a cell's corners bounds those inside
+/// it.
 OctantReach reach_of(const Heights& heights, int nodes) {
   OctantReach result;
   std::fill(std::begin(result.at_zero_m), std::end(result.at_zero_m), -std::numeric_limits<float>::max());
@@ -125,7 +125,7 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
     BakedTable table;
     find_sorted_axes(proxy.ellipsoids()[k].shape.radii, table.sorted_axis);
     if (from.nodes_per_side == 0) {
-      tables.push_back(table);  // flat: of two nodes and no height
+      tables.push_back(table);  // flat: two nodes a side, zero height
       reaches.emplace_back();
       continue;
     }

@@ -1,10 +1,10 @@
-// The relief tables of a proxy as the kernels and the exact side read them. The definition of the corrected
-// distance, with its reaches, is in bodice/proxy/proxy_distance.hpp:
+// The relief tables of a proxy in the form that the kernels and the exact side read.
+// bodice/proxy/proxy_distance.hpp defines the corrected distance and its reaches:
 //
-//   F_k = d_k - h_k(w) - a_k(w) clamp(d_k, -in, out) / out,   w the unit direction of the foot
+//   F_k = d_k - h_k(w) - a_k(w) clamp(d_k, -in, out) / out,   w the unit direction of the closest point
 //   F   = sum_k W_k F_k / sum_k W_k,   W_k = max(0, 1 - (d_k - min d) / blend)^2
 //
-// h and a are read bilinearly on the octahedral map of w (Cigolle et al. 2014).
+// h and a are interpolated bilinearly on the octahedral map of w (Cigolle et al. 2014).
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,20 @@
 
 namespace bodice::collision {
 
-/// One ellipsoid's table; bytes already scaled to meters (h) and to per meter of distance (a / out).
+/// One ellipsoid's table, with scales from bytes to meters (h) and to meters per meter of distance (a / out).
 struct alignas(16) BakedTable {
   std::int32_t first_byte = 0;
-  std::int32_t nodes = 2;  ///< per side
+  std::int32_t nodes = 2;  ///< on each side
   float h_scale_m = 0.0f, h_offset_m = 0.0f;
   float a_scale = 0.0f, a_offset = 0.0f;
-  std::int32_t sorted_axis[3] = {0, 1, 2};  ///< where BakedEllipsoid keeps the proxy's axes x, y, z
+  std::int32_t sorted_axis[3] = {0, 1, 2};  ///< index in BakedEllipsoid of the proxy's axes x, y, z
 };
 inline constexpr int kTableFloats = sizeof(BakedTable) / sizeof(float);
 
-/// How far from an ellipsoid a corrected distance F_k of m can be found: where F_k <= m and the closest point
-/// is in an octant of the proxy's axes (bits 0, 1, 2: negative along x, y, z),
+/// Bound on an ellipsoid's distance d_k where its corrected distance F_k is at most m, by the octant of the
+/// closest point in the proxy's axes (bits 0, 1, 2: negative along x, y, z):
 ///   d_k <= at_zero_m[octant] + m (m > 0 ? rise : fall).
-/// Aligned for masked loads, which read whole vectors.
+/// It is aligned for masked loads, which read whole vectors.
 struct alignas(64) OctantReach {
   float at_zero_m[8] = {};
   float rise = 1.0f, fall = 1.0f;
@@ -38,16 +38,16 @@ struct alignas(64) OctantReach {
 };
 
 struct ReliefTables {
-  /// `proxy` must have tables, one an ellipsoid; tables[k] becomes that of ellipsoid order[k].
+  /// `proxy` must have one table an ellipsoid; tables[k] becomes that of ellipsoid order[k].
   ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order);
 
   std::vector<BakedTable> tables;
-  std::vector<std::uint8_t> texels;  ///< pairs h, a; padded, since kernels read two texels at a time
-  bool sorted_axes = true;           ///< every table's are by falling radius, as BakedEllipsoid has them
+  std::vector<std::uint8_t> texels;  ///< pairs (h, a); padded, since kernels read two texels at once
+  bool sorted_axes = true;           ///< all tables have their axes by falling radius, as BakedEllipsoid has
   float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
-  float highest_m = 0.0f;            ///< F_k >= d_k - highest_m
-  std::vector<OctantReach> reaches;  ///< of each
-  OctantReach farthest;              ///< not below any of them
+  float highest_m = 0.0f;            ///< F_k >= d_k - highest_m for all k
+  std::vector<OctantReach> reaches;  ///< one an ellipsoid
+  OctantReach farthest;              ///< bound that holds for every ellipsoid
 };
 
 }  // namespace bodice::collision

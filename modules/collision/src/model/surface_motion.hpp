@@ -1,4 +1,4 @@
-// How the material of each ellipsoid moved from the pose before to the pose now.
+// The motion of each ellipsoid's material from the last pose to this one.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace bodice::collision {
 
-/// Velocity of the material at x carried by one ellipsoid: linear x + translation, meters a second.
+/// Velocity of the material at x that moves with one ellipsoid: linear x + translation, meters a second.
 struct SurfaceMotion {
   float linear[9] = {};
   float translation[3] = {};
@@ -15,10 +15,11 @@ struct SurfaceMotion {
   geometry::Vec3 at(const geometry::Vec3& x) const;
 };
 
-/// A material point keeps its place in the ellipsoid's frame, in shares of the radii.
+/// The motion for which a material point keeps its coordinates in the ellipsoid's frame, in units of the
+/// radii.
 SurfaceMotion motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now, double dt_s);
 
-/// No material of the ellipsoid moved farther than this between the poses, meters.
+/// Upper bound on the displacement of the ellipsoid's material between the poses, meters.
 double travel_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now);
 
 }  // namespace bodice::collision

@@ -1,5 +1,5 @@
-// Queries and responses against a body proxy: the paper's section 4. Needs a proxy and particles, nothing
-// else.
+// Queries and responses of particles against a body proxy, after section 4 of the paper (modules/PAPER.md).
+// Only a proxy and particles are needed: no mesh, no solver.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,9 @@
 
 namespace bodice::collision {
 
-/// Particles as structure of arrays, #P each, in the collider's local frame: world minus Collider::origin().
-/// Velocities may be null; `safe_*` is where each particle was last known outside, or null.
+/// Particles as a structure of arrays, #P each, in the collider's local frame: world coordinates minus
+/// Collider::origin(). Velocities may be null. `safe_*` may be null, too; it holds the last known position of
+/// each particle outside the body.
 struct Particles {
   std::size_t count = 0;
   float *x = nullptr, *y = nullptr, *z = nullptr;                       ///< meters, in/out
@@ -21,81 +22,85 @@ struct Particles {
   const float *safe_x = nullptr, *safe_y = nullptr, *safe_z = nullptr;  ///< meters
 };
 
-/// Contact::ellipsoid where there is none: an empty proxy, a particle that is not finite, or one farther than
-/// QueryOptions::within_m. The distance is then +infinity.
+/// Value of Contact::ellipsoid where there is no owner: the proxy is empty, the particle is not finite, or it
+/// is farther than QueryOptions::within_m. The distance is then +infinity.
 inline constexpr std::uint32_t kNoEllipsoid = ~std::uint32_t{0};
 
-/// Aligned to its size, so that none is stored across two lines of the cache.
+/// Result of a query for one particle. It is aligned to its size, so that none straddles two cache lines.
 struct alignas(32) Contact {
   float signed_distance = 0.0f;  ///< meters to the proxy's surface (margin included), negative inside
   float point[3] = {0, 0, 0};    ///< closest surface point, local frame
   float normal[3] = {0, 1, 0};   ///< outward unit normal there
-  std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids(); kNoEllipsoid: nothing to tell
+  std::uint32_t ellipsoid = 0;   ///< index into BodyProxy::ellipsoids(), or kNoEllipsoid
 };
 
-/// What a query's answer may be off by.
+/// How exact the result of a query is.
 enum class Accuracy : std::uint8_t {
-  kExact,  ///< the closest point of all ellipsoids; relief blends where they meet
-  /// Half the time. The ellipsoid that is nearest to first order, and there the plane that touches it where
-  /// one step of Newton's leads. Plain ellipsoids: the sign is exact, and errors grow with the fourth power
-  /// of the distance, but for few particles to which a neighbor looks nearer than it is, the fewer the
-  /// closer they are to the surface. Relief is not blended and jumps between ellipsoids. What both come to:
-  /// `bench/collision`. Other particles, and what a workspace keeps, may decide which of two ellipsoids a
-  /// particle is told of; the number of workers does not.
+  kExact,  ///< closest point over all ellipsoids; relief blends where ellipsoids meet
+  /// Takes about half the time of kExact. The owner is the ellipsoid of least first-order distance; the
+  /// contact lies on its tangent plane at the point to which one Newton step leads.
+  /// Without relief the sign is exact and the error of the distance is O(distance^4). Near creases a
+  /// neighboring ellipsoid may be chosen; that becomes rarer toward the surface. With relief the tables of
+  /// two ellipsoids are not blended, so that the distance jumps between them.
+  /// Which of two nearly equal ellipsoids is chosen may depend on the other particles and on the workspace,
+  /// never on the number of workers. `bench/collision` measures the errors.
   kFirstOrder,
 };
 
 struct QueryOptions {
-  /// Contact distance: particles whose signed distance is at most this are answered with the same bits as
-  /// without a limit (with relief and over 256 ellipsoids near one place: to rounding), all others with
-  /// kNoEllipsoid. That depends neither on other particles nor on their order nor on workers. Zero asks for
-  /// those inside only, less for deep ones. What is not answered costs a bound; whole blocks of it, nothing.
+  /// Contact distance, meters. Particles at this signed distance or less get the same bits as without a
+  /// limit, all others kNoEllipsoid; with relief and over 256 ellipsoids near one point the results agree to
+  /// rounding. Neither other particles nor their order nor the number of workers change a result. Zero
+  /// reports only particles that are inside; a negative value only those deeper than that. A particle beyond
+  /// the limit costs one bound, a whole block beyond it nothing.
   float within_m = std::numeric_limits<float>::infinity();
   Accuracy accuracy = Accuracy::kExact;
 };
 
 enum class Response : std::uint8_t {
-  kPaper,         ///< along the ray from the center, least-distance rule, speed scaling
-  kClosestPoint,  ///< closest point of the union's surface, certified outside; normal velocity removed,
-                  ///< friction
+  kPaper,  ///< moved along the ray from the ellipsoid's center by the least-distance rule; speed is scaled
+  kClosestPoint,  ///< moved to the closest point of the union's surface, certified to be outside; inward
+                  ///< velocity is removed, friction slows the rest
 };
 
-/// Values that are no number, and less than zero where that means nothing, count as zero; a max_push_m that
-/// is no number as no limit.
+/// Settings of a response. NaN counts as zero, and so does a negative value where it makes no sense; a
+/// max_push_m of NaN counts as no limit.
 struct ResolveOptions {
   Response response = Response::kClosestPoint;
-  float thickness_m = 0.0f;  ///< kept between particle and surface
+  float thickness_m = 0.0f;  ///< distance kept between particle and surface
   float friction = 0.3f;     ///< Coulomb coefficient
-  /// Longest move a call, beyond taking back the path from the safe position: particles that start deep
-  /// inside come out over several calls (`pending`), and those in a fold of the body without room stay midway
-  /// in it.
+  /// Longest push a call, meters, in addition to undoing the path from the safe position. Particles that
+  /// start deep inside come out over several calls (`pending`). Those in a fold of the body without room stay
+  /// midway in it.
   float max_push_m = std::numeric_limits<float>::infinity();
-  /// Fillets the creases where plain ellipsoids meet, so that normals turn over this length instead of
-  /// jumping: the surface rises there by up to 0.29 of it (more where more than two meet). Relief blends by
-  /// itself; kPaper does not blend. Twice to three times the cost.
+  /// Radius of the fillets in the creases where plain ellipsoids meet, meters: normals turn over this length
+  /// instead of jumping. The surface rises there by up to 0.29 of it, and by more where more than two
+  /// ellipsoids meet. Relief blends by itself, and kPaper does not blend. Fillets cost two to three times as
+  /// much.
   float blend_m = 0.0f;
 };
 
-/// What happened to a batch; add() merges blocks.
+/// Counts of what a response did to a set of particles; add() merges those of two sets.
 struct ContactReport {
   std::uint64_t contacts = 0;
   std::uint64_t contacts_by_part[body::kPartCount] = {};
-  std::uint64_t unresolved = 0;      ///< still inside after the fallback; zero, or `paper` mode
-  std::uint64_t pending = 0;         ///< on their way out, held back by max_push_m
+  std::uint64_t unresolved = 0;      ///< still inside at the end; zero but for kPaper
+  std::uint64_t pending = 0;         ///< held back by max_push_m before they are out
   std::uint64_t pinched = 0;         ///< put midway where two surfaces leave less room than the thickness
   std::uint64_t wrong_side = 0;      ///< put back on the side of the body that their path came from
   std::uint64_t fallbacks = 0;       ///< resolved by the certified fallback
-  std::uint64_t judged_exactly = 0;  ///< not settled by the float kernels; includes some without contact
-  std::uint64_t not_finite = 0;      ///< NaN or Inf, left alone
+  std::uint64_t judged_exactly = 0;  ///< left to the exact side; some have no contact
+  std::uint64_t not_finite = 0;      ///< NaN or infinite, and not moved
   std::uint32_t max_iterations = 0;
   float deepest_m = 0.0f;  ///< depth of the deepest particle before the response
   void add(const ContactReport& other);
 };
 
-/// What a caller keeps from call to call for one set of particles: a spatial order, so that the speed does
-/// not depend on the order in which they are stored, and which ellipsoids are near, which holds while
-/// particles and proxy move by millimeters. Changes no bit of an answer. Refreshed by itself; any collider
-/// may use it. Not thread-safe; allocates, about 30 bytes a particle, when these become more.
+/// What a caller keeps from call to call for one set of particles. It holds a spatial order, so that the
+/// speed does not depend on the order of the arrays, and the candidate cache, which stays valid while
+/// particles and proxy move by millimeters.
+/// It never changes a bit of a result and refreshes itself; any collider may use it. It is not thread-safe.
+/// It allocates about 30 bytes a particle when the number of particles grows.
 class Workspace {
  public:
   Workspace();
@@ -108,8 +113,9 @@ class Workspace {
   std::unique_ptr<struct WorkspaceData> data_;
 };
 
-/// A proxy baked for queries: floats in a local frame, boxes for culling. Thread-safe but for move_to().
-/// Speed: neighbors in space should be neighbors in the arrays, or a Workspace be given.
+/// A body proxy prepared for queries: floats in a local frame, with boxes for the broad phase. Thread-safe
+/// except for move_to(). It is fastest if neighbors in space are neighbors in the arrays, or if a Workspace
+/// is given.
 class Collider {
  public:
   explicit Collider(const proxy::BodyProxy& proxy);
@@ -118,37 +124,40 @@ class Collider {
   Collider& operator=(Collider&&) noexcept;
 
   const geometry::Vec3& origin() const noexcept;  ///< world position of the local frame's origin
-  std::size_t size() const noexcept;              ///< ellipsoids
-  std::uint64_t proxy_hash() const noexcept;      ///< of the proxy that it was made from
-  /// Whether tables correct the distance; without, it changes by no more than a place moves.
+  std::size_t size() const noexcept;              ///< number of ellipsoids
+  std::uint64_t proxy_hash() const noexcept;      ///< hash of the proxy that it was made from
+  /// Whether relief tables correct the distance. Without them the distance is 1-Lipschitz: it changes by no
+  /// more than the point moves.
   bool has_relief() const noexcept;
-  std::uint64_t poses() const noexcept;  ///< how often move_to() took it elsewhere
+  std::uint64_t poses() const noexcept;  ///< number of calls of move_to() that changed the pose
 
-  /// Carries the proxy to another pose: `shapes` are its ellipsoids now, world meters, size() of them; tables
-  /// move along. Contacts then know the surface's velocity, (now - before) / dt_s, zero if dt_s is not
-  /// positive, and safe positions are carried with the ellipsoid they are nearest to. The origin stays.
-  /// False, and nothing moves, when their number is another or one of them is not finite, has no extent or
-  /// has axes that are not orthonormal and right-handed (a rig's matrix may carry a scale: it belongs to the
-  /// radii). Allocates nothing; must not overlap another call. Cost: about 0.1 microseconds an ellipsoid.
+  /// Moves the proxy to another pose: `shapes` are the size() ellipsoids of the new pose in world meters;
+  /// relief tables move along. The origin stays.
+  /// Contacts then know the surface's velocity, (new - old position) / dt_s, which is zero if dt_s is not
+  /// positive. Safe positions move along with the ellipsoid that they are nearest to.
+  /// Returns false and moves nothing if the number of shapes differs, or if a shape is not finite, has no
+  /// extent, or has axes that are not orthonormal and right-handed. (A rig's matrix may carry a scale, which
+  /// belongs to the radii.) Allocates nothing and must not overlap another call. Cost: about 0.1 microseconds
+  /// an ellipsoid.
   bool move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
-  /// Velocity of the body's material at a place carried by an ellipsoid; meters a second, local frame.
+  /// Velocity of the body's material at a point that moves with an ellipsoid; meters a second, local frame.
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
 
-  /// Signed distance, closest point, normal and owner of each particle; contacts has particles.count entries
-  /// (with fewer, only so many particles are asked about). Throws engine::Canceled if the context's work is
-  /// canceled: what contacts hold then is unspecified.
+  /// Signed distance, closest point, normal and owner of each particle. `contacts` has particles.count
+  /// entries; if it has fewer, only so many particles are queried. Throws engine::Canceled if the context is
+  /// canceled; the contents of `contacts` are then unspecified.
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              const QueryOptions& options = {}) const;
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              Workspace& workspace, const QueryOptions& options = {}) const;
   Contact query(const float (&local_point)[3], const QueryOptions& options = {}) const noexcept;
-  /// Every ellipsoid within `within_m` of the point, nearest first, each with its own surface (and table);
-  /// returns how many there are, which may be more than fit into `contacts`.
+  /// All ellipsoids within `within_m` of the point, nearest first, each with its own surface (and relief
+  /// table). Returns their number, which may be more than `contacts` holds.
   std::size_t query_all(const float (&local_point)[3], float within_m,
                         std::span<Contact> contacts) const noexcept;
 
-  /// Moves every particle that is inside (or nearer than the thickness) out and corrects its velocity.
-  /// Allocates nothing once warm. Throws engine::Canceled as query() does: some particles are out then.
+  /// Moves every particle out that is inside or nearer than the thickness, and corrects its velocity.
+  /// Allocates nothing once warm. Throws engine::Canceled as query() does; some particles are out by then.
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,
