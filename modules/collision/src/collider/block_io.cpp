@@ -18,7 +18,8 @@ void copy_lanes(const float* from, const std::uint32_t* index, std::size_t begin
   for (int lane = 0; lane < count; ++lane) to[lane] = from[index[lane]];
 }
 
-/// No NaN, no Inf and nothing too far; without a branch, so that it compiles to vector code.
+/// Whether all values are finite and within kFarthest_m; written without a branch, so that it compiles to
+/// vector code.
 bool all_near(const float* values, int count) {
   int outside = 0;
   for (int lane = 0; lane < count; ++lane) outside += !(std::abs(values[lane]) < kFarthest_m);
@@ -47,7 +48,7 @@ void move_lane(int from, int to, GatheredBatch& g) {
   g.index[to] = g.index[from];
 }
 
-/// Takes the lanes out that floats cannot handle; the others close up.
+/// Removes the lanes that floats cannot represent well enough; the others close up.
 void drop_unusable(GatheredBatch& g) {
   int kept = 0;
   for (int lane = 0; lane < g.batch.count; ++lane) {
@@ -61,7 +62,7 @@ void drop_unusable(GatheredBatch& g) {
   g.batch.count = kept;
 }
 
-/// A safe position that is not usable counts as none: the particle's own place says nothing.
+/// Replaces a safe position that is not usable by the particle's own position, which has no effect.
 void mend_safe(ParticleBatch& block) {
   for (int lane = 0; lane < block.count; ++lane) {
     bool usable = true;
@@ -73,7 +74,7 @@ void mend_safe(ParticleBatch& block) {
   }
 }
 
-/// Repeats the last lane up to a whole block, so that no lane that is read holds anything unset.
+/// Repeats the last lane until the block is full, so that no lane is read uninitialized.
 void pad(ParticleBatch& block) {
   const int last = block.count - 1;
   const int end = (block.count + kBlock - 1) / kBlock * kBlock;

@@ -1,4 +1,4 @@
-// Between the caller's arrays and the kernels' blocks.
+// Copies particles between the caller's arrays and the kernels' blocks.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace bodice::collision {
 
-/// A batch and whose particles it holds.
+/// A batch of particles and their indices in the caller's arrays.
 struct GatheredBatch {
   ParticleBatch batch;
-  std::uint32_t index[kBatch];  ///< into the caller's arrays, a lane
-  std::uint32_t far[kBatch];    ///< finite but too far for floats
+  std::uint32_t index[kBatch];  ///< one a lane
+  std::uint32_t far[kBatch];    ///< finite, but too far away for floats
   int far_count = 0;
   std::uint64_t not_finite = 0;
 };
 
-/// Gathers end - begin particles, at most kBatch: those of the index, or [begin, end) if it is null.
-/// Particles with a coordinate that is not finite are left out and counted.
+/// Gathers the end - begin particles of `index`, or [begin, end) if it is null; at most kBatch. Particles
+/// that are not finite are left out and counted.
 void gather(const Particles& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
             GatheredBatch& out);
 

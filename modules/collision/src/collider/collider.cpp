@@ -15,11 +15,11 @@ using geometry::Vec3;
 
 namespace {
 
-/// Sums of integers and maxima: the same for any order of the blocks.
+/// Merges the reports of tasks: sums of integers and maxima, which do not depend on the order.
 class SharedReport {
  public:
   void add(const ContactReport& block) {
-    // Held for a few nanoseconds, once a task.
+    // The lock is held for a few nanoseconds, once a task.
     while (busy_.test_and_set(std::memory_order_acquire)) {
     }
     total_.add(block);
@@ -40,7 +40,7 @@ void for_batches(std::size_t begin, std::size_t end, int size, const ParticleSeq
     work(at, std::min(at + static_cast<std::size_t>(size), end), sequence);
 }
 
-/// The same for all particles, with what is remembered of them (null: nothing), and done(task's result) for
+/// Runs work in parallel tasks over all particles, with their workspace (or null), and calls done(result) for
 /// each task.
 template <class Result, class Work, class Done>
 void for_tasks(const engine::Context& context, const Particles& particles, WorkspaceData* workspace, int size,
@@ -61,15 +61,15 @@ void for_tasks(const engine::Context& context, const Particles& particles, Works
   });
 }
 
-/// Fillets gain nothing from many blocks at a time: each has its own candidates.
+/// With fillets each block has candidates of its own, so that larger batches gain nothing.
 int batch_size(const ResolveOptions& options, bool relief) {
   return !relief && options.blend_m > 0.0f ? kBlock : kBatch;
 }
 
-/// Lengths and coefficients that are none do no harm: NaN says nothing, and less than nothing is nothing.
+/// Replaces NaN and meaningless values by zero or by no limit, as ResolveOptions states.
 ResolveOptions sanitized(ResolveOptions options) {
   if (!std::isfinite(options.thickness_m)) options.thickness_m = 0.0f;
-  constexpr float kSticks = 1e6f;  // more is no different, but for infinity times zero
+  constexpr float kSticks = 1e6f;  // more has the same effect, but infinity times zero would be NaN
   options.friction = options.friction > 0.0f ? std::min(options.friction, kSticks) : 0.0f;
   if (!(options.blend_m > 0.0f && std::isfinite(options.blend_m))) options.blend_m = 0.0f;
   options.max_push_m = std::isnan(options.max_push_m) ? std::numeric_limits<float>::infinity()
@@ -78,7 +78,7 @@ ResolveOptions sanitized(ResolveOptions options) {
 }
 
 bool is_ellipsoid(const geometry::Ellipsoid& e) {
-  constexpr double kAxesTolerance = 1e-6;  // what a chain of bones in float leaves
+  constexpr double kAxesTolerance = 1e-6;  // accuracy of a chain of bones in float
   if (!e.center.allFinite() || !e.axes.allFinite() || !e.radii.allFinite()) return false;
   const double skew = (e.axes.transpose() * e.axes - geometry::Mat3::Identity()).cwiseAbs().maxCoeff();
   return e.radii.minCoeff() > 0.0 && skew <= kAxesTolerance && e.axes.determinant() > 0.0;
@@ -182,7 +182,7 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
     if (impl_->relief) sample = correct(impl_->field, *impl_->relief, k, at);
     const Contact contact = impl_->make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), k);
     if (contact.signed_distance > within_m) continue;
-    // Insertion into the sorted front part; the farthest drops out when it is full.
+    // Inserts the contact into the sorted front part; the farthest drops out when it is full.
     const std::size_t kept = std::min(found++, contacts.size());
     const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kept);
     const auto place = std::upper_bound(contacts.begin(), end, contact, nearer);

@@ -24,8 +24,8 @@ Vec3 middle_of(const proxy::BodyProxy& proxy) {
   return box.empty() ? Vec3(Vec3::Zero()) : box.center();
 }
 
-/// Halves the span across its longest side until groups are left; equal centers keep their order, so that
-/// the lowest index still wins a tie between identical ellipsoids.
+/// Halves the span across its longest side until groups remain. Equal centers keep their order, so that the
+/// lowest index still wins a tie between identical ellipsoids.
 void halve(std::span<std::uint32_t> order, std::span<const proxy::ProxyEllipsoid> ellipsoids) {
   if (order.size() <= kGroup) {
     std::sort(order.begin(), order.end());
@@ -44,7 +44,7 @@ void halve(std::span<std::uint32_t> order, std::span<const proxy::ProxyEllipsoid
   halve(order.subspan(half), ellipsoids);
 }
 
-/// Each group of consecutive ones are neighbors.
+/// Order of the ellipsoids in which the members of each group are neighbors.
 std::vector<std::uint32_t> spatial_order(const proxy::BodyProxy& proxy) {
   std::vector<std::uint32_t> order(proxy.ellipsoids().size());
   std::iota(order.begin(), order.end(), 0u);
@@ -101,7 +101,8 @@ void count(const ParticleReport& particle, body::Part part, ContactReport& repor
   report.deepest_m = std::max(report.deepest_m, static_cast<float>(particle.depth_m));
 }
 
-/// Contacts by part. Neighbors are mostly of one part: what is stored at each waits for the one before.
+/// Counts contacts by part, with one store a run of equal parts. Neighbors mostly belong to one part, and
+/// each store would wait for the one before.
 class PartCount {
  public:
   explicit PartCount(ContactReport& report) : report_(report) {}
@@ -183,7 +184,7 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   if (moving) {
     const Owner owner = field.owner(state.position, std::numeric_limits<double>::infinity());
     state.surface_velocity = motion[owner.ellipsoid].at(state.position);
-    // Where the safe position is now, had it stuck to the body.
+    // The safe position moves with the ellipsoid that the particle is nearest to.
     state.affine_motions = affine_motions;
     state.safe_before = state.safe;
     state.safe = state.path_start(owner.ellipsoid);
@@ -222,7 +223,7 @@ void Collider::Impl::resolve_range(const Particles& particles, std::size_t begin
   const bool settled = batch.count == 0 || (options.response == Response::kClosestPoint &&
                                             resolve_batch(baked, tables(), parameters, batch, response));
   if (!settled && options.response == Response::kClosestPoint && end - begin > kBlock) {
-    // Too many ellipsoids near for a batch may do for its blocks.
+    // The candidates of one block may fit where those of the batch overflow.
     for (std::size_t from = begin; from < end; from += kBlock)
       resolve_range(particles, from, std::min(from + kBlock, end), sequence, options, report);
     return;

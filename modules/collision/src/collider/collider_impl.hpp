@@ -1,4 +1,4 @@
-// What a Collider holds, and one block of work at a time.
+// The data of a Collider, and its work on one batch at a time.
 #pragma once
 
 #include <optional>
@@ -23,30 +23,31 @@ struct Collider::Impl {
 
   const ReliefTables* tables() const { return relief ? &*relief : nullptr; }
 
-  /// With what is remembered of the particles, or null: as they are stored, or in an order of each task.
+  /// `workspace` may be null: each task then visits its particles in the order of the arrays, or in a sorted
+  /// order of its own.
   void query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
              const QueryOptions& options, WorkspaceData* workspace) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options, WorkspaceData* workspace) const;
-  /// Particles [begin, end) of the sequence, at most kBatch.
+  /// Queries the particles [begin, end) of the sequence, at most kBatch.
   void query_range(const Particles& particles, std::size_t begin, std::size_t end,
                    const ParticleSequence& sequence, const QueryOptions& options,
                    std::span<Contact> contacts) const;
   bool query_kernel(QueryBatch& batch, std::size_t block, WorkspaceData* workspace) const;
-  /// Before a call's batches; memory may be null.
+  /// Starts a call of the candidate cache with the current pose; workspace may be null.
   void begin_call(const Particles& particles, WorkspaceData* workspace) const {
     if (workspace) workspace->candidates.begin_call(particles.count, shapes, relief ? relief->blend_m : 0.0f);
   }
-  /// What is remembered of a whole batch, or of the last.
+  /// The candidate cache of a batch; none unless the batch is whole or the last one.
   CacheAccess cache_access_of(const Particles& particles, std::size_t begin, std::size_t end,
                               WorkspaceData* workspace) const;
-  /// Of the batch that begins at particle `begin`; contacts may be null.
+  /// Addresses to prefetch of the batch that begins at particle `begin`; contacts may be null.
   static NextBatch next_batch_of(const Particles& particles, std::size_t begin,
                                  const ParticleSequence& sequence, Contact* contacts);
   void resolve_range(const Particles& particles, std::size_t begin, std::size_t end,
                      const ParticleSequence& sequence, const ResolveOptions& options,
                      ContactReport& report) const;
-  /// One particle on the exact side, from the arrays and back.
+  /// Resolves one particle on the exact side, in the caller's arrays.
   void resolve_exactly(const Particles& particles, std::uint32_t i, const ResolveOptions& options,
                        ContactReport& report) const;
   Contact exact_contact(const geometry::Vec3& p) const;
@@ -56,20 +57,20 @@ struct Collider::Impl {
   std::uint64_t proxy_hash;
   std::uint64_t poses = 0;
   geometry::Vec3 origin;
-  /// Ellipsoids are kept in a spatial order, in which everything below and every index inside the module is:
-  /// proxy_index[k] is the proxy's index of ellipsoid k, internal_index[] its inverse.
+  /// The ellipsoids are in a spatial order, which all members below and all internal indices follow.
+  /// proxy_index[k] is the index of ellipsoid k in the proxy; internal_index is the inverse.
   std::vector<std::uint32_t> proxy_index, internal_index;
   double margin_m;
-  std::vector<geometry::Ellipsoid> shapes;  ///< local frame, now
+  std::vector<geometry::Ellipsoid> shapes;  ///< current pose, local frame
   UnionField field;
   Baked baked;
   std::optional<ReliefTables> relief;
   std::vector<body::Part> part;
   std::vector<SurfaceMotion> motion;
-  std::vector<AffineMotion> affine_motions;  ///< of the last move
+  std::vector<AffineMotion> affine_motions;  ///< those of the last move
   bool moving = false;
   double moved_dt_s = 0.0;
-  float travel_m = 0.0f;  ///< longest way of any of its material in the last move
+  float travel_m = 0.0f;  ///< bound on the displacement of any material in the last move
 };
 
 }  // namespace bodice::collision

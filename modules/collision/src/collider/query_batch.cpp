@@ -1,4 +1,4 @@
-// Queries, a batch at a time: from the caller's arrays to the kernel and back.
+// Queries, a batch at a time: from the caller's arrays to the kernels and back.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,7 +11,7 @@ namespace bodice::collision {
 
 namespace {
 
-/// A batch of positions and whose they are.
+/// Positions of a batch and their indices in the caller's arrays.
 struct alignas(64) Positions {
   float x[kBatch], y[kBatch], z[kBatch];
   std::uint32_t index[kBatch];
@@ -38,14 +38,14 @@ void gather_positions(const Particles& particles, const ParticleSequence& sequen
   copy(particles.z, out, begin, sequence.stored(), out.z);
 }
 
-/// Also false for NaN. Without branches, for loops of vectors.
+/// The comparison is false for NaN, too; it has no branch, so that loops compile to vector code.
 bool near(const Positions& positions, int i) {
   const int x = std::abs(positions.x[i]) < kFarthest_m, y = std::abs(positions.y[i]) < kFarthest_m,
             z = std::abs(positions.z[i]) < kFarthest_m;
   return (x & y & z) != 0;
 }
 
-/// Takes out what floats cannot handle, calling `other` for it; the rest closes up.
+/// Removes positions that floats cannot represent well enough and calls `other` for each; the rest closes up.
 template <class Other>
 void drop_far(Positions& positions, Other&& other) {
   int kept = 0;
@@ -62,14 +62,14 @@ void drop_far(Positions& positions, Other&& other) {
   positions.count = kept;
 }
 
-/// Repeats the last place up to a whole block.
+/// Repeats the last position until the block is full.
 void pad(Positions& positions) {
   const int end = (positions.count + kBlock - 1) / kBlock * kBlock;
   for (float* values : {positions.x, positions.y, positions.z})
     std::fill(values + positions.count, values + end, values[positions.count - 1]);
 }
 
-/// Place i only.
+/// Takes position i alone.
 void take(const Positions& positions, int i, Positions& out) {
   out.x[0] = positions.x[i];
   out.y[0] = positions.y[i];
@@ -154,14 +154,15 @@ void Collider::Impl::query_range(const Particles& particles, std::size_t begin, 
   if (!in_place && kernel(0, positions.count)) return;
   batch.cache = {};
   batch.next_batch = {};
-  // Too many ellipsoids near for a batch may do for its blocks; or some positions are too far for floats.
+  // Either the candidates overflowed, which those of single blocks may not, or some particles are too far
+  // away for floats.
   drop_far(positions, exactly);
   if (positions.count == 0) return;
   pad(positions);
   for (int from = 0; from < positions.count; from += kBlock) {
     const int to = std::min(from + kBlock, positions.count);
     if (kernel(from, to - from)) continue;
-    // Whether floats answer a particle must not depend on its neighbors.
+    // Whether floats suffice for a particle must not depend on its neighbors.
     for (int i = from; i < to; ++i) {
       Positions alone;
       take(positions, i, alone);

@@ -1,4 +1,4 @@
-// What a Workspace holds.
+// The data of a Workspace.
 #pragma once
 
 #include "model/candidate_cache.hpp"

@@ -97,10 +97,10 @@ struct ContactReport {
 };
 
 /// What a caller keeps from call to call for one set of particles. It holds a spatial order, so that the
-/// speed does not depend on the order of the arrays, and the candidate cache, which stays valid while
-/// particles and proxy move by millimeters.
-/// It never changes a bit of a result and refreshes itself; any collider may use it. It is not thread-safe.
-/// It allocates about 30 bytes a particle when the number of particles grows.
+/// speed does not depend on the order of the arrays. It also holds the candidate cache, which stays valid
+/// while particles and proxy move by millimeters. It never changes a bit of a result and refreshes itself;
+/// any collider may use it. It is not thread-safe. It allocates about 30 bytes a particle when the number of
+/// particles grows.
 class Workspace {
  public:
   Workspace();

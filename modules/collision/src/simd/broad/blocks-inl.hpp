@@ -1,5 +1,6 @@
-// A batch against a proxy of any size: what fits into the kernel's lists together is done together, the rest
-// block by block, step by step, or for some ellipsoids at a time.
+// Runs a kernel on a batch against a proxy of any size. All blocks are done together if their candidates fit
+// into the kernel's lists. Otherwise the fallbacks follow: block by block, step by step, or some ellipsoids
+// at a time.
 #if defined(BODICE_COLLISION_BLOCKS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_BLOCKS_INL_
 #undef BODICE_COLLISION_BLOCKS_INL_
@@ -17,10 +18,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kStep = kVectorsInStep * kWidth;  // lanes that are worked on together
+constexpr int kStep = kVectorsInStep * kWidth;  // lanes that are computed side by side
 
-/// The same lanes of the next batch, a few at a time: asked for all at once, it would hold up what this batch
-/// reads. Inlined, since g++ takes a call of what only prefetches for one without effect.
+/// Prefetches the same lanes of the next batch, a few at a time, since all at once would delay this batch's
+/// own reads. It is inlined, because g++ drops calls of a function that only prefetches.
 template <int kLanes>
 HWY_INLINE void prefetch_step(const NextBatch& next, int from, bool contacts) {
   constexpr int kLine = 64 / sizeof(float);
@@ -43,10 +44,11 @@ HWY_INLINE void prefetch_step(const NextBatch& next, int from, bool contacts) {
     for (int i = from; i < from + kLanes; i += 2) __builtin_prefetch(next.contacts + i, 1);
 }
 
-/// The places of kCount vectors from lane `from` on.
+/// Loads the positions of kCount vectors, from lane `from` on.
 template <int kCount>
 HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kCount]) {
-  // To first order the steps store contacts themselves, and would wait for others.
+  // A first-order query stores contacts in each step, and prefetching more of them would hold up these
+  // stores.
   prefetch_step<kCount * kWidth>(batch.next_batch, from,
                                  batch.next_batch.contacts && batch.accuracy == Accuracy::kExact);
   for (int v = 0; v < kCount; ++v) {
@@ -55,35 +57,36 @@ HWY_INLINE void load_step(const QueryBatch& batch, int from, V3 (&p)[kCount]) {
   }
 }
 
-/// Of its lanes, in whole steps.
+/// End of the range's lanes, rounded up to whole steps.
 HWY_INLINE int end_of(const LaneRange& range) {
   return range.begin + (range.end - range.begin + kStep - 1) / kStep * kStep;
 }
 
-/// Those of the lanes from i on that are below the end.
+/// Mask of the lanes i, i + 1, ... that are below the end.
 HWY_INLINE M lanes_below(int i, int end) {
   return hn::FirstN(f, static_cast<std::size_t>(std::max(0, end - i)));
 }
 
-/// TangentCandidates that all blocks of a batch bound rather than tell which of them may be theirs.
+/// Up to this many shared candidates, each block evaluates all bounds instead of filtering the candidates.
 constexpr int kFew = kWidth / 2;
 
 struct BroadPhaseLists {
   Columns columns, alone;
   CandidateList of_all, of_range[kBlocks], of_alone, of_span[CachedBatch::kSpans];
-  /// Meters around the places of a call within which the next may ask again; share() alone reads it.
+  /// Distance by which the box of a call is grown, so that the next call may reuse the candidates, meters;
+  /// zero: no reuse.
   float room_m = 0.0f;
-  Aabb covered;         ///< the columns hold all candidates of places in it,
-  bool covers = false;  ///< if so
+  Aabb covered;         ///< box in which the columns hold all candidates
+  bool covers = false;  ///< whether `covered` is valid
 };
 
-/// Every column, for a block that does not share them.
+/// Lists every column, for a range that does not share them.
 HWY_INLINE void list_every_column(const Columns& columns, CandidateList& out) {
   out.count = columns.count();
   for (int i = 0; i < out.count; i += kWidth) hn::Store(lanes_from(i), I(), out.index + i);
 }
 
-/// All columns for one range.
+/// Calls work on one range with all columns as candidates.
 template <class Work>
 HWY_INLINE bool work_on_range(const LaneRange& range, const Columns& columns, CandidateList& list,
                               Work&& work) {
@@ -93,10 +96,10 @@ HWY_INLINE bool work_on_range(const LaneRange& range, const Columns& columns, Ca
   return fits;
 }
 
-/// Finds the candidates of some ranges at once, and among them those of each: `find` (a source, the box
-/// around, ranges, their number, lists out). Then calls `work` (number of tables, columns, ranges, their
-/// number, their lists) on all, if their candidates fit into two vectors, or on each. False if either has no
-/// room.
+/// Finds the candidates of some ranges and calls `work` on them. `find` (source, box around, ranges, their
+/// number, lists out) is called for all ranges together, then for each range among the candidates found.
+/// `work` (number of tables, columns, ranges, their number, lists) is called once if the candidates fit into
+/// two vectors of columns, otherwise once a range. False on overflow in either.
 template <class Find, class Work>
 HWY_INLINE bool with_candidates(const Baked& baked, const ReliefTables* relief, const LaneRange* ranges,
                                 int count, BroadPhaseLists& s, Find&& find, Work&& work) {
@@ -132,7 +135,7 @@ HWY_INLINE bool with_candidates(const Baked& baked, const ReliefTables* relief, 
   return true;
 }
 
-/// The same among the candidates of the call before, if they are those of a box that holds the ranges.
+/// Calls `work` with the candidates of the previous call if they are known to hold for all ranges.
 template <class Work>
 HWY_INLINE bool with_previous_candidates(const LaneRange* ranges, int count, BroadPhaseLists& s,
                                          Work&& work) {
@@ -144,8 +147,8 @@ HWY_INLINE bool with_previous_candidates(const LaneRange* ranges, int count, Bro
   return work_on_range(all, s.columns, s.of_alone, work);
 }
 
-/// One range and any number of plain ellipsoids, as many at a time as there is room for: `find` (a source,
-/// the list out), `work` as above.
+/// One range against any number of plain ellipsoids, as many at a time as there is room for; `find` (source,
+/// list out), `work` as above.
 template <class Find, class Work>
 HWY_INLINE void in_parts(const Baked& baked, const LaneRange& range, BroadPhaseLists& s, Find&& find,
                          Work&& work) {
@@ -173,7 +176,8 @@ HWY_INLINE QueryBatch batch_at(const float* x, const float* y, const float* z, i
           .cache = {}};
 }
 
-/// `in_float_range` tells whether all are within kFarthest_m, which NaN is not.
+/// Lanes [begin, end) with their AABB. `in_float_range` is set to whether all are within kFarthest_m, which
+/// NaN is not.
 HWY_INLINE LaneRange range_of(const QueryBatch& batch, int begin, int end, bool& in_float_range) {
   return {aabb_of_lanes(batch.x + begin, batch.y + begin, batch.z + begin, end - begin, in_float_range),
           begin, end};
@@ -183,7 +187,7 @@ HWY_INLINE LaneRange range_of(const QueryBatch& batch, int begin, int end, bool&
 struct Blocks {
   LaneRange ranges[kBlocks];
   int count = 0;
-  bool in_float_range = true;  ///< no place is too far for floats
+  bool in_float_range = true;  ///< all particles are within kFarthest_m
 
   explicit HWY_INLINE Blocks(const QueryBatch& batch) {
     for (int begin = 0; begin < batch.count; begin += kBlock) {
@@ -194,8 +198,8 @@ struct Blocks {
   }
 };
 
-/// What fits together is done together: `work` (ranges, their number); what does not, block by block, then
-/// step by step; what even then has no room is left to `last` (a range), which may give up.
+/// Calls `work` (ranges, their number) for all blocks together, on overflow for each block, then for each
+/// step. What still overflows goes to `last` (a range), which may fail.
 template <class Work, class Last>
 HWY_INLINE bool with_fallback(const QueryBatch& batch, const Blocks& blocks, Work&& work, Last&& last) {
   if (work(blocks.ranges, blocks.count)) return true;

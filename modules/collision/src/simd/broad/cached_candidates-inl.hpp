@@ -1,4 +1,4 @@
-// A batch among the candidates that were cached for it, as long as they hold.
+// Uses, checks and refreshes the candidate cache of a batch.
 #if defined(BODICE_COLLISION_CACHED_CANDIDATES_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_CACHED_CANDIDATES_INL_
 #undef BODICE_COLLISION_CACHED_CANDIDATES_INL_
@@ -18,8 +18,8 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 static_assert(CachedBatch::kSpan % kStep == 0 && kBlock % CachedBatch::kSpan == 0);
 
-/// Whether no place is farther from where it was than the reach that the proxy's own path leaves; takes note
-/// of the farthest.
+/// Updates the bound on the displacement since the last refresh. False if it exceeds the reach for some
+/// particle, so that the cache is stale.
 HWY_INLINE bool update_displacement(CachedBatch& cached, const QueryBatch& batch) {
   const auto traveled_m = static_cast<float>(batch.cache.traveled_m - cached.traveled_m);
   const float left_m = cached.reach_m - traveled_m;
@@ -38,7 +38,7 @@ HWY_INLINE bool update_displacement(CachedBatch& cached, const QueryBatch& batch
   return hn::AllTrue(f, near);
 }
 
-/// Where the ellipsoid is cached, which may be new; -1 if there is no room.
+/// Index of the ellipsoid in the cache, where it is added if it is new; -1 if there is no room.
 HWY_INLINE int slot_of(CachedBatch& cached, std::int32_t ellipsoid) {
   for (int i = 0; i < cached.candidates; ++i)
     if (cached.candidate[i] == ellipsoid) return i;
@@ -47,7 +47,7 @@ HWY_INLINE int slot_of(CachedBatch& cached, std::int32_t ellipsoid) {
   return cached.candidates++;
 }
 
-/// By rising index, as all lists are: blended results are summed in that order.
+/// Sorts the candidates by index, as in all lists, because blended results are summed in that order.
 HWY_INLINE void sort_candidates(CachedBatch& cached) {
   std::int32_t sorted[CachedBatch::kCapacity], from[CachedBatch::kCapacity];
   for (int i = 0; i < cached.candidates; ++i) {
@@ -64,12 +64,12 @@ HWY_INLINE void sort_candidates(CachedBatch& cached) {
   std::copy_n(sorted, cached.candidates, cached.candidate);
 }
 
-/// Some vectors of places, every candidate's bound there, and those above which ellipsoids are farther than
-/// the nearest.
+/// For one step of particles: every candidate's bound, and per particle the bound above which an ellipsoid is
+/// farther than the nearest.
 struct StepBounds {
-  alignas(64) float bound[kMaxCandidates * kStep];  ///< a step a candidate
+  alignas(64) float bound[kMaxCandidates * kStep];  ///< one step for each candidate
   V limit[kVectorsInStep];
-  float least_m;  ///< bound of any
+  float least_m;  ///< least bound of all
 };
 
 template <int kTables>
@@ -95,8 +95,8 @@ HWY_INLINE void bound_step(const Baked& baked, const QueryBatch& batch, int from
   out.least_m = hn::GetLane(hn::MinOfLanes(f, least));
 }
 
-/// Keeps what is farther than the nearest of some place of the step by less than `beyond_m` and twice the
-/// reach; false if there is no room. `slot`: where a column's ellipsoid is cached, or -1.
+/// Caches the candidates that, at some particle of the step, exceed the nearest distance by less than
+/// `beyond_m` plus twice the reach. False if there is no room. `slot`: a column's index in the cache, or -1.
 template <int kTables>
 HWY_INLINE bool cache_step(const Baked& baked, const QueryBatch& batch, int from,
                            const CandidateList& candidates, const Columns& columns, float beyond_m,
@@ -135,7 +135,8 @@ HWY_INLINE void cache_positions(const QueryBatch& batch, CachedBatch& cached) {
   cached.count = batch.count;
 }
 
-/// Finds what is to be cached; false if it does not fit, or places are too far for floats.
+/// Fills the cache of a batch. False if the candidates do not fit, or if a particle is too far away for
+/// floats.
 inline bool fill_cache(const Baked& baked, const ReliefTables* relief, float beyond_m, QueryBatch& batch,
                        BroadPhaseLists& lists) {
   CachedBatch& cached = *batch.cache.batch;
@@ -161,14 +162,14 @@ inline bool fill_cache(const Baked& baked, const ReliefTables* relief, float bey
     return true;
   };
   if (!with_candidates(baked, relief, blocks.ranges, blocks.count, lists, find, work)) return false;
-  // Gathers cost more than finding anew.
+  // With more candidates, gathers would cost more than a new search.
   if (cached.candidates > kPermuted) return false;
   sort_candidates(cached);
   cache_positions(batch, cached);
   return true;
 }
 
-/// Whether the batch's candidates are cached, be it from now on.
+/// Whether the batch has a valid cache. A stale one is refreshed if that is likely to pay.
 HWY_INLINE bool use_cache(const Baked& baked, const ReliefTables* relief, float beyond_m, QueryBatch& batch,
                           BroadPhaseLists& lists) {
   const CacheAccess& cache = batch.cache;
@@ -185,7 +186,7 @@ HWY_INLINE bool use_cache(const Baked& baked, const ReliefTables* relief, float 
   return false;
 }
 
-/// The candidates of a span that may be the nearest by now, or farther than it by `beyond_m`.
+/// Lists the candidates of a span that may be within `beyond_m` of the nearest by now.
 HWY_INLINE void list_cached(const CachedBatch& cached, int span, float beyond_m, CandidateList& out) {
   const V most = all(beyond_m + 2.0f * cached.moved_m);
   out.count = 0;
@@ -196,8 +197,8 @@ HWY_INLINE void list_cached(const CachedBatch& cached, int span, float beyond_m,
   }
 }
 
-/// Calls work as with_candidates() does, for the spans that may come within `limit_m` of an ellipsoid; others
-/// have no candidates.
+/// Calls work as with_candidates() does, with the cached candidates. Spans that cannot come within `limit_m`
+/// of an ellipsoid get no candidates.
 template <class Work>
 HWY_INLINE bool with_cached_candidates(const Baked& baked, const ReliefTables* relief,
                                        const QueryBatch& batch, float beyond_m, float limit_m,

@@ -1,6 +1,7 @@
-// Which ellipsoids can be the nearest of some place in a box, for the boxes of ranges of a batch. With d_j
-// convex and the tangent plane of another ellipsoid k below d_k, d_j minus the plane is convex, so that it is
-// largest at a corner of the box: if j is nearer than k's plane at all eight, k is nowhere the nearest.
+// The candidates of boxes: ellipsoids that no other ellipsoid dominates. The distance d_j is convex, and the
+// tangent plane of another ellipsoid k lies below d_k. Hence d_j minus the plane is convex and largest at a
+// corner of the box. If d_j is less than the plane at all eight corners, j dominates k: it is nearer
+// everywhere in the box.
 #if defined(BODICE_COLLISION_DOMINATION_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_DOMINATION_INL_
 #undef BODICE_COLLISION_DOMINATION_INL_
@@ -26,7 +27,7 @@ constexpr float kNoLimit_m = 1e30f;
 static_assert(kDominators * kCorners % kWidth == 0);
 static_assert(kGroup % kWidth == 0);
 
-/// Consecutive lanes of a batch and their box.
+/// Consecutive lanes of a batch and their AABB.
 struct LaneRange {
   Aabb box;
   int begin, end;
@@ -37,19 +38,19 @@ struct CandidateList {
   alignas(64) std::int32_t index[kMaxCandidates + 16];
 };
 
-/// The numbers of some ellipsoids, one a lane.
+/// The numbers of BallMap, a different ellipsoid in each lane.
 struct BallLanes {
   V3 a0, a1, a2, offset, inverse_radius;
 };
 
-/// `row` reads the members of BallMap by their number.
+/// `row` reads the members of BallMap by their index.
 template <class Row>
 HWY_INLINE BallLanes ball_lanes(Row&& row) {
   const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
   return {row3(0), row3(3), row3(6), row3(kBallOffset), row3(kBallInverse)};
 }
 
-/// Where points are when the ellipsoids are unit balls.
+/// The points p in the frames in which the ellipsoids are unit balls.
 HWY_INLINE V3 in_ball(const BallLanes& e, V3 p) {
   const auto row = [&](V3 a, V offset) {
     return hn::MulAdd(a.x, p.x, hn::MulAdd(a.y, p.y, hn::MulAdd(a.z, p.z, offset)));
@@ -57,7 +58,7 @@ HWY_INLINE V3 in_ball(const BallLanes& e, V3 p) {
   return {row(e.a0, e.offset.x), row(e.a1, e.offset.y), row(e.a2, e.offset.z)};
 }
 
-/// rounding_over() each range.
+/// rounding_over() the box of each range.
 struct RangeRounding {
   float m[kBlocks];
 
@@ -66,22 +67,22 @@ struct RangeRounding {
   }
 };
 
-/// Where candidates are looked for: in the proxy's ellipsoids [begin, end), of which groups whose boxes are
-/// too far from the points' box are passed over,
+/// Source of candidates: the proxy's ellipsoids [begin, end). Groups with boxes too far away are skipped.
 struct AllEllipsoids {
   const Baked& baked;
-  int begin, end;  ///< begin is the first of a group
+  int begin, end;  ///< begin is the first ellipsoid of a group
 
   explicit AllEllipsoids(const Baked& b) : AllEllipsoids(b, 0, static_cast<int>(b.size())) {}
   AllEllipsoids(const Baked& b, int first, int last) : baked(b), begin(first), end(last) {}
 
-  /// Of the nearest group.
+  /// Distance from the box to the nearest group.
   HWY_INLINE float least_gap(const Aabb& box) const {
     V least = all(1e30f);
     for_groups([&](int group) { least = hn::Min(least, gap(box, group)); });
     return hn::GetLane(hn::MinOfLanes(f, least));
   }
-  /// Calls work(index of the first ellipsoid) for each vector that may come within `within_m` of the box.
+  /// Calls work(index of the first ellipsoid) for each vector of ellipsoids that may come within `within_m`
+  /// of the box.
   template <class Work>
   HWY_INLINE void for_vectors(const Aabb& box, float within_m, Work&& work) const {
     const V limit = all(std::max(0.0f, within_m) + baked.rounding_m + rounding_over(box));
@@ -96,7 +97,8 @@ struct AllEllipsoids {
   HWY_INLINE BallLanes balls(int k) const {
     return ball_lanes([&](int i) { return hn::LoadU(f, baked.cull.ball[i].data() + k); });
   }
-  /// The first in the lower half of a vector wider than a box has corners, the second in the upper.
+  /// The first ellipsoid in as many lanes as a box has corners, the second in the lanes above; a narrow
+  /// vector holds the first alone.
   HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
     const auto one = [&](std::int32_t k) { return broadcast(baked.ellipsoids[static_cast<std::size_t>(k)]); };
     if constexpr (kWidth <= kCorners) return one(first);
@@ -113,7 +115,7 @@ struct AllEllipsoids {
   }
 };
 
-/// or in the columns of several blocks.
+/// Source of candidates: the columns that several blocks share.
 template <int kTables>
 struct ColumnEllipsoids {
   const Columns& columns;
@@ -133,8 +135,8 @@ struct ColumnEllipsoids {
   }
 };
 
-/// The plane that bounds the distances to ellipsoid k + lane from below: base + slope . (p - middle), base
-/// being the first-order distance at the middle; NaN at a center: no bound.
+/// Planes that bound the distances to ellipsoids k + lane from below: base + slope . (p - middle). The base
+/// is the first-order distance at the middle; it is NaN at a center, where there is no bound.
 struct BoundPlanes {
   V base, scale;
   V3 u;
@@ -152,19 +154,20 @@ HWY_INLINE V3 slope_of(const BallLanes& e, const BoundPlanes& at) {
   return scaled(add_scaled(add_scaled(scaled(e.a0, at.u.x), at.u.y, e.a1), at.u.z, e.a2), at.scale);
 }
 
-/// Two ellipsoids that are probably the nearest of a box, and their exact distances at its corners.
+/// The two ellipsoids that are probably nearest to a box, and their exact distances at its corners.
 struct Dominators {
   std::int32_t index[kDominators];
   alignas(64) float distance[kDominators * kCorners];
 };
 
-/// Per lane, the ellipsoid of the least distance at the middle.
+/// In each lane the ellipsoid of least distance to the middle among those seen in this lane.
 struct LeastPerLane {
   V distance;
   VI index;
 };
 
-/// The least of all lanes, and the least of the other lanes: good enough for a dominator.
+/// The nearest ellipsoid of all lanes, and the nearest of the other lanes, which is good enough for the
+/// second.
 HWY_INLINE void pick_dominators(LeastPerLane least, Dominators& out) {
   alignas(64) std::int32_t index[kWidth];
   hn::Store(least.index, I(), index);
@@ -177,7 +180,7 @@ HWY_INLINE void pick_dominators(LeastPerLane least, Dominators& out) {
   }
 }
 
-/// Of all boxes, which `around` contains.
+/// The two probably nearest ellipsoids of each range's box; `around` contains all boxes.
 template <class Source>
 HWY_INLINE void find_dominators(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
                                 Dominators* out) {
@@ -198,7 +201,7 @@ HWY_INLINE void find_dominators(const Source& source, const Aabb& around, const 
   for (int i = 0; i < count; ++i) pick_dominators(least[i], out[i]);
 }
 
-/// Corners [i, i + kWidth) of the box, once for each dominator.
+/// Corners [i, i + kWidth) of the box, repeated for each of the two ellipsoids.
 HWY_INLINE V3 corners(const Aabb& e, int i) {
   alignas(64) static constexpr float kSide[3][kDominators * kCorners] = {
       {-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1, -1, 1},
@@ -233,7 +236,8 @@ HWY_INLINE void measure_corners(const Source& source, const LaneRange* ranges, i
   }
 }
 
-/// By convexity the first dominator is nowhere in the boxes farther than this.
+/// Largest distance to the first of the two ellipsoids at any corner; by convexity it is nowhere farther in
+/// the boxes.
 HWY_INLINE float farthest_corner_m(const Dominators* dominators, int count) {
   float most = -1e30f;
   for (int i = 0; i < count; ++i)
@@ -241,7 +245,7 @@ HWY_INLINE float farthest_corner_m(const Dominators* dominators, int count) {
   return most;
 }
 
-/// Ellipsoids that no dominator beats by more than `beyond` at every corner.
+/// Ellipsoids that neither of the two dominates by more than `beyond`.
 HWY_INLINE M not_dominated(const BoundPlanes& at, V3 slope, V3 half, const Dominators& dominators, V beyond) {
   const V3 reach = {hn::Mul(slope.x, half.x), hn::Mul(slope.y, half.y), hn::Mul(slope.z, half.z)};
   const V x[2] = {hn::Sub(at.base, reach.x), hn::Add(at.base, reach.x)};
@@ -255,8 +259,8 @@ HWY_INLINE M not_dominated(const BoundPlanes& at, V3 slope, V3 half, const Domin
   return hn::Not(hn::And(hn::Gt(hn::Max(lead[0], lead[1]), beyond), hn::Eq(at.base, at.base)));
 }
 
-/// For each range all ellipsoids of the source, of those within `within_m` of `around`, that keep(bounds,
-/// planes at its middle, range) keeps, by rising index; false if they are more than kMaxCandidates.
+/// Lists for each range, by rising index, the ellipsoids of the source within `within_m` of `around` that
+/// keep(bounds, planes at the middle, range) accepts. False if there are more than kMaxCandidates.
 template <class Source, class Keep>
 HWY_INLINE bool collect_candidates(const Source& source, const Aabb& around, float within_m,
                                    const LaneRange* ranges, int count, CandidateList* out, Keep&& keep) {
@@ -273,7 +277,7 @@ HWY_INLINE bool collect_candidates(const Source& source, const Aabb& around, flo
       const Pack pack(chosen);
       pack.store(index, to.index + to.count);
       to.count += pack.count();
-      // What comes after a list that is full is written over its end.
+      // A full list does not grow: further candidates overwrite the padding behind it.
       fits = fits && to.count <= kMaxCandidates;
       to.count = std::min(to.count, kMaxCandidates);
     }
@@ -281,22 +285,24 @@ HWY_INLINE bool collect_candidates(const Source& source, const Aabb& around, flo
   return fits;
 }
 
-/// Whether ellipsoids may come within the limit of some place in the box.
+/// Ellipsoids that may come within the limit of some point of the box.
 HWY_INLINE M not_beyond(const BoundPlanes& at, V3 slope, V3 half, V limit) {
-  // Not above, rather than below: a plane that is NaN bounds nothing.
+  // The comparison is "not above" rather than "below", because a NaN plane bounds nothing.
   return hn::Not(hn::Gt(hn::Sub(at.base, dot(absolute(slope), half)), limit));
 }
 
-/// For each range all ellipsoids of the source that its dominators do not keep from being the nearest of a
-/// place in its box, or within `beyond_m` of the nearest, and that may come within `limit_m` of such a place
-/// (kNoLimit_m: any), by rising index; false if they are more than kMaxCandidates. The boxes lie in `around`.
+/// Lists for each range, by rising index, the candidates among the source's ellipsoids; the boxes lie in
+/// `around`. An ellipsoid is a candidate if
+/// 1. it is not dominated, or comes within `beyond_m` of the nearest ellipsoid somewhere in the box, and
+/// 2. it may come within `limit_m` of some point of the box (kNoLimit_m: always).
+/// False on overflow: more than kMaxCandidates.
 template <bool kLimited, class Source>
 HWY_INLINE bool collect_not_dominated(const Source& source, const Aabb& around, const LaneRange* ranges,
                                       int count, const Dominators* dominators, float beyond_m, float limit_m,
                                       CandidateList* out) {
   const RangeRounding rounding(ranges, count);
   const auto keep = [&](const BallLanes& lanes, const BoundPlanes& at, int i) {
-    const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // a plane's and a dominator's
+    const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // error of the plane and of the dominator
     const V3 slope = slope_of(lanes, at), half = broadcast3(ranges[i].box.half);
     const M chosen = not_dominated(at, slope, half, dominators[i], beyond);
     if constexpr (!kLimited) return chosen;
@@ -316,8 +322,8 @@ HWY_INLINE bool find_candidates(const Source& source, const Aabb& around, const 
   return collect_not_dominated<kLimited>(source, around, ranges, count, dominators, beyond_m, limit_m, out);
 }
 
-/// For each range all ellipsoids of the source whose distance may be below the limit at some place in its
-/// box; false if they are more than kMaxCandidates.
+/// Lists for each range, by rising index, the ellipsoids of the source that may come within `limit_m` of some
+/// point of its box. False on overflow.
 template <class Source>
 HWY_INLINE bool find_candidates_below(const Source& source, const Aabb& around, const LaneRange* ranges,
                                       int count, float limit_m, CandidateList* out) {

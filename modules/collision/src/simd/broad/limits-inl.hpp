@@ -1,4 +1,4 @@
-// What a query asks about only within a limit of the surface need look for.
+// The broad phase of a query with a contact distance.
 #if defined(BODICE_COLLISION_LIMITS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_LIMITS_INL_
 #undef BODICE_COLLISION_LIMITS_INL_
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// How far is asked for: from the surface, and what that is over the ellipsoids at most.
+/// The contact distance as a limit on corrected distances, and as a limit on distances to plain ellipsoids.
 struct QueryLimits {
   float surface_m, plain_m;
 
@@ -21,13 +21,14 @@ struct QueryLimits {
     if (!relief) return;
     plain_m = relief->farthest.at_zero_m[0] + relief->farthest.shift_m(surface_m);
   }
-  /// The same of bounds.
+  /// The limit on bounds.
   HWY_INLINE float of_bounds(const Baked& baked) const {
     return hn::GetLane(bound_limit(baked, all(plain_m), 0.0f));
   }
 };
 
-/// share() among what may come within the limits; false also if a place is too far for floats.
+/// with_candidates() among the ellipsoids that may come within the limits. False also if a particle is too
+/// far away for floats.
 template <class Work>
 HWY_INLINE bool with_limited_candidates(const Baked& baked, const ReliefTables* relief, QueryBatch& batch,
                                         float beyond_m, const QueryLimits& limits, BroadPhaseLists& lists,
@@ -35,8 +36,8 @@ HWY_INLINE bool with_limited_candidates(const Baked& baked, const ReliefTables* 
   const Blocks blocks(batch);
   if (!blocks.in_float_range) return false;
   for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.ranges[i].box.radius;
-  // A limit that is short beside the blocks leaves about as few as rivals do, which cost a dozen closest a
-  // block.
+  // A limit that is small beside the blocks leaves about as few candidates as domination, which costs a dozen
+  // closest points a block.
   const bool close = limits.plain_m <= blocks.ranges[0].box.radius;
   const auto find = [&](const auto& source, const Aabb& around, const LaneRange* ranges, int count,
                         CandidateList* found) {

@@ -1,5 +1,5 @@
-// Which ellipsoids a block of particles can meet.
-// Since the signed distance to a convex body is convex, its tangent plane at the block's middle q bounds it
+// AABBs of particles, and the candidates of a block for a response with fillets.
+// The signed distance to a convex body is convex, so that its tangent plane at the block's middle q bounds it
 // from below everywhere: d_k(p) >= d_k(q) + n_k . (p - q).
 #if defined(BODICE_COLLISION_TANGENT_CANDIDATES_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_TANGENT_CANDIDATES_INL_
@@ -18,16 +18,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// Ellipsoids near a block and their tangent planes at its middle.
+/// The ellipsoids near a block and their tangent planes at its middle.
 struct TangentCandidates {
   int count = 0;
   alignas(64) std::int32_t index[kMaxCandidates + 16];
   alignas(64) float distance[kMaxCandidates + 16];
   alignas(64) float nx[kMaxCandidates + 16], ny[kMaxCandidates + 16], nz[kMaxCandidates + 16];
   float middle[3];
-  float slack_m = 0.0f;   ///< what distances and planes are off by over the block
-  float radius_m = 0.0f;  ///< of the block
-  float reach_m = 0.0f;   ///< pushes up to this long meet no ellipsoid that is not among them
+  float slack_m = 0.0f;   ///< error of distances and planes over the block
+  float radius_m = 0.0f;  ///< half the diagonal of the block's box
+  float reach_m = 0.0f;   ///< pushes up to this long reach no other ellipsoid
 };
 
 struct Aabb {
@@ -56,7 +56,7 @@ HWY_INLINE Aabb aabb_between(V3 low, V3 high) {
   return e;
 }
 
-/// The smallest box around both.
+/// The smallest box that contains both.
 HWY_INLINE Aabb united(const Aabb& a, const Aabb& b) {
   Aabb e;
   float sum = 0.0f;
@@ -81,7 +81,7 @@ HWY_INLINE Aabb grown(Aabb e, float by_m) {
   return e;
 }
 
-/// Whether the second lies in the first.
+/// Whether `a` contains `b`.
 HWY_INLINE bool contains(const Aabb& a, const Aabb& b) {
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis)
@@ -89,7 +89,7 @@ HWY_INLINE bool contains(const Aabb& a, const Aabb& b) {
   return inside;
 }
 
-/// The box of places; `in_float_range` tells whether all are within kFarthest_m, which NaN is not.
+/// The box of the particles. `in_float_range` is set to whether all are within kFarthest_m, which NaN is not.
 HWY_INLINE Aabb aabb_of_lanes(const float* x, const float* y, const float* z, int count,
                               bool& in_float_range) {
   const auto load = [&](int i) { return V3{hn::LoadU(f, x + i), hn::LoadU(f, y + i), hn::LoadU(f, z + i)}; };
@@ -106,7 +106,7 @@ HWY_INLINE Aabb aabb_of_lanes(const float* x, const float* y, const float* z, in
   return aabb_between(low, high);
 }
 
-/// The box of the particles and, where they have any, of the paths from their safe positions.
+/// The box of the particles and of the paths from their safe positions, if there are any.
 HWY_INLINE Aabb aabb_of(const ParticleBatch& block) {
   const int width = static_cast<int>(hn::Lanes(f));
   V3 low = load3(block.x, block.y, block.z), high = low;
@@ -117,7 +117,7 @@ HWY_INLINE Aabb aabb_of(const ParticleBatch& block) {
   return aabb_between(low, high);
 }
 
-/// What the plane of an ellipsoid, or a distance to it, is off by over the box, however small the ellipsoid.
+/// Error of an ellipsoid's plane, or of a distance to it, over the box, however small the ellipsoid.
 HWY_INLINE float rounding_over(const Aabb& box) {
   const float away = std::abs(box.middle[0]) + std::abs(box.middle[1]) + std::abs(box.middle[2]);
   return 2.0f * static_cast<float>(kFloatRounding) * (away + box.radius);
@@ -137,13 +137,13 @@ HWY_INLINE V box_distance(const Corner& low, const Corner& high, const Aabb& e, 
   return hn::Sqrt(sum);
 }
 
-/// The same to ellipsoids [k, k + kWidth).
+/// Distance from the block's box to those of the ellipsoids [k, k + kWidth).
 HWY_INLINE V box_distance(const CullArrays& cull, const Aabb& e, std::size_t k) {
   return box_distance(cull.low, cull.high, e, k);
 }
 
-/// Exact distance and normal, at the block's middle, of the ellipsoids whose boxes are within `window` of the
-/// block's; false if they are too many. `least` receives the least distance, or 1e30.
+/// Exact distance and normal at the block's middle for the ellipsoids with boxes within `window` of the
+/// block's. False on overflow. `least` is set to the least distance, or to 1e30.
 HWY_INLINE bool collect_tangents(const Baked& baked, const Aabb& e, float window, TangentCandidates& out,
                                  float& least) {
   const std::size_t width = hn::Lanes(f);
@@ -152,7 +152,7 @@ HWY_INLINE bool collect_tangents(const Baked& baked, const Aabb& e, float window
   std::memcpy(out.middle, e.middle, sizeof(out.middle));
   out.count = 0;
   for (std::size_t k = 0; k < baked.cull.shortest.size(); k += width) {
-    // Inside a box its distance is zero, whatever the depth.
+    // The distance to a box is zero inside it, whatever the depth.
     const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
     if (hn::AllFalse(f, near)) continue;
     if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
@@ -174,8 +174,8 @@ HWY_INLINE bool collect_tangents(const Baked& baked, const Aabb& e, float window
   return true;
 }
 
-/// Keeps the candidates whose tangent plane comes within `window` of some place of the block's box, and puts
-/// the one nearest to its middle first.
+/// Keeps the candidates with tangent planes that come within `window` of some point of the block's box, and
+/// moves the one nearest to its middle to the front.
 HWY_INLINE void drop_beyond_window(const Aabb& e, float window, TangentCandidates& c) {
   int count = 0, nearest = 0;
   for (int i = 0; i < c.count; ++i) {
@@ -199,7 +199,7 @@ HWY_INLINE void drop_beyond_window(const Aabb& e, float window, TangentCandidate
   std::swap(c.nz[0], c.nz[nearest]);
 }
 
-/// All ellipsoids that a particle of the block is below the clearance of, or can be pushed into.
+/// All ellipsoids that some particle of the block violates the clearance of, or can be pushed into.
 HWY_INLINE bool cull_for_response(const Baked& baked, const ParticleBatch& block, float clearance_m,
                                   TangentCandidates& out) {
   const Aabb e = aabb_of(block);
@@ -212,7 +212,8 @@ HWY_INLINE bool cull_for_response(const Baked& baked, const ParticleBatch& block
     out.count = 0;
     return true;
   }
-  // A push can be longer than the depth where surfaces meet; the exact side takes what is longer than this.
+  // A push can be longer than the depth where surfaces meet; longer ones than this are left to the exact
+  // side.
   out.reach_m = 1.5f * depth;
   const float window = clearance_m + out.reach_m + slack;
   if (!collect_tangents(baked, e, window, out, least)) return false;

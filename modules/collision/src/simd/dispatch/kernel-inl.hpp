@@ -1,5 +1,5 @@
-// The kernels for one instruction set: a source file defines BODICE_KERNEL_TARGET and includes this. One file
-// a target lets the targets compile side by side; kernels.cpp chooses among them at run time.
+// The kernels for one instruction set: a source file defines BODICE_KERNEL_TARGET and includes this. With one
+// file a target the targets compile side by side; kernels.cpp chooses among them at run time.
 
 #include "simd/dispatch/kernel_targets.hpp"
 // The instruction set must be known before the rest of Highway is read.

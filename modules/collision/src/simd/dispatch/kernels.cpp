@@ -4,13 +4,13 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "simd/dispatch/kernels.cpp"
 #include <hwy/foreach_target.h>
-// foreach_target must come first.
+// foreach_target.h must come first.
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-// Defined in kernels_<target>.cpp.
+// These are defined in kernels_<target>.cpp.
 bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 bool query_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 bool query_first_order(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
@@ -38,7 +38,7 @@ HWY_EXPORT(resolve);
 HWY_EXPORT(target);
 
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
-  // Where too many ellipsoids are near for the lists, exact queries have a way out.
+  // On overflow the exact query is the fallback.
   if (batch.accuracy == Accuracy::kFirstOrder &&
       HWY_DYNAMIC_DISPATCH(query_first_order)(baked, relief, batch))
     return true;

@@ -8,15 +8,15 @@
 
 namespace bodice::collision {
 
-/// Fills in the contacts of the batch; false, and some left as they were, if too many ellipsoids are near or
-/// a place is not within kFarthest_m.
+/// Fills in the contacts of the batch. False on overflow or if a particle is not within kFarthest_m; some
+/// contacts are then unchanged.
 bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
 
-/// The nearest response; false if too many ellipsoids are near for the kernel.
+/// Closest-point response of a batch; false on overflow.
 bool resolve_batch(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
                    const ParticleBatch& batch, BatchResponse& out);
 
-/// The proxy_index of the instruction set in use.
+/// Name of the instruction set in use.
 const char* kernel_target();
 
 }  // namespace bodice::collision

@@ -1,4 +1,4 @@
-// The compiler's own baseline, where none of the other files is for it.
+// The kernels for the compiler's baseline instruction set, if no other file has it.
 #include "simd/dispatch/kernel_targets.hpp"
 // The instruction set must be known before it can be compared.
 #include <hwy/detect_targets.h>

@@ -1,9 +1,19 @@
-// The closest point of an ellipsoid's surface, one problem a lane.
-// Based on: David Eberly. Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013.
-// Differs: the root is sought in u = t + r2^2, which does not cancel next to the pole; Newton on 1 / |w(u)|
-// (Jorge J. More, Danny C. Sorensen. Computing a Trust Region Step. 1983), which is concave, so that every
-// step but the first comes from the left of the root, lengthened as Halley's; a lane stops by its own
-// residual, so that its result does not depend on its neighbors.
+// The closest point of an ellipsoid's surface, one problem a lane. In the ellipsoid's frame, with r0 as the
+// unit of length, y is the particle and r = (1, r1, r2) are the radii. The closest point is r o w, w a unit
+// vector, and the normal there is parallel to w / r. Hence y = r o w + t w / r, and with a = r o |y|, u = t +
+// r2^2, gap_j = r_j^2 - r2^2:
+//   [1] w_j(u) = a_j / (u + gap_j)
+//   [2] |w(u)| = 1 at the root u > 0
+//   [3] distance = n . (|y| - r o w), n = (w / r) / |w / r|
+// With S_n = sum_j w_j^2 / (u + gap_j)^n, Newton's step on 1 / |w| - 1 and the factor by which Halley's
+// method lengthens it are
+//   [4] du = (|w| - 1) S_0 / S_1
+//   [5] 1 / (1 - 3/2 (|w| - 1) (S_0 S_2 - S_1^2) / S_1^2)
+// Based on: David Eberly. Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013; Jorge
+// J. More, Danny C. Sorensen. Computing a Trust Region Step. 1983, for [4].
+// Differs: u, unlike t, does not cancel next to the pole. 1 / |w| is concave, so that every step but the
+// first starts left of the root. A lane stops by its own residual, so that its result does not depend on
+// other lanes.
 #if defined(BODICE_COLLISION_CLOSEST_POINT_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_CLOSEST_POINT_INL_
 #undef BODICE_COLLISION_CLOSEST_POINT_INL_
@@ -11,8 +21,8 @@
 #define BODICE_COLLISION_CLOSEST_POINT_INL_
 #endif
 
-// Products that are added are written as fused, so that the compiler has no choice: a lane's result must not
-// depend on the loop in which it is computed.
+// Sums of products are written as fused operations, so that the compiler has no choice: a lane's result must
+// not depend on the loop in which it is computed.
 
 #include <cstddef>
 
@@ -22,7 +32,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The numbers of BakedEllipsoid, either one ellipsoid in every lane or one a lane.
+/// The numbers of BakedEllipsoid: one ellipsoid in every lane, or another one in each.
 struct Shape {
   V3 center, row0, row1, row2;
   V radius1, radius2, gap0, gap1, inverse1, inverse2, longest;
@@ -66,25 +76,23 @@ HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
 
 struct ClosestPointLanes {
   V distance;  ///< meters, negative inside
-  V3 n;        ///< outward normal, as long as the longest radius, in the octant and axes of w
-  V3 w;        ///< direction of the closest on the unit sphere, first octant, axes by
-               ///< falling radius
-  V3 y;        ///< the point in the ellipsoid's frame, in units of its longest radius,
-               ///< signed
-  V u;         ///< the root
+  V3 n;        ///< outward normal times r0, in the octant and axes of w
+  V3 w;        ///< w of [1], in the first octant, axes by falling radius
+  V3 y;        ///< the particle in the ellipsoid's frame, signed, in units of r0
+  V u;         ///< the root of [2]
 };
 
-constexpr int kUsualSteps = 2;         // the one from the surface included: enough near limb-like shapes
-constexpr int kMaxSteps = 24;          // what 1:1000 can need
+constexpr int kUsualSteps = 2;         // includes the one from the surface; enough near shapes like limbs
+constexpr int kMaxSteps = 24;          // the most that aspect ratios of 1:1000 need
 constexpr int kHalleySteps = 4;        // then Newton, which cannot overshoot twice
-constexpr float kConverged = 1e-3f;    // of |w|^2 - 1, before the last correction, which squares it
-constexpr float kShortStep = 2e-2f;    // twice the share of u that the last correction may be
-constexpr float kRounding = 1e-6f;     // of |w|^2
+constexpr float kConverged = 1e-3f;    // residual of |w|^2 before the last correction, which squares it
+constexpr float kShortStep = 2e-2f;    // twice the relative change of u that the last correction may make
+constexpr float kRounding = 1e-6f;     // relative, of |w|^2
 constexpr float kLeastHalley = 0.25f;  // the curvature may lengthen a step fourfold
-// u = t + r2^2 in units of r0^2, relative to the smallest of which (1:1000) this is still a millionth.
+// Least u in units of r0^2; it is still a millionth of the smallest r2^2, that of an aspect ratio of 1:1000.
 constexpr float kLeastRoot = 1e-12f;
 
-/// w_j = a_j / (u + gap_j), and the sums of w_j^2 / (u + gap_j)^n that its derivatives need, n = 0, 1, 2.
+/// w of [1] at one u, and the sums S_0, S_1 and S_2.
 struct Secular {
   V3 w, slope;  // slope_j = w_j / (u + gap_j)
   V norm2, first, second;
@@ -95,7 +103,7 @@ HWY_INLINE Secular secular(V3 w, V3 inverse) {
   return {w, slope, dot(w, w), dot(w, slope), dot(slope, slope)};
 }
 
-/// By estimates, too, where another step follows.
+/// Computes w and its sums at u; by estimates unless this is the last step.
 template <bool kLast = true>
 HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
   const auto inverted = [](V e) { return kLast ? reciprocal(e) : estimated_reciprocal(e); };
@@ -103,34 +111,34 @@ HWY_INLINE Secular evaluate(V3 a, V gap0, V gap1, V u) {
   return secular({hn::Mul(a.x, inverse.x), hn::Mul(a.y, inverse.y), hn::Mul(a.z, inverse.z)}, inverse);
 }
 
-constexpr float kLeastNorm2 = 1e-35f;  // w = 0 at the center: a step is then of no use, but must be finite
+constexpr float kLeastNorm2 = 1e-35f;  // w = 0 at the center: the step is useless there but must be finite
 
-/// Newton's step on 1 / |w|: (|w| - 1) |w|^2 / sum w^2 / e; Halley divides it by 1 + half its curvature. By
-/// estimates: what a step is off by is left to the next.
+/// The next u by [4], or by [4] and [5]. It uses estimates, since the next step corrects their error.
 template <bool kHalley>
 HWY_INLINE V next_root(const Secular& g, V u, V low) {
   const V one = all(1.0f), least = all(kLeastNorm2);
   const V norm2 = hn::Max(g.norm2, least);
   const V inverse = estimated_reciprocal(hn::Max(g.first, least));
   const V inverse_norm = estimated_inverse_sqrt(norm2);
-  // |w| - 1 without what the estimate is off by: next to the focal ellipse of thin shapes all hangs on it.
+  // The error of the estimate is kept out of |w| - 1, because next to the focal ellipse of thin shapes the
+  // result depends on its last digits.
   const V norm_and_one = hn::MulAdd(norm2, inverse_norm, one);
   const V excess = hn::Mul(hn::Sub(norm2, one), estimated_reciprocal(norm_and_one));
   const V scale = hn::Mul(norm2, inverse);
   V longer = one;
   if constexpr (kHalley) {
-    // 1 - 3/2 step (S_0 S_2 - S_1^2) / (S_0 S_1)
+    // The denominator of [5].
     const V bend = hn::NegMulAdd(g.first, hn::Mul(inverse_norm, inverse_norm), hn::Mul(g.second, inverse));
     const V half = hn::Mul(hn::Mul(all(1.5f), excess), scale);
     longer = estimated_reciprocal(hn::Max(hn::NegMulAdd(half, bend, one), all(kLeastHalley)));
   }
   const V next = hn::MulAdd(hn::Mul(excess, scale), longer, u);
   return hn::IfThenElse(hn::Gt(next, low), next,
-                        low);  // low where the step is NaN: sums have overflowed
+                        low);  // also where overflowing sums make the step NaN
 }
 
-/// Halley's step with all denominators in one: (|w|^2 - 1) N S_1 / (q S_1^2 - 3/2 (|w|^2 - 1) (N S_2 -
-/// S_1^2)), q = |w| + 1. Products of sums overflow earlier than those of next_root(), which then takes over.
+/// The next u by [4] and [5] over one denominator: (S_0 - 1) S_0 S_1 / (q S_1^2 - 3/2 (S_0 - 1) (S_0 S_2 -
+/// S_1^2)), q = |w| + 1. Its products overflow earlier than those of next_root(), which then takes over.
 HWY_INLINE V usual_root(const Secular& g, V u, V low) {
   const V one = all(1.0f);
   const V excess = hn::Sub(g.norm2, one);
@@ -145,11 +153,12 @@ HWY_INLINE V usual_root(const Secular& g, V u, V low) {
   return hn::IfThenElse(hn::Gt(next, low), next, low);
 }
 
-/// Lanes that need another step; a lane judges by itself, so that its result does not depend on its
-/// neighbors.
+/// Lanes that need another step. Each lane decides by itself, so that its result does not depend on other
+/// lanes.
 HWY_INLINE M needs_step(const Secular& g, V u, V low) {
-  // Next to the focal ellipse of a thin shape all of w_z, and with it the normal, hangs on the last digits of
-  // u that |w| hardly feels: there the step that is left must be short beside u, as far as |w| can tell.
+  // Next to the focal ellipse of a thin shape w_z, and with it the normal, depends on the last digits of u,
+  // to which |w| is hardly sensitive. There the remaining step must be short beside u, as far as |w|
+  // determines it.
   const V share = hn::Max(hn::Mul(all(kShortStep), hn::Mul(u, g.first)), all(kRounding));
   const M off = hn::Gt(hn::Abs(hn::Sub(g.norm2, all(1.0f))), hn::Min(share, all(kConverged)));
   return hn::And(off, hn::Or(hn::Gt(u, low), hn::Gt(g.norm2, all(1.0f))));
@@ -161,7 +170,8 @@ HWY_INLINE void step_where(M active, V3 a, const Shape& s, V low, V& u, Secular&
   g = evaluate(a, s.gap0, s.gap1, u);
 }
 
-/// One problem on its way: |y| and a = r o |y|, all components >= 0, the iterate and its lower end.
+/// The state of one problem: |y| and a = r o |y|, all components >= 0, the current u, its lower bound, and
+/// the sums at u.
 struct Search {
   V3 y, a;
   V low, u;
@@ -172,12 +182,13 @@ HWY_INLINE Search start_from_surface(V3 y, const Shape& s) {
   Search result;
   result.y = absolute(y);
   const V3 a = result.a = {result.y.x, hn::Mul(s.radius1, result.y.y), hn::Mul(s.radius2, result.y.z)};
-  // |w| >= 1 at each of these, so none lies right of the root (except the floor, on the medial disk).
+  // |w| >= 1 at each of these values of u, so none lies right of the root (except the floor, on the medial
+  // disk).
   const V a2 = hn::Max(dot(a, a), all(kLeastNorm2));
   const V norm = hn::Mul(hn::Mul(a2, all(1.0f - kEstimate)), estimated_inverse_sqrt(a2));
   const V start = hn::Max(hn::Max(a.z, hn::Sub(a.y, s.gap1)), hn::Sub(hn::Max(norm, a.x), s.gap0));
   result.low = hn::Max(start, all(kLeastRoot));
-  // Particles are near the surface, where u = r2^2 and w = y / r.
+  // Most particles are near the surface, where u = r2^2 and w = y / r.
   const V3 inverse_r2 = {all(1.0f), hn::Mul(s.inverse1, s.inverse1), hn::Mul(s.inverse2, s.inverse2)};
   result.at =
       secular({result.y.x, hn::Mul(result.y.y, s.inverse1), hn::Mul(result.y.z, s.inverse2)}, inverse_r2);
@@ -196,13 +207,13 @@ HWY_INLINE void refine(M active, const Shape& s, Search& search) {
   }
 }
 
-/// The closest direction, first octant, its length 1 to first order; the root is brought up to date.
+/// The last correction of u, to first order, and w in the first octant with unit length to first order.
 HWY_INLINE V3 last_direction(Search& search) {
   const V one = all(1.0f);
   const Secular& g = search.at;
-  // On the medial disk |w| < 1 even at the pole: the shortest axis takes the rest.
+  // On the medial disk |w| < 1 even at the pole; the component along the shortest axis takes the rest.
   const M medial = hn::And(hn::Le(search.u, all(kLeastRoot)), hn::Lt(g.norm2, one));
-  // The last step, to first order: |w|^2 falls by twice the first sum.
+  // To first order |w|^2 falls by 2 S_1 times the step.
   const V excess = hn::Mul(all(0.5f), hn::Sub(g.norm2, one));
   const V last =
       hn::IfThenZeroElse(medial, hn::Mul(excess, estimated_reciprocal(hn::Max(g.first, all(kLeastNorm2)))));
@@ -215,14 +226,14 @@ HWY_INLINE V3 last_direction(Search& search) {
   return w;
 }
 
-/// From the direction to the distance and the normal; `y` is signed.
+/// Computes distance and normal from w; `y` is signed.
 HWY_INLINE void finish_point(const Shape& s, V3 y, Search& search, ClosestPointLanes& result) {
   result.y = y;
   const V3 raw = last_direction(search);
   result.u = search.u;
   const V3 g = {raw.x, hn::Mul(raw.y, s.inverse1), hn::Mul(raw.z, s.inverse2)};
-  // Of w and of w / r side by side: the normal does not care how long w is. The last step has left of |w|^2 -
-  // 1 about kConverged squared, of which the expansion of 1 / |w| about 1 drops the square.
+  // w and w / r are scaled side by side, because the normal does not depend on the length of w. After the
+  // last step |w|^2 - 1 is about kConverged squared; the expansion of 1 / |w| about 1 drops its square.
   const V inverse_norm = hn::NegMulAdd(all(0.5f), dot(raw, raw), all(1.5f));
   const V3 w = result.w = scaled(raw, inverse_norm);
   const V3 n = result.n = scaled(g, hn::Mul(s.longest, inverse_sqrt(dot(g, g))));
@@ -231,15 +242,15 @@ HWY_INLINE void finish_point(const Shape& s, V3 y, Search& search, ClosestPointL
   result.distance = dot(n, off);
 }
 
-/// From the ellipsoid's frame, axes by falling radius, to the local frame of the collider; shorter by the
-/// longest radius.
+/// Rotates a vector from the ellipsoid's frame, axes by falling radius, to the collider's local frame, and
+/// divides it by r0.
 HWY_INLINE V3 out_of(const Shape& s, V3 v) {
   return {hn::MulAdd(s.row0.x, v.x, hn::MulAdd(s.row1.x, v.y, hn::Mul(s.row2.x, v.z))),
           hn::MulAdd(s.row0.y, v.x, hn::MulAdd(s.row1.y, v.y, hn::Mul(s.row2.y, v.z))),
           hn::MulAdd(s.row0.z, v.x, hn::MulAdd(s.row1.z, v.y, hn::Mul(s.row2.z, v.z)))};
 }
 
-/// Outward, unit, local frame of the collider.
+/// The outward unit normal in the collider's local frame.
 HWY_INLINE V3 normal_of(const Shape& s, const ClosestPointLanes& closest) {
   return out_of(s, with_signs(closest.n, signs_of(closest.y)));
 }
@@ -250,10 +261,10 @@ HWY_INLINE void usual_step(const Shape& s, Search& search) {
   search.at = evaluate<kLast>(search.a, s.gap0, s.gap1, search.u);
 }
 
-/// Vectors of problems that are worked on in step.
+/// Vectors that are computed side by side, so that one proceeds while another waits for its results.
 constexpr int kVectorsInStep = 2;
 
-/// Some vectors of problems, of which some lanes need more steps.
+/// Several vectors of problems, some lanes of which need more steps.
 template <int kCount>
 struct Unconverged {
   Shape shape[kCount];
@@ -261,14 +272,14 @@ struct Unconverged {
   M active[kCount];
 };
 
-/// Not in line: what it works on must lie in memory, while that of all others can stay in registers.
+/// Not inlined: what it works on must lie in memory, while the common case stays in registers.
 template <int kCount>
 HWY_NOINLINE void refine_each(Unconverged<kCount>& some) {
   for (int i = 0; i < kCount; ++i)
     if (!hn::AllFalse(f, some.active[i])) refine(some.active[i], some.shape[i], some.search[i]);
 }
 
-/// Several vectors of problems in step, since each waits for its own results most of the time.
+/// The closest points of several vectors of particles, side by side.
 template <int kCount>
 HWY_INLINE void closest_points(const Shape (&s)[kCount], const V3 (&p)[kCount],
                                ClosestPointLanes (&out)[kCount]) {

@@ -1,5 +1,5 @@
-// A different ellipsoid a lane: those of a block as the columns of a small table, read by permutation.
-// Sixteen gathers of memory take several times as long as the closest that they are for.
+// A different ellipsoid in each lane. The candidates of a block are the columns of a small table that is read
+// by permutation; sixteen gathers from memory take several times as long as the closest point itself.
 #if defined(BODICE_COLLISION_COLUMNS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_COLUMNS_INL_
 #undef BODICE_COLLISION_COLUMNS_INL_
@@ -43,14 +43,14 @@ HWY_INLINE void put_four(const float* const (&from)[4], float* to) {
 }
 #endif
 
-/// The candidates of some blocks, a column each; rows are the members of BakedEllipsoid, of BakedTable
-/// (relief only) and of BallMap, all as floats or the bits of integers.
+/// The candidates of some blocks, a column each. The rows are the members of BakedEllipsoid, of BakedTable
+/// (relief only) and of BallMap, as floats or as the bits of integers.
 class Columns {
  public:
   static constexpr int kBallRows = sizeof(BallMap) / sizeof(float);
   static constexpr int kTable = kBakedFloats, kBall = kTable + kTableFloats, kRows = kBall + kBallRows;
   static constexpr int kProxyIndex = kBakedFloats - 1, kBallProxyIndex = kBall + kBallRows - 1;
-  /// Which rows are filled beside those of tables.
+  /// Which rows are filled; those of tables are filled whenever there is relief.
   enum class Rows { kAll, kShapes, kBalls };
 
   HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
@@ -65,14 +65,14 @@ class Columns {
       fill_by<kWidest>(baked, relief, rows);
   }
   int count() const { return count_; }
-  /// Of the proxy's, which column i holds.
+  /// The internal index of the ellipsoid in column i.
   std::size_t ellipsoid(int i) const { return static_cast<std::size_t>(ellipsoids_[i]); }
   const std::int32_t* ellipsoids() const { return ellipsoids_; }
   const float* row(int i) const { return values_ + i * stride_; }
 
  private:
   static constexpr int kPad = 16;
-  // Not a power of two: rows of one column would share their few places in the cache.
+  // Not a power of two, because the rows of one column would then share few lines of the cache.
   static constexpr int kWidest = kMaxCandidates + kPad;
 
   // The stride is a constant, so that the copies become plain moves.
@@ -85,7 +85,7 @@ class Columns {
       if (rows != Rows::kShapes) put<kStride>(baked.balls, c, values_ + kBall * kStride);
     }
   }
-  /// Columns [c, c + 4), those beyond the last as the last.
+  /// Fills the columns [c, c + 4); those beyond the last repeat it.
   template <int kStride, class Member>
   HWY_INLINE void put(const std::vector<Member>& members, int c, float* to) {
     const auto numbers = [&](int i) {
@@ -100,12 +100,13 @@ class Columns {
   int stride_ = 0, count_ = 0;
 };
 
-/// Vectors of columns that permutations read, and so many columns; more are read by gathers, which a single
-/// lane does not need.
+/// Number of vectors that a permutation reads, and the columns in them. Tables with more columns are read by
+/// gathers; the scalar target needs neither.
 constexpr int kMostTables = kWidth < 16 ? 4 : 2;
 constexpr int kPermuted = kWidth == 1 ? kMaxCandidates : kMostTables * kWidth;
 
-/// Reads the columns' rows by lane. kTables: vectors that a row takes, 1, 2 or kMostTables; 0: more.
+/// Reads the rows of columns, another column in each lane. kTables: vectors in a row, 1, 2 or kMostTables; 0
+/// stands for more.
 template <int kTables>
 class Lookup {
  public:
@@ -126,7 +127,7 @@ class Lookup {
   HWY_INLINE V operator()(const float* row) const {
     if constexpr (kTables == 0) return hn::GatherIndex(f, row, column_);
 #if HWY_TARGET == HWY_AVX3
-    // One instruction, which Highway 1.0 has no proxy_index for.
+    // This is one instruction, for which Highway 1.0 has no function.
     if constexpr (kTables == 2)
       return V{_mm512_permutex2var_ps(hn::Load(f, row).raw, column_.raw, hn::Load(f, row + kWidth).raw)};
 #endif

@@ -1,4 +1,4 @@
-// Relief: the correction of one ellipsoid's distance and its gradient, one closest a lane.
+// Relief: the correction of an ellipsoid's distance and of its gradient, one closest point a lane.
 #if defined(BODICE_COLLISION_RELIEF_TABLE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_RELIEF_TABLE_INL_
 #undef BODICE_COLLISION_RELIEF_TABLE_INL_
@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The table of each lane's ellipsoid: the members of BakedTable but its axes.
+/// The table of each lane's ellipsoid: the members of BakedTable except its axes.
 struct TableLanes {
   VI first_byte, nodes;
   V h_scale, h_offset, a_scale, a_offset;
@@ -31,10 +31,10 @@ HWY_INLINE TableLanes table_of(const Columns& columns, VI column) {
   return {integer(0), integer(1), number(2), number(3), number(4), number(5)};
 }
 
-/// Between the axes of the proxy, which the table is over, and those by falling radius.
+/// Reorders vectors between the proxy's axes, which tables use, and those by falling radius.
 class AxisOrder {
  public:
-  /// Where the proxy's first two axes are among the sorted ones.
+  /// Takes the indices of the proxy's first two axes among the sorted ones.
   HWY_INLINE AxisOrder(VI axis0, VI axis1)
       : first0_(is(axis0, 0)),
         first1_(is(axis0, 1)),
@@ -66,13 +66,14 @@ class AxisOrder {
   M first0_, first1_, first2_, second0_, second1_, second2_;
 };
 
-/// A unit direction: where it would be in the first octant, and the signs (sign bits alone). The map is the
-/// same in all octants but for signs, and so is an ellipsoid.
+/// A unit direction: its magnitudes and its sign bits. The map, like an ellipsoid, is the same in all octants
+/// but for signs.
 struct Direction {
   V3 w, sign;
 };
 
-/// Its magnitudes on the octahedral square, with what the chain rule needs to come back.
+/// The magnitudes of a direction on the octahedral square, with the terms that the chain rule needs; s =
+/// |w_x| + |w_y| + |w_z|.
 struct Octahedral {
   V x, y;            ///< in [0, 1]
   V flat_x, flat_y;  ///< w.x / s, w.y / s
@@ -91,7 +92,7 @@ HWY_INLINE Octahedral to_square(const Direction& d) {
   return o;
 }
 
-/// d/dw of a function whose slopes over the magnitudes on the square are (gx, gy).
+/// Slope over w of a function that has the slopes (gx, gy) over the magnitudes on the square.
 HWY_INLINE V3 from_square(const Octahedral& o, V below, V gx, V gy) {
   const V sx = if_signed(below, hn::Neg(gy), gx);
   const V sy = if_signed(below, hn::Neg(gx), gy);
@@ -113,9 +114,9 @@ HWY_INLINE V byte_of(VI word) {
   return hn::ConvertTo(f, hn::BitCast(I(), byte));
 }
 
-/// Twice a whole number below 2^23.
+/// Twice a whole number below 2^23, as integers.
 HWY_INLINE VI twice(V whole) {
-  // The last bits of the sum are the number; a conversion would guard against others.
+  // The low bits of the sum are the number; a conversion would also handle numbers out of range.
   const VI sum = hn::BitCast(I(), hn::Add(whole, all(0x1p23f)));
   return hn::ShiftLeft<1>(hn::And(sum, hn::Set(I(), 0x7fffff)));
 }
@@ -131,14 +132,14 @@ HWY_INLINE Bilinear bilinear(VI upper, VI lower, V u, V v, V scale, V offset) {
           hn::Mul(scale, hn::MulAdd(v, hn::Sub(along1, along0), along0)), hn::Mul(scale, down)};
 }
 
-/// What a table takes off the distance at a direction.
+/// What a table subtracts from the distance at a direction.
 struct Correction {
   V value;         ///< h + a d, meters
-  V3 slope;        ///< its slope over the direction in the first octant, meters
-  V along_normal;  ///< 1 less its slope over the distance
+  V3 slope;        ///< slope of the value over the direction in the first octant, meters
+  V along_normal;  ///< 1 minus the slope of the value over the distance
 };
 
-/// `at`: axes of the proxy.
+/// The correction at a direction, given in the proxy's axes.
 HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& table, const Direction& at,
                                  V distance) {
   const Octahedral o = to_square(at);
@@ -166,11 +167,11 @@ HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& t
 
 struct Corrected {
   V value;      ///< F_k, meters
-  V3 gradient;  ///< of F_k, local frame of the collider
+  V3 gradient;  ///< gradient of F_k, local frame of the collider
 };
 
-/// The part of grad F_k that comes from h and a varying over the sphere, first octant: `slope` is d(h + a d)
-/// / dw.
+/// The part of grad F_k that comes from h and a varying over the sphere, in the first octant. `slope` is d(h
+/// + a d) / dw.
 HWY_INLINE V3 tangential(const Shape& s, const ClosestPointLanes& closest, V3 slope) {
   const V3 w = closest.w;
   const V3 inverse = {reciprocal(hn::Add(closest.u, s.gap0)), reciprocal(hn::Add(closest.u, s.gap1)),
@@ -194,7 +195,8 @@ HWY_INLINE AxisOrder axes_of(const Columns& columns, VI column) {
           hn::BitCast(I(), at(columns.row(Columns::kTable + 7)))};
 }
 
-/// `read_axes` tells the order of the axes; called only if they are not sorted.
+/// Corrected distance F_k and its gradient. `read_axes` returns the order of the axes; it is called only if
+/// they are not sorted.
 template <class ReadAxes>
 HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& table, const Shape& s,
                                const ClosestPointLanes& closest, ReadAxes&& read_axes) {
@@ -207,12 +209,13 @@ HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& tab
     by = correction(relief, table, {axes.to_proxy(at.w), axes.to_proxy(at.sign)}, closest.distance);
     by.slope = axes.to_sorted(by.slope);
   }
-  // The chain rule asks for the same 1 / r0 that the normal does.
+  // out_of() divides by r0: that cancels the factor r0 of the normal, and the chain rule needs it in the
+  // other term.
   const V3 gradient = scaled(closest.n, by.along_normal) - tangential(s, closest, by.slope);
   return {hn::Sub(closest.distance, by.value), out_of(s, with_signs(gradient, at.sign))};
 }
 
-/// An ellipsoid's share where several blend: (max(0, 1 - (d - least) / blend))^2
+/// Weight of an ellipsoid where several blend: (max(0, 1 - (d - least) / blend))^2
 HWY_INLINE V blend_weight(V distance, V least, V per_blend) {
   const V root = hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Sub(distance, least), per_blend, all(1.0f)));
   return hn::Mul(root, root);

@@ -1,5 +1,6 @@
-// Stores of some lanes, closed up. Targets without an instruction for that permute by a table: Highway 1.0
-// has it, too, but g++ copies its kilobyte onto the stack at each use, which took a third of a query's time.
+// Stores the chosen lanes of a vector next to each other. Targets without an instruction for that permute by
+// a table. Highway 1.0 has that table, too, but g++ copies its kilobyte onto the stack at each use, which
+// took a third of a query's time.
 #if defined(BODICE_COLLISION_PACK_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_PACK_INL_
 #undef BODICE_COLLISION_PACK_INL_
@@ -16,8 +17,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The lanes of a mask. Stores write whole vectors: what lies beyond the count is to be overwritten or left
-/// unread.
+/// The chosen lanes of a mask. Stores write whole vectors: what lies beyond the count must be overwritten or
+/// left unread.
 class Pack {
  public:
   HWY_INLINE int count() const { return count_; }

@@ -1,4 +1,4 @@
-// Which lanes close up to which, for every mask of eight lanes.
+// Permutation that moves the chosen lanes to the front, for every mask of eight lanes.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,8 @@ namespace bodice::collision {
 inline constexpr int kPackLanes = 8;
 
 struct PackTable {
-  /// Of a mask's bits: the lanes that are set, rising, then zeros. Of four lanes the same, in the first four.
+  /// For each mask the indices of its lanes, rising, then zeros. Masks of four lanes use the first four
+  /// entries.
   std::uint8_t from[1 << kPackLanes][kPackLanes] = {};
 
   constexpr PackTable() {

@@ -1,4 +1,4 @@
-// The closest place in all of two or three half-spaces.
+// The closest point of the intersection of two or three half-spaces, one problem a lane.
 #if defined(BODICE_COLLISION_PLANES_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_PLANES_INL_
 #undef BODICE_COLLISION_PLANES_INL_
@@ -11,9 +11,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr float kLeastVolume = 1e-3f;  // of three unit normals: less, and their planes meet far away
+constexpr float kLeastVolume = 1e-3f;  // of three unit normals; with less their planes meet far away
 
-/// The half-space { x : n . x >= offset }.
+/// The half-space { x : n . x >= offset }; gap() is positive where x violates it.
 struct Plane {
   V3 n;
   V offset;
@@ -21,8 +21,8 @@ struct Plane {
   HWY_INLINE V gap(V3 x) const { return hn::Sub(offset, dot(n, x)); }
 };
 
-/// The closest point to p of both half-spaces, the second only where `two`: the four cases of the optimality
-/// conditions.
+/// The closest point to p in both half-spaces, the second only where `two`, by the four cases of the
+/// optimality conditions.
 HWY_INLINE V3 project(const Plane& a, const Plane& b, M two, V3 p) {
   const V zero = hn::Zero(f);
   const V missing_a = a.gap(p), missing_b = hn::IfThenElse(two, b.gap(p), all(-1e30f));
@@ -44,8 +44,8 @@ HWY_INLINE V3 cross(V3 a, V3 b) {
           hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
 }
 
-/// The closest point to p of three half-spaces, of which the first two do not do: that of the third and one
-/// of them if it is in the other, or else where all planes meet.
+/// The closest point to p in three half-spaces, where the first two alone do not suffice. It is that of the
+/// third and one of the others if it lies in the remaining one, otherwise the corner of all three planes.
 HWY_INLINE V3 project(const Plane& a, const Plane& b, const Plane& c, V3 p, V slack) {
   const M all_lanes = hn::FirstN(f, kWidth);
   const V3 ac = project(a, c, all_lanes, p);

@@ -1,4 +1,5 @@
-// Three vectors of floats, one point a lane.
+// Vectors of floats and points, one a lane: V is a vector of floats, M a mask, VI a vector of integers, V3 a
+// point a lane.
 #if defined(BODICE_COLLISION_VEC3_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_VEC3_INL_
 #undef BODICE_COLLISION_VEC3_INL_
@@ -31,8 +32,8 @@ struct V3 {
 HWY_INLINE V all(float value) {
   return hn::Set(f, value);
 }
-// Division and square root keep a vector unit busy for ten times as long as an estimate and a Newton step,
-// which is good to two roundings. v must be in [1e-37, 1e37].
+// Division and square root occupy a vector unit ten times as long as an estimate and a Newton step, which is
+// exact to two roundings. v must be in [1e-37, 1e37].
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
 HWY_INLINE V estimated_inverse_sqrt(V v) {
   return hn::Div(all(1.0f), hn::Sqrt(v));
@@ -50,10 +51,10 @@ HWY_INLINE V inverse_sqrt(V v) {
 HWY_INLINE V newton_inverse_sqrt(V v, V r) {
   return hn::Mul(r, hn::NegMulAdd(hn::Mul(hn::Mul(all(0.5f), v), r), r, all(1.5f)));
 }
-/// 1 / sqrt(v) to the share kEstimate, for what only has to bound.
+/// 1 / sqrt(v) with relative error kEstimate, for bounds.
 HWY_INLINE V estimated_inverse_sqrt(V v) {
   const V r = hn::ApproximateReciprocalSqrt(v);
-  return HWY_TARGET == HWY_NEON ? newton_inverse_sqrt(v, r) : r;  // starts from 8 bits instead of 12
+  return HWY_TARGET == HWY_NEON ? newton_inverse_sqrt(v, r) : r;  // 8 bits at first instead of 12
 }
 HWY_INLINE V estimated_reciprocal(V v) {
   const V r = hn::ApproximateReciprocal(v);
@@ -67,7 +68,7 @@ HWY_INLINE V inverse_sqrt(V v) {
   return newton_inverse_sqrt(v, estimated_inverse_sqrt(v));
 }
 #endif
-// The worst of an estimate: 1.5 * 2^-12, and 2^-14 where there are masks.
+// Largest relative error of an estimate: 1.5 * 2^-12, and 2^-14 on targets with masks.
 constexpr float kEstimate = HWY_TARGET == HWY_AVX3 ? 1e-4f : 5e-4f;
 
 HWY_INLINE V3 operator+(V3 a, V3 b) {
@@ -82,16 +83,16 @@ HWY_INLINE V dot(V3 a, V3 b) {
 HWY_INLINE V3 scaled(V3 a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
-/// The sign bits alone: zeros of either sign.
+/// The sign bits alone, as zeros of either sign.
 HWY_INLINE V3 signs_of(V3 a) {
   const V bit = hn::SignBit(f);
   return {hn::And(a.x, bit), hn::And(a.y, bit), hn::And(a.z, bit)};
 }
-/// `a` negated where `signs`, as signs_of() has them, are negative.
+/// `a`, negated where `signs` (of signs_of()) are negative.
 HWY_INLINE V3 with_signs(V3 a, V3 signs) {
   return {hn::Xor(a.x, signs.x), hn::Xor(a.y, signs.y), hn::Xor(a.z, signs.z)};
 }
-/// By the sign bit, in which zeros differ.
+/// Selects by the sign bit, which distinguishes the two zeros.
 HWY_INLINE V if_signed(V sign, V yes, V no) {
   const auto word = [](V v) { return hn::BitCast(I(), v); };
   return hn::BitCast(f, hn::IfNegativeThenElse(word(sign), word(yes), word(no)));
@@ -118,13 +119,13 @@ HWY_INLINE V3 load3(const float* x, const float* y, const float* z) {
 HWY_INLINE V3 broadcast3(const float* xyz) {
   return {all(xyz[0]), all(xyz[1]), all(xyz[2])};
 }
-/// first, first + 1, ...; hn::Iota stores them lane by lane and waits for that.
+/// The lanes first, first + 1, ...; hn::Iota would store them one by one and stall on reading them.
 HWY_INLINE VI lanes_from(int first) {
   alignas(64) static constexpr std::int32_t kLanes[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                           8, 9, 10, 11, 12, 13, 14, 15};
   return hn::Add(hn::Load(I(), kLanes), hn::Set(I(), first));
 }
-/// A bit a lane.
+/// The mask as bits, lane 0 lowest.
 HWY_INLINE std::uint64_t bits(M m) {
   std::uint8_t bytes[8] = {};
   (void)hn::StoreMaskBits(f, m, bytes);

@@ -1,4 +1,4 @@
-// One answer a particle, out of those of its ellipsoids.
+// Combines the results of a particle's candidates into one.
 #if defined(BODICE_COLLISION_COMBINE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_COMBINE_INL_
 #undef BODICE_COLLISION_COMBINE_INL_
@@ -17,11 +17,11 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 using BatchResults = ResultRows<kBatch>;
 
-/// Plain ellipsoids: the nearest; of equals, that of the lowest index.
+/// Plain ellipsoids: takes the nearest; of equally near ones that of the lowest index.
 HWY_INLINE void combine_nearest(const Pairs& pairs, BatchResults& out) {
   const auto& a = pairs.results;
   for (int i = 0; i < pairs.count; ++i) {
-    // Without a branch: which of two neighbors is the nearer cannot be foretold.
+    // Selects without a branch, since which of two neighbors is nearer cannot be predicted.
     const int lane = pairs.lane[i];
     const float d = a.distance[i], least = out.distance[lane];
     const bool nearer = (d < least) | ((d == least) & (a.proxy_index[i] < out.proxy_index[lane]));
@@ -33,13 +33,14 @@ HWY_INLINE void combine_nearest(const Pairs& pairs, BatchResults& out) {
   }
 }
 
-/// Of each lane that one of its pairs is nearer to: that distance, and the proxy_index of the nearest.
+/// Finds the lanes for which a pair is nearer than the first result, and sets their least distance and owner.
 HWY_INLINE void find_nearer(const Pairs& pairs, float* least, BatchResults& out) {
   const auto& a = pairs.results;
   for (int i = 0; i < pairs.count; i += kWidth) {
     const V first = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
     const M maybe = hn::And(hn::Le(hn::Load(f, a.distance + i), first), lanes_below(i, pairs.count));
-    // Few, as bounds tell the nearest nearly always; a lane may be among them more than once.
+    // These are few, since the bounds nearly always find the nearest first. A lane may be among them more
+    // than once.
     for (std::uint64_t left = bits(maybe); left != 0; left &= left - 1) {
       const int k = i + std::countr_zero(left), lane = pairs.lane[k];
       const bool farther = a.distance[k] > least[lane];
@@ -50,7 +51,8 @@ HWY_INLINE void find_nearer(const Pairs& pairs, float* least, BatchResults& out)
   }
 }
 
-/// Weighted numbers, the four of a lane side by side, so that adding those of a pair takes one instruction.
+/// Weighted sums. The four numbers of a lane are consecutive, so that adding those of a pair takes one
+/// instruction.
 struct alignas(64) WeightedRows {
   static constexpr int kNumbers = 4;  // value and gradient
   float row[Pairs::kSize * kNumbers];
@@ -76,8 +78,8 @@ struct alignas(64) WeightedRows {
   }
 };
 
-/// Relief, for the lanes [begin, end): all within the blending of the nearest, weighted; distance and
-/// unit gradient of the blend, the proxy_index of the nearest; `value` becomes the gradient's length.
+/// Relief, for the lanes [begin, end): blends all results within the blend radius of the nearest. Sets
+/// distance and unit gradient of the blend and the owner; `value` becomes the length of the gradient.
 HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, const Pairs& pairs,
                                 BatchResults& out) {
   alignas(64) float least[kBatch];

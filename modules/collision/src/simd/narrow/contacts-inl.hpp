@@ -1,4 +1,4 @@
-// From lanes to the caller's contacts.
+// Writes the results of lanes to the caller's contacts.
 #if defined(BODICE_COLLISION_CONTACTS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_CONTACTS_INL_
 #undef BODICE_COLLISION_CONTACTS_INL_
@@ -17,7 +17,7 @@ namespace bodice::collision::HWY_NAMESPACE {
 static_assert(sizeof(Contact) == 8 * sizeof(float));
 
 #if HWY_TARGET != HWY_SCALAR
-/// Rows of four numbers out of four columns: row k of each block of four particles.
+/// Transposes four columns: row k has the four numbers of particle k of each block of four lanes.
 HWY_INLINE void rows_of_four(V a, V b, V c, V d, V (&row)[4]) {
   const V ac = hn::InterleaveLower(f, a, c), bd = hn::InterleaveLower(f, b, d);
   const V ac2 = hn::InterleaveUpper(f, a, c), bd2 = hn::InterleaveUpper(f, b, d);
@@ -28,14 +28,15 @@ HWY_INLINE void rows_of_four(V a, V b, V c, V d, V (&row)[4]) {
 }
 #endif
 
-/// One a lane.
+/// The contacts of one vector of particles.
 struct ContactLanes {
   V distance;
   V3 point, normal;
   VI proxy_index;
 };
 
-/// Stores them, the first where `to(0)` points: transposed in registers, a contact or half of one a store.
+/// Stores the contacts, lane k where `to(k)` points. They are transposed in registers; each store writes a
+/// contact or half of one.
 template <class To>
 HWY_INLINE void store_contacts(const ContactLanes& c, To&& to) {
   const auto floats = [&](int lane) { return &to(lane)->signed_distance; };
@@ -70,7 +71,7 @@ HWY_INLINE void store_contacts(const ContactLanes& c, To&& to) {
 #endif
 }
 
-/// What is farther than was asked for is within nothing.
+/// Replaces contacts beyond the contact distance by no_contact().
 HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
   const Contact none = no_contact();
   const M within = hn::Le(c.distance, all(within_m));
@@ -85,7 +86,7 @@ HWY_INLINE Contact& contact_of(const QueryBatch& batch, int lane) {
   return batch.contacts[batch.index ? batch.index[lane] : static_cast<std::uint32_t>(lane)];
 }
 
-/// Those of the lanes [i, i + kWidth) that are below the end.
+/// Writes the contacts of the lanes [i, i + kWidth) that are below the end.
 HWY_INLINE void write_contacts(const ContactLanes& c, const QueryBatch& batch, int i, int end) {
   if (end - i < kWidth) {
     alignas(64) Contact last[kWidth];
@@ -98,7 +99,7 @@ HWY_INLINE void write_contacts(const ContactLanes& c, const QueryBatch& batch, i
   }
 }
 
-/// For the lanes [begin, end).
+/// Writes no_contact() for the lanes [begin, end).
 HWY_INLINE void write_none(const QueryBatch& batch, int begin, int end) {
   const Contact none = no_contact();
   for (int lane = begin; lane < end; ++lane) contact_of(batch, lane) = none;

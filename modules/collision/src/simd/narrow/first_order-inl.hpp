@@ -1,8 +1,9 @@
-// The proxy's distance at every particle of a batch, to first order: the ellipsoid whose first-order distance
-// is the least, and the plane that touches it where one step of Newton's leads from there. A closest takes
-// twice as long, and telling for certain which of two ellipsoids is the nearer as long again. Based on:
-// Gabriel Taubin. Distance Approximations for Rasterizing Implicit Curves. ACM TOG 13(1), 1994, for the
-// first-order distance (|u|^2 - 1) / |grad |u|^2|, u the place where the ellipsoid is the unit ball.
+// The proxy's distance to first order at every particle of a batch. The owner is the ellipsoid of least
+// first-order distance; the contact lies on its tangent plane at the point to which one Newton step leads.
+// The exact closest point takes twice as long, and certainty about the owner as long again.
+// Based on: Gabriel Taubin. Distance Approximations for Rasterizing Implicit Curves. ACM TOG 13(1), 1994, for
+// the first-order distance (|u|^2 - 1) / |grad |u|^2|, where u is the particle in the frame in which the
+// ellipsoid is the unit ball.
 #if defined(BODICE_COLLISION_FIRST_ORDER_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_FIRST_ORDER_INL_
 #undef BODICE_COLLISION_FIRST_ORDER_INL_
@@ -24,23 +25,23 @@ HWY_INLINE V within_range(V slope2) {
   return hn::Min(hn::Max(slope2, all(kLeastSlope2)), all(kMostSlope2));
 }
 
-/// Twice the first-order distance of one ellipsoid, meters, to the share kEstimate of itself. Not above
-/// lower_bound(), an estimate of a root cheaper, and a little better at telling the nearest.
+/// Twice the first-order distance to one ellipsoid, meters, with relative error kEstimate. It does not exceed
+/// lower_bound(), needs one estimated root less, and finds the nearest ellipsoid slightly more often.
 HWY_INLINE V twice_first_order(const BallMap& e, V3 p) {
   const V3 u = in_ball(e, p);
   const V excess = hn::MulAdd(u.x, u.x, hn::MulAdd(u.y, u.y, hn::MulSub(u.z, u.z, all(1.0f))));
   return hn::Mul(excess, estimated_inverse_sqrt(within_range(slope_square(e, u))));
 }
 
-/// A plane that touches an ellipsoid, one problem a lane.
+/// Tangent plane of an ellipsoid, one problem a lane.
 struct Tangent {
-  V distance;  ///< of the particle, meters: not above that to the ellipsoid, but for rounding
+  V distance;  ///< of the particle, meters; at most the distance to the ellipsoid, but for rounding
   V3 normal;   ///< outward, unit, local frame
-  V3 w;        ///< where it touches: direction on the unit sphere, axes of the proxy
-  V3 shrink;   ///< r_j^2 / (t + r_j^2), t as one step has it
+  V3 w;        ///< point of contact as a direction on the unit sphere, axes of the proxy
+  V3 shrink;   ///< r_j^2 / (t + r_j^2), with t after one step
 };
 
-/// Along the shortest axis, the last of equals.
+/// The unit vector along the shortest axis; of equal axes along the last.
 HWY_INLINE V3 shortest_axis(const BallLanes& e) {
   const V3 i = e.inverse_radius;
   const V one = all(1.0f);
@@ -49,7 +50,7 @@ HWY_INLINE V3 shortest_axis(const BallLanes& e) {
           hn::IfThenElseZero(z, one)};
 }
 
-/// The quotients r_j^2 / (t + r_j^2) to first order, t by one step on |w|^2 from the surface, t = 0.
+/// The quotients r_j^2 / (t + r_j^2) to first order, t by one step on |w|^2 from the surface, where t = 0.
 HWY_INLINE V3 shrink_of(const BallLanes& e, V3 u, V square) {
   const V3 i = e.inverse_radius;
   const V3 v = {hn::Mul(u.x, i.x), hn::Mul(u.y, i.y), hn::Mul(u.z, i.z)};
@@ -61,9 +62,9 @@ HWY_INLINE V3 shrink_of(const BallLanes& e, V3 u, V square) {
   return {quotient(i.x), quotient(i.y), quotient(i.z)};
 }
 
-/// In the direction w = diag(r / (t + r^2)) y of the closest. Any unit w has the distance (w . u - 1) /
-/// |grad| to its plane, so that what w is off by counts by its square. Several vectors in step, as
-/// closest_points().
+/// Tangent planes in the direction w = diag(r / (t + r^2)) y of the closest point. For any unit vector w the
+/// distance to its plane is (w . u - 1) / |grad|, so that an error of w enters by its square. Several vectors
+/// are computed side by side.
 template <int kCount>
 HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount], Tangent (&out)[kCount]) {
   V3 u[kCount];
@@ -89,10 +90,11 @@ HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount],
   }
 }
 
-/// The ellipsoid's own table on top, unblended: as corrected(), with t and quotients as the tangent has them.
+/// Corrects a tangent plane by the ellipsoid's own relief table, without blending: as corrected(), with t and
+/// the quotients of the tangent.
 HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BallLanes& e,
                         Tangent& at) {
-  constexpr float kMostShrink = 1e6f;  // next to the center
+  constexpr float kMostShrink = 1e6f;  // limits the quotients near the center
   const V3 i = e.inverse_radius, w = absolute(at.w), signs = signs_of(at.w);
   const Correction by = correction(relief, table, {w, signs}, at.distance);
   const auto limited = [](V shrink) { return hn::Min(shrink, all(kMostShrink)); };
@@ -117,12 +119,12 @@ HWY_INLINE BallLanes balls_of(const Columns& columns, VI column) {
   return ball_lanes([&](int i) { return at(columns.row(Columns::kBall + i)); });
 }
 
-/// Vectors of particles in step. What a vector needs beside its ellipsoid is little, so that narrow ones
-/// share the reading of each by more.
+/// Vectors that are computed side by side. One needs little besides its ellipsoid, so that narrow vectors
+/// read each ellipsoid for more of them.
 constexpr int kVectorsAtOnce = kWidth < 16 ? 4 : 2;
 static_assert(CachedBatch::kSpan % (kVectorsAtOnce * kWidth) == 0);
 
-/// The contacts of one range.
+/// Writes the contacts of one range.
 template <int kTables, bool kRelief>
 HWY_INLINE void write_range(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                             const LaneRange& range, const CandidateList& candidates, const Columns& columns) {
@@ -162,8 +164,8 @@ HWY_INLINE void write_range(const Baked& baked, const ReliefTables* relief, cons
   }
 }
 
-/// False, and contacts are as they were or done, if a place is too far for floats or too many ellipsoids are
-/// near.
+/// First-order query of a batch. False if a particle is too far away for floats or on overflow; contacts are
+/// then unchanged or complete.
 inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
   BroadPhaseLists lists;
   const QueryLimits limits(baked, relief, std::min(batch.within_m + batch.margin_m, kNoLimit_m));
@@ -179,12 +181,12 @@ inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* reli
         write_range<tables(), false>(baked, relief, batch, ranges[i], candidates[i], columns);
     return true;
   };
-  // What is kept serves exact queries, too, which blend.
+  // The cache also serves exact queries, which blend.
   const float blend_m = relief ? relief->blend_m : 0.0f;
   if (use_cache(baked, relief, blend_m + rounding_m, batch, lists))
     return with_cached_candidates(baked, relief, batch, rounding_m, limits.of_bounds(baked),
                                   Columns::Rows::kBalls, lists, work);
-  if (batch.limited()) write_none(batch, 0, batch.count);  // what has no candidates is not come back to
+  if (batch.limited()) write_none(batch, 0, batch.count);  // ranges without candidates are not visited again
   return with_limited_candidates(baked, relief, batch, rounding_m, limits, lists, work);
 }
 

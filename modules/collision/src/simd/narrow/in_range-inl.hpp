@@ -1,5 +1,5 @@
-// The proxy's distance at those particles of a batch that are within a limit of its surface: bounds tell most
-// of the others, what is left closes up across the batch, so that only it is paid for, a whole vector at a
+// The proxy's distance at the particles of a batch within a limit of its surface. Bounds exclude most of the
+// others; the rest are closed up across the batch, so that only they cost closest points, a whole vector at a
 // time. The results have the same bits as without a limit.
 #if defined(BODICE_COLLISION_IN_RANGE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_IN_RANGE_INL_
@@ -14,21 +14,21 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// Particles of a batch that may be within the limit, closed up; each run of those that were found together
-/// starts at a whole step, behind repetitions of the one before.
+/// The particles of a batch that may be within the limit, closed up. Each run of those found together starts
+/// at a whole step, behind repetitions of the particle before.
 struct alignas(64) InRange {
   static constexpr int kMaxBounds = 3, kSize = kBatch + 2 * kStep;
   float x[kSize], y[kSize], z[kSize];
-  float bound[kMaxBounds + 1][kSize];  ///< as LowestBounds has them
+  float bound[kMaxBounds + 1][kSize];  ///< as in LowestBounds
   std::int32_t lane[kSize];            ///< in the batch; -1: a repetition
   int count = 0;
-  LaneBits which;  ///< of the batch
+  LaneBits which;  ///< these particles as lanes of the batch
 
   void clear() {
     count = 0;
     which = {};
   }
-  /// Of the batch's lanes [first, first + kWidth).
+  /// Adds the chosen ones of the batch's lanes [first, first + kWidth).
   template <int kLowest>
   HWY_INLINE void add(M mask, int first, V3 p, const LowestBounds<kLowest>& lowest) {
     const Pack pack(mask);
@@ -40,7 +40,7 @@ struct alignas(64) InRange {
     pack.store(lanes_from(first), lane + count);
     count += pack.count();
   }
-  /// Fills up to a whole step; `from` is where the run starts.
+  /// Repeats the last particle until the run that starts at `from` has whole steps.
   template <int kLowest>
   HWY_INLINE void pad(int from) {
     if (count == from) return;
@@ -59,7 +59,7 @@ struct alignas(64) InRange {
   }
 };
 
-/// Three signs, as OctantReach numbers them.
+/// Index of an octant in OctantReach, from three signs.
 HWY_INLINE VI octant_of(V3 u) {
   const auto bit = [](V v, std::int32_t value) {
     return hn::And(hn::ShiftRight<31>(hn::BitCast(I(), v)), hn::Set(I(), value));
@@ -67,7 +67,7 @@ HWY_INLINE VI octant_of(V3 u) {
   return hn::Or(bit(u.x, 1), hn::Or(bit(u.y, 2), bit(u.z, 4)));
 }
 
-/// The bounds of the columns' ellipsoids above which they leave no particle within the limit, by octants.
+/// For each column and octant, the bound above which the ellipsoid leaves no particle within the limit.
 class OctantLimits {
  public:
   HWY_INLINE OctantLimits(const Baked& baked, const ReliefTables& relief, float limit_m,
@@ -75,7 +75,8 @@ class OctantLimits {
     for (int i = 0; i < columns.count(); ++i) {
       const OctantReach& reach = relief.reaches[columns.ellipsoid(i)];
       const BakedEllipsoid& e = baked.ellipsoids[columns.ellipsoid(i)];
-      // Only deeper than the least radius of curvature can rounding take the closest point to another octant.
+      // Rounding may move the closest point of a particle deeper than the least radius of curvature to
+      // another octant; such particles always count as within the limit.
       const V least = all(-0.99f * e.longest_m * e.radius2 * e.radius2);
       const V shift = all(reach.shift_m(limit_m));
       for (int k = 0; k < kOctants; k += kWidth) {
@@ -85,7 +86,7 @@ class OctantLimits {
       }
     }
   }
-  /// Of one column, and the octants of the lanes.
+  /// The limits of one column for the octants of the lanes.
   HWY_INLINE V operator()(std::int32_t column, VI octant) const {
     const float* const limits = limit_ + column * kOctants;
     if constexpr (kWidth >= kOctants)
@@ -110,7 +111,8 @@ class OctantLimits {
   float limit_[kMaxCandidates * kOctants + 16];  // whole vectors are written
 };
 
-/// Bounds as bound_vectors() has them; `within` becomes those particles that an ellipsoid leaves within.
+/// Bounds as in bound_vectors(); `within` becomes the particles that may be within the limit of some
+/// ellipsoid.
 template <int kLowest>
 HWY_INLINE void bound_by_octant(const Baked& baked, const Columns& columns, const CandidateList& candidates,
                                 const OctantLimits& octant_limits, const V3 (&p)[kVectorsInStep],
@@ -129,7 +131,7 @@ HWY_INLINE void bound_by_octant(const Baked& baked, const Columns& columns, cons
   }
 }
 
-/// The particles of a range that may be within the limit. `octant_limits` is not null with relief.
+/// Adds the particles of a range that may be within the limit. With relief `octant_limits` is not null.
 template <int kLowest>
 HWY_INLINE void collect_in_range(const Baked& baked, const QueryBatch& batch, float limit_m,
                                  const OctantLimits* octant_limits, const LaneRange& range,
@@ -153,8 +155,8 @@ HWY_INLINE void collect_in_range(const Baked& baked, const QueryBatch& batch, fl
   }
 }
 
-/// The first results to the particles [begin, in_range.count); false if there is no room for what they leave
-/// open.
+/// Evaluates the probable owners of the particles [begin, in_range.count). False on overflow of the pairs
+/// that remain open.
 template <int kLowest, int kTables>
 HWY_INLINE bool evaluate_in_range(const Baked& baked, const ReliefTables* relief, float limit_m,
                                   const InRange& in_range, const QueryBatch& at, int begin,
@@ -184,7 +186,7 @@ HWY_INLINE bool evaluate_in_range(const Baked& baked, const ReliefTables* relief
   return true;
 }
 
-/// Some ranges of the batch whose candidates are the columns.
+/// Evaluates some ranges of the batch with the columns as candidates.
 template <int kLowest, int kTables>
 HWY_INLINE bool evaluate_limited(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                                  const QueryLimits& limits, const LaneRange* ranges, int count,
@@ -216,9 +218,8 @@ HWY_INLINE bool evaluate_limited(const Baked& baked, const ReliefTables* relief,
   return true;
 }
 
-/// Distance, unit gradient and owner of every particle that is in_range, as `in_range` numbers them: all that
-/// are within limit_m of the surface, and some others. False if there is no room, or a place too far for
-/// floats.
+/// Distance, unit gradient and owner of every particle of `in_range`, as numbered there: all particles within
+/// limit_m of the surface, and some others. False on overflow, or if a particle is too far away for floats.
 inline bool nearest_in_range(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, float limit_m,
                              Scratch& scratch, InRange& in_range, BatchResults& out) {
   const QueryLimits limits(baked, relief, limit_m);

@@ -1,7 +1,7 @@
-// The proxy's distance at every particle of a batch, exactly. A first-order bound of the distance to every
-// candidate of a block finds the probable owner; its exact closest then leaves, at most particles, no other
-// candidate whose bound is below. What is left (of plain ellipsoids one in five particles, of blended ones
-// three in four) is collected from the whole block, so that it fills vectors again.
+// The proxy's exact distance at every particle of a batch. The lowest first-order bound among a particle's
+// candidates gives the probable owner. The exact distance to it excludes, for most particles, all other
+// candidates. The rest (of plain ellipsoids one particle in five, of blended ones three in four) is collected
+// from the whole block, so that it fills vectors again.
 #if defined(BODICE_COLLISION_NEAREST_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_NEAREST_INL_
 #undef BODICE_COLLISION_NEAREST_INL_
@@ -20,7 +20,7 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 static_assert(kBlock % (kVectorsInStep * kWidth) == 0);
 
-/// The bounds of a block's candidates at some vectors of particles.
+/// The lowest bounds of the candidates at some vectors of particles.
 template <int kLowest>
 HWY_INLINE void bound_vectors(const Baked& baked, const Columns& columns, const CandidateList& candidates,
                               const V3 (&p)[kVectorsInStep], LowestBounds<kLowest> (&out)[kVectorsInStep]) {
@@ -32,16 +32,16 @@ HWY_INLINE void bound_vectors(const Baked& baked, const Columns& columns, const 
   }
 }
 
-/// What the first results leave open.
+/// Pairs of particles and candidates that remain open after the first evaluation.
 struct Open {
   Pairs pairs;
-  /// Particles with more candidates below the limit than were kept: their lanes, the highest bound that was
-  /// kept and the limit, by number.
+  /// Particles with more candidates below their limit than LowestBounds holds: their lanes, the highest bound
+  /// held, and the limit.
   alignas(64) std::int32_t lane[kBatch + 16];
   alignas(64) float highest[kBatch + 16], limit[kBatch + 16];
   int count = 0;
 
-  /// TangentCandidates kFirst and following of those kept, of the lanes `of`.
+  /// Adds the candidates of rank kFirst and higher in `lowest` that are below the limits, for the lanes `of`.
   template <int kLowest, int kFirst>
   HWY_INLINE void add(M of, const LowestBounds<kLowest>& lowest, V limits, VI lanes) {
     for (int i = kFirst; i < kLowest; ++i)
@@ -55,7 +55,7 @@ struct Open {
   }
 };
 
-/// What was collected: answered, and of plain ellipsoids taken over.
+/// Evaluates the collected pairs; for plain ellipsoids it also combines the results and empties the list.
 template <int kTables>
 void flush(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch, Pairs& pairs,
            BatchResults& out) {
@@ -65,7 +65,8 @@ void flush(const ReliefTables* relief, const Columns& columns, const QueryBatch&
   pairs.count = 0;
 }
 
-/// Room for pairs of so many vectors; false if there is none, as blended results must be kept together.
+/// Makes room for the pairs of so many vectors. False if there is none with relief, since the results to be
+/// blended must be in the list together.
 template <int kTables>
 HWY_INLINE bool make_room(int vectors, const ReliefTables* relief, const Columns& columns,
                           const QueryBatch& batch, Pairs& pairs, BatchResults& out) {
@@ -77,7 +78,7 @@ HWY_INLINE bool make_room(int vectors, const ReliefTables* relief, const Columns
 
 constexpr int kPerPass = 4;
 
-/// Some particles with more candidates below their limits than were kept.
+/// One vector of particles with more candidates below their limits than LowestBounds holds.
 struct ManyCandidates {
   M lanes;
   VI lane;
@@ -85,7 +86,7 @@ struct ManyCandidates {
   V highest, limit;
 };
 
-/// All the others of their candidates.
+/// Adds all their other candidates below the limits.
 template <int kTables>
 HWY_INLINE void collect_others(const Baked& baked, const Columns& columns, const QueryBatch& batch,
                                const ManyCandidates& many, Pairs& pairs, BatchResults& out) {
@@ -98,8 +99,8 @@ HWY_INLINE void collect_others(const Baked& baked, const Columns& columns, const
   }
 }
 
-/// The same by rising bounds: blended results are summed in an order that other candidates must not change.
-/// False if they do not fit.
+/// Adds their other candidates by rising bound, because blended results are summed in an order that other
+/// candidates must not change. False on overflow.
 template <int kTables>
 HWY_INLINE bool collect_others_by_bound(const Baked& baked, const ReliefTables& relief,
                                         const Columns& columns, const QueryBatch& batch, ManyCandidates& many,
@@ -122,7 +123,7 @@ HWY_INLINE bool collect_others_by_bound(const Baked& baked, const ReliefTables& 
   return true;
 }
 
-/// The pairs of the particles with many; false if they do not fit.
+/// Adds the pairs of the particles with many candidates; false on overflow.
 template <int kTables>
 HWY_INLINE bool collect_rest(const Baked& baked, const ReliefTables* relief, const Columns& columns,
                              const QueryBatch& batch, Open& open, BatchResults& out) {
@@ -142,7 +143,8 @@ HWY_INLINE bool collect_rest(const Baked& baked, const ReliefTables* relief, con
   return true;
 }
 
-/// The first results of one range; false if there is no room for what they leave open.
+/// Evaluates the probable owners of the particles of one range. False on overflow of the pairs that remain
+/// open.
 template <int kLowest, int kTables>
 HWY_INLINE bool evaluate_first(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                                const LaneRange& range, const CandidateList& candidates,
@@ -169,7 +171,7 @@ HWY_INLINE bool evaluate_first(const Baked& baked, const ReliefTables* relief, c
   return true;
 }
 
-/// The results of one range that has but one candidate: nothing to choose, and the same shape in every lane.
+/// Evaluates a range with a single candidate: nothing is chosen, and all lanes have the same shape.
 inline void evaluate_single_candidate(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                                       const LaneRange& range, std::size_t ellipsoid, BatchResults& out) {
   const Shape shape = broadcast(baked.ellipsoids[ellipsoid]);
@@ -197,7 +199,7 @@ inline void evaluate_single_candidate(const Baked& baked, const ReliefTables* re
   }
 }
 
-/// Some ranges of the batch whose candidates are the columns.
+/// Evaluates some ranges of the batch with the columns as candidates.
 template <int kLowest, int kTables>
 HWY_INLINE bool evaluate_ranges(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
                                 const LaneRange* ranges, int count, const CandidateList* candidates,
@@ -222,7 +224,7 @@ struct Scratch {
   Open open;
 };
 
-/// The nearer of two results about the lanes of a range; of equals, that of the lowest index.
+/// Takes the nearer of two results for the lanes of a range; of equally near ones that of the lowest index.
 HWY_INLINE void take_nearer(const LaneRange& range, const BatchResults& other, BatchResults& out) {
   for (int i = range.begin; i < range.end; ++i) {
     if (other.distance[i] > out.distance[i]) continue;
@@ -235,7 +237,7 @@ HWY_INLINE void take_nearer(const LaneRange& range, const BatchResults& other, B
   }
 }
 
-/// Plain ellipsoids, however many are near the range.
+/// Evaluates a range against plain ellipsoids when they are more than the lists hold.
 template <class Work>
 HWY_INLINE void nearest_in_parts(const Baked& baked, const LaneRange& range, float beyond_m, Scratch& scratch,
                                  Work&& work, BatchResults& out) {
@@ -256,8 +258,8 @@ HWY_INLINE void nearest_in_parts(const Baked& baked, const LaneRange& range, flo
            });
 }
 
-/// With relief, each particle of the range by itself: `work` (batch, ranges, their number, results out).
-/// False if even then there is no room.
+/// With relief, evaluates each particle of the range by itself: `work` (batch, ranges, their number, results
+/// out). False on overflow even then.
 template <class Work>
 HWY_INLINE bool one_by_one(const QueryBatch& batch, const LaneRange& range, Work&& work, BatchResults& out) {
   alignas(64) float x[kStep], y[kStep], z[kStep];
@@ -280,8 +282,8 @@ HWY_INLINE bool one_by_one(const QueryBatch& batch, const LaneRange& range, Work
   return true;
 }
 
-/// Distance, unit gradient and owner of every particle; false if a place is too far for floats, or more
-/// ellipsoids with relief are near one than the kernel has room for.
+/// Distance, unit gradient and owner of every particle. False if a particle is too far away for floats, or if
+/// more ellipsoids with relief are near one than the lists hold.
 inline bool nearest(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, Scratch& scratch,
                     BatchResults& out) {
   const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;

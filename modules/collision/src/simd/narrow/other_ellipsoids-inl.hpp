@@ -1,7 +1,7 @@
-// Whether places that were put clear of one to three ellipsoids are clear of all others. Since the nearest
-// point on a convex shape stays the same along its normal, and a half-space beyond a tangent plane has no
-// point of it, those need not be measured again; a bound tells most of the others, so that few
-// closest are left.
+// Finds which positions, already pushed clear of one to three ellipsoids, are below the clearance of another.
+// Along its normal a convex shape keeps its closest point, and a half-space beyond a tangent plane contains
+// no point of the shape. The cleared ellipsoids therefore need no evaluation, and bounds exclude most of the
+// others.
 #if defined(BODICE_COLLISION_OTHER_ELLIPSOIDS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_OTHER_ELLIPSOIDS_INL_
 #undef BODICE_COLLISION_OTHER_ELLIPSOIDS_INL_
@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// Places and what they were put clear of: indices of ellipsoids, or below zero.
+/// Positions and the ellipsoids that they were pushed clear of: internal indices, or negative.
 struct ClearedPositions {
   const QueryBatch& batch;
   const std::int32_t *first, *second, *third;
@@ -45,7 +45,7 @@ HWY_INLINE void bound_others(const Baked& baked, const Columns& columns, const C
   }
 }
 
-/// Some ranges of the batch whose candidates are the columns.
+/// Evaluates the other ellipsoids of some ranges, with the columns as candidates.
 template <int kTables>
 HWY_INLINE bool evaluate_others(const Baked& baked, const ClearedPositions& cleared, float limit_m,
                                 const LaneRange* ranges, int count, const CandidateList* candidates,
@@ -68,8 +68,8 @@ HWY_INLINE bool evaluate_others(const Baked& baked, const ClearedPositions& clea
   return true;
 }
 
-/// The nearest of the other ellipsoids at each place where it is nearer than the limit, exactly; elsewhere
-/// some distance beyond the limit. False if a place is too far for floats.
+/// The nearest of the other ellipsoids at each position, exact where it is nearer than the limit, elsewhere
+/// some distance beyond it. False if a position is too far away for floats.
 inline bool nearest_others(const Baked& baked, const ClearedPositions& cleared, float limit_m,
                            Scratch& scratch, BatchResults& out) {
   const QueryBatch& batch = cleared.batch;

@@ -1,4 +1,4 @@
-// Pairs of a particle and an ellipsoid, each evaluated exactly, a whole vector of them at a time.
+// Pairs of a particle and an ellipsoid, evaluated exactly, a whole vector of them at a time.
 #if defined(BODICE_COLLISION_PAIRS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_PAIRS_INL_
 #undef BODICE_COLLISION_PAIRS_INL_
@@ -16,24 +16,24 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// What one ellipsoid says about each of kSize particles.
+/// The distances of kSize particles to one ellipsoid each, as arrays.
 template <int kSize>
 struct alignas(64) ResultRows {
   float distance[kSize];  ///< to the ellipsoid, meters
-  float value[kSize];     ///< relief only: the corrected distance, meters
+  float value[kSize];     ///< relief only: corrected distance, meters
   float gx[kSize], gy[kSize],
-      gz[kSize];                    ///< its gradient: the unit normal without relief
-  std::int32_t proxy_index[kSize];  ///< the proxy's index of the ellipsoid
+      gz[kSize];                    ///< gradient of the value; the unit normal without relief
+  std::int32_t proxy_index[kSize];  ///< index of the ellipsoid in the proxy
 };
 
-/// The results to one vector of particles, each about the ellipsoid of its column.
+/// The distances of one vector of particles, each to the ellipsoid of its column.
 struct Result {
   V distance, value;
   V3 gradient;
   VI proxy_index;
 };
 
-/// Several vectors in step.
+/// Evaluates several vectors side by side.
 template <int kTables, int kCount>
 HWY_INLINE void evaluate_each(const ReliefTables* relief, const Columns& columns, const VI (&column)[kCount],
                               const V3 (&p)[kCount], Result (&out)[kCount]) {
@@ -62,7 +62,7 @@ HWY_INLINE void put(const Result& a, bool relief, ResultRows<kSize>& to, int i) 
   hn::Store(a.proxy_index, I(), to.proxy_index + i);
 }
 
-/// Of some blocks that share columns.
+/// Pairs of blocks that share columns.
 struct Pairs {
   static constexpr int kCapacity = 1024;
   static constexpr int kSize = kCapacity + 32;
@@ -72,7 +72,7 @@ struct Pairs {
   int count = 0;
 
   bool fit(int vectors) const { return count + vectors * kWidth <= kCapacity; }
-  /// The lanes of `mask`, each with its column.
+  /// Adds the lanes of `mask`, each with its column.
   HWY_INLINE void add(M mask, VI lanes, VI columns) {
     const Pack pack(mask);
     pack.store(lanes, lane + count);
@@ -85,7 +85,7 @@ template <int kTables>
 HWY_INLINE void evaluate_pairs(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch,
                                Pairs& pairs) {
   if (pairs.count == 0) return;
-  // What the last vectors hold beyond the count must be valid pairs, too.
+  // The last vectors are filled up with valid pairs.
   for (int v = 0; v < kVectorsInStep; ++v) {
     hn::StoreU(hn::Set(I(), pairs.lane[0]), I(), pairs.lane + pairs.count + v * kWidth);
     hn::StoreU(hn::Zero(I()), I(), pairs.column + pairs.count + v * kWidth);

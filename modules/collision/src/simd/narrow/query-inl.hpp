@@ -1,4 +1,4 @@
-// Signed distance, closest point, normal and owner for a batch.
+// Queries of a batch: signed distance, closest point, normal and owner.
 #if defined(BODICE_COLLISION_QUERY_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_QUERY_INL_
 #undef BODICE_COLLISION_QUERY_INL_
@@ -23,7 +23,7 @@ HWY_INLINE void write_results(const BatchResults& found, const QueryBatch& batch
   }
 }
 
-/// Takes back what is farther than was asked for.
+/// Replaces contacts beyond the contact distance by no_contact().
 HWY_INLINE void drop_beyond(const QueryBatch& batch) {
   for (int lane = 0; lane < batch.count; ++lane) {
     Contact& contact = contact_of(batch, lane);
@@ -54,7 +54,7 @@ HWY_INLINE void write_in_range(const InRange& in_range, const BatchResults& foun
   }
 }
 
-/// For the lanes that were not in_range.
+/// Writes no_contact() for the lanes that are not in `in_range`.
 HWY_INLINE void write_none_except(const InRange& in_range, const QueryBatch& batch) {
   const Contact none = no_contact();
   for (int begin = 0; begin < batch.count; begin += kBlock)

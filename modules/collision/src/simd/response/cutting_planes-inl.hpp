@@ -1,6 +1,6 @@
-// Pushes until nothing is below the clearance. Plain ellipsoids are convex: each that a place is below the
-// clearance of adds the half-space beyond its tangent plane, and a point in all of them is clear of all of
-// those ellipsoids. On relief and fillets it is Newton's method along the gradient.
+// Pushes particles until none is below the clearance. Plain ellipsoids are convex: each one that a position
+// violates adds the half-space beyond its tangent plane, and a point in all half-spaces is clear of those
+// ellipsoids. On relief and fillets this becomes Newton's method along the gradient.
 #if defined(BODICE_COLLISION_CUTTING_PLANES_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_CUTTING_PLANES_INL_
 #undef BODICE_COLLISION_CUTTING_PLANES_INL_
@@ -23,7 +23,7 @@ constexpr int kReliefRounds = 6;
 constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
 constexpr float kSolverError = static_cast<float>(kClosestPointError);
 
-/// What is asked about every place: the proxy's distance, or that of the smooth union.
+/// The surface that particles are pushed out of: that of the proxy, or of the smooth union.
 struct Surface {
   const Baked& baked;
   const ReliefTables* relief;
@@ -32,8 +32,8 @@ struct Surface {
   Scratch& scratch;
 
   bool nonconvex() const { return relief != nullptr || filleted != nullptr; }
-  /// Where pushes aim at. A nonconvex surface turns between steps; a share of the blending more lets Newton
-  /// arrive from below.
+  /// Distance that pushes aim at. On a nonconvex surface the normal turns between steps, and a fraction of
+  /// the blend radius more lets Newton arrive from below.
   float target_m() const {
     const float least_m = parameters.clearance_m + parameters.slack_m;
     if (relief) return least_m + kOvershoot * relief->blend_m;
@@ -43,8 +43,8 @@ struct Surface {
   }
 };
 
-/// Beyond the clearance by what a closest may be off by, so that its ellipsoid need not be measured again;
-/// `owner` may be -1.
+/// Target beyond the clearance by the error of the closest point, so that its ellipsoid need not be evaluated
+/// again. `owner` may be -1.
 HWY_INLINE V plain_target(const Surface& surface, VI owner) {
   constexpr int kStride = kBakedFloats;
   const VI at = hn::Mul(hn::Max(owner, hn::Zero(I())), hn::Set(I(), kStride));
@@ -68,15 +68,14 @@ HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch
   }
 }
 
-/// Distance, unit gradient, its length and the proxy_index of the owner at each place; false if there is no
-/// room.
+/// Distance, unit gradient, its length and the owner at each position; false on overflow.
 HWY_INLINE bool measure(const Surface& surface, QueryBatch& batch, BatchResults& out) {
   if (!surface.filleted) return nearest(surface.baked, surface.relief, batch, surface.scratch, out);
   measure_filleted(surface, batch, out);
   return true;
 }
 
-/// Every particle of the batch.
+/// Takes every particle of the batch.
 HWY_INLINE void take_all(const QueryBatch& batch, InRange& out) {
   out.count = (batch.count + kStep - 1) / kStep * kStep;
   for (int i = 0; i < out.count; i += kWidth) {
@@ -87,7 +86,7 @@ HWY_INLINE void take_all(const QueryBatch& batch, InRange& out) {
   }
 }
 
-/// The same where the particles begin, of those that may be below the clearance at least.
+/// Evaluates the initial positions of all particles that may be below the clearance; false on overflow.
 HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, InRange& in_range,
                               BatchResults& out) {
   const float limit_m = surface.parameters.clearance_m;
@@ -96,14 +95,15 @@ HWY_INLINE bool measure_first(const Surface& surface, QueryBatch& batch, InRange
     return true;
   take_all(batch, in_range);
   if (surface.nonconvex()) return measure(surface, batch, out);
-  // More ellipsoids are near than there is room for at once.
+  // The ellipsoids near the batch overflowed the lists.
   alignas(64) std::int32_t none[kBatch];
   std::memset(none, 0xFF, sizeof(none));
   const ClearedPositions cleared{batch, none, none, none};
   return nearest_others(surface.baked, cleared, limit_m, surface.scratch, out);
 }
 
-/// The same where the lanes have come to; of plain ellipsoids only where one is below the clearance.
+/// Evaluates the current positions; with plain ellipsoids only where one is below the clearance. False on
+/// overflow.
 HWY_INLINE bool measure_again(const Surface& surface, const PushedLanes& pushed, BatchResults& out) {
   QueryBatch batch = batch_at(pushed.x, pushed.y, pushed.z, pushed.count);
   if (surface.nonconvex()) return measure(surface, batch, out);
@@ -111,20 +111,20 @@ HWY_INLINE bool measure_again(const Surface& surface, const PushedLanes& pushed,
   return nearest_others(surface.baked, cleared, surface.parameters.clearance_m, surface.scratch, out);
 }
 
-/// Newton's step to the target from a place where F and its gradient (unit, and its length) are known.
+/// Newton's step to the target, given F, its unit gradient and the gradient's length.
 HWY_INLINE V3 newton_step(V3 x, V distance, V3 normal, V slope, V target) {
   return add_scaled(x, hn::Mul(hn::Sub(target, distance), reciprocal(hn::Max(slope, all(0.5f)))), normal);
 }
 
-/// The first and the latest plane in force of the lanes `at`; the latest only where `two`.
+/// The first and the latest active plane of the lanes `at`; the latest only where `two`.
 struct ActivePlanes {
   Plane first, latest;
   VI latest_ellipsoid;
   M two;
 };
 
-/// Most are pushed into a second ellipsoid, few into a third: without lanes that have two planes the second
-/// and third are not read.
+/// Reads the active planes. Most particles are pushed into a second ellipsoid and few into a third, so that
+/// the second and third planes are read only if some lane has them.
 HWY_INLINE ActivePlanes active_planes(const PushState& state, VI at) {
   const VI none = hn::Set(I(), -1);
   const Plane first = {gather3(state.n1x, state.n1y, state.n1z, at), hn::GatherIndex(f, state.offset1, at)};
@@ -140,8 +140,8 @@ HWY_INLINE ActivePlanes active_planes(const PushState& state, VI at) {
   return {first, latest, hn::IfThenElse(hn::RebindMask(I(), three), ellipsoid3, ellipsoid2), two};
 }
 
-/// A plane of the lanes `which`, newest_ellipsoid indices are `at` (zero elsewhere), and the closest place
-/// beyond it and those before; of these the first and the latest stay in force.
+/// Adds a plane for the lanes `which`, at indices `at` (zero elsewhere), and moves to the closest point in
+/// its half-space and those of the active planes. Of these the first and the latest stay active.
 HWY_INLINE Push add_plane(const Surface& surface, M which, VI at, const Plane& newest, VI newest_ellipsoid,
                           const InRange& in_range, PushState& state) {
   const V slack = all(surface.parameters.slack_m);
@@ -173,14 +173,14 @@ HWY_INLINE Push add_plane(const Surface& surface, M which, VI at, const Plane& n
     clear3 = hn::IfThenElse(hn::RebindMask(I(), two), latest_ellipsoid, none);
   }
   scatter.store(next, state.x, state.y, state.z);
-  // Planes that are nearly parallel meet far away, if at all: there all are measured again.
+  // Nearly parallel planes meet far away, if at all: then every ellipsoid is evaluated again.
   const auto certain = hn::RebindMask(I(), hn::Le(behind, slack));
   return {next, hn::IfThenElse(certain, hn::GatherIndex(I(), state.owner, at), none),
           hn::IfThenElse(certain, newest_ellipsoid, none), hn::IfThenElse(certain, clear3, none)};
 }
 
-/// Another push for those that the last query found below: a vector of them, from the i-th on. They close up:
-/// each was in `pushed` at or behind where it is put.
+/// Pushes one vector of the particles that the last evaluation found below the clearance, from the i-th on.
+/// They are closed up: each moves to its old index in `pushed` or to a lower one.
 HWY_INLINE void push_again(const Surface& surface, const InRange& in_range, const BatchResults& found,
                            const LanesBelow& below, int i, PushedLanes& pushed, PushState& state) {
   const M which = lanes_below(i, below.count);
@@ -203,7 +203,7 @@ HWY_INLINE void push_again(const Surface& surface, const InRange& in_range, cons
   pushed.put(add_plane(surface, which, lane, {normal, offset}, newest, in_range, state), i);
 }
 
-/// The last normals of a nonconvex surface are those that velocities are judged by.
+/// Velocities are corrected by the last normal of a nonconvex surface, so it is stored.
 HWY_INLINE void store_normals(const PushedLanes& pushed, const BatchResults& found, PushState& state) {
   for (int i = 0; i < pushed.count; ++i) {
     const int lane = pushed.lane[i];
@@ -213,14 +213,13 @@ HWY_INLINE void store_normals(const PushedLanes& pushed, const BatchResults& fou
   }
 }
 
-/// Pushes the lanes of `pushed`, newest_ellipsoid first push is done, until all are clear; false if the
-/// kernel has no room.
+/// Pushes the lanes of `pushed` again, after their first push, until all are clear; false on overflow.
 HWY_INLINE bool push_until_clear(const Surface& surface, const InRange& in_range, bool has_velocity,
                                  PushedLanes& pushed, PushState& state) {
   const auto most = static_cast<std::uint32_t>(surface.nonconvex() ? kReliefRounds : kPlainRounds);
   BatchResults found;
   pushed.close();
-  // On relief the first push leads to the surface, and the next are a correction.
+  // On relief the first push reaches the surface, and the later ones only correct it.
   surface.scratch.lists.room_m = surface.relief ? surface.relief->blend_m : 0.0f;
   for (state.rounds = 0; pushed.count > 0 && state.rounds < most; ++state.rounds) {
     if (!measure_again(surface, pushed, found)) return false;

@@ -1,4 +1,5 @@
-// Particles on their state out: all that were in_range, and those of them that a round pushes, closed up.
+// State of the particles that are pushed out: all that may be below the clearance, and those of a round,
+// closed up.
 #if defined(BODICE_COLLISION_PUSH_STATE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_PUSH_STATE_INL_
 #undef BODICE_COLLISION_PUSH_STATE_INL_
@@ -17,20 +18,20 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The particles that were in_range on their state out, an array a number.
+/// One array a number for the particles of InRange.
 struct alignas(64) PushState {
-  std::int32_t owner[kBatch];                   ///< where it began; internal_index index, -1: no contact
-  float x[kBatch], y[kBatch], z[kBatch];        ///< where it is now
-  float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< contact planes
+  std::int32_t owner[kBatch];                   ///< owner at the start, internal index; -1: no contact
+  float x[kBatch], y[kBatch], z[kBatch];        ///< current position
+  float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< normals of the active planes
   float n2x[kBatch], n2y[kBatch], n2z[kBatch];
   float n3x[kBatch], n3y[kBatch], n3z[kBatch];
   float offset1[kBatch], offset2[kBatch], offset3[kBatch];
   std::int32_t ellipsoid2[kBatch],
-      ellipsoid3[kBatch];  ///< newest_ellipsoid planes the second and third are; -1: not in force
-  LaneBits open;           ///< not pushed_to
+      ellipsoid3[kBatch];  ///< ellipsoids of the second and third plane; -1: not active
+  LaneBits open;           ///< still below the clearance after the last round
   std::uint32_t rounds = 0;
 
-  /// Of the second and third planes the rest means nothing then.
+  /// Marks the second and third planes as not active; their other numbers are not read then.
   HWY_INLINE void clear_others() {
     for (std::int32_t* values : {ellipsoid2, ellipsoid3}) std::memset(values, 0xFF, sizeof(ellipsoid2));
   }
@@ -38,21 +39,21 @@ struct alignas(64) PushState {
 
 struct LanesBelow;
 
-/// Where a push leads, and the plain ellipsoids that it puts clear of; -1: none, or not for certain.
+/// Target of a push and the plain ellipsoids that it clears for certain; -1: none.
 struct Push {
   V3 to;
   VI clear1, clear2, clear3;
 };
 
-/// The lanes that were pushed in a round, closed up.
+/// The particles that were pushed in a round, closed up.
 struct alignas(64) PushedLanes {
   static constexpr int kSize = kBatch + 16;
   float x[kSize], y[kSize], z[kSize];
-  std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];  ///< as a Push has them
-  std::int32_t lane[kSize];                                  ///< among those that were in_range
+  std::int32_t clear1[kSize], clear2[kSize], clear3[kSize];  ///< as in Push
+  std::int32_t lane[kSize];                                  ///< index in PushState
   int count = 0;
 
-  /// After the first push, out of the ellipsoids `owner`.
+  /// Adds particles after their first push, out of the ellipsoids `owner`.
   HWY_INLINE void add(M which, VI lanes, V3 p, VI owner) {
     const Pack pack(which);
     pack.store(p.x, x + count);
@@ -62,24 +63,24 @@ struct alignas(64) PushedLanes {
     pack.store(lanes, lane + count);
     count += pack.count();
   }
-  /// Once all are added.
+  /// Ends a series of add().
   HWY_INLINE void close() {
     std::memset(clear2, 0xFF, sizeof(clear2));
     std::memset(clear3, 0xFF, sizeof(clear3));
     pad();
   }
-  /// Lanes [i, i + kWidth) of those that are pushed once more: what they were is overwritten.
+  /// Overwrites lanes [i, i + kWidth) by particles that are pushed once more.
   HWY_INLINE void put(const Push& push, int i) {
     store3(push.to, x + i, y + i, z + i);
     hn::Store(push.clear1, I(), clear1 + i);
     hn::Store(push.clear2, I(), clear2 + i);
     hn::Store(push.clear3, I(), clear3 + i);
   }
-  /// Once all are put.
+  /// Ends a series of put().
   HWY_INLINE void close(const LanesBelow& below);
 
  private:
-  /// Repeats the last up to a whole block.
+  /// Repeats the last particle until the block is full.
   HWY_INLINE void pad() {
     if (count == 0) return;
     const int end = (count + kBlock - 1) / kBlock * kBlock;
@@ -89,8 +90,7 @@ struct alignas(64) PushedLanes {
   }
 };
 
-/// Lanes of `PushedLanes` that are still below the clearance, closed up: where they are in it, and among
-/// those that were in_range.
+/// Lanes of PushedLanes that are still below the clearance, closed up: their index there, and in PushState.
 struct alignas(64) LanesBelow {
   std::int32_t at[kBatch + 16], lane[kBatch + 16];
   int count = 0;
@@ -116,7 +116,7 @@ HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
   return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
 }
 
-/// Stores the lanes of a mask at their own indices.
+/// Stores the lanes of a mask at an index each.
 class Scatter {
  public:
   HWY_INLINE Scatter(M which, VI at) : pack_(which) { pack_.store(at, at_); }

@@ -1,6 +1,6 @@
-// The nearest response for a batch: a query where the particles are, a push of those below the clearance, and
-// queries where they have come to until all are clear. What three half-spaces, or a few steps of Newton, do
-// not push_until_clear goes to the exact side.
+// Closest-point response of a batch: a query at the particles, a push of those below the clearance, and
+// further queries and pushes until all are clear. What three half-spaces, or a few Newton steps, do not
+// settle is left to the exact side.
 #if defined(BODICE_COLLISION_RESOLVE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_RESOLVE_INL_
 #undef BODICE_COLLISION_RESOLVE_INL_
@@ -13,14 +13,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-// Pushes longer than this many depths come from surfaces that nearly face each other: for the exact side.
+// Longer pushes, in multiples of the depth, come from surfaces that nearly face each other and are left to
+// the exact side.
 constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
-// A path shorter than this share of the shortest radius nearby neither passes through nor changes sides.
+// A path shorter than this fraction of the least radius nearby neither passes through an ellipsoid nor
+// changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
 constexpr float kOvershootOfStep = static_cast<float>(kStepOvershoot);
 
-/// A plane of the contact at x, which is there only if x lies on it; elsewhere its normal is zero, and it
-/// holds no velocity back.
+/// A plane of the contact at x, active only if x lies on it. Elsewhere its normal is zero, so that it does
+/// not restrict velocities.
 HWY_INLINE Plane touching(const Plane& plane, M active, V3 x, float within_m, M& there) {
   there = hn::And(active, hn::Ge(plane.gap(x), all(-within_m)));
   const V zero = hn::Zero(f);
@@ -34,8 +36,8 @@ HWY_INLINE Plane touching(const float* nx, const float* ny, const float* nz, con
   return touching(plane, active, x, within_m, there);
 }
 
-/// The nearest velocity into none of the contact's planes at x. The first may have been left behind, too, but
-/// on a nonconvex surface, which has but one: its normal at x.
+/// The closest velocity that leads into none of the contact's planes at x. Even the first plane may have been
+/// left behind, except on a nonconvex surface, which has one plane: the tangent plane at x.
 HWY_INLINE V3 closest_velocity(const PushState& state, int i, V3 x, bool nonconvex, float slack_m, V3 v) {
   const V3 n = load3(state.n1x + i, state.n1y + i, state.n1z + i);
   if (nonconvex) return add_scaled(v, hn::Max(hn::Neg(dot(n, v)), hn::Zero(f)), n);
@@ -55,7 +57,7 @@ HWY_INLINE V3 closest_velocity(const PushState& state, int i, V3 x, bool nonconv
   return select(three, select(two, of_three, of_other), of_two);
 }
 
-/// Inward velocity removed, the rest slowed by Coulomb friction, restitution 0.
+/// Removes the inward velocity and slows the rest by Coulomb friction; restitution is 0.
 HWY_INLINE V3 corrected_velocity(V3 along_surface, float friction, V3 v) {
   const V3 change = along_surface - v;
   const V impulse2 = dot(change, change), speed2 = dot(along_surface, along_surface);
@@ -63,7 +65,8 @@ HWY_INLINE V3 corrected_velocity(V3 along_surface, float friction, V3 v) {
   return scaled(along_surface, hn::Max(hn::Zero(f), hn::NegMulAdd(all(friction), ratio, all(1.0f))));
 }
 
-/// Velocity of the body's material at x, carried by ellipsoid `owner`; lanes without owner read the first.
+/// Velocity of the body's material at x, moving with ellipsoid `owner`; lanes without an owner read the first
+/// ellipsoid.
 HWY_INLINE V3 surface_velocity(const SurfaceMotion* motion, VI owner, V3 x) {
   constexpr int kStride = sizeof(SurfaceMotion) / sizeof(float);
   const VI at = hn::Mul(hn::Max(owner, hn::Zero(I())), hn::Set(I(), kStride));
@@ -79,8 +82,8 @@ HWY_INLINE V3 surface_velocity(const SurfaceMotion* motion, VI owner, V3 x) {
   return V3{dot(r0, x), dot(r1, x), dot(r2, x)} + translation;
 }
 
-/// Paths, relative to the ellipsoid that owns the place, longer than the limit. Without an owner any
-/// ellipsoid may have come past.
+/// Paths longer than the limit, relative to the ellipsoid that owns the particle. Without an owner any
+/// ellipsoid may have passed by, so that the limit is reduced by the body's displacement.
 HWY_INLINE M is_long_path(V3 path, const ResponseParameters& parameters, V3 p, VI owner, float limit_m) {
   V limit = all(limit_m);
   if (parameters.motion) {
@@ -92,7 +95,7 @@ HWY_INLINE M is_long_path(V3 path, const ResponseParameters& parameters, V3 p, V
   return hn::Ge(dot(path, path), hn::Mul(limit, limit));
 }
 
-/// The particles that came far, as if without an owner.
+/// Flags paths longer than the limit, by the bound that holds for any ellipsoid.
 HWY_INLINE void find_long_paths(const ParticleBatch& batch, const ResponseParameters& parameters,
                                 float short_path_m, LaneBits& out) {
   const float travel_m = parameters.motion ? parameters.travel_m : 0.0f;
@@ -105,12 +108,12 @@ HWY_INLINE void find_long_paths(const ParticleBatch& batch, const ResponseParame
   }
 }
 
-/// Of particles with these lanes, -1: none; undoing a particle's own path is not a push.
+/// The safe positions of these lanes; -1 reads lane 0.
 HWY_INLINE V3 safe_positions_of(const ParticleBatch& batch, VI lanes) {
   return gather3(batch.sx, batch.sy, batch.sz, hn::Max(lanes, hn::Zero(I())));
 }
 
-/// Calls work with each lane of the mask that is a particle's, and whether it is in `which`.
+/// Calls work for each lane of the mask with its particle, and whether the lane is in `which`.
 template <class Work>
 HWY_INLINE void for_particles(M mask, M which, const std::int32_t* lane, Work&& work) {
   const std::uint64_t chosen = bits(which);
@@ -120,8 +123,8 @@ HWY_INLINE void for_particles(M mask, M which, const std::int32_t* lane, Work&& 
   }
 }
 
-/// Least radius of the ellipsoids newest_ellipsoid boxes are within `window` of the block's box, which
-/// includes the particles' paths; 1e30 if there are none.
+/// Least radius of the ellipsoids with boxes within `window` of the block's box, which includes the
+/// particles' paths; 1e30 if there are none.
 HWY_INLINE float shortest_radius(const Baked& baked, const Aabb& e, float window) {
   V least = all(1e30f);
   for (std::size_t k = 0; k < baked.cull.shortest.size(); k += kWidth) {
@@ -131,8 +134,8 @@ HWY_INLINE float shortest_radius(const Baked& baked, const Aabb& e, float window
   return hn::GetLane(hn::MinOfLanes(f, least));
 }
 
-/// The first push of those particles that are below the clearance and have not come far; `contacts` gets a
-/// bit for each.
+/// First push of the particles that are below the clearance and have a short path; `contacts` gets a bit for
+/// each. Those with a long path are left to the exact side.
 HWY_INLINE void push_first(const Surface& surface, const ParticleBatch& batch, float short_path_m,
                            const InRange& in_range, const BatchResults& found, int i, PushState& state,
                            PushedLanes& pushed, LaneBits& contacts, BatchResponse& out) {
@@ -174,7 +177,7 @@ HWY_INLINE M mask_of(const LaneBits& lanes, int i) {
   return hn::LoadMaskBits(f, bytes);
 }
 
-/// The velocity that a contact leaves.
+/// The velocity after the contact.
 HWY_INLINE V3 velocity_after(const Surface& surface, const ParticleBatch& batch, const PushState& state,
                              int i, VI lanes, VI owner, V3 p, V3 position) {
   const ResponseParameters& parameters = surface.parameters;
@@ -187,7 +190,8 @@ HWY_INLINE V3 velocity_after(const Surface& surface, const ParticleBatch& batch,
   return corrected_velocity(along_surface, parameters.friction, relative) + body;
 }
 
-/// Writes one vector of contacts: place, velocity, and what is told about it.
+/// Writes the results of one vector of contacts; those with a long push or still below the clearance are left
+/// to the exact side.
 HWY_INLINE void write_responses(const Surface& surface, float reach_m, const InRange& in_range,
                                 const BatchResults& found, const PushState& state, M contact, int i,
                                 const ParticleBatch& batch, V& deepest, BatchResponse& out) {
@@ -230,7 +234,7 @@ HWY_INLINE void write_responses(const Surface& surface, float reach_m, const InR
   deepest = hn::Max(deepest, hn::IfThenElseZero(contact, depth));
 }
 
-/// The batch against one surface; pushes longer than `reach_m` are for the exact side.
+/// Resolves the batch against one surface; pushes longer than `reach_m` are left to the exact side.
 HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float reach_m,
                            const ParticleBatch& batch, BatchResponse& out) {
   InRange in_range;
@@ -261,7 +265,7 @@ HWY_INLINE bool resolve_on(const Surface& surface, float short_path_m, float rea
   return true;
 }
 
-/// Half the diagonal of each block's box.
+/// Sets the radius of each block: half the diagonal of its box.
 HWY_INLINE void note_radii(const ParticleBatch& batch, BatchResponse& out) {
   for (int begin = 0; begin < batch.count; begin += kBlock) {
     bool in_float_range;
@@ -271,12 +275,13 @@ HWY_INLINE void note_radii(const ParticleBatch& batch, BatchResponse& out) {
   }
 }
 
-/// The batch against plain ellipsoids or relief.
+/// Resolves the batch against plain ellipsoids or relief.
 HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief,
                               const ResponseParameters& parameters, const ParticleBatch& batch,
                               BatchResponse& out) {
   float shortest_m = 0.0f;
-  // What is kept tells by itself that nothing is near, and nobody asks how long a path may be.
+  // This is skipped with a candidate cache and without safe positions: the cache detects empty batches, and
+  // no limit on paths is needed.
   if (!batch.cache.batch || batch.has_safe) {
     const Aabb e = aabb_of(batch);
     const float bulge_m = relief ? relief->highest_m + relief->blend_m : 0.0f;
@@ -293,7 +298,7 @@ HWY_INLINE bool resolve_sharp(const Baked& baked, const ReliefTables* relief,
   return resolve_on(surface, kShortPath * shortest_m, 1e30f, batch, out);
 }
 
-/// The batch against the smooth union of the ellipsoids.
+/// Resolves the batch against the smooth union of the ellipsoids.
 HWY_INLINE bool resolve_filleted(const Baked& baked, const ResponseParameters& parameters,
                                  const ParticleBatch& batch, BatchResponse& out) {
   note_radii(batch, out);

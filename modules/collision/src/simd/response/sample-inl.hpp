@@ -1,4 +1,4 @@
-// The proxy's distance at one vector of particles of a block, among the block's candidates.
+// Distance of the smooth union at one vector of particles, and the bound that excludes candidates.
 #if defined(BODICE_COLLISION_SAMPLE_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_SAMPLE_INL_
 #undef BODICE_COLLISION_SAMPLE_INL_
@@ -12,13 +12,12 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 struct Sample {
-  V distance;   ///< F, meters; what `distance` was at the start where every
-                ///< ellipsoid is farther
-  V3 gradient;  ///< unit for plain ellipsoids
+  V distance;   ///< F, meters; where every ellipsoid is farther, its initial value
+  V3 gradient;  ///< unit length for plain ellipsoids
   VI owner;
 };
 
-/// The tangent-plane bound of candidate c at p.
+/// Lower bound on candidate i's distance at p, by its tangent plane.
 HWY_INLINE V tangent_bound(const TangentCandidates& c, int i, V3 p) {
   const V3 offset = p - broadcast3(c.middle);
   return hn::MulAdd(

@@ -1,7 +1,7 @@
-// The smooth union of plain ellipsoids, so that creases are filleted: the root F of
-//   sum_k max(0, 1 - (d_k - F) / blend)^2 = 1,
-// which is d where one ellipsoid is near, never above the least d_k, and newest_ellipsoid gradient
-// sum u_k n_k / sum u_k, u_k = max(0, 1 - (d_k - F) / blend), is continuous.
+// The smooth union of plain ellipsoids, which fillets creases: the root F of
+//   sum_k max(0, 1 - (d_k - F) / blend)^2 = 1
+// It equals d where one ellipsoid is near and never exceeds the least d_k. Its gradient is continuous:
+//   sum_k u_k n_k / sum_k u_k, u_k = max(0, 1 - (d_k - F) / blend)
 #if defined(BODICE_COLLISION_SMOOTH_UNION_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_SMOOTH_UNION_INL_
 #undef BODICE_COLLISION_SMOOTH_UNION_INL_
@@ -16,14 +16,14 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 constexpr int kSmoothSteps = 5;  // Newton on a convex function, from above: quadratic
 
-/// Distances of the candidates that may blend, in order of the list.
+/// Distances to the candidates that may blend, in the order of their list.
 struct Blended {
   alignas(64) float distance[kMaxCandidates][16];
   int of[kMaxCandidates];
   int count = 0;
 };
 
-/// Newton for the root, starting from the least distance.
+/// The root by Newton's method, starting from the least distance.
 HWY_INLINE V smooth_root(const Blended& b, V least, V per_blend) {
   V root = least;
   for (int step = 0; step < kSmoothSteps; ++step) {
