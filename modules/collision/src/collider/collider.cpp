@@ -185,10 +185,10 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
     // Inserts the contact into the sorted front part; the farthest drops out when it is full.
     const std::size_t kept = std::min(found++, contacts.size());
     const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(kept);
-    const auto place = std::upper_bound(contacts.begin(), end, contact, nearer);
-    if (place == contacts.end()) continue;
-    std::move_backward(place, kept < contacts.size() ? end : end - 1, kept < contacts.size() ? end + 1 : end);
-    *place = contact;
+    const auto slot = std::upper_bound(contacts.begin(), end, contact, nearer);
+    if (slot == contacts.end()) continue;
+    std::move_backward(slot, kept < contacts.size() ? end : end - 1, kept < contacts.size() ? end + 1 : end);
+    *slot = contact;
   }
   return found;
 }

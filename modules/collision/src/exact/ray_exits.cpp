@@ -36,7 +36,7 @@ std::optional<Interval> inside_ball(const Vec3& a, const Vec3& b) {
   return Interval{middle - half, middle + half};
 }
 
-constexpr int kLeaveSteps = 4;  // Newton from outside: each step at least halves the rest, most square it
+constexpr int kExitSteps = 4;  // Newton from outside: each step at least halves the rest, most square it
 
 /// Ray parameter at which the ray leaves an enlarged ellipsoid: scaled so that it contains every point nearer
 /// than the clearance.
@@ -62,7 +62,7 @@ double exit_parameter(const UnionField& field, const Owner& owner, const Vec3& x
   if (!std::isfinite(t)) return gap + nudge_m;
   // From outside, again by convexity, a tangent's root lies between the root of the distance and the current
   // point.
-  for (int step = 0; step < kLeaveSteps; ++step) {
+  for (int step = 0; step < kExitSteps; ++step) {
     const ClosestPoint at = geometry::closest_point(e, x + t * direction);
     const double beyond = at.signed_distance - clearance_m, rise = at.normal.dot(direction);
     if (!(beyond > nudge_m) || !(rise > kFlatSlope)) break;

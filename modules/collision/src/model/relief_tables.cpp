@@ -61,7 +61,7 @@ class Heights {
 };
 
 /// Whether an interval reaches the negative (or positive) half of the axis; touching it counts.
-bool comes_to(bool negative, double low, double high) {
+bool touches_half(bool negative, double low, double high) {
   constexpr double kTouching = 1e-4;
   return negative ? low < kTouching : high > -kTouching;
 }
@@ -71,10 +71,11 @@ bool comes_to(bool negative, double low, double high) {
 OctantReach reach_of(const Heights& heights, int nodes) {
   OctantReach result;
   std::fill(std::begin(result.at_zero_m), std::end(result.at_zero_m), -std::numeric_limits<float>::max());
-  const auto place = [&](int i) { return 2.0 * i / (nodes - 1) - 1.0; };
+  const auto coordinate = [&](int i) { return 2.0 * i / (nodes - 1) - 1.0; };
   for (int row = 0; row + 1 < nodes; ++row)
     for (int column = 0; column + 1 < nodes; ++column) {
-      const double x[2] = {place(column), place(column + 1)}, y[2] = {place(row), place(row + 1)};
+      const double x[2] = {coordinate(column), coordinate(column + 1)},
+                   y[2] = {coordinate(row), coordinate(row + 1)};
       const auto zero_m = static_cast<float>(
           std::max({heights.zero_m(column, row), heights.zero_m(column + 1, row),
                     heights.zero_m(column, row + 1), heights.zero_m(column + 1, row + 1)}));
@@ -86,8 +87,8 @@ OctantReach reach_of(const Heights& heights, int nodes) {
         z[1] -= side[0] < 0.0 && side[1] > 0.0 ? 0.0 : std::min(low, high);
       }
       for (int octant = 0; octant < 8; ++octant)
-        if (comes_to(octant & 1, x[0], x[1]) && comes_to(octant & 2, y[0], y[1]) &&
-            comes_to(octant & 4, z[0], z[1]))
+        if (touches_half(octant & 1, x[0], x[1]) && touches_half(octant & 2, y[0], y[1]) &&
+            touches_half(octant & 4, z[0], z[1]))
           result.at_zero_m[octant] = std::max(result.at_zero_m[octant], zero_m);
     }
   const auto [rising, any] = heights.steepest();

@@ -51,10 +51,10 @@ HWY_INLINE int slot_of(CachedBatch& cached, std::int32_t ellipsoid) {
 HWY_INLINE void sort_candidates(CachedBatch& cached) {
   std::int32_t sorted[CachedBatch::kCapacity], from[CachedBatch::kCapacity];
   for (int i = 0; i < cached.candidates; ++i) {
-    int place = 0;
-    for (int k = 0; k < cached.candidates; ++k) place += cached.candidate[k] < cached.candidate[i];
-    sorted[place] = cached.candidate[i];
-    from[place] = i;
+    int rank = 0;
+    for (int k = 0; k < cached.candidates; ++k) rank += cached.candidate[k] < cached.candidate[i];
+    sorted[rank] = cached.candidate[i];
+    from[rank] = i;
   }
   for (float(&slack_m)[CachedBatch::kCapacity] : cached.slack_m) {
     float before_m[CachedBatch::kCapacity];

@@ -270,8 +270,8 @@ HWY_INLINE bool one_by_one(const QueryBatch& batch, const LaneRange& range, Work
     std::fill(z, z + kStep, batch.z[i]);
     const QueryBatch one = batch_at(x, y, z, 1);
     bool in_float_range = false;
-    const LaneRange place = range_of(one, 0, 1, in_float_range);
-    if (!work(one, &place, 1, alone)) return false;
+    const LaneRange lane = range_of(one, 0, 1, in_float_range);
+    if (!work(one, &lane, 1, alone)) return false;
     out.distance[i] = alone.distance[0];
     out.value[i] = alone.value[0];
     out.gx[i] = alone.gx[0];
