@@ -1,6 +1,6 @@
-// The proxy grows from 89 to 4,096 ellipsoids (the paper's tier, which uses more than the others would; then
-// balls), the particles stay: along a curve through space, in no order with a workspace that keeps one, and
-// in no order as they are stored.
+// The proxy grows from 89 to 4,096 ellipsoids: fits of the paper's tier, which uses more than the other tiers
+// would, then balls. The particles stay the same. They are stored along a space-filling curve, in random
+// order with a workspace, and in random order without one.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -23,10 +23,10 @@ using bodice::proxy::BodyProxy;
 
 namespace {
 
-constexpr std::size_t kFitted = 1000;  // more than that no fit asks for
+constexpr std::size_t kFitted = 1000;  // the largest number that a fit makes sense for
 constexpr double kBand_m = 0.03, kBall_m = 0.02;
 
-/// Balls around places on the skin.
+/// A proxy of balls around points of the skin.
 BodyProxy balls(const bodice::geometry::TriMesh& mesh, double stature_m, std::size_t count) {
   const Cloud centers = near_skin(mesh, count, 0.0, 7);
   BodyProxy::Data data{.tier = bodice::proxy::Tier::kSolid, .stature_m = stature_m};

@@ -1,6 +1,6 @@
-// The paper's figures 11 and 12: the time a frame against the number of the body's vertices, and against the
-// number of particles, with two trees of triangles and FCL beside it. Proxies take turns, the least frame
-// counts.
+// The paper's figures 11 and 12: time of a frame over the number of the body's vertices, and over the number
+// of particles. Two trees of triangles and FCL are measured beside the proxies. The proxies take turns, and
+// the least frame counts.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -23,7 +23,7 @@ constexpr double kOver_m = 0.004;
 
 bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
   bodice::fitting::FitOptions options;
-  options.tier = bodice::proxy::Tier::kSolid;  // its cost to fit stays bearable at a million vertices
+  options.tier = bodice::proxy::Tier::kSolid;  // fits in bearable time even at a million vertices
   options.max_ellipsoids = kEllipsoids;
   auto result =
       bodice::fitting::fit({}, {.mesh = body.mesh, .part = body.part, .stature_m = body.stature_m}, options);
@@ -31,9 +31,9 @@ bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
   return result->proxy;
 }
 
-/// The places' nearest ones 4 mm over the proxy's surface. Over one and the same skin instead, the proxies of
-/// coarse bodies, whose flat triangles miss it by millimeters, would have other contacts than those of fine
-/// ones.
+/// Points 4 mm over the closest points of the proxy's surface. Over one common skin the proxies of coarse
+/// bodies would have other contacts than those of fine ones, because their flat triangles miss the skin by
+/// millimeters.
 Cloud over(const bodice::proxy::BodyProxy& proxy, const Cloud& places) {
   const bodice::collision::Collider collider(proxy);
   Cloud start = local(places, collider), result;
@@ -45,7 +45,7 @@ Cloud over(const bodice::proxy::BodyProxy& proxy, const Cloud& places) {
   return result;
 }
 
-/// In turns.
+/// Runs the frames of all proxies in turns.
 void run(std::vector<ProxyFrames>& all) {
   for (int frame = 0; frame < kFrames; ++frame)
     for (ProxyFrames& one : all) one.run();
@@ -101,7 +101,7 @@ bool over_particles() {
     ns.push_back(1e6 * ms / static_cast<double>(one.particles()));
     std::printf("| %zu | %.3f | %.1f |\n", one.particles(), ms, ns.back());
   }
-  // More particles lie closer together, so that each costs less: linear or better.
+  // More particles lie closer together, so that each costs less: the growth is linear or slower.
   std::printf("ns a particle: of the most over the fewest %.2f (bar 1.10)\n", ns.back() / ns.front());
   return ns.back() <= 1.1 * ns.front();
 }

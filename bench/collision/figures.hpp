@@ -5,8 +5,8 @@
 
 namespace bench {
 
-/// Prints both; bodies of up to `largest_body` vertices. False if the frame time is not flat within 10 %, or
-/// grows faster than the particles by as much.
+/// Prints both figures, with bodies of up to `largest_body` vertices. False if the frame time varies by more
+/// than 10 % over the bodies, or grows faster than the particles by more than that.
 bool draw_figures(std::size_t largest_body);
 
 }  // namespace bench

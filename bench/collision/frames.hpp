@@ -1,4 +1,4 @@
-// The same particles call after call, as a solver asks about them.
+// The same particles call after call, as a solver queries them.
 #pragma once
 
 #include <cstdlib>
@@ -7,8 +7,8 @@
 
 namespace bench {
 
-/// Particles as a solver has them: from call to call all drift by a millimeter, 30 mm to and fro, each with a
-/// tremble of its own. A garment that slides over a body at 60 mm a second has that at 60 calls a second.
+/// Particles that move as a solver's do. All drift by a millimeter a call, 30 mm to and fro, and each
+/// trembles. A garment that slides over a body at 60 mm a second does so at 60 calls a second.
 class Frames {
  public:
   explicit Frames(const Cloud& start) : start_(start), now_(start) {}

@@ -1,4 +1,5 @@
-// What no query can be faster than: its bytes, and one closest point a particle with nothing to choose.
+// Lower limits on the time of any query: moving its bytes, and one closest point a particle without a choice
+// of ellipsoids.
 #pragma once
 
 #include <vector>
@@ -11,12 +12,12 @@
 
 namespace bench {
 
-/// Particles around the proxy's largest ellipsoid, alone.
+/// Particles around the proxy's largest ellipsoid, which is alone.
 class Limits {
  public:
-  /// `band_m`: how far particles are from its surface, to either side.
+  /// `band_m`: largest distance of the particles from its surface, to either side.
   Limits(const bodice::proxy::BodyProxy& proxy, std::size_t particles, double band_m);
-  /// The rows refer to this.
+  /// Adds rows that refer to this object.
   void add_to(std::vector<Row>& rows);
 
  private:

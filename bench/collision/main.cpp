@@ -1,5 +1,7 @@
-// What a query and a response cost a particle, at which error, beside what else can answer: one thread, one
-// run, CPU time, median and min of the repeats, interleaved so that a slow minute hits all rows alike.
+// Cost of a query and of a response a particle, with its error, beside other methods that can answer the
+// same. One thread, one run, CPU time; median and min of the repeats, interleaved so that a slow minute
+// affects all rows alike.
+//
 // Usage: collision [particles [repeats [fit seconds [rows.csv]]]]
 //        collision figures [largest body]
 //        collision counts [particles [repeats]]
@@ -45,29 +47,30 @@ using bodice::proxy::Tier;
 
 constexpr int kEllipsoids = 89;
 
-/// What is asked.
+/// One kind of query.
 struct Question {
   const char* name;
   bodice::collision::QueryOptions options;
-  bool bar;  ///< whether the bar of FACTS.md, section 5 is held against it
+  bool bar;  ///< whether the bar of kQuestions applies to it
 };
 
 constexpr float kShort_m = 0.010f;
 constexpr float kAll_m = std::numeric_limits<float>::infinity();
-/// The bar of 7.5 and 15 ns comes from a prototype that answered 'inside only', by estimates: closest points
-/// of particles that are inside, nothing about others. It is held against the others as well.
+/// The bar of 7.5 and 15 ns comes from a prototype of 'inside only' that used estimates. It gave closest
+/// points of particles inside and nothing about others. The bar applies to the other kinds of query as well.
 constexpr Question kQuestions[] = {{"all distances", {.within_m = kAll_m}, true},
                                    {"contacts within 10 mm", {.within_m = kShort_m}, false},
                                    {"inside only", {.within_m = 0.0f}, true},
                                    {"to first order", {.accuracy = Accuracy::kFirstOrder}, true}};
-/// Embree's distance has no sign: who is inside, and how deep, only the nearest triangle tells, however far
-/// it is. With the short reach it says nothing of particles that are deeper.
+/// Embree's distance has no sign. Whether a particle is inside, and how deep, follows only from the nearest
+/// triangle, however far it is. With the short reach there is no result for particles deeper than it.
 constexpr double kFarReach_m = kBand_m + 0.001, kShortReach_m = 0.010;
-/// What is not told how far the particles are must look as far as it takes, as a query of all distances does.
+/// Without knowing how far the particles are, a search must go as far as needed, as a query of all distances
+/// does.
 constexpr double kAnyReach_m = std::numeric_limits<double>::infinity();
 constexpr double kEmbreeReaches_m[] = {kAnyReach_m, kFarReach_m, kShortReach_m};
 
-/// One proxy: its particles in both orders, and room for the answers.
+/// One proxy, its particles in both orders, and storage for the results.
 struct Contender {
   std::string name;
   Collider collider, moving;
@@ -75,7 +78,7 @@ struct Contender {
   bench::Cloud coherent, moved;
   std::vector<Contact> contacts;
   bool relief;
-  Frames frames[2], response_frames[2], beside_moving;  ///< coherent, in no order
+  Frames frames[2], response_frames[2], beside_moving;  ///< coherent, random
 
   Contender(std::string label, const bodice::proxy::BodyProxy& proxy, const bench::Cloud& ordered,
             const bench::Cloud& shuffled)
@@ -92,7 +95,7 @@ struct Contender {
     for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
   }
 
-  /// A step of a turn about the vertical and of a walk, there or back.
+  /// Turns the proxy about the vertical and shifts it by a step, there or back.
   void move_rigidly(double angle_rad) {
     const bodice::geometry::Mat3 turn =
         Eigen::AngleAxisd(forth ? angle_rad : -angle_rad, bodice::geometry::Vec3::UnitY()).toRotationMatrix();
@@ -113,7 +116,7 @@ struct Contender {
   }
 };
 
-/// Of what a workspace makes fast, and how it is asked for.
+/// Names of the rows measured with a workspace.
 constexpr const char* kFrames[] = {", coherent, frames", ", random, frames"};
 
 void add_queries(Contender& c, std::vector<Row>& rows) {
@@ -136,7 +139,7 @@ void add_queries(Contender& c, std::vector<Row>& rows) {
   }
 }
 
-/// A response moves the particles: each call gets its own copy, untimed.
+/// A response moves the particles, so that each call gets its own copy, which is not timed.
 void add_responses(Contender& c, std::vector<Row>& rows) {
   const auto n = static_cast<double>(c.coherent.size());
   const std::string name = c.name + ": response";
@@ -186,7 +189,7 @@ void print_ratio(const std::string& what, const Row& over, const Row& under, con
               over.least() / under.least(), bar.c_str());
 }
 
-/// What is promised as a ratio: the response to the query, Embree to the query that asks the same of it.
+/// Prints the promised ratios: response to query, and Embree to the query that gives the same information.
 void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, const std::vector<Row>& rows,
                   bool embree) {
   std::printf("\n| ratio | of medians | of mins | bar |\n|---|---|---|---|\n");

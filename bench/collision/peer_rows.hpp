@@ -1,4 +1,4 @@
-// Rivals in the table. Slow ones are asked about some of the particles only.
+// Rows of the peers. Slow ones are measured on some of the particles only.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace bench {
 
-/// A rival and the particles that it is asked about.
+/// A peer and the particles that it is measured on.
 struct AskedPeer {
   Peer& peer;
   Cloud coherent, random;
@@ -18,8 +18,8 @@ struct AskedPeer {
   AskedPeer(Peer& one, const Cloud& ordered, const Cloud& shuffled);
 };
 
-/// `truth` of all particles in coherent order; `distances` has room for as many. Prints how far off the
-/// answers are; rows keep references to all but `truth`.
+/// Prints the peer's error and adds its rows. `truth` has all particles in coherent order; `distances` has
+/// room for as many. The rows keep references to all but `truth`.
 void add_peer(AskedPeer& asked, const std::vector<double>& truth, std::vector<float>& distances,
               std::vector<Row>& rows);
 

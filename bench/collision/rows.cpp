@@ -14,7 +14,7 @@ void measure(std::vector<Row>& rows, int repeats) {
   for (int r = 0; r < repeats; ++r)
     for (Row& row : rows) {
       row.prepare();
-      row.work();  // what came before has filled the caches with its own data
+      row.work();  // the row before has filled the caches with its own data
       double ms = 0.0;
       for (int call = 0; call < row.calls; ++call) {
         row.prepare();

@@ -11,7 +11,7 @@ namespace bench {
 
 namespace {
 
-/// Those that the kernels are compiled for; others fall back to scalar.
+/// Instruction sets that the kernels are compiled for; others fall back to scalar code.
 constexpr std::int64_t kCompiled = HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_NEON | HWY_SCALAR;
 
 void use(std::int64_t targets) {
@@ -32,7 +32,7 @@ void compare_targets(const std::string& name, const std::function<void()>& query
       query();
       least = std::min(least, 1e6 * watch.cpu_ms() / particles);
     }
-    // The best target comes first.
+    // The first target is the best one.
     if (best == 0.0) best = least;
     std::printf("| %s, %s | %.1f | %.2f |\n", name.c_str(), hwy::TargetName(left & -left), least,
                 least / best);

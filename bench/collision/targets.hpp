@@ -1,4 +1,4 @@
-// The same question on every instruction set that the machine has.
+// The same query on every instruction set of the machine.
 #pragma once
 
 #include <functional>
@@ -6,7 +6,8 @@
 
 namespace bench {
 
-/// Prints a row a target: least nanoseconds a particle, and the ratio to the best target (bar for AVX2: 1.6).
+/// Prints a row for each target: least nanoseconds a particle, and the ratio to the best target (bar for
+/// AVX2: 1.6).
 void compare_targets(const std::string& name, const std::function<void()>& query, double particles,
                      int repeats);
 

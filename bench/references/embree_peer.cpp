@@ -17,7 +17,7 @@ using Vec = Eigen::Vector3f;
 
 namespace {
 
-/// The closest point of a triangle, by regions of its plane; in float, as Embree itself reckons.
+/// The closest point of a triangle, by regions of its plane, in float as in Embree.
 /// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.5
 Vec closest_on_triangle(const Vec& p, const Vec& a, const Vec& b, const Vec& c) {
   const Vec ab = b - a, ac = c - a;

@@ -1,6 +1,7 @@
+// Exact geodesic distances by windows in a priority queue, filtered by the distances of the corners.
 // Based on: Joseph Mitchell, David Mount, Christos Papadimitriou. The discrete geodesic problem. 1987.
 // Based on: Shi-Qing Xin, Guo-Jin Wang. Improving Chen and Han's algorithm on the discrete geodesic problem.
-// 2009. - windows in a priority queue, filtered by the distances of the corners
+// 2009.
 #include <bench_references/exact_geodesic.hpp>
 
 #include <cmath>
@@ -22,8 +23,8 @@ using Vec2 = Eigen::Vector2d;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// An interval [from, to] of an edge, laid on the x axis from its first end, that a source at (x, y < 0) sees
-/// after it has traveled `so_far`; it shines into `triangle`.
+/// An interval [from, to] of an edge, laid on the x axis from its first end. A source at (x, y < 0), already
+/// at distance `so_far`, sees the interval and through it `triangle`.
 struct Window {
   Index edge, triangle;
   bool flipped;  ///< the x axis starts at the edge's second end
@@ -78,7 +79,7 @@ class Exact {
   double length(Index e) const {
     return (mesh_.positions[edges_.ends[e][1]] - mesh_.positions[edges_.ends[e][0]]).norm();
   }
-  /// Ways bend only at corners with more than a full turn around them.
+  /// Starts windows at a vertex. Shortest paths bend only at vertices with more than a full turn around them.
   void start(Index v, bool source) {
     for (Index k = around_.offset[v]; k < around_.offset[v + 1]; ++k) {
       const Index e = around_.edge[k];
@@ -103,7 +104,7 @@ class Exact {
     const double x = (long_m * long_m + first * first - second * second) / (2.0 * long_m);
     return {x, side * std::sqrt(std::max(0.0, first * first - x * x))};
   }
-  /// Out of triangle f over edge e.
+  /// Adds a window that leaves triangle f over edge e.
   void push(Index e, Index f, bool flipped, double from, double to, const Vec2& source, double so_far) {
     const auto [g, h] = edges_.triangles[e];
     const Index next = g == f ? h : g;
@@ -138,7 +139,7 @@ class Exact {
     if (past_right > 0.0)
       child(w, tip, second, at, Vec2(long_m, 0.0), past_left >= 0.0 ? to_tip : ray_left, ray_right);
   }
-  /// What the two rays cut from the edge between corners a (left) and b.
+  /// Clips the window's two rays to the edge between corners a (left) and b.
   void child(const Window& w, Index a, Index b, const Vec2& at_a, const Vec2& at_b, const Vec2& ray_left,
              const Vec2& ray_right) {
     for (const Index e : edges_.of_triangle[w.triangle]) {

@@ -38,8 +38,8 @@ std::shared_ptr<fcl::BVHModel<Boxes>> model_of(const TriMesh& mesh) {
   return model;
 }
 
-/// So small that its distance is that of its place: FCL asks about shapes, and about nearest triangles of
-/// two trees faster than about a ball and a tree.
+/// A triangle so small that its distance is that of its position. FCL has distances between shapes only, and
+/// finds nearest triangles of two trees faster than those of a ball and a tree.
 std::shared_ptr<fcl::BVHModel<fcl::RSSd>> speck() {
   constexpr double kSize_m = 1e-7;
   auto model = std::make_shared<fcl::BVHModel<fcl::RSSd>>();
@@ -76,7 +76,8 @@ std::vector<Peer> fcl_peers(const TriMesh& mesh) {
 }
 
 std::optional<FrameCost> fcl_frame(TriMesh body, const TriMesh& garment) {
-  // Of FCL's trees the one that answers about balls fastest; that of plain boxes copies the mesh for each.
+  // This is the fastest of FCL's trees for balls; the tree of axis-aligned boxes copies the mesh for each
+  // query.
   const auto skin = model_of<fcl::OBBd>(body);
   const fcl::Sphered ball(kFrameThickness_m);
   const fcl::CollisionRequest<double> whether(1, false);

@@ -39,14 +39,15 @@ Grid empty_grid(const bodice::geometry::Box& box, double cell_m) {
   return grid;
 }
 
-/// Exact near the skin; farther out than twice the pad the value of a neighbor is good enough for the rows.
+/// Fills in exact values near the skin; farther out than twice the pad a neighbor's value is good enough for
+/// the rows.
 void fill(Grid& grid, const bodice::geometry::MeshDistance& skin, double cell_m) {
   std::size_t at = 0;
   for (int k = 0; k < grid.n[2]; ++k)
     for (int j = 0; j < grid.n[1]; ++j) {
       double known = 0.0;
       for (int i = 0; i < grid.n[0]; ++i, ++at) {
-        // The distance changes by at most a cell a step: skip ahead where it is large.
+        // The distance changes by at most a cell a step, so that steps are skipped where it is large.
         known -= cell_m;
         if (known < 2.0 * kPad_m || i == 0) {
           const double d = skin.signed_distance(grid.low + cell_m * Vec3(i, j, k));

@@ -15,7 +15,7 @@ using namespace bodice;
 constexpr double kNear_m = 0.030;
 constexpr double kDeep_m = 0.010;
 
-/// Triangles that lie inside another limb where a posed body interpenetrates: no boundary of the body, and
+/// Triangles inside another limb, where a posed body interpenetrates. They are no boundary of the body, and
 /// the distance to them is no depth.
 std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const geometry::TriMesh& mesh,
                                            const geometry::MeshDistance& distance) {
@@ -44,7 +44,7 @@ std::vector<Probe> near_skin_probes(const engine::Context& context, const geomet
       const geometry::Vec3 u(random.uniform_at(3 * i), random.uniform_at(3 * i + 1),
                              random.uniform_at(3 * i + 2));
       if (i < skin.size()) {
-        // Along the normal both ways: points at every distance up to 30 mm, equally often.
+        // Along the normal to both sides, so that every distance up to 30 mm is equally frequent.
         const geometry::Vec3 n = geometry::area_vector(mesh, skin[i].triangle).normalized();
         probes[i].point = skin[i].point + kNear_m * (2.0 * u.x() - 1.0) * n;
       } else {

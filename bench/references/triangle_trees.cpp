@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kLeaf = 4;
 
+/// The squared distance of a point from a triangle.
 /// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.5
 double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto to_edge = [&](const Vec3& from, const Vec3& to) {

@@ -1,6 +1,6 @@
-// After a response no particle is inside: millions of random particles in and around fitted bodies, judged by
-// the ellipsoids in double (plain tiers) or by the proxy's own query (relief). The paper's response beside
-// it.
+// After a response no particle is inside: millions of random particles in and around fitted bodies. Plain
+// tiers are judged by the ellipsoids in double precision, relief by the proxy's own query. The paper's
+// response is measured beside it.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -38,7 +38,7 @@ struct Batch {
   }
 };
 
-/// Half in the box, half in and around ellipsoids; last places up to 5 cm away.
+/// Random particles: half in the box, half in and around ellipsoids; safe positions up to 5 cm away.
 Batch random_batch(const proxy::BodyProxy& proxy, const Vec3& origin, std::size_t count,
                    engine::Random& random) {
   Vec3 low = Vec3::Constant(1e9), high = -low;
@@ -89,7 +89,7 @@ Count certify(const proxy::BodyProxy& proxy, const collision::ResolveOptions& op
   while (count.particles < particles) {
     Batch batch =
         random_batch(proxy, collider.origin(), std::min(kBatch, particles - count.particles), random);
-    // What is judged works among candidates that were kept half a millimeter away.
+    // The judged response uses candidates that were cached half a millimeter away.
     collision::Workspace workspace;
     Batch before = batch;
     for (float& x : before.x) x += 5e-4f;

@@ -1,6 +1,6 @@
-// What a crease does to a particle that is drawn across it, and what fillets change: the largest jump of the
-// contact normal between places a tenth of a millimeter apart, how far a particle at rest moves a substep,
-// and what the response costs beside a query.
+// Effect of creases on particles, with and without fillets: the largest jump of the contact normal between
+// points a tenth of a millimeter apart, the motion of a particle at rest in a substep, and the response's
+// cost beside a query's.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -60,7 +60,7 @@ struct Jumps {
   double p99_deg = 0.0, p9999_deg = 0.0, largest_deg = 0.0;
 };
 
-/// Normals along paths over the surface, a step of the path between two of them.
+/// Angles between the normals of consecutive points on paths over the surface.
 Jumps normal_jumps(const collision::Collider& collider, const std::vector<Vec3>& places, float blend_m) {
   Batch batch(places.size());
   std::vector<Vec3> at = places, direction(places.size()), last(places.size());
@@ -103,7 +103,8 @@ Jumps normal_jumps(const collision::Collider& collider, const std::vector<Vec3>&
   return {quantile(0.99), quantile(0.9999), angles.back()};
 }
 
-/// Particles pressed on the surface, with the friction of cotton: how far they move in the last substep.
+/// Motion in the last substep of particles that are pressed on the surface, with the friction of cotton:
+/// median and 99th percentile.
 std::pair<double, double> chatter_um(const collision::Collider& collider, const std::vector<Vec3>& places,
                                      float blend_m) {
   constexpr double kSubstep_s = 1.0 / 960.0;
@@ -131,7 +132,7 @@ std::pair<double, double> chatter_um(const collision::Collider& collider, const 
   return {moved[moved.size() / 2], moved[moved.size() * 99 / 100]};
 }
 
-/// Least nanoseconds a particle of a query and a response over the same coherent cloud near the surface.
+/// Least nanoseconds a particle of a query and of a response, over the same coherent cloud near the surface.
 std::pair<double, double> cost_ns(const collision::Collider& collider, const std::vector<Vec3>& places,
                                   float blend_m) {
   engine::Random random(3);
@@ -171,7 +172,7 @@ bool cross_creases(std::span<char*>) {
     const collision::Collider collider(proxy);
     const std::vector<Vec3> places = on_surface(proxy, collider);
     for (const float blend_m : {0.0f, 0.003f, 0.01f}) {
-      if (tier == proxy::Tier::kRelief && blend_m > 0.0f) continue;  // it blends by itself
+      if (tier == proxy::Tier::kRelief && blend_m > 0.0f) continue;  // blends by itself
       const Jumps jumps = normal_jumps(collider, places, blend_m);
       const auto [chatter, chatter99] = chatter_um(collider, places, blend_m);
       const auto [query, response] = cost_ns(collider, places, blend_m);

@@ -1,4 +1,4 @@
-// No frame may be slow and no garment torn, whatever the pinch: every garment on its body, frame by frame.
+// No frame may be slow and no garment torn, however it is pinched: every garment on its body, frame by frame.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

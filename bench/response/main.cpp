@@ -1,4 +1,5 @@
-// Does the response hold?
+// Measures whether the response keeps its promises.
+//
 // Usage: response garments DATA [tier [frames [name part]]]
 //        response certify [particles [seed]]
 //        response creases

@@ -1,6 +1,7 @@
-// How exact is the float kernel's closest point? Random ellipsoids over twelve decades of size and aspects up
-// to 1:1000, random particles up to three radii away, some of them on symmetry planes and at the center,
-// against the solver in double, which the geometry suite holds to 1e-12 of a long double reference.
+// Error of the float kernel's closest point. Ellipsoids are random over twelve decades of size and aspect
+// ratios up to 1:1000. Particles are random up to three radii away, some of them on symmetry planes and at
+// the center. The reference is the solver in double precision, which the geometry suite holds to 1e-12 of a
+// long double reference.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,7 +39,8 @@ geometry::Ellipsoid random_shape(engine::Random& random) {
   return e;
 }
 
-/// In the ellipsoid's frame, in its radii; every eighth on a plane, an axis or the center.
+/// A random point in the ellipsoid's frame, in units of its radii; every eighth lies on a plane, an axis or
+/// the center.
 Vec3 random_place(engine::Random& random, std::size_t i) {
   Vec3 p = random.uniform(0.0, 3.0) * direction(random);
   for (int axis = 0; i % 8 == 0 && axis < 3; ++axis)
@@ -49,7 +51,7 @@ Vec3 random_place(engine::Random& random, std::size_t i) {
 struct Worst {
   double relative = 0.0;
   std::size_t above_bar = 0, not_finite = 0, cases = 0;
-  Vec3 radii = Vec3::Ones(), place = Vec3::Zero();  ///< of the worst; the place in its frame, in meters
+  Vec3 radii = Vec3::Ones(), place = Vec3::Zero();  ///< of the worst case; position in its frame, meters
 };
 
 void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& worst) {
@@ -70,7 +72,7 @@ void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& wo
     const collision::Contact& c = contacts[i];
     const Vec3 foot(double{c.point[0]}, double{c.point[1]}, double{c.point[2]});
     const double truth = geometry::closest_point(e, p).signed_distance;
-    // The distance, and how far the point is from the surface that it should be on.
+    // The error is that of the distance, or the distance of the closest point from the surface.
     const double off =
         std::max(std::abs(double{c.signed_distance} - truth),
                  std::abs(geometry::closest_point(e, collider.origin() + foot).signed_distance));

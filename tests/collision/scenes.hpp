@@ -1,4 +1,4 @@
-// Proxies and particles that the suite shares: deterministic, made from a seed.
+// Proxies and particles that the suite shares; all are made from a seed.
 #pragma once
 
 #include <cmath>
@@ -36,7 +36,7 @@ inline Mat3 random_rotation(bodice::engine::Random& random) {
   return Eigen::AngleAxisd(random.uniform(0.0, 3.14159), axis).toRotationMatrix();
 }
 
-/// Centers in a cube of the given half side, radii log-uniform between the two.
+/// Ellipsoids with centers in a cube of the given half side and radii log-uniform between the two limits.
 inline std::vector<Ellipsoid> random_ellipsoids(std::uint64_t seed, int count, double half_side, double least,
                                                 double largest) {
   bodice::engine::Random random(seed);
@@ -78,8 +78,8 @@ inline bodice::proxy::BodyProxy proxy_of(const std::vector<Ellipsoid>& shapes) {
   return proxy_of(data_of(shapes));
 }
 
-/// Tables of height +-h_m, and of as much slope, on every ellipsoid, of the tier that has them: `make`
-/// (ellipsoid, column, row) gives the texels. Border nodes are tied as the octahedral map asks.
+/// Adds a relief table to every ellipsoid: heights within +-h_m and slopes of the same range. `make`
+/// (ellipsoid, column, row) returns the texels. Border nodes are tied as the octahedral map requires.
 template <class Make>
 bodice::proxy::BodyProxy::Data with_tables(bodice::proxy::BodyProxy::Data data, int nodes, double h_m,
                                            Make&& make) {
@@ -110,7 +110,7 @@ bodice::proxy::BodyProxy::Data with_tables(bodice::proxy::BodyProxy::Data data, 
   return data;
 }
 
-/// The same, at random.
+/// Adds tables with random texels.
 inline bodice::proxy::BodyProxy::Data with_relief(bodice::proxy::BodyProxy::Data data, int nodes, double h_m,
                                                   std::uint64_t seed) {
   bodice::engine::Random random(seed);
@@ -120,7 +120,7 @@ inline bodice::proxy::BodyProxy::Data with_relief(bodice::proxy::BodyProxy::Data
   });
 }
 
-/// One octant of each ellipsoid is high and the others are low.
+/// Adds tables in which one octant of each ellipsoid is high and the others are low.
 inline bodice::proxy::BodyProxy::Data with_lopsided_relief(bodice::proxy::BodyProxy::Data data, int nodes,
                                                            double h_m) {
   return with_tables(std::move(data), nodes, h_m, [&](std::size_t k, int i, int j) {
@@ -158,7 +158,7 @@ struct Cloud {
   }
 };
 
-/// Brute force over the union, in double: the oracle of the suite.
+/// The oracle of the suite: the union distance by brute force in double precision.
 inline bodice::geometry::ClosestPoint brute_force(const std::vector<Ellipsoid>& shapes, const Vec3& p,
                                                   std::uint32_t* owner = nullptr) {
   bodice::geometry::ClosestPoint best;

@@ -1,4 +1,4 @@
-// Every instruction set that the machine has, in turn.
+// Runs a test on every instruction set of this machine.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bodice_test {
 
-/// Runs `body` (its name) once for every instruction set that this machine has.
+/// Calls `body` (name of the instruction set) once for every instruction set of this machine.
 template <class Body>
 void on_every_target(Body&& body) {
   for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {

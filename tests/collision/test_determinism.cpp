@@ -150,7 +150,7 @@ TEST_CASE("moving to the pose it is in changes nothing, and allocates nothing") 
   still.resolve({}, b.particles(), {});
   CHECK(a.x == b.x);
   CHECK(a.y == b.y);
-  // The body's own velocity is that of two roundings.
+  // The body's velocity is the rounding of two equal poses, not exactly zero.
   double worst_m_s = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i)
     worst_m_s = std::max(worst_m_s, (a.velocity(i) - b.velocity(i)).norm());

@@ -1,4 +1,4 @@
-// The ways out for what iteration does not settle: along a ray, and back along the path.
+// The fallbacks that cannot fail: ray exits, and the return along the path.
 #include <doctest/doctest.h>
 
 #include "exact/ray_exits.hpp"
@@ -32,8 +32,8 @@ TEST_CASE("a ray out of a union ends clear of all of it, for certain, wherever i
 
 namespace {
 
-/// Where p + t direction has left all shapes by the clearance, by halving: the distance to a convex shape is
-/// convex along the ray.
+/// Parameter at which p + t direction has left all shapes by the clearance, by bisection; the distance to a
+/// convex shape is convex along the ray.
 double first_exit_m(const std::vector<Ellipsoid>& shapes, const Vec3& p, const Vec3& direction,
                     double clearance_m) {
   const auto below = [&](const Ellipsoid& e, double t) {
@@ -103,8 +103,8 @@ TEST_CASE("what planes do not settle is not thrown: a push is a few times the sh
 }
 
 TEST_CASE("where the ways along all normals graze another surface, a particle leaves another way") {
-  // A fold between two balls along x; along a needle under it, as far as that is straight, both ways out of
-  // the fold run within the clearance.
+  // A fold between two balls along x. A needle under it is nearly straight over the fold's length, so that
+  // both exits from the fold run within the clearance of the needle.
   constexpr double kThickness_m = 0.003;
   std::vector<Ellipsoid> shapes(3);
   for (const int k : {0, 1}) {
@@ -129,7 +129,7 @@ TEST_CASE("a path that begins in contact is followed, on either side of the surf
   std::vector<Ellipsoid> shapes(1);
   shapes[0].radii = Vec3(0.1, 0.07, 0.05);
   shapes[0].center = Vec3(0.3, 0.2, 0.1);
-  shapes.push_back(shapes[0]);  // so that the local frame's origin is elsewhere
+  shapes.push_back(shapes[0]);  // puts the local frame's origin elsewhere
   shapes[1].center = -shapes[0].center;
   const Collider collider(proxy_of(shapes));
   engine::Random random(5);
@@ -142,7 +142,7 @@ TEST_CASE("a path that begins in contact is followed, on either side of the surf
     cloud.add_safe(middle + shapes[0].radii.cwiseProduct(unit));
     const Vec3 begin(double{cloud.sx.back()}, double{cloud.sy.back()}, double{cloud.sz.back()});
     inside += geometry::level(shapes[0], begin + collider.origin()) < 1.0;
-    // Through the middle and out of the other side, by 2 to 100 times the way there.
+    // The path leads through the center and out of the other side, 1 to 100 times as far.
     cloud.add(middle - random.uniform(1.0, 100.0) * (begin - middle));
     begins.push_back(begin - middle);
   }

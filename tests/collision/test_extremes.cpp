@@ -1,4 +1,4 @@
-// The response at the edges of what a scene can hold.
+// The response at the limits of what a scene can hold.
 #include <doctest/doctest.h>
 
 #include <numeric>
@@ -11,7 +11,8 @@ using namespace bodice_test;
 
 namespace {
 
-/// Particles at the center, on the axes, on the symmetry planes and at random inside of `e`, local frame.
+/// Particles at the center, on the axes, on the symmetry planes and at random points inside of `e`, local
+/// frame.
 Cloud inside_of(const Ellipsoid& e, const Vec3& origin) {
   engine::Random random(3);
   Cloud cloud;

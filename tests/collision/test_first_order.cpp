@@ -1,4 +1,4 @@
-// Accuracy::kFirstOrder: what its answers may be off by, and what not.
+// Accuracy::kFirstOrder: which errors its results may have, and which not.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ Vec3 vec(const float (&v)[3]) {
   return {double{v[0]}, double{v[1]}, double{v[2]}};
 }
 
-/// Of unit ellipsoids turned anyhow: a ball, limbs, plates and a needle.
+/// Ellipsoids in random orientations: a ball, limbs, plates and a needle.
 std::vector<Ellipsoid> shapes_alone() {
   engine::Random random(11);
   std::vector<Ellipsoid> result;
@@ -36,26 +36,26 @@ std::vector<Ellipsoid> shapes_alone() {
   return result;
 }
 
-/// Off the surface by `height_m` along the normal.
+/// The point off the surface by `height_m` along the normal.
 Vec3 above(const Ellipsoid& e, const Vec3& direction, double height_m) {
   const Vec3 normal = direction.cwiseQuotient(e.radii).normalized();
   return e.center + e.axes * (direction.cwiseProduct(e.radii) + height_m * normal);
 }
 
-/// How far the plane that touches the ellipsoid with this outward normal is below the place.
+/// Height of the point over the ellipsoid's tangent plane that has this outward normal.
 double over_tangent_plane(const Ellipsoid& e, const Vec3& p, const Vec3& normal) {
   const Vec3 n = e.axes.transpose() * normal;
   return normal.dot(p - e.center) - n.cwiseProduct(e.radii).norm();
 }
 
-/// Of a union of limbs, as a body has them.
+/// A proxy of overlapping ellipsoids of the proportions of a body's.
 proxy::BodyProxy body_like(bool relief, double margin_m = 0.0) {
   auto data = data_of(random_ellipsoids(31, 60, 0.5, 0.05, 0.15));
   data.margin_m = margin_m;
   return proxy_of(relief ? with_relief(data, 16, 0.004, 3) : data);
 }
 
-/// Within `band_m` of the surface.
+/// Random particles within `band_m` of the surface.
 Cloud near_surface(const Collider& collider, int count, float band_m) {
   engine::Random random(5);
   Cloud cloud;
@@ -73,14 +73,14 @@ std::vector<Contact> ask(const Collider& collider, Cloud& cloud, const QueryOpti
   return contacts;
 }
 
-/// Root of the mean square of what is missing to the distance, at heights in shares of the shortest radius.
+/// Root mean square of the distance's error at a height, in units of the shortest radius.
 double missing(const Ellipsoid& e, double height) {
   const Collider collider(proxy_of({e}));
   engine::Random random(3);
   Cloud cloud;
   constexpr int kPlaces = 512;
   for (int i = 0; i < kPlaces; ++i) {
-    // In float, so that what is measured is not where the place was rounded to.
+    // The position is rounded to float before the truth is computed, so that rounding is not measured.
     const Vec3 p = above(e, random_direction(random), height * e.radii.minCoeff());
     cloud.add(p - collider.origin());
   }
@@ -134,10 +134,11 @@ TEST_CASE("to first order the distance is that to a plane which touches the elli
 TEST_CASE("what is missing to the distance goes with the fourth power of the height") {
   for (const Ellipsoid& e : shapes_alone()) {
     if (e.radii.maxCoeff() == e.radii.minCoeff()) {
-      CHECK(missing(e, 0.5) < 1e-6 * e.radii.maxCoeff());  // of a ball, nothing
+      CHECK(missing(e, 0.5) < 1e-6 * e.radii.maxCoeff());  // a ball has no error
       continue;
     }
-    // Of longer ones the tips are sharper than such heights, and floats end before.
+    // The tips of longer shapes have radii of curvature below such heights, and float precision does not
+    // suffice.
     if (e.radii.maxCoeff() > 4.0 * e.radii.minCoeff()) continue;
     CAPTURE(e.radii.transpose());
     CHECK(missing(e, 0.2) > 10.0 * missing(e, 0.1));
@@ -154,7 +155,7 @@ TEST_CASE("at a center the way out is along the shortest axis") {
         kFirst);
     int shortest = 0;
     e.radii.minCoeff(&shortest);
-    // The center may not be a float: the way out of next to it is as long.
+    // The center may not be a float, but the exit from a point next to it is as long.
     CHECK(double{contact.signed_distance} == doctest::Approx(-e.radii.minCoeff()).epsilon(1e-3));
     if (e.radii[(shortest + 1) % 3] > e.radii[shortest] && e.radii[(shortest + 2) % 3] > e.radii[shortest])
       CHECK(std::abs(vec(contact.normal).dot(e.axes.col(shortest))) == doctest::Approx(1.0).epsilon(1e-3));
@@ -210,7 +211,7 @@ TEST_CASE("relief to first order: on balls that are alone as exactly, near other
     std::sort(cosines.begin(), cosines.end());
     CAPTURE(e.radii.transpose());
     CHECK(worst_m < (round ? 2e-6 : 1e-4));
-    // The gradient jumps where a table's cell ends: a few places lie on the other side of that.
+    // The gradient jumps at the borders of a table's cells, and a few points lie on the other side.
     CHECK(cosines[cosines.size() / 50] > (round ? 0.999999 : 0.999));
   }
 }
@@ -233,7 +234,7 @@ TEST_CASE("to first order within a contact distance") {
         }
         CHECK(too_far == 0);
         CHECK((told > 100 || within_m == -kInf));
-        // Fewer neighbors may be asked, so that another owner is told of.
+        // With fewer candidates another of two nearly equal owners may be chosen.
         CHECK(differ <= (within_m == 0.0f && !relief ? 0 : 8));
       }
     }
@@ -263,7 +264,8 @@ TEST_CASE("to first order the same bits for any number of workers, with a worksp
 }
 
 TEST_CASE("to first order a speck whose numbers leave the range of floats is not taken for near") {
-  // Inside the ball, so that it is never the nearest; seen from all around, so that no box rules it out.
+  // The speck is inside the ball, so that it is never the nearest. The particles surround it, so that no box
+  // excludes it.
   std::vector<Ellipsoid> shapes{ball(1.0)[0], ball(1e-8)[0]};
   shapes[1].center.x() = 0.5;
   const Collider collider(proxy_of(shapes));
@@ -302,7 +304,8 @@ TEST_CASE("to first order with a workspace sides stay exact while particles and 
 }
 
 TEST_CASE("a workspace that serves queries to first order changes no bit of exact ones") {
-  // From one ball straight to another, so that what was just not kept comes as near as it can.
+  // The particles move straight from one ball to the other, so that a candidate just outside the cache comes
+  // as near as possible.
   std::vector<Ellipsoid> two(2, ball(0.1)[0]);
   two[0].center.x() = -0.2;
   two[1].center.x() = 0.2;

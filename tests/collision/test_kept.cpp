@@ -1,4 +1,4 @@
-// What a workspace keeps between calls must never show in an answer.
+// The candidate cache of a workspace never changes a result.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -20,13 +20,13 @@ using bodice::engine::Random;
 
 constexpr float kAll = std::numeric_limits<float>::infinity();
 
-/// A crowd of small ellipsoids: many places are about as near to one as to the next.
+/// Many small ellipsoids: many points are about as near to one as to the next.
 bodice::proxy::BodyProxy crowd(bool relief, int count) {
   auto data = data_of(random_ellipsoids(81, count, 0.4, 0.03, 0.15));
   return proxy_of(relief ? with_relief(std::move(data), 9, 0.002, 82) : data);
 }
 
-/// Neighbors in space are neighbors in the arrays.
+/// Particles for which neighbors in space are neighbors in the arrays.
 Cloud lattice(int side) {
   Random random(83);
   Cloud cloud;
@@ -60,7 +60,7 @@ std::vector<Ellipsoid> shapes_of(const bodice::proxy::BodyProxy& proxy) {
   return shapes;
 }
 
-/// Answers with what is kept that differ from those without.
+/// Number of results that differ with a workspace from those without.
 int differences(const Collider& collider, Cloud& cloud, Workspace& workspace, float within_m) {
   std::vector<Contact> fresh(cloud.size()), kept(cloud.size());
   collider.query({}, cloud.particles(), fresh, {.within_m = within_m});
@@ -71,7 +71,7 @@ int differences(const Collider& collider, Cloud& cloud, Workspace& workspace, fl
   return differ;
 }
 
-/// Answers that differ over some calls; `change` (the call's number) is called after each.
+/// Number of differing results over some calls; `change` (number of the call) is called after each.
 template <class Change>
 int differences_over(int calls, const Collider& collider, Cloud& cloud, Change&& change) {
   Workspace workspace;
@@ -83,7 +83,8 @@ int differences_over(int calls, const Collider& collider, Cloud& cloud, Change&&
   return differ;
 }
 
-/// Particles that a response with what is kept leaves other than one without; the cloud stays as it was.
+/// Number of particles that a response with a workspace moves differently from one without; the cloud stays
+/// unchanged.
 int response_differences(const Collider& collider, const Cloud& cloud, Workspace& workspace,
                          const bodice::collision::ResolveOptions& options) {
   Cloud fresh = cloud, kept = cloud;
@@ -97,7 +98,7 @@ int response_differences(const Collider& collider, const Cloud& cloud, Workspace
   return differ;
 }
 
-/// Where on the y axis the first and the second are equally far.
+/// The y at which a point of the y axis is equally far from the first and the second ellipsoid.
 double equally_near_y(const std::vector<Ellipsoid>& shapes) {
   double low = -0.1, high = 0.3;
   for (int i = 0; i < 60; ++i) {
@@ -128,7 +129,7 @@ TEST_CASE("candidates that are kept while particles wander change no bit") {
 }
 
 TEST_CASE("candidates that are kept while all particles drift one way change no bit") {
-  // All of a batch come from one ellipsoid's side to the other's at once.
+  // All particles of a batch pass from one ellipsoid to another at once.
   const Collider collider(crowd(false, 200));
   Cloud cloud = lattice(20);
   const auto drift = [&](int) {
@@ -173,7 +174,7 @@ TEST_CASE("responses among candidates that are kept follow thickness, drift and 
     Workspace workspace;
     int differ = 0;
     for (int call = 0; call < 30; ++call) {
-      // A thicker clearance reaches ellipsoids that a thinner one did not ask about.
+      // A larger clearance reaches ellipsoids that a smaller one did not need.
       const float thickness_m = call % 3 == 0 ? 0.0f : call % 3 == 1 ? 0.02f : 0.001f;
       differ += response_differences(collider, cloud, workspace, {.thickness_m = thickness_m});
       for (float& x : cloud.x) x += 1e-3f;
@@ -186,8 +187,9 @@ TEST_CASE("responses among candidates that are kept follow thickness, drift and 
 }
 
 TEST_CASE("a relief blend is summed in the same order, whichever candidate was met first") {
-  // One ball in the mirror plane of two: there both are equally far, and third in the sum is the one that is
-  // listed last. The first particles are near one of them only, so that it is met before the other.
+  // One ball lies in the mirror plane of two others, so that both are equally far there, and the one listed
+  // last is third in the sum. The first particles are near only one of them, so that the search finds it
+  // before the other.
   for (const bool swapped : {false, true}) {
     std::vector<Ellipsoid> shapes(3);
     for (Ellipsoid& e : shapes) e.radii.setConstant(0.1);
@@ -199,7 +201,8 @@ TEST_CASE("a relief blend is summed in the same order, whichever candidate was m
     Cloud cloud;
     for (int i = 0; i < 32; ++i)
       cloud.add(Vec3(-0.22, 0.12, 0.0) + random_vector(random, 0.01) - collider.origin());
-    // Where all three are about as near, on the mirror plane; the same side of it as the first.
+    // These particles are on the mirror plane where all three are about as near, on the same side as the
+    // first particles.
     for (int i = 0; i < 224; ++i) {
       const double y = random.uniform(-1e-3, 1e-3), z = random.uniform(-1e-3, 1e-3);
       cloud.add(Vec3(0.0, y + equally_near_y(shapes), z) - collider.origin());

@@ -1,4 +1,4 @@
-// Where surfaces meet or face each other: pinches, folds, creases and their fillets.
+// Responses where surfaces meet or face each other: pinches, folds, creases and their fillets.
 #include <doctest/doctest.h>
 
 #include <bodice/proxy/proxy_distance.hpp>
@@ -13,7 +13,7 @@ using namespace bodice_test;
 
 namespace {
 
-/// Two balls along x, their surfaces `gap_m` apart at the origin; negative: they overlap.
+/// Two balls along x with surfaces `gap_m` apart at the origin; with a negative gap they overlap.
 std::vector<Ellipsoid> two_balls(double radius_m, double gap_m) {
   std::vector<Ellipsoid> shapes(2);
   for (Ellipsoid& e : shapes) e.radii.setConstant(radius_m);
@@ -22,11 +22,11 @@ std::vector<Ellipsoid> two_balls(double radius_m, double gap_m) {
   return shapes;
 }
 
-/// The direction in which the response took velocity out of a particle that falls onto the pair at x.
+/// The direction in which a response changed the velocity of a particle that falls onto the two balls at x.
 Vec3 normal_at(const Collider& collider, double x, float blend_m) {
   Cloud cloud;
   const Vec3 fall(0.0, -1.0, 0.0);
-  // Balls of 0.5 m at -+0.4: the surface, sunk by half a millimeter.
+  // The height of the surface of balls of 0.5 m at x = -+0.4, less half a millimeter.
   const double y = std::sqrt(0.25 - std::pow(0.4 - std::abs(x), 2)) - 5e-4;
   cloud.add(Vec3(x, y, 0.0), fall);
   const ContactReport report =
@@ -47,8 +47,9 @@ double largest_jump_rad(float blend_m) {
   return largest;
 }
 
-/// A tilted disc, 2 mm thick, whose tables sink its upper side by 3 mm and raise the lower one by as much, so
-/// that the corrected distance jumps in its middle plane; and a ball that moves the local origin away.
+/// A tilted disc, 2 mm thick, and a ball that moves the local origin away. The disc's table sinks its upper
+/// side by 3 mm and raises the lower one by as much, so that the corrected distance jumps in its middle
+/// plane.
 proxy::BodyProxy::Data jumping_disc() {
   engine::Random random(21);
   std::vector<Ellipsoid> shapes(2);
@@ -68,7 +69,7 @@ proxy::BodyProxy::Data jumping_disc() {
   return data;
 }
 
-/// The lowest corrected distance of the cloud, by the proxy's own definition in double.
+/// The lowest corrected distance of the cloud, by the proxy's own definition in double precision.
 double lowest_m(const proxy::BodyProxy& proxy, const Collider& collider, const Cloud& cloud) {
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < cloud.size(); ++i)
@@ -95,7 +96,7 @@ TEST_CASE("a particle that is put back beside a jump of relief is clear as it is
   int through = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i)
     through += disc.axes.col(2).dot(cloud.position(i) + collider.origin() - disc.center) < 0.0;
-  // Those that leave by the certified ray: 3, and 97 if places may lie on the jump itself.
+  // Three particles leave by a ray exit; 97 would if positions could lie on the jump itself.
   CHECK(through < 20);
   CHECK(report.wrong_side > 3000);
   CHECK(report.unresolved == 0);
@@ -103,7 +104,7 @@ TEST_CASE("a particle that is put back beside a jump of relief is clear as it is
 }
 
 TEST_CASE("a particle that leaves by a ray across a jump of relief is clear as it is stored, in floats") {
-  // A ball under the disc: down there is no room, and upward the corrected distance jumps to clear.
+  // A ball lies under the disc: there is no room below, and upward the corrected distance jumps to clear.
   auto data = jumping_disc();
   const Ellipsoid disc = data.ellipsoids[0].shape;
   data.ellipsoids[1].shape.center = disc.center - 0.0515 * disc.axes.col(2);
@@ -145,7 +146,7 @@ TEST_CASE("a particle in a gap narrower than the clearance goes midway, and stay
     const Vec3 settled = cloud.position(0);
     for (int i = 0; i < 50; ++i) collider.resolve({}, cloud.particles(), {.thickness_m = 0.003f});
     CHECK(std::abs(cloud.x[0]) < 2e-4f);
-    CHECK((cloud.position(0) - settled).norm() < 0.03);  // out of the wedge, if at all, and never through
+    CHECK((cloud.position(0) - settled).norm() < 0.03);  // perhaps out of the wedge, but never through
   }
 }
 
@@ -173,14 +174,14 @@ TEST_CASE("in a fold whose crease is far a bounded particle goes midway at once,
     Cloud cloud;
     const Vec3 p(1e-5, 0.012, 0.0);
     cloud.add(p);
-    // A path this long is for the exact side, which finds nothing at its begin, inside of a ball.
+    // A path this long goes to the exact side, which ignores it because it begins inside a ball.
     if (exactly) cloud.add_safe(Vec3(0.09, 0.0, 0.0));
     const ContactReport report = collider.resolve({}, cloud.particles(), {.max_push_m = 1.0f});
     const double depth_m = 0.1 - (p - Vec3(0.099, 0.0, 0.0)).norm();
     CAPTURE(exactly);
     CHECK(report.pending == 1);
     CHECK((cloud.position(0) - p).norm() < 4.0 * depth_m);
-    // As soon as a place is as good as midway, no better one is looked for.
+    // The search ends at the first position that is nearly midway.
     CHECK(report.max_iterations <= 3);
   }
 }
@@ -189,7 +190,8 @@ TEST_CASE(
     "where the clearance is farther than a push may be, the search ends when places no longer improve") {
   constexpr double kClearance_m = 0.005, kDepth_m = 0.001;
   const UnionField field(two_balls(0.1, 0.003));
-  // Out of the wedge the distance rises by a fifth of the way: four depths are too few.
+  // On the path out of the wedge the distance rises by a fifth of the path's length, so that four depths do
+  // not suffice.
   const double near_m = 0.1 + kClearance_m - kDepth_m;
   const Vec3 p(1e-5, std::sqrt(near_m * near_m - 0.1015 * 0.1015), 0.0);
   NearField near(field, nullptr, 0.0, kClearance_m + 1e-6);
@@ -222,7 +224,7 @@ TEST_CASE("without a bound a particle whose crease is far goes there, not throug
   CHECK(report.unresolved == 0);
   CHECK((cloud.position(0) - p).norm() < 0.0025);
   CHECK(brute_force(shapes, cloud.position(0) + collider.origin()).signed_distance > -1e-6);
-  // Held by both: only along the crease is it free.
+  // Both balls hold the particle; it is free only along the crease.
   CHECK((cloud.velocity(0) - Vec3(0.0, 0.0, 0.5)).norm() < 0.01);
 }
 
@@ -257,7 +259,7 @@ TEST_CASE("with fillets no particle is inside, and where one ellipsoid is near n
   }
   CHECK(lowest_m > -1e-6);
   CHECK(lone > 200);
-  CHECK(differing < lone / 10);  // deep particles take another of two ways out
+  CHECK(differing < lone / 10);  // deep particles may take another of two exits
 }
 
 TEST_CASE("a particle at rest in a crease does not chatter") {

@@ -17,7 +17,7 @@ using namespace bodice_test;
 
 namespace {
 
-/// Worst disagreement of a batch with the oracle, relative to `scale_m`.
+/// Largest disagreement of a batch with the oracle, relative to `scale_m`.
 struct Errors {
   double distance = 0.0, point = 0.0;
   int wrong_owner = 0;
@@ -36,7 +36,7 @@ Errors compare(const std::vector<Ellipsoid>& shapes, const std::vector<Vec3>& pl
     const Contact& c = contacts[i];
     errors.distance =
         std::max(errors.distance, std::abs(double{c.signed_distance} - truth.signed_distance) / scale_m);
-    // The surface point is judged by where it lies, since it may be ambiguous: on the owner's surface.
+    // The closest point may be ambiguous; it is only checked to lie on the owner's surface.
     const Vec3 point = Vec3(double{c.point[0]}, double{c.point[1]}, double{c.point[2]}) + collider.origin();
     if (c.ellipsoid >= shapes.size()) {
       ++errors.wrong_owner;
@@ -58,7 +58,7 @@ std::vector<Vec3> places_around(std::uint64_t seed, int count, double half_side)
   return places;
 }
 
-/// A place on the union's surface where its owner changes, and a random direction.
+/// A point on the union's surface where the owner changes, and a random direction.
 struct Crease {
   Vec3 place, direction;
 };
@@ -91,7 +91,7 @@ TEST_CASE("a batch query agrees with brute force in double over random unions") 
     const auto shapes = random_ellipsoids(static_cast<std::uint64_t>(count), count, 0.8, 0.02, 0.2);
     const Errors errors = compare(shapes, places_around(5, 20000, 1.2), 1.0);
     CAPTURE(count);
-    // The farthest places are 2 m away: relative to that it is a few roundings.
+    // The farthest points are 2 m away; relative to that the bar is a few roundings.
     CHECK(errors.distance < 2e-6);
     CHECK(errors.point < 2e-6);
     CHECK(errors.wrong_owner == 0);
@@ -243,7 +243,7 @@ TEST_CASE("several contacts come nearest first, each with its own ellipsoid") {
 TEST_CASE("relief agrees with the definition that fitting trains against") {
   struct Case {
     int nodes;
-    bool sorted_axes;  ///< by falling radius: such tables are read another way
+    bool sorted_axes;  ///< by falling radius: the kernels read such tables by another code path
   };
   for (const auto& [nodes, sorted_axes] :
        {Case{2, false}, Case{5, false}, Case{16, false}, Case{16, true}, Case{33, false}, Case{33, true}}) {
@@ -265,12 +265,13 @@ TEST_CASE("relief agrees with the definition that fitting trains against") {
       const float* n = contacts[i].normal;
       const double cosine = truth.normal.dot(Vec3(double{n[0]}, double{n[1]}, double{n[2]}));
       worst_cosine = std::min(worst_cosine, cosine);
-      // The gradient jumps where the table's cells or octants meet, and rounding may pick the other side.
+      // The gradient jumps where cells or octants of a table meet, and rounding may choose the other side.
       off_normals += cosine < 0.9999;
     }
     CAPTURE(nodes);
     CAPTURE(sorted_axes);
-    // A hundredth of a millimeter: where owners blend over 3 mm, an error of the distance counts eightfold.
+    // The bar is a hundredth of a millimeter: where owners blend over 3 mm, an error of the distance counts
+    // eightfold.
     CHECK(worst_m < 1e-5);
     CHECK(off_normals < 60);
   }
@@ -303,7 +304,8 @@ TEST_CASE("relief where some ellipsoids have no table: those are plain") {
 }
 
 TEST_CASE("places so close that one ellipsoid, or a handful, can be the nearest, agree with brute force") {
-  // Blocks of a millimeter to half a meter: what is dropped for a whole block must be nowhere the nearest.
+  // Blocks measure a tenth of a millimeter to half a meter. An ellipsoid that is dropped for a block must be
+  // nearest to none of its points.
   const auto shapes = random_ellipsoids(13, 120, 0.6, 0.03, 0.2);
   engine::Random random(19);
   for (const double block_m : {1e-4, 1e-3, 1e-2, 0.1, 0.5}) {
@@ -357,14 +359,14 @@ TEST_CASE("random shapes to 1:1000 over twelve decades: the foot is exact to 1e-
     std::vector<Vec3> places;
     for (int i = 0; i < 4000; ++i) {
       Vec3 p = random.uniform(0.0, 3.0) * random_direction(random);
-      // Every other one on symmetry planes, where the focal ellipse is.
+      // Every other point lies on symmetry planes, where the focal ellipse is.
       for (int axis = 0; i % 2 == 0 && axis < 3; ++axis)
         if (random.below(2) == 0) p[axis] = 0.0;
       places.push_back(e.axes * e.radii.cwiseProduct(p));
     }
     const Errors errors = compare({e}, places, e.radii.maxCoeff());
     CAPTURE(e.radii.transpose());
-    // The farthest are three radii away, and the oracle's ellipsoid is not rounded to 44 bits.
+    // The farthest points are three radii away, and the oracle's ellipsoid is not rounded to 44 bits.
     CHECK(errors.distance < 2e-6);
     CHECK(errors.point < 2e-6);
     CHECK(errors.wrong_owner == 0);
@@ -404,7 +406,7 @@ TEST_CASE("a pose that is none is refused, and the proxy stays where it was") {
   bad[4].radii.z() = 0.0;
   CHECK_FALSE(collider.move_to(bad, 0.01));
   bad = moved;
-  bad[1].axes *= 2.0;  // a rig's matrix with its scale
+  bad[1].axes *= 2.0;  // a rig's matrix that carries a scale
   CHECK_FALSE(collider.move_to(bad, 0.01));
   bad = moved;
   bad[0].axes.col(1) *= -1.0;

@@ -15,7 +15,7 @@ Cloud around_origin(std::uint64_t seed, int count, double half_side) {
   return cloud;
 }
 
-/// Half of them in a cube, half in and just around the ellipsoids.
+/// Particles of which half are in a cube, the others in and just around the ellipsoids.
 Cloud among(const std::vector<Ellipsoid>& shapes, const Vec3& origin, int count, double half_side) {
   Cloud cloud = around_origin(11, count / 2, half_side);
   engine::Random random(12);
@@ -27,7 +27,7 @@ Cloud among(const std::vector<Ellipsoid>& shapes, const Vec3& origin, int count,
   return cloud;
 }
 
-/// The lowest distance of the cloud to the union, by brute force in double.
+/// The lowest union distance of the cloud, by brute force in double precision.
 double lowest_m(const std::vector<Ellipsoid>& shapes, const Collider& collider, const Cloud& cloud) {
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < cloud.size(); ++i)
@@ -35,7 +35,7 @@ double lowest_m(const std::vector<Ellipsoid>& shapes, const Collider& collider, 
   return lowest;
 }
 
-/// Particles nearer to the union than `distance_m`.
+/// Number of particles nearer to the union than `distance_m`.
 std::size_t below(const std::vector<Ellipsoid>& shapes, const Collider& collider, const Cloud& cloud,
                   double distance_m) {
   std::size_t count = 0;
@@ -65,7 +65,7 @@ TEST_CASE("after the nearest response no particle is inside, whatever the union 
       CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
       CHECK(below(shapes, collider, cloud, double{thickness_m} - 1e-6) == report.pinched);
       CHECK(report.pinched < report.contacts / 100);
-      // What is clear stays: a second call finds only those that are pinched, and moves no other.
+      // Clear particles stay: a second call finds only those that are pinched, and moves no other.
       const Cloud settled = cloud;
       const ContactReport again = collider.resolve({}, cloud.particles(), {.thickness_m = thickness_m});
       CHECK(again.contacts == report.pinched);
@@ -132,7 +132,7 @@ TEST_CASE("a particle in a crease goes to the crease, which no single push finds
 TEST_CASE("a push is bounded beyond taking back the path, in floats and on the exact side") {
   for (const bool exactly : {false, true}) {
     auto shapes = ball(0.5);
-    // Next to something as small as this, a path of 5 mm is long enough for the exact side.
+    // Next to so small an ellipsoid a path of 5 mm is long enough for the exact side.
     shapes.push_back(ball(0.005)[0]);
     shapes[1].center = exactly ? Vec3(0.0045, 0.4825, 0.0045) : Vec3(0.0, -0.47, 0.0);
     const Collider collider(proxy_of(shapes));
@@ -180,7 +180,7 @@ TEST_CASE("the paper's case 3: a particle leaves on the side where it came in") 
   Cloud cloud;
   for (int i = 0; i < 500; ++i) {
     const double x = random.uniform(-0.25, 0.25);
-    // Fell from above to below the middle: the nearest way out would be downward.
+    // The particles fell from above to below the middle, so that the shortest exit is downward.
     cloud.add(Vec3(x, random.uniform(-0.03, -0.005), 0.0), Vec3(0, -20, 0));
     cloud.add_safe(Vec3(x, 0.07, 0.0));
   }
@@ -194,7 +194,7 @@ TEST_CASE("what is left of a path through a limb goes along its surface") {
   const auto shapes = limb();
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
-  // It meets the limb at about x = 0.01; a third of the shortest radius nearby is 0.0135.
+  // The path reaches the limb at about x = 0.01; a third of the shortest radius nearby is 0.0135.
   cloud.add(Vec3(0.05, -0.03, 0.0));
   cloud.add_safe(Vec3(0.0, 0.07, 0.0));
   const ContactReport report = collider.resolve({}, cloud.particles(), {});
@@ -205,7 +205,7 @@ TEST_CASE("what is left of a path through a limb goes along its surface") {
 }
 
 TEST_CASE("what is left of a path into a corner goes along both surfaces of it") {
-  std::vector<Ellipsoid> shapes(2);  // a floor, up to y = 0, and a wall, up to x = 0
+  std::vector<Ellipsoid> shapes(2);  // a floor up to y = 0, and a wall up to x = 0
   shapes[0].radii = Vec3(0.5, 0.05, 0.5);
   shapes[0].center.y() = -0.05;
   shapes[1].radii = Vec3(0.05, 0.5, 0.5);
@@ -217,7 +217,7 @@ TEST_CASE("what is left of a path into a corner goes along both surfaces of it")
   const ContactReport report = collider.resolve({}, cloud.particles(), {});
   const Vec3 at = cloud.position(0) + collider.origin();
   CHECK(report.wrong_side == 1);
-  CHECK(at.z() > 0.02);  // it meets the floor at z = 0.013, 3 mm from the wall
+  CHECK(at.z() > 0.02);  // the path reaches the floor at z = 0.013, 3 mm from the wall
   for (const Ellipsoid& e : shapes) CHECK(geometry::closest_point(e, at).signed_distance < 1e-3);
   CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
 }
@@ -296,8 +296,8 @@ TEST_CASE("relief: after the response no particle is below the corrected surface
 }
 
 TEST_CASE("relief: a push that leads from body to body asks anew about those that were not near before") {
-  // Out of the first ball 40 mm deep into the second, and out of that into the third, which is neither near
-  // the start nor near where the first push ends.
+  // The push out of the first ball leads 40 mm deep into the second, and the push out of that into the third,
+  // which is neither near the start nor near the end of the first push.
   std::vector<Ellipsoid> shapes = ball(0.1);
   shapes.resize(3, shapes[0]);
   shapes[0].center = Vec3(-0.06, 0.0, 0.0);

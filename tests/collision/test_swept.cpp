@@ -1,4 +1,4 @@
-// Paths: nothing passes through the body at any speed, whichever of the two moves.
+// Continuous collision: no particle passes through the body at any speed, whether particle or body moves.
 #include <doctest/doctest.h>
 
 #include "scenes.hpp"
@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
 
-/// Whether the segment goes through an ellipsoid and leaves it where the surface has turned by more than 66
-/// degrees, deeper than `shaved_m`, which relief may take off. An oracle of its own: the chord by bisection
-/// from the place nearest to the center.
+/// Whether the segment passes through an ellipsoid deeper than `shaved_m`, which relief may take off, and
+/// leaves it where the surface has turned by more than 66 degrees. This is an independent oracle: it finds
+/// the chord by bisection from the point nearest to the center.
 bool pierces(const Ellipsoid& e, const Vec3& from, const Vec3& to, double shaved_m) {
   const auto unit = [&](const Vec3& p) -> Vec3 {
     return (e.axes.transpose() * (p - e.center)).cwiseQuotient(e.radii);
@@ -46,7 +46,7 @@ struct Shots {
   std::vector<Vec3> from, to;  ///< world
 };
 
-/// Shots at a union from outside of it, at a place inside or beside it.
+/// Particles shot from outside the union at a point inside or beside it.
 Shots shoot(const std::vector<Ellipsoid>& shapes, const Vec3& origin, double speed_m_s, int count) {
   engine::Random random(19);
   Shots shots;
@@ -56,7 +56,7 @@ Shots shoot(const std::vector<Ellipsoid>& shapes, const Vec3& origin, double spe
     const double path_m = speed_m_s * kFrame_s;
     const Vec3 from = aim - direction * path_m * random.uniform(0.05, 0.95);
     const Vec3 to = from + direction * path_m;
-    if (brute_force(shapes, from).signed_distance < 5e-3) continue;  // outside of what relief adds, too
+    if (brute_force(shapes, from).signed_distance < 5e-3) continue;  // also outside of what relief adds
     shots.from.push_back(from);
     shots.to.push_back(to);
     shots.cloud.add(to - origin, direction * speed_m_s);
@@ -91,7 +91,7 @@ TEST_CASE("a hundred thousand shots, up to 1000 m/s: none goes through, with and
       CHECK(through == 0);
       CHECK(inside == 0);
     }
-    CHECK(held > 20000);  // most of the shots were aimed well
+    CHECK(held > 20000);  // most of the shots hit
   }
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("a second at 1000 m/s: shots of a kilometer do not go through either")
   int through = 0, inside = 0;
   for (std::size_t i = 0; i < shots.cloud.size(); ++i) {
     const Vec3 end = shots.cloud.position(i) + collider.origin();
-    // Where the path began as it was told, in floats of a kilometer.
+    // The path begins at the stored safe position, which is rounded to float at a kilometer.
     const Vec3 from = Vec3(double{shots.cloud.sx[i]}, double{shots.cloud.sy[i]}, double{shots.cloud.sz[i]}) +
                       collider.origin();
     through += pierces_any(shapes, from, end, 0.0);
@@ -149,7 +149,7 @@ TEST_CASE("a limb that sweeps past particles at rest takes them along, at any sp
       const ContactReport report = collider.resolve({}, cloud.particles(), {});
       CHECK(report.unresolved == 0);
       int left_behind = 0;
-      // In front of the limb's middle; what sits beside its top may slide down its flank.
+      // The bar is in front of the limb's middle, because a particle beside its top may slide down its flank.
       for (std::size_t i = 0; i < cloud.size(); ++i) left_behind += double{cloud.y[i]} < path_m + 0.01;
       CAPTURE(relief);
       CAPTURE(speed_m_s);

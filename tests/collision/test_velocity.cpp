@@ -1,4 +1,4 @@
-// What the nearest response makes of velocities.
+// Velocities after the closest-point response.
 #include <doctest/doctest.h>
 
 #include "scenes.hpp"
@@ -9,10 +9,10 @@ using namespace bodice_test;
 
 namespace {
 
-// Tangent planes that a particle was put on leave it a little off the curved surface.
+// A position on the tangent planes of a contact is a little off the curved surfaces.
 constexpr double kSurelyOn_m = 2e-5, kSurelyOff_m = 2e-4;
 
-/// Half-meter balls that meet around the origin, which is up to a millimeter inside of each.
+/// Balls of half a meter that meet around the origin, which is up to a millimeter inside of each.
 std::vector<Ellipsoid> corner(engine::Random& random, int count) {
   std::vector<Ellipsoid> shapes = std::vector<Ellipsoid>(static_cast<std::size_t>(count), ball(0.5)[0]);
   const Vec3 outward = random_direction(random);
@@ -21,7 +21,7 @@ std::vector<Ellipsoid> corner(engine::Random& random, int count) {
   return shapes;
 }
 
-/// The nearest velocity that goes into none of the surfaces, by Dykstra's projections.
+/// The closest velocity that leads into none of the surfaces, by Dykstra's projections.
 Vec3 nearest_velocity(const std::vector<Vec3>& normals, Vec3 v) {
   std::vector<double> pushed(normals.size(), 0.0);
   for (int round = 0; round < 500; ++round)
@@ -34,8 +34,8 @@ Vec3 nearest_velocity(const std::vector<Vec3>& normals, Vec3 v) {
   return v;
 }
 
-/// How far `after` is from what some of the touched surfaces make of `before`: one that a particle came to
-/// lie on by chance, pushed out of another, is no contact yet.
+/// Least difference of `after` from the velocity that some subset of the touched surfaces leaves of `before`.
+/// A surface on which a push out of another puts the particle by chance is not a contact yet.
 double velocity_error(const std::vector<Vec3>& touched, const Vec3& before, const Vec3& after) {
   double least = std::numeric_limits<double>::infinity();
   for (unsigned some = 1; some < 1u << touched.size(); ++some) {
@@ -59,7 +59,7 @@ TEST_CASE("velocity: the inward part goes, friction slows the rest by at most it
     const double along = std::max(0.0, 1.0 - 2.0 * double{friction});
     CHECK(cloud.velocity(0).x() == doctest::Approx(along).epsilon(1e-5).scale(1.0));
     CHECK(cloud.velocity(0).y() == doctest::Approx(0.0).epsilon(1e-5).scale(1.0));
-    // Already on its way out: nothing to remove.
+    // This particle moves outward already, so that nothing is removed.
     CHECK(cloud.velocity(1).y() == doctest::Approx(2.0).epsilon(1e-5));
     CHECK(cloud.velocity(1).x() == doctest::Approx(1.0).epsilon(1e-5));
   }
@@ -74,7 +74,7 @@ TEST_CASE("in a crease the velocity goes into neither side, and stays along it")
   Cloud cloud;
   cloud.add(Vec3(0.001, 0.28, 0.0), Vec3(0.1, -1.0, 0.5));
   const ContactReport report = collider.resolve({}, cloud.particles(), {.friction = 0.0f});
-  CHECK(report.judged_exactly == 0);  // the kernels' own
+  CHECK(report.judged_exactly == 0);  // resolved by the kernels
   for (const Ellipsoid& e : shapes) {
     const Vec3 outward = (cloud.position(0) + collider.origin() - e.center).normalized();
     CHECK(outward.dot(cloud.velocity(0)) > -1e-4);
@@ -94,7 +94,7 @@ TEST_CASE("velocities go into no surface that a particle ends on, and mind no ot
       const Vec3 velocity = random_vector(random, 1.0);
       Cloud cloud;
       cloud.add(-collider.origin(), velocity);
-      // A path this long is for the exact side; it begins inside of a ball and says nothing.
+      // A path this long goes to the exact side, which ignores it because it begins inside a ball.
       if (exactly) cloud.add_safe(shapes[0].center - collider.origin());
       const ContactReport report = collider.resolve({}, cloud.particles(), {.friction = 0.0f});
       if ((report.judged_exactly == 1) != exactly) continue;
@@ -117,8 +117,8 @@ TEST_CASE("velocities go into no surface that a particle ends on, and mind no ot
 }
 
 TEST_CASE("a surface that the last push went clear of takes no velocity") {
-  // As good as planes: out of the first a particle meets the second, out of both the third, and where first
-  // and third meet, the second is left 0.7 mm behind.
+  // Balls this large are almost planes. The push out of the first leads into the second, that out of both
+  // into the third, and where first and third meet, the second is 0.7 mm away.
   const Vec3 normal[] = {Vec3(0.754781, -0.65547, -0.0257928), Vec3(0.906131, 0.119704, 0.405707),
                          Vec3(0.998862, 0.00784065, 0.0470552)};
   const double depth_m[] = {0.0480944, 0.0393062, 0.0463850};
@@ -130,7 +130,8 @@ TEST_CASE("a surface that the last push went clear of takes no velocity") {
   for (const bool exactly : {false, true}) {
     Cloud cloud;
     cloud.add(-collider.origin(), along);
-    if (exactly) cloud.add_safe(shapes[0].center - collider.origin());  // far, inside: says nothing
+    if (exactly)
+      cloud.add_safe(shapes[0].center - collider.origin());  // long, and ignored because it begins inside
     const ContactReport report = collider.resolve({}, cloud.particles(), {.friction = 0.0f});
     CAPTURE(exactly);
     CHECK(report.judged_exactly == (exactly ? 1u : 0u));

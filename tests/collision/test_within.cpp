@@ -1,4 +1,4 @@
-// A contact distance changes who is answered and none of the answers' bits.
+// A contact distance selects which particles get a result, and changes no bit of a result.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ proxy::BodyProxy scene(bool relief, double margin_m) {
   return proxy_of(relief ? with_relief(data, 16, 0.004, 3) : data);
 }
 
-/// Near the surface, far from it, and some that are no numbers.
+/// Particles near the surface and far from it; some are not finite.
 Cloud random_cloud(int count) {
   engine::Random random(77);
   Cloud cloud;
@@ -36,7 +36,7 @@ Cloud random_cloud(int count) {
   return cloud;
 }
 
-/// The same particles along a line, so that neighbors lie together.
+/// The same particles sorted by cells, so that neighbors are consecutive.
 Cloud in_order(const Cloud& cloud) {
   std::vector<std::size_t> order(cloud.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -56,7 +56,7 @@ bool same_bits(const Contact& a, const Contact& b) {
   return std::memcmp(&a, &b, sizeof(Contact)) == 0;
 }
 
-/// The definition: all distances, filtered.
+/// The definition: an unlimited result, replaced by none beyond the contact distance.
 Contact filtered(const Contact& unlimited, float within_m) {
   if (unlimited.signed_distance <= within_m) return unlimited;
   Contact none;
@@ -96,7 +96,7 @@ TEST_CASE("within a contact distance the answers are those of all distances, fil
 }
 
 TEST_CASE("within a contact distance where the octants of an ellipsoid differ in height") {
-  // Larger than the places between them, so that many a particle has one ellipsoid only.
+  // The ellipsoids are larger than the gaps between them, so that many particles have a single candidate.
   const auto data = data_of(random_ellipsoids(8, 24, 0.7, 0.06, 0.12));
   for (const int nodes : {2, 5, 16}) {
     const Collider collider(proxy_of(with_lopsided_relief(data, nodes, 0.02)));
@@ -163,7 +163,8 @@ TEST_CASE("more ellipsoids around than the kernels hold, with a contact distance
       CAPTURE(relief);
       CAPTURE(within_m);
       if (!relief) CHECK(differing(limited, unlimited, within_m) == 0);
-      // Where so many blend in one place, which of two precisions answers may hang on the limit.
+      // Where so many ellipsoids blend, the limit may decide which of the two precisions evaluates a
+      // particle.
       double worst_m = 0.0;
       int wrong = 0;
       for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -4,8 +4,8 @@
 
 namespace bench {
 
-/// Exact polyhedral distances from a vertex, #V, meters: the yardstick, hundreds of times slower than what it
-/// measures. Precondition: a closed mesh or one whose boundary is convex along the skin.
+/// Exact polyhedral distances from a vertex, #V, meters: the reference, hundreds of times slower than what it
+/// measures. Precondition: the mesh is closed, or its boundary is convex along the skin.
 std::vector<double> exact_distances(const bodice::geometry::TriMesh& mesh,
                                     const bodice::geometry::MeshEdges& edges, bodice::geometry::Index source);
 

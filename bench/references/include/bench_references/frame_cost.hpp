@@ -1,6 +1,5 @@
-// What a frame costs in which the body moves: everything that moved is refitted, and the contacts of a
-// garment that lies 4 mm over the skin are found and resolved. One thread, processor time, median of a few
-// frames.
+// Cost of a frame in which the body moves: moved structures are refitted, and the contacts of a garment that
+// lies 4 mm over the skin are found and resolved. One thread, processor time, median of a few frames.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +14,9 @@
 
 namespace bench {
 
-/// Contacts are what is nearer than this.
+/// Contact distance.
 inline constexpr double kFrameThickness_m = 0.005;
-/// What everything turns by from frame to frame, there and back.
+/// Rotation of everything from frame to frame, there and back.
 bodice::geometry::Mat3 frame_turn(int frame);
 
 struct FrameCost {
@@ -25,18 +24,18 @@ struct FrameCost {
   std::size_t contacts = 0;
 };
 
-/// The skin, 4 mm along its normals.
+/// The skin, moved 4 mm along its normals.
 bodice::geometry::TriMesh garment_over(const bodice::geometry::TriMesh& skin);
 
-/// Moves the proxy and resolves every particle, 5 mm thick, a frame at a time, so that several can take turns
-/// and a slow second of the machine hits all alike.
+/// Moves the proxy and resolves every particle with a thickness of 5 mm, a frame at a time. Several proxies
+/// can take turns, so that a slow second of the machine affects all alike.
 class ProxyFrames {
  public:
   ProxyFrames(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
               bodice::collision::Response response = bodice::collision::Response::kClosestPoint);
 
   void run();
-  /// Processor time of each frame but the first two, which sort the particles; rising.
+  /// Processor times of all frames but the first two, which sort the particles; rising.
   std::vector<double> sorted_ms() const;
   std::size_t contacts() const { return contacts_; }
   std::size_t judged_exactly() const { return judged_exactly_; }
@@ -58,12 +57,11 @@ class ProxyFrames {
 FrameCost proxy_frame(const bodice::proxy::BodyProxy& proxy, const Cloud& cloud,
                       bodice::collision::Response response = bodice::collision::Response::kClosestPoint);
 
-/// Refits two trees of boxes and finds what lies within 5 mm; responds to nothing.
+/// Refits two trees of boxes and finds contacts within 5 mm, without a response.
 FrameCost tree_frame(bodice::geometry::TriMesh body, bodice::geometry::TriMesh garment);
 
-/// One frame of FCL, which knows no thickness of meshes: its tree of oriented boxes over the skin is
-/// refitted, and a ball of 5 mm at each vertex of the garment tested against it. Nothing where FCL is
-/// missing.
+/// One frame of FCL, which has no thickness for meshes: its tree of oriented boxes over the skin is refitted,
+/// and a ball of 5 mm at each vertex of the garment is tested against it. Nothing if FCL is not installed.
 std::optional<FrameCost> fcl_frame(bodice::geometry::TriMesh body, const bodice::geometry::TriMesh& garment);
 
 }  // namespace bench

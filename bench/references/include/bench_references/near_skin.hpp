@@ -17,12 +17,12 @@ struct Probe {
 
 struct NearSkin {
   double mean_mm = 0.0, p95_mm = 0.0, max_mm = 0.0;
-  double missed_percent = 0.0;  ///< of all near points: deeper than 1 mm but called outside
-  double false_percent = 0.0;   ///< of all near points: over 1 mm outside but called inside
-  int deep_leaks = 0;           ///< points deeper than 10 mm called outside
+  double missed_percent = 0.0;  ///< of all points near the skin: deeper than 1 mm but found outside
+  double false_percent = 0.0;   ///< of all points near the skin: over 1 mm outside but found inside
+  int deep_leaks = 0;           ///< number of points deeper than 10 mm but found outside
 };
 
-/// Points along random directions from an even sample of the skin, plus interior points.
+/// Points along random directions from an even sample of the skin, and interior points.
 std::vector<Probe> near_skin_probes(const bodice::engine::Context& context,
                                     const bodice::geometry::TriMesh& mesh,
                                     const bodice::geometry::MeshDistance& distance);

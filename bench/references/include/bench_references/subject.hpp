@@ -29,13 +29,13 @@ bodice::proxy::BodyProxy fit_subject(const bodice::synth::Body& body,
                                      const bodice::geometry::MeshDistance& skin, bodice::proxy::Tier tier,
                                      int ellipsoids, double seconds);
 
-/// Places within `band_m` of the skin, uniform over area and depth, in random order.
+/// Points within `band_m` of the skin, uniform over area and depth, in random order.
 Cloud near_skin(const bodice::geometry::TriMesh& mesh, std::size_t count, double band_m, std::uint64_t seed);
 
-/// The same places in Morton order: as the vertices of a well-ordered garment come.
+/// The same points in Morton order, like the vertices of a well-ordered garment.
 Cloud coherent(const Cloud& cloud);
 
-/// Relative to the collider's origin.
+/// The same points relative to the collider's origin.
 Cloud local(const Cloud& cloud, const bodice::collision::Collider& collider);
 
 }  // namespace bench

@@ -1,5 +1,5 @@
-// What the paper compares itself with: two trees of boxes over triangles, garment and body, refitted every
-// frame and descended together.
+// The method that the paper compares itself with: two trees of boxes over the triangles of garment and body,
+// refitted every frame and descended together.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace bench {
 
 class TriangleTree {
  public:
-  /// Split at the median of the longest axis; the mesh must outlive the tree.
+  /// Splits at the median of the longest axis; the mesh must outlive the tree.
   explicit TriangleTree(const bodice::geometry::TriMesh& mesh);
-  /// Boxes for where the vertices are now.
+  /// Updates the boxes to the current vertices.
   void refit();
 
-  /// Garment vertices within `thickness_m` of a triangle of `body`, a pair of triangles counted by itself.
+  /// Number of garment vertices within `thickness_m` of a triangle of `body`; each pair of triangles counts.
   std::size_t count_contacts(const TriangleTree& body, double thickness_m) const;
 
  private:
@@ -31,7 +31,7 @@ class TriangleTree {
   static bool apart(const Node& a, const Node& b, float thickness_m);
 
   const bodice::geometry::TriMesh& mesh_;
-  std::vector<bodice::geometry::Vec3> middle_;  // only while the tree is built
+  std::vector<bodice::geometry::Vec3> middle_;  // used only while the tree is built
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };
