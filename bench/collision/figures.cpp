@@ -34,9 +34,9 @@ bodice::proxy::BodyProxy fit(const bodice::synth::Body& body) {
 /// Points 4 mm over the closest points of the proxy's surface. Over one common skin the proxies of coarse
 /// bodies would have other contacts than those of fine ones, because their flat triangles miss the skin by
 /// millimeters.
-Cloud over(const bodice::proxy::BodyProxy& proxy, const Cloud& places) {
+Cloud over(const bodice::proxy::BodyProxy& proxy, const Cloud& points) {
   const bodice::collision::Collider collider(proxy);
-  Cloud start = local(places, collider), result;
+  Cloud start = local(points, collider), result;
   std::vector<bodice::collision::Contact> nearest(start.size());
   collider.query({}, start.particles(), nearest);
   const auto vec = [](const float(&v)[3]) { return Vec3(double{v[0]}, double{v[1]}, double{v[2]}); };

@@ -68,7 +68,7 @@ void Limits::add_to(std::vector<Row>& rows) {
   const auto add = [&](const char* name, std::function<void()> work) {
     rows.push_back({name, std::move(work), n, 0.0, [this] { frames_.step(); }, kFrameCalls});
   };
-  add("limit: places read, contacts written", [this] { move_bytes(); });
+  add("limit: positions read, contacts written", [this] { move_bytes(); });
   add("limit: one ellipsoid, a closest point a particle, frames",
       [this] { one_.query({}, frames_.now().particles(), contacts_, frames_.workspace); });
 }

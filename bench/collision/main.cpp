@@ -48,20 +48,20 @@ using bodice::proxy::Tier;
 constexpr int kEllipsoids = 89;
 
 /// One kind of query.
-struct Question {
+struct QueryKind {
   const char* name;
   bodice::collision::QueryOptions options;
-  bool bar;  ///< whether the bar of kQuestions applies to it
+  bool bar;  ///< whether the bar of kQueryKinds applies to it
 };
 
 constexpr float kShort_m = 0.010f;
 constexpr float kAll_m = std::numeric_limits<float>::infinity();
 /// The bar of 7.5 and 15 ns comes from a prototype of 'inside only' that used estimates. It gave closest
 /// points of particles inside and nothing about others. The bar applies to the other kinds of query as well.
-constexpr Question kQuestions[] = {{"all distances", {.within_m = kAll_m}, true},
-                                   {"contacts within 10 mm", {.within_m = kShort_m}, false},
-                                   {"inside only", {.within_m = 0.0f}, true},
-                                   {"to first order", {.accuracy = Accuracy::kFirstOrder}, true}};
+constexpr QueryKind kQueryKinds[] = {{"all distances", {.within_m = kAll_m}, true},
+                                     {"contacts within 10 mm", {.within_m = kShort_m}, false},
+                                     {"inside only", {.within_m = 0.0f}, true},
+                                     {"to first order", {.accuracy = Accuracy::kFirstOrder}, true}};
 /// Embree's distance has no sign. Whether a particle is inside, and how deep, follows only from the nearest
 /// triangle, however far it is. With the short reach there is no result for particles deeper than it.
 constexpr double kFarReach_m = kBand_m + 0.001, kShortReach_m = 0.010;
@@ -121,7 +121,7 @@ constexpr const char* kFrames[] = {", coherent, frames", ", random, frames"};
 
 void add_queries(Contender& c, std::vector<Row>& rows) {
   const auto n = static_cast<double>(c.coherent.size());
-  for (const Question& q : kQuestions) {
+  for (const QueryKind& q : kQueryKinds) {
     const bodice::collision::QueryOptions options = q.options;
     const std::string name = c.name + ": query, " + q.name;
     const double bars[] = {c.relief ? 30.0 : 7.5, c.relief ? 60.0 : 15.0};
@@ -195,19 +195,19 @@ void print_ratios(const std::vector<std::unique_ptr<Contender>>& contenders, con
   std::printf("\n| ratio | of medians | of mins | bar |\n|---|---|---|---|\n");
   for (const auto& c : contenders)
     for (const std::string order : {", coherent, nothing kept", kFrames[0], kFrames[1]}) {
-      const std::string all = c->name + ": query, " + kQuestions[0].name + order;
+      const std::string all = c->name + ": query, " + kQueryKinds[0].name + order;
       print_ratio(c->name + order + ": response to query", row_of(rows, c->name + ": response" + order),
                   row_of(rows, all), "at most 2");
     }
   for (const auto& c : contenders)
-    for (const Question& q : kQuestions)
+    for (const QueryKind& q : kQueryKinds)
       for (const double reach_m : kEmbreeReaches_m) {
         const bool deep_missed = reach_m == kShortReach_m;
         if (!embree || (deep_missed && q.options.within_m != kShort_m)) continue;
         if (std::isinf(reach_m) && !std::isinf(q.options.within_m)) continue;
         for (const std::string how : {", coherent, nothing kept", kFrames[0]})
           print_ratio(c->name + how + ": " + bench::embree_name(reach_m) +
-                          (deep_missed ? " (silent on deeper ones)" : "") + ", to query, " + q.name,
+                          (deep_missed ? " (no result for deeper ones)" : "") + ", to query, " + q.name,
                       row_of(rows, bench::embree_name(reach_m) + ", coherent"),
                       row_of(rows, c->name + ": query, " + q.name + how),
                       c->relief ? "at least 30" : "at least 100");
@@ -246,11 +246,11 @@ int main(int argc, char** argv) {
 
   std::printf(
       "%s; %s; %zu particles within %.0f mm of a body of %zu vertices; one thread, CPU time, %d "
-      "repeats. A query answers signed distance, closest point, normal and ellipsoid; peers the distance "
+      "repeats. A query returns signed distance, closest point, normal and ellipsoid; peers the distance "
       "alone, without sign but for grids. The bars of 7.5 and 15 ns (30 and 60 with relief) come from a "
-      "prototype that answered 'inside only' by estimates; they are held against exact distances of all, "
-      "too. 'Frames': particles "
-      "drift by a millimeter a call and a workspace keeps what it can, the mean of %d calls; 'nothing kept': "
+      "prototype of 'inside only' by estimates; they apply to exact distances of all "
+      "as well. 'Frames': particles "
+      "drift by a millimeter a call with a workspace, the mean of %d calls; 'nothing kept': "
       "without one. A peer without sign must look as far for that as for all distances.\n\n",
       bench::title(origin).c_str(), origin.flags.c_str(), count, 1e3 * kBand_m, body.mesh.positions.size(),
       repeats, bench::kFrameCalls);
@@ -285,9 +285,9 @@ int main(int argc, char** argv) {
   limits->add_to(rows);
   for (auto& contender : contenders) add_rows(*contender, rows);
   std::vector<float> distances(count);
-  std::deque<bench::AskedPeer> asked;
+  std::deque<bench::SampledPeer> sampled;
   for (bench::Peer& peer : peers)
-    bench::add_peer(asked.emplace_back(peer, coherent, random), truth, distances, rows);
+    bench::add_peer(sampled.emplace_back(peer, coherent, random), truth, distances, rows);
   bench::measure(rows, repeats);
   std::printf("\n| question | ns a particle, median | min | bar |\n|---|---|---|---|\n");
   for (const Row& row : rows) {

@@ -11,16 +11,16 @@
 namespace bench {
 
 /// A peer and the particles that it is measured on.
-struct AskedPeer {
+struct SampledPeer {
   Peer& peer;
   Cloud coherent, random;
 
-  AskedPeer(Peer& one, const Cloud& ordered, const Cloud& shuffled);
+  SampledPeer(Peer& one, const Cloud& ordered, const Cloud& shuffled);
 };
 
 /// Prints the peer's error and adds its rows. `truth` has all particles in coherent order; `distances` has
 /// room for as many. The rows keep references to all but `truth`.
-void add_peer(AskedPeer& asked, const std::vector<double>& truth, std::vector<float>& distances,
+void add_peer(SampledPeer& sampled, const std::vector<double>& truth, std::vector<float>& distances,
               std::vector<Row>& rows);
 
 }  // namespace bench

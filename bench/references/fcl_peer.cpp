@@ -49,9 +49,9 @@ std::shared_ptr<fcl::BVHModel<fcl::RSSd>> speck() {
   return model;
 }
 
-fcl::Transform3d at(const Vec3& place) {
+fcl::Transform3d at(const Vec3& position) {
   fcl::Transform3d pose = fcl::Transform3d::Identity();
-  pose.translation() = place;
+  pose.translation() = position;
   return pose;
 }
 
@@ -64,10 +64,10 @@ std::vector<Peer> fcl_peers(const TriMesh& mesh) {
   peer.name = "FCL tree of swept spheres, skin, any distance";
   peer.build_ms = watch.cpu_ms();
   peer.one_of = kOneOf;
-  peer.query = [skin, place = speck()](const Cloud& cloud, std::span<float> distance_m) {
+  peer.query = [skin, triangle = speck()](const Cloud& cloud, std::span<float> distance_m) {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       fcl::DistanceResult<double> found;
-      fcl::distance(skin.get(), fcl::Transform3d::Identity(), place.get(), at(cloud.at(i)),
+      fcl::distance(skin.get(), fcl::Transform3d::Identity(), triangle.get(), at(cloud.at(i)),
                     fcl::DistanceRequest<double>(), found);
       distance_m[i] = static_cast<float>(found.min_distance);
     }

@@ -129,7 +129,8 @@ bool certify_random(std::span<char*> arguments) {
     for (const auto& pose : poses) {
       const proxy::BodyProxy proxy = fit_body(pose.pose, pose.seed, tier);
       for (int mode = 0; mode < 4; ++mode) {
-        const char* names[] = {"nearest", "nearest, 3 mm", "nearest, from a last place", "paper"};
+        const char* names[] = {"closest point", "closest point, 3 mm", "closest point, from a safe position",
+                               "paper"};
         collision::ResolveOptions options{.thickness_m = mode == 1 ? 0.003f : 0.0f};
         if (mode == 3) options.response = collision::Response::kPaper;
         const Count c =

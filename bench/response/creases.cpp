@@ -43,17 +43,17 @@ struct Batch {
 
 std::vector<Vec3> on_surface(const proxy::BodyProxy& proxy, const collision::Collider& collider) {
   engine::Random random(9);
-  std::vector<Vec3> places;
-  while (places.size() < kPaths) {
+  std::vector<Vec3> points;
+  while (points.size() < kPaths) {
     const auto& e = proxy.ellipsoids()[random.below(proxy.ellipsoids().size())].shape;
     const double a = random.normal(), b = random.normal();
     const Vec3 w = Vec3(a, b, random.normal()).stableNormalized();
     Batch one(1);
     one.set(0, e.center + e.axes * e.radii.cwiseProduct(w) - collider.origin(), Vec3::Zero());
     collider.resolve({}, one.view(), {});
-    places.push_back(one.position(0));
+    points.push_back(one.position(0));
   }
-  return places;
+  return points;
 }
 
 struct Jumps {
@@ -61,9 +61,9 @@ struct Jumps {
 };
 
 /// Angles between the normals of consecutive points on paths over the surface.
-Jumps normal_jumps(const collision::Collider& collider, const std::vector<Vec3>& places, float blend_m) {
-  Batch batch(places.size());
-  std::vector<Vec3> at = places, direction(places.size()), last(places.size());
+Jumps normal_jumps(const collision::Collider& collider, const std::vector<Vec3>& points, float blend_m) {
+  Batch batch(points.size());
+  std::vector<Vec3> at = points, direction(points.size()), last(points.size());
   engine::Random random(10);
   for (Vec3& d : direction) {
     const double a = random.normal(), b = random.normal();
@@ -105,13 +105,13 @@ Jumps normal_jumps(const collision::Collider& collider, const std::vector<Vec3>&
 
 /// Motion in the last substep of particles that are pressed on the surface, with the friction of cotton:
 /// median and 99th percentile.
-std::pair<double, double> chatter_um(const collision::Collider& collider, const std::vector<Vec3>& places,
+std::pair<double, double> chatter_um(const collision::Collider& collider, const std::vector<Vec3>& points,
                                      float blend_m) {
   constexpr double kSubstep_s = 1.0 / 960.0;
-  Batch batch(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) batch.set(i, places[i], Vec3::Zero());
-  std::vector<Vec3> pressed(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
+  Batch batch(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) batch.set(i, points[i], Vec3::Zero());
+  std::vector<Vec3> pressed(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const float p[3] = {batch.x[i], batch.y[i], batch.z[i]};
     const collision::Contact c = collider.query(p);
     pressed[i] = -9.81 * Vec3(double{c.normal[0]}, double{c.normal[1]}, double{c.normal[2]});
@@ -119,13 +119,13 @@ std::pair<double, double> chatter_um(const collision::Collider& collider, const 
   std::vector<double> moved;
   for (int step = 0; step < 300; ++step) {
     const Batch before = batch;
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 v = batch.velocity(i) + kSubstep_s * pressed[i];
       batch.set(i, batch.position(i) + kSubstep_s * v, v);
     }
     collider.resolve({}, batch.view(), {.friction = 0.5f, .blend_m = blend_m});
     moved.clear();
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t i = 0; i < points.size(); ++i)
       moved.push_back(1e6 * (batch.position(i) - before.position(i)).norm());
   }
   std::sort(moved.begin(), moved.end());
@@ -133,22 +133,22 @@ std::pair<double, double> chatter_um(const collision::Collider& collider, const 
 }
 
 /// Least nanoseconds a particle of a query and of a response, over the same coherent cloud near the surface.
-std::pair<double, double> cost_ns(const collision::Collider& collider, const std::vector<Vec3>& places,
+std::pair<double, double> cost_ns(const collision::Collider& collider, const std::vector<Vec3>& points,
                                   float blend_m) {
   engine::Random random(3);
   Batch cloud(100000);
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {
     const double a = random.uniform(-0.03, 0.03), b = random.uniform(-0.03, 0.03);
-    cloud.set(i, places[random.below(places.size())] + Vec3(a, b, random.uniform(-0.03, 0.03)), Vec3::Zero());
+    cloud.set(i, points[random.below(points.size())] + Vec3(a, b, random.uniform(-0.03, 0.03)), Vec3::Zero());
   }
   std::vector<collision::Contact> contacts(cloud.x.size());
   collision::Workspace order;
   double query = 1e9, response = 1e9;
   Batch moved = cloud;
   for (int repeat = 0; repeat < 25; ++repeat) {
-    const bench::Stopwatch asked;
+    const bench::Stopwatch queried;
     collider.query({}, cloud.view(false), contacts, order);
-    query = std::min(query, asked.cpu_ms());
+    query = std::min(query, queried.cpu_ms());
     moved = cloud;
     const bench::Stopwatch pushed;
     collider.resolve({}, moved.view(false), {.blend_m = blend_m}, order);
@@ -170,12 +170,12 @@ bool cross_creases(std::span<char*>) {
   for (const proxy::Tier tier : {proxy::Tier::kSolid, proxy::Tier::kTight, proxy::Tier::kRelief}) {
     const proxy::BodyProxy proxy = fit_body(synth::Pose::kA, 0, tier);
     const collision::Collider collider(proxy);
-    const std::vector<Vec3> places = on_surface(proxy, collider);
+    const std::vector<Vec3> points = on_surface(proxy, collider);
     for (const float blend_m : {0.0f, 0.003f, 0.01f}) {
       if (tier == proxy::Tier::kRelief && blend_m > 0.0f) continue;  // blends by itself
-      const Jumps jumps = normal_jumps(collider, places, blend_m);
-      const auto [chatter, chatter99] = chatter_um(collider, places, blend_m);
-      const auto [query, response] = cost_ns(collider, places, blend_m);
+      const Jumps jumps = normal_jumps(collider, points, blend_m);
+      const auto [chatter, chatter99] = chatter_um(collider, points, blend_m);
+      const auto [query, response] = cost_ns(collider, points, blend_m);
       std::printf("| %s | %.0f | %.2f | %.2f | %.1f | %.2f | %.2f | %.1f | %.1f | %.2f |\n",
                   std::string(proxy::name(tier)).c_str(), 1e3 * double{blend_m}, jumps.p99_deg,
                   jumps.p9999_deg, jumps.largest_deg, chatter, chatter99, query, response, response / query);

@@ -41,7 +41,7 @@ geometry::Ellipsoid random_shape(engine::Random& random) {
 
 /// A random point in the ellipsoid's frame, in units of its radii; every eighth lies on a plane, an axis or
 /// the center.
-Vec3 random_place(engine::Random& random, std::size_t i) {
+Vec3 random_position(engine::Random& random, std::size_t i) {
   Vec3 p = random.uniform(0.0, 3.0) * direction(random);
   for (int axis = 0; i % 8 == 0 && axis < 3; ++axis)
     if (random.below(2) == 0) p[axis] = 0.0;
@@ -51,7 +51,7 @@ Vec3 random_place(engine::Random& random, std::size_t i) {
 struct Worst {
   double relative = 0.0;
   std::size_t above_bar = 0, not_finite = 0, cases = 0;
-  Vec3 radii = Vec3::Ones(), place = Vec3::Zero();  ///< of the worst case; position in its frame, meters
+  Vec3 radii = Vec3::Ones(), position = Vec3::Zero();  ///< of the worst case; position in its frame, meters
 };
 
 void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& worst) {
@@ -62,7 +62,7 @@ void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& wo
   const collision::Collider collider(*proxy);
   std::vector<float> x(kPerShape), y(kPerShape), z(kPerShape);
   for (std::size_t i = 0; i < kPerShape; ++i) {
-    const Vec3 p = e.center - collider.origin() + e.axes * e.radii.cwiseProduct(random_place(random, i));
+    const Vec3 p = e.center - collider.origin() + e.axes * e.radii.cwiseProduct(random_position(random, i));
     x[i] = static_cast<float>(p.x()), y[i] = static_cast<float>(p.y()), z[i] = static_cast<float>(p.z());
   }
   std::vector<collision::Contact> contacts(kPerShape);
@@ -70,19 +70,19 @@ void compare(const geometry::Ellipsoid& shape, engine::Random& random, Worst& wo
   for (std::size_t i = 0; i < kPerShape; ++i) {
     const Vec3 p = collider.origin() + Vec3(double{x[i]}, double{y[i]}, double{z[i]});
     const collision::Contact& c = contacts[i];
-    const Vec3 foot(double{c.point[0]}, double{c.point[1]}, double{c.point[2]});
+    const Vec3 point(double{c.point[0]}, double{c.point[1]}, double{c.point[2]});
     const double truth = geometry::closest_point(e, p).signed_distance;
     // The error is that of the distance, or the distance of the closest point from the surface.
     const double off =
         std::max(std::abs(double{c.signed_distance} - truth),
-                 std::abs(geometry::closest_point(e, collider.origin() + foot).signed_distance));
+                 std::abs(geometry::closest_point(e, collider.origin() + point).signed_distance));
     const double relative = off / std::max(e.radii.maxCoeff(), (p - e.center).norm());
     worst.not_finite += !std::isfinite(relative);
     worst.above_bar += relative > kBar;
     if (relative <= worst.relative) continue;
     worst.relative = relative;
     worst.radii = e.radii;
-    worst.place = e.axes.transpose() * (p - e.center);
+    worst.position = e.axes.transpose() * (p - e.center);
   }
   worst.cases += kPerShape;
 }
@@ -100,8 +100,8 @@ bool measure_nearest(std::span<char*> arguments) {
       "|\n|---|---|---|---|---|\n"
       "| %zu | %llu | %.2e | %zu | %zu |\n",
       worst.cases, static_cast<unsigned long long>(seed), worst.relative, worst.above_bar, worst.not_finite);
-  std::printf("the worst: radii %g %g %g m, place %g %g %g m in its frame\n", worst.radii[0], worst.radii[1],
-              worst.radii[2], worst.place[0], worst.place[1], worst.place[2]);
+  std::printf("the worst: radii %g %g %g m, position %g %g %g m in its frame\n", worst.radii[0],
+              worst.radii[1], worst.radii[2], worst.position[0], worst.position[1], worst.position[2]);
   return worst.above_bar == 0 && worst.not_finite == 0;
 }
 

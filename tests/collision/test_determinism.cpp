@@ -38,7 +38,7 @@ std::uint64_t hash_of(const Cloud& cloud) {
 
 }  // namespace
 
-TEST_CASE("the same bits for any number of workers, with and without a workspace") {
+TEST_CASE("a response gives the same bits for any number of workers, with and without a workspace") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     const auto run = [&](engine::Executor& executor, bool with_workspace) {
@@ -62,7 +62,7 @@ TEST_CASE("the same bits for any number of workers, with and without a workspace
   }
 }
 
-TEST_CASE("a query does not depend on which particles share a block") {
+TEST_CASE("a query's results do not depend on which particles share a block") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     Cloud cloud = random_cloud();
@@ -80,7 +80,7 @@ TEST_CASE("a query does not depend on which particles share a block") {
   }
 }
 
-TEST_CASE("every instruction set gives the same answers to two micrometers") {
+TEST_CASE("all instruction sets agree on distances to 2 micrometers, with relief to 10") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     Cloud cloud = random_cloud();
@@ -101,7 +101,7 @@ TEST_CASE("every instruction set gives the same answers to two micrometers") {
   }
 }
 
-TEST_CASE("every instruction set resolves every particle") {
+TEST_CASE("a response resolves every particle on every instruction set") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     on_every_target([&](const std::string& name) {
@@ -137,7 +137,7 @@ TEST_CASE("warm queries and responses allocate nothing") {
   }
 }
 
-TEST_CASE("moving to the pose it is in changes nothing, and allocates nothing") {
+TEST_CASE("a move to the current pose changes no position and allocates nothing") {
   const auto proxy = scene(false);
   Collider moved(proxy), still(proxy);
   std::vector<Ellipsoid> shapes;

@@ -29,7 +29,7 @@ Cloud inside_of(const Ellipsoid& e, const Vec3& origin) {
 
 }  // namespace
 
-TEST_CASE("aspects to 1:1000 and radii from a micrometer to a thousand kilometers") {
+TEST_CASE("a response resolves all particles at aspect ratios to 1:1000 and radii from 1e-6 to 1e6 m") {
   engine::Random random(2);
   for (const double scale_m : {1e-6, 1e-3, 1.0, 1e3, 1e6})
     for (const double aspect : {1.0, 10.0, 100.0, 1000.0}) {
@@ -54,7 +54,7 @@ TEST_CASE("aspects to 1:1000 and radii from a micrometer to a thousand kilometer
     }
 }
 
-TEST_CASE("relief is certified in proportion to the body, from a millimeter to a kilometer") {
+TEST_CASE("the certificate of relief is proportional to the body, from a millimeter to a kilometer") {
   for (const double scale : {1e-3, 1.0, 1e3}) {
     auto data = data_of(random_ellipsoids(12, 40, 0.4 * scale, 0.06 * scale, 0.25 * scale));
     data.stature_m *= scale;
@@ -82,7 +82,7 @@ TEST_CASE("relief is certified in proportion to the body, from a millimeter to a
   }
 }
 
-TEST_CASE("four thousand ellipsoids, apart and on one place") {
+TEST_CASE("a response resolves all particles among 4,096 ellipsoids, apart or identical") {
   const auto one = random_ellipsoids(8, 1, 0.1, 0.1, 0.3)[0];
   for (const auto& shapes : {random_ellipsoids(4, 4096, 1.0, 0.02, 0.1), std::vector<Ellipsoid>(4096, one)}) {
     const Collider collider(proxy_of(shapes));
@@ -100,7 +100,7 @@ TEST_CASE("four thousand ellipsoids, apart and on one place") {
   }
 }
 
-TEST_CASE("ten million particles are answered as each of them alone") {
+TEST_CASE("ten million particles get the same response as each of them alone") {
   constexpr std::size_t kCount = 10'000'000, kPeriod = 1000;
   const auto shapes = random_ellipsoids(7, 10, 0.2, 0.1, 0.2);
   const Collider collider(proxy_of(shapes));
@@ -127,7 +127,7 @@ TEST_CASE("ten million particles are answered as each of them alone") {
   CHECK(farthest_m < 1e-6);
 }
 
-TEST_CASE("particles that are not numbers are left alone, counted, and spoil none of their neighbors") {
+TEST_CASE("particles that are not finite are counted and do not affect their neighbors") {
   const auto shapes = random_ellipsoids(7, 10, 0.2, 0.1, 0.2);
   const Collider collider(proxy_of(shapes));
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()};
@@ -149,7 +149,7 @@ TEST_CASE("particles that are not numbers are left alone, counted, and spoil non
   }
 }
 
-TEST_CASE("contacts are counted by part, and the deepest is told") {
+TEST_CASE("a report counts contacts by part and gives the depth of the deepest") {
   std::vector<Ellipsoid> shapes(3);
   for (std::size_t k = 0; k < 3; ++k) {
     shapes[k].center.x() = static_cast<double>(k);
@@ -167,7 +167,7 @@ TEST_CASE("contacts are counted by part, and the deepest is told") {
   CHECK(report.max_iterations >= 1);
 }
 
-TEST_CASE("two hundred thousand random particles: none inside, shells and solids alike") {
+TEST_CASE("a response leaves none of 200,000 random particles inside, among thin or thick ellipsoids") {
   for (const std::uint64_t seed : {1u, 2u})
     for (const bool shell : {false, true}) {
       const auto shapes =

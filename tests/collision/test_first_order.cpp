@@ -67,36 +67,36 @@ Cloud near_surface(const Collider& collider, int count, float band_m) {
   return cloud;
 }
 
-std::vector<Contact> ask(const Collider& collider, Cloud& cloud, const QueryOptions& options) {
+std::vector<Contact> contacts_of(const Collider& collider, Cloud& cloud, const QueryOptions& options) {
   std::vector<Contact> contacts(cloud.size());
   collider.query({}, cloud.particles(), contacts, options);
   return contacts;
 }
 
 /// Root mean square of the distance's error at a height, in units of the shortest radius.
-double missing(const Ellipsoid& e, double height) {
+double rms_error(const Ellipsoid& e, double height) {
   const Collider collider(proxy_of({e}));
   engine::Random random(3);
   Cloud cloud;
-  constexpr int kPlaces = 512;
-  for (int i = 0; i < kPlaces; ++i) {
+  constexpr int kPoints = 512;
+  for (int i = 0; i < kPoints; ++i) {
     // The position is rounded to float before the truth is computed, so that rounding is not measured.
     const Vec3 p = above(e, random_direction(random), height * e.radii.minCoeff());
     cloud.add(p - collider.origin());
   }
-  const auto contacts = ask(collider, cloud, kFirst);
+  const auto contacts = contacts_of(collider, cloud, kFirst);
   double sum = 0.0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const auto truth = geometry::closest_point(e, cloud.position(i) + collider.origin()).signed_distance;
     const double off = truth - double{contacts[i].signed_distance};
     sum += off * off;
   }
-  return std::sqrt(sum / kPlaces);
+  return std::sqrt(sum / kPoints);
 }
 
 }  // namespace
 
-TEST_CASE("to first order the distance is that to a plane which touches the ellipsoid, on every target") {
+TEST_CASE("a first-order distance is that to a tangent plane of the ellipsoid, on every instruction set") {
   for (const Ellipsoid& e : shapes_alone()) {
     const Collider collider(proxy_of({e}));
     engine::Random random(7);
@@ -109,17 +109,17 @@ TEST_CASE("to first order the distance is that to a plane which touches the elli
     const double tolerance_m = 2e-6 * (e.radii.maxCoeff() + 0.2);
     on_every_target([&](const std::string& name) {
       CAPTURE(name);
-      const auto contacts = ask(collider, cloud, kFirst);
+      const auto contacts = contacts_of(collider, cloud, kFirst);
       double off_plane_m = 0.0, above_truth_m = -1.0, off_point_m = 0.0, off_unit = 0.0;
       int wrong_sides = 0;
       for (std::size_t i = 0; i < cloud.size(); ++i) {
         const Vec3 p = cloud.position(i) + collider.origin(), n = vec(contacts[i].normal);
-        const double told = double{contacts[i].signed_distance};
+        const double found = double{contacts[i].signed_distance};
         const double truth = geometry::closest_point(e, p).signed_distance;
-        off_plane_m = std::max(off_plane_m, std::abs(told - over_tangent_plane(e, p, n.normalized())));
-        above_truth_m = std::max(above_truth_m, told - truth);
-        wrong_sides += std::abs(truth) > tolerance_m && (told < 0.0) != (truth < 0.0);
-        off_point_m = std::max(off_point_m, (cloud.position(i) - told * n - vec(contacts[i].point)).norm());
+        off_plane_m = std::max(off_plane_m, std::abs(found - over_tangent_plane(e, p, n.normalized())));
+        above_truth_m = std::max(above_truth_m, found - truth);
+        wrong_sides += std::abs(truth) > tolerance_m && (found < 0.0) != (truth < 0.0);
+        off_point_m = std::max(off_point_m, (cloud.position(i) - found * n - vec(contacts[i].point)).norm());
         off_unit = std::max(off_unit, std::abs(n.norm() - 1.0));
       }
       CHECK(off_plane_m < tolerance_m);
@@ -131,22 +131,22 @@ TEST_CASE("to first order the distance is that to a plane which touches the elli
   }
 }
 
-TEST_CASE("what is missing to the distance goes with the fourth power of the height") {
+TEST_CASE("the error of a first-order distance grows with the fourth power of the height") {
   for (const Ellipsoid& e : shapes_alone()) {
     if (e.radii.maxCoeff() == e.radii.minCoeff()) {
-      CHECK(missing(e, 0.5) < 1e-6 * e.radii.maxCoeff());  // a ball has no error
+      CHECK(rms_error(e, 0.5) < 1e-6 * e.radii.maxCoeff());  // a ball has no error
       continue;
     }
     // The tips of longer shapes have radii of curvature below such heights, and float precision does not
     // suffice.
     if (e.radii.maxCoeff() > 4.0 * e.radii.minCoeff()) continue;
     CAPTURE(e.radii.transpose());
-    CHECK(missing(e, 0.2) > 10.0 * missing(e, 0.1));
-    CHECK(missing(e, -0.2) > 10.0 * missing(e, -0.1));
+    CHECK(rms_error(e, 0.2) > 10.0 * rms_error(e, 0.1));
+    CHECK(rms_error(e, -0.2) > 10.0 * rms_error(e, -0.1));
   }
 }
 
-TEST_CASE("at a center the way out is along the shortest axis") {
+TEST_CASE("at a center the first-order normal is along the shortest axis") {
   for (const Ellipsoid& e : shapes_alone()) {
     const Collider collider(proxy_of({e}));
     const Vec3 center = e.center - collider.origin();
@@ -162,7 +162,7 @@ TEST_CASE("at a center the way out is along the shortest axis") {
   }
 }
 
-TEST_CASE("of a union: sides are exact, and few take a wrong neighbor") {
+TEST_CASE("first-order distances of a union have the exact sign, and few particles get a wrong owner") {
   const auto proxy = body_like(false);
   std::vector<Ellipsoid> shapes;
   for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
@@ -170,18 +170,18 @@ TEST_CASE("of a union: sides are exact, and few take a wrong neighbor") {
   Cloud cloud = near_surface(collider, 6000, 0.01f);
   on_every_target([&](const std::string& name) {
     CAPTURE(name);
-    const auto contacts = ask(collider, cloud, kFirst);
+    const auto contacts = contacts_of(collider, cloud, kFirst);
     int wrong_sides = 0, wrong_owners = 0, above_owner = 0;
     double sum_m = 0.0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       std::uint32_t owner = 0;
       const Vec3 p = cloud.position(i) + collider.origin();
       const double truth = brute_force(shapes, p, &owner).signed_distance;
-      const double told = double{contacts[i].signed_distance};
-      wrong_sides += std::abs(truth) > 1e-6 && (told < 0.0) != (truth < 0.0);
+      const double found = double{contacts[i].signed_distance};
+      wrong_sides += std::abs(truth) > 1e-6 && (found < 0.0) != (truth < 0.0);
       wrong_owners += contacts[i].ellipsoid != owner;
-      above_owner += told > geometry::closest_point(shapes[contacts[i].ellipsoid], p).signed_distance + 1e-6;
-      sum_m += std::abs(told - truth);
+      above_owner += found > geometry::closest_point(shapes[contacts[i].ellipsoid], p).signed_distance + 1e-6;
+      sum_m += std::abs(found - truth);
     }
     CHECK(wrong_sides == 0);
     CHECK(above_owner == 0);
@@ -190,7 +190,7 @@ TEST_CASE("of a union: sides are exact, and few take a wrong neighbor") {
   });
 }
 
-TEST_CASE("relief to first order: on balls that are alone as exactly, near other shapes nearly") {
+TEST_CASE("first-order relief is exact on single balls and close on other single ellipsoids") {
   for (const Ellipsoid& e : shapes_alone()) {
     const bool round = e.radii.maxCoeff() == e.radii.minCoeff();
     const double height = round ? 0.05 : 0.02;
@@ -201,7 +201,7 @@ TEST_CASE("relief to first order: on balls that are alone as exactly, near other
     for (int i = 0; i < 2000; ++i)
       cloud.add(above(e, random_direction(random), random.uniform(-height, height) * e.radii.minCoeff()) -
                 collider.origin());
-    const auto exact = ask(collider, cloud, {}), first = ask(collider, cloud, kFirst);
+    const auto exact = contacts_of(collider, cloud, {}), first = contacts_of(collider, cloud, kFirst);
     double worst_m = 0.0;
     std::vector<double> cosines;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -216,31 +216,32 @@ TEST_CASE("relief to first order: on balls that are alone as exactly, near other
   }
 }
 
-TEST_CASE("to first order within a contact distance") {
+TEST_CASE("a first-order query with a contact distance reports only particles within it") {
   for (const bool relief : {false, true})
     for (const double margin_m : {0.0, 0.003}) {
       const Collider collider(body_like(relief, margin_m));
       Cloud cloud = near_surface(collider, 4000, 0.03f);
-      const auto unlimited = ask(collider, cloud, kFirst);
+      const auto unlimited = contacts_of(collider, cloud, kFirst);
       for (const float within_m : {-0.01f, 0.0f, 0.01f, -kInf}) {
-        const auto limited = ask(collider, cloud, {.within_m = within_m, .accuracy = Accuracy::kFirstOrder});
-        int too_far = 0, told = 0, differ = 0;
+        const auto limited =
+            contacts_of(collider, cloud, {.within_m = within_m, .accuracy = Accuracy::kFirstOrder});
+        int too_far = 0, found = 0, differ = 0;
         for (std::size_t i = 0; i < cloud.size(); ++i) {
           const bool none = limited[i].ellipsoid == kNoEllipsoid;
-          told += !none;
+          found += !none;
           too_far += !none && !(limited[i].signed_distance <= within_m);
           differ += none == (unlimited[i].signed_distance <= within_m);
           if (none) CHECK(limited[i].signed_distance == kInf);
         }
         CHECK(too_far == 0);
-        CHECK((told > 100 || within_m == -kInf));
+        CHECK((found > 100 || within_m == -kInf));
         // With fewer candidates another of two nearly equal owners may be chosen.
         CHECK(differ <= (within_m == 0.0f && !relief ? 0 : 8));
       }
     }
 }
 
-TEST_CASE("to first order the same bits for any number of workers, with a workspace and without") {
+TEST_CASE("first-order queries give the same bits for any number of workers, with and without a workspace") {
   for (const bool relief : {false, true}) {
     const Collider collider(body_like(relief));
     Cloud cloud = near_surface(collider, 7001, 0.03f);
@@ -263,7 +264,7 @@ TEST_CASE("to first order the same bits for any number of workers, with a worksp
   }
 }
 
-TEST_CASE("to first order a speck whose numbers leave the range of floats is not taken for near") {
+TEST_CASE("a first-order query never takes an ellipsoid beyond the range of floats for the nearest") {
   // The speck is inside the ball, so that it is never the nearest. The particles surround it, so that no box
   // excludes it.
   std::vector<Ellipsoid> shapes{ball(1.0)[0], ball(1e-8)[0]};
@@ -275,35 +276,36 @@ TEST_CASE("to first order a speck whose numbers leave the range of floats is not
   on_every_target([&](const std::string& name) {
     CAPTURE(name);
     int wrong_owners = 0;
-    for (const Contact& contact : ask(collider, cloud, kFirst)) wrong_owners += contact.ellipsoid != 0;
+    for (const Contact& contact : contacts_of(collider, cloud, kFirst))
+      wrong_owners += contact.ellipsoid != 0;
     CHECK(wrong_owners == 0);
   });
 }
 
-TEST_CASE("to first order with a workspace sides stay exact while particles and body move") {
+TEST_CASE("first-order queries with a workspace keep the exact sign while particles and body move") {
   auto shapes = random_ellipsoids(31, 60, 0.5, 0.05, 0.15);
   Collider collider(proxy_of(shapes));
   Cloud cloud = near_surface(collider, 3000, 0.01f);
   Workspace workspace;
-  std::vector<Contact> kept(cloud.size());
+  std::vector<Contact> cached(cloud.size());
   for (int call = 0; call < 30; ++call) {
     for (float& y : cloud.y) y += 5e-4f;
     for (Ellipsoid& e : shapes) e.center.x() += 3e-4;
     REQUIRE(collider.move_to(shapes, 1.0 / 60.0));
-    collider.query({}, cloud.particles(), kept, workspace, kFirst);
-    const auto exact = ask(collider, cloud, {});
+    collider.query({}, cloud.particles(), cached, workspace, kFirst);
+    const auto exact = contacts_of(collider, cloud, {});
     int wrong_sides = 0, wrong_owners = 0;
     for (std::size_t i = 0; i < cloud.size(); ++i) {
       wrong_sides += std::abs(exact[i].signed_distance) > 1e-6f &&
-                     (exact[i].signed_distance < 0.0f) != (kept[i].signed_distance < 0.0f);
-      wrong_owners += exact[i].ellipsoid != kept[i].ellipsoid;
+                     (exact[i].signed_distance < 0.0f) != (cached[i].signed_distance < 0.0f);
+      wrong_owners += exact[i].ellipsoid != cached[i].ellipsoid;
     }
     CHECK(wrong_sides == 0);
     CHECK(wrong_owners < 90);
   }
 }
 
-TEST_CASE("a workspace that serves queries to first order changes no bit of exact ones") {
+TEST_CASE("first-order queries that share a workspace change no bit of exact ones") {
   // The particles move straight from one ball to the other, so that a candidate just outside the cache comes
   // as near as possible.
   std::vector<Ellipsoid> two(2, ball(0.1)[0]);
@@ -316,18 +318,19 @@ TEST_CASE("a workspace that serves queries to first order changes no bit of exac
     for (int i = 0; i < 2000; ++i)
       cloud.add({random.uniform(-0.06, 0.01), random.uniform(-0.01, 0.01), random.uniform(-0.01, 0.01)});
     Workspace workspace;
-    std::vector<Contact> kept(cloud.size());
+    std::vector<Contact> cached(cloud.size());
     for (int call = 0; call < 60; ++call) {
       for (float& x : cloud.x) x += 5e-4f;
-      collider.query({}, cloud.particles(), kept, workspace, kFirst);
-      collider.query({}, cloud.particles(), kept, workspace);
-      const auto fresh = ask(collider, cloud, {});
-      CHECK(std::memcmp(kept.data(), fresh.data(), kept.size() * sizeof(Contact)) == 0);
+      collider.query({}, cloud.particles(), cached, workspace, kFirst);
+      collider.query({}, cloud.particles(), cached, workspace);
+      const auto fresh = contacts_of(collider, cloud, {});
+      CHECK(std::memcmp(cached.data(), fresh.data(), cached.size() * sizeof(Contact)) == 0);
     }
   }
 }
 
-TEST_CASE("to first order where more ellipsoids are near than the kernels hold, and where none are") {
+TEST_CASE(
+    "first-order queries keep the exact sign when candidates overflow, and report none without ellipsoids") {
   const Collider none(proxy_of(std::vector<Ellipsoid>{}));
   CHECK(none.query({0.0f, 0.0f, 0.0f}, kFirst).ellipsoid == kNoEllipsoid);
   const auto shapes = random_ellipsoids(5, 700, 0.05, 0.08, 0.1);
@@ -335,7 +338,7 @@ TEST_CASE("to first order where more ellipsoids are near than the kernels hold, 
   engine::Random random(3);
   Cloud cloud;
   for (int i = 0; i < 600; ++i) cloud.add(random_vector(random, 0.2));
-  const auto contacts = ask(collider, cloud, kFirst), exact = ask(collider, cloud, {});
+  const auto contacts = contacts_of(collider, cloud, kFirst), exact = contacts_of(collider, cloud, {});
   int wrong_sides = 0;
   double worst_m = 0.0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {

@@ -23,10 +23,10 @@ struct Errors {
   int wrong_owner = 0;
 };
 
-Errors compare(const std::vector<Ellipsoid>& shapes, const std::vector<Vec3>& places, double scale_m) {
+Errors compare(const std::vector<Ellipsoid>& shapes, const std::vector<Vec3>& points, double scale_m) {
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
-  for (const Vec3& p : places) cloud.add(p - collider.origin());
+  for (const Vec3& p : points) cloud.add(p - collider.origin());
   std::vector<Contact> contacts(cloud.size());
   collider.query({}, cloud.particles(), contacts);
   Errors errors;
@@ -51,16 +51,16 @@ Errors compare(const std::vector<Ellipsoid>& shapes, const std::vector<Vec3>& pl
   return errors;
 }
 
-std::vector<Vec3> places_around(std::uint64_t seed, int count, double half_side) {
+std::vector<Vec3> points_around(std::uint64_t seed, int count, double half_side) {
   engine::Random random(seed);
-  std::vector<Vec3> places;
-  for (int i = 0; i < count; ++i) places.push_back(random_vector(random, half_side));
-  return places;
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) points.push_back(random_vector(random, half_side));
+  return points;
 }
 
 /// A point on the union's surface where the owner changes, and a random direction.
 struct Crease {
-  Vec3 place, direction;
+  Vec3 position, direction;
 };
 
 std::vector<Crease> find_creases(const std::vector<Ellipsoid>& shapes, std::uint64_t seed, std::size_t most) {
@@ -86,10 +86,10 @@ std::vector<Crease> find_creases(const std::vector<Ellipsoid>& shapes, std::uint
 
 }  // namespace
 
-TEST_CASE("a batch query agrees with brute force in double over random unions") {
+TEST_CASE("a batch query agrees with brute force in double precision over random unions") {
   for (const int count : {1, 2, 17, 89, 300}) {
     const auto shapes = random_ellipsoids(static_cast<std::uint64_t>(count), count, 0.8, 0.02, 0.2);
-    const Errors errors = compare(shapes, places_around(5, 20000, 1.2), 1.0);
+    const Errors errors = compare(shapes, points_around(5, 20000, 1.2), 1.0);
     CAPTURE(count);
     // The farthest points are 2 m away; relative to that the bar is a few roundings.
     CHECK(errors.distance < 2e-6);
@@ -98,39 +98,39 @@ TEST_CASE("a batch query agrees with brute force in double over random unions") 
   }
 }
 
-TEST_CASE("neighboring particles near the surface, as cloth has them, agree with brute force") {
+TEST_CASE("a query agrees with brute force for neighboring particles near the surface, as in cloth") {
   const auto shapes = random_ellipsoids(3, 89, 0.6, 0.03, 0.2);
-  std::vector<Vec3> places;
+  std::vector<Vec3> points;
   engine::Random random(9);
   for (int patch = 0; patch < 200; ++patch) {
     const Ellipsoid& e = shapes[random.below(shapes.size())];
     const Vec3 middle = geometry::radial_projection(e, e.center + random_direction(random));
-    for (int i = 0; i < 64; ++i) places.push_back(middle + random_vector(random, 0.02));
+    for (int i = 0; i < 64; ++i) points.push_back(middle + random_vector(random, 0.02));
   }
-  const Errors errors = compare(shapes, places, 1.0);
+  const Errors errors = compare(shapes, points, 1.0);
   CHECK(errors.distance < 1e-6);
   CHECK(errors.point < 1e-6);
   CHECK(errors.wrong_owner == 0);
 }
 
-TEST_CASE("next to a crease the nearer of two ellipsoids is told, however rough a target's estimates are") {
+TEST_CASE("a query finds the nearer of two ellipsoids next to a crease, on every instruction set") {
   const auto shapes = random_ellipsoids(21, 40, 0.4, 0.05, 0.4);
   const auto creases = find_creases(shapes, 4, 300);
   REQUIRE(creases.size() == 300);
-  std::vector<Vec3> places;
+  std::vector<Vec3> points;
   engine::Random random(5);
   for (const Crease& crease : creases)
     for (int i = 0; i < 16; ++i)
-      places.push_back(crease.place + random.uniform(-2e-4, 2e-4) * crease.direction);
+      points.push_back(crease.position + random.uniform(-2e-4, 2e-4) * crease.direction);
   on_every_target([&](const std::string& target) {
-    const Errors errors = compare(shapes, places, 1.0);
+    const Errors errors = compare(shapes, points, 1.0);
     CAPTURE(target);
     CHECK(errors.distance < 1e-6);
     CHECK(errors.wrong_owner == 0);
   });
 }
 
-TEST_CASE("needles, discs and spheres of any size, at centers and on symmetry planes") {
+TEST_CASE("a query agrees with brute force for needles, discs and balls, at centers and on symmetry planes") {
   for (const double size_m : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     for (const Vec3& aspect :
          {Vec3(1, 1, 1), Vec3(1, 1, 1e-3), Vec3(1, 1e-3, 1e-3), Vec3(1, 0.5, 1e-3), Vec3(1e-2, 1, 1)}) {
@@ -138,11 +138,11 @@ TEST_CASE("needles, discs and spheres of any size, at centers and on symmetry pl
       e.center = size_m * Vec3(0.3, -0.2, 0.1);
       e.axes = Mat3::Identity();
       e.radii = size_m * aspect;
-      std::vector<Vec3> places;
+      std::vector<Vec3> points;
       for (int mask = 0; mask < 8; ++mask)
-        for (const Vec3& p : places_around(4, 300, 1.5))
-          places.push_back(e.center + size_m * p.cwiseProduct(Vec3(mask & 1, mask >> 1 & 1, mask >> 2 & 1)));
-      const Errors errors = compare({e}, places, size_m);
+        for (const Vec3& p : points_around(4, 300, 1.5))
+          points.push_back(e.center + size_m * p.cwiseProduct(Vec3(mask & 1, mask >> 1 & 1, mask >> 2 & 1)));
+      const Errors errors = compare({e}, points, size_m);
       CAPTURE(size_m);
       CAPTURE(aspect.transpose());
       CHECK(errors.distance < 2e-6);
@@ -152,29 +152,29 @@ TEST_CASE("needles, discs and spheres of any size, at centers and on symmetry pl
   }
 }
 
-TEST_CASE("identical, nested and tangent ellipsoids, and more of them than a block's list holds") {
+TEST_CASE("a query agrees with brute force for identical, nested and tangent ellipsoids, also on overflow") {
   const auto one = random_ellipsoids(2, 1, 0.1, 0.1, 0.3);
   std::vector<Ellipsoid> crowd(4096, one[0]);
-  CHECK(compare(crowd, places_around(1, 300, 0.6), 1.0).distance < 1e-6);
+  CHECK(compare(crowd, points_around(1, 300, 0.6), 1.0).distance < 1e-6);
   std::vector<Ellipsoid> nested(5, one[0]);
   for (std::size_t k = 0; k < nested.size(); ++k) nested[k].radii *= 1.0 - 0.15 * static_cast<double>(k);
-  CHECK(compare(nested, places_around(1, 5000, 0.6), 1.0).distance < 1e-6);
+  CHECK(compare(nested, points_around(1, 5000, 0.6), 1.0).distance < 1e-6);
   std::vector<Ellipsoid> tangent(2);
   for (Ellipsoid& e : tangent) e.radii.setConstant(0.5);
   tangent[0].center.x() = -0.5;
   tangent[1].center.x() = 0.5;
-  CHECK(compare(tangent, places_around(1, 5000, 1.0), 1.0).distance < 1e-6);
+  CHECK(compare(tangent, points_around(1, 5000, 1.0), 1.0).distance < 1e-6);
   CHECK(compare(tangent, std::vector<Vec3>(100, Vec3::Zero()), 1.0).distance < 1e-6);
 }
 
-TEST_CASE("seven hundred different ellipsoids in one place, particles in no order") {
+TEST_CASE("a query agrees with brute force for 700 different ellipsoids around one point") {
   const auto shapes = random_ellipsoids(5, 700, 0.05, 0.08, 0.1);
-  const Errors errors = compare(shapes, places_around(3, 3000, 0.2), 0.2);
+  const Errors errors = compare(shapes, points_around(3, 3000, 0.2), 0.2);
   CHECK(errors.distance < 2e-6);
   CHECK(errors.wrong_owner == 0);
 }
 
-TEST_CASE("ten kilometers from the origin the answers are those at the origin") {
+TEST_CASE("distances ten kilometers from the origin are those at the origin to 2 micrometers") {
   auto shapes = random_ellipsoids(3, 40, 0.6, 0.03, 0.2);
   const Collider near(proxy_of(shapes));
   const Vec3 away(10'000.0, 0.0, -10'000.0);
@@ -193,7 +193,7 @@ TEST_CASE("ten kilometers from the origin the answers are those at the origin") 
   CHECK(worst_m < 2e-6);
 }
 
-TEST_CASE("no ellipsoids, no particles, and particles that are not numbers") {
+TEST_CASE("queries and responses accept no ellipsoids, no particles, and particles that are not finite") {
   const Collider empty(proxy_of(std::vector<Ellipsoid>{}));
   const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
   CHECK(empty.query({0, 0, 0}).ellipsoid == kNoEllipsoid);
@@ -221,7 +221,7 @@ TEST_CASE("no ellipsoids, no particles, and particles that are not numbers") {
   CHECK(contacts[4].ellipsoid == 0);
 }
 
-TEST_CASE("several contacts come nearest first, each with its own ellipsoid") {
+TEST_CASE("query_all returns contacts nearest first, each with the distance of its own ellipsoid") {
   const auto shapes = random_ellipsoids(3, 30, 0.3, 0.1, 0.3);
   const Collider collider(proxy_of(shapes));
   engine::Random random(2);
@@ -240,7 +240,7 @@ TEST_CASE("several contacts come nearest first, each with its own ellipsoid") {
   }
 }
 
-TEST_CASE("relief agrees with the definition that fitting trains against") {
+TEST_CASE("relief distances and normals agree with proxy_distance(), which defines them") {
   struct Case {
     int nodes;
     bool sorted_axes;  ///< by falling radius: the kernels read such tables by another code path
@@ -277,7 +277,7 @@ TEST_CASE("relief agrees with the definition that fitting trains against") {
   }
 }
 
-TEST_CASE("relief where some ellipsoids have no table: those are plain") {
+TEST_CASE("ellipsoids without a relief table are plain beside others that have one") {
   const auto shapes = random_ellipsoids(9, 40, 0.4, 0.05, 0.2);
   auto data = with_relief(data_of(shapes), 8, 0.003, 12);
   for (std::size_t k = 0; k < data.relief.size(); k += 3) data.relief[k] = {};
@@ -303,26 +303,26 @@ TEST_CASE("relief where some ellipsoids have no table: those are plain") {
   CHECK(lowest_m > -5e-5);
 }
 
-TEST_CASE("places so close that one ellipsoid, or a handful, can be the nearest, agree with brute force") {
+TEST_CASE("a query agrees with brute force for blocks from a tenth of a millimeter to half a meter") {
   // Blocks measure a tenth of a millimeter to half a meter. An ellipsoid that is dropped for a block must be
   // nearest to none of its points.
   const auto shapes = random_ellipsoids(13, 120, 0.6, 0.03, 0.2);
   engine::Random random(19);
   for (const double block_m : {1e-4, 1e-3, 1e-2, 0.1, 0.5}) {
-    std::vector<Vec3> places;
+    std::vector<Vec3> points;
     for (int block = 0; block < 60; ++block) {
       const Vec3 middle = random_vector(random, 0.7);
-      for (int i = 0; i < 64; ++i) places.push_back(middle + random_vector(random, block_m));
+      for (int i = 0; i < 64; ++i) points.push_back(middle + random_vector(random, block_m));
     }
-    const Errors errors = compare(shapes, places, 1.0);
+    const Errors errors = compare(shapes, points, 1.0);
     CAPTURE(block_m);
     CHECK(errors.distance < 2e-6);
     CHECK(errors.wrong_owner == 0);
   }
 }
 
-TEST_CASE("a place far away hides nothing from its neighbors in the block") {
-  constexpr int kTogether = 64;
+TEST_CASE("a particle far away does not change the results of its neighbors in the block") {
+  constexpr int kBlockParticles = 64;
   const proxy::BodyProxy proxy = proxy_of(random_ellipsoids(13, 120, 0.6, 0.03, 0.2));
   const Collider collider(proxy);
   engine::Random random(29);
@@ -330,14 +330,14 @@ TEST_CASE("a place far away hides nothing from its neighbors in the block") {
   for (int block = 0; block < 200; ++block) {
     Cloud cloud;
     cloud.add(std::pow(10.0, random.uniform(2.0, 8.0)) * random_direction(random));
-    while (cloud.size() < kTogether) cloud.add(random_vector(random, 0.7));
+    while (cloud.size() < kBlockParticles) cloud.add(random_vector(random, 0.7));
     const Cloud before = cloud;
     std::vector<Contact> contacts(cloud.size());
     collider.query({}, cloud.particles(), contacts);
     Cloud filleted = before;
     collider.resolve({}, cloud.particles(), {});
     collider.resolve({}, filleted.particles(), {.blend_m = 0.01f});
-    for (std::size_t i = 1; i < kTogether; ++i) {
+    for (std::size_t i = 1; i < kBlockParticles; ++i) {
       const double truth = proxy::proxy_distance(proxy, before.position(i) + collider.origin()).distance;
       worst_m = std::max(worst_m, std::abs(truth - double{contacts[i].signed_distance}));
       for (const Cloud* out : {&cloud, &filleted})
@@ -349,22 +349,23 @@ TEST_CASE("a place far away hides nothing from its neighbors in the block") {
   CHECK(lowest_m > -2e-6);
 }
 
-TEST_CASE("random shapes to 1:1000 over twelve decades: the foot is exact to 1e-6 and lies on the surface") {
+TEST_CASE(
+    "a closest point is exact to 2e-6 and on the surface, at aspect ratios to 1:1000 over twelve decades") {
   engine::Random random(4);
   for (int shape = 0; shape < 120; ++shape) {
     Ellipsoid e;
     const double size_m = std::pow(10.0, random.uniform(-6.0, 6.0));
     e.axes = random_rotation(random);
     for (int axis = 0; axis < 3; ++axis) e.radii[axis] = size_m * std::pow(10.0, random.uniform(-3.0, 0.0));
-    std::vector<Vec3> places;
+    std::vector<Vec3> points;
     for (int i = 0; i < 4000; ++i) {
       Vec3 p = random.uniform(0.0, 3.0) * random_direction(random);
       // Every other point lies on symmetry planes, where the focal ellipse is.
       for (int axis = 0; i % 2 == 0 && axis < 3; ++axis)
         if (random.below(2) == 0) p[axis] = 0.0;
-      places.push_back(e.axes * e.radii.cwiseProduct(p));
+      points.push_back(e.axes * e.radii.cwiseProduct(p));
     }
-    const Errors errors = compare({e}, places, e.radii.maxCoeff());
+    const Errors errors = compare({e}, points, e.radii.maxCoeff());
     CAPTURE(e.radii.transpose());
     // The farthest points are three radii away, and the oracle's ellipsoid is not rounded to 44 bits.
     CHECK(errors.distance < 2e-6);
@@ -373,11 +374,11 @@ TEST_CASE("random shapes to 1:1000 over twelve decades: the foot is exact to 1e-
   }
 }
 
-TEST_CASE("fewer contacts than particles: only so many are asked about") {
+TEST_CASE("with fewer contacts than particles only so many particles are queried") {
   const auto shapes = random_ellipsoids(3, 20, 0.8, 0.02, 0.2);
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
-  for (const Vec3& p : places_around(6, 1000, 1.2)) cloud.add(p - collider.origin());
+  for (const Vec3& p : points_around(6, 1000, 1.2)) cloud.add(p - collider.origin());
   std::vector<Contact> all(cloud.size()), some(cloud.size());
   collider.query({}, cloud.particles(), all);
   for (const std::size_t room : {std::size_t{0}, std::size_t{1}, std::size_t{300}, std::size_t{999}}) {
@@ -390,12 +391,12 @@ TEST_CASE("fewer contacts than particles: only so many are asked about") {
   }
 }
 
-TEST_CASE("a pose that is none is refused, and the proxy stays where it was") {
+TEST_CASE("an invalid pose is rejected, and the proxy stays where it was") {
   const auto shapes = random_ellipsoids(4, 5, 0.8, 0.02, 0.2);
   Collider collider(proxy_of(shapes));
   CHECK(collider.proxy_hash() == proxy_of(shapes).hash());
-  const auto answer = [&] { return collider.query({0.1f, 0.2f, 0.3f}).signed_distance; };
-  const float before = answer();
+  const auto distance = [&] { return collider.query({0.1f, 0.2f, 0.3f}).signed_distance; };
+  const float before = distance();
   auto moved = shapes;
   for (Ellipsoid& e : moved) e.center.x() += 0.5;
   CHECK_FALSE(collider.move_to(std::span(moved).first(4), 0.01));
@@ -411,7 +412,7 @@ TEST_CASE("a pose that is none is refused, and the proxy stays where it was") {
   bad = moved;
   bad[0].axes.col(1) *= -1.0;
   CHECK_FALSE(collider.move_to(bad, 0.01));
-  CHECK(answer() == before);
+  CHECK(distance() == before);
   CHECK(collider.move_to(moved, 0.01));
-  CHECK(answer() != before);
+  CHECK(distance() != before);
 }

@@ -46,7 +46,7 @@ std::size_t below(const std::vector<Ellipsoid>& shapes, const Collider& collider
 
 }  // namespace
 
-TEST_CASE("after the nearest response no particle is inside, whatever the union looks like") {
+TEST_CASE("a closest-point response leaves no particle inside any union") {
   struct Scene {
     int ellipsoids;
     double least_m, largest_m;
@@ -75,7 +75,9 @@ TEST_CASE("after the nearest response no particle is inside, whatever the union 
     }
 }
 
-TEST_CASE("extreme shapes: needles, discs, identical, nested and tangent ellipsoids, particles at centers") {
+TEST_CASE(
+    "a response resolves needles, discs, identical, nested and tangent ellipsoids, and particles at "
+    "centers") {
   std::vector<std::vector<Ellipsoid>> scenes;
   scenes.push_back(random_ellipsoids(5, 6, 0.2, 0.001, 1.0));
   scenes.push_back(std::vector<Ellipsoid>(50, random_ellipsoids(5, 1, 0.1, 0.1, 0.3)[0]));
@@ -100,7 +102,7 @@ TEST_CASE("extreme shapes: needles, discs, identical, nested and tangent ellipso
   }
 }
 
-TEST_CASE("outside a single ellipsoid the response is its closest point") {
+TEST_CASE("a particle inside a single ellipsoid moves to its closest point") {
   const auto shapes = random_ellipsoids(21, 1, 0.1, 0.1, 0.4);
   const Collider collider(proxy_of(shapes));
   Cloud cloud = around_origin(2, 5000, 0.3);
@@ -113,7 +115,7 @@ TEST_CASE("outside a single ellipsoid the response is its closest point") {
   }
 }
 
-TEST_CASE("a particle in a crease goes to the crease, which no single push finds") {
+TEST_CASE("a particle near a crease moves to the crease, which no single push reaches") {
   auto shapes = ball(0.5);
   shapes.push_back(shapes[0]);
   shapes[0].center.x() = -0.4;
@@ -129,7 +131,7 @@ TEST_CASE("a particle in a crease goes to the crease, which no single push finds
   CHECK(cloud.position(0).y() == doctest::Approx(0.3).epsilon(1e-3));
 }
 
-TEST_CASE("a push is bounded beyond taking back the path, in floats and on the exact side") {
+TEST_CASE("a push is limited beyond undoing the path, by kernels and by the exact side") {
   for (const bool exactly : {false, true}) {
     auto shapes = ball(0.5);
     // Next to so small an ellipsoid a path of 5 mm is long enough for the exact side.
@@ -147,7 +149,7 @@ TEST_CASE("a push is bounded beyond taking back the path, in floats and on the e
   }
 }
 
-TEST_CASE("options that are no lengths do no harm") {
+TEST_CASE("options that are NaN, infinite or negative do no harm") {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();
   const auto shapes = ball(1.0);
@@ -173,7 +175,7 @@ TEST_CASE("options that are no lengths do no harm") {
   CHECK(moved({.blend_m = -1.0f}) == usual);
 }
 
-TEST_CASE("the paper's case 3: a particle leaves on the side where it came in") {
+TEST_CASE("the paper's case 3: a particle leaves a limb on the side where it entered") {
   const auto shapes = limb();
   const Collider collider(proxy_of(shapes));
   engine::Random random(6);
@@ -190,7 +192,7 @@ TEST_CASE("the paper's case 3: a particle leaves on the side where it came in") 
   for (std::size_t i = 0; i < cloud.size(); ++i) CHECK(cloud.y[i] > 0.03f);
 }
 
-TEST_CASE("what is left of a path through a limb goes along its surface") {
+TEST_CASE("the rest of a path through a limb continues along its surface") {
   const auto shapes = limb();
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
@@ -204,7 +206,7 @@ TEST_CASE("what is left of a path through a limb goes along its surface") {
   CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
 }
 
-TEST_CASE("what is left of a path into a corner goes along both surfaces of it") {
+TEST_CASE("the rest of a path into a corner continues along both of its surfaces") {
   std::vector<Ellipsoid> shapes(2);  // a floor up to y = 0, and a wall up to x = 0
   shapes[0].radii = Vec3(0.5, 0.05, 0.5);
   shapes[0].center.y() = -0.05;
@@ -222,7 +224,7 @@ TEST_CASE("what is left of a path into a corner goes along both surfaces of it")
   CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
 }
 
-TEST_CASE("nothing tunnels through a limb at speeds up to 1000 m/s") {
+TEST_CASE("no particle tunnels through a limb at speeds up to 1,000 m/s") {
   const auto shapes = limb();
   const Collider collider(proxy_of(shapes));
   engine::Random random(8);
@@ -244,7 +246,7 @@ TEST_CASE("nothing tunnels through a limb at speeds up to 1000 m/s") {
   }
 }
 
-TEST_CASE("sliding along a limb is not taken for tunnelling") {
+TEST_CASE("a particle that slides along a limb does not count as on the wrong side") {
   const auto shapes = limb();
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
@@ -256,7 +258,7 @@ TEST_CASE("sliding along a limb is not taken for tunnelling") {
   CHECK(collider.resolve({}, cloud.particles(), {}).wrong_side == 0);
 }
 
-TEST_CASE("a deep start comes out over several calls, no faster than it is allowed") {
+TEST_CASE("particles deep inside come out over several calls, and no push exceeds the limit") {
   const auto shapes = ball(0.5);
   const Collider collider(proxy_of(shapes));
   Cloud cloud = around_origin(4, 500, 0.25);
@@ -274,7 +276,7 @@ TEST_CASE("a deep start comes out over several calls, no faster than it is allow
   CHECK(lowest_m(shapes, collider, cloud) > -1e-6);
 }
 
-TEST_CASE("relief: after the response no particle is below the corrected surface") {
+TEST_CASE("with relief a response leaves no particle below the corrected surface") {
   const auto shapes = random_ellipsoids(12, 40, 0.4, 0.06, 0.25);
   const auto proxy = proxy_of(with_relief(data_of(shapes), 16, 0.003, 5));
   const Collider collider(proxy);
@@ -295,7 +297,7 @@ TEST_CASE("relief: after the response no particle is below the corrected surface
   CHECK(report.pinched < report.contacts / 20);
 }
 
-TEST_CASE("relief: a push that leads from body to body asks anew about those that were not near before") {
+TEST_CASE("with relief a push from body to body finds ellipsoids that were not near before") {
   // The push out of the first ball leads 40 mm deep into the second, and the push out of that into the third,
   // which is neither near the start nor near the end of the first push.
   std::vector<Ellipsoid> shapes = ball(0.1);
@@ -316,7 +318,7 @@ TEST_CASE("relief: a push that leads from body to body asks anew about those tha
   CHECK(lowest_m(shapes, collider, cloud) > -1e-5);
 }
 
-TEST_CASE("the paper's response leaves particles inside where ellipsoids meet, and says how many") {
+TEST_CASE("the paper's response leaves particles inside where ellipsoids meet, and counts them") {
   const auto shapes = random_ellipsoids(7, 40, 0.4, 0.05, 0.3);
   const Collider collider(proxy_of(shapes));
   Cloud cloud = around_origin(11, 10000, 0.6);
@@ -328,7 +330,8 @@ TEST_CASE("the paper's response leaves particles inside where ellipsoids meet, a
   CHECK(std::abs(static_cast<double>(report.unresolved) - static_cast<double>(inside)) <= 2.0);
 }
 
-TEST_CASE("the paper's response on one ellipsoid: along the central ray, speed scaled by the lengths") {
+TEST_CASE(
+    "the paper's response to one ellipsoid moves along the central ray and scales the speed by lengths") {
   const Collider collider(proxy_of(ball(1.0)));
   Cloud cloud;
   cloud.add(Vec3(0.5, 0.0, 0.0), Vec3(0.0, 3.0, 0.0));

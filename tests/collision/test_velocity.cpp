@@ -22,7 +22,7 @@ std::vector<Ellipsoid> corner(engine::Random& random, int count) {
 }
 
 /// The closest velocity that leads into none of the surfaces, by Dykstra's projections.
-Vec3 nearest_velocity(const std::vector<Vec3>& normals, Vec3 v) {
+Vec3 closest_velocity(const std::vector<Vec3>& normals, Vec3 v) {
   std::vector<double> pushed(normals.size(), 0.0);
   for (int round = 0; round < 500; ++round)
     for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -42,14 +42,14 @@ double velocity_error(const std::vector<Vec3>& touched, const Vec3& before, cons
     std::vector<Vec3> normals;
     for (std::size_t i = 0; i < touched.size(); ++i)
       if (some >> i & 1u) normals.push_back(touched[i]);
-    least = std::min(least, (nearest_velocity(normals, before) - after).norm());
+    least = std::min(least, (closest_velocity(normals, before) - after).norm());
   }
   return least;
 }
 
 }  // namespace
 
-TEST_CASE("velocity: the inward part goes, friction slows the rest by at most its share") {
+TEST_CASE("a contact removes the inward velocity, and friction slows the rest by at most its share") {
   const Collider collider(proxy_of(ball(1.0)));
   for (const float friction : {0.0f, 0.3f, 2.0f}) {
     Cloud cloud;
@@ -65,7 +65,7 @@ TEST_CASE("velocity: the inward part goes, friction slows the rest by at most it
   }
 }
 
-TEST_CASE("in a crease the velocity goes into neither side, and stays along it") {
+TEST_CASE("in a crease the velocity leads into neither side and stays along the crease") {
   auto shapes = ball(0.5);
   shapes.push_back(shapes[0]);
   shapes[0].center.x() = -0.4;
@@ -83,7 +83,7 @@ TEST_CASE("in a crease the velocity goes into neither side, and stays along it")
   CHECK(cloud.velocity(0).z() == doctest::Approx(0.5).epsilon(1e-3));
 }
 
-TEST_CASE("velocities go into no surface that a particle ends on, and mind no other") {
+TEST_CASE("velocities lead into no surface that a particle ends on and ignore all others") {
   for (const bool exactly : {false, true}) {
     CAPTURE(exactly);
     engine::Random random(23);
@@ -116,7 +116,7 @@ TEST_CASE("velocities go into no surface that a particle ends on, and mind no ot
   }
 }
 
-TEST_CASE("a surface that the last push went clear of takes no velocity") {
+TEST_CASE("a surface that the last push left removes no velocity") {
   // Balls this large are almost planes. The push out of the first leads into the second, that out of both
   // into the third, and where first and third meet, the second is 0.7 mm away.
   const Vec3 normal[] = {Vec3(0.754781, -0.65547, -0.0257928), Vec3(0.906131, 0.119704, 0.405707),
@@ -142,7 +142,7 @@ TEST_CASE("a surface that the last push went clear of takes no velocity") {
   }
 }
 
-TEST_CASE("a moving body drags what it touches with its own velocity") {
+TEST_CASE("a moving body drags a particle in contact with its own velocity") {
   auto shapes = ball(1.0);
   Collider collider(proxy_of(shapes));
   shapes[0].center.x() = 0.03;

@@ -67,7 +67,7 @@ Shots shoot(const std::vector<Ellipsoid>& shapes, const Vec3& origin, double spe
 
 }  // namespace
 
-TEST_CASE("a hundred thousand shots, up to 1000 m/s: none goes through, with and without relief") {
+TEST_CASE("none of 100,000 shots at up to 1,000 m/s passes through a union, with and without relief") {
   const auto shapes = random_ellipsoids(3, 12, 0.4, 0.05, 0.2);
   const auto data = data_of(shapes);
   for (const bool relief : {false, true}) {
@@ -95,7 +95,7 @@ TEST_CASE("a hundred thousand shots, up to 1000 m/s: none goes through, with and
   }
 }
 
-TEST_CASE("a second at 1000 m/s: shots of a kilometer do not go through either") {
+TEST_CASE("no shot of a second at 1,000 m/s passes through a union") {
   const auto shapes = random_ellipsoids(3, 12, 0.4, 0.05, 0.2);
   const Collider collider(proxy_of(shapes));
   Shots shots = shoot(shapes, collider.origin(), 1000.0 / kFrame_s, 5000);
@@ -115,7 +115,7 @@ TEST_CASE("a second at 1000 m/s: shots of a kilometer do not go through either")
   CHECK(inside == 0);
 }
 
-TEST_CASE("four thousand ellipsoids hold what is shot at them") {
+TEST_CASE("no shot passes through a union of 4,096 ellipsoids") {
   const auto shapes = random_ellipsoids(4, 4096, 1.0, 0.02, 0.1);
   const Collider collider(proxy_of(shapes));
   Shots shots = shoot(shapes, collider.origin(), 300.0, 300);
@@ -128,7 +128,7 @@ TEST_CASE("four thousand ellipsoids hold what is shot at them") {
   CHECK(through == 0);
 }
 
-TEST_CASE("a limb that sweeps past particles at rest takes them along, at any speed") {
+TEST_CASE("a limb that sweeps past particles at rest takes them along at any speed") {
   const auto start = limb();
   const auto data = data_of(start);
   for (const bool relief : {false, true})
@@ -157,7 +157,7 @@ TEST_CASE("a limb that sweeps past particles at rest takes them along, at any sp
     }
 }
 
-TEST_CASE("a limb that turns past a particle at rest takes it along") {
+TEST_CASE("a limb that turns past particles at rest takes them along") {
   std::vector<Ellipsoid> shapes(1);
   shapes[0].radii = Vec3(0.3, 0.03, 0.03);
   Collider collider(proxy_of(shapes));
@@ -178,7 +178,7 @@ TEST_CASE("a limb that turns past a particle at rest takes it along") {
   }
 }
 
-TEST_CASE("a move that takes no time, or a second, leaves everything finite and outside") {
+TEST_CASE("a move of no duration, or of a second, leaves particles finite and outside") {
   for (const double dt_s : {0.0, 1.0}) {
     auto shapes = limb();
     Collider collider(proxy_of(shapes));

@@ -62,12 +62,12 @@ std::vector<Ellipsoid> shapes_of(const bodice::proxy::BodyProxy& proxy) {
 
 /// Number of results that differ with a workspace from those without.
 int differences(const Collider& collider, Cloud& cloud, Workspace& workspace, float within_m) {
-  std::vector<Contact> fresh(cloud.size()), kept(cloud.size());
+  std::vector<Contact> fresh(cloud.size()), cached(cloud.size());
   collider.query({}, cloud.particles(), fresh, {.within_m = within_m});
-  collider.query({}, cloud.particles(), kept, workspace, {.within_m = within_m});
+  collider.query({}, cloud.particles(), cached, workspace, {.within_m = within_m});
   int differ = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    differ += std::memcmp(&fresh[i], &kept[i], sizeof(Contact)) != 0;
+    differ += std::memcmp(&fresh[i], &cached[i], sizeof(Contact)) != 0;
   return differ;
 }
 
@@ -87,14 +87,14 @@ int differences_over(int calls, const Collider& collider, Cloud& cloud, Change&&
 /// unchanged.
 int response_differences(const Collider& collider, const Cloud& cloud, Workspace& workspace,
                          const bodice::collision::ResolveOptions& options) {
-  Cloud fresh = cloud, kept = cloud;
+  Cloud fresh = cloud, cached = cloud;
   const auto one = collider.resolve({}, fresh.particles(), options);
-  const auto other = collider.resolve({}, kept.particles(), options, workspace);
+  const auto other = collider.resolve({}, cached.particles(), options, workspace);
   CHECK(one.contacts == other.contacts);
   CHECK(one.deepest_m == other.deepest_m);
   int differ = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i)
-    differ += fresh.position(i) != kept.position(i) || fresh.velocity(i) != kept.velocity(i);
+    differ += fresh.position(i) != cached.position(i) || fresh.velocity(i) != cached.velocity(i);
   return differ;
 }
 
@@ -111,7 +111,7 @@ double equally_near_y(const std::vector<Ellipsoid>& shapes) {
 
 }  // namespace
 
-TEST_CASE("candidates that are kept while particles wander change no bit") {
+TEST_CASE("cached candidates change no bit of a query while particles wander") {
   for (const bool relief : {false, true})
     for (const double step_m : {0.0, 2e-4, 1e-3, 4e-3, 0.05}) {
       CAPTURE(relief);
@@ -128,7 +128,7 @@ TEST_CASE("candidates that are kept while particles wander change no bit") {
     }
 }
 
-TEST_CASE("candidates that are kept while all particles drift one way change no bit") {
+TEST_CASE("cached candidates change no bit of a query while all particles drift in one direction") {
   // All particles of a batch pass from one ellipsoid to another at once.
   const Collider collider(crowd(false, 200));
   Cloud cloud = lattice(20);
@@ -138,7 +138,7 @@ TEST_CASE("candidates that are kept while all particles drift one way change no 
   CHECK(differences_over(60, collider, cloud, drift) == 0);
 }
 
-TEST_CASE("candidates that are kept while the proxy moves change no bit") {
+TEST_CASE("cached candidates change no bit of a query while the proxy moves") {
   for (const bool relief : {false, true}) {
     const auto proxy = crowd(relief, 60);
     Collider collider(proxy);
@@ -152,7 +152,7 @@ TEST_CASE("candidates that are kept while the proxy moves change no bit") {
   }
 }
 
-TEST_CASE("responses among candidates that are kept change no bit") {
+TEST_CASE("cached candidates change no bit of a response while particles wander") {
   for (const bool relief : {false, true}) {
     const Collider collider(crowd(relief, 60));
     Random random(87);
@@ -165,7 +165,7 @@ TEST_CASE("responses among candidates that are kept change no bit") {
   }
 }
 
-TEST_CASE("responses among candidates that are kept follow thickness, drift and the proxy's own way") {
+TEST_CASE("cached candidates change no bit of a response while thickness, particles and proxy change") {
   for (const bool relief : {false, true}) {
     const auto proxy = crowd(relief, 60);
     Collider collider(proxy);
@@ -186,7 +186,7 @@ TEST_CASE("responses among candidates that are kept follow thickness, drift and 
   }
 }
 
-TEST_CASE("a relief blend is summed in the same order, whichever candidate was met first") {
+TEST_CASE("a relief blend is summed in the same order, whichever candidate was found first") {
   // One ball lies in the mirror plane of two others, so that both are equally far there, and the one listed
   // last is third in the sum. The first particles are near only one of them, so that the search finds it
   // before the other.
@@ -212,7 +212,7 @@ TEST_CASE("a relief blend is summed in the same order, whichever candidate was m
   }
 }
 
-TEST_CASE("one workspace serves colliders and clouds in turns") {
+TEST_CASE("one workspace serves several colliders and clouds in turns without changing a bit") {
   const Collider first(crowd(false, 60)), second(crowd(true, 60)), third(crowd(false, 200));
   Cloud large = lattice(14), small = lattice(9);
   Workspace workspace;
@@ -224,7 +224,7 @@ TEST_CASE("one workspace serves colliders and clouds in turns") {
   CHECK(differ == 0);
 }
 
-TEST_CASE("particles that are not finite spoil nothing that is kept") {
+TEST_CASE("particles that are not finite do not corrupt the candidate cache") {
   const Collider collider(crowd(false, 60));
   Cloud cloud = lattice(14);
   Workspace workspace;
@@ -237,7 +237,7 @@ TEST_CASE("particles that are not finite spoil nothing that is kept") {
   CHECK(differ == 0);
 }
 
-TEST_CASE("coordinates of any scale keep their candidates") {
+TEST_CASE("cached candidates change no bit of a query at any scale of coordinates") {
   for (const double scale : {1e-6, 1e-3, 1e6}) {
     CAPTURE(scale);
     auto data = data_of(random_ellipsoids(85, 40, 0.4 * scale, 0.03 * scale, 0.15 * scale));

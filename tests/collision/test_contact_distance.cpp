@@ -74,7 +74,7 @@ int differing(const std::vector<Contact>& limited, const std::vector<Contact>& u
 
 }  // namespace
 
-TEST_CASE("within a contact distance the answers are those of all distances, filtered, to the bit") {
+TEST_CASE("a query with a contact distance gives the bits of an unlimited query, filtered") {
   for (const bool relief : {false, true})
     for (const double margin_m : {0.0, 0.003}) {
       const Collider collider(scene(relief, margin_m));
@@ -95,7 +95,7 @@ TEST_CASE("within a contact distance the answers are those of all distances, fil
     }
 }
 
-TEST_CASE("within a contact distance where the octants of an ellipsoid differ in height") {
+TEST_CASE("a contact distance filters exactly where the octants of an ellipsoid differ in height") {
   // The ellipsoids are larger than the gaps between them, so that many particles have a single candidate.
   const auto data = data_of(random_ellipsoids(8, 24, 0.7, 0.06, 0.12));
   for (const int nodes : {2, 5, 16}) {
@@ -114,7 +114,8 @@ TEST_CASE("within a contact distance where the octants of an ellipsoid differ in
   }
 }
 
-TEST_CASE("a contact distance says the same of one particle as of many, and for any number of workers") {
+TEST_CASE(
+    "a contact distance gives the same bits for one particle as for many, and for any number of workers") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief, 0.001));
     Cloud cloud = random_cloud(6000);
@@ -133,7 +134,7 @@ TEST_CASE("a contact distance says the same of one particle as of many, and for 
   }
 }
 
-TEST_CASE("a contact distance on every instruction set") {
+TEST_CASE("a contact distance filters exactly on every instruction set") {
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief, 0.0));
     Cloud cloud = random_cloud(5000);
@@ -149,7 +150,7 @@ TEST_CASE("a contact distance on every instruction set") {
   }
 }
 
-TEST_CASE("more ellipsoids around than the kernels hold, with a contact distance") {
+TEST_CASE("a contact distance filters plain results exactly, and relief to 2 micrometers, on overflow") {
   for (const bool relief : {false, true}) {
     const auto data = data_of(random_ellipsoids(5, 700, 0.05, 0.08, 0.1));
     const Collider collider(proxy_of(relief ? with_relief(data, 4, 0.002, 3) : data));

@@ -79,7 +79,7 @@ double lowest_m(const proxy::BodyProxy& proxy, const Collider& collider, const C
 
 }  // namespace
 
-TEST_CASE("a particle that is put back beside a jump of relief is clear as it is stored, in floats") {
+TEST_CASE("a particle put back beside a jump of relief is clear after rounding to float") {
   const auto data = jumping_disc();
   const auto proxy = proxy_of(data);
   const Ellipsoid& disc = data.ellipsoids[0].shape;
@@ -103,7 +103,7 @@ TEST_CASE("a particle that is put back beside a jump of relief is clear as it is
   CHECK(lowest_m(proxy, collider, cloud) > -5e-5);
 }
 
-TEST_CASE("a particle that leaves by a ray across a jump of relief is clear as it is stored, in floats") {
+TEST_CASE("a particle that exits along a ray across a jump of relief is clear after rounding to float") {
   // A ball lies under the disc: there is no room below, and upward the corrected distance jumps to clear.
   auto data = jumping_disc();
   const Ellipsoid disc = data.ellipsoids[0].shape;
@@ -130,7 +130,7 @@ TEST_CASE("a particle that leaves by a ray across a jump of relief is clear as i
   CHECK(lowest_m(proxy, collider, cloud) > -5e-5);
 }
 
-TEST_CASE("a particle in a gap narrower than the clearance goes midway, and stays there") {
+TEST_CASE("a particle in a gap narrower than the clearance goes midway and stays there") {
   for (const bool relief : {false, true}) {
     const auto data = data_of(two_balls(0.1, 0.002));
     const Collider collider(proxy_of(relief ? with_relief(data, 8, 1e-5, 5) : data));
@@ -150,7 +150,7 @@ TEST_CASE("a particle in a gap narrower than the clearance goes midway, and stay
   }
 }
 
-TEST_CASE("a particle in a fold without room is not thrown, and its push is bounded") {
+TEST_CASE("a particle in a fold without room stays near, and no push exceeds the limit") {
   const auto shapes = two_balls(0.1, -0.002);
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
@@ -167,7 +167,8 @@ TEST_CASE("a particle in a fold without room is not thrown, and its push is boun
   CHECK(last.norm() < 0.03);
 }
 
-TEST_CASE("in a fold whose crease is far a bounded particle goes midway at once, not along the fold") {
+TEST_CASE(
+    "with limited pushes a particle in a fold with a far crease goes midway at once, not along the fold") {
   // 12 mm from the axis the balls overlap by half a millimeter; their crease is 2 mm farther out.
   const Collider collider(proxy_of(two_balls(0.1, -0.002)));
   for (const bool exactly : {false, true}) {
@@ -187,7 +188,7 @@ TEST_CASE("in a fold whose crease is far a bounded particle goes midway at once,
 }
 
 TEST_CASE(
-    "where the clearance is farther than a push may be, the search ends when places no longer improve") {
+    "cutting planes stop when positions no longer improve, where the clearance is beyond the longest push") {
   constexpr double kClearance_m = 0.005, kDepth_m = 0.001;
   const UnionField field(two_balls(0.1, 0.003));
   // On the path out of the wedge the distance rises by a fifth of the path's length, so that four depths do
@@ -203,7 +204,7 @@ TEST_CASE(
   CHECK(pushed.rounds <= 4);
 }
 
-TEST_CASE("without a bound the same particle leaves the fold for certain") {
+TEST_CASE("with unlimited pushes a particle leaves a fold without room") {
   const auto shapes = two_balls(0.1, -0.002);
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
@@ -213,7 +214,7 @@ TEST_CASE("without a bound the same particle leaves the fold for certain") {
   CHECK(brute_force(shapes, cloud.position(0) + collider.origin()).signed_distance > -1e-6);
 }
 
-TEST_CASE("without a bound a particle whose crease is far goes there, not through what faces it") {
+TEST_CASE("with unlimited pushes a particle in a fold goes to a far crease, not through the facing surface") {
   const auto shapes = two_balls(0.1, -0.002);
   const Collider collider(proxy_of(shapes));
   Cloud cloud;
@@ -228,13 +229,13 @@ TEST_CASE("without a bound a particle whose crease is far goes there, not throug
   CHECK((cloud.velocity(0) - Vec3(0.0, 0.0, 0.5)).norm() < 0.01);
 }
 
-TEST_CASE("fillets turn the normal's jump at a crease into a turn") {
+TEST_CASE("fillets replace the normal's jump at a crease by a turn") {
   const double sharp_rad = largest_jump_rad(0.0f), smooth_rad = largest_jump_rad(0.02f);
   CHECK(sharp_rad > 0.5);
   CHECK(smooth_rad < 0.05);
 }
 
-TEST_CASE("with fillets no particle is inside, and where one ellipsoid is near nothing changes") {
+TEST_CASE("with fillets no particle is inside, and most do not change where only one ellipsoid is near") {
   const auto shapes = random_ellipsoids(7, 40, 0.4, 0.05, 0.3);
   const Collider collider(proxy_of(shapes));
   engine::Random random(5);

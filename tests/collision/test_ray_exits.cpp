@@ -9,7 +9,7 @@ using namespace bodice;
 using namespace bodice::collision;
 using namespace bodice_test;
 
-TEST_CASE("a ray out of a union ends clear of all of it, for certain, wherever it starts") {
+TEST_CASE("a ray exit is clear of every ellipsoid, wherever the ray starts") {
   for (const double clearance_m : {0.0, 0.003})
     for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
       const auto shapes = random_ellipsoids(seed, 12, 0.2, 0.02, 0.3);
@@ -55,7 +55,7 @@ double first_exit_m(const std::vector<Ellipsoid>& shapes, const Vec3& p, const V
 
 }  // namespace
 
-TEST_CASE("a ray ends where it first can, however flat it leaves an ellipsoid") {
+TEST_CASE("a ray exit is the first clear point of the ray, however flat the ray leaves an ellipsoid") {
   for (const double clearance_m : {0.0, 0.003}) {
     const auto shapes = random_ellipsoids(9, 12, 0.2, 0.02, 0.3);
     const UnionField field(shapes);
@@ -73,7 +73,8 @@ TEST_CASE("a ray ends where it first can, however flat it leaves an ellipsoid") 
   }
 }
 
-TEST_CASE("what planes do not settle is not thrown: a push is a few times the shortest ray out at most") {
+TEST_CASE(
+    "a push that cutting planes do not settle is at most a few times as long as the shortest ray exit") {
   const auto shapes = random_ellipsoids(12, 40, 0.4, 0.06, 0.25);
   const UnionField field(shapes);
   for (const double h_m : {0.0, 0.003}) {
@@ -102,7 +103,7 @@ TEST_CASE("what planes do not settle is not thrown: a push is a few times the sh
   }
 }
 
-TEST_CASE("where the ways along all normals graze another surface, a particle leaves another way") {
+TEST_CASE("a particle leaves a fold in another direction where rays along all normals graze a surface") {
   // A fold between two balls along x. A needle under it is nearly straight over the fold's length, so that
   // both exits from the fold run within the clearance of the needle.
   constexpr double kThickness_m = 0.003;
@@ -125,7 +126,7 @@ TEST_CASE("where the ways along all normals graze another surface, a particle le
   CHECK(std::abs(cloud.x[0]) < 0.01f);
 }
 
-TEST_CASE("a path that begins in contact is followed, on either side of the surface by rounding") {
+TEST_CASE("a path that begins in contact is followed even if rounding puts its start inside") {
   std::vector<Ellipsoid> shapes(1);
   shapes[0].radii = Vec3(0.1, 0.07, 0.05);
   shapes[0].center = Vec3(0.3, 0.2, 0.1);
