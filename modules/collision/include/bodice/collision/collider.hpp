@@ -63,8 +63,8 @@ enum class Response : std::uint8_t {
                   ///< velocity is removed, friction slows the rest
 };
 
-/// Settings of a response. NaN counts as zero, and so does a negative value where it makes no sense; a
-/// max_push_m of NaN counts as no limit.
+/// Settings of a response. NaN, an infinite length, and a negative value where it makes no sense count as
+/// zero; a max_push_m of NaN counts as no limit.
 struct ResolveOptions {
   Response response = Response::kClosestPoint;
   float thickness_m = 0.0f;  ///< distance kept between particle and surface
