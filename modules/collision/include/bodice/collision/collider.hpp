@@ -47,6 +47,7 @@ enum class Accuracy : std::uint8_t {
   kFirstOrder,
 };
 
+/// Settings of a query.
 struct QueryOptions {
   /// Contact distance, meters. Particles at this signed distance or less get the same bits as without a
   /// limit, all others kNoEllipsoid; with relief and over 256 ellipsoids near one point the results agree to
@@ -57,14 +58,15 @@ struct QueryOptions {
   Accuracy accuracy = Accuracy::kExact;
 };
 
+/// How a particle inside the proxy is moved out.
 enum class Response : std::uint8_t {
   kPaper,  ///< moved along the ray from the ellipsoid's center by the least-distance rule; speed is scaled
   kClosestPoint,  ///< moved to the closest point of the union's surface, certified to be outside; inward
                   ///< velocity is removed, friction slows the rest
 };
 
-/// Settings of a response. NaN, an infinite length, and a negative value where it makes no sense count as
-/// zero; a max_push_m of NaN counts as no limit.
+/// Settings of a response. NaN, an infinite thickness_m or blend_m, and negative values where they make no
+/// sense count as zero. A max_push_m of NaN means no limit.
 struct ResolveOptions {
   Response response = Response::kClosestPoint;
   float thickness_m = 0.0f;  ///< distance kept between particle and surface
