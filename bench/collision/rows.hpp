@@ -9,6 +9,7 @@ namespace bench {
 
 inline constexpr double kBand_m = 0.03;  ///< largest distance of the particles from the skin
 
+/// One row of the table: what is timed, and its times.
 struct Row {
   std::string name;
   std::function<void()> work;

@@ -23,12 +23,14 @@ namespace {
 constexpr std::size_t kBatch = 100000;
 constexpr double kReliefBar_m = 5e-5;
 
+/// Counts over all judged particles.
 struct Count {
   std::size_t particles = 0, inside = 0, wrong_side = 0;
   double deepest_m = 0.0;
   collision::ContactReport report;
 };
 
+/// Particles and their safe positions.
 struct Batch {
   std::vector<float> x, y, z, sx, sy, sz;
   collision::Particles view(bool with_safe) {

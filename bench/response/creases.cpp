@@ -25,6 +25,7 @@ namespace {
 constexpr int kPaths = 2000, kSteps = 200;
 constexpr double kStep_m = 1e-4;
 
+/// Particles with velocities.
 struct Batch {
   std::vector<float> x, y, z, vx, vy, vz;
   explicit Batch(std::size_t count) : x(count), y(count), z(count), vx(count), vy(count), vz(count) {}
@@ -56,6 +57,7 @@ std::vector<Vec3> on_surface(const proxy::BodyProxy& proxy, const collision::Col
   return points;
 }
 
+/// Quantiles of the angles between consecutive normals.
 struct Jumps {
   double p99_deg = 0.0, p9999_deg = 0.0, largest_deg = 0.0;
 };

@@ -27,6 +27,7 @@ double cpu_ms() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
+/// Frame times of one drape, and the extremes of its report.
 struct Outcome {
   std::vector<double> frame_ms;
   collision::ContactReport contacts;

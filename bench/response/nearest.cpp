@@ -48,6 +48,7 @@ Vec3 random_position(engine::Random& random, std::size_t i) {
   return p;
 }
 
+/// The largest error so far, and counts over all cases.
 struct Worst {
   double relative = 0.0;
   std::size_t above_bar = 0, not_finite = 0, cases = 0;

@@ -19,6 +19,7 @@ inline constexpr double kFrameThickness_m = 0.005;
 /// Rotation of everything from frame to frame, there and back.
 bodice::geometry::Mat3 frame_turn(int frame);
 
+/// Time of a frame and the number of its contacts.
 struct FrameCost {
   double ms = 0.0;
   std::size_t contacts = 0;

@@ -9,12 +9,14 @@
 
 namespace bench {
 
+/// A point with its exact distance to the skin.
 struct Probe {
   bodice::geometry::Vec3 point;
   double signed_distance_m = 0.0;  ///< exact
   bool counts = true;              ///< false next to skin that is buried in another limb
 };
 
+/// Errors of a proxy over the probes.
 struct NearSkin {
   double mean_mm = 0.0, p95_mm = 0.0, max_mm = 0.0;
   double missed_percent = 0.0;  ///< of all points near the skin: deeper than 1 mm but found outside

@@ -12,6 +12,7 @@
 
 namespace bench {
 
+/// Another method that answers the same query.
 struct Peer {
   std::string name;
   double build_ms = 0.0;  ///< cost in every frame if the body moves

@@ -9,6 +9,7 @@
 
 namespace bench {
 
+/// A tree of boxes over the triangles of one mesh.
 class TriangleTree {
  public:
   /// Splits at the median of the longest axis; the mesh must outlive the tree.

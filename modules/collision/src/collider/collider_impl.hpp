@@ -18,6 +18,7 @@
 
 namespace bodice::collision {
 
+/// The data of a Collider: a proxy in all the forms that queries and responses read.
 struct Collider::Impl {
   explicit Impl(const proxy::BodyProxy& proxy);
 

@@ -6,6 +6,7 @@
 
 namespace bodice::collision {
 
+/// The spatial order and the candidate cache of one set of particles.
 struct WorkspaceData {
   ParticleOrder order;
   CandidateCache candidates;

@@ -7,6 +7,7 @@
 
 namespace bodice::collision {
 
+/// Where a push by cutting planes led.
 struct PushResult {
   geometry::Vec3 position;
   ReliefSample sample;  ///< at that position

@@ -74,6 +74,7 @@ class Halfspaces {
     return cone.closest_point(v, kVelocityRounding * v.norm()).value_or(geometry::Vec3::Zero());
   }
 
+  /// A point in half-spaces that were set back until they have one.
   struct RelaxedPoint {
     geometry::Vec3 x;
     double set_back_m;  ///< by how much the planes were set back; zero: all are kept

@@ -15,6 +15,7 @@
 
 namespace bodice::collision {
 
+/// Evaluates the distance of plain ellipsoids, of the smooth union or of relief around one particle.
 class NearField {
  public:
   /// Distances below `below_m` are exact; of all others it is only known that they are not below it. `relief`
@@ -55,6 +56,7 @@ class NearField {
  private:
   static constexpr int kCapacity = 160, kMaxTerms = 6, kRootSteps = 24;
 
+  /// An ellipsoid that may matter, with its bound.
   struct Candidate {
     std::uint32_t ellipsoid;
     UnionField::Plane plane;  ///< its bound, taken at the center

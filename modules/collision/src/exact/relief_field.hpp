@@ -14,6 +14,7 @@ struct TableValue {
 };
 TableValue read_table(const ReliefTables& relief, const BakedTable& table, const geometry::Vec3& w);
 
+/// A distance with its gradient and owner.
 struct ReliefSample {
   double distance_m = 0.0;                            ///< F, margin not subtracted
   geometry::Vec3 gradient = geometry::Vec3::UnitX();  ///< gradient of F with the weights held constant

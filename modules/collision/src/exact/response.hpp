@@ -12,6 +12,7 @@
 
 namespace bodice::collision {
 
+/// What a response made of one particle.
 enum class Outcome : std::uint8_t {
   kClear,       ///< outside, not moved
   kResolved,    ///< moved, and certified to be outside of every ellipsoid
@@ -19,6 +20,7 @@ enum class Outcome : std::uint8_t {
   kUnresolved,  ///< still inside although no limit stopped it
 };
 
+/// One particle in double precision; a response changes position and velocity.
 struct ParticleState {
   geometry::Vec3 position;
   geometry::Vec3 velocity;

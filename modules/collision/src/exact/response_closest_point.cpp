@@ -61,6 +61,7 @@ void move(const Vec3& x, const Halfspaces& contact, const ResolveOptions& option
   particle.velocity = relative + particle.surface_velocity;
 }
 
+/// The closest-point response of one particle: cutting planes first, then the fallbacks.
 class Resolver {
  public:
   Resolver(const UnionField& field, const ReliefTables* relief, double clearance_m,

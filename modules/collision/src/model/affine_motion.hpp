@@ -6,6 +6,7 @@
 
 namespace bodice::collision {
 
+/// Maps a material point from the last pose to this one: linear x + translation.
 struct AffineMotion {
   geometry::Mat3 linear = geometry::Mat3::Identity();
   geometry::Vec3 translation = geometry::Vec3::Zero();

@@ -47,6 +47,7 @@ struct CullArrays {
 /// Number of ellipsoids in a group of the broad phase: the floats of the widest vector.
 inline constexpr int kGroup = 16;
 
+/// A proxy's ellipsoids in every form that the kernels read.
 struct Baked {
   static constexpr std::size_t kPad = kGroup;
 

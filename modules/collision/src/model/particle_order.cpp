@@ -38,6 +38,7 @@ struct Range {
   }
 };
 
+/// Buffers of a radix sort: indices and keys, each twice.
 struct Order {
   std::span<std::uint32_t> order, key, other_order, other_key;
 };

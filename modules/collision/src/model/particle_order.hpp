@@ -14,6 +14,7 @@ namespace bodice::collision {
 
 struct WorkspaceData;
 
+/// A spatial order of one set of particles, refreshed when its blocks have spread.
 class ParticleOrder {
  public:
   /// Sorts again if the number of particles has changed or the blocks have spread since the last sort.

@@ -37,6 +37,7 @@ struct alignas(64) OctantReach {
   float shift_m(float m) const { return m * (m > 0.0f ? rise : fall); }
 };
 
+/// All relief tables of a proxy, with bounds on what they add.
 struct ReliefTables {
   /// `proxy` must have one table an ellipsoid; tables[k] becomes that of ellipsoid order[k].
   ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order);

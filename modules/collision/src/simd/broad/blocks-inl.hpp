@@ -70,6 +70,7 @@ HWY_INLINE M lanes_below(int i, int end) {
 /// Up to this many shared candidates, each block evaluates all bounds instead of filtering the candidates.
 constexpr int kFew = kWidth / 2;
 
+/// Candidates of all ranges and of each, and the columns that hold them.
 struct BroadPhaseLists {
   Columns columns, alone;
   CandidateList of_all, of_range[kBlocks], of_alone, of_span[CachedBatch::kSpans];
@@ -163,6 +164,7 @@ HWY_INLINE void in_parts(const Baked& baked, const LaneRange& range, BroadPhaseL
   }
 }
 
+/// A batch of positions without contacts, cache or limit.
 HWY_INLINE QueryBatch batch_at(const float* x, const float* y, const float* z, int count) {
   return {.x = x,
           .y = y,

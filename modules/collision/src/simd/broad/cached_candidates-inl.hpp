@@ -72,6 +72,7 @@ struct StepBounds {
   float least_m;  ///< least bound of all
 };
 
+/// Bounds all candidates at one step of particles and evaluates the probable owners exactly.
 template <int kTables>
 HWY_INLINE void bound_step(const Baked& baked, const QueryBatch& batch, int from,
                            const CandidateList& candidates, const Columns& columns, StepBounds& out) {
@@ -124,6 +125,7 @@ HWY_INLINE bool cache_step(const Baked& baked, const QueryBatch& batch, int from
   return true;
 }
 
+/// Stores the positions and the pose from which displacements count.
 HWY_INLINE void cache_positions(const QueryBatch& batch, CachedBatch& cached) {
   for (int i = 0; i < batch.count; i += kWidth) {
     hn::Store(hn::LoadU(f, batch.x + i), f, cached.x + i);

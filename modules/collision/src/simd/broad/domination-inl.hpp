@@ -33,6 +33,7 @@ struct LaneRange {
   int begin, end;
 };
 
+/// Indices of candidates, rising; whole vectors are written behind the last.
 struct CandidateList {
   int count = 0;
   alignas(64) std::int32_t index[kMaxCandidates + 16];
@@ -213,6 +214,7 @@ HWY_INLINE V3 corners(const Aabb& e, int i) {
           hn::MulAdd(half.z, hn::Load(f, kSide[2] + i), middle.z)};
 }
 
+/// Sets the exact distances of the two ellipsoids at the corners of each box.
 template <class Source>
 HWY_INLINE void measure_corners(const Source& source, const LaneRange* ranges, int count,
                                 Dominators* dominators) {
@@ -313,6 +315,7 @@ HWY_INLINE bool collect_not_dominated(const Source& source, const Aabb& around, 
                             out, keep);
 }
 
+/// Finds the two dominators of each range, then its candidates as collect_not_dominated() does.
 template <bool kLimited, class Source>
 HWY_INLINE bool find_candidates(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
                                 float beyond_m, float limit_m, CandidateList* out) {

@@ -30,6 +30,7 @@ struct TangentCandidates {
   float reach_m = 0.0f;   ///< pushes up to this long reach no other ellipsoid
 };
 
+/// An axis-aligned box as middle and half sides, meters; radius is half its diagonal.
 struct Aabb {
   float middle[3], half[3];
   float radius;

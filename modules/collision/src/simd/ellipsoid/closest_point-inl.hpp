@@ -74,6 +74,7 @@ HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
           field(c, 16, k), field(c, 17, k), field(c, 18, k)};
 }
 
+/// The closest points of one vector of particles, in the frames of their ellipsoids.
 struct ClosestPointLanes {
   V distance;  ///< meters, negative inside
   V3 n;        ///< outward normal times r0, in the octant and axes of w

@@ -165,6 +165,7 @@ HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& t
           hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f))};
 }
 
+/// The corrected distance of one ellipsoid and its gradient.
 struct Corrected {
   V value;      ///< F_k, meters
   V3 gradient;  ///< gradient of F_k, local frame of the collider

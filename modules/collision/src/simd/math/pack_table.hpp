@@ -7,6 +7,7 @@ namespace bodice::collision {
 
 inline constexpr int kPackLanes = 8;
 
+/// The table of all masks, computed at compile time.
 struct PackTable {
   /// For each mask the indices of its lanes, rising, then zeros. Masks of four lanes use the first four
   /// entries.

@@ -25,6 +25,7 @@ using VI = hn::Vec<I>;
 constexpr F f;
 constexpr int kWidth = static_cast<int>(hn::MaxLanes(F()));
 
+/// A point or vector in each lane.
 struct V3 {
   V x, y, z;
 };

@@ -76,6 +76,7 @@ HWY_INLINE bool make_room(int vectors, const ReliefTables* relief, const Columns
   return true;
 }
 
+/// Candidates that one pass over the columns takes.
 constexpr int kPerPass = 4;
 
 /// One vector of particles with more candidates below their limits than LowestBounds holds.
@@ -219,6 +220,7 @@ HWY_INLINE bool evaluate_ranges(const Baked& baked, const ReliefTables* relief, 
   return true;
 }
 
+/// Buffers of one call, on the stack.
 struct Scratch {
   BroadPhaseLists lists;
   Open open;

@@ -20,6 +20,7 @@ struct ClearedPositions {
   const std::int32_t *first, *second, *third;
 };
 
+/// The lowest bound at each position among the ellipsoids that were not cleared.
 HWY_INLINE void bound_others(const Baked& baked, const Columns& columns, const CandidateList& candidates,
                              const ClearedPositions& cleared, int from,
                              LowestBounds<1> (&out)[kVectorsInStep]) {

@@ -12,6 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
+/// Writes the contacts of all lanes.
 HWY_INLINE void write_results(const BatchResults& found, const QueryBatch& batch) {
   const V margin = all(batch.margin_m);
   for (int i = 0; i < batch.count; i += kWidth) {
@@ -31,6 +32,7 @@ HWY_INLINE void drop_beyond(const QueryBatch& batch) {
   }
 }
 
+/// Writes the contacts of the particles in `in_range`.
 HWY_INLINE void write_in_range(const InRange& in_range, const BatchResults& found, const QueryBatch& batch) {
   const V margin = all(batch.margin_m);
   for (int i = 0; i < in_range.count; i += kWidth) {
@@ -65,6 +67,7 @@ HWY_INLINE void write_none_except(const InRange& in_range, const QueryBatch& bat
     }
 }
 
+/// Query with a contact distance; on overflow all distances are found and then filtered.
 HWY_INLINE bool query_within_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
   BatchResults found;
   Scratch scratch;
@@ -81,6 +84,7 @@ HWY_INLINE bool query_within_lanes(const Baked& baked, const ReliefTables* relie
   return true;
 }
 
+/// Query of all distances.
 HWY_INLINE bool query_batch_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
   BatchResults found;
   Scratch scratch;

@@ -54,6 +54,7 @@ HWY_INLINE V plain_target(const Surface& surface, VI owner) {
                     all(surface.target_m()));
 }
 
+/// Evaluates the smooth union at all positions of the batch.
 HWY_INLINE void measure_filleted(const Surface& surface, const QueryBatch& batch, BatchResults& out) {
   const ResponseParameters& c = surface.parameters;
   for (int i = 0; i < batch.count; i += kWidth) {

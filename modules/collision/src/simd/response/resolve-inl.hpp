@@ -315,6 +315,7 @@ HWY_INLINE bool resolve_filleted(const Baked& baked, const ResponseParameters& p
   return resolve_on(surface, kShortPath * shortest_m, candidates.reach_m, batch, out);
 }
 
+/// Resolves the batch, with fillets if they are requested and there is no relief.
 HWY_INLINE bool resolve_lanes(const Baked& baked, const ReliefTables* relief,
                               const ResponseParameters& parameters, const ParticleBatch& batch,
                               BatchResponse& out) {

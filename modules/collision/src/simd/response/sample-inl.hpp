@@ -11,6 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
+/// The distance of the smooth union in each lane.
 struct Sample {
   V distance;   ///< F, meters; where every ellipsoid is farther, its initial value
   V3 gradient;  ///< unit length for plain ellipsoids

@@ -41,6 +41,7 @@ HWY_INLINE V smooth_root(const Blended& b, V least, V per_blend) {
   return hn::Min(root, least);
 }
 
+/// Distance, gradient and owner of the smooth union where an ellipsoid is nearer than `below`.
 HWY_INLINE Sample smooth_distance(const Baked& baked, float blend_m, const TangentCandidates& c, V3 p,
                                   V below) {
   Blended blended;
