@@ -1,6 +1,6 @@
-// Effect of creases on particles, with and without fillets: the largest jump of the contact normal between
-// points a tenth of a millimeter apart, the motion of a particle at rest in a substep, and the response's
-// cost beside a query's.
+// Effect of creases on particles, with and without fillets. Measured are the largest jump of the contact
+// normal between points a tenth of a millimeter apart, the motion of a particle at rest in a substep, and the
+// costs of response and query.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -298,8 +298,8 @@ TEST_CASE("with relief a response leaves no particle below the corrected surface
 }
 
 TEST_CASE("with relief a push from body to body finds ellipsoids that were not near before") {
-  // The push out of the first ball leads 40 mm deep into the second, and the push out of that into the third,
-  // which is neither near the start nor near the end of the first push.
+  // The push out of the first ball leads 40 mm deep into the second, and the push out of that into the third.
+  // The third is near neither the start nor the end of the first push.
   std::vector<Ellipsoid> shapes = ball(0.1);
   shapes.resize(3, shapes[0]);
   shapes[0].center = Vec3(-0.06, 0.0, 0.0);
