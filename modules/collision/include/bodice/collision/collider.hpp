@@ -93,8 +93,8 @@ struct ContactReport {
   std::uint64_t fallbacks = 0;       ///< resolved by the certified fallback
   std::uint64_t judged_exactly = 0;  ///< left to the exact side; some have no contact
   std::uint64_t not_finite = 0;      ///< NaN or infinite, and not moved
-  std::uint32_t max_iterations = 0;
-  float deepest_m = 0.0f;  ///< depth of the deepest particle before the response
+  std::uint32_t max_iterations = 0;  ///< largest number of pushes of one particle
+  float deepest_m = 0.0f;            ///< depth of the deepest particle before the response
   void add(const ContactReport& other);
 };
 
