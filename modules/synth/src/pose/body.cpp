@@ -8,6 +8,7 @@
 #include <bodice/engine/message.hpp>
 
 #include "pose/deform.hpp"
+#include "pose/rig.hpp"
 #include "pose/truth.hpp"
 
 namespace bodice::synth {
@@ -121,6 +122,8 @@ Body make(const engine::Context& context, const BodyOptions& options, const body
   body.landmarks = true_landmarks(posed);
   body.joints = true_joints(figure, bones);
   place(body, h);
+  body.skeleton = true_skeleton(bones, body.joints);
+  body.weights = sparse_weights(weights);
   return body;
 }
 

@@ -11,6 +11,8 @@
 #include <bodice/body/proportions.hpp>
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/rig/skeleton.hpp>
+#include <bodice/rig/skinning.hpp>
 
 namespace bodice::synth {
 
@@ -54,6 +56,10 @@ struct Body {
   std::vector<Joint> joints;
   std::vector<body::Landmark> landmarks;  ///< all of LandmarkId, confidence 1
   double stature_m = 0.0;                 ///< of the standing body, whatever the pose
+  /// The joints of body::JointId but the middle of the spine, and those of fingers and thumbs, in their own
+  /// frames (body/joint.hpp). The bind pose is the mesh as it is.
+  rig::Skeleton skeleton;
+  rig::SkinWeights weights;  ///< #V
 };
 
 /// Deterministic in the options. Fails with kInvalidArgument outside stature .4..2.6 m, BMI 10..70,
