@@ -1,0 +1,31 @@
+// Each motion as postures over its phase, from 0 to 1.
+#pragma once
+
+#include "posture/posture.hpp"
+
+namespace bodice::rigging {
+
+/// What a motion knows of the body, units of the leg.
+struct Build {
+  double hip_half_width = 0.1;
+  double thigh = 0.5, calf = 0.45;  ///< lengths of the bones
+};
+
+/// Feet flat below the hips, arms hanging.
+Posture standing(const Build& build);
+
+/// How far a gait comes in one cycle, units of the leg.
+double walking_stride();
+double running_stride();
+
+Posture walk(double phase, const Build& build);
+Posture run(double phase, const Build& build);
+Posture turn(double phase, const Build& build);
+Posture spin(double phase, const Build& build);
+Posture reach(double phase, const Build& build);
+Posture sit(double phase, const Build& build);
+Posture squat(double phase, const Build& build);
+Posture arms_up(double phase, const Build& build);
+Posture dance(double phase, const Build& build);
+
+}  // namespace bodice::rigging
