@@ -16,7 +16,7 @@ class SteadyClock final : public Clock {
 }  // namespace
 
 const Clock& steady_clock() noexcept {
-  // Stateless, so sharing it shares nothing.
+  // The clock has no state, so that sharing it shares nothing.
   static const SteadyClock clock;
   return clock;
 }

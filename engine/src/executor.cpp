@@ -14,7 +14,7 @@ class InlineExecutor final : public Executor {
 }  // namespace
 
 Executor& inline_executor() noexcept {
-  // Stateless, so sharing it shares nothing.
+  // The executor has no state, so that sharing it shares nothing.
   static InlineExecutor executor;
   return executor;
 }

@@ -12,7 +12,7 @@
 
 namespace bodice::engine {
 
-/// Tells the processor, and after a while the system, that this thread is only waiting.
+/// Signals the processor, and after a while the system, that this thread only waits.
 class Backoff {
  public:
   void pause() noexcept {
@@ -26,15 +26,15 @@ class Backoff {
   }
 
  private:
-  static constexpr int kSpins = 200;  // about 10 us: longer than most gaps between the loops of a frame
+  static constexpr int kSpins = 200;  // about 10 us: longer than most gaps between loops of a frame
   int rounds_ = 0;
 };
 
-/// Where background threads meet the frame: the frame opens its loops here, and background threads that
-/// come to a checkpoint take part in them.
+/// The frame opens its loops here, and background threads that reach a checkpoint take part in them.
 class FrameGate {
  public:
-  /// `background_share` in [0, 1): of a background thread's time, at least, however long the frames.
+  /// `background_share` in [0, 1) is the least share of its time that a background thread keeps for itself,
+  /// however long the frames are.
   FrameGate(int frame_workers, BackgroundYield policy, double background_share, const Clock& clock)
       : seats_(frame_workers),
         policy_(policy),
@@ -47,7 +47,7 @@ class FrameGate {
   }
   void end_frame() noexcept { epoch_.fetch_add(1); }
 
-  /// One loop with its number of seats. Frees the visitors before it goes.
+  /// One loop with its number of seats. Its destructor releases the visitors.
   struct OpenLoop {
     IndexLoop indices;
     std::atomic<int> seats;
@@ -63,13 +63,13 @@ class FrameGate {
   }
   /// Returns when no background thread is in the loop any more.
   void close() noexcept {
-    // A visitor counts itself before it looks for the loop; here the loop is taken away before the count
-    // is read. In one total order (seq_cst), a visitor that this misses finds no loop.
+    // A visitor counts itself before it looks for the loop, while here the loop is removed before the count
+    // is read. In the total order of seq_cst, a visitor that this misses finds no loop.
     open_.store(nullptr);
     for (Backoff backoff; visitors_.load() != 0;) backoff.pause();
   }
 
-  /// A checkpoint of a background thread.
+  /// Handles a checkpoint of a background thread.
   void yield() noexcept {
     const std::uint64_t epoch = epoch_.load(std::memory_order_relaxed);
     const bool in_frame = epoch % 2 == 1;
@@ -82,8 +82,8 @@ class FrameGate {
   }
 
  private:
-  // Until the end of this frame and no other; then background work has its share of time before the next
-  // stay. Where frames leave gaps, that time lies in the gap; where they leave none, this keeps it alive.
+  // Helps until the end of this frame and no other; then background work has its share of time before the
+  // next stay. Where frames leave gaps, that time lies in the gap; elsewhere it keeps background work going.
   void stay(std::uint64_t epoch) noexcept {
     const std::int64_t begin_ns = clock_.now_ns();
     Backoff backoff;
@@ -114,11 +114,11 @@ class FrameGate {
   alignas(64) std::atomic<OpenLoop*> open_{nullptr};
   alignas(64) std::atomic<int> visitors_{0};
   alignas(64) std::atomic<int> guests_{0};
-  // Guests stay until the same moment, so that one time serves them all.
+  // All helpers stay until the same moment, so that one time serves all of them.
   std::atomic<std::int64_t> busy_until_ns_{std::numeric_limits<std::int64_t>::min()};
 };
 
-/// Runs the frame's loops on free workers of the base executor and on background threads alike.
+/// Runs the frame's loops on free workers of the base executor and on background threads.
 class FrameExecutor final : public Executor {
  public:
   FrameExecutor(Executor& base, FrameGate& gate) : base_(base), gate_(gate) {}
@@ -127,8 +127,8 @@ class FrameExecutor final : public Executor {
   void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) override {
     FrameGate::OpenLoop loop{{count, body}, gate_.seats()};
     if (count <= 1 || gate_.seats() == 1 || !gate_.open(loop)) {
-      // Nested in an open loop: on a background thread that helps, waiting for others could mean to take
-      // up background work, which would wait for this frame.
+      // This loop is nested in an open loop. If a helping background thread waited for other threads here, it
+      // could take up background work, which would wait for this frame.
       loop.indices.work();
     } else {
       const Closing closing(gate_);
@@ -139,7 +139,7 @@ class FrameExecutor final : public Executor {
   }
 
  private:
-  /// Closes the gate though the base throws: nobody may look for a loop that is gone.
+  /// Closes the gate even if the base throws, because no thread may look for a loop that is gone.
   struct Closing {
     explicit Closing(FrameGate& open) : gate(open) {}
     ~Closing() { gate.close(); }
@@ -152,7 +152,7 @@ class FrameExecutor final : public Executor {
   FrameGate& gate_;
 };
 
-/// Runs background work on the base executor, where each block lets a frame go first.
+/// Runs background work on the base executor; each block lets a frame go first.
 class BackgroundExecutor final : public Executor {
  public:
   BackgroundExecutor(Executor& base, FrameGate& gate) : base_(base), gate_(gate) {}

@@ -52,8 +52,8 @@ struct FramePipeline::Impl {
   BackgroundExecutor background_executor;
   std::uint64_t next_frame = 0;
   std::vector<StreamBase*> streams;
-  std::vector<std::shared_ptr<Job>> jobs;     // not known to be done
-  std::vector<std::shared_ptr<Job>> waiting;  // not given to a worker yet
+  std::vector<std::shared_ptr<Job>> jobs;     // jobs that may still run
+  std::vector<std::shared_ptr<Job>> waiting;  // jobs that no worker has yet
 };
 
 FramePipeline::FramePipeline(const Context& context, const PipelineOptions& options)
@@ -139,7 +139,7 @@ bool StreamBase::wait_for_result() noexcept {
     const bool last_look = job_->done();
     collect();
     if (has_collected() || last_look) return has_collected();
-    job_->run();  // nothing if a worker has it
+    job_->run();  // does nothing if a worker has begun it
     if (job_->events() == seen) job_->wait_for_event_after(seen);
   }
 }

@@ -10,7 +10,7 @@ namespace bodice::engine {
 
 struct GraphBuilder::Impl {
   std::vector<detail::GraphNode> nodes;
-  std::optional<std::string> misuse;  // the first mistake that only a call can show
+  std::optional<std::string> misuse;  // the first mistake that is found in a call instead of in build()
 };
 
 namespace {
@@ -42,7 +42,7 @@ std::optional<Error> find_bad_node(const std::vector<detail::GraphNode>& nodes) 
   return std::nullopt;
 }
 
-// Kahn's algorithm, least number first, so that the order is a function of the graph alone.
+// Sorts by Kahn's algorithm, least number first, so that the order is a function of the graph alone.
 std::vector<std::uint32_t> topological_order(const std::vector<detail::GraphNode>& nodes) {
   std::vector<std::size_t> missing(nodes.size());
   std::vector<std::vector<std::uint32_t>> successors(nodes.size());
@@ -63,7 +63,7 @@ std::vector<std::uint32_t> topological_order(const std::vector<detail::GraphNode
   return order;
 }
 
-// Walks back along unplaced needs until a task comes up twice: that stretch is a cycle.
+// Walks back along needs that have no rank until a task repeats: the part between is a cycle.
 std::string describe_cycle(const std::vector<detail::GraphNode>& nodes, const std::vector<bool>& placed) {
   std::vector<std::uint32_t> path;
   auto at = static_cast<std::uint32_t>(std::ranges::find(placed, false) - placed.begin());

@@ -1,7 +1,7 @@
-// A run of a task graph. Every worker takes the first of the ready tasks; the worker that makes more tasks
-// ready than it can run itself invites others with a nested bulk. Nobody waits for a task: a worker that
-// finds none ready leaves, so that it is free for loops inside the tasks that still run. What all workers
-// share on the way from one task to the next is a word of the ready set, no lock.
+// A run of a task graph. Every worker takes the first of the ready tasks. A worker that makes more tasks
+// ready than it can run calls further workers with a nested bulk. No worker waits for a task: one that finds
+// none ready leaves, and is free for loops inside the tasks that still run. Between two tasks, workers share
+// only a word of the ready set, and no lock.
 #include <algorithm>
 
 #include "graph_impl.hpp"
@@ -9,7 +9,8 @@
 namespace bodice::engine {
 namespace {
 
-// Each invitation nests one bulk deeper; past this depth all workers return and start afresh from the top.
+// Each call of further workers nests one bulk deeper. At this depth all workers return and start again from
+// the top.
 constexpr int kMaxDepth = 32;
 
 Error canceled_error(const std::string& task) {
@@ -24,8 +25,8 @@ struct TaskGraph::Impl::Run {
   const OnProgress* on_progress;
 
   bool take(std::uint32_t& rank) {
-    for (std::size_t place = 0; !graph.unwinding_ && graph.ready_.take_least(place);) {
-      rank = graph.rank_at_[place];
+    for (std::size_t position = 0; !graph.unwinding_ && graph.ready_.take_least(position);) {
+      rank = graph.rank_at_[position];
       if (rank < graph.limit_) return true;
     }
     return false;
@@ -57,7 +58,7 @@ struct TaskGraph::Impl::Run {
     graph.exception_ = std::move(exception);
   }
 
-  // A canceled run starts nothing more, so it takes the place below every rank; the first one is told.
+  // A canceled run starts nothing more: its limit is below every rank. The first cancellation is reported.
   void cancel(std::uint32_t rank) {
     const std::lock_guard lock(graph.failure_mutex_);
     const bool first = !graph.error_ || graph.error_->code != ErrorCode::kCanceled;
@@ -73,7 +74,7 @@ struct TaskGraph::Impl::Run {
     bool more = false;
     for (const std::uint32_t next : graph.successors[rank]) {
       if (graph.missing_[next].fetch_sub(1) != 1) continue;
-      graph.ready_.insert(graph.place_of_[next]);
+      graph.ready_.insert(graph.position_of_[next]);
       more = true;
     }
     if (on_progress) (*on_progress)({++graph.tasks_ended_, graph.tasks_total, graph.node(rank).name});
@@ -81,8 +82,8 @@ struct TaskGraph::Impl::Run {
     if (more) invite(depth);
   }
 
-  // Calls in as many workers as have something to do beside this one; too deep in a nest, tells all to
-  // return and start afresh instead.
+  // Calls as many further workers as there is work for. If the nest is too deep, all workers return and start
+  // again instead.
   void invite(int depth) {
     const auto workers = static_cast<std::size_t>(context.executor->concurrency());
     const std::size_t working = graph.working_;
@@ -102,7 +103,8 @@ struct TaskGraph::Impl::Run {
       ++graph.working_;
       for (std::uint32_t rank = 0; take(rank);) execute(rank, depth);
       --graph.working_;
-      // One who made tasks ready a moment ago may have counted on this worker, and invited nobody.
+      // Another worker may just have made tasks ready without calling further ones, because this one was at
+      // work.
     } while (!graph.unwinding_ && !graph.ready_.empty());
   }
 
@@ -145,7 +147,7 @@ Result<void> TaskGraph::Impl::run(const Context& context, const OnProgress* on_p
       return Error{ErrorCode::kInvalidArgument, "Task graph: input '" + node(rank).name + "' was never set.",
                    "Call set() before run()."};
     }
-    if (!node(rank).is_input && needed_tasks[rank] == 0) ready_.insert(place_of_[rank]);
+    if (!node(rank).is_input && needed_tasks[rank] == 0) ready_.insert(position_of_[rank]);
   }
   run.work_all();
   if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));

@@ -10,9 +10,10 @@
 namespace bodice::engine {
 namespace {
 
-// A task lent to the host: free -> reserved -> queued -> running -> ended, and its bulk frees it; or, when
-// the bulk is over before the task began, queued -> revoked -> collectable: then whoever needs a task
-// finishes its handle and frees it. Background tasks have no bulk and end as collectable.
+// The state of a task lent to the host. Usually: free -> reserved -> queued -> running -> ended, after which
+// its bulk frees it. If the bulk is over before the task began: queued -> revoked -> collectable, after which
+// the next thread that needs a task finishes its handle and frees it. Background tasks have no bulk and end
+// as collectable.
 enum class TaskState { kFree, kReserved, kQueued, kRunning, kEnded, kRevoked, kCollectable };
 
 struct HostTask {
@@ -57,7 +58,7 @@ class HostExecutor final : public Executor {
 
   void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) override {
     IndexLoop loop(count, body);
-    // A bulk borrows at most this many helpers, so that the list of them fits on the stack.
+    // The number of a bulk's helpers is bounded, so that their list fits on the stack.
     std::array<HostTask*, 128> helpers;
     const std::size_t wanted = std::min({count, static_cast<std::size_t>(concurrency()), helpers.size()});
     std::size_t lent = 0;
@@ -98,7 +99,7 @@ class HostExecutor final : public Executor {
     task.handle = callbacks_.enqueue(callbacks_.host, name, &run_host_task, &task);
   }
 
-  // The bulk is over: waits for the helper if it is in the loop, else tells it to stay away.
+  // The bulk is over: waits for the helper if it is in the loop, else revokes its task.
   void leave(HostTask& task) {
     TaskState expected = TaskState::kQueued;
     if (task.state.compare_exchange_strong(expected, TaskState::kRevoked)) return;

@@ -9,15 +9,15 @@
 
 namespace bodice::engine {
 
-/// The indices of one bulk, drawn one by one by however many threads call work().
+/// The indices of one bulk. Any number of threads call work(), which draws them one by one.
 class IndexLoop {
  public:
   IndexLoop(std::size_t count, FunctionRef<void(std::size_t)> body) : count_(count), body_(body) {}
 
   /// Runs bodies until no index is left to draw. Exceptions are kept for rethrow().
   void work() noexcept {
-    // In a short loop a draw that finds nothing costs as much as a body: one who comes late only looks, and
-    // who draws the last index knows that it is the last.
+    // In a short loop a draw that finds nothing costs as much as a body. Hence a late thread only reads the
+    // counter, and the thread that draws the last index stops without a further draw.
     if (next_.load(std::memory_order_relaxed) >= count_) return;
     for (;;) {
       const std::size_t index = next_.fetch_add(1, std::memory_order_relaxed);
@@ -32,8 +32,9 @@ class IndexLoop {
     }
   }
 
-  /// After every worker left: throws the exception of the least index that failed. Indices are drawn in
-  /// order, so each one below a failed one has run too, and which exception wins does not depend on timing.
+  /// Throws the exception of the least index that failed; called after every worker left. Indices are drawn
+  /// in order, so that all below a failed one have run too: which exception is thrown does not depend on
+  /// timing.
   void rethrow() {
     if (exception_) std::rethrow_exception(exception_);
   }
@@ -47,7 +48,7 @@ class IndexLoop {
     exception_ = std::current_exception();
   }
 
-  // Drawn from by every worker, so it keeps the cache line to itself.
+  // Every worker draws from it, so that it has a cache line of its own.
   alignas(64) std::atomic<std::size_t> next_{0};
   alignas(64) const std::size_t count_;
   const FunctionRef<void(std::size_t)> body_;

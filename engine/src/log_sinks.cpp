@@ -37,7 +37,7 @@ class CallbackSink final : public spdlog::sinks::base_sink<std::mutex> {
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
-    // spdlog itself holds back std::exception only, and a job that logs is noexcept.
+    // spdlog catches only std::exception, and a job that logs is noexcept.
     try {
       callback_(from_spdlog(message.level), {message.payload.data(), message.payload.size()});
     } catch (...) {
@@ -48,14 +48,14 @@ class CallbackSink final : public spdlog::sinks::base_sink<std::mutex> {
   std::function<void(LogLevel, std::string_view)> callback_;
 };
 
-// The logger is our own, outside of spdlog's global registry.
+// The logger is outside of spdlog's global registry.
 class SpdlogLog final : public Log {
  public:
   SpdlogLog(spdlog::sink_ptr sink, LogLevel least) : logger_("bodice", std::move(sink)) {
     logger_.set_level(to_spdlog(least));
     logger_.flush_on(spdlog::level::warn);
     logger_.set_pattern("[%H:%M:%S.%e] [%l] %v");
-    // spdlog would print its own failures; a library must not, and a full disk must not stop a fit.
+    // spdlog would print its own failures. A library must not, and a full disk must not stop a fit.
     logger_.set_error_handler([](const std::string&) {});
   }
   void write(LogLevel level, std::string_view message) override {

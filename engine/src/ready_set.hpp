@@ -9,7 +9,7 @@
 namespace bodice::engine {
 
 /// A set of small numbers from which any thread takes the least one, without a lock and without waiting.
-/// Every member but resize() may be called at any time by any thread.
+/// Every member except resize() may be called at any time by any thread.
 class ReadySet {
  public:
   void resize(std::size_t size) {
@@ -22,7 +22,7 @@ class ReadySet {
     mark(number / 64);
   }
 
-  /// False if it was empty at some moment of the call.
+  /// Returns false if the set was empty at some moment of the call.
   bool take_least(std::size_t& number) {
     for (std::size_t s = 0; s < summary_.size(); ++s) {
       for (std::uint64_t marks = summary_[s].load(); marks != 0; marks &= marks - 1) {
@@ -72,15 +72,16 @@ class ReadySet {
         }
         bits = before & ~least;
       }
-      // A number may come between the look and the unmarking, while its owner sees the mark still there.
+      // A number may be inserted between the test and the unmarking, while the inserting thread still sees
+      // the mark.
       summary_[leaf / 64].fetch_and(~bit(leaf));
       if (word.load() == 0) return false;
       mark(leaf);
     }
   }
 
-  std::vector<Word> leaves_;   // a bit a number
-  std::vector<Word> summary_;  // a bit a leaf; set where the leaf is not empty, or was not a moment ago
+  std::vector<Word> leaves_;   // one bit a number
+  std::vector<Word> summary_;  // one bit a leaf, set if the leaf is not empty or was not a moment ago
 };
 
 }  // namespace bodice::engine

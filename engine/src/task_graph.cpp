@@ -28,8 +28,9 @@ TaskGraph::Impl::Impl(std::vector<detail::GraphNode> nodes_in, std::vector<std::
   std::iota(rank_at_.begin(), rank_at_.end(), 0u);
   std::ranges::stable_sort(rank_at_, std::ranges::greater(),
                            [this](std::uint32_t rank) { return node(rank).priority; });
-  place_of_.resize(nodes.size());
-  for (std::uint32_t place = 0; place < nodes.size(); ++place) place_of_[rank_at_[place]] = place;
+  position_of_.resize(nodes.size());
+  for (std::uint32_t position = 0; position < nodes.size(); ++position)
+    position_of_[rank_at_[position]] = position;
   ready_.resize(nodes.size());
   missing_ = std::vector<std::atomic<std::uint32_t>>(nodes.size());
 }

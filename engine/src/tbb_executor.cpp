@@ -17,8 +17,8 @@
 namespace bodice::engine {
 namespace {
 
-// TBB takes the least of all limits in force; one number for all executors keeps them out of each other's
-// way. It caps threads, and makes none.
+// TBB takes the least of all limits in force. Executors therefore share one number, so that none lowers
+// another's limit. It caps threads and makes none.
 constexpr int kProcessLimit = 256;
 
 class TbbExecutor final : public Executor {
@@ -42,30 +42,30 @@ class TbbExecutor final : public Executor {
 
   void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) override {
     IndexLoop loop(count, body);
-    const Place place = find_place();
+    const Position position = find_position();
     if (count <= 1 || concurrency_ == 1) {
       loop.work();
-    } else if (place == Place::kBulk) {
-      // Tasks of a nested bulk carry the isolation of the outermost one, so that its waiting threads can
-      // take them; a fresh isolation for each nesting would leave those threads idle.
+    } else if (position == Position::kBulk) {
+      // Tasks of a nested bulk have the isolation of the outermost one, so that its waiting threads can take
+      // them. A new isolation for each nesting would leave those threads idle.
       arena_.execute([&] { spread(loop, count); });
-    } else if (place == Place::kArena || attached_) {
+    } else if (position == Position::kArena || attached_) {
       spread_isolated(loop, count);
     } else if (!entered_.exchange(true, std::memory_order_acquire)) {
       const Leaving leaving(entered_);
       spread_isolated(loop, count);
     } else {
-      // The arena keeps one slot for a thread from outside. TBB would have a second one wait and run
-      // whatever is there meanwhile, for as long as that takes; it does better alone.
+      // The arena keeps one slot for a thread from outside. TBB would let a second one wait and run any other
+      // work meanwhile, for as long as that takes. It is faster alone.
       loop.work();
     }
     loop.rethrow();
   }
 
   bool start(std::shared_ptr<BackgroundTask> task) override {
-    // Alone in its arena, the caller would have to wait for a worker that the user did not ask for.
+    // An arena of one has no worker; TBB would need one that the user did not request.
     if (concurrency_ == 1) return false;
-    // TBB calls a const copy, yet the task must be let go before the executor counts it as over.
+    // TBB calls a const copy, but the task must be released before the executor counts it as over.
     auto run = [this, held = std::make_shared<std::shared_ptr<BackgroundTask>>(std::move(task))] {
       {
         const Visit visit(slot(), 0);
@@ -77,7 +77,7 @@ class TbbExecutor final : public Executor {
     count_started(1);
     try {
       arena_.enqueue(std::move(run));
-    } catch (...) {  // out of memory: the destructor must not wait for what never began
+    } catch (...) {  // out of memory: the destructor must not wait for a task that never began
       count_started(-1);
       throw;
     }
@@ -85,8 +85,8 @@ class TbbExecutor final : public Executor {
   }
 
  private:
-  // What the calling thread is doing for this executor.
-  enum class Place { kOutside, kArena, kBulk };
+  // Where the calling thread is, as seen from this executor.
+  enum class Position { kOutside, kArena, kBulk };
 
   struct Leaving {
     explicit Leaving(std::atomic<bool>& flag) : entered(flag) {}
@@ -96,14 +96,15 @@ class TbbExecutor final : public Executor {
     std::atomic<bool>& entered;
   };
 
-  // A slot of the arena belongs to one thread at a time; atomic because TBB hands it over in its own way,
-  // and because a thread of another arena may look at a slot that is not its own.
+  // A slot of the arena belongs to one thread at a time. Its members are atomic, because TBB passes slots on
+  // without a fence that this code could use, and because a thread of another arena may read a slot that is
+  // not its own.
   struct alignas(64) Slot {
     std::atomic<std::thread::id> owner{};
-    std::atomic<int> bulks{0};  // how deep the owner is in them
+    std::atomic<int> bulks{0};  // how many nested bulks the owner is in
   };
 
-  // Only the owner writes to its slot, so that plain loads and stores do.
+  // Only the owner writes to its slot, so that relaxed loads and stores suffice.
   class Visit {
    public:
     Visit(Slot& slot, int bulks)
@@ -135,24 +136,24 @@ class TbbExecutor final : public Executor {
     slots_ = std::vector<Slot>(static_cast<std::size_t>(concurrency_) + 1);
   }
 
-  // In the slot's own arena: the calling thread's. The last one is for indices beyond the arena's size.
+  // The calling thread's slot, inside this arena. The last slot is for indices beyond the arena's size.
   Slot& slot() {
     const std::size_t last = slots_.size() - 1;
     const int index = tbb::this_task_arena::current_thread_index();
     return slots_[index < 0 ? last : std::min(static_cast<std::size_t>(index), last)];
   }
 
-  Place find_place() {
+  Position find_position() {
     const Slot& here = slot();
-    if (here.owner.load(std::memory_order_relaxed) != std::this_thread::get_id()) return Place::kOutside;
-    return here.bulks.load(std::memory_order_relaxed) > 0 ? Place::kBulk : Place::kArena;
+    if (here.owner.load(std::memory_order_relaxed) != std::this_thread::get_id()) return Position::kOutside;
+    return here.bulks.load(std::memory_order_relaxed) > 0 ? Position::kBulk : Position::kArena;
   }
 
   void spread_isolated(IndexLoop& loop, std::size_t count) {
     arena_.execute([&] { tbb::this_task_arena::isolate([&] { spread(loop, count); }); });
   }
 
-  // One TBB task a worker, not one an index: drawing an index from the loop costs far less than a task.
+  // There is one TBB task a worker and not one an index, since drawing an index costs far less than a task.
   void spread(IndexLoop& loop, std::size_t count) {
     const int tasks = static_cast<int>(std::min(count, static_cast<std::size_t>(concurrency_)));
     tbb::parallel_for(
@@ -169,7 +170,7 @@ class TbbExecutor final : public Executor {
   const bool attached_ = false;
   int concurrency_ = 1;
   std::vector<Slot> slots_;
-  std::atomic<bool> entered_{false};  // by a thread from outside
+  std::atomic<bool> entered_{false};  // whether a thread from outside is in the arena
   std::mutex started_mutex_;
   std::condition_variable all_ended_;
   int started_ = 0;

@@ -28,7 +28,7 @@ void Job::run() noexcept {
   if (!stage_.compare_exchange_strong(expected, Stage::kRunning)) return;
   result_ = call();
   if (!result_ && result_.error().code != ErrorCode::kCanceled) context_.warn(result_.error().sentence());
-  work_ = nullptr;  // lets go of what the work held, here and not in a frame
+  work_ = nullptr;  // releases the captures of the work here and not in a frame
   stage_.store(Stage::kDone, std::memory_order_release);
   signal();
 }

@@ -4,7 +4,7 @@
 
 namespace bodice::engine {
 
-// A slot belongs to the thread that drew its number; `ready` hands it to readers.
+// One event. A slot belongs to the thread that drew its number, until `ready` passes it to readers.
 struct Trace::Slot {
   TraceEvent event;
   std::atomic<bool> ready{false};
@@ -38,7 +38,7 @@ std::vector<TraceEvent> Trace::events() const {
   for (std::size_t i = 0; i < drawn; ++i) {
     if (slots_[i].ready.load(std::memory_order_acquire)) events.push_back(slots_[i].event);
   }
-  // Of spans that begin together the longer one is the outer one.
+  // If two spans begin together, the longer one is the outer one.
   std::stable_sort(events.begin(), events.end(), [](const TraceEvent& a, const TraceEvent& b) {
     return a.begin_ns != b.begin_ns ? a.begin_ns < b.begin_ns : a.end_ns > b.end_ns;
   });

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writers of this process that may be at one file at a time; leftovers of killed ones count.
+/// The number of writers in this process that may write one file at a time; leftovers of killed ones count.
 constexpr int kMostBeside = 1000;
 
 Error write_error(const fs::path& file, const std::string& why, std::string remedy) {
@@ -25,11 +25,11 @@ Error refused(const fs::path& file, std::error_code why) {
 }
 
 std::error_code last_error() {
-  return {errno != 0 ? errno : EIO, std::generic_category()};  // a failure whose cause nobody names is one
+  return {errno != 0 ? errno : EIO, std::generic_category()};  // a failure without errno is still a failure
 }
 
-/// Closes the stream. With `to_disk`, the bytes have left the system's memory, so that a rename cannot come
-/// before them.
+/// Closes the stream. With `to_disk`, the bytes have left the system's memory, so that a rename cannot
+/// precede them.
 std::error_code put(std::FILE* stream, std::span<const std::byte> bytes, bool to_disk) {
   errno = 0;
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size() &&
@@ -39,7 +39,7 @@ std::error_code put(std::FILE* stream, std::span<const std::byte> bytes, bool to
   return failure;
 }
 
-/// A file that was not there before, and its name; no other writer has it.
+/// Creates a file that did not exist, and its name; no other writer has it.
 std::FILE* open_beside(const fs::path& file, fs::path& beside) {
   for (int i = 0; i < kMostBeside; ++i) {
     beside = file;
@@ -56,7 +56,7 @@ Result<void> replace(const fs::path& file, std::span<const std::byte> bytes) {
   if (!stream) return refused(file, last_error());
   std::error_code failure = put(stream, bytes, true), ignored;
   const fs::file_status old = fs::status(file, ignored);
-  if (fs::exists(old)) fs::permissions(beside, old.permissions(), ignored);  // who may read it stays
+  if (fs::exists(old)) fs::permissions(beside, old.permissions(), ignored);  // the readers stay the same
   if (!failure) fs::rename(beside, file, failure);
   if (!failure) return {};
   fs::remove(beside, ignored);

@@ -1,5 +1,5 @@
-// Every public function that takes a Context and returns a Result, canceled at one checkpoint after another:
-// it answers kCanceled or, if it was done before, with its result. Nothing is thrown.
+// Every public function that takes a Context and returns a Result is canceled at one checkpoint after
+// another. It returns kCanceled, or its result if it ended before. It throws nothing.
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -25,7 +25,7 @@ using engine::ErrorCode;
 
 namespace {
 
-/// Serial; cancels the work at its checkpoint number `at`, the first being 0.
+/// A serial executor that cancels the work at its checkpoint number `at`, counted from 0.
 class CancellingExecutor final : public engine::Executor {
  public:
   explicit CancellingExecutor(int at) : left_(at) {
@@ -47,7 +47,7 @@ class CancellingExecutor final : public engine::Executor {
 
 using Call = std::function<engine::Result<void>(const Context&)>;
 
-/// Forgets the value.
+/// The same Result without its value.
 template <class T>
 engine::Result<void> outcome(const engine::Result<T>& result) {
   if (result.ok()) return {};
@@ -66,7 +66,7 @@ struct Subjects {
   std::filesystem::path file = folder / "body.obj";
 };
 
-/// How many of the places at which it was canceled were reached.
+/// The number of checkpoints that the call reached; it is canceled at each of them in turn.
 int cancel_everywhere(const std::string& name, const Call& call) {
   CAPTURE(name);
   int reached = 0;
@@ -77,7 +77,7 @@ int cancel_everywhere(const std::string& name, const Call& call) {
     CHECK_NOTHROW(result = call(executor.context()));
     if (result.ok()) break;
     REQUIRE(result.error().code == ErrorCode::kCanceled);
-    CHECK(result.error().message.find("anceled") != std::string::npos);  // or "Canceled at 'task'."
+    CHECK(result.error().message.find("anceled") != std::string::npos);  // or "Canceled at ..."
     ++reached;
   }
   return reached;

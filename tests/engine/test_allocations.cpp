@@ -1,4 +1,4 @@
-// What runs every frame must not allocate once it is warm.
+// Work of every frame must not allocate once it is warm.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 using namespace bodice::engine;
 
-TEST_CASE("the counter counts, else the tests below would show nothing") {
+TEST_CASE("the allocation counter counts") {
   if (!bodice_test::counts_allocations()) return;
   const std::size_t before = bodice_test::allocations();
   const auto value = std::make_unique<std::vector<int>>(100);
@@ -69,8 +69,8 @@ TEST_CASE("a warm frame allocates nothing, tracing included, while results arriv
   if (!bodice_test::counts_allocations()) return;
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);
-    // The ticket's own worker may still put its memory away in the first frame. What the frame itself
-    // allocates, it allocates in every round.
+    // The ticket's own worker may still release its memory in the first frame. Allocations of the frame
+    // itself recur in every round.
     std::size_t fewest_in_first = SIZE_MAX;
     for (int round = 0; round < 20 && fewest_in_first > 0; ++round) {
       Trace trace(1 << 14);

@@ -46,7 +46,7 @@ TEST_CASE("bulk calls the body once for each index, nested three deep, on every 
   }
 }
 
-TEST_CASE("no more bodies run at once than the executor's concurrency says") {
+TEST_CASE("no more bodies run at once than the executor's concurrency") {
   for (const auto& [name, executor] : all_executors()) {
     CAPTURE(name);
     std::atomic<int> now{0}, most{0};
@@ -61,7 +61,7 @@ TEST_CASE("no more bodies run at once than the executor's concurrency says") {
   }
 }
 
-TEST_CASE("of several exceptions the one of the least index comes out, and the executor still works") {
+TEST_CASE("of several exceptions that of the least index is rethrown, and the executor still works") {
   for (const auto& [name, executor] : all_executors()) {
     CAPTURE(name);
     for (int repeat = 0; repeat < 50; ++repeat) {
@@ -81,7 +81,7 @@ TEST_CASE("of several exceptions the one of the least index comes out, and the e
   }
 }
 
-TEST_CASE("an exception crosses nested bulks") {
+TEST_CASE("an exception of a nested bulk reaches the outermost caller") {
   for (const auto& [name, executor] : all_executors()) {
     CAPTURE(name);
     CHECK_THROWS_WITH(executor->bulk(8,
@@ -136,7 +136,7 @@ TEST_CASE("a started task runs once, or is refused at once") {
     CHECK(taken == (executor->concurrency() > 1));
     if (taken && !lazy) wait_until(task->runs, 1);
     if (lazy) CHECK(task->runs == 0);
-    executor.reset();  // waits for what was started
+    executor.reset();  // waits for the started tasks
     CHECK(task->runs == (taken ? 1 : 0));
   }
 }
@@ -155,7 +155,7 @@ TEST_CASE("a host is never lent more tasks than the bound, and gets every handle
     auto& counts = *static_cast<Counting*>(self);
     const int now = ++counts.in_flight;
     if (now > counts.most) counts.most = now;
-    if (++counts.enqueued % 2 == 0) run(task);  // every other one at once, the rest never
+    if (++counts.enqueued % 2 == 0) run(task);  // runs every other task at once, and the rest never
     return task;
   };
   {
@@ -179,7 +179,7 @@ TEST_CASE("a host without functions or workers is refused with a sentence") {
 
 #ifndef __SANITIZE_THREAD__
 TEST_CASE("the waiting caller helps a loop nested in another thread's body") {
-  // Body 0 is short, body 1 holds a nested loop whose bodies wait for one another: they can only end when
+  // Body 0 is short. Body 1 holds a nested loop of bodies that wait for one another: they can only end when
   // the thread that waits for the outer bulk takes one of them.
   const auto executor = make_tbb_executor(2);
   for (int repeat = 0; repeat < 20; ++repeat) {

@@ -32,7 +32,7 @@ bool eventually(Condition&& condition) {
   return true;
 }
 
-// Background work of three results whose bits depend on every block of its loops.
+// Background work with three results; their bits depend on every block of its loops.
 Result<void> refine(const Context& context, Sink<std::uint64_t>& out, std::uint64_t seed) {
   std::uint64_t sum = seed;
   for (int level = 0; level < 3; ++level) {
@@ -49,7 +49,7 @@ Result<void> refine(const Context& context, Sink<std::uint64_t>& out, std::uint6
   return {};
 }
 
-// Forty frames over two bodies; the hash of what each frame saw and made.
+// Runs forty frames over two bodies, and returns the hash of what each frame saw and made.
 std::uint64_t run_session(Executor& executor, PipelineMode mode) {
   FramePipeline pipeline(Context{.executor = &executor}, {.mode = mode, .delay_frames = 3});
   Stream<std::uint64_t> proxy(pipeline);
@@ -110,7 +110,7 @@ TEST_CASE("deterministic mode: result k of a job takes effect (k + 1) delays aft
     frames(9);
     submit(4, 9);
     frames(3);
-    submit(7, 7);  // takes the place of 4..9, of which 4 has taken effect
+    submit(7, 7);  // replaces 4..9, of which 4 has taken effect
     frames(4);
     CHECK(seen ==
           "-"
@@ -191,7 +191,7 @@ TEST_CASE("after its current block a background thread works for the frame until
     REQUIRE(eventually([&] { return blocks > 0; }));
     std::atomic<int> arrived{0};
     pipeline.frame([&](const Context& context) {
-      // Each of the two blocks waits for the other: it takes a second thread, which is in the background job.
+      // The two blocks wait for each other: they need a second thread, which is in the background job.
       parallel_for(context, 2, 1, [&](std::size_t, std::size_t) {
         ++arrived;
         CHECK(eventually([&] { return arrived == 2; }));
@@ -244,7 +244,7 @@ TEST_CASE("background work moves on even where frames follow one another without
 
 TEST_CASE("a new body cancels the work for the old one, of which nothing appears any more") {
   for (const auto& [name, executor] : all_executors()) {
-    if (name == "host, inside enqueue") continue;  // there a job is over before submit returns
+    if (name == "host, inside enqueue") continue;  // this host ends a job before submit returns
     CAPTURE(name);
     FramePipeline pipeline(Context{.executor = executor.get()}, {});
     Stream<int> stream(pipeline);
@@ -267,7 +267,7 @@ TEST_CASE("a new body cancels the work for the old one, of which nothing appears
   }
 }
 
-TEST_CASE("an error or exception of a job comes out of its ticket, is logged, and takes no effect") {
+TEST_CASE("an error or exception of a job is in its ticket and in the log, and no result takes effect") {
   struct Lines final : Log {
     void write(LogLevel, std::string_view message) override { text += std::string(message) + "\n"; }
     std::string text;
@@ -300,7 +300,7 @@ TEST_CASE("with one worker a ticket may be awaited inside a frame; with any, onc
         });
         if (executor->concurrency() == 1) CHECK(ticket.wait().ok());
       });
-      if (name == "host, inside enqueue") continue;  // there submit would run it to its end
+      if (name == "host, inside enqueue") continue;  // this host's submit would run it to its end
       kept = stream.submit("endless", [](const Context& context, Sink<std::uint64_t>&) -> Result<void> {
         for (const auto end = Clock_::now() + std::chrono::seconds(20); Clock_::now() < end;)
           context.checkpoint();
@@ -311,7 +311,7 @@ TEST_CASE("with one worker a ticket may be awaited inside a frame; with any, onc
   }
 }
 
-TEST_CASE("an exception of the frame's body comes out, and the next frame runs") {
+TEST_CASE("an exception of the frame's body is rethrown, and the next frame runs") {
   const auto executor = make_threads(3);
   FramePipeline pipeline(Context{.executor = executor.get()}, {});
   CHECK_THROWS_WITH(pipeline.frame([](const Context& context) {
@@ -323,7 +323,7 @@ TEST_CASE("an exception of the frame's body comes out, and the next frame runs")
   std::atomic<int> blocks{0};
   pipeline.frame([&](const Context& context) {
     parallel_for(context, 10, 1, [&](std::size_t, std::size_t) {
-      parallel_for(context, 10, 1, [&](std::size_t, std::size_t) { ++blocks; });  // nested
+      parallel_for(context, 10, 1, [&](std::size_t, std::size_t) { ++blocks; });  // a loop inside a loop
     });
   });
   CHECK(blocks == 100);

@@ -9,7 +9,7 @@
 
 using bodice::engine::message;
 
-TEST_CASE("message: numbers read as people write them") {
+TEST_CASE("message: numbers have the form that people write") {
   CHECK(message("A gap of ", 5.2319123, " mm") == "A gap of 5.232 mm");
   CHECK(message(1e-6, " m") == "1e-06 m");
   CHECK(message(12345.678) == "12346");
@@ -22,7 +22,7 @@ TEST_CASE("message: numbers read as people write them") {
   CHECK(message().empty());
 }
 
-TEST_CASE("message: the program's locale does not show") {
+TEST_CASE("message: the text does not depend on the program's locale") {
   struct Grouped : std::numpunct<char> {
     char do_decimal_point() const override { return ','; }
     char do_thousands_sep() const override { return '.'; }

@@ -14,7 +14,7 @@ using namespace bodice::engine;
 
 namespace {
 
-// A sum whose value depends on the order of additions.
+// A sum with a value that depends on the order of additions.
 double harmonic(Executor& executor, std::size_t count, std::size_t grain) {
   const Context context{.executor = &executor};
   return ordered_reduce(
@@ -39,7 +39,9 @@ TEST_CASE("ordered_reduce gives the same bits on every executor, on the stack an
   }
 }
 
-TEST_CASE("ordered_reduce_in takes the caller's room, be it more than is needed and full of something else") {
+TEST_CASE(
+    "ordered_reduce_in uses the memory that the caller gives, also if it is larger than needed and not "
+    "empty") {
   const auto length = [](std::size_t begin, std::size_t end) { return static_cast<int>(end - begin); };
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);

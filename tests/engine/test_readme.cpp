@@ -5,7 +5,7 @@
 
 bodice::engine::Result<double> mean_length();
 
-TEST_CASE("the code in the README compiles and computes what it says") {
+TEST_CASE("the code in engine/README.md compiles, and computes the mean") {
   const auto mean = mean_length();
   REQUIRE(mean.ok());
   CHECK(*mean == 2.0);

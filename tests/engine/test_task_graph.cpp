@@ -33,7 +33,7 @@ std::string build_error(GraphBuilder&& builder) {
 
 }  // namespace
 
-TEST_CASE("a graph hands typed values on, and runs again with another input") {
+TEST_CASE("a graph passes typed values on, and runs again with another input") {
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);
     GraphBuilder builder;
@@ -61,7 +61,7 @@ TEST_CASE("a graph hands typed values on, and runs again with another input") {
     const auto odd = graph->run(context);
     REQUIRE(!odd.ok());
     CHECK(odd.error().message == "7 is odd.");
-    CHECK(graph->find(text) == nullptr);  // the text of the first run must not pass for one of the second
+    CHECK(graph->find(text) == nullptr);  // a text of the first run must not remain in the second
     graph->set(number, 8);
     REQUIRE(graph->run(context).ok());
     CHECK(graph->get(text) == "4/8");
@@ -75,7 +75,7 @@ TEST_CASE("a graph hands typed values on, and runs again with another input") {
 }
 
 TEST_CASE("a graph far wider and deeper than its workers runs each task once") {
-  constexpr int kLayers = 40, kWide = 150;  // more than 4,096 tasks: two words of leaves above one another
+  constexpr int kLayers = 40, kWide = 150;  // above 4,096 tasks the ready set has two words of leaves
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);
     GraphBuilder builder;
@@ -113,7 +113,7 @@ TEST_CASE("a graph far wider and deeper than its workers runs each task once") {
   }
 }
 
-TEST_CASE("mistakes in a graph are told with the names of the tasks") {
+TEST_CASE("mistakes in a graph are errors that name the tasks") {
   auto one = [](const Context&) { return 1; };
   auto next = [](const Context&, const int& value) { return value + 1; };
   {
@@ -210,7 +210,7 @@ TEST_CASE("random graphs: every task runs once, after all that it needs, on any 
 }
 
 TEST_CASE("a deep graph of barriers neither overflows the stack nor stops early") {
-  // 500 layers of four tasks, each layer needing all of the layer before: the worst case for nesting.
+  // Each task of 500 layers needs all four tasks of the layer before: the worst case for nesting.
   const auto executor = bodice_test::make_threads(3);
   GraphBuilder builder;
   std::vector<Output<int>> layer;
@@ -267,7 +267,7 @@ TEST_CASE("an exception of a task is rethrown, and the graph can run again") {
   CHECK(graph->run(Context{}).ok());
 }
 
-TEST_CASE("a canceled run says where it stopped and starts no more tasks") {
+TEST_CASE("a canceled run names the task where it stopped and starts no more tasks") {
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);
     CancelSource source;

@@ -25,7 +25,8 @@ TEST_CASE("append_number writes what printf writes in the C locale") {
   }
 }
 
-TEST_CASE("append_number: zeros, the ends of the range, and what is no number") {
+TEST_CASE(
+    "append_number: zeros, the ends of the range, NaN and infinities are written as printf writes them") {
   using Limits = std::numeric_limits<double>;
   for (double value : {0.0, -0.0, 1e5, 1e9, -123456789.0, Limits::max(), Limits::lowest(), Limits::min(),
                        Limits::denorm_min(), Limits::infinity(), -Limits::infinity()}) {

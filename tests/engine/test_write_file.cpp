@@ -66,7 +66,7 @@ TEST_CASE("write_file into a missing folder, over a directory or without a name 
   }
 }
 
-TEST_CASE("a write that fails half-way leaves the old file as it was, and nothing beside it") {
+TEST_CASE("a write that fails halfway leaves the old file as it was, and nothing beside it") {
   const TempFolder folder;
   const auto file = folder / "out.txt";
   REQUIRE(write_file(file, "the old text").ok());

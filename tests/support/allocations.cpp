@@ -1,5 +1,5 @@
-// Interposes glibc's allocator for the whole test program: operator new, the standard library and TBB come
-// through here too.
+// Interposes glibc's allocator for the whole test program; operator new, the standard library and TBB use it
+// too.
 #include <bodice_test/allocations.hpp>
 
 #include <atomic>

@@ -40,7 +40,7 @@ class TestHost {
     Job* job = nullptr;
     {
       const std::lock_guard lock(mutex_);
-      for (job = jobs_.data(); job->used;) ++job;  // bodice promised to stay below the bound
+      for (job = jobs_.data(); job->used;) ++job;  // the executor promises to stay below the bound
       *job = {run, task, true};
       if (order_ != HostOrder::kInside) queue_.push_back(job);
     }
@@ -95,7 +95,7 @@ class TestHost {
   std::vector<std::thread> threads_;
 };
 
-// Owns the host and the executor on it; forwards.
+// An executor that owns its host, and forwards all calls to the executor on it.
 class HostedExecutor final : public Executor {
  public:
   HostedExecutor(HostOrder order, int concurrency, std::uint64_t seed, int max_in_flight)

@@ -49,7 +49,7 @@ const std::vector<EllipsoidCase>& extreme_ellipsoids() {
 }
 
 std::vector<Vec3> hostile_queries(const Ellipsoid& e) {
-  // In the ellipsoid's frame first, as multiples of the radii; then a rounding away from each.
+  // Points in the ellipsoid's frame, as multiples of the radii. Each gets neighbors one rounding away.
   std::vector<Vec3> local = {Vec3::Zero()};
   for (int k = 0; k < 3; ++k)
     for (double t : {1e-300, 1e-12, 0.3, 0.999999, 1.0, 1.000001, 2.0, 1e4})

@@ -15,7 +15,7 @@ TriMesh ball() {
   return icosphere(1.0, 2);
 }
 
-/// A vertex more and a triangle from it to the first two vertices.
+/// The mesh with one more vertex, and a triangle from it to the first two vertices.
 TriMesh with_spike(TriMesh mesh, const Vec3& tip) {
   mesh.positions.push_back(tip);
   mesh.triangles.push_back({0, 1, static_cast<Index>(mesh.positions.size() - 1)});
@@ -65,7 +65,7 @@ std::vector<MeshCase> make_meshes() {
       {"all triangles collinear", {{a, b, 2.0 * b, 3.0 * b}, {{0, 1, 2}, {1, 2, 3}}}, false},
       {"index out of range", {{a, b, c}, {{0, 1, 7}}}, false},
       {"one of two triangles out of range", {{a, b, c}, {{0, 1, 2}, {1, 2, 4000000000u}}}, true},
-      {"all vertices in one place", {{b, b, b, b}, {{0, 1, 2}, {1, 2, 3}}}, false},
+      {"all vertices at one point", {{b, b, b, b}, {{0, 1, 2}, {1, 2, 3}}}, false},
       {"all NaN", {{Vec3::Constant(kNan), Vec3::Constant(kNan), Vec3::Constant(kNan)}, {{0, 1, 2}}}, false},
       {"flat sheet", sheet(1.0, 1.0, 4, 4), true},
       {"sphere", ball(), true},

@@ -46,7 +46,7 @@ Points on_sphere(int count, std::uint64_t seed) {
   return points;
 }
 
-/// An arbitrary rotation, so that nothing lines up with the axes by luck.
+/// The points after an arbitrary rotation, so that nothing is aligned with the axes by chance.
 Points turned(Points points) {
   const Eigen::Matrix3d rotation = Eigen::Quaterniond(0.7, -0.3, 0.5, 0.4).normalized().toRotationMatrix();
   for (Vec3& p : points) p = rotation * p;

@@ -45,7 +45,7 @@ TriMesh split_in_four(const TriMesh& mesh) {
   return fine;
 }
 
-/// A grid of (rows + 1) x columns vertices closed around the columns, as quads cut in two.
+/// Adds a grid of (rows + 1) x columns vertices, closed around the columns, as quads cut in two.
 void add_tube(TriMesh& mesh, int rows, int columns, bool close_rows) {
   auto at = [&](int row, int column) {
     return static_cast<Index>((close_rows ? row % rows : row) * columns + column % columns);
@@ -71,7 +71,7 @@ TriMesh icosphere(double radius_m, int subdivisions, const Vec3& center) {
 
 TriMesh box(const Vec3& half_size_m, int cells, const Vec3& center) {
   TriMesh mesh;
-  std::map<std::array<int, 3>, Index> known;  // lattice places shared by faces
+  std::map<std::array<int, 3>, Index> known;  // lattice points shared by faces
   auto vertex = [&](const std::array<int, 3>& lattice) {
     const auto [at, fresh] = known.try_emplace(lattice, static_cast<Index>(mesh.positions.size()));
     if (fresh) {

@@ -7,13 +7,14 @@
 
 namespace bodice::engine {
 
-/// Thrown by parallel_for and by check() when the work was canceled; public functions turn it into
-/// ErrorCode::kCanceled.
+/// Thrown by parallel_for and by check() in canceled work. Public functions return ErrorCode::kCanceled
+/// instead.
 struct Canceled : std::exception {
   const char* what() const noexcept override { return "canceled"; }
 };
 
-/// The reading side of a cancellation. Default-constructed: never canceled. Copyable, thread-safe.
+/// The reading side of a cancellation. It is copyable and thread-safe; a default-constructed token is never
+/// canceled.
 class CancelToken {
  public:
   CancelToken() = default;
@@ -42,7 +43,7 @@ class CancelToken {
 class CancelSource {
  public:
   CancelSource() : CancelSource(CancelToken{}) {}
-  /// Work that is also canceled when `parent` is.
+  /// Makes a source that is also canceled when `parent` is.
   explicit CancelSource(const CancelToken& parent) : state_(std::make_shared<CancelToken::State>()) {
     state_->parent = parent.state_;
   }

@@ -10,9 +10,9 @@
 
 namespace bodice::engine {
 
-/// The Result that `work()` returns, or kCanceled where a checkpoint in it throws Canceled: what each
-/// public function that takes a Context and returns a Result ends with. `what` begins the sentence: "The fit"
-/// was canceled.
+/// Returns what `work()` returns, or kCanceled if a checkpoint in it throws Canceled. Each public function
+/// that takes a Context and returns a Result ends with it. `what` begins the error's sentence: "The fit" was
+/// canceled.
 template <class Work>
 std::invoke_result_t<Work> catch_canceled(std::string_view what, Work&& work) {
   try {

@@ -4,11 +4,11 @@
 
 namespace bodice::engine {
 
-/// Where time comes from: traces, stage times and time budgets ask it, results never do.
+/// The source of time for traces, stage times and time budgets. Results do not depend on it.
 class Clock {
  public:
   virtual ~Clock() = default;
-  /// Nanoseconds since an arbitrary start; never goes back. Thread-safe.
+  /// The nanoseconds since an arbitrary start; they never go back. Thread-safe.
   virtual std::int64_t now_ns() const noexcept = 0;
 };
 

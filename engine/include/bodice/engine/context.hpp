@@ -9,11 +9,12 @@ namespace bodice::engine {
 
 class Trace;
 
-/// What every algorithm is handed besides its data: where to run, whom to tell, when to stop.
-/// Cheap to copy; the referenced objects must outlive every call that is given the context.
+/// The surroundings of a call: where it runs, where its messages go, and what cancels it. Every algorithm
+/// takes one besides its data. Copies are cheap; the referenced objects must outlive every call that is given
+/// the context.
 struct Context {
   Executor* executor = &inline_executor();  ///< Never null.
-  Log* log = nullptr;                       ///< Null: silent.
+  Log* log = nullptr;                       ///< Null: messages are dropped.
   Trace* trace = nullptr;                   ///< Null: no tracing, at no cost.
   CancelToken cancel = {};
   const Clock* clock = &steady_clock();  ///< Never null. For time budgets; results must not depend on it.
@@ -21,8 +22,8 @@ struct Context {
   void info(std::string_view message) const {
     if (log) log->write(LogLevel::kInfo, message);
   }
-  /// Where long work may be cut: throws Canceled, or lets a frame go first (FramePipeline). Every block of
-  /// parallel_for passes one; a serial loop of more than a millisecond should call it now and then.
+  /// A point at which long work may stop: it throws Canceled, or lets a frame go first (FramePipeline). Every
+  /// block of parallel_for passes one; a serial loop of more than a millisecond should pass one now and then.
   void checkpoint() const {
     cancel.check();
     executor->yield();

@@ -1,4 +1,4 @@
-// Where tasks run. Nothing in bodice starts a thread except the TBB executor that the caller made.
+// Executors run tasks. Nothing in bodice starts a thread except the TBB executor that the caller makes.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@
 
 namespace bodice::engine {
 
-/// Work that may still run after the call that started it: see Executor::start.
+/// Work that may run on after the call that started it (Executor::start).
 class BackgroundTask {
  public:
   virtual ~BackgroundTask() = default;
-  /// For traces and the host's own profiler. Valid as long as the task.
+  /// The task's name in traces and in the host's profiler; valid as long as the task.
   virtual const char* name() const noexcept = 0;
   virtual void run() noexcept = 0;
 };
@@ -22,35 +22,35 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  /// Upper bound on bodies that run at the same time, the caller's included; 1 for the inline executor.
+  /// The upper bound on bodies that run at the same time, the caller's included; 1 for the inline executor.
   virtual int concurrency() const noexcept = 0;
 
   /// Calls body(i) once for each i in [0, count), in any order and on any worker, and returns when all
   /// have ended. Bodies start in order of i; if some throw, no more start, and the exception of the least
   /// i is rethrown after the running ones ended: the same one in every run.
-  /// While it waits, a thread runs nothing but bodies of the same outermost bulk (README: Threads).
+  /// While it waits, a thread runs only bodies of the same outermost bulk (engine/README.md, Threads).
   virtual void bulk(std::size_t count, FunctionRef<void(std::size_t)> body) = 0;
 
-  /// Has task->run() called once, by some other worker, and returns at once. False: there is no worker to
-  /// spare now, and the task was not taken. The executor must outlive the run.
+  /// Has another worker call task->run() once, and returns at once. Returns false, without taking the task,
+  /// if no worker can be spared. The executor must outlive the run.
   virtual bool start(std::shared_ptr<BackgroundTask> task) {
     static_cast<void>(task);
     return false;
   }
 
-  /// A point at which long work lets more urgent work go first; nothing for most executors.
+  /// A point at which long work lets more urgent work go first. Most executors do nothing here.
   virtual void yield() noexcept {}
 };
 
-/// Serial: runs everything on the calling thread, in order.
+/// The serial executor: it runs everything on the calling thread, in order.
 Executor& inline_executor() noexcept;
 
-/// Own TBB arena with the given number of workers, the caller included; 0 means one a hardware thread.
-/// More workers than hardware threads raise TBB's process-wide limit for as long as the executor lives.
-/// Its destructor waits for started tasks.
+/// Makes a TBB arena with the given number of workers, the caller included; 0 means one a hardware thread.
+/// More workers than hardware threads raise TBB's process-wide limit for the executor's lifetime. Its
+/// destructor waits for started tasks.
 std::unique_ptr<Executor> make_tbb_executor(int concurrency = 0);
 
-/// Works in the TBB arena of the calling thread (a host that uses TBB itself), with its concurrency.
+/// Makes an executor in the TBB arena of the calling thread, with its concurrency, for hosts that use TBB.
 std::unique_ptr<Executor> make_attached_tbb_executor();
 
 }  // namespace bodice::engine

@@ -28,69 +28,73 @@
 
 namespace bodice::engine {
 
+/// How results of background work reach frames.
 enum class PipelineMode {
   kLatency,        ///< each boundary takes the newest result that is ready, and never waits
   kDeterministic,  ///< the frame at which each result takes effect is fixed; a boundary waits for a late one
 };
 
-/// What a background thread does when it comes to a checkpoint while a frame runs.
+/// What a background thread does at a checkpoint while a frame runs.
 enum class BackgroundYield {
-  kNone,  ///< goes on
-  kHelp,  ///< works in the frame's open loop, then goes on
+  kNone,  ///< continues its own work
+  kHelp,  ///< helps with the frame's open loop, then continues
   kStay,  ///< helps with every loop of the frame until the frame ends
 };
 
+/// How frames and background work share the workers.
 struct PipelineOptions {
   PipelineMode mode = PipelineMode::kLatency;
-  /// Deterministic mode: result k (from 0) of a job submitted before frame f is taken at the boundary
+  /// In deterministic mode, result k (from 0) of a job submitted before frame f takes effect at the boundary
   /// before frame f + (k + 1) delay_frames. At least 1.
   int delay_frames = 8;
-  /// Threads that work on a frame at the same time, the calling one included; 0: all. Fewer than the
-  /// executor has keeps the others for background work even during frames.
+  /// The number of threads that work on a frame at the same time, the calling one included; 0: all. A lower
+  /// number than the executor's reserves the other threads for background work.
   int frame_workers = 0;
   BackgroundYield yield = BackgroundYield::kStay;
-  /// Under kStay, the least share of its time that a background thread has for itself where frames follow
-  /// one another without a gap; within [0, 0.9]. Frames with gaps as long as this give up nothing.
+  /// The least share of its time that a background thread keeps for itself under kStay, where frames follow
+  /// one another without a gap; within [0, 0.9]. Frames with gaps of that length lose nothing.
   double background_share = 0.25;
 };
 
+/// The times of one frame.
 struct FrameTiming {
   std::uint64_t index = 0;
-  std::int64_t boundary_ns = 0;  ///< at the boundary: waiting, in deterministic mode
+  std::int64_t boundary_ns = 0;  ///< time at the boundary: waiting, in deterministic mode
   std::int64_t body_ns = 0;
   int results_taken = 0;
 };
 
 class StreamBase;
 
-/// Runs frames on the calling thread and its helpers, and background jobs on the workers that are left.
+/// Runs frames on the calling thread and its helpers, and background jobs on the remaining workers.
 ///
 /// The bound on delay: a frame never waits for background work. Its loops start on the calling thread at
-/// once; a worker joins after the block of background work that it is in (up to its next checkpoint), and
-/// the frame waits only for workers that are in a block of the frame itself. So a frame takes at most as
-/// long as on the calling thread alone plus one of its own blocks, however long background blocks are;
-/// with background blocks of at most s, and gaps between frames, all workers are with it after s (without
-/// gaps after s and what background_share takes). The boundary waits in
-/// deterministic mode only. README: what this needs of the machine.
+/// once. A worker joins after its current block of background work (at its next checkpoint), and the frame
+/// waits only for workers in a block of the frame itself. Hence a frame takes at most as long as on the
+/// calling thread alone plus one of its own blocks, however long background blocks are. With background
+/// blocks of at most s, and gaps between frames, all workers join after s; without gaps, after s and the
+/// time that background_share takes. Only in deterministic mode does the boundary wait.
+/// engine/README.md states what this needs of the machine.
 ///
-/// One thread calls frame, and submits to and reads the streams.
+/// Frames, submissions and reads of the streams come from one thread.
 class FramePipeline {
  public:
   FramePipeline(const Context& context, const PipelineOptions& options);
-  /// Cancels the jobs and waits for them. Streams must be gone before.
+  /// Cancels the jobs and waits for them. The streams must be destroyed before.
   ~FramePipeline();
   FramePipeline(const FramePipeline&) = delete;
   FramePipeline& operator=(const FramePipeline&) = delete;
 
-  /// A boundary, at which the streams take their results, then body(context of the frame). Allocates
-  /// nothing. Rethrows what the body threw. A loop nested in a loop of the frame runs on one thread.
+  /// Runs a frame: a boundary, at which the streams take their results, then body(context of the frame).
+  /// Allocates nothing. Rethrows what the body threw. A loop nested in a loop of the frame runs on one
+  /// thread.
   FrameTiming frame(FunctionRef<void(const Context&)> body);
 
   std::uint64_t next_frame() const noexcept;
   const PipelineOptions& options() const noexcept;
 
-  /// Runs here and now the jobs that no worker has begun. With an executor that has no worker to spare
-  /// (inline, one worker), jobs run in this call, in Ticket::wait, or at the boundary that must have them.
+  /// Runs the jobs that no worker has begun, on the calling thread. With an executor without a worker to
+  /// spare (inline, one worker), jobs run in this call, in Ticket::wait, or at the boundary that needs them.
   void run_pending();
 
  private:
@@ -99,7 +103,7 @@ class FramePipeline {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The part of a stream that does not depend on its type.
+/// The part of a stream that is the same for all types.
 class StreamBase {
  public:
   StreamBase(const StreamBase&) = delete;
@@ -109,12 +113,12 @@ class StreamBase {
   explicit StreamBase(FramePipeline& pipeline);
   virtual ~StreamBase();
 
-  /// Starts `work` as a job that takes the place of the stream's last one, which is canceled.
+  /// Starts `work` as a job that replaces and cancels the stream's last one.
   std::shared_ptr<Job> start(std::string name, Job::Work work);
 
  private:
   friend class FramePipeline;
-  /// Brings in what the job has published since.
+  /// Takes the results that the job has published since the last boundary.
   virtual void collect() noexcept = 0;
   virtual bool has_collected() const noexcept = 0;
   virtual void take_oldest() noexcept = 0;
@@ -127,12 +131,12 @@ class StreamBase {
   std::uint64_t due_frame_ = 0;
 };
 
-/// Where a job puts its results. One thread at a time.
+/// The end of a stream that takes a job's results. One thread at a time.
 template <class T>
 class Sink {
  public:
-  /// Offers a result, better than the ones before, for a coming frame boundary. Throws Canceled if the
-  /// job was canceled or superseded: then nothing more of it can take effect.
+  /// Offers a result, better than the ones before, for a coming frame boundary. Throws Canceled if the job
+  /// was canceled or superseded; then none of its results can take effect any more.
   void publish(std::shared_ptr<const T> value) {
     job_->token().check();
     box_->offered.push(new detail::ValueNode<T>{std::move(value)});
@@ -152,7 +156,7 @@ class Sink {
   std::shared_ptr<Box> box_;
 };
 
-/// A value that jobs make and frames read: a body's proxy, say. The newest submitted job counts.
+/// A value that jobs make and frames read, such as a body's proxy. The newest submitted job counts.
 template <class T>
 class Stream final : public StreamBase {
  public:
@@ -165,11 +169,12 @@ class Stream final : public StreamBase {
     delete current_;
   }
 
-  /// Starts background work, and cancels the stream's earlier job. The work gets a context whose executor
-  /// lets frames go first. Not from inside a loop of a frame.
+  /// Starts background work and cancels the stream's earlier job. The executor of the work's context lets
+  /// frames go first. It must not be called from inside a loop of a frame.
   Ticket submit(std::string name, Work work);
 
-  /// The result in force since the last boundary, or null before the first. Valid until the next one.
+  /// The result in effect since the last boundary, or null before the first. It is valid until the next
+  /// boundary.
   const T* current() const noexcept { return current_ ? current_->value.get() : nullptr; }
   std::shared_ptr<const T> share() const noexcept { return current_ ? current_->value : nullptr; }
 
@@ -182,8 +187,8 @@ class Stream final : public StreamBase {
   void take_oldest() noexcept override;
 
   std::shared_ptr<Stack> retired_ = std::make_shared<Stack>();  // freed by publishers, never in a frame
-  std::shared_ptr<typename Sink<T>::Box> box_;                  // of the current job
-  Node* oldest_ = nullptr;                                      // published and not taken, oldest first
+  std::shared_ptr<typename Sink<T>::Box> box_;                  // box of the current job
+  Node* oldest_ = nullptr;                                      // published but not taken, oldest first
   Node* newest_ = nullptr;
   Node* current_ = nullptr;
 };
@@ -206,7 +211,7 @@ void Stream<T>::collect() noexcept {
   Node* newest = box_->offered.take_all();
   Node* oldest = nullptr;
   Node* const last = newest;
-  while (newest) {  // reverses: the stack gives the newest first
+  while (newest) {  // the stack gives the newest first, so it is reversed
     Node* const next = std::exchange(newest->next, oldest);
     oldest = std::exchange(newest, next);
   }

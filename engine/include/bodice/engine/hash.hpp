@@ -1,5 +1,5 @@
-// A 64-bit hash of a sequence of plain values: the identity of proxies and frames in determinism tests.
-// Not cryptographic.
+// A 64-bit hash of a sequence of plain values. It identifies proxies, and frames in determinism tests. It is
+// not cryptographic.
 #pragma once
 
 #include <bit>
@@ -13,6 +13,7 @@
 
 namespace bodice::engine {
 
+/// Hashes the values that are added to it, in order.
 class Hasher {
  public:
   void add(std::uint64_t value) { state_ = mix64(state_ ^ mix64(value + 0x9E3779B97F4A7C15ull)) + ++count_; }

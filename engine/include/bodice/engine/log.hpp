@@ -6,7 +6,7 @@ namespace bodice::engine {
 
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
-/// Where messages go. The library never prints: without a Log in the Context, messages are dropped.
+/// The destination of messages. The library never prints: without a Log in the Context, messages are dropped.
 class Log {
  public:
   virtual ~Log() = default;

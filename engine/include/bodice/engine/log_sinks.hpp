@@ -1,4 +1,4 @@
-// Logs that a program can put into its Context: spdlog behind engine::Log.
+// Logs for a program's Context: spdlog behind engine::Log.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 
 namespace bodice::engine {
 
-/// Lines `[12:34:56.789] [info] message` on the standard error stream, colored on a terminal.
+/// Writes lines `[12:34:56.789] [info] message` to the standard error stream, colored on a terminal.
 std::unique_ptr<Log> make_stderr_log(LogLevel least = LogLevel::kInfo);
 
-/// The same lines, appended to a file that is flushed at every warning and error. Fails with kWriteFailed.
+/// Appends such lines to a file, which is flushed at every warning and error. Fails with kWriteFailed.
 Result<std::unique_ptr<Log>> make_file_log(const std::filesystem::path& path,
                                            LogLevel least = LogLevel::kInfo);
 
-/// Hands each message of at least `least` to the host; calls are one at a time. An exception that the
-/// callback throws is dropped: logging never changes what the library does.
+/// Passes each message of at least `least` to the host, one call at a time. An exception from the callback is
+/// dropped, so that logging never changes what the library does.
 std::unique_ptr<Log> make_callback_log(std::function<void(LogLevel, std::string_view)> callback,
                                        LogLevel least = LogLevel::kInfo);
 

@@ -1,4 +1,4 @@
-// One sentence out of words and numbers, as people read them.
+// A sentence from words and numbers, in the form that people write.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace bodice::engine {
 
-/// All arguments as one text, the same in any locale. Real numbers have four significant digits, or all those
-/// before the point: 0.001235, 12.35, 123457, 1.235e+20.
+/// Joins all arguments to one text, the same in any locale. Real numbers have four significant digits, or all
+/// those before the point: 0.001235, 12.35, 123457, 1.235e+20.
 template <class... Parts>
 std::string message(const Parts&... parts) {
   std::ostringstream out;

@@ -1,4 +1,4 @@
-// Data-parallel loops whose results have the same bits for any number of workers.
+// Data-parallel loops with the same bits for any number of workers.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,16 @@
 
 namespace bodice::engine {
 
-/// Number of blocks of at most `grain` elements; depends on count and grain only, never on the workers.
+/// The number of blocks of at most `grain` elements. It depends on count and grain only, never on the
+/// workers.
 inline std::size_t block_count(std::size_t count, std::size_t grain) {
   return grain == 0 ? 0 : count / grain + (count % grain != 0);
 }
 
 /// Calls body(begin, end) for consecutive blocks of at most `grain` elements that cover [0, count).
-/// Blocks run in any order; the body must write only to places that belong to its block.
+/// Blocks run in any order; the body must write only to memory that belongs to its block.
 /// Throws what a body threw, or Canceled. A single block runs on the caller without a task.
-/// Choose the grain so that a block costs 20 us or more (README: What a task costs).
+/// Choose the grain so that a block costs 20 us or more (engine/README.md, What a task costs).
 template <class Body>
 void parallel_for(const Context& context, std::size_t count, std::size_t grain, Body&& body) {
   const std::size_t blocks = block_count(count, grain);
@@ -35,7 +36,7 @@ void parallel_for(const Context& context, std::size_t count, std::size_t grain, 
   if (blocks > 1) context.executor->bulk(blocks, run_block);
 }
 
-/// The same as below, with room for block_count(count, grain) partial results, or more, given by the caller.
+/// ordered_reduce() with the caller's memory: room for block_count(count, grain) partial results or more.
 template <class T, class Map, class Combine>
 T ordered_reduce_in(const Context& context, std::size_t count, std::size_t grain, T identity, Map&& map,
                     Combine&& combine, std::span<T> partial) {
@@ -47,7 +48,7 @@ T ordered_reduce_in(const Context& context, std::size_t count, std::size_t grain
 }
 
 /// Reduces the blocks' partial results in block order: sum = combine(sum, map(begin, end)), from `identity`.
-/// The same bits for any number of workers, because neither the blocks nor the order depend on them.
+/// The bits are the same for any number of workers, because neither the blocks nor the order depend on them.
 /// Up to 64 blocks of a plain type up to 64 bytes need no allocation.
 template <class T, class Map, class Combine>
 T ordered_reduce(const Context& context, std::size_t count, std::size_t grain, T identity, Map&& map,

@@ -1,7 +1,7 @@
 // Counter-based random numbers: the k-th value of a stream is a pure function of (seed, stream, k), so
 // parallel code draws the same numbers whatever the order.
 // Based on: Guy L. Steele, Doug Lea, Christine H. Flood. Fast Splittable Pseudorandom Number Generators.
-// 2014. (the finaliser of SplitMix64, with Stafford's mixing constants)
+// 2014. (the finalizer of SplitMix64, with Stafford's mixing constants)
 #pragma once
 
 #include <cmath>
@@ -15,6 +15,7 @@ constexpr std::uint64_t mix64(std::uint64_t z) {
   return z ^ (z >> 31);
 }
 
+/// A stream of random numbers, given by a seed and a stream number.
 class Random {
  public:
   explicit constexpr Random(std::uint64_t seed, std::uint64_t stream = 0)
@@ -22,7 +23,7 @@ class Random {
 
   /// The k-th 64 random bits of this stream, without advancing it.
   constexpr std::uint64_t bits_at(std::uint64_t k) const { return mix64(key_ + k * 0x9E3779B97F4A7C15ull); }
-  /// The k-th value in [0, 1), without advancing.
+  /// The k-th value in [0, 1), without advancing the stream.
   constexpr double uniform_at(std::uint64_t k) const {
     return static_cast<double>(bits_at(k) >> 11) * 0x1.0p-53;
   }
@@ -34,7 +35,7 @@ class Random {
   constexpr std::uint64_t below(std::uint64_t n) {
     return static_cast<std::uint64_t>(uniform() * static_cast<double>(n));
   }
-  /// Standard normal (Box-Muller; consumes two values).
+  /// A standard normal number (Box-Muller; consumes two values).
   double normal() {
     const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
     return radius * std::cos(6.283185307179586 * uniform());

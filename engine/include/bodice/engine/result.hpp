@@ -8,6 +8,7 @@
 
 namespace bodice::engine {
 
+/// The kind of an error, for programs.
 enum class ErrorCode {
   kInvalidArgument,   ///< An option or parameter is out of its documented range.
   kNotFound,          ///< A file, mesh or name does not exist.
@@ -18,13 +19,13 @@ enum class ErrorCode {
   kInternal,          ///< A broken invariant inside bodice.
 };
 
-/// What went wrong, for a person: `message` names the file and the element, `remedy` the knob to turn.
+/// A failure as people read it: `message` names the file and the element, `remedy` what to change.
 struct Error {
   ErrorCode code = ErrorCode::kInternal;
   std::string message;
   std::string remedy;
 
-  /// One line: the message, then the remedy if there is one.
+  /// The message, then the remedy if there is one, on one line.
   std::string sentence() const { return remedy.empty() ? message : message + " " + remedy; }
 };
 
@@ -87,7 +88,7 @@ class [[nodiscard]] Result<void> {
   bool ok_ = true;
 };
 
-/// A soft failure: the work went on, and this says what was dropped or repaired and what to do about it.
+/// A soft failure: the work went on, and the warning states what was dropped or repaired and the remedy.
 struct Warning {
   std::string code;     ///< Stable, kebab-case: "hands-fused-to-thighs".
   std::string part;     ///< The body part, mesh or element concerned; may be empty.
@@ -95,7 +96,7 @@ struct Warning {
   std::string remedy;   ///< One sentence; may be empty.
 };
 
-/// How long a named stage took, in the order in which the stages ended.
+/// The time that a named stage took. Lists of them are in the order in which the stages ended.
 struct StageTime {
   std::string name;
   double ms = 0.0;

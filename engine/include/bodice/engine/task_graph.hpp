@@ -1,4 +1,4 @@
-// Named tasks that hand typed data to one another: built once, run many times.
+// Named tasks that pass typed data to one another: built once, run many times.
 //
 //     // Field compute_field(const Context&, const TriMesh&);
 //     // Result<Proxy> fit_parts(const Context&, const TriMesh&, const Field&);  the graph unwraps it
@@ -30,7 +30,7 @@ namespace bodice::engine {
 class GraphBuilder;
 class TaskGraph;
 
-/// The place of a task's result, or of an input of the graph.
+/// A handle to a task's result, or to an input of the graph.
 template <class T>
 class Output {
  public:
@@ -46,7 +46,7 @@ class Output {
   std::shared_ptr<Slot> slot_;
 };
 
-/// The result of a task that returns nothing.
+/// Stands for the result of a task that returns nothing.
 struct Done {};
 
 namespace detail {
@@ -70,9 +70,10 @@ struct Unwrapped<Result<void>> {
 
 using TaskBody = std::function<Result<void>(const Context&)>;
 
+/// A task or input of a graph.
 struct GraphNode {
   std::string name;
-  TaskBody body;  // empty: an input, or declared and never defined
+  TaskBody body;  // empty for an input, and for a task that is declared but not defined
   bool is_input = false;
   int priority = 0;
   std::vector<std::uint32_t> needs;
@@ -81,7 +82,7 @@ struct GraphNode {
 
 }  // namespace detail
 
-/// The type that a task of signature F(const Context&, const In&...) leaves in its Output.
+/// The type of the Output of a task with signature F(const Context&, const In&...).
 template <class F, class... In>
 using TaskResult = typename detail::Unwrapped<std::invoke_result_t<F&, const Context&, const In&...>>::type;
 
@@ -93,20 +94,20 @@ class GraphBuilder {
   GraphBuilder(GraphBuilder&&) noexcept;
   GraphBuilder& operator=(GraphBuilder&&) noexcept;
 
-  /// A value that the caller sets before each run in which it changes.
+  /// Adds a value that the caller sets before each run in which it changes.
   template <class T>
   Output<T> input(std::string name) {
-    return place<T>(std::move(name), true);
+    return add_output<T>(std::move(name), true);
   }
 
-  /// A task that define() fills in later.
+  /// Adds a task that define() fills in later.
   template <class T>
   Output<T> declare(std::string name) {
-    return place<T>(std::move(name), false);
+    return add_output<T>(std::move(name), false);
   }
 
-  /// A task: `function(context, inputs...)` by const reference, its result by value. A Result is unwrapped,
-  /// and its error ends the run; a task that returns nothing gives Done.
+  /// Adds a task: `function(context, inputs...)` takes its inputs by const reference and returns its result
+  /// by value. A Result is unwrapped, and its error ends the run; a task that returns nothing gives Done.
   template <class F, class... In>
   Output<TaskResult<F, In...>> add(std::string name, F function, const Output<In>&... inputs) {
     auto output = declare<TaskResult<F, In...>>(std::move(name));
@@ -114,8 +115,8 @@ class GraphBuilder {
     return output;
   }
 
-  /// A task that writes into a value which is kept between runs, memory and all:
-  /// `function(context, value, inputs...)`, T default-constructed once.
+  /// Adds a task that writes into a value kept between runs, so that its memory is reused: `function(context,
+  /// value, inputs...)`. T is default-constructed once.
   template <class T, class F, class... In>
   Output<T> add_into(std::string name, F function, const Output<In>&... inputs) {
     auto output = declare<T>(std::move(name));
@@ -139,13 +140,13 @@ class GraphBuilder {
     (need(output.node_, inputs.node_, inputs.slot_), ...);
   }
 
-  /// `later` starts after `earlier` has ended, without taking its result.
+  /// Makes `later` start after `earlier` has ended, without taking its result.
   template <class A, class B>
   void order(const Output<A>& earlier, const Output<B>& later) {
     need(later.node_, earlier.node_, earlier.slot_);
   }
 
-  /// Of the tasks that are ready, those of higher priority start first; 0 unless set.
+  /// Sets a priority (0 unless set): ready tasks of higher priority start first.
   template <class T>
   void set_priority(const Output<T>& output, int priority) {
     set_node_priority(output.node_, priority);
@@ -157,7 +158,7 @@ class GraphBuilder {
 
  private:
   template <class T>
-  Output<T> place(std::string name, bool is_input) {
+  Output<T> add_output(std::string name, bool is_input) {
     Output<T> output;
     output.slot_ = std::make_shared<typename Output<T>::Slot>();
     output.node_ = add_node(std::move(name), is_input, output.slot_);
@@ -200,14 +201,14 @@ class GraphBuilder {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Told after each task, one call at a time and with `ended` rising, on the thread that ran the task.
+/// Called after each task, one call at a time and with `ended` rising, on the thread that ran the task.
 struct Progress {
   std::size_t ended = 0, total = 0;
   std::string_view task;
 };
 using OnProgress = FunctionRef<void(const Progress&)>;
 
-/// A checked graph. One run at a time; the engine itself allocates nothing in a run.
+/// A checked graph. It has one run at a time, in which the engine itself allocates nothing.
 class TaskGraph {
  public:
   ~TaskGraph();
@@ -220,15 +221,15 @@ class TaskGraph {
     mark_set(input.node_, input.slot_);
   }
 
-  /// Runs every task once, each as soon as what it needs is there, and traces each under its name.
+  /// Runs every task once, each as soon as its inputs are there, and traces each under its name.
   /// Fails with kInvalidArgument if an input was never set, with kCanceled, or with the error of the
   /// failed task that comes first in topological order; rethrows an exception of a task by the same rule.
   /// Which error is reported does not depend on timing.
   Result<void> run(const Context& context);
   Result<void> run(const Context& context, OnProgress on_progress);
 
-  /// The result of a task if it ended in the last run, else null: nothing of a stopped run is mixed with
-  /// results of an earlier one.
+  /// The result of a task if it ended in the last run, else null, so that a stopped run never shows results
+  /// of an earlier one.
   template <class T>
   const T* find(const Output<T>& output) const {
     return ended(output.node_, output.slot_) ? &*output.slot_->value : nullptr;
@@ -239,7 +240,7 @@ class TaskGraph {
     return *output.slot_->value;
   }
 
-  /// Moves the result out, which the graph then no longer has. Precondition: as of get().
+  /// Moves the result out of the graph, which no longer has it. Precondition: as of get().
   template <class T>
   T take(const Output<T>& output) {
     mark_taken(output.node_, output.slot_);

@@ -12,7 +12,7 @@
 
 namespace bodice::engine {
 
-/// A piece of work that runs once: on a worker, or on the thread that waits for it if no worker came yet.
+/// A piece of work that runs once: on a worker, or on the thread that waits for it if no worker has begun it.
 class Job final : public BackgroundTask {
  public:
   using Work = std::function<Result<void>(Job&, const Context&)>;
@@ -20,19 +20,19 @@ class Job final : public BackgroundTask {
   Job(std::string name, const Context& context, Work work);
 
   const char* name() const noexcept override { return name_.c_str(); }
-  /// Runs the work unless somebody else already does. An exception becomes an error of kInternal.
+  /// Runs the work unless another thread has begun it. An exception becomes an error of kInternal.
   void run() noexcept override;
 
   void cancel() noexcept { cancel_.cancel(); }
   bool canceled() const noexcept { return cancel_.token().canceled(); }
   CancelToken token() const { return cancel_.token(); }
   bool done() const noexcept { return stage_.load(std::memory_order_acquire) == Stage::kDone; }
-  /// Runs it here if it is still waiting; returns when it is done.
+  /// Runs the work on this thread if it has not begun; returns when it is done.
   void wait() noexcept;
-  /// Precondition: done().
+  /// The outcome of the work. Precondition: done().
   const Result<void>& result() const noexcept { return result_; }
 
-  /// Counts publications and the end; for waiting without polling.
+  /// The number of publications and of the end, for waiting without polling.
   std::uint32_t events() const noexcept { return events_.load(std::memory_order_acquire); }
   void wait_for_event_after(std::uint32_t seen) const noexcept { events_.wait(seen); }
   void signal() noexcept;
@@ -50,18 +50,19 @@ class Job final : public BackgroundTask {
   std::atomic<std::uint32_t> events_{0};
 };
 
-/// The caller's hold on submitted work. Copyable; letting go of it neither cancels nor waits.
+/// The caller's handle to submitted work. It is copyable; destroying it neither cancels nor waits.
 class Ticket {
  public:
   Ticket() = default;
   explicit Ticket(std::shared_ptr<Job> job) : job_(std::move(job)) {}
 
-  /// Asks the work to stop. From now on nothing of it takes effect any more.
+  /// Requests the work to stop. From this call on nothing of it takes effect any more.
   void cancel() noexcept {
     if (job_) job_->cancel();
   }
   bool done() const noexcept { return !job_ || job_->done(); }
-  /// Returns when the work is over: its error, kCanceled if it was stopped, or success. Not in a frame.
+  /// Waits until the work is over and returns its error, kCanceled if it was stopped, or success. Must not be
+  /// called in a frame.
   Result<void> wait() const {
     if (!job_) return {};
     job_->wait();

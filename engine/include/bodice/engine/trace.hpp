@@ -1,4 +1,4 @@
-// What ran when, on which thread: opens in Perfetto or chrome://tracing.
+// A record of what ran when and on which thread; it opens in Perfetto or chrome://tracing.
 #pragma once
 
 #include <atomic>
@@ -19,12 +19,12 @@ namespace bodice::engine {
 
 inline constexpr std::int64_t kNoTraceValue = std::numeric_limits<std::int64_t>::min();
 
-/// A span of time on one thread; an instant where begin and end are equal.
+/// A span of time on one thread, or an instant if begin and end are equal.
 struct TraceEvent {
   static constexpr std::size_t kMaxName = 47;  ///< bytes kept of a name, so that an event is a fixed size
   char name[kMaxName + 1] = {};
-  std::int64_t begin_ns = 0, end_ns = 0;  ///< of the context's clock
-  std::int64_t value = kNoTraceValue;     ///< a frame number, a count; shown as an argument
+  std::int64_t begin_ns = 0, end_ns = 0;  ///< nanoseconds of the context's clock
+  std::int64_t value = kNoTraceValue;     ///< a frame number or count, shown as an argument
   std::thread::id thread;
 };
 
@@ -42,9 +42,9 @@ class Trace {
               std::int64_t value = kNoTraceValue) noexcept;
 
   std::size_t dropped() const noexcept;
-  /// The finished events in order of their begin. Safe while others record; allocates.
+  /// The finished events in order of their begin. Safe while other threads record; allocates.
   std::vector<TraceEvent> events() const;
-  /// Chrome trace-event JSON; threads are numbered in order of their first event.
+  /// The events as Chrome trace-event JSON; threads are numbered in order of their first event.
   std::string json() const;
   /// Writes json() beside `path` and renames it there once it is whole. Fails with kWriteFailed.
   Result<void> write(const std::filesystem::path& path) const;
@@ -56,7 +56,8 @@ class Trace {
   std::atomic<std::size_t> next_{0};
 };
 
-/// Records its own lifetime under a name, which must outlive it. Without a trace: one test of a pointer.
+/// Records its own lifetime under a name, which must outlive it. Without a trace it costs one test of a
+/// pointer.
 class TraceSpan {
  public:
   TraceSpan(const Context& context, std::string_view name, std::int64_t value = kNoTraceValue) noexcept
@@ -77,7 +78,7 @@ class TraceSpan {
   std::int64_t begin_ns_ = 0;
 };
 
-/// Marks a moment: a publication, a cancellation.
+/// Records a moment, such as a publication or a cancellation.
 inline void trace_instant(const Context& context, std::string_view name, std::int64_t value = kNoTraceValue) {
   if (!context.trace) return;
   const std::int64_t now_ns = context.clock->now_ns();

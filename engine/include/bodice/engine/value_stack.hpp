@@ -12,8 +12,8 @@ struct ValueNode {
   ValueNode* next = nullptr;
 };
 
-/// Nodes that threads push one by one and take all at once, newest first. Taking all leaves no node behind
-/// that another thread could still compare with, so there is no ABA to fear.
+/// A stack onto which threads push nodes one by one, and from which one takes all at once, newest first.
+/// Taking all leaves no node that another thread could compare with, so that the ABA problem cannot arise.
 template <class T>
 class ValueStack {
  public:

@@ -1,4 +1,4 @@
-// Counts what a program allocates; for tests that link bodice_test_allocations.
+// Counts a program's allocations, for tests that link bodice_test_allocations.
 #pragma once
 
 #include <algorithm>
@@ -7,15 +7,15 @@
 
 namespace bodice_test {
 
-/// False under sanitizers, which bring their own allocator.
+/// Whether allocations are counted; false under sanitizers, which have their own allocator.
 bool counts_allocations() noexcept;
 
-/// Calls of malloc and its relatives in this program so far, on all threads, in all libraries.
+/// The number of calls of malloc and its relatives so far, on all threads and in all libraries.
 std::size_t allocations() noexcept;
 
 /// The fewest allocations in any of several rounds of `calls` calls, after one to warm up. On a busy machine
-/// a worker may come for the first time in a later round, and TBB makes its memory then; what allocates in
-/// each call allocates in each round.
+/// a worker may join for the first time in a later round, for which TBB allocates. Allocations of the calls
+/// themselves recur in each round.
 template <class Work>
 std::size_t allocations_when_warm(int calls, Work&& work) {
   std::size_t fewest = SIZE_MAX;

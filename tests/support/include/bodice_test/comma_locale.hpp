@@ -5,8 +5,8 @@
 
 namespace bodice_test {
 
-/// While it lives, the C library writes and reads 0,5 for 0.5, as in a host that called setlocale(). Where no
-/// such locale is installed, active() is false.
+/// Makes the C library write and read 0,5 for 0.5 during its lifetime, as in a host that called setlocale().
+/// active() is false if no such locale is installed.
 class CommaLocale {
  public:
   CommaLocale() : before_(std::setlocale(LC_ALL, nullptr)) {

@@ -6,7 +6,8 @@
 
 namespace bodice_test {
 
-/// A file of the optional data folder, or nothing (said once on the test's output) when it is not there.
+/// A file of the optional data folder, or nothing if it is missing, which is reported once on the test's
+/// output.
 std::optional<std::filesystem::path> data_file(std::string_view relative);
 
 }  // namespace bodice_test

@@ -1,14 +1,14 @@
-// The shared table of hostile input: what every algorithm's suite iterates over.
+// The shared table of hostile input, which every algorithm's suite iterates over.
 //
 //   for (const PointSetCase& extreme : extreme_point_sets()) {
 //     CAPTURE(extreme.name);
 //     const auto result = algorithm(extreme.points);
-//     if (!extreme.finite) CHECK(an error that says so, or a result without those points);
+//     if (!extreme.finite) CHECK(an error that names them, or a result without those points);
 //     else CHECK(no NaN, and the algorithm's own promise, with tolerances relative to extreme.size_m);
 //   }
 //
-// The expected answer depends on the algorithm, so the table says what the input IS (how many dimensions it
-// spans, how large, how far, whether finite) and the suite says what must come out.
+// The expected result depends on the algorithm. The table states what the input IS (how many dimensions it
+// spans, how large, how far, whether finite), and the suite states what must come out.
 #pragma once
 
 #include <string>
@@ -26,9 +26,9 @@ using bodice::geometry::Vec3;
 struct PointSetCase {
   std::string name;
   std::vector<Vec3> points;
-  bool finite = true;   ///< no NaN or Inf among the points
-  int dimension = 3;    ///< of the affine hull of the finite points: -1 none, 0 one place, 1 line, 2 plane, 3
-  double size_m = 0.0;  ///< diagonal of the finite points' box
+  bool finite = true;     ///< no NaN or Inf among the points
+  int dimension = 3;      ///< of the affine hull of the finite points; -1 without points
+  double size_m = 0.0;    ///< diagonal of the finite points' box
   double offset_m = 0.0;  ///< distance of their box from the origin: doubles resolve 1e-16 of it, no more
 };
 

@@ -1,4 +1,4 @@
-// Small meshes with closed-form truth, wound outward, meters.
+// Small meshes with known area and volume, wound outward, in meters.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +16,23 @@ TriMesh icosphere(double radius_m, int subdivisions, const Vec3& center = Vec3::
 /// An axis-aligned box, two triangles a cell, `cells` cells along each edge of a face.
 TriMesh box(const Vec3& half_size_m, int cells = 1, const Vec3& center = Vec3::Zero());
 
-/// Around y from -height/2 to height/2. Closed by two fans around cap centers, or open at both ends.
+/// A cylinder around y from -height/2 to height/2. It is closed by two fans around cap centers, or open at
+/// both ends.
 TriMesh cylinder(double radius_m, double height_m, int around, int along, bool caps = true);
 
-/// Around y; genus 1.
+/// A torus around y, of genus 1.
 TriMesh torus(double major_m, double minor_m, int around, int across);
 
 /// A flat sheet in the xz plane, normals +y, centerd.
 TriMesh sheet(double width_m, double depth_m, int cells_x, int cells_z);
 
-/// Both, side by side in one mesh; nothing is joined.
+/// Both meshes side by side in one; nothing is welded.
 TriMesh joined(const TriMesh& a, const TriMesh& b);
 
-/// Every triangle with three vertices of its own, as STL files have them.
+/// The mesh with three vertices of its own for every triangle, as in STL files.
 TriMesh soup(const TriMesh& mesh);
 
-/// scale * p + offset.
+/// The mesh with its positions p replaced by scale * p + offset.
 TriMesh moved(TriMesh mesh, double scale, const Vec3& offset);
 
 /// The same surface with vertices and triangles renumbered and corners rotated, by seed.

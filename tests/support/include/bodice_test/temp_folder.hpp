@@ -9,7 +9,7 @@
 
 namespace bodice_test {
 
-/// A folder of its own, gone at the end of the scope.
+/// A new folder that is removed at the end of the scope.
 class TempFolder {
  public:
   TempFolder() {
@@ -26,7 +26,7 @@ class TempFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
 
-  /// Writes a file into the folder and gives its path.
+  /// Writes a file into the folder and returns its path.
   std::filesystem::path write(std::string_view name, std::string_view bytes) const {
     const std::filesystem::path file = path_ / name;
     std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
