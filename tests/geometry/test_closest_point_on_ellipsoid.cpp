@@ -33,10 +33,10 @@ Quad3 to_local(const Ellipsoid& e, const Vec3& p) {
   return y;
 }
 
-/// Unsigned distance from y to the surface, and the foot in the first octant.
+/// The unsigned distance from y to the surface, and the closest point in the first octant.
 struct Reference {
   Quad distance;
-  Quad3 foot;
+  Quad3 closest;
 };
 
 Reference reference(const Ellipsoid& e, const Quad3& y) {
@@ -57,7 +57,7 @@ Reference reference(const Ellipsoid& e, const Quad3& y) {
   for (int j = 0; j < 3; ++j) high += r[j] * z[j];
   Quad low = 0;
   Quad3 w{};
-  // In u = t + r_min^2; logarithmic bisection first, so that tiny roots keep their digits.
+  // The unknown is u = t + r_min^2; bisection is logarithmic first, so that tiny roots keep their digits.
   const Quad tiny = high * static_cast<Quad>(1e-1000L);
   const bool above = high > 0 && sum(tiny) > 1;
   if (above) {
@@ -82,8 +82,8 @@ Reference reference(const Ellipsoid& e, const Quad3& y) {
   }
   Reference result{};
   for (int j = 0; j < 3; ++j) {
-    result.foot[j] = r[j] * w[j];
-    result.distance += (z[j] - result.foot[j]) * (z[j] - result.foot[j]);
+    result.closest[j] = r[j] * w[j];
+    result.distance += (z[j] - result.closest[j]) * (z[j] - result.closest[j]);
   }
   result.distance = quad_sqrt(result.distance);
   return result;
@@ -112,7 +112,7 @@ Errors errors_of(const Ellipsoid& e, const Vec3& query) {
   Errors errors;
   errors.distance =
       std::abs(static_cast<double>(static_cast<Quad>(got.signed_distance) - signed_truth)) / scale;
-  // How far the returned point is off the surface, to first order.
+  // The distance of the returned point from the surface, to first order.
   const Vec3 w = (e.axes.transpose() * (got.point - e.center)).cwiseQuotient(e.radii);
   const double gradient = w.cwiseQuotient(e.radii).norm() / w.norm();
   errors.surface = std::abs(w.norm() - 1.0) / gradient / scale;
@@ -149,7 +149,7 @@ TEST_CASE("closest_point is exact to 1e-12 on random shapes and queries over twe
     e.axes = Eigen::Quaterniond(random.normal(), random.normal(), random.normal(), random.normal())
                  .normalized()
                  .toRotationMatrix();
-    // Near the surface, near the middle, near a symmetry plane, and far away.
+    // Queries near the surface, near the middle, near a symmetry plane, and far away.
     Vec3 w = Vec3(random.normal(), random.normal(), random.normal()).normalized();
     w *= std::pow(10.0, random.uniform(-4.0, 2.0));
     if (random.uniform() < 0.3)

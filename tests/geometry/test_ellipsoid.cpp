@@ -44,7 +44,7 @@ TEST_CASE("the radial projection lies on the surface, on the ray, and is defined
   for (const auto& extreme : extreme_ellipsoids()) {
     CAPTURE(extreme.name);
     const Ellipsoid& e = extreme.shape;
-    // What rounding the center's coordinates alone does to the level, in the thinnest direction.
+    // The error of the level that rounding the center's coordinates alone causes, in the thinnest direction.
     const double noise = 1e-12 + 1e-15 * e.center.norm() / e.radii.minCoeff() * 8.0;
     for (const Vec3& query : bodice_test::hostile_queries(e)) {
       const Vec3 p = radial_projection(e, query);

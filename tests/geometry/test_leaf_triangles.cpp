@@ -1,4 +1,5 @@
-// White-box: a triangle ruled out wrongly is a wrong distance somewhere that no mesh may happen to ask for.
+// White-box: a triangle ruled out wrongly is a wrong distance at points that no mesh test may happen to
+// query.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ Vec3 random_vector(Random& random, double most) {
   return most * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
 }
 
-/// Of any size down to a billionth and any height down to none; corners within the unit cube, as in a tree.
+/// A triangle of any size down to a billionth and any height down to none, inside the unit cube as in a tree.
 BvhTriangle random_triangle(Random& random) {
   const double size = std::pow(10.0, random.uniform(-9.0, -0.3));
   const double height = random.uniform() < 0.1 ? 0.0 : std::pow(10.0, random.uniform(-12.0, 0.0));
@@ -26,7 +27,7 @@ BvhTriangle random_triangle(Random& random) {
   return {a, ab, random.uniform(-1.0, 1.0) * ab + height * random_vector(random, 0.5 * size)};
 }
 
-/// Near the triangle's surface, its edges' normals or anywhere, down to on it and up to a million away.
+/// A query near the triangle's surface, along its edges' normals, or anywhere; from on it to a million away.
 Vec3 random_query(Random& random, const BvhTriangle& t) {
   const Vec3 on = t.a + random.uniform(-0.5, 1.5) * t.ab + random.uniform(-0.5, 1.5) * t.ac;
   const double off = random.uniform() < 0.1 ? 0.0 : std::pow(10.0, random.uniform(-9.0, 6.0));
@@ -35,7 +36,7 @@ Vec3 random_query(Random& random, const BvhTriangle& t) {
 
 }  // namespace
 
-TEST_CASE("no triangle of a leaf is nearer than told, by more than the slack") {
+TEST_CASE("a leaf overestimates no distance by more than the slack") {
   Random random(41);
   double worst = 0.0;
   for (int i = 0; i < 50000; ++i) {
@@ -43,23 +44,23 @@ TEST_CASE("no triangle of a leaf is nearer than told, by more than the slack") {
     std::array<BvhTriangle, LeafTriangles::kWidth> triangles;
     for (int k = 0; k < LeafTriangles::kWidth; ++k) leaf.set(k, triangles[k] = random_triangle(random));
     const Vec3 query = random_query(random, triangles[0]);
-    const Float4 told2 = leaf.distances2(
+    const Float4 estimate2 = leaf.distances2(
         {static_cast<float>(query[0]), static_cast<float>(query[1]), static_cast<float>(query[2])});
     const double scale = query.cwiseAbs().maxCoeff() + 1.0;
     for (int k = 0; k < LeafTriangles::kWidth; ++k) {
       const auto& [a, ab, ac] = triangles[k];
       const double distance = (closest_point(a, a + ab, a + ac, query).point - query).norm();
-      worst = std::max(worst, (std::sqrt(static_cast<double>(told2[k])) - distance) / scale);
+      worst = std::max(worst, (std::sqrt(static_cast<double>(estimate2[k])) - distance) / scale);
     }
   }
   INFO("worst ", worst / LeafTriangles::kSlack, " of the slack");
   CHECK(worst <= LeafTriangles::kSlack);
-  CHECK(worst >= 1e-3 * LeafTriangles::kSlack);  // or the slack is far too wide
+  CHECK(worst >= 1e-3 * LeafTriangles::kSlack);  // otherwise the slack is far too wide
 }
 
-TEST_CASE("triangles that are well apart are told apart: most need no exact test") {
+TEST_CASE("a leaf gives distances to 0.1 mm for triangles within a meter that are no slivers") {
   Random random(42);
-  int told = 0, asked = 0;
+  int close = 0, count = 0;
   for (int i = 0; i < 1000; ++i) {
     LeafTriangles leaf{.first = 0, .count = 1};
     const Vec3 a = random_vector(random, 0.4);
@@ -67,10 +68,10 @@ TEST_CASE("triangles that are well apart are told apart: most need no exact test
     leaf.set(0, t);
     const Vec3 query = a + random_vector(random, 0.2);
     const double distance = (closest_point(t.a, t.a + t.ab, t.a + t.ac, query).point - query).norm();
-    const Float4 told2 = leaf.distances2(
+    const Float4 estimate2 = leaf.distances2(
         {static_cast<float>(query[0]), static_cast<float>(query[1]), static_cast<float>(query[2])});
-    ++asked;
-    told += std::abs(std::sqrt(static_cast<double>(told2[0])) - distance) < 1e-4;
+    ++count;
+    close += std::abs(std::sqrt(static_cast<double>(estimate2[0])) - distance) < 1e-4;
   }
-  CHECK(told == asked);
+  CHECK(close == count);
 }

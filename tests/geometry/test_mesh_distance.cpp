@@ -22,8 +22,8 @@ using bodice::engine::Random;
 
 namespace {
 
-/// Distance to a segment, and to a triangle as the nearest of its plane's foot and its three segments: slow,
-/// in long double, and unlike the library's regions.
+/// The distance to a segment, and to a triangle as the least over its plane and its three segments. It is
+/// slow, in long double, and does not share the library's case distinction.
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 
 long double segment_distance(const Long3& a, const Long3& b, const Long3& p) {
@@ -38,10 +38,10 @@ long double triangle_distance(const Long3& a, const Long3& b, const Long3& c, co
       std::min({segment_distance(a, b, p), segment_distance(b, c, p), segment_distance(c, a, p)});
   const Long3 n = (b - a).cross(c - a);
   if (!(n.squaredNorm() > 0)) return best;
-  const Long3 foot = p - n * (n.dot(p - a) / n.squaredNorm());
-  const bool inside = (b - a).cross(foot - a).dot(n) >= 0 && (c - b).cross(foot - b).dot(n) >= 0 &&
-                      (a - c).cross(foot - c).dot(n) >= 0;
-  return inside ? std::min(best, (foot - p).norm()) : best;
+  const Long3 projection = p - n * (n.dot(p - a) / n.squaredNorm());
+  const bool inside = (b - a).cross(projection - a).dot(n) >= 0 &&
+                      (c - b).cross(projection - b).dot(n) >= 0 && (a - c).cross(projection - c).dot(n) >= 0;
+  return inside ? std::min(best, (projection - p).norm()) : best;
 }
 
 double brute_distance(const TriMesh& mesh, const Vec3& query) {
@@ -53,7 +53,8 @@ double brute_distance(const TriMesh& mesh, const Vec3& query) {
   return static_cast<double>(best);
 }
 
-/// The sum of all solid angles, by L'Huilier's theorem and the sign of the volume: not the library's formula.
+/// The sum of all solid angles by L'Huilier's theorem, with the sign of the volume. The library uses another
+/// formula.
 double brute_winding(const TriMesh& mesh, const Vec3& query) {
   long double total = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -197,7 +198,7 @@ TEST_CASE("real bodies: distance by brute force, sign by brute-force winding") {
 }
 
 TEST_CASE("the tree has the same bits however many workers build it") {
-  const TriMesh mesh = icosphere(1.0, 5);  // its upper nodes are tasks
+  const TriMesh mesh = icosphere(1.0, 5);  // its upper nodes are built in tasks of their own
   REQUIRE(mesh.triangles.size() > 4096);
   const MeshDistance serial({}, mesh);
   for (const auto& [name, executor] : bodice_test::all_executors()) {

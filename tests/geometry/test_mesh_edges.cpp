@@ -10,7 +10,7 @@
 using namespace bodice::geometry;
 using namespace bodice_test;
 
-TEST_CASE("edges of a closed surface satisfy Euler's formula and know both triangles") {
+TEST_CASE("edges of a closed surface satisfy Euler's formula and list both triangles") {
   const auto mesh = icosphere(1.0, 3);
   const auto edges = mesh_edges(mesh);
   CHECK(mesh.positions.size() + mesh.triangles.size() == edges.ends.size() + 2);
@@ -39,7 +39,7 @@ TEST_CASE("an edge of three triangles is counted, and keeps its first two") {
   CHECK(edges.triangles[edges.of_triangle[2][0]] == std::array<Index, 2>{0, 1});
 }
 
-TEST_CASE("no triangle, no edge") {
+TEST_CASE("a mesh without triangles has no edges") {
   CHECK(mesh_edges({}).ends.empty());
   TriMesh points;
   points.positions.assign(3, Vec3::Zero());

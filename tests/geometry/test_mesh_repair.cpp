@@ -24,7 +24,7 @@ RepairedMesh repaired(const TriMesh& mesh) {
   return std::move(result).value();
 }
 
-/// What every repaired mesh must be, whatever went in.
+/// Checks what holds for every repaired mesh, whatever the input.
 void check_promises(const TriMesh& input, const RepairedMesh& got) {
   const TriMesh& mesh = got.mesh;
   REQUIRE(got.vertex_of_input.size() == input.positions.size());
@@ -72,7 +72,7 @@ TEST_CASE("a clean mesh passes through unchanged") {
   }
 }
 
-TEST_CASE("a soup with float noise welds back to the closed surface, at any scale and place") {
+TEST_CASE("a soup with float noise welds back to the closed surface, at any scale and position") {
   const TriMesh clean = torus(1.0, 0.3, 24, 12);
   for (const auto& [scale, offset] :
        {std::pair{1.0, 0.0}, {1e-6, 0.0}, {1e6, 0.0}, {1.0, 1e4}, {1e-3, 1e4}}) {
@@ -103,7 +103,7 @@ TEST_CASE("a stray vertex or component far away does not widen the weld distance
   CHECK(repaired(spiked).mesh.positions.size() == spiked.positions.size());
 }
 
-TEST_CASE("orientation: any random set of reversed triangles is turned back, components alike") {
+TEST_CASE("any random set of reversed triangles is turned back, in every component") {
   const TriMesh clean =
       joined(icosphere(1.0, 3), joined(torus(0.5, 0.1, 20, 8), icosphere(0.2, 1, {4, 0, 0})));
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
@@ -122,7 +122,8 @@ TEST_CASE("orientation: any random set of reversed triangles is turned back, com
   }
 }
 
-TEST_CASE("an open sheet keeps the winding of its majority, and orient off turns nothing") {
+TEST_CASE(
+    "an open sheet keeps the winding of its majority, and without the option orient no triangle is turned") {
   TriMesh mesh = sheet(1.0, 1.0, 6, 6);
   std::swap(mesh.triangles[3][1], mesh.triangles[3][2]);
   CHECK(repaired(mesh).report.flipped_triangles == 1);
@@ -187,7 +188,7 @@ TEST_CASE("fins are dropped from a skin, walls inside it stay, and a garment kee
   REQUIRE(kept.ok());
   CHECK(kept->mesh.triangles.size() == finned.triangles.size());
 
-  // A can with a wall across its middle and a window above it.
+  // The shape is a can with a wall across its middle and a window above the wall.
   TriMesh walled = cylinder(1.0, 2.0, 24, 4);
   std::vector<Index> ring;
   for (Index v = 0; v < walled.positions.size(); ++v)
@@ -229,14 +230,16 @@ TEST_CASE("components are ordered by area") {
   CHECK(components.of_vertex.back() == 2);
 }
 
-TEST_CASE("the awkward files come out as data/README.md describes them") {
+TEST_CASE(
+    "the awkward files are repaired to the counts of vertices, components and handles that they were made "
+    "with") {
   struct Row {
     const char* file;
     std::size_t vertices;
     std::size_t components;
     int euler;
   };
-  // Damage that README counts away: 2 for each closed component of genus 0.
+  // Each row is a file, its vertices and triangles, and 2 for each closed component of genus 0.
   const Row rows[] = {{"awkward/f_avg_far_origin.obj", 3000, 1, 2},
                       {"awkward/f_avg_inverted.obj", 3000, 1, 2},
                       {"awkward/f_avg_mixed_winding.obj", 3000, 1, 2},

@@ -27,13 +27,13 @@ TEST_CASE("samples lie on their triangles, sum to the area and spread by area") 
     area += s.area;
   }
   CHECK(area == doctest::Approx(surface_area(mesh)));
-  // Stratification: each triangle gets its area to within the two strata at its ends.
+  // Samples are stratified: each triangle gets its area, up to the two strata at its ends.
   for (std::size_t t = 0; t < hits.size(); ++t)
     CHECK(std::abs(hits[t] - 0.5 * area_vector(mesh, t).norm()) <= 2.0 * area / count);
 }
 
 TEST_CASE("the mean over samples converges faster than random ones would") {
-  // Mean of x^2 over the unit sphere's surface is 1/3; 4096 random points err by about .0047.
+  // The mean of x^2 over the unit sphere is 1/3; 4096 random points err by about .0047.
   const TriMesh mesh = icosphere(1.0, 5);
   const auto samples = sample_surface(mesh, 4096, 1);
   double sum = 0.0;

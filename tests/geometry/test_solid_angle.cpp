@@ -1,4 +1,5 @@
-// White-box: a turn lost or gained is a whole winding number, and only few sums come near one.
+// White-box: one turn too few or too many is a whole winding number, and only few sums come near such a
+// border.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ using bodice::engine::Random;
 
 namespace {
 
-/// Twice the sum of half angles, one arc tangent each.
+/// Twice the sum of the half angles, with one arc tangent each.
 long double one_by_one(const std::vector<HalfAngle>& halves) {
   long double sum = 0;
   for (const auto& [sine, cosine] : halves)
@@ -59,12 +60,12 @@ TEST_CASE("sums that end on a turn's border are off by rounding, never by a turn
           const auto signed_by = [&](double x, int bit) { return (signs & bit) != 0 ? -x : x; };
           const std::vector<HalfAngle> halves = {at(signed_by(a, 1), 1.0), at(signed_by(b, 2), 1e-9),
                                                  at(signed_by(c, 4), 3.0)};
-          // The sum itself may lie on the border, from where it is as far as the principal value goes.
+          // A sum may lie on the border itself, where the principal value jumps.
           REQUIRE(std::abs(together(halves) - static_cast<double>(one_by_one(halves))) < 1e-13);
         }
 }
 
-TEST_CASE("exact quarters: the plane counts as nothing, straight angles as a whole one") {
+TEST_CASE("angles of exact quarters: the plane counts as 0, a straight half angle as a whole turn") {
   CHECK(together({{0.0, -1.0}}) == 0.0);
   CHECK(together({{1.0, 0.0}, {1.0, 0.0}}) == doctest::Approx(2 * std::numbers::pi));
   CHECK(together({{-1.0, 0.0}, {-1.0, 0.0}}) == doctest::Approx(-2 * std::numbers::pi));

@@ -5,7 +5,7 @@
 namespace bodice::geometry {
 
 std::vector<std::vector<Index>> boundary_loops(const TriMesh& mesh, const MeshEdges& edges) {
-  // Rim edges as (from, to), sorted by `from`; each is taken once.
+  // The edges of the rims as (from, to), sorted by `from`. Each is used once.
   std::vector<std::array<Index, 2>> rim;
   for (Index t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {

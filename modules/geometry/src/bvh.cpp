@@ -13,9 +13,11 @@ namespace bodice::geometry {
 namespace {
 
 constexpr int kBins = 16;
-constexpr std::uint32_t kBesideEachOther = 2048;  // triangles of a node whose children are worth a task each
+// A node of more triangles than this builds its children in tasks of their own.
+constexpr std::uint32_t kParallelNode = 2048;
 constexpr std::size_t kLeafGrain = 512;
-constexpr int kSahLevels = 40;  // binary levels by surface area; below them halves, which bounds the depth
+// Binary levels that are split by surface area. Deeper ones are halved, which bounds the depth.
+constexpr int kSahLevels = 40;
 
 struct FloatBox {
   std::array<float, 3> low, high;
@@ -67,13 +69,14 @@ struct Range {
 struct Split {
   int axis = 0;
   float origin = 0.0f, bins_per_unit = 0.0f;
-  int bin = 0;  // the first bin of the right side; 0: no split found
+  int bin = 0;  // the first bin of the right side; 0 means that no split was found
   int bin_of(const Primitive& p) const {
     return std::clamp(static_cast<int>((p.centroid[axis] - origin) * bins_per_unit), 0, kBins - 1);
   }
 };
 
-/// The cheapest of the kBins - 1 planes along one axis by n_left area_left + n_right area_right.
+/// The sums of a sweep over the bins of one axis. It finds the plane (of kBins - 1) that costs least: n_left
+/// area_left + n_right area_right.
 struct BinSweep {
   std::array<FloatBox, kBins> boxes;
   std::array<std::uint32_t, kBins> counts{};
@@ -119,7 +122,7 @@ class Builder {
   const std::vector<std::uint32_t>& order() const { return order_; }
 
  private:
-  /// Leaves are known by their first triangle until all nodes are there.
+  /// Replaces the first triangle, by which a child names its leaf, by the leaf's number once all nodes exist.
   void number_leaves(std::vector<BvhNode>& nodes, std::vector<LeafTriangles>& leaves) const {
     for (BvhNode& node : nodes)
       for (std::uint32_t& child : node.child) {
@@ -130,7 +133,7 @@ class Builder {
       }
   }
 
-  /// Fills nodes[index] with the children of a range.
+  /// Sets the children of nodes[index], which covers the range.
   void fill(const engine::Context& context, std::vector<BvhNode>& nodes, std::uint32_t index, Range range,
             int level) {
     std::array<Range, BvhNode::kWidth> parts;
@@ -144,15 +147,15 @@ class Builder {
           parts[i].end = middle;
         }
     std::array<std::uint32_t, BvhNode::kWidth> child;
-    if (range.size() > kBesideEachOther) {
-      place_beside_each_other(context, nodes, parts, level + 2, child);
+    if (range.size() > kParallelNode) {
+      add_in_parallel(context, nodes, parts, level + 2, child);
     } else {
-      for (int i = 0; i < BvhNode::kWidth; ++i) child[i] = place(context, nodes, parts[i], level + 2);
+      for (int i = 0; i < BvhNode::kWidth; ++i) child[i] = add_part(context, nodes, parts[i], level + 2);
     }
     for (int i = 0; i < BvhNode::kWidth; ++i) set_child(nodes[index], i, parts[i], child[i]);
   }
 
-  std::uint32_t place(const engine::Context& context, std::vector<BvhNode>& nodes, Range part, int level) {
+  std::uint32_t add_part(const engine::Context& context, std::vector<BvhNode>& nodes, Range part, int level) {
     if (part.size() == 0) return BvhChild::kNone;
     if (part.size() <= Bvh::kLeafSize) {
       leaf_size_[part.begin] = static_cast<std::uint8_t>(part.size());
@@ -164,13 +167,13 @@ class Builder {
     return child;
   }
 
-  /// Each part in nodes of its own, then joined in the order that place() one after the other gives.
-  void place_beside_each_other(const engine::Context& context, std::vector<BvhNode>& nodes,
-                               const std::array<Range, BvhNode::kWidth>& parts, int level,
-                               std::array<std::uint32_t, BvhNode::kWidth>& child) {
+  /// Builds the parts side by side, then joins their nodes in the order of a serial build.
+  void add_in_parallel(const engine::Context& context, std::vector<BvhNode>& nodes,
+                       const std::array<Range, BvhNode::kWidth>& parts, int level,
+                       std::array<std::uint32_t, BvhNode::kWidth>& child) {
     std::array<std::vector<BvhNode>, BvhNode::kWidth> own;
     engine::parallel_for(context, BvhNode::kWidth, 1, [&](std::size_t i, std::size_t) {
-      child[i] = place(context, own[i], parts[i], level);
+      child[i] = add_part(context, own[i], parts[i], level);
     });
     for (int i = 0; i < BvhNode::kWidth; ++i) {
       const auto base = static_cast<std::uint32_t>(nodes.size());

@@ -12,10 +12,11 @@ struct Pending {
   std::uint32_t child;
 };
 
-// Above the clamped distance of every box, below that of a missing child, which is infinite.
+// A squared distance above the clamped one of every box, and below that of a missing child, which is
+// infinite.
 constexpr float kKeepAll = 3e38f;
 
-/// A single-precision query whose distances to boxes and triangles, less the slack, never exceed the true
+/// A query in single precision. Its distances to boxes and triangles, less the slack, never exceed the true
 /// ones.
 struct FloatQuery {
   std::array<float, 3> p;
@@ -25,10 +26,10 @@ struct FloatQuery {
       : p{clamped(q[0]), clamped(q[1]), clamped(q[2])},
         slack(LeafTriangles::kSlack * (q.cwiseAbs().maxCoeff() + 1.0)) {}
 
-  /// Keeps squares finite; so far away the slack keeps every box.
+  /// Bounds coordinates so that squares stay finite. At such distances the slack keeps every box.
   static float clamped(double x) { return static_cast<float>(std::clamp(x, -1e18, 1e18)); }
 
-  /// Boxes and triangles beyond this squared distance cannot hold anything nearer than sqrt(best2).
+  /// The squared distance beyond which no box or triangle holds a point nearer than sqrt(best2).
   float reach2(double best2) const {
     const double reach = std::sqrt(best2) + slack;
     const double reach2 = reach * reach * (1.0 + 1e-6);
@@ -45,7 +46,8 @@ struct FloatQuery {
   }
 };
 
-/// Most triangles of the leaves that a query comes to are not the nearest: floats tell without branches.
+/// Tests the triangles of a leaf exactly if floats cannot rule them out, and returns whether one is nearer
+/// than `best`. Most are ruled out, four at a time and without branches.
 bool visit_leaf(const Bvh& bvh, const LeafTriangles& leaf, const FloatQuery& q, float reach2,
                 const Vec3& query, BvhHit& best) {
   bool nearer = false;

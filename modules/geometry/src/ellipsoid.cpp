@@ -16,7 +16,7 @@ Vec3 to_local(const Ellipsoid& ellipsoid, const Vec3& point) {
 
 std::array<int, 3> axes_by_radius(const Vec3& radii) {
   std::array<int, 3> axes = {0, 1, 2};
-  // std::stable_sort would allocate, and moving a collider to a new pose must not.
+  // std::stable_sort would allocate, which a collider that moves to a new pose must not.
   std::sort(axes.begin(), axes.end(),
             [&](int a, int b) { return radii[a] != radii[b] ? radii[a] > radii[b] : a < b; });
   return axes;
@@ -31,7 +31,7 @@ double volume(const Ellipsoid& ellipsoid) {
 }
 
 Box bounding_box(const Ellipsoid& ellipsoid) {
-  // The support in direction e_i is |diag(r) R^T e_i|: the norm of row i of R diag(r).
+  // The half width along e_i is |diag(r) R^T e_i|, the norm of row i of R diag(r).
   const Vec3 half = (ellipsoid.axes * ellipsoid.radii.asDiagonal()).rowwise().norm();
   return {ellipsoid.center - half, ellipsoid.center + half};
 }
@@ -44,7 +44,8 @@ Vec3 radial_projection(const Ellipsoid& ellipsoid, const Vec3& point) {
     ellipsoid.radii.minCoeff(&shortest);
     return ellipsoid.center + ellipsoid.radii[shortest] * ellipsoid.axes.col(shortest);
   }
-  // Unit direction on the sphere first, then the radii: exact in scale however near the center.
+  // The direction is normalized on the unit sphere before the radii apply: this is exact in scale however
+  // near the center.
   const Vec3 w = (y / size).cwiseQuotient(ellipsoid.radii / ellipsoid.radii.maxCoeff()).stableNormalized();
   return ellipsoid.center + ellipsoid.axes * ellipsoid.radii.cwiseProduct(w);
 }

@@ -7,7 +7,8 @@
 namespace bodice::geometry {
 namespace {
 
-// A hand, the smallest part that a wall could part from a body, has 2 % of the skin and dozens of triangles.
+// A fin's largest share of the area. A hand, the smallest part that a wall could separate from a body, has 2
+// % of the skin and dozens of triangles.
 constexpr double kLargestFin = 0.01;
 constexpr int kFewTriangles = 8;
 

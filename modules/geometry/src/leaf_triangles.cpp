@@ -8,7 +8,8 @@
 namespace bodice::geometry {
 namespace {
 
-// Local height below which a triangle's plane is not known well enough: such slivers are never ruled out.
+// Triangles lower than this, in local units, are never ruled out, since their planes are not known well
+// enough.
 constexpr double kLeastHeight = 1e-6;
 
 Float4 unit_interval(Float4 t) {

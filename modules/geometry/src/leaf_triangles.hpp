@@ -1,4 +1,4 @@
-// The triangles of one leaf side by side in floats: which of them can be nearer than a bound.
+// The triangles of one leaf side by side in floats, to find those that can be nearer than a bound.
 #pragma once
 
 #include <array>
@@ -9,25 +9,26 @@
 
 namespace bodice::geometry {
 
-/// A triangle as the traversal wants it: a corner and two edges, local frame.
+/// A triangle in the form that the traversal reads: a corner and two edges, in the local frame.
 struct BvhTriangle {
   Vec3 a, ab, ac;
 };
 
-/// Up to four triangles, each in a frame of its own: corner a at the origin, b on the x axis, c above it.
-/// Local units of the tree.
+/// Up to four triangles in local units, each in a frame of its own: corner a is the origin, b lies on the x
+/// axis and c above it.
 struct LeafTriangles {
   static constexpr int kWidth = 4;
 
-  std::uint32_t first = 0, count = 0;   ///< of the tree's triangles
+  std::uint32_t first = 0, count = 0;   ///< a range of the tree's triangles
   std::array<Float4, 3> a{}, x{}, y{};  ///< corner, and the frame's axes in the plane; a sliver's axes are 0
   Float4 bx{}, cx{}, cy{};
   Float4 per_ac2{}, per_bc2{};  ///< 1 / squared length
 
   void set(int slot, const BvhTriangle& t);
 
-  /// Squared distances of a point. With those points rounded to floats and coordinates up to m, their roots
-  /// are too large by no more than kSlack (m + 1); those of slivers are below the true ones.
+  /// Squared distances of a point from the triangles. If the point is rounded to floats and coordinates are
+  /// at most m, their roots exceed the true ones by at most kSlack (m + 1). Those of slivers are below the
+  /// true ones.
   Float4 distances2(const std::array<float, 3>& point) const;
   static constexpr double kSlack = 64.0 * 0x1p-23;
 };

@@ -10,11 +10,11 @@
 namespace bodice::geometry {
 namespace {
 
-// Distance over radius from which a dipole stands for its triangles. At 2.5 the sum is within .02 of the
-// exact one on bodies, which decides inside or outside but next to a hole; there the finer ratio is asked.
+// Distance over radius from which a dipole replaces its triangles. At 2.5 the sum is within .02 of the exact
+// one on bodies, which decides the side of a point except next to a hole. There the finer ratio is used.
 constexpr double kCoarseFar = 2.5;
 constexpr double kFineFar = 6.0;
-constexpr double kDecided = 0.15;  // |w - 1/2| from which the coarse sum decides
+constexpr double kDecided = 0.15;  // |w - 1/2| above which the coarse sum decides
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -63,7 +63,7 @@ std::optional<SurfacePoint> MeshDistance::closest_point_within(const Vec3& query
                                                                double max_distance_m) const {
   if (!(max_distance_m >= 0.0)) return std::nullopt;
   const double reach = max_distance_m / impl_->bvh.scale;
-  // The next double: a point exactly at the limit still counts.
+  // The limit is the next double, so that a point exactly at the distance counts.
   const double limit2 = std::nextafter(reach * reach, kInfinity);
   const BvhHit hit = nearest_triangle(impl_->bvh, impl_->bvh.to_local(query), limit2);
   if (hit.leaf_triangle == ~0u) return std::nullopt;

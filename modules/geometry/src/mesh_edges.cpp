@@ -37,7 +37,7 @@ Sides sides_by_lower_end(const TriMesh& mesh) {
 
 using Run = std::span<const Side>;
 
-/// Adds the edge whose sides are given in the order of their triangles.
+/// Appends one edge, given its sides in the order of their triangles.
 void add_edge(MeshEdges& edges, Index low, Run sides) {
   const auto e = static_cast<Index>(edges.ends.size());
   edges.ends.push_back({low, sides[0].high});

@@ -18,10 +18,10 @@ namespace {
 using engine::Error;
 using engine::ErrorCode;
 
-// Coordinates beyond this are damage like NaN: their products leave the range of double.
+// Coordinates beyond this bound are treated like NaN, because their products leave the range of double.
 constexpr double kLargestCoordinate = 1e75;
-// A triangle whose height is below this share of the diagonal has no area: rounding alone gives collinear
-// corners about 1e-16 of it.
+// A triangle lower than this fraction of the diagonal has no area. Rounding alone gives collinear corners a
+// height of about 1e-16 of it.
 constexpr double kFlatRelative = 1e-12;
 
 bool usable(const Vec3& p) {
@@ -71,7 +71,7 @@ class Repair {
     }
   }
 
-  /// Fills representative_, numbered by first use, and welded_ with the triangles.
+  /// Fills representative_, numbered by first use, and welded_.
   void weld() {
     std::vector<Vec3> used;
     std::vector<bool> seen(input_.positions.size(), false);
@@ -112,7 +112,7 @@ class Repair {
     counts_.flat = std::erase_if(kept_, flat);
   }
 
-  /// Of the triangles on the same three vertices, whatever their winding, the first stays.
+  /// Drops every triangle on the same three vertices as an earlier one, whatever its winding.
   void drop_duplicates() {
     struct Key {
       Triangle corners;
@@ -156,7 +156,7 @@ class Repair {
       if (v != kNoIndex) v = renumbered[v];
   }
 
-  /// True if there were any. Beyond them nothing can hang on anything: once is enough.
+  /// Drops fins and returns whether there were any. One pass is enough: what hangs on a fin is a fin.
   bool drop_fins(const MeshEdges& edges) {
     const std::vector<bool> fin = find_fins(out_.mesh, edges);
     counts_.fins = std::erase_if(kept_, [&](Index t) { return fin[out_.triangle_of_input[t]]; });
@@ -182,34 +182,34 @@ class Repair {
   }
 
   void warn() {
-    auto say = [&](std::size_t count, const char* code, const char* what, const char* remedy) {
+    auto add = [&](std::size_t count, const char* code, const char* what, const char* remedy) {
       if (count > 0) out_.report.warnings.push_back({code, "", std::to_string(count) + " " + what, remedy});
     };
-    say(counts_.bad_vertices, "non-finite-vertices",
+    add(counts_.bad_vertices, "non-finite-vertices",
         "vertices have NaN, infinite or absurd coordinates and were dropped.",
         "Export the mesh again without them.");
-    say(counts_.bad_triangles, "broken-triangles", "triangles were dropped with vertices they refer to.",
+    add(counts_.bad_triangles, "broken-triangles", "triangles were dropped with vertices they refer to.",
         "Export the mesh again; the skin may have holes there.");
-    say(counts_.flat, "flat-triangles", "triangles without area were dropped.", "");
-    say(counts_.duplicate, "duplicate-triangles", "triangles repeated another and were dropped.", "");
-    say(counts_.fins, "fins", "triangles stuck out of the skin as fins and were dropped.", "");
-    say(out_.report.flipped_triangles, "flipped-triangles", "triangles faced inward and were turned.", "");
-    say(out_.report.boundary_edges, "open-edges",
+    add(counts_.flat, "flat-triangles", "triangles without area were dropped.", "");
+    add(counts_.duplicate, "duplicate-triangles", "triangles repeated another and were dropped.", "");
+    add(counts_.fins, "fins", "triangles stuck out of the skin as fins and were dropped.", "");
+    add(out_.report.flipped_triangles, "flipped-triangles", "triangles faced inward and were turned.", "");
+    add(out_.report.boundary_edges, "open-edges",
         "edges have a triangle on one side only: the surface has holes.",
         "Close the holes for exact distances next to them.");
-    say(out_.report.non_manifold_edges, "non-manifold-edges", "edges have three or more triangles.",
+    add(out_.report.non_manifold_edges, "non-manifold-edges", "edges have three or more triangles.",
         "Remove inner faces.");
-    say(conflicts_, "not-orientable", "edges join triangles that cannot face the same way.",
+    add(conflicts_, "not-orientable", "edges join triangles that cannot be wound consistently.",
         "Separate the two sides of the surface there.");
   }
 
   const TriMesh& input_;
   const RepairOptions& options_;
   RepairedMesh out_;
-  std::vector<Index> kept_;            // input triangles still in
-  std::vector<Index> representative_;  // #input vertices: the vertex it is welded to
-  std::vector<Triangle> welded_;       // #input triangles, in representatives
-  std::vector<Vec3> positions_;        // of the representatives
+  std::vector<Index> kept_;            // input triangles that are not dropped
+  std::vector<Index> representative_;  // #input vertices: the vertex that each is welded to
+  std::vector<Triangle> welded_;       // #input triangles: their corners' representatives
+  std::vector<Vec3> positions_;        // positions of the representatives
   double diagonal_ = 0.0;
   Counts counts_;
   std::size_t conflicts_ = 0;

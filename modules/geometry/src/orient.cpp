@@ -5,8 +5,8 @@
 namespace bodice::geometry {
 namespace {
 
-// Share of area^1.5 below which a patch's volume is noise. A sphere has .094, a body about .02, an open skirt
-// seen from its centroid .01.
+// Fraction of area^1.5 below which a patch's volume is noise. It is .094 for a sphere, about .02 for a body,
+// and .01 for an open skirt seen from its centroid.
 constexpr double kFlatPatch = 1e-6;
 
 /// Whether two triangles run along a shared edge in opposite directions, as consistent neighbors do.
@@ -39,7 +39,7 @@ std::vector<Index> grow_patch(const TriMesh& mesh, const MeshEdges& edges, Index
   return patch;
 }
 
-/// Whether the patch as chosen faces inward.
+/// Whether the patch, with the chosen flips, faces inward.
 bool inward(const TriMesh& mesh, const std::vector<Index>& patch, const std::vector<bool>& flip) {
   Vec3 centroid = Vec3::Zero();
   double twice_area = 0.0;

@@ -1,5 +1,6 @@
 // Based on: Robert Osada, Thomas Funkhouser, Bernard Chazelle, David Dobkin. Shape Distributions. 2002. - eq.
-// (1) Differs: stratified areas and a low-discrepancy sequence instead of three independent random numbers.
+// (1)
+// Differs: areas are stratified, and a low-discrepancy sequence replaces three independent random numbers.
 #include <bodice/geometry/sampling.hpp>
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace bodice::geometry {
 namespace {
 
-// Powers of the inverse plastic number: the R2 sequence.
+// The R2 sequence's steps: powers of the inverse plastic number.
 constexpr double kR2X = 0.7548776662466927;
 constexpr double kR2Y = 0.5698402909980532;
 
@@ -18,7 +19,7 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// Uniform over the triangle for (u, v) uniform over the unit square.
+/// A point of the triangle, uniform if (u, v) is uniform over the unit square.
 Vec3 point_in_triangle(const TriMesh& mesh, Index triangle, double u, double v) {
   const double root = std::sqrt(u);
   const Vec3& a = mesh.corner(triangle, 0);

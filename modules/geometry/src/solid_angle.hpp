@@ -1,4 +1,4 @@
-// Solid angles of many triangles for one arc tangent.
+// The sum of the solid angles of many triangles, at the price of one arc tangent.
 // Based on: Adriaan van Oosterom, Jan Strackee. The Solid Angle of a Plane Triangle. 1983. - eq. (8)
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace bodice::geometry {
 
-/// Half of a solid angle, in (-pi, pi), by its sine and cosine times a common factor above zero.
+/// Half of a solid angle, in (-pi, pi), as its sine and cosine times a common positive factor.
 struct HalfAngle {
   double sine = 0.0, cosine = 1.0;
 };
@@ -27,12 +27,12 @@ inline HalfAngle half_solid_angle(const Vec3& a, const Vec3& b, const Vec3& c, c
   return {u.dot(v.cross(w)), lu * lv * lw + u.dot(v) * lw + v.dot(w) * lu + w.dot(u) * lv};
 }
 
-/// Angles are added as complex numbers are multiplied; whole turns are counted on the way. The signs that
-/// tell a turn are never those of a difference that cancels.
+/// A sum of angles. They are added as complex numbers are multiplied, and whole turns are counted. No sign
+/// that decides a turn is that of a difference that cancels.
 class SolidAngleSum {
  public:
   void add(const HalfAngle& h) {
-    if (h.sine == 0.0) return;  // on the triangle's plane or an edge: 0
+    if (h.sine == 0.0) return;  // the apex lies on the triangle's plane or an edge: the angle is 0
     const bool was_up = sine_ >= 0.0, goes_up = h.sine > 0.0;
     const double least = std::min(cosine_, h.cosine), most = std::max(cosine_, h.cosine);
     const bool within_quarters = least >= 0.0 && most > 0.0, beyond_quarters = most < 0.0;
@@ -45,8 +45,8 @@ class SolidAngleSum {
     if (!(size > kLeast && size < kMost)) rescale(size);
   }
 
-  /// Of the angles, not their halves.
-  double total() const {  // + 0.0: a sine of -0 counts as up
+  /// The sum of the solid angles (not of their halves), in radians.
+  double total() const {  // + 0.0 makes a sine of -0 count as up
     return 2.0 * (std::atan2(sine_ + 0.0, cosine_) + 2.0 * std::numbers::pi * turns_);
   }
 

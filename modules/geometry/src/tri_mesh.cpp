@@ -10,7 +10,7 @@ double surface_area(const TriMesh& mesh) {
 
 double signed_volume(const TriMesh& mesh) {
   if (mesh.empty()) return 0.0;
-  // Tetrahedra from a vertex of the mesh itself, so that 10 km from the origin costs no digits.
+  // The tetrahedra start at a vertex of the mesh, so that 10 km from the origin cost no digits.
   const Vec3 apex = mesh.corner(0, 0);
   double six_volumes = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -28,7 +28,7 @@ std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
     const Vec3 area = area_vector(mesh, t);
     for (Index v : mesh.triangles[t]) normals[v] += area;
   }
-  // stableNormalize scales first: squares of micrometer areas underflow otherwise.
+  // stableNormalize scales first: squares of square micrometers would underflow.
   for (Vec3& n : normals) n.stableNormalize();
   return normals;
 }

@@ -10,8 +10,8 @@
 namespace bodice::geometry {
 namespace {
 
-// Squared sine of the angle at a, below which the weights of the face lose half of their digits: the face's
-// point is then held against the edges'.
+// Squared sine of the angle at a below which the weights of the face lose half of their digits. Such a face's
+// point is compared with those of the edges.
 constexpr double kSliver2 = 1e-16;
 
 TrianglePoint on_vertex(const Vec3& p, int k) {
@@ -57,11 +57,11 @@ TrianglePoint closest_point(const Vec3& a, const Vec3& b, const Vec3& c, const V
   const Vec3 ap = query - a;
   const Vec3 normal = ab.cross(ac);
   const double area2 = normal.squaredNorm();
-  // Barycentric weights of the projection, from the areas of the three sub-triangles.
+  // The barycentric weights of the projection are the areas of the three sub-triangles.
   const double v = ap.cross(ac).dot(normal);
   const double w = ab.cross(ap).dot(normal);
-  // The closest point lies on an edge that the projection is beyond; in slivers the signs are noise: all
-  // three.
+  // The closest point lies on an edge that separates the projection from the face. In slivers the signs are
+  // noise, so that all three edges are tested.
   const bool sliver = !(area2 > kSliver2 * ab.squaredNorm() * ac.squaredNorm());
   const unsigned beyond = (w > 0.0 ? 0u : 1u) | (v + w < area2 ? 0u : 2u) | (v > 0.0 ? 0u : 4u);
   if (beyond != 0) return nearest_edge(a, b, c, query, sliver ? 7u : beyond);

@@ -9,12 +9,12 @@
 namespace bodice::geometry {
 namespace {
 
-// A box this many times wider than the middle half of its points holds strays, not a body: on bodies, from
-// standing to sitting, the ratio is 2 to 4.
+// A box this many times wider than the middle half of its points contains strays. The ratio is 2 to 4 on
+// bodies, from standing to sitting.
 constexpr double kStrayRatio = 16.0;
-// Cells wider than the tolerance: most points then look into one cell of the eight that may matter.
+// Cell size in tolerances. In such cells most points look into one of the eight cells that may matter.
 constexpr double kCellTolerances = 8.0;
-// Cell numbers stay exact integers in a double; strays beyond share the outermost cells.
+// Cell numbers up to this bound are exact integers in a double. Strays beyond it share the outermost cells.
 constexpr double kFarthestCell = 0x1p52;
 
 double middle_half(std::vector<double>& values) {
@@ -51,7 +51,7 @@ Welder::Welder(double tolerance_m, std::size_t expected)
 
 Welder::Cell Welder::cell_of(const Vec3& p) const {
   auto number = [&](double x) {
-    // Without a tolerance the value itself is the cell; adding 0 makes -0 and 0 one place.
+    // Without a tolerance the value itself is the cell; adding 0 makes -0 and 0 one value.
     if (cell_size_ == 0.0) return std::bit_cast<std::int64_t>(x + 0.0);
     return static_cast<std::int64_t>(std::clamp(std::floor(x / cell_size_), -kFarthestCell, kFarthestCell));
   };
@@ -69,7 +69,7 @@ Index Welder::find_in(const Cell& cell, const Vec3& p) const {
   Index found = kNoIndex;
   for (Index i = head_[bucket_of(cell)]; i != kNoIndex; i = next_[i])
     if ((points_[i] - p).cwiseAbs().maxCoeff() <= tolerance_ && (points_[i] - p).stableNorm() <= tolerance_)
-      found = i;  // buckets run from late to early: the earliest wins
+      found = i;  // a bucket runs from the latest to the earliest point: the earliest is the last one found
   return found;
 }
 

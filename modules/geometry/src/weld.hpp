@@ -7,16 +7,17 @@
 
 namespace bodice::geometry {
 
-/// The diagonal that tolerances are measured by: of the bounding box, unless strays stretch it past what the
-/// middle half of the points explains.
+/// The diagonal that tolerances are relative to: that of the bounding box, unless strays stretch it past what
+/// the middle half of the points explains.
 double robust_diagonal(std::span<const Vec3> points);
 
-/// Takes points one at a time and says which earlier one, if any, lies within the tolerance. The first
-/// comer of a place stands for it, so chains of near points do not collapse into one. Expected O(1) a point.
+/// Assigns each point, one at a time, to an earlier point within the tolerance, if there is one. Only
+/// representatives attract further points, so that chains of near points do not collapse into one. Cost: O(1)
+/// a point, expected.
 class Welder {
  public:
   Welder(double tolerance_m, std::size_t expected);
-  /// The number of the representative of `p`, which is a new one if none was near.
+  /// The number of the representative of `p`, a new one if none is near.
   Index add(const Vec3& p);
   const std::vector<Vec3>& representatives() const { return points_; }
 
@@ -32,8 +33,8 @@ class Welder {
   double tolerance_;
   double cell_size_;
   std::vector<Vec3> points_;
-  std::vector<Index> head_;  // a power of two buckets: the latest point in each
-  std::vector<Index> next_;  // the one before it in the same bucket
+  std::vector<Index> head_;  // a power of two of buckets: the latest point of each
+  std::vector<Index> next_;  // the previous point of the same bucket
 };
 
 }  // namespace bodice::geometry

@@ -32,7 +32,7 @@ struct Moments {
     if (area > 0.0) return weighted_centroid / area;
     return box.empty() ? Vec3(Vec3::Zero()) : box.center();
   }
-  /// To the farthest corner of the box: an upper bound of the reach.
+  /// Squared distance to the farthest corner of the box, an upper bound for every triangle.
   double radius2() const {
     if (box.empty()) return 0.0;
     const Vec3 c = centroid();
@@ -71,7 +71,7 @@ void add_leaf(const Bvh& bvh, const LeafTriangles& leaf, const Vec3& query, Soli
   }
 }
 
-/// Solid angles of the children's dipoles, and which children are too near for them.
+/// Solid angles of the children's dipoles, and the children that are too near for them.
 struct FarFields {
   Float4 angle;
   unsigned near;
@@ -105,7 +105,7 @@ std::vector<DipoleNode> build_dipoles(const Bvh& bvh) {
 double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& query,
                       double far_ratio) {
   if (bvh.nodes.empty() || !query.allFinite()) return 0.0;
-  std::array<float, 3> q;  // clamped so that squares stay finite; so far away the number is 0 anyway
+  std::array<float, 3> q;  // clamped so that squares stay finite; at such distances the number is 0 anyway
   for (int k = 0; k < 3; ++k) q[k] = static_cast<float>(std::clamp(query[k], -1e12, 1e12));
   const auto far_ratio2 = static_cast<float>(std::min(far_ratio * far_ratio, 3e38));
   SolidAngleSum near;

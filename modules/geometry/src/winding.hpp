@@ -1,22 +1,22 @@
-// Generalised winding numbers over a Bvh.
+// Generalized winding numbers over a Bvh.
 #pragma once
 
 #include "bvh.hpp"
 
 namespace bodice::geometry {
 
-/// Far fields of a Bvh's children, side by side as the boxes are.
+/// The far fields of a node's children, side by side like their boxes.
 struct DipoleNode {
   Float4 center[3];  ///< area-weighted centroid
   Float4 area[3];    ///< sum of area vectors
-  Float4 radius2;    ///< squared reach of the triangles around the centroid
+  Float4 radius2;    ///< squared radius of the triangles around the centroid
 };
 
-/// Parallel to bvh.nodes. O(n).
+/// The dipoles of all nodes, in the order of bvh.nodes. O(n).
 std::vector<DipoleNode> build_dipoles(const Bvh& bvh);
 
-/// Winding number at a local-frame query. A child is replaced by its dipole when the query is more than
-/// `far_ratio` of its radius away; infinite: exact.
+/// The winding number at a query in the local frame. A dipole replaces a child when the query is farther away
+/// than `far_ratio` times its radius; with infinity the sum is exact.
 double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& local_query,
                       double far_ratio);
 

@@ -1,4 +1,4 @@
-// Which members are connected.
+// Union-find: which members of a set are connected.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace bodice::geometry {
 
-/// Union-find whose root is the smallest member, so that the result does not depend on the order of unions.
+/// Disjoint sets of the numbers below `count`. The root of a set is its smallest member, so that the result
+/// does not depend on the order of unions.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }

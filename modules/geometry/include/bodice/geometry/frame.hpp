@@ -4,9 +4,10 @@
 
 namespace bodice::geometry {
 
+/// A coordinate axis of a file.
 enum class Axis : std::uint8_t { kX, kY, kZ };
 
-/// How a file's coordinates relate to bodice's inside (meters, y up):
+/// The unit and up axis of a file. They relate its coordinates to those of bodice (meters, y up):
 /// inside = meters_per_unit * rotation(up) * file. Rotations are signed permutations, hence exact.
 struct Frame {
   double meters_per_unit = 1.0;

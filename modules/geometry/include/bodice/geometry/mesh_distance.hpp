@@ -1,4 +1,4 @@
-// Exact signed distance to a triangle mesh: the judge of every accuracy that bodice reports.
+// The exact signed distance to a triangle mesh, by which every accuracy that bodice reports is measured.
 #pragma once
 
 #include <memory>
@@ -9,33 +9,34 @@
 
 namespace bodice::geometry {
 
+/// The closest point of a mesh to some point, with the distance between them.
 struct SurfacePoint {
   double signed_distance = 0.0;  ///< meters, negative inside
   Vec3 point = Vec3::Zero();     ///< closest point of the mesh
   Vec3 normal = Vec3::Zero();    ///< outward unit normal of the nearest triangle
-  Index triangle = kNoIndex;     ///< the triangle that holds it
+  Index triangle = kNoIndex;     ///< the triangle that holds the point
 };
 
-/// A bounding-volume tree over a mesh. Immutable and thread-safe once built; keeps its own copy of the mesh.
-/// The sign is the generalized winding number's (above one half is inside), so that small holes, overlaps at
+/// A bounding-volume tree over a mesh, of which it keeps a copy. It is immutable and thread-safe once built.
+/// A point is inside where the generalized winding number is above one half, so that small holes, overlaps at
 /// folds and several components still have an inside.
 class MeshDistance {
  public:
-  /// O(n log n). An empty mesh gives a tree whose every distance is +infinity.
+  /// Builds the tree in O(n log n). For an empty mesh every distance is +infinity.
   MeshDistance(const engine::Context& context, const TriMesh& mesh);
   ~MeshDistance();
   MeshDistance(MeshDistance&&) noexcept;
   MeshDistance& operator=(MeshDistance&&) noexcept;
 
-  /// Closest point and sign; O(log n) typical.
+  /// The closest point with the signed distance. Cost: O(log n) typically.
   SurfacePoint closest_point(const Vec3& query) const;
   /// The closest point if it is within `max_distance_m`, else nothing. Its distance carries NO sign: it is
-  /// never negative. Half the cost of closest_point().
+  /// never negative. Cost: half that of closest_point().
   std::optional<SurfacePoint> closest_point_within(const Vec3& query, double max_distance_m) const;
   double signed_distance(const Vec3& query) const { return closest_point(query).signed_distance; }
-  /// The generalized winding number: 1 inside a closed outward mesh, 0 outside.
+  /// The generalized winding number: 1 inside a closed mesh that is wound outward, 0 outside.
   double winding_number(const Vec3& query) const;
-  /// Whether that is above one half; a fifth of its cost where it is clear, as it is but next to a hole.
+  /// Whether the winding number is above one half. Cost: a fifth of winding_number(), except next to a hole.
   bool inside(const Vec3& query) const;
 
  private:

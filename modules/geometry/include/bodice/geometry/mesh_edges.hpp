@@ -14,7 +14,7 @@ struct MeshEdges {
   using Ends = std::array<Index, 2>;
 
   std::vector<Ends> ends;                         ///< #E, lower vertex first
-  std::vector<std::array<Index, 2>> triangles;    ///< #E, the first two by number; kNoIndex at a boundary
+  std::vector<std::array<Index, 2>> triangles;    ///< #E: the two lowest-numbered; kNoIndex at a boundary
   std::vector<Index> triangle_count;              ///< #E; 1 boundary, 2 manifold, more: non-manifold
   std::vector<std::array<Index, 3>> of_triangle;  ///< #F; edge k joins corners k and k + 1
   std::size_t boundary = 0;                       ///< edges with one triangle, loops included
@@ -31,25 +31,25 @@ struct MeshEdges {
   }
 };
 
-/// O(#V + #F). Precondition: every index of a triangle is below #V.
+/// The edges of a mesh. O(#V + #F). Precondition: every index of a triangle is below #V.
 MeshEdges mesh_edges(const TriMesh& mesh);
 
 /// The edges at each vertex, in compressed rows: those of v are edge[offset[v]] .. edge[offset[v + 1]).
 struct EdgesOfVertex {
   std::vector<Index> offset;  ///< #V + 1
-  std::vector<Index> edge;    ///< ascending within a vertex; a loop stands twice
+  std::vector<Index> edge;    ///< ascending within a vertex; a loop occurs twice
 };
 
-/// O(#V + #E).
+/// The edges at each of `vertices` vertices. O(#V + #E).
 EdgesOfVertex edges_of_vertex(std::size_t vertices, const MeshEdges& edges);
 
-/// The rims of the holes: chains of boundary edges along their triangles' winding, each started at its
-/// smallest vertex and, where the rim is clean, closed (the first vertex is not repeated). Where rims touch
-/// in a vertex they part there. O(#F + #E log #E).
+/// The rims of holes: chains of boundary edges along their triangles' winding. A chain begins at its smallest
+/// vertex and, where the rim is clean, is closed (its first vertex is not repeated). Rims that touch in a
+/// vertex part there. O(#F + #E log #E).
 std::vector<std::vector<Index>> boundary_loops(const TriMesh& mesh, const MeshEdges& edges);
 
-/// #V - #E + #F over the vertices that a triangle uses, without loops: 2 for each closed component of genus
-/// 0.
+/// The Euler characteristic #V - #E + #F over the vertices that a triangle uses, without loops. It is 2 for
+/// each closed component of genus 0.
 int euler_characteristic(const TriMesh& mesh, const MeshEdges& edges);
 
 }  // namespace bodice::geometry

@@ -1,4 +1,5 @@
-// What a file gives is rarely a clean surface: weld, drop, orient, and say what was done.
+// Repair: the mesh that a file gives is welded, freed of what is unusable and oriented, and a report lists
+// the changes.
 #pragma once
 
 #include <vector>
@@ -9,16 +10,18 @@
 
 namespace bodice::geometry {
 
-/// Vertices nearer than this fraction of the bounding box's diagonal are one vertex. Files keep 6 or more
-/// digits; real bodies have no edges this short.
+/// Vertices nearer to each other than this fraction of the bounding box's diagonal are welded. Files keep 6
+/// or more digits, and real bodies have no edges this short.
 inline constexpr double kWeldRelative = 1e-6;
 
+/// What repair() changes, and from which distance on it welds.
 struct RepairOptions {
-  double weld_relative = kWeldRelative;  ///< of the bounding box's diagonal
+  double weld_relative = kWeldRelative;  ///< fraction of the bounding box's diagonal
   bool orient = true;                    ///< make the winding of each component consistent and outward
-  bool drop_fins = true;                 ///< of a body; on a garment they may be pockets or trims
+  bool drop_fins = true;                 ///< drops fins of a body; on a garment they may be pockets or trims
 };
 
+/// What repair() changed, counted, and what is wrong with the surface that it leaves.
 struct RepairReport {
   std::size_t welded = 0;             ///< input vertices merged into another
   std::size_t dropped_vertices = 0;   ///< NaN, Inf or unreferenced
@@ -31,6 +34,7 @@ struct RepairReport {
   std::vector<engine::Warning> warnings;
 };
 
+/// A repaired mesh, and the numbers in it of the input's vertices and triangles.
 struct RepairedMesh {
   TriMesh mesh;
   std::vector<Index> vertex_of_input;    ///< #input vertices: the welded vertex, or kNoIndex if dropped
@@ -38,12 +42,13 @@ struct RepairedMesh {
   RepairReport report;
 };
 
-/// Welds by position, drops what cannot be used, orients each component outward. The vertices keep the order
-/// of their first use. O(n log n). Fails with kUnusableGeometry when no triangle is left.
+/// Welds by position, drops what cannot be used and orients each component outward. The vertices keep the
+/// order of their first use. O(n log n). Fails with kUnusableGeometry when no triangle is left, with
+/// kInvalidArgument for a weld distance outside [0, 1), and with kCanceled.
 engine::Result<RepairedMesh> repair(const engine::Context& context, const TriMesh& input,
                                     const RepairOptions& options = {});
 
-/// Component of each vertex (#V, numbered from the component with the most area down) and their count.
+/// The component of each vertex, numbered by falling area.
 struct Components {
   std::vector<Index> of_vertex;
   std::vector<double> area;  ///< square meters, one a component

@@ -6,7 +6,8 @@
 
 namespace bodice::geometry {
 
-/// An indexed triangle mesh. Inside bodice: meters, y up, counter-clockwise seen from outside.
+/// An indexed triangle mesh. Inside bodice its unit is the meter, y is up, and triangles are
+/// counter-clockwise seen from outside.
 struct TriMesh {
   std::vector<Vec3> positions;      ///< #V
   std::vector<Triangle> triangles;  ///< #F, indices into positions
@@ -15,19 +16,20 @@ struct TriMesh {
   const Vec3& corner(std::size_t triangle, int k) const { return positions[triangles[triangle][k]]; }
 };
 
-/// Twice the area of the triangle times its unit normal.
+/// The triangle's unit normal times twice its area.
 inline Vec3 area_vector(const TriMesh& mesh, std::size_t triangle) {
   const Vec3& a = mesh.corner(triangle, 0);
   return (mesh.corner(triangle, 1) - a).cross(mesh.corner(triangle, 2) - a);
 }
 
-/// Surface area, square meters. O(#F).
+/// The surface area, in square meters. O(#F).
 double surface_area(const TriMesh& mesh);
 
-/// Signed volume by the divergence theorem, cubic meters; positive when wound outward. O(#F).
+/// The signed volume by the divergence theorem, in cubic meters; it is positive for a mesh wound outward.
+/// O(#F).
 double signed_volume(const TriMesh& mesh);
 
-/// Area-weighted unit normals, #V; zero where no triangle gives a direction. O(#V + #F).
+/// Area-weighted unit normals, #V; zero at vertices that no triangle gives a direction. O(#V + #F).
 std::vector<Vec3> vertex_normals(const TriMesh& mesh);
 
 }  // namespace bodice::geometry

@@ -15,9 +15,10 @@ using Mat3 = Eigen::Matrix3d;
 using Index = std::uint32_t;
 using Triangle = std::array<Index, 3>;
 
+/// Stands for "no vertex" or "no triangle".
 inline constexpr Index kNoIndex = ~Index{0};
 
-/// Axis-aligned box; empty when low > high.
+/// An axis-aligned box; it is empty when low > high.
 struct Box {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
@@ -31,6 +32,7 @@ struct Box {
   Vec3 center() const { return 0.5 * (low + high); }
 };
 
+/// The least box that contains all points; empty without points.
 inline Box bounding_box(std::span<const Vec3> points) {
   Box box;
   for (const Vec3& p : points) box.extend(p);

@@ -1,5 +1,5 @@
-// Four floats at a time in the compiler's own vector type: SSE on any x86-64, NEON on ARM, nothing to
-// dispatch.
+// Four floats at a time in the compiler's own vector type. It is SSE on any x86-64 and NEON on ARM, so that
+// nothing is dispatched at run time.
 #pragma once
 
 #include <cmath>
@@ -10,9 +10,9 @@
 
 namespace bodice::geometry {
 
-/// Four floats, one a lane.
+/// A vector of four floats, one a lane.
 using Float4 = float __attribute__((vector_size(16)));
-/// Four integers; as the result of a comparison, -1 in each lane where it holds and 0 elsewhere.
+/// A vector of four integers. As the result of a comparison, a lane is -1 where it holds and 0 elsewhere.
 using Int4 = int __attribute__((vector_size(16)));
 
 /// The smaller value of each lane; b where the two are equal or one is NaN.
