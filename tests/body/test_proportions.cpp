@@ -50,7 +50,7 @@ TEST_CASE("built-in profiles: a body's measures are in anatomical order and fit 
       CHECK(p.waist_height > p.crotch_height);
       CHECK(p.crotch_height > p.knee_height);
       CHECK(p.fingertip_to_armpit > p.fingertip_to_elbow);
-      // A length along the arm is the sum of its pieces to within the slack of the joints' landmarks.
+      // A length along the arm is the sum of its pieces, up to the slack of the joints' landmarks.
       CHECK(std::abs(p.fingertip_to_elbow - p.forearm - p.hand) < 0.01);
     }
   }

@@ -7,7 +7,7 @@
 
 namespace bodice_test {
 
-/// Random but valid data with every field in use.
+/// Random but valid data that use every field.
 inline bodice::proxy::BodyProxy::Data sample_data(std::uint64_t seed, int ellipsoids = 12,
                                                   bool relief = true) {
   using namespace bodice;

@@ -58,7 +58,7 @@ TEST_CASE("numbers keep 44 bits and rounding twice changes nothing") {
     CHECK((once->ellipsoids()[i].shape.center - data.ellipsoids[i].shape.center).norm() < 1e-12);
 }
 
-TEST_CASE("what cannot be a proxy is refused, and the ellipsoid is named") {
+TEST_CASE("data that cannot be a proxy are refused, and the ellipsoid is named") {
   using Damage = std::function<void(BodyProxy::Data&)>;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
@@ -104,7 +104,7 @@ TEST_CASE("more texels than a file may hold are refused, and just as many are no
   CHECK(refused.error().message.find("relief texels") != std::string::npos);
 }
 
-TEST_CASE("zero, one and 4096 ellipsoids, and the shapes of the shared table") {
+TEST_CASE("proxies of zero, one and 4096 ellipsoids are valid, and so are the extreme shapes") {
   for (int count : {0, 1, 4096}) CHECK(BodyProxy::make(sample_data(4, count)).ok());
   for (const auto& extreme : bodice_test::extreme_ellipsoids()) {
     CAPTURE(extreme.name);
@@ -114,11 +114,11 @@ TEST_CASE("zero, one and 4096 ellipsoids, and the shapes of the shared table") {
   }
 }
 
-TEST_CASE("bytes counts the floats and the tables") {
+TEST_CASE("bytes() counts the floats and the tables") {
   CHECK(BodyProxy::make(sample_data(5, 10, false))->bytes() == 600);
 }
 
-TEST_CASE("tiers have names") {
+TEST_CASE("each tier is found by its name") {
   for (Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief})
     CHECK(tier_from_name(name(tier)) == tier);
   CHECK_FALSE(tier_from_name("loose").has_value());

@@ -16,7 +16,7 @@ Vec3 random_unit(engine::Random& random) {
   return Vec3(random.normal(), random.normal(), random.normal()).normalized();
 }
 
-/// Two overlapping ellipsoids with smooth random tables whose border nodes are tied.
+/// Two overlapping ellipsoids with smooth random tables; border nodes for one direction have the same bytes.
 proxy::BodyProxy::Data relief_pair() {
   proxy::BodyProxy::Data data;
   data.tier = proxy::Tier::kRelief;
@@ -30,7 +30,7 @@ proxy::BodyProxy::Data relief_pair() {
     data.relief.push_back({n, 0.006f, -0.003f, 0.004f, -0.002f, k * n * n});
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
-        // A function of the direction alone: tied nodes get the same bytes by themselves.
+        // Values are functions of the direction, so that nodes for one direction have the same bytes.
         const Vec3 w = proxy::octahedral_direction(2.0 * i / (n - 1) - 1.0, 2.0 * j / (n - 1) - 1.0);
         const auto byte = [](double v) { return static_cast<std::uint8_t>(std::lround(127.5 * (1.0 + v))); };
         data.texels.push_back({byte(w.x() * w.y() + 0.3 * w.z()), byte(w.z() * w.x())});
@@ -41,7 +41,7 @@ proxy::BodyProxy::Data relief_pair() {
 
 }  // namespace
 
-TEST_CASE("octahedral map: there and back, over the whole sphere and its seams") {
+TEST_CASE("octahedral map: its inverse returns every direction, also on the seams") {
   engine::Random random(1);
   for (int i = 0; i < 2000; ++i) {
     Vec3 w = random_unit(random);
@@ -68,7 +68,7 @@ TEST_CASE("proxy distance: without tables it is the least of the exact distances
   }
 }
 
-TEST_CASE("proxy distance: no ellipsoid is passed over, however thin and turned") {
+TEST_CASE("proxy distance: no nearest ellipsoid is missed, however thin and turned") {
   engine::Random random(6);
   int owners_not_nearest_by_center = 0;
   for (int set = 0; set < 40; ++set) {
@@ -97,7 +97,7 @@ TEST_CASE("proxy distance: no ellipsoid is passed over, however thin and turned"
       owners_not_nearest_by_center += nearest != nearest_center;
     }
   }
-  CHECK(owners_not_nearest_by_center > 1000);  // the sets do ask for the bound
+  CHECK(owners_not_nearest_by_center > 1000);  // the sets contain cases that need the bound
 }
 
 TEST_CASE("proxy distance: relief is continuous across owners and seams") {
@@ -109,12 +109,12 @@ TEST_CASE("proxy distance: relief is continuous across owners and seams") {
     const Vec3 p = Vec3(0.05, 0.05, 0.0) + random.uniform(0.05, 0.25) * random_unit(random);
     const Vec3 q = p + 1e-6 * random_unit(random);
     const auto a = proxy::proxy_distance(data, p), b = proxy::proxy_distance(data, q);
-    if (a.distance < -0.03) continue;  // the foot itself jumps across an ellipsoid's medial disk
+    if (a.distance < -0.03) continue;  // the closest point itself jumps across an ellipsoid's medial disk
     changes += a.owner != b.owner;
     jump = std::max(jump, std::abs(a.distance - b.distance));
   }
   CHECK(jump < 4e-6);  // steps of a micrometer, slopes below 4
-  // Walk across the owner border on purpose: bisect until the owner changes within a nanometer.
+  // Points are found on the border between two owners, by bisection to a nanometer.
   for (int i = 0; i < 200; ++i) {
     Vec3 p = 0.2 * random_unit(random), q = Vec3(0.11, 0.08, 0.0) + 0.2 * random_unit(random);
     const auto owner = proxy::proxy_distance(data, p).owner;
@@ -145,14 +145,14 @@ TEST_CASE("proxy distance: the gradient of a single table matches finite differe
                   proxy::proxy_distance(data, p - h * Vec3::Unit(j)).distance) /
                  (2.0 * h);
     ++checked;
-    // At a few points the difference straddles a cell's edge, where the gradient jumps.
+    // The difference straddles a cell's edge at a few points, where the gradient jumps.
     off += (slope.normalized() - proxy::proxy_distance(data, p).normal).norm() > 1e-4;
   }
   CHECK(checked == 500);
   CHECK(off <= 5);
 }
 
-TEST_CASE("proxy distance: scales with the body") {
+TEST_CASE("proxy distance: it scales with the body") {
   proxy::BodyProxy::Data small = relief_pair(), large = small;
   const double s = 1000.0;
   large.stature_m *= s;

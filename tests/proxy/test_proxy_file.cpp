@@ -33,7 +33,7 @@ void check_equal(const BodyProxy& a, const BodyProxy& b) {
   }
 }
 
-/// Both readers on the same bytes; what they accept must be a proxy that survives another round.
+/// Feeds the bytes to both readers. What they accept must be a proxy that survives another round.
 void feed(std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   for (const auto& result : {from_json(text), from_binary(bytes)}) {
@@ -46,7 +46,7 @@ void feed(std::span<const std::byte> bytes) {
   }
 }
 
-/// Makes the checksum right again, so that mutations reach the fields behind it.
+/// Corrects the checksum, so that mutations reach the fields before it.
 void repair_checksum(std::vector<std::byte>& bytes) {
   if (bytes.size() < 8) return;
   bodice::engine::Hasher hasher;
@@ -151,7 +151,7 @@ TEST_CASE("every truncation of either form is refused") {
   for (std::size_t n = 0; n + 2 < json.size(); ++n) CHECK_FALSE(from_json(json.substr(0, n)).ok());
 }
 
-TEST_CASE("hostile JSON: depth, huge numbers, wrong types, huge counts") {
+TEST_CASE("hostile JSON is refused: depth, huge numbers, wrong types, huge counts") {
   const std::string good = to_json(*BodyProxy::make(sample_data(5, 1)));
   CHECK_FALSE(from_json(std::string(1'000'000, '[')).ok());
   CHECK_FALSE(from_json("{\"format\":\"bodice-proxy\",\"version\":1e999}").ok());
@@ -194,7 +194,9 @@ TEST_CASE("a hand-edited JSON is refused while it carries its old hash, and read
   CHECK(from_json(edited).ok());
 }
 
-TEST_CASE("save and load: both forms by name and content, whole or not at all") {
+TEST_CASE(
+    "save and load: the form is chosen by name and recognized by content, and files appear whole or not at "
+    "all") {
   namespace fs = std::filesystem;
   const bodice_test::TempFolder temp;
   const fs::path folder = temp.path();
@@ -205,7 +207,7 @@ TEST_CASE("save and load: both forms by name and content, whole or not at all") 
   }
   CHECK(fs::file_size(folder / "a.bodice") < fs::file_size(folder / "a.json"));
   const auto files = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
-  CHECK(files == 3);  // nothing is left beside them
+  CHECK(files == 3);  // no temporary file is left beside them
   CHECK(fs::file_size(folder / "B.BODICE") == fs::file_size(folder / "a.bodice"));
   fs::create_directory(folder / "taken.json");
   std::ofstream(folder / "taken.json" / "x") << "x";

@@ -38,7 +38,7 @@ proxy::BodyProxy apart(double scale = 1.0, const Vec3& offset = Vec3::Zero()) {
 constexpr double kPi = 3.14159265358979323846;
 const double kApartVolume = 4.0 / 3.0 * kPi * (0.2 * 0.3 * 0.5 + 0.1 * 0.1 * 0.1);
 
-/// How often each undirected edge is used, less how often its reverse is: zero for a closed, wound mesh.
+/// Whether each undirected edge is used as often as its reverse, as in a closed, wound mesh.
 bool is_closed(const geometry::TriMesh& mesh) {
   std::map<std::pair<geometry::Index, geometry::Index>, int> balance;
   for (const geometry::Triangle& t : mesh.triangles)
@@ -54,7 +54,7 @@ bool is_closed(const geometry::TriMesh& mesh) {
 TEST_CASE("proxy surface: two bodies apart are both found, closed, and of the right volume") {
   for (const double scale : {1e-6, 1.0, 1e6})
     for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(1e4, -2e4, 5e3)}) {
-      if (scale < 1.0 && !offset.isZero()) continue;  // finer than the numbers of the proxy there
+      if (scale < 1.0 && !offset.isZero()) continue;  // finer than the proxy's numbers
       const proxy::BodyProxy proxy = apart(scale, offset);
       const double cell_m = 0.01 * scale;
       const auto surface = proxy::proxy_surface({}, proxy, cell_m);
@@ -65,10 +65,10 @@ TEST_CASE("proxy surface: two bodies apart are both found, closed, and of the ri
       double off = 0.0, turned = 0.0;
       int balls = 0;
       for (std::size_t v = 0; v < surface->mesh.positions.size(); ++v) {
-        const auto foot =
+        const auto closest =
             geometry::closest_point(proxy.ellipsoids()[surface->owner[v]].shape, surface->mesh.positions[v]);
-        off = std::max(off, std::abs(foot.signed_distance) / cell_m);
-        turned = std::max(turned, (foot.normal - surface->normals[v]).norm());
+        off = std::max(off, std::abs(closest.signed_distance) / cell_m);
+        turned = std::max(turned, (closest.normal - surface->normals[v]).norm());
         balls += surface->owner[v] == 1;
       }
       CHECK(off < 1.1e-3);
@@ -103,8 +103,8 @@ TEST_CASE(
   int off = 0;
   for (const Vec3& p : surface->mesh.positions)
     off += std::abs(proxy::proxy_distance(proxy, p).distance) > 0.01 * cell_m;
-  CHECK(off < 0.02 * static_cast<double>(surface->mesh.positions.size()));  // those at the crease
-  // The volume by counting points of a lattice that has nothing to do with the surface's own.
+  CHECK(off < 0.02 * static_cast<double>(surface->mesh.positions.size()));  // vertices at the crease
+  // The volume is counted on a lattice that is unrelated to that of the surface.
   const Vec3 low(-0.15, -0.25, -0.15), size(0.45, 0.5, 0.3);
   constexpr int kSide = 60;
   int inside = 0;
@@ -116,7 +116,7 @@ TEST_CASE(
         doctest::Approx(size.prod() * inside / (kSide * kSide * kSide)).epsilon(0.001));
 }
 
-TEST_CASE("proxy surface: the margin is part of it, and the workers are not") {
+TEST_CASE("proxy surface: it includes the margin, and its bits do not depend on the workers") {
   proxy::BodyProxy::Data data;
   data.stature_m = 1.7, data.margin_m = 0.02;
   data.ellipsoids.resize(1);
@@ -134,7 +134,7 @@ TEST_CASE("proxy surface: the margin is part of it, and the workers are not") {
   }
 }
 
-TEST_CASE("proxy surface: nothing, and cells that cannot be") {
+TEST_CASE("proxy surface: an empty proxy gives none, and unusable cells are refused") {
   const auto nothing = proxy::proxy_surface({}, made({}), 0.01);
   REQUIRE(nothing.ok());
   CHECK(nothing->mesh.empty());

@@ -1,5 +1,5 @@
-// A custom profile: {"name": "...", "female": {"upper_arm": 0.19, ...}, "male": {...}}, every measure of
-// kMeasures present in both, as ratios to stature.
+// A custom profile has the form {"name": "...", "female": {"upper_arm": 0.19, ...}, "male": {...}}. Every
+// measure of kMeasures is present in both, as a fraction of the stature.
 #include <fstream>
 #include <iterator>
 
@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// An Error thrown as one, so that the reading code stays free of checks.
+/// An Error that is thrown, so that the reading code needs no checks between its steps.
 struct BadProfile {
   engine::Error error;
 };

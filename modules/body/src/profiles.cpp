@@ -6,7 +6,7 @@
 namespace bodice::body {
 namespace {
 
-// ANSUR II has no vertex-to-chin length in its public tables: taken from GB 10000-88.
+// The public tables of ANSUR II have no vertex-to-chin length; it is that of GB 10000-88.
 constexpr Proportions kAnsurMale = {
     .upper_arm = 0.1907,
     .forearm = 0.1521,
@@ -43,8 +43,8 @@ constexpr Proportions kAnsurFemale = {
 };
 
 // GB 10000-88 does not measure fingertip to armpit, nor the heights of axilla, chest and waist: those four
-// are ANSUR II's. Its height of C7 is derived from other measures. Its own thigh length starts at the iliac
-// spine and is left out on purpose: it is not the length from crotch to knee.
+// are ANSUR II's. Its height of C7 is derived from other measures. Its own thigh length is left out, because
+// it starts at the iliac spine and not at the crotch.
 constexpr Proportions kGbMale = {
     .upper_arm = 0.1865,
     .forearm = 0.1412,

@@ -6,15 +6,16 @@
 
 namespace bodice::body {
 
-/// One measure of a profile: its name in files, its place in Proportions, and what a human body allows.
+/// One measure of a profile: its name in files, the member of Proportions, and the values that a human body
+/// allows.
 struct Measure {
   const char* name;
   double Proportions::*ratio;
   double least, most;
 };
 
-/// Every member of Proportions. The bounds are wide of any adult or child survey: they catch centimeters
-/// taken for ratios and swapped columns, not unusual bodies.
+/// Every member of Proportions. The bounds are wide of any survey of adults or children. They catch
+/// centimeters in place of ratios and swapped columns, not unusual bodies.
 inline constexpr std::array<Measure, 15> kMeasures = {{
     {"upper_arm", &Proportions::upper_arm, 0.10, 0.30},
     {"forearm", &Proportions::forearm, 0.08, 0.25},

@@ -18,7 +18,7 @@ void round_numbers(BodyProxy::Data& data) {
     e.shape.axes = e.shape.axes.unaryExpr(&round44);
     e.shape.radii = e.shape.radii.unaryExpr(&round44);
   }
-  // Floats have fewer bits already; only -0 and what vanishes in another unit need care.
+  // Floats have fewer than 44 bits. Only -0 and numbers that vanish in another unit need a change.
   for (ReliefTable& t : data.relief)
     for (float* value : {&t.h_scale_m, &t.h_offset_m, &t.a_scale, &t.a_offset})
       if (std::abs(*value) < 1e-20f) *value = 0.0f;

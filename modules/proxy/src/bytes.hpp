@@ -1,4 +1,4 @@
-// Little-endian bytes, whatever the machine.
+// Little-endian bytes on any machine.
 #pragma once
 
 #include <bit>
@@ -26,7 +26,7 @@ class ByteWriter {
   std::vector<std::byte> bytes_;
 };
 
-/// Reads past the end give zeros and clear ok().
+/// Reads values from bytes. A read past the end gives zero and clears ok().
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}

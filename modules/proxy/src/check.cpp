@@ -12,18 +12,18 @@ namespace {
 using Fault = std::optional<engine::Error>;
 
 constexpr double kAxesTolerance = 1e-6;
-// Sizes and places outside this range would leave the range of float or double in queries.
-constexpr double kLargestM = 1e15;
-constexpr double kSmallestRadiusM = 1e-15;
-constexpr double kSmallestUnitM = 1e-12;
-constexpr double kLargestUnitM = 1e12;
+// Sizes and positions outside this range would leave the range of float or double in queries.
+constexpr double kLargest_m = 1e15;
+constexpr double kSmallestRadius_m = 1e-15;
+constexpr double kSmallestUnit_m = 1e-12;
+constexpr double kLargestUnit_m = 1e12;
 
 engine::Error fault(std::string what) {
   return {engine::ErrorCode::kInvalidArgument, "Body proxy: " + std::move(what) + ".",
           "Fit the body again, or repair the file."};
 }
 
-/// Written so that NaN fails.
+/// Whether least <= value <= most; false for NaN.
 bool bounded(double value, double least, double most) {
   return value >= least && value <= most;
 }
@@ -31,9 +31,9 @@ bool bounded(double value, double least, double most) {
 Fault check_header(const BodyProxy::Data& data) {
   if (static_cast<unsigned>(data.tier) > static_cast<unsigned>(Tier::kRelief))
     return fault("the tier is not one of the four");
-  if (!bounded(data.stature_m, 0.0, kLargestM)) return fault("the stature is negative or not finite");
-  if (!bounded(std::abs(data.margin_m), 0.0, kLargestM)) return fault("the margin is not finite");
-  if (!bounded(data.frame.meters_per_unit, kSmallestUnitM, kLargestUnitM))
+  if (!bounded(data.stature_m, 0.0, kLargest_m)) return fault("the stature is negative or not finite");
+  if (!bounded(std::abs(data.margin_m), 0.0, kLargest_m)) return fault("the margin is not finite");
+  if (!bounded(data.frame.meters_per_unit, kSmallestUnit_m, kLargestUnit_m))
     return fault("the unit is not a length between 1e-12 m and 1e12 m");
   if (static_cast<unsigned>(data.frame.up) > static_cast<unsigned>(geometry::Axis::kZ))
     return fault("the up axis is not x, y or z");
@@ -48,9 +48,9 @@ Fault check_ellipsoid(const ProxyEllipsoid& e, const std::string& which) {
   if (static_cast<int>(e.part) >= body::kPartCount) return fault(which + " has an unknown part");
   if (e.bone < kNoBone) return fault(which + " has a negative bone");
   for (int k = 0; k < 3; ++k) {
-    if (!bounded(std::abs(e.shape.center[k]), 0.0, kLargestM))
+    if (!bounded(std::abs(e.shape.center[k]), 0.0, kLargest_m))
       return fault(which + " has a center that is not finite");
-    if (!bounded(e.shape.radii[k], kSmallestRadiusM, kLargestM))
+    if (!bounded(e.shape.radii[k], kSmallestRadius_m, kLargest_m))
       return fault(which + " has a radius that is not positive and finite");
   }
   const geometry::Mat3& r = e.shape.axes;
@@ -67,7 +67,7 @@ Fault check_table(const ReliefTable& table, std::size_t texels, const std::strin
   if (table.first_texel + n * n > texels)
     return fault(which + " has a relief table that ends beyond the texels");
   for (float value : {table.h_scale_m, table.h_offset_m, table.a_scale, table.a_offset})
-    if (!bounded(std::abs(static_cast<double>(value)), 0.0, kLargestM))
+    if (!bounded(std::abs(static_cast<double>(value)), 0.0, kLargest_m))
       return fault(which + " has a relief scale that is not finite");
   return std::nullopt;
 }

@@ -6,7 +6,7 @@
 
 namespace bodice::proxy {
 
-/// What is wrong with the data, if anything: the precondition of every BodyProxy.
+/// The first fault of the data, if there is one. No BodyProxy has a fault.
 std::optional<engine::Error> find_fault(const BodyProxy::Data& data);
 
 }  // namespace bodice::proxy

@@ -24,7 +24,7 @@ LatticePoint corner_of(const LatticePoint& at, int corner) {
 
 }  // namespace
 
-Vec3 CrossedCells::place(const LatticePoint& at, int corner) const {
+Vec3 CrossedCells::position(const LatticePoint& at, int corner) const {
   const LatticePoint p = corner_of(at, corner);
   return origin_ + cell_m_ * Vec3(p[0], p[1], p[2]);
 }
@@ -37,10 +37,10 @@ void CrossedCells::add(const LatticePoint& at, std::vector<LatticePoint>& next) 
   if (cell_number_.emplace(key_of(at), kNotCrossed).second) next.push_back(at);
 }
 
-std::vector<Cell> CrossedCells::numbered(const std::vector<LatticePoint>& places) {
+std::vector<Cell> CrossedCells::numbered(const std::vector<LatticePoint>& points) {
   std::vector<Cell> cells;
-  cells.reserve(places.size());
-  for (const LatticePoint& at : places) {
+  cells.reserve(points.size());
+  for (const LatticePoint& at : points) {
     Cell cell{at, {}};
     for (int k = 0; k < 8; ++k) {
       const LatticePoint p = corner_of(at, k);
@@ -59,11 +59,11 @@ void CrossedCells::evaluate(const engine::Context& context,
   const std::size_t first = value_.size();
   value_.resize(corner_.size());
   engine::parallel_for(context, corner_.size() - first, kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = first + begin; i < first + end; ++i) value_[i] = distance(place(corner_[i]));
+    for (std::size_t i = first + begin; i < first + end; ++i) value_[i] = distance(position(corner_[i]));
   });
 }
 
-/// The neighbors behind faces with both signs.
+/// Appends the neighbors behind faces with both signs.
 void CrossedCells::add_beyond(const Cell& cell, std::vector<LatticePoint>& next) {
   for (int axis = 0; axis < 3; ++axis)
     for (const int side : {0, 1}) {

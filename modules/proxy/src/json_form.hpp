@@ -1,4 +1,4 @@
-// The words that the JSON writer and reader share.
+// The keys that the JSON writer and reader share.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@ using geometry::Frame;
 using geometry::Vec3;
 using nlohmann::json;
 
-/// Carries an Error out of the nested readers; never leaves this file.
+/// An Error that is thrown out of nested readers and caught in this file.
 struct BadProxy {
   engine::Error error;
 };
@@ -145,7 +145,7 @@ std::vector<ReliefTexel> read_texels(const std::string& hex) {
   return texels;
 }
 
-/// Where the text stops being JSON, as an editor counts.
+/// The line and column where the text stops being JSON, as an editor counts them.
 std::string place_of(std::string_view source, std::size_t bytes_read) {
   std::string_view before = source.substr(0, bytes_read);
   if (before.ends_with('\n')) before.remove_suffix(1);

@@ -16,7 +16,7 @@ using geometry::Frame;
 using geometry::Vec3;
 
 Json array(const Vec3& v) {
-  return {v[0] + 0.0, v[1] + 0.0, v[2] + 0.0};  // no -0
+  return {v[0] + 0.0, v[1] + 0.0, v[2] + 0.0};  // adding 0 turns -0 into 0
 }
 
 std::string ellipsoid_line(const ProxyEllipsoid& e, const Frame& frame) {
@@ -38,7 +38,7 @@ std::string table_line(const ReliefTable& t, const Frame& frame) {
   return json.dump();
 }
 
-/// [ line, line, ... ] with a line each.
+/// Writes [ line, line, ... ] with each item on a line of its own.
 template <class Items, class Line>
 std::string lines(const Items& items, Line&& line) {
   std::string text = "[";

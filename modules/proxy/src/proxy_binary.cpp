@@ -82,7 +82,7 @@ void put_header(ByteWriter& out, const BodyProxy& proxy) {
   out.put(proxy.source_hash());
 }
 
-/// Everything between the magic and the checksum. Sizes are compared before anything is allocated.
+/// Reads what lies between the magic and the checksum. Sizes are compared before anything is allocated.
 engine::Result<BodyProxy> read_body(ByteReader& in) {
   BodyProxy::Data data;
   data.tier = static_cast<Tier>(in.get<std::uint8_t>());

@@ -8,13 +8,13 @@
 namespace bodice::proxy {
 namespace {
 
-/// Table values at a direction and their derivatives along the square's axes.
+/// A table's values at a direction, with their derivatives.
 struct TableValue {
   double h = 0.0, a = 0.0;
-  Vec3 dh = Vec3::Zero(), da = Vec3::Zero();  ///< with respect to the direction w, tangential part undefined
+  Vec3 dh = Vec3::Zero(), da = Vec3::Zero();  ///< with respect to w; the radial part is undefined
 };
 
-/// d(x, y)/dw of the octahedral map, rows x and y, for w of unit length (radial part included).
+/// The derivative of the octahedral map at a unit vector w: rows x and y, radial part included.
 Eigen::Matrix<double, 2, 3> map_jacobian(const Vec3& w) {
   const double s = w.cwiseAbs().sum();
   const Vec3 sign = w.unaryExpr([](double v) { return v < 0.0 ? -1.0 : 1.0; });
@@ -51,11 +51,13 @@ TableValue read(const ReliefTable& table, std::span<const ReliefTexel> texels, c
   return value;
 }
 
+/// An ellipsoid near a point, with its closest point.
 struct Candidate {
-  geometry::ClosestPoint foot;
+  geometry::ClosestPoint closest;
   std::uint32_t index = 0;
 };
 
+/// An ellipsoid's distance with its table, and its gradient.
 struct Corrected {
   double distance = 0.0;
   Vec3 gradient = Vec3::Zero();
@@ -64,15 +66,15 @@ struct Corrected {
 /// Eq. (3) and its gradient: n (1 - a clamp'/out) - D (G - w (G . (w / e)) / sum(w^2 / e)).
 Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const ReliefTable& table,
                     std::span<const ReliefTexel> texels, const ReliefReach& reach) {
-  const double d = c.foot.signed_distance;
-  if (table.nodes_per_side < 2) return {d, c.foot.normal};
-  const Vec3 w = (e.axes.transpose() * (c.foot.point - e.center)).cwiseQuotient(e.radii).normalized();
+  const double d = c.closest.signed_distance;
+  if (table.nodes_per_side < 2) return {d, c.closest.normal};
+  const Vec3 w = (e.axes.transpose() * (c.closest.point - e.center)).cwiseQuotient(e.radii).normalized();
   const TableValue value = read(table, texels, w);
   const double clamped = std::clamp(d, -reach.in_m, reach.out_m);
   const bool slopes = d > -reach.in_m && d < reach.out_m;
-  const double t = d / w.cwiseQuotient(e.radii).norm();  // x - foot = t w / r in the ellipsoid's frame
+  const double t = d / w.cwiseQuotient(e.radii).norm();  // x - f_k = t w / r in the ellipsoid's frame
   const Vec3 evolute = (e.radii.cwiseAbs2().array() + t).matrix();
-  const Vec3 n = e.axes.transpose() * c.foot.normal;
+  const Vec3 n = e.axes.transpose() * c.closest.normal;
   const Vec3 g = value.dh + clamped / reach.out_m * value.da;
   Vec3 local = n * (1.0 - (slopes ? value.a / reach.out_m : 0.0));
   const Vec3 w_e = w.cwiseQuotient(evolute);
@@ -82,8 +84,8 @@ Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const Reli
   return {d - value.h - value.a * clamped / reach.out_m, e.axes * local};
 }
 
-/// The signed distance is at least this: by the sphere around, and because the map from the unit sphere
-/// stretches by the least radius at least and by the largest at most.
+/// A lower bound on the signed distance: by the enclosing sphere, and because the map from the unit sphere
+/// stretches lengths by a factor between the least and the largest radius.
 double lower_bound(const geometry::Ellipsoid& e, const Vec3& point) {
   constexpr double kRounding = 1e-12;
   const Vec3 p = point - e.center;
@@ -94,49 +96,65 @@ double lower_bound(const geometry::Ellipsoid& e, const Vec3& point) {
          kRounding * (length + longest);
 }
 
-ProxyDistance evaluate(std::span<const ProxyEllipsoid> ellipsoids, std::span<const ReliefTable> relief,
-                       std::span<const ReliefTexel> texels, double stature_m, double margin_m,
-                       const Vec3& point) {
-  ProxyDistance result;
-  result.distance = std::numeric_limits<double>::infinity();
-  if (ellipsoids.empty()) return result;
-  const ReliefReach reach = relief_reach(stature_m);
-  const double keep = relief.empty() ? 0.0 : reach.blend_m;
+/// The owner of a point, with its plain distance and normal, and the ellipsoids that are blended there.
+struct NearEllipsoids {
+  ProxyDistance owner;
+  std::vector<Candidate> blended;
+};
+
+/// Finds the owner, and with `blend_m` above zero all ellipsoids at most that much farther than the owner.
+/// Some of the found ellipsoids may be farther; their weight is zero.
+NearEllipsoids find_near(std::span<const ProxyEllipsoid> ellipsoids, const Vec3& point, double blend_m) {
   std::vector<double> bound;
   bound.reserve(ellipsoids.size());
   for (const ProxyEllipsoid& e : ellipsoids) bound.push_back(lower_bound(e.shape, point));
-  // What the ellipsoid of the least bound is beaten by is not much farther down: few feet are left to take.
+  // The ellipsoid of the least bound is evaluated first, because few others then have a bound below it.
   const auto first = static_cast<std::size_t>(std::ranges::min_element(bound) - bound.begin());
-  const geometry::ClosestPoint first_foot = geometry::closest_point(ellipsoids[first].shape, point);
-  double least = first_foot.signed_distance;
-  std::vector<Candidate> near;  // within the blend of the nearest so far
+  const geometry::ClosestPoint first_closest = geometry::closest_point(ellipsoids[first].shape, point);
+  double least = first_closest.signed_distance;
+  NearEllipsoids near;
+  near.owner.distance = std::numeric_limits<double>::infinity();
   for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
-    const geometry::Ellipsoid& e = ellipsoids[k].shape;
-    if (k != first && bound[k] > least + keep) continue;
-    const geometry::ClosestPoint foot = k == first ? first_foot : geometry::closest_point(e, point);
-    least = std::min(least, foot.signed_distance);
-    if (foot.signed_distance < result.distance) {
-      result.distance = foot.signed_distance;
-      result.normal = foot.normal;
-      result.owner = k;
-    }
-    if (!relief.empty()) near.push_back({foot, k});
+    if (k != first && bound[k] > least + blend_m) continue;
+    const geometry::ClosestPoint closest =
+        k == first ? first_closest : geometry::closest_point(ellipsoids[k].shape, point);
+    least = std::min(least, closest.signed_distance);
+    if (closest.signed_distance < near.owner.distance)
+      near.owner = {.distance = closest.signed_distance, .normal = closest.normal, .owner = k};
+    if (blend_m > 0.0) near.blended.push_back({closest, k});
   }
-  if (!relief.empty()) {
-    double weights = 0.0, sum = 0.0;
-    Vec3 gradient = Vec3::Zero();
-    for (const Candidate& c : near) {
-      const double ramp = std::max(0.0, 1.0 - (c.foot.signed_distance - least) / reach.blend_m);
-      if (ramp == 0.0) continue;
-      const Corrected f = corrected(ellipsoids[c.index].shape, c, relief[c.index], texels, reach);
-      weights += ramp * ramp;
-      sum += ramp * ramp * f.distance;
-      gradient += ramp * ramp * f.gradient;
-    }
-    result.distance = sum / weights;
-    const double length = gradient.norm();
-    if (length > 0.0) result.normal = gradient / length;
+  return near;
+}
+
+/// Eq. (5) with tables, without the margin.
+ProxyDistance blend(const NearEllipsoids& near, std::span<const ProxyEllipsoid> ellipsoids,
+                    std::span<const ReliefTable> relief, std::span<const ReliefTexel> texels,
+                    const ReliefReach& reach) {
+  double weights = 0.0, sum = 0.0;
+  Vec3 gradient = Vec3::Zero();
+  for (const Candidate& c : near.blended) {
+    const double ramp =
+        std::max(0.0, 1.0 - (c.closest.signed_distance - near.owner.distance) / reach.blend_m);
+    if (ramp == 0.0) continue;
+    const Corrected f = corrected(ellipsoids[c.index].shape, c, relief[c.index], texels, reach);
+    weights += ramp * ramp;
+    sum += ramp * ramp * f.distance;
+    gradient += ramp * ramp * f.gradient;
   }
+  ProxyDistance result = near.owner;
+  result.distance = sum / weights;
+  const double length = gradient.norm();
+  if (length > 0.0) result.normal = gradient / length;
+  return result;
+}
+
+ProxyDistance evaluate(std::span<const ProxyEllipsoid> ellipsoids, std::span<const ReliefTable> relief,
+                       std::span<const ReliefTexel> texels, double stature_m, double margin_m,
+                       const Vec3& point) {
+  if (ellipsoids.empty()) return {.distance = std::numeric_limits<double>::infinity()};
+  const ReliefReach reach = relief_reach(stature_m);
+  const NearEllipsoids near = find_near(ellipsoids, point, relief.empty() ? 0.0 : reach.blend_m);
+  ProxyDistance result = relief.empty() ? near.owner : blend(near, ellipsoids, relief, texels, reach);
   result.distance -= margin_m;
   return result;
 }

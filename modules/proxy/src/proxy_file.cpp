@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 using engine::Error;
 using engine::ErrorCode;
 
-// Beyond the largest proxy in JSON, which takes four digits a texel and less than 1 kB for an ellipsoid and
-// its table, it is some other file.
+// A larger file is not a proxy: the largest one in JSON takes four digits a texel, and less than 1 kB for an
+// ellipsoid and its table.
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 29;
 static_assert(4 * kMaxReliefTexels + 1000 * (kMaxEllipsoids + 1) < kLargestFile);
 

@@ -17,13 +17,13 @@ namespace {
 
 using geometry::Index;
 
-constexpr std::size_t kGrain = 64;    // distances, some microseconds each
-constexpr int kSteps = 2;             // down the gradient
-constexpr double kSettled = 1e-3;     // of a cell
-constexpr double kLongestMove = 0.5;  // of a cell: vertices of one cell stay about there
-constexpr int kSeedsPerSide = 9;      // of an octahedral map: where the lattice is entered, an ellipsoid
+constexpr std::size_t kGrain = 64;    // distances a block; each takes some microseconds
+constexpr int kSteps = 2;             // steps down the gradient
+constexpr double kSettled = 1e-3;     // distance to the surface at which a vertex is done, in cells
+constexpr double kLongestMove = 0.5;  // of a vertex, in cells, so that the vertices of a cell stay near it
+constexpr int kSeedsPerSide = 9;      // seeds an ellipsoid, along each side of the octahedral map
 
-/// Places on the surface that each ellipsoid makes, or a few steps from them.
+/// Points on or near the surface of each ellipsoid, from which the search for crossed cells starts.
 std::vector<Vec3> seeds_of(const engine::Context& context, const BodyProxy& proxy) {
   constexpr std::size_t kEach = kSeedsPerSide * kSeedsPerSide;
   std::vector<Vec3> seeds(proxy.ellipsoids().size() * kEach);
@@ -31,8 +31,8 @@ std::vector<Vec3> seeds_of(const engine::Context& context, const BodyProxy& prox
     for (std::size_t i = begin; i < end; ++i) {
       const geometry::Ellipsoid& e = proxy.ellipsoids()[i / kEach].shape;
       const auto at = static_cast<int>(i % kEach);
-      const auto place = [](int k) { return 2.0 * k / (kSeedsPerSide - 1) - 1.0; };
-      const Vec3 w = octahedral_direction(place(at % kSeedsPerSide), place(at / kSeedsPerSide));
+      const auto coordinate = [](int k) { return 2.0 * k / (kSeedsPerSide - 1) - 1.0; };
+      const Vec3 w = octahedral_direction(coordinate(at % kSeedsPerSide), coordinate(at / kSeedsPerSide));
       Vec3& p = seeds[i] = e.center + e.axes * e.radii.cwiseProduct(w);
       for (int step = 0; step < kSteps; ++step) {
         const ProxyDistance there = proxy_distance(proxy, p);
@@ -43,7 +43,7 @@ std::vector<Vec3> seeds_of(const engine::Context& context, const BodyProxy& prox
   return seeds;
 }
 
-/// The mean of where the surface crosses the cell's edges.
+/// The mean of the points where the surface crosses the cell's edges.
 Vec3 middle_of_crossings(const CrossedCells& cells, const Cell& cell) {
   Vec3 sum = Vec3::Zero();
   int count = 0;
@@ -52,14 +52,15 @@ Vec3 middle_of_crossings(const CrossedCells& cells, const Cell& cell) {
       if (corner & (1 << axis)) continue;
       const double a = cells.value(cell, corner), b = cells.value(cell, corner | (1 << axis));
       if ((a < 0.0) == (b < 0.0)) continue;
-      const Vec3 from = cells.place(cell.at, corner), to = cells.place(cell.at, corner | (1 << axis));
+      const Vec3 from = cells.position(cell.at, corner), to = cells.position(cell.at, corner | (1 << axis));
       sum += from + a / (a - b) * (to - from);
       ++count;
     }
   return sum / count;
 }
 
-/// A vertex a cell, on the surface as near as a short way down the gradient brings it.
+/// Sets one vertex a cell, moved from the middle of its crossings to the surface by a few steps down the
+/// gradient.
 void place_vertices(const engine::Context& context, const BodyProxy& proxy, const CrossedCells& cells,
                     double cell_m, ProxySurface& surface) {
   const std::size_t count = cells.cells().size();
@@ -79,12 +80,12 @@ void place_vertices(const engine::Context& context, const BodyProxy& proxy, cons
   });
 }
 
-/// Two triangles for each lattice edge that the surface crosses, through the four cells around it; each cell
-/// answers for the edges at its first corner.
+/// Adds two triangles for each lattice edge that the surface crosses, through the four cells around it. Each
+/// cell contributes the edges at its first corner.
 void span_faces(const CrossedCells& cells, geometry::TriMesh& mesh) {
   for (const Cell& cell : cells.cells())
     for (int axis = 0; axis < 3; ++axis) {
-      const bool leaves = cells.value(cell, 0) < 0.0;  // along the axis
+      const bool leaves = cells.value(cell, 0) < 0.0;  // the surface's inside comes first along the axis
       if (leaves == (cells.value(cell, 1 << axis) < 0.0)) continue;
       const int u = (axis + 1) % 3, v = (axis + 2) % 3;
       const auto beside = [&](int du, int dv) {

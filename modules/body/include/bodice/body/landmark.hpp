@@ -8,6 +8,7 @@
 
 namespace bodice::body {
 
+/// A landmark's name.
 enum class LandmarkId : std::uint8_t {
   kCrown,
   kNeck,
@@ -34,12 +35,12 @@ constexpr std::string_view name(LandmarkId id) {
   return kLandmarkNames[static_cast<int>(id)];
 }
 
-/// A named place on or (neck, elbow, knee: the centroid of their girth) inside the body.
+/// A named point of the body: on the skin, or for neck, elbows and knees the centroid of their girth.
 struct Landmark {
   LandmarkId id = LandmarkId::kCrown;
-  geometry::Vec3 position = geometry::Vec3::Zero();  ///< meters
+  geometry::Vec3 position = geometry::Vec3::Zero();  ///< in the coordinates of the skin, meters
   geometry::Index vertex = geometry::kNoIndex;       ///< nearest vertex of the skin
-  double confidence = 0.0;                           ///< 0..1
+  double confidence = 0.0;                           ///< 0 (not found) to 1
 };
 
 }  // namespace bodice::body

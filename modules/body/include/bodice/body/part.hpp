@@ -1,4 +1,4 @@
-// The 15 parts of a body and the words that go with them.
+// The 15 parts of a body and their names.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace bodice::body {
 
-/// l and r are the body's own left and right; forearms include hands, calves include feet, head the neck.
-/// The torso's letters: u m l for upper, middle, lower.
+/// A part of the body. Left and right are the body's own. The letters after kTorso are upper, middle or
+/// lower, then left or right. A forearm includes the hand, a calf the foot, the head the neck.
 enum class Part : std::uint8_t {
   kHead,
   kTorsoUL,

@@ -1,4 +1,4 @@
-// Ratios of body measures to stature, as data: named survey profiles, or one from a JSON file.
+// Ratios of body lengths to stature: survey profiles by name, or one from a JSON file.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +10,10 @@
 
 namespace bodice::body {
 
+/// The sex that a survey's means are for.
 enum class Sex { kFemale, kMale };
 
-/// All lengths and heights as ratios to stature.
+/// Lengths and heights of a body as fractions of its stature.
 struct Proportions {
   double upper_arm = 0.0;  ///< acromion to radiale
   double forearm = 0.0;    ///< radiale to stylion
@@ -31,19 +32,22 @@ struct Proportions {
   double foot_length = 0.0;
 };
 
+/// A survey's mean proportions of women and of men.
 struct ProportionProfile {
   std::string name;  ///< "gb10000-88", "ansur2" or the custom file's
   Proportions female;
   Proportions male;
   const Proportions& of(Sex sex) const { return sex == Sex::kFemale ? female : male; }
-  /// The mean of both, for a body whose sex is not given.
+  /// The mean of both sexes, for a body of unknown sex.
   Proportions either() const;
 };
 
 /// A built-in profile by name; kNotFound lists the names that exist.
 engine::Result<ProportionProfile> find_profile(std::string_view name);
+/// The names of the built-in profiles.
 std::vector<std::string> profile_names();
-/// Reads a custom profile; every missing or implausible ratio is an error that names it.
+/// Reads a custom profile. Fails with kNotFound, kUnreadable or kInvalidArgument; a missing or implausible
+/// ratio is named.
 engine::Result<ProportionProfile> load_profile(const std::filesystem::path& file);
 
 }  // namespace bodice::body

@@ -1,4 +1,4 @@
-// The body proxy: what preprocessing makes and the frame path reads.
+// The body proxy, which preprocessing makes and the frame path reads.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,12 @@
 
 namespace bodice::proxy {
 
-/// The accuracy tiers, from the paper as written to a fraction of a millimeter; README.md shows the trade.
+/// A promise of accuracy, from the paper as written to a fraction of a millimeter; README.md has the numbers.
 enum class Tier : std::uint8_t { kPaper, kSolid, kTight, kRelief };
 
+/// The tier's name in files and options: "paper", "solid", "tight" or "relief".
 std::string_view name(Tier tier);
+/// The tier of a name, if there is one.
 std::optional<Tier> tier_from_name(std::string_view text);
 
 inline constexpr std::int16_t kNoBone = -1;
@@ -26,30 +28,34 @@ inline constexpr std::size_t kMaxEllipsoids = 65536;
 inline constexpr int kMaxReliefNodes = 1024;
 inline constexpr std::size_t kMaxReliefTexels = std::size_t{1} << 26;
 
+/// An ellipsoid of a proxy, and the part and joint that it belongs to.
 struct ProxyEllipsoid {
   geometry::Ellipsoid shape;
   body::Part part = body::Part::kHead;
-  std::int16_t bone = kNoBone;  ///< the skeleton joint that carries it, if any
+  std::int16_t bone = kNoBone;  ///< the joint that moves the ellipsoid, if any
 };
 
-/// A table of corrections to one ellipsoid's distance, over the octahedral map of the unit sphere; what it
-/// means is defined in proxy_distance.hpp. h and a, both lengths, are bilinear between nodes.
+/// A table of corrections to one ellipsoid's distance over the octahedral map of the unit sphere.
+/// proxy_distance.hpp defines how it is read. h and a, both lengths, are bilinear between nodes.
 struct ReliefTable {
   std::uint16_t nodes_per_side = 0;           ///< N, 2..kMaxReliefNodes; 0: no table
   float h_scale_m = 0.0f, h_offset_m = 0.0f;  ///< h = offset + scale * byte / 255
-  float a_scale = 0.0f, a_offset = 0.0f;      ///< a likewise, meters
+  float a_scale = 0.0f, a_offset = 0.0f;      ///< a = offset + scale * byte / 255, meters
   std::uint32_t first_texel = 0;              ///< into BodyProxy::texels(), N*N texels, row-major; not
                                               ///< beyond their end without a table either
 };
 
+/// A node of a relief table: h and a, quantized to a byte each.
 struct ReliefTexel {
   std::uint8_t h = 0;
   std::uint8_t a = 0;
 };
 
-/// An immutable union of ellipsoids that stands for a body. Thread-safe. Meters, y up.
+/// An immutable union of ellipsoids, with or without relief, that stands for a body. Copies are cheap and
+/// thread-safe. Lengths are meters, y is up.
 class BodyProxy {
  public:
+  /// The numbers of a proxy, not checked yet.
   struct Data {
     Tier tier = Tier::kPaper;
     double stature_m = 0.0;
@@ -57,13 +63,13 @@ class BodyProxy {
     std::vector<ProxyEllipsoid> ellipsoids;
     std::vector<ReliefTable> relief;  ///< empty, or one an ellipsoid
     std::vector<ReliefTexel> texels;
-    std::uint64_t source_hash = 0;  ///< of the mesh it was fitted to
-    geometry::Frame frame;          ///< the units and axes of the file it came from
+    std::uint64_t source_hash = 0;  ///< hash of the mesh that the proxy was fitted to
+    geometry::Frame frame;          ///< unit and axes of the file that the body came from
   };
 
-  /// Checks every value (finite, radii > 0, axes orthonormal to 1e-6 and right-handed, tables inside texels),
-  /// rounds each number to 44 significant bits, so that a file in any unit gives the same bits back, and
-  /// hashes. Fails with kInvalidArgument and names the ellipsoid.
+  /// Checks every value (finite, radii > 0, axes orthonormal to 1e-6 and right-handed, tables inside texels)
+  /// and hashes the geometry. Each number is rounded to 44 significant bits, so that a file in any unit gives
+  /// the same bits back. Fails with kInvalidArgument and names the ellipsoid.
   static engine::Result<BodyProxy> make(Data data);
 
   Tier tier() const { return data_->tier; }
@@ -74,10 +80,10 @@ class BodyProxy {
   std::span<const ReliefTexel> texels() const { return data_->texels; }
   std::uint64_t source_hash() const { return data_->source_hash; }
   const geometry::Frame& frame() const { return data_->frame; }
-  /// Identity of the geometry (tier, sizes, ellipsoids, tables; not of the frame or the source): equal bits
-  /// in, equal hash out.
+  /// The identity of the geometry (tier, sizes, ellipsoids, tables), without frame and source. Equal bits
+  /// have equal hashes.
   std::uint64_t hash() const { return hash_; }
-  /// Bytes of the shape as stored for queries (floats; 15 numbers an ellipsoid plus the tables).
+  /// The size of the shape as stored for queries, in bytes: 15 floats an ellipsoid, and the tables.
   std::size_t bytes() const;
 
  private:

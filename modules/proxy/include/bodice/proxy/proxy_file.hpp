@@ -1,6 +1,6 @@
-// Proxies on disk: JSON for people and tools (in the units and axes of the body's file, BodyProxy::frame()),
-// a compact binary for runtimes (meters, y up). Both are versioned, both give the same hash back, and loading
-// hostile bytes is safe: every length and value is checked before it is used.
+// Files of proxies: JSON for people and tools (in the unit and axes of the body's file, BodyProxy::frame()),
+// and a compact binary form for runtimes (meters, y up). Both have a version, and both give the same hash
+// back. Loading hostile bytes is safe: every length and value is checked before it is used.
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,11 @@ engine::Result<BodyProxy> from_json(std::string_view text);
 std::vector<std::byte> to_binary(const BodyProxy& proxy);
 engine::Result<BodyProxy> from_binary(std::span<const std::byte> bytes);
 
-/// Writes JSON, or the binary form if the name ends in .bodice; the file appears whole or not at all.
+/// Writes the binary form if the name ends in .bodice, else JSON. The file appears whole or not at all. Fails
+/// with kWriteFailed.
 engine::Result<void> save(const BodyProxy& proxy, const std::filesystem::path& file);
-/// Reads either form, told apart by content.
+/// Reads either form, which it recognizes by content. Fails with kNotFound, kUnreadable or kInvalidArgument,
+/// and names the line and column or the ellipsoid at fault.
 engine::Result<BodyProxy> load(const std::filesystem::path& file);
 
 }  // namespace bodice::proxy

@@ -1,4 +1,4 @@
-// The proxy's surface as triangles: to look at, or to give to tools that collide with meshes.
+// The proxy's surface as triangles, to look at or for tools that collide with meshes.
 #pragma once
 
 #include <cstdint>
@@ -11,19 +11,21 @@
 
 namespace bodice::proxy {
 
+/// The proxy's surface as a mesh, with a normal and an owner a vertex.
 struct ProxySurface {
   geometry::TriMesh mesh;               ///< closed, wound outward
   std::vector<geometry::Vec3> normals;  ///< #V, unit gradients of the distance
   std::vector<std::uint32_t> owner;     ///< #V, indices into BodyProxy::ellipsoids()
 };
 
-/// Where proxy_distance() is zero, sampled on a cubic lattice of `cell_m`: what is thinner than a cell may be
-/// missed, creases are rounded within a cell, other vertices lie within a thousandth of a cell of the
-/// surface. Every edge is shared by an even number of triangles: two, but where the surface touches itself
-/// within a cell. A proxy without ellipsoids has no surface. The same bits for any number of workers. Fails
-/// with kInvalidArgument if the cell is not positive, or so small that the surface takes millions of them.
-/// Cost: two or three scalar distances a vertex; a body of 89 ellipsoids with relief at a three-hundredth of
-/// its stature has 80,000 of them and takes a second of one core.
+/// The zero set of proxy_distance(), sampled on a cubic lattice of `cell_m`. What is thinner than a cell may
+/// be missed, and creases are rounded within a cell; other vertices lie within a thousandth of a cell of the
+/// surface. Every edge is shared by an even number of triangles: by two, except where the surface touches
+/// itself within a cell. A proxy without ellipsoids has no surface. The bits do not depend on the number of
+/// workers. Fails with kInvalidArgument if the cell is not positive, or so small that the surface takes
+/// millions of them, and with kCanceled.
+/// Cost: two or three scalar distances a vertex. A body of 89 ellipsoids with relief, at a three-hundredth of
+/// its stature, has 80,000 vertices and takes a second of one core.
 // Based on: Sarah F. F. Gibson. Constrained Elastic Surface Nets. 1998.
 // Differs: only cells that the surface crosses are visited, each from a neighbor; vertices go down the
 // distance's gradient in place of relaxing.
