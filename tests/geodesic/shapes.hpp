@@ -1,4 +1,4 @@
-// Surfaces whose distances are known in closed form.
+// Surfaces on which distances have a closed form.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ using bodice::geometry::Index;
 using bodice::geometry::TriMesh;
 using bodice::geometry::Vec3;
 
-/// (n + 1)^2 vertices in the plane z = 0 over [0, size]^2, one diagonal a square.
+/// A grid of (n + 1)^2 vertices in the plane z = 0 over [0, size]^2, with one diagonal a square.
 inline TriMesh grid(int n, double size = 1.0) {
   TriMesh mesh;
   for (int j = 0; j <= n; ++j)

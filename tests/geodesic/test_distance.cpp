@@ -15,7 +15,7 @@ geodesic::EdgeGraph graph_of(const geometry::TriMesh& mesh, Metric metric) {
   return geodesic::edge_graph({}, mesh, geometry::mesh_edges(mesh), metric);
 }
 
-/// Worst and mean relative error against great circles, beyond a tenth of the way round.
+/// The worst and the mean relative error against great circles, beyond a tenth of the half circle.
 std::pair<double, double> sphere_error(const geometry::TriMesh& mesh, const geodesic::Field& field) {
   double worst = 0.0, sum = 0.0;
   int count = 0;
@@ -33,7 +33,7 @@ std::pair<double, double> sphere_error(const geometry::TriMesh& mesh, const geod
 }  // namespace
 
 TEST_CASE("the bucket queue gives the textbook method's bits") {
-  // Irregular lengths on purpose: a stretched sphere with noise makes many buckets empty and others crowded.
+  // The sphere is stretched and noisy, so that many buckets are empty and others crowded.
   auto mesh = shapes::sphere(4);
   engine::Random random(3);
   for (auto& p : mesh.positions)
@@ -54,8 +54,8 @@ TEST_CASE("links across unfolded triangles halve the error on a sphere, and none
   const auto plain = sphere_error(mesh, geodesic::distances_from(graph_of(mesh, Metric::kEdges), 0));
   const auto better = sphere_error(mesh, geodesic::distances_from(graph_of(mesh, Metric::kUnfolded), 0));
   CHECK(better.second < 0.5 * plain.second);
-  CHECK(better.first < 0.083);    // eight directions a vertex at worst: 1 / cos(22.5 degrees) - 1
-  CHECK(better.second > -0.001);  // chords are shorter than arcs by no more than this at this resolution
+  CHECK(better.first < 0.083);    // a vertex has eight directions at worst: 1 / cos(22.5 degrees) - 1
+  CHECK(better.second > -0.001);  // chords are shorter than arcs, by no more than this at this resolution
 }
 
 TEST_CASE("along its edges a flat grid is exact, and no distance is below the straight line") {
@@ -67,11 +67,11 @@ TEST_CASE("along its edges a flat grid is exact, and no distance is below the st
     REQUIRE(static_cast<double>(field[v]) >= mesh.positions[v].norm() * (1.0 - 1e-5));
 }
 
-TEST_CASE("distances scale with the mesh and do not know its place") {
+TEST_CASE("distances scale with the mesh and do not depend on its position") {
   const auto reference = geodesic::distances_from(graph_of(shapes::sphere(3), Metric::kUnfolded), 7);
   for (const double scale : {1e-6, 1.0, 1e6})
     for (const double away : {0.0, 1e4}) {
-      if (scale < 1.0 && away > 0.0) continue;  // 1e-6 m edges at 10 km are below what a double resolves
+      if (scale < 1.0 && away > 0.0) continue;  // edges of 1e-6 m at 10 km are below what a double resolves
       const auto field = geodesic::distances_from(
           graph_of(shapes::sphere(3, scale, away * geometry::Vec3(1, -1, 1)), Metric::kUnfolded), 7);
       for (std::size_t v = 0; v < field.size(); ++v)
@@ -100,7 +100,7 @@ TEST_CASE("what no source reaches is unreachable, and sources outside the mesh a
 TEST_CASE("within a distance every bit is as without the limit, and beyond it nothing is reached") {
   const auto mesh = shapes::sphere(4);
   const auto graph = graph_of(mesh, Metric::kUnfolded);
-  // The second seed starts long after all that the first reaches within the lesser limits.
+  // The second seed starts beyond all that the first one reaches within the lesser limits.
   const std::array<geodesic::Seed, 3> seeds{{{5, 0.0F}, {600, 0.9F}, {601, 33.0F}}};
   const auto all = geodesic::distances(graph, seeds);
   for (const float most : {0.0F, 0.05F, 0.5F, 0.95F, 1.6F, 40.0F}) {
@@ -154,7 +154,7 @@ TEST_CASE("a path descends to its source and is as long as its distance") {
   CHECK(length == doctest::Approx(static_cast<double>(field[5])).epsilon(1e-5));
 }
 
-TEST_CASE("degenerate meshes end, with finite distances where there is a way") {
+TEST_CASE("degenerate meshes end, with finite distances where there is a path") {
   geometry::TriMesh mesh;
   CHECK(geodesic::distances_from(graph_of(mesh, Metric::kUnfolded), 0).empty());
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 0, 0}};

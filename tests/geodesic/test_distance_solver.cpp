@@ -18,7 +18,8 @@ geodesic::Field distances(const geometry::TriMesh& mesh, Method method, geometry
   return DistanceSolver({}, mesh, edges, method).distances_from(source);
 }
 
-/// A flat square whose vertices are moved about: many obtuse triangles, and the truth is the straight line.
+/// A flat square with displaced vertices: it has many obtuse triangles, and the true distance is the straight
+/// line.
 geometry::TriMesh crumpled_square() {
   auto mesh = shapes::grid(24);
   engine::Random random(9);
@@ -29,7 +30,7 @@ geometry::TriMesh crumpled_square() {
   return mesh;
 }
 
-/// Mean and worst relative error on the unit sphere, beyond a tenth of the way round.
+/// The mean and the worst relative error on the unit sphere, beyond a tenth of the half circle.
 std::pair<double, double> sphere_error(Method method) {
   const auto mesh = shapes::sphere(5);
   const auto field = distances(mesh, method, 0);
@@ -68,7 +69,7 @@ TEST_CASE("on a sphere each method is more accurate than the one before") {
   CHECK(marching.second < 0.015);  // beside the corners of the octahedron, where four triangles meet
 }
 
-TEST_CASE("fast marching knows neither scale nor place") {
+TEST_CASE("fast marching scales with the mesh and does not depend on its position") {
   const auto reference = distances(shapes::sphere(3), Method::kFastMarching, 7);
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
     const geometry::Vec3 away = scale < 1.0 ? geometry::Vec3::Zero() : geometry::Vec3(1e4, -1e4, 1e4);

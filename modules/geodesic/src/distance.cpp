@@ -1,7 +1,7 @@
 // Based on: Ulrich Meyer, Peter Sanders. Delta-stepping: a parallelizable shortest path algorithm. 2003.
-// Differs: one thread a run (sources run in parallel); a circular array of buckets no wider than a typical
-// link. Rounded addition is monotone, so the least fixed point, and with it every bit of the result, is
-// Dijkstra's.
+// Differs: one thread a run (sources run in parallel), and a circular array of buckets no wider than a
+// typical link. Rounded addition is monotone, so that the least fixed point, and with it every bit of the
+// result, is that of Dijkstra's method.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -17,10 +17,11 @@ namespace {
 using geometry::Index;
 using geometry::kNoIndex;
 
-/// Bucket width in mean link lengths: wide enough to visit few empty buckets, narrow enough to settle few
-/// vertices twice.
+/// Bucket width in mean link lengths. It is wide enough to visit few empty buckets, and narrow enough to
+/// settle few vertices twice.
 constexpr float kBucketWidth = 0.35F;
-/// Meshes whose longest link is thousands of times the mean get wider buckets instead of more.
+/// A bound on the number of buckets. Meshes with a link thousands of times the mean get wider buckets
+/// instead.
 constexpr std::size_t kMostBuckets = 1 << 12;
 
 class Buckets {
@@ -37,8 +38,8 @@ class Buckets {
     ring_[slot(entry.distance) & mask_].push_back(entry);
     ++size_;
   }
-  /// Takes out the nearest bucket; what is pushed into it later comes with the next call.
-  /// Precondition: not empty.
+  /// Moves the nearest bucket's entries to `bucket`. Entries that are pushed into it later come with the next
+  /// call. Precondition: not empty.
   void pop(std::vector<Seed>& bucket) {
     while (ring_[current_ & mask_].empty()) ++current_;
     bucket.clear();
@@ -58,10 +59,10 @@ class Buckets {
   std::size_t size_ = 0;
 };
 
-// Whether a link shortens a way, and whether an entry has been overtaken, is as good as chance to a processor
-// that guesses: both loops below first gather, without a jump, what there is to do.
+// A processor cannot predict whether a link shortens a path, or whether an entry is outdated. Hence both
+// loops below first gather, without branches, the entries to work on.
 
-void drop_overtaken(std::vector<Seed>& entries, const Field& field) {
+void drop_outdated(std::vector<Seed>& entries, const Field& field) {
   std::size_t count = 0;
   for (const Seed& entry : entries) {
     const bool live = entry.distance <= field[entry.vertex];
@@ -71,7 +72,7 @@ void drop_overtaken(std::vector<Seed>& entries, const Field& field) {
   entries.resize(count);
 }
 
-/// Follows the links of a vertex that shorten a way, or make another as short.
+/// Follows the links of a vertex that shorten a path, or give another one of the same length.
 template <class Reached>
 void relax(const EdgeGraph& graph, const Seed& at, Field& field, Buckets& buckets, Reached reached) {
   constexpr Index kBlock = 32;
@@ -88,7 +89,7 @@ void relax(const EdgeGraph& graph, const Seed& at, Field& field, Buckets& bucket
     }
     for (std::size_t i = 0; i < count; ++i) {
       const Seed& to = nearer[i];
-      if (to.distance > field[to.vertex]) continue;  // a shorter link of the same row leads there
+      if (to.distance > field[to.vertex]) continue;  // a shorter link of the same row leads to that vertex
       if (!reached(at.vertex, to.vertex, to.distance < field[to.vertex])) continue;
       field[to.vertex] = to.distance;
       buckets.push(to);
@@ -102,8 +103,9 @@ float nearest_of(const std::vector<Seed>& entries) {
   return least;
 }
 
-/// Settles every vertex that is no farther than `most`; others keep what they were offered, if anything.
-/// Seeds that start later than one ring ahead would alias an earlier bucket, so they wait, sorted, outside.
+/// Settles every vertex that is no farther than `most`; others keep the last distance found for them, if any.
+/// Seeds that start later than one ring ahead would alias an earlier bucket, so that they wait, sorted,
+/// outside.
 template <class Reached>
 void run(const EdgeGraph& graph, std::vector<Seed> seeds, float most, Field& field, Reached reached) {
   Buckets buckets(graph);
@@ -121,7 +123,7 @@ void run(const EdgeGraph& graph, std::vector<Seed> seeds, float most, Field& fie
       }
     if (buckets.empty()) continue;
     buckets.pop(front);
-    drop_overtaken(front, field);
+    drop_outdated(front, field);
     if (most < kUnreachable && nearest_of(front) > most) front.clear();
     for (const Seed& at : front) {
       horizon = std::max(horizon, at.distance);

@@ -1,5 +1,5 @@
 // Based on: Mark Lanthier, Anil Maheshwari, Joerg-Ruediger Sack. Approximating Shortest Paths on Weighted
-// Polyhedral Surfaces. 2001. (a graph whose extra edges cross the faces)
+// Polyhedral Surfaces. 2001. (extra edges that cross the faces)
 // Differs: instead of points on the edges, one straight link across each convex pair of unfolded triangles.
 #include <cmath>
 #include <optional>
@@ -15,7 +15,8 @@ using geometry::kNoIndex;
 using geometry::Vec3;
 
 constexpr std::size_t kGrain = 4096;
-/// A zero-length link would let the queue revisit a vertex without progress.
+/// A least length, relative to the mean edge. A zero-length link would let the queue revisit a vertex without
+/// progress.
 constexpr double kShortestRelative = 1e-6;
 
 Index opposite(const geometry::Triangle& t, const geometry::MeshEdges::Ends& ends) {
@@ -33,7 +34,7 @@ Flat lay_flat(const Vec3& a, const Vec3& hinge, double hinge_length, const Vec3&
   return {x, std::sqrt(std::max(0.0, (p - a).squaredNorm() - x * x))};
 }
 
-/// The straight line between the two corners that face an edge, if it stays inside the two triangles.
+/// The straight link between the two corners opposite an edge, if it stays inside the two triangles.
 std::optional<Bridge> across(const geometry::TriMesh& mesh, const geometry::MeshEdges& edges, std::size_t e) {
   const auto [f, g] = edges.triangles[e];
   if (g == kNoIndex) return std::nullopt;
@@ -68,7 +69,7 @@ std::vector<Bridge> two_way_links(const engine::Context& context, const geometry
   return links;
 }
 
-/// Rows in compressed form; a bridge from a vertex to itself marks "none".
+/// Builds compressed rows from bridges. A bridge from a vertex to itself stands for "none".
 EdgeGraph compress(std::size_t vertices, const std::vector<Bridge>& bridges) {
   EdgeGraph graph;
   graph.offset.assign(vertices + 1, 0);

@@ -1,8 +1,8 @@
 // Based on: Ron Kimmel, James A. Sethian. Computing geodesic paths on manifolds. 1998. - the front
 // Based on: Martin Novotni, Reinhard Klein. Computing geodesic distances on triangular meshes. 2002. - the
 // virtual source: the point, in the plane of a triangle, at the known distances from two of its corners
-// Differs: a virtual source shines through up to kDepth further triangles, each laid flat, so that obtuse
-// triangles need no splitting of their own.
+// Differs: a virtual source sees through up to kDepth further triangles, each laid flat, so that obtuse
+// triangles need no special treatment.
 #include "fast_marching.hpp"
 
 #include <cmath>
@@ -18,11 +18,11 @@ using geometry::Index;
 using geometry::kNoIndex;
 using Vec2 = Eigen::Vector2d;
 
-/// Triangles that a source shines through beyond the front: three reach over the obtuse corners of real
-/// scans.
+/// The number of triangles beyond the front through which a source is followed. Three reach over the obtuse
+/// corners of real scans.
 constexpr int kDepth = 3;
 
-/// An edge laid flat, and the two rays from the source that bound what it sees through all edges before.
+/// An edge laid flat, and the two rays from the source that bound what it sees through all earlier edges.
 struct Gate {
   Index edge, from_triangle;
   std::array<Index, 2> end;
@@ -36,7 +36,7 @@ double cross(const Vec2& a, const Vec2& b) {
 }
 
 /// The point at the given distances from (0, 0) and (length, 0), on the side y < 0; none if the three lengths
-/// are no triangle's.
+/// form no triangle.
 std::optional<Vec2> third_corner(double length, double from_first, double from_second) {
   const double x = (length * length + from_first * from_first - from_second * from_second) / (2.0 * length);
   const double square = from_first * from_first - x * x;
@@ -89,7 +89,7 @@ class Front {
         offer(other, field_[v] + static_cast<float>(long_m));
     }
   }
-  /// Both ends of the edge are settled: its triangles learn of the source behind it.
+  /// Offers the corners beyond an edge the distance from its virtual source, once both ends are settled.
   void shine(Index e, double long_m) {
     const auto [a, b] = edges_.ends[e];
     const auto source = third_corner(long_m, static_cast<double>(field_[a]), static_cast<double>(field_[b]));
@@ -100,7 +100,8 @@ class Front {
         pass({e, edges_.triangles[e][1 - k], {a, b}, at, *source, {at[0] - *source, at[1] - *source}},
              edges_.triangles[e][k], kDepth);
   }
-  /// Through the gate into `triangle`: its third corner, if the source sees it, and the two edges beyond.
+  /// Follows the source through the gate into `triangle`: to its third corner, if visible, and to the two
+  /// edges beyond.
   void pass(const Gate& gate, Index triangle, int depth) {
     const auto& t = mesh_.triangles[triangle];
     Index tip = kNoIndex;

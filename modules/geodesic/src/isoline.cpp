@@ -21,8 +21,8 @@ struct Crossing {
   Index triangle;
 };
 
-/// A level crosses a triangle if it lies above its least corner, and not above its greatest.
-/// Levels must be sorted.
+/// A level crosses a triangle if it is above the least value at a corner and not above the greatest.
+/// Precondition: levels are sorted.
 std::vector<Crossing> find_crossings(const geometry::TriMesh& mesh, std::span<const float> field,
                                      std::span<const float> levels) {
   std::vector<Crossing> found;
@@ -80,8 +80,8 @@ class Tracer {
       if (other != e && crosses(other)) return other;
     return kNoIndex;
   }
-  /// Walks from triangle f over edge e until the skin ends or a visited triangle is met; true if it came back
-  /// to `home`.
+  /// Walks from triangle f over edge e until the skin ends or a visited triangle is met. Returns whether it
+  /// came back to `home`.
   bool walk(Index f, Index e, Index home, std::vector<Index>& path) {
     while (true) {
       path.push_back(e);

@@ -7,37 +7,38 @@
 
 namespace bodice::geodesic {
 
-/// Distance of a vertex that no source reaches (another piece of the mesh).
+/// The distance of a vertex that no source reaches, because it lies on another piece of the mesh.
 inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
 
-/// A source and the distance it starts with.
+/// A source with the distance at which it starts.
 struct Seed {
   geometry::Index vertex = 0;
   float distance = 0.0F;  ///< meters, >= 0
 };
 
-/// Distance of every vertex from its nearest source, #V, meters.
+/// The distance of every vertex from its closest source, #V, meters.
 using Field = std::vector<float>;
 
+/// The distance of every vertex from its closest source, and which source that is.
 struct NearestSource {
   Field distance;                       ///< #V
   std::vector<geometry::Index> source;  ///< #V: position in the list of sources, kNoIndex if unreachable
 };
 
-/// One run from several sources at once. Sources outside the graph are ignored. O(#links) for meshes whose
-/// edges are of similar length, O(#links log #V) at worst is not exceeded by more than the spread of lengths.
+/// Distances by one run from several sources at once. Sources outside the graph are ignored. Cost: O(#links)
+/// where edges are of similar length; longer where their lengths spread, by at most that spread.
 Field distances(const EdgeGraph& graph, std::span<const Seed> seeds);
 Field distances_from(const EdgeGraph& graph, geometry::Index source);
-/// The same where that is at most `most` meters; kUnreachable farther off. Costs what lies within.
+/// Distances up to `most` meters, with the same bits; kUnreachable beyond. Cost: that of the part within.
 Field distances_within(const EdgeGraph& graph, std::span<const Seed> seeds, float most);
-/// The same, and which source is nearest; the first in the list among equals.
+/// Distances and the closest source of each vertex; of several at the same distance, the first in the list.
 NearestSource nearest_sources(const EdgeGraph& graph, std::span<const geometry::Index> sources);
 
-/// One field a source, in parallel over the sources.
+/// Distances from each source alone, one field a source, in parallel over the sources.
 std::vector<Field> distances_each(const engine::Context& context, const EdgeGraph& graph,
                                   std::span<const geometry::Index> sources);
 
-/// The vertices of a shortest path from `from` down to a source of `field`; empty if unreachable.
+/// The vertices of a shortest path from `from` to a source of `field`; empty where none is reachable.
 std::vector<geometry::Index> descend(const EdgeGraph& graph, const Field& field, geometry::Index from);
 
 }  // namespace bodice::geodesic

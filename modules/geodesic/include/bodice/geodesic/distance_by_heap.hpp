@@ -1,12 +1,12 @@
-// The textbook method: what the bucket queue is measured against.
+// Dijkstra's method with a binary heap, as a reference for tests and bench/geodesic.
 #pragma once
 
 #include <bodice/geodesic/distance.hpp>
 
 namespace bodice::geodesic {
 
-/// The same bits as distances(), by a binary heap: O(#links log #V), some three times the time
-/// (bench/geodesic prints both). Not for use elsewhere.
+/// The same bits as distances(), by a binary heap. Cost: O(#links log #V), about three times that of
+/// distances().
 Field distances_by_heap(const EdgeGraph& graph, std::span<const Seed> seeds);
 
 }  // namespace bodice::geodesic

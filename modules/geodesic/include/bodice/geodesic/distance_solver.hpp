@@ -1,20 +1,20 @@
-// One interface over the ways of measuring distance along a skin: more exact ones cost more time.
+// One interface to three methods of measuring distance along a skin; the more exact ones cost more time.
 #pragma once
 
 #include <bodice/geodesic/distance.hpp>
 
 namespace bodice::geodesic {
 
-/// Errors against exact polyhedral distances and times on a body of 13,000 vertices; bench/geodesic prints
-/// both.
+/// A method. Errors are against exact polyhedral distances on a body of 13,000 vertices; bench/geodesic
+/// prints them and the times.
 enum class Method {
-  kEdges,         ///< Dijkstra along edges, the paper's: about 4 % too long
+  kEdges,         ///< the paper's: Dijkstra along edges, about 4 % too long
   kUnfolded,      ///< Dijkstra with links across unfolded pairs of triangles: under 2 % too long
-  kFastMarching,  ///< a front over the triangles, sources unfolded: about half a percent, either way
+  kFastMarching,  ///< a front over the triangles, sources unfolded: about half a percent off
 };
 
-/// Prepared for one mesh and its edges. Keeps references to both, so both must outlive it; temporaries do not
-/// compile. Const calls may run at the same time.
+/// A solver for one mesh and its edges. It keeps references to both, so that both must outlive it;
+/// temporaries do not compile. Const calls may run at the same time.
 class DistanceSolver {
  public:
   DistanceSolver(const engine::Context& context, const geometry::TriMesh& mesh,
@@ -26,7 +26,7 @@ class DistanceSolver {
   DistanceSolver(const engine::Context&, const geometry::TriMesh&&, const geometry::MeshEdges&&,
                  Method) = delete;
 
-  /// #V, meters; kUnreachable where no source leads. Sources outside the mesh are ignored.
+  /// Distances, #V, meters; kUnreachable where no source leads. Sources outside the mesh are ignored.
   Field distances(std::span<const Seed> seeds) const;
   Field distances_from(geometry::Index source) const;
 
@@ -34,8 +34,8 @@ class DistanceSolver {
   const geometry::TriMesh& mesh_;
   const geometry::MeshEdges& edges_;
   Method method_;
-  EdgeGraph graph_;                 ///< Dijkstra's; empty for fast marching
-  geometry::EdgesOfVertex around_;  ///< fast marching's; empty for Dijkstra
+  EdgeGraph graph_;                 ///< used by Dijkstra; empty for fast marching
+  geometry::EdgesOfVertex around_;  ///< used by fast marching; empty for Dijkstra
 };
 
 }  // namespace bodice::geodesic
