@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include <bodice/engine/hash.hpp>
@@ -114,11 +115,34 @@ TEST_CASE("a response resolves every particle on every instruction set") {
   }
 }
 
-TEST_CASE("warm queries and responses allocate nothing") {
+TEST_CASE("a query of many particles in scattered order gives the bits of single queries") {
+  for (const bool relief : {false, true}) {
+    const Collider collider(scene(relief));
+    Cloud cloud = random_cloud();
+    cloud.x[17] = std::numeric_limits<float>::quiet_NaN();
+    std::vector<Contact> together(cloud.size());
+    for (const int workers : {1, 3}) {
+      const auto executor = bodice_test::make_threads(workers);
+      std::fill(together.begin(), together.end(), Contact{});
+      collider.query(engine::Context{.executor = executor.get()}, cloud.particles(), together);
+      int differ = 0;
+      for (std::size_t i = 0; i < cloud.size(); ++i) {
+        const Contact alone = collider.query({cloud.x[i], cloud.y[i], cloud.z[i]});
+        differ += std::memcmp(&together[i], &alone, sizeof(Contact)) != 0;
+      }
+      CHECK(differ == 0);
+    }
+  }
+}
+
+TEST_CASE(
+    "warm queries and responses allocate nothing; queries of scattered ones need a workspace for that") {
   if (!counts_allocations()) return;
   for (const bool relief : {false, true}) {
     const Collider collider(scene(relief));
     Cloud cloud = random_cloud();
+    std::sort(cloud.x.begin(), cloud.x.end());
+    std::fill(cloud.y.begin(), cloud.y.end(), 0.1f);
     std::vector<Contact> contacts(cloud.size());
     Workspace workspace;
     const auto frame = [&] {

@@ -188,3 +188,67 @@ TEST_CASE("a response leaves none of 200,000 random particles inside, among thin
       CHECK(inside == 0);
     }
 }
+
+TEST_CASE("velocities and safe positions count only if all three of their arrays are given") {
+  const auto shapes = limb();
+  const Collider collider(proxy_of(shapes));
+  engine::Random random(9);
+  Cloud cloud;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 at = random_vector(random, 0.1);
+    cloud.add(at, random_vector(random, 1.0));
+    cloud.add_safe(at + random_vector(random, 0.1));
+  }
+  Cloud positions_only = cloud;
+  Particles bare = positions_only.particles();
+  bare.vx = bare.vy = bare.vz = nullptr;
+  bare.safe_x = bare.safe_y = bare.safe_z = nullptr;
+  collider.resolve({}, bare, {});
+  std::vector<Contact> contacts(cloud.size());
+  for (int given = 1; given < 7; ++given) {
+    for (const Response response : {Response::kClosestPoint, Response::kPaper}) {
+      Cloud now = cloud;
+      Particles some = now.particles();
+      if (!(given & 1)) some.vx = nullptr, some.safe_x = nullptr;
+      if (!(given & 2)) some.vy = nullptr, some.safe_y = nullptr;
+      if (!(given & 4)) some.vz = nullptr, some.safe_z = nullptr;
+      collider.query({}, some, contacts);
+      const ContactReport report = collider.resolve({}, some, {.response = response});
+      CHECK(report.contacts > 0);
+      CHECK(now.vx == cloud.vx);
+      CHECK(now.vy == cloud.vy);
+      CHECK(now.vz == cloud.vz);
+      if (response == Response::kClosestPoint) {
+        CHECK(now.x == positions_only.x);
+        CHECK(now.y == positions_only.y);
+        CHECK(now.z == positions_only.z);
+      }
+    }
+  }
+}
+
+TEST_CASE("particles without an array of positions have no owner, and a response counts them as not finite") {
+  const Collider collider(proxy_of(limb()));
+  Cloud cloud;
+  for (int i = 0; i < 300; ++i) cloud.add(Vec3::Zero());
+  const Cloud before = cloud;
+  for (int missing = 1; missing < 8; ++missing) {
+    Particles some = cloud.particles();
+    if (missing & 1) some.x = nullptr;
+    if (missing & 2) some.y = nullptr;
+    if (missing & 4) some.z = nullptr;
+    std::vector<Contact> contacts(cloud.size());
+    Workspace workspace;
+    collider.query({}, some, contacts);
+    for (const Contact& contact : contacts) CHECK(contact.ellipsoid == kNoEllipsoid);
+    contacts.assign(cloud.size(), Contact{});
+    collider.query({}, some, contacts, workspace);
+    for (const Contact& contact : contacts) CHECK(contact.ellipsoid == kNoEllipsoid);
+    const ContactReport report = collider.resolve({}, some, {}, workspace);
+    CHECK(report.not_finite == cloud.size());
+    CHECK(report.contacts == 0);
+  }
+  CHECK(cloud.x == before.x);
+  CHECK(cloud.y == before.y);
+  CHECK(cloud.z == before.z);
+}

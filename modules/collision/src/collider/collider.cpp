@@ -32,6 +32,18 @@ class SharedReport {
   ContactReport total_;
 };
 
+/// The particles with each of the optional arrays complete or absent.
+Particles completed(Particles particles) {
+  if (!particles.vx || !particles.vy || !particles.vz) particles.vx = particles.vy = particles.vz = nullptr;
+  if (!particles.safe_x || !particles.safe_y || !particles.safe_z)
+    particles.safe_x = particles.safe_y = particles.safe_z = nullptr;
+  return particles;
+}
+
+bool has_positions(const Particles& particles) {
+  return particles.x && particles.y && particles.z;
+}
+
 /// Calls work(begin, end, sequence) for every `size` particles of [begin, end).
 template <class Work>
 void for_batches(std::size_t begin, std::size_t end, int size, const ParticleSequence& sequence,
@@ -40,19 +52,18 @@ void for_batches(std::size_t begin, std::size_t end, int size, const ParticleSeq
     work(at, std::min(at + static_cast<std::size_t>(size), end), sequence);
 }
 
-/// Runs work in parallel tasks over all particles, with their workspace (or null), and calls done(result) for
-/// each task.
+/// Runs work in parallel tasks of whole batches over all particles and calls done(result) for each task. They
+/// are visited in the order of `all`; without a workspace and an order, each task may sort its particles.
 template <class Result, class Work, class Done>
-void for_tasks(const engine::Context& context, const Particles& particles, WorkspaceData* workspace, int size,
-               Work&& work, Done&& done) {
-  if (workspace) workspace->order.refresh(particles);
+void for_tasks(const engine::Context& context, const Particles& particles, const ParticleSequence& all,
+               int size, Work&& work, Done&& done) {
   engine::parallel_for(context, particles.count, TaskOrder::kMost, [&](std::size_t begin, std::size_t end) {
     Result result;
     const auto some = [&](std::size_t from, std::size_t to, const ParticleSequence& sequence) {
       work(from, to, sequence, result);
     };
-    if (workspace) {
-      for_batches(begin, end, size, {workspace->order.order(), 0, workspace}, some);
+    if (all.workspace || !all.stored()) {
+      for_batches(begin, end, size, all, some);
     } else {
       const TaskOrder own(particles, begin, end);
       for_batches(begin, end, size, {own.order(), begin, nullptr}, some);
@@ -203,26 +214,47 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
   return impl_->resolve(context, particles, sanitized(options), workspace.data_.get());
 }
 
+ParticleSequence Collider::Impl::begin_call(const Particles& particles, WorkspaceData* workspace) const {
+  if (!workspace) return {};
+  workspace->candidates.begin_call(particles.count, shapes, relief ? relief->blend_m : 0.0f);
+  workspace->order.refresh(particles);
+  return {workspace->order.order(), 0, workspace};
+}
+
 void Collider::Impl::query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
                            const QueryOptions& options, WorkspaceData* workspace) const {
   struct Nothing {};
   Particles particles = all;
   particles.count = std::min(all.count, contacts.size());
-  begin_call(particles, workspace);
+  if (!has_positions(particles)) {
+    std::fill_n(contacts.begin(), particles.count, no_contact());
+    return;
+  }
+  ParticleSequence sequence = begin_call(particles, workspace);
+  std::vector<std::uint32_t> own_order;
+  if (!workspace && particles.count > TaskOrder::kMost) {
+    own_order = order_if_scattered(particles);
+    sequence.order = own_order;
+  }
   for_tasks<Nothing>(
-      context, particles, workspace, kBatch,
-      [&](std::size_t begin, std::size_t end, const ParticleSequence& sequence, Nothing&) {
-        query_range(particles, begin, end, sequence, options, contacts);
+      context, particles, sequence, kBatch,
+      [&](std::size_t begin, std::size_t end, const ParticleSequence& some, Nothing&) {
+        query_range(particles, begin, end, some, options, contacts);
       },
       [](const Nothing&) {});
 }
 
-ContactReport Collider::Impl::resolve(const engine::Context& context, const Particles& particles,
+ContactReport Collider::Impl::resolve(const engine::Context& context, const Particles& all,
                                       const ResolveOptions& options, WorkspaceData* workspace) const {
+  const Particles particles = completed(all);
+  if (!has_positions(particles)) {
+    ContactReport report;
+    report.not_finite = particles.count;
+    return report;
+  }
   SharedReport total;
-  begin_call(particles, workspace);
   for_tasks<ContactReport>(
-      context, particles, workspace, batch_size(options, relief.has_value()),
+      context, particles, begin_call(particles, workspace), batch_size(options, relief.has_value()),
       [&](std::size_t begin, std::size_t end, const ParticleSequence& sequence, ContactReport& report) {
         resolve_range(particles, begin, end, sequence, options, report);
       },

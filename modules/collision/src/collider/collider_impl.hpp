@@ -28,17 +28,16 @@ struct Collider::Impl {
   /// order of its own.
   void query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
              const QueryOptions& options, WorkspaceData* workspace) const;
-  ContactReport resolve(const engine::Context& context, const Particles& particles,
-                        const ResolveOptions& options, WorkspaceData* workspace) const;
+  ContactReport resolve(const engine::Context& context, const Particles& all, const ResolveOptions& options,
+                        WorkspaceData* workspace) const;
   /// Queries the particles [begin, end) of the sequence, at most kBatch.
   void query_range(const Particles& particles, std::size_t begin, std::size_t end,
                    const ParticleSequence& sequence, const QueryOptions& options,
                    std::span<Contact> contacts) const;
   bool query_kernel(QueryBatch& batch, std::size_t block, WorkspaceData* workspace) const;
-  /// Starts a call of the candidate cache with the current pose; workspace may be null.
-  void begin_call(const Particles& particles, WorkspaceData* workspace) const {
-    if (workspace) workspace->candidates.begin_call(particles.count, shapes, relief ? relief->blend_m : 0.0f);
-  }
+  /// Starts a call with the current pose: refreshes order and candidate cache of the workspace, which may be
+  /// null, and returns the order to visit all particles in.
+  ParticleSequence begin_call(const Particles& particles, WorkspaceData* workspace) const;
   /// The candidate cache of a batch; none unless the batch is whole or the last one.
   CacheAccess cache_access_of(const Particles& particles, std::size_t begin, std::size_t end,
                               WorkspaceData* workspace) const;

@@ -93,8 +93,8 @@ CacheAccess Collider::Impl::cache_access_of(const Particles& particles, std::siz
                                             WorkspaceData* workspace) const {
   if (!workspace || (end - begin != kBatch && end != particles.count) || begin % kBatch != 0) return {};
   const auto share = [&](double of_size) { return static_cast<float>(of_size * field.size_m()); };
-  return {&workspace->candidates.batch(begin / kBatch), workspace->candidates.traveled_m(),
-          share(kLeastReach), share(kMostReach)};
+  return {workspace->candidates.batch(begin / kBatch), workspace->candidates.traveled_m(), share(kLeastReach),
+          share(kMostReach)};
 }
 
 NextBatch Collider::Impl::next_batch_of(const Particles& particles, std::size_t begin,
@@ -104,7 +104,7 @@ NextBatch Collider::Impl::next_batch_of(const Particles& particles, std::size_t 
   if (begin >= last) return next;
   next.count = static_cast<int>(std::min<std::size_t>(kBatch, last - begin));
   if (sequence.workspace && begin % kBatch == 0)
-    next.cached = &sequence.workspace->candidates.batch(begin / kBatch);
+    next.cached = sequence.workspace->candidates.batch(begin / kBatch);
   next.index = sequence.from(begin);
   next.contacts = contacts && sequence.stored() ? contacts + begin : contacts;
   if (!sequence.stored()) return next;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "model/surface_motion.hpp"
 
@@ -48,7 +49,7 @@ void CandidateCache::clear() {
 }
 
 void CandidateCache::begin_call(std::size_t particles, std::span<const Ellipsoid> shapes, float beyond_m) {
-  batches_.resize((particles + kBatch - 1) / kBatch);
+  if (!std::exchange(first_call_, false)) batches_.resize((particles + kBatch - 1) / kBatch);
   const bool same_number = shapes_.size() == shapes.size();
   if (same_number && beyond_m == beyond_m_ &&
       std::memcmp(shapes.data(), shapes_.data(), shapes.size_bytes()) == 0)

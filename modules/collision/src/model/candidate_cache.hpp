@@ -53,11 +53,13 @@ struct alignas(64) CachedBatch {
 /// Cached candidates of all batches of a set of particles, and the pose from which displacements count.
 class CandidateCache {
  public:
-  /// Starts a call: adds the proxy's displacement since the last call. Allocates when the number of particles
-  /// grows. `beyond_m`: how much farther than the nearest an ellipsoid still counts.
+  /// Starts a call: adds the proxy's displacement since the last call. Allocates in the second call and when
+  /// the number of particles grows. `beyond_m`: how much farther than the nearest an ellipsoid still counts.
   void begin_call(std::size_t particles, std::span<const geometry::Ellipsoid> shapes, float beyond_m);
 
-  CachedBatch& batch(std::size_t i) { return batches_[i]; }
+  /// The cache of a batch; null in the first call. A cache costs as much as a query, and it pays only if
+  /// there is another call.
+  CachedBatch* batch(std::size_t i) { return batches_.empty() ? nullptr : &batches_[i]; }
   /// Sum of the proxy's displacements: an upper bound on that of any material point.
   double traveled_m() const { return traveled_m_; }
 
@@ -65,6 +67,7 @@ class CandidateCache {
   void clear();
 
   std::vector<CachedBatch> batches_;
+  bool first_call_ = true;
   std::vector<geometry::Ellipsoid> shapes_;
   float beyond_m_ = 0.0f;
   double traveled_m_ = 0.0;

@@ -14,6 +14,9 @@ namespace bodice::collision {
 namespace {
 
 constexpr int kDigitBits = 9;
+/// Digits of the keys of all particles of a call, and of those of one task: cells of 4 and of 30 mm of a
+/// body.
+constexpr int kWholeDigits = 3, kTaskDigits = 2;
 
 /// The cells of a grid along one axis.
 struct Range {
@@ -83,10 +86,12 @@ bool scattered(const Particles& particles, std::size_t begin, std::size_t end) {
            std::abs(particles.z[i] - particles.z[j]);
   };
   for (std::size_t i = begin; i < begin + far; i += kBlock / 4) {
-    near_sum += double{distance(i, i + kBlock / 2)};
-    far_sum += double{distance(i, i + far)};
+    const float to_near = distance(i, i + kBlock / 2), to_far = distance(i, i + far);
+    if (!(to_near < kFarthest_m && to_far < kFarthest_m)) continue;  // true for NaN, too
+    near_sum += double{to_near};
+    far_sum += double{to_far};
   }
-  return near_sum > kScattered * far_sum;  // false if any is NaN
+  return near_sum > kScattered * far_sum;
 }
 
 /// Sum over the blocks of the sides of their boxes, meters. An empty `order` means the order of the arrays.
@@ -120,16 +125,24 @@ void ParticleOrder::refresh(const Particles& particles) {
     values->resize(count);
   radius_m_.assign((count + kBlock - 1) / kBlock, 0.0f);
   spread_when_sorted_m_ = -1.0;
-  sort(particles, 0, 3, {order_, key_, other_order_, other_key_});
+  sort(particles, 0, kWholeDigits, {order_, key_, other_order_, other_key_});
   const double as_sorted = spread_of(particles, order_);
   stored_ = spread_of(particles, {}) <= kStoredWell * as_sorted;
+}
+
+std::vector<std::uint32_t> order_if_scattered(const Particles& particles) {
+  const std::size_t count = particles.count;
+  if (!scattered(particles, 0, count)) return {};
+  std::vector<std::uint32_t> order(count), key(count), other_order(count), other_key(count);
+  sort(particles, 0, kWholeDigits, {order, key, other_order, other_key});
+  return order;
 }
 
 TaskOrder::TaskOrder(const Particles& particles, std::size_t begin, std::size_t end) {
   if (!scattered(particles, begin, end)) return;
   count_ = end - begin;
   const auto some = [this](std::uint32_t* values) { return std::span(values, count_); };
-  sort(particles, begin, 2, {some(order_), some(key_), some(other_order_), some(other_key_)});
+  sort(particles, begin, kTaskDigits, {some(order_), some(key_), some(other_order_), some(other_key_)});
 }
 
 }  // namespace bodice::collision

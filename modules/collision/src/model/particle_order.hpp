@@ -36,6 +36,10 @@ class ParticleOrder {
   double spread_when_sorted_m_ = -1;  // sum of the radii; negative: not measured yet
 };
 
+/// Order to visit particles in along a Z-order curve if theirs is scattered, otherwise empty. It serves one
+/// call of so many particles that a task's own order is too sparse.
+std::vector<std::uint32_t> order_if_scattered(const Particles& particles);
+
 /// The order of the particles of one task, sorted where that pays.
 class TaskOrder {
  public:
