@@ -36,7 +36,7 @@ std::vector<int> coarse_of_fine(const fs::path& data) {
   return read_json(data / "labels" / "classes.json")["fine_to_coarse"].get<std::vector<int>>();
 }
 
-/// Where the labels of a mesh lie: the data's README tells.
+/// The file of a mesh's labels, as the data's README lists it.
 fs::path labels_of(const fs::path& data, const fs::path& mesh) {
   const std::string stem = mesh.stem().string(), folder = mesh.parent_path().filename().string();
   if (folder == "bodies") return data / "labels" / "makehuman13380.labels.txt";
@@ -62,7 +62,7 @@ fs::path truth_of(const fs::path& data, const fs::path& mesh) {
   return stem.starts_with("m_avg_") ? data / "bodies" / "m_avg_rest.json" : fs::path();
 }
 
-/// What some files did to the place and unit of their body: the data's README tells.
+/// What some files changed in the position and unit of their body, as the data's README lists it.
 struct Damage {
   double scale = 1.0;
   bool z_up = false;

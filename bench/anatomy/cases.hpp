@@ -33,7 +33,8 @@ std::vector<Case> rig_cases(const std::filesystem::path& data, std::uint64_t fro
 /// Coarse class of each vertex of the bodies in data/bodies and data/rigs.
 std::vector<int> body_labels(const std::filesystem::path& data);
 
-/// A made body of random build (thin to obese; a child, pregnant), pose, resolution, turn, place and unit.
+/// A made body of random build (thin to obese; a child, pregnant), pose, resolution, rotation, position and
+/// unit.
 Case synth_case(std::uint64_t seed);
 
 /// The average made body, as fine as wanted: what time is measured on.

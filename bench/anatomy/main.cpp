@@ -1,6 +1,6 @@
 // anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N [--from M]] [--all] [--verbose] [--sheet FILE.png]
 //         [--cost]
-// How well is every body understood, and in what time? Rows of the bodies that miss a bar (--all: of every
+// How well is every body analyzed, and in what time? Rows of the bodies that miss a bar (--all: of every
 // body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
 // bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --sheet: a picture
 // of every body by part. Fails if a body of a file misses a bar.
@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
   const bool of_rigs = arguments.rigs > 0, of_files = arguments.seeds == 0 && !of_rigs;
   const std::string needed = of_rigs ? arguments.data + "/rigs" : arguments.data;
   if ((of_rigs || of_files) && !std::filesystem::is_directory(needed)) {
-    std::fprintf(stderr, "%s is no folder of bodies: tell one with --data, or made bodies with --seeds\n",
+    std::fprintf(stderr, "%s is no folder of bodies: name one with --data, or use made bodies with --seeds\n",
                  needed.c_str());
     return 2;
   }

@@ -44,7 +44,7 @@ std::size_t bytes_of(const std::string& type) {
   return type == "short" || type == "ushort" ? 2 : 4;
 }
 
-/// Vertices whose first three properties are float x y z; faces as uchar-counted lists of 4-byte indices.
+/// Vertices with float x y z as their first three properties; faces as uchar-counted lists of 4-byte indices.
 TriMesh read_ply(std::istream& in) {
   std::size_t vertices = 0, faces = 0, stride = 0;
   bool in_vertices = false;

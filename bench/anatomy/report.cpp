@@ -36,7 +36,7 @@ void print_errors(const char* pose, double bar, std::vector<double> errors) {
               100.0 * bar, over, errors.size());
 }
 
-/// Of a share; a dash where the truth is not known.
+/// A share in percent; a dash where the truth is not known.
 std::string percent(double share) {
   if (share < 0.0) return "-";
   std::array<char, 16> text{};
@@ -44,8 +44,8 @@ std::string percent(double share) {
   return text.data();
 }
 
-/// Warnings that tell of the input and leave the answer as good as it was.
-bool doubts_a_place(const bodice::engine::Warning& w) {
+/// False for warnings about the input that leave the answer as good as it was.
+bool doubts_a_landmark(const bodice::engine::Warning& w) {
   constexpr std::array<const char*, 4> kOfInput{"holes", "extra-pieces", "skin-touches",
                                                 "unusual-proportions"};
   return std::none_of(kOfInput.begin(), kOfInput.end(), [&](const char* code) { return w.code == code; });
@@ -65,9 +65,9 @@ std::string part_named_for(const std::string& landmark) {
 }
 
 /// True if some warning names what was missed, or doubts the whole body.
-bool told_of(const std::string& landmark, const std::vector<bodice::engine::Warning>& warnings) {
+bool warned_of(const std::string& landmark, const std::vector<bodice::engine::Warning>& warnings) {
   return std::any_of(warnings.begin(), warnings.end(), [&](const bodice::engine::Warning& w) {
-    return doubts_a_place(w) && (w.part.empty() || w.part == part_named_for(landmark));
+    return doubts_a_landmark(w) && (w.part.empty() || w.part == part_named_for(landmark));
   });
 }
 
@@ -93,9 +93,9 @@ void Report::claim(const Case& c, const Score& s, const bodice::anatomy::Anatomy
 
 void Report::weigh_warnings(const Case& c, const Score& s, const bodice::anatomy::Anatomy& a, bool missed) {
   const double bar = c.rest ? kRestBar : kPosedBar;
-  bool silent = missed && std::none_of(a.warnings.begin(), a.warnings.end(), doubts_a_place);
+  bool silent = missed && std::none_of(a.warnings.begin(), a.warnings.end(), doubts_a_landmark);
   for (const auto& [landmark, error] : s.error)
-    silent = silent || (error > bar && !told_of(landmark, a.warnings));
+    silent = silent || (error > bar && !warned_of(landmark, a.warnings));
   missed_silently_ += silent;
   std::map<std::string, bool> codes;
   for (const auto& w : a.warnings) codes[w.code] = true;
@@ -103,23 +103,23 @@ void Report::weigh_warnings(const Case& c, const Score& s, const bodice::anatomy
     ++warned_[code].bodies;
     warned_[code].rightly += missed;
   }
-  if (std::none_of(a.warnings.begin(), a.warnings.end(), doubts_a_place)) return;
-  ++warned_of_places_.bodies;
-  warned_of_places_.rightly += missed;
+  if (std::none_of(a.warnings.begin(), a.warnings.end(), doubts_a_landmark)) return;
+  ++doubted_.bodies;
+  doubted_.rightly += missed;
 }
 
 double Report::false_alarms() const {
-  return static_cast<double>(warned_of_places_.wrongly()) / static_cast<double>(std::max(bodies_, 1));
+  return static_cast<double>(doubted_.wrongly()) / static_cast<double>(std::max(bodies_, 1));
 }
 
 void Report::print_warnings() const {
-  const int wrongly = warned_of_places_.wrongly();
+  const int wrongly = doubted_.wrongly();
   std::printf("%-22s %9s %9s\n%-22s %9d %9d\n%-22s %9d %9d\n", "", "doubted", "silent", "a bar missed",
               missed_ - missed_silently_, missed_silently_, "right", wrongly,
               bodies_ - refused_ - missed_ - wrongly);
-  std::printf("bodies with a place in doubt %d, of them rightly %d; false alarms %.1f %% of all (bar %.0f)\n",
-              warned_of_places_.bodies, warned_of_places_.rightly, 100.0 * false_alarms(),
-              100.0 * kFalseAlarms);
+  std::printf(
+      "bodies with a landmark in doubt %d, of them rightly %d; false alarms %.1f %% of all (bar %.0f)\n",
+      doubted_.bodies, doubted_.rightly, 100.0 * false_alarms(), 100.0 * kFalseAlarms);
   for (const auto& [code, w] : warned_)
     std::printf("  %-24s %4d bodies, %3d of them miss a bar\n", code.c_str(), w.bodies, w.rightly);
 }

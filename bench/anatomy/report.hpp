@@ -21,7 +21,7 @@ class Report {
   void add_refused(const Case& c, const std::string& sentence);
   /// Measured values beside their bars, per landmark and in all.
   void summary() const;
-  /// True if every body was understood within all bars, and no more of them were doubted wrongly than may be.
+  /// True if every body was analyzed within all bars, and no more of them were doubted wrongly than may be.
   /// An awkward one may be refused instead.
   bool holds_bars() const;
 
@@ -53,7 +53,7 @@ class Report {
     int wrongly() const { return bodies - rightly; }
   };
   std::map<std::string, Warned> warned_;  ///< by code of the warning
-  Warned warned_of_places_;               ///< by any warning that doubts a place
+  Warned doubted_;                        ///< by any warning that doubts a landmark
   int bodies_ = 0, refused_ = 0, refused_wrongly_ = 0, missed_ = 0, missed_silently_ = 0;
 };
 

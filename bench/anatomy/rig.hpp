@@ -30,11 +30,11 @@ struct Rig {
   std::vector<Influence> influences;  ///< #V
 };
 
-/// A minimal reader: the mesh `body`, whose skin's bones are not turned in the rest pose. Throws what the
+/// A minimal reader: the mesh `body` with a skin that turns no bone in the rest pose. Throws what the
 /// JSON reader does on another file.
 Rig read_rig(const std::filesystem::path& glb);
 
-/// The same skeleton in another body of the same topology: a joint keeps its place among the skin that its
+/// The same skeleton in another body of the same topology: a joint keeps its position among the skin that its
 /// two bones share.
 Rig moved_into(const Rig& rig, const bodice::geometry::TriMesh& rest);
 

@@ -15,10 +15,10 @@ void Sheet::add(const Case& c, const bodice::anatomy::Anatomy& anatomy) {
   using bodice::geometry::Vec3;
   const int column = count_ % kColumns, row = count_ / kColumns;
   ++count_;
-  const Vec3 place(kColumn * column, -kRow * row, kColumn * column);
+  const Vec3 origin(kColumn * column, -kRow * row, kColumn * column);
   const Vec3 middle = bodice::geometry::bounding_box(c.mesh.positions).center();
   const auto first = static_cast<bodice::geometry::Index>(mesh_.positions.size());
-  for (const Vec3& p : c.mesh.positions) mesh_.positions.push_back(place + (p - middle) / anatomy.stature_m);
+  for (const Vec3& p : c.mesh.positions) mesh_.positions.push_back(origin + (p - middle) / anatomy.stature_m);
   for (const auto& t : c.mesh.triangles)
     mesh_.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   part_.insert(part_.end(), anatomy.part.begin(), anatomy.part.end());

@@ -50,7 +50,7 @@ std::string kind_of(const bodice::synth::BodyOptions& o) {
   return poses[static_cast<int>(o.pose)];
 }
 
-/// Any turn, place and unit: none of them may matter.
+/// Any rotation, position and unit: none of them may matter.
 void move_anywhere(std::uint64_t seed, Case& c) {
   bodice::engine::Random random(seed, 1);
   const Eigen::Quaterniond turn =

@@ -11,7 +11,7 @@ using bodice::geometry::Vec3;
 /// A body of random sex, build, pose and resolution.
 bodice::synth::Body random_body(std::uint64_t seed);
 
-/// Share of the skin's area whose part is right, 3 cm (of a 1.7 m body) around the true borders left out.
+/// Share of the skin's area that has the right part, 3 cm (of a 1.7 m body) around the true borders left out.
 /// Upper and middle torso count as one, left and right torso as one: their borders are a convention.
 double agreement(const bodice::synth::Body& truth, const std::vector<bodice::body::Part>& found);
 

@@ -44,7 +44,7 @@ class Decimator {
   }
 
  private:
-  /// Long edges and bent places cost more.
+  /// Long edges and bent surfaces cost more.
   double cost_of(Index from, Index to) const {
     double bend = 0.0;
     Vec3 mean = Vec3::Zero();
@@ -107,15 +107,15 @@ class Decimator {
   }
   TriMesh compact() const {
     TriMesh result;
-    std::vector<Index> place(alive_.size(), bodice::geometry::kNoIndex);
+    std::vector<Index> new_index(alive_.size(), bodice::geometry::kNoIndex);
     for (std::size_t v = 0; v < alive_.size(); ++v)
       if (alive_[v]) {
-        place[v] = static_cast<Index>(result.positions.size());
+        new_index[v] = static_cast<Index>(result.positions.size());
         result.positions.push_back(mesh_.positions[v]);
       }
     for (std::size_t f = 0; f < dead_.size(); ++f) {
       const auto& t = mesh_.triangles[f];
-      if (!dead_[f]) result.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+      if (!dead_[f]) result.triangles.push_back({new_index[t[0]], new_index[t[1]], new_index[t[2]]});
     }
     return result;
   }

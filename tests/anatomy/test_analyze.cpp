@@ -144,7 +144,7 @@ synth::BodyOptions very_heavy(synth::Pose pose) {
 }  // namespace
 
 TEST_CASE(
-    "the crown of a head that is bent back is its top, although the folds of the nape shorten the way") {
+    "the crown of a head that is bent back is its top, although the folds of the nape shorten the path") {
   for (const auto& options : {child_of_two(synth::Pose::kArmsUp), very_heavy(synth::Pose::kArmsUp)})
     CHECK(worst_error(looking_up(options), {LandmarkId::kCrown}) < 0.028);
 }
@@ -159,7 +159,7 @@ TEST_CASE("elbows and knees are where the bones turn, not where the borders' loo
   }
 }
 
-TEST_CASE("the neck's joint on a body of a random pose, whose border's loop lies off it") {
+TEST_CASE("the neck's joint is found on a body in a random pose on which the border's loop lies off it") {
   const synth::Body truth =
       synth::make_body(
           {},
@@ -194,7 +194,7 @@ TEST_CASE("every landmark has a confidence that was measured") {
                     [](const body::Landmark& m) { return m.confidence < 0.999; }));
 }
 
-TEST_CASE("left and right hold on bent knees of any build, where ways run over the back of the leg") {
+TEST_CASE("left and right hold on bent knees of any build, where paths run over the back of the leg") {
   for (const synth::Pose pose : {synth::Pose::kRun, synth::Pose::kSquat, synth::Pose::kSit})
     for (const double bmi : {18.0, 30.0, 40.0})
       for (const int vertices : {1700, 3600}) {
@@ -231,7 +231,7 @@ TEST_CASE("fins that bridge the body change nothing") {
   CHECK(worst_move(*reference, *found, [](const geometry::Vec3& p) { return p; }) < 1e-9);
 }
 
-TEST_CASE("a forearm welded to the trunk in one vertex is taken apart, and said") {
+TEST_CASE("a forearm welded to the trunk in one vertex is taken apart with a warning") {
   synth::BodyOptions options;
   options.vertices = 5000;
   options.pose = synth::Pose::kArmsDown;
@@ -280,7 +280,7 @@ TEST_CASE("hands fused to legs and legs to each other are refused with a sentenc
   CHECK(legs.error().message.find("the legs touch") != std::string::npos);
 }
 
-TEST_CASE("a weld that spoils few places leaves the rest, and every place that it spoils is named") {
+TEST_CASE("a weld that spoils few landmarks leaves the rest, and a warning names each spoiled one") {
   using body::Part;
   const auto truth = synth::make_body({}, {.pose = synth::Pose::kA, .vertices = 5000});
   REQUIRE(truth.ok());

@@ -17,7 +17,7 @@ namespace {
 /// What no change of the mesh that leaves the body alone may move a landmark by, of the stature.
 constexpr double kSame = 0.01;
 
-anatomy::Anatomy understood(const TriMesh& mesh) {
+anatomy::Anatomy analyzed(const TriMesh& mesh) {
   auto found = anatomy::analyze({}, mesh, {*body::find_profile("ansur2")});
   REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
   return std::move(found.value());
@@ -51,7 +51,7 @@ std::vector<geometry::Index> shuffled(std::size_t count, engine::Random& random)
 /// Turned, moved, scaled and with its vertices in another order, the mesh must give the same landmarks and,
 /// but for vertices on borders, the same parts.
 void check_moved(const TriMesh& mesh, std::initializer_list<double> scales) {
-  const anatomy::Anatomy reference = understood(mesh);
+  const anatomy::Anatomy reference = analyzed(mesh);
   engine::Random random(11);
   for (const double scale : scales) {
     CAPTURE(scale);
@@ -62,7 +62,7 @@ void check_moved(const TriMesh& mesh, std::initializer_list<double> scales) {
     TriMesh moved = mesh;
     for (std::size_t v = 0; v < order.size(); ++v) moved.positions[order[v]] = move(mesh.positions[v]);
     for (auto& t : moved.triangles) t = {order[t[0]], order[t[1]], order[t[2]]};
-    const anatomy::Anatomy found = understood(moved);
+    const anatomy::Anatomy found = analyzed(moved);
     check_same(reference, found, scale, [&](const Vec3& p) { return move.back(p); });
     std::size_t differ = 0;
     for (std::size_t v = 0; v < order.size(); ++v) differ += found.part[order[v]] != reference.part[v];
@@ -71,14 +71,14 @@ void check_moved(const TriMesh& mesh, std::initializer_list<double> scales) {
 }
 
 void check_remeshed(const TriMesh& mesh) {
-  const anatomy::Anatomy reference = understood(mesh);
+  const anatomy::Anatomy reference = analyzed(mesh);
   const auto same = [](const Vec3& p) { return p; };
   const TriMesh fine = remesh::refined(remesh::refined(mesh));
   CHECK(fine.positions.size() > 190000);
-  check_same(reference, understood(fine), 1.0, same);
+  check_same(reference, analyzed(fine), 1.0, same);
   const TriMesh coarse = remesh::decimated(mesh, 1500);
   CHECK(coarse.positions.size() <= 1500);
-  check_same(reference, understood(coarse), 1.0, same);
+  check_same(reference, analyzed(coarse), 1.0, same);
 }
 
 TriMesh repaired(const std::filesystem::path& file) {
@@ -89,7 +89,7 @@ TriMesh repaired(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("turn, place, scale and the order of vertices do not change the answer") {
+TEST_CASE("rotation, position, scale and the order of vertices do not change the answer") {
   check_moved(made::random_body(3).mesh, {1e-6, 1e-3, 1.0, 1e3, 1e6});
   for (const std::uint64_t seed : {1, 4, 6}) {
     CAPTURE(seed);
@@ -119,16 +119,16 @@ TEST_CASE("a real body with 1,500 and with 200,000 vertices has the same landmar
   if (const auto file = bodice_test::data_file("bodies/m_avg_rest.obj")) check_remeshed(repaired(*file));
 }
 
-TEST_CASE("damage that leaves the body whole changes nothing; what welds limbs is said") {
+TEST_CASE("damage that leaves the body whole changes nothing; what welds limbs is refused by name") {
   const auto whole = bodice_test::data_file("awkward/f_avg_inverted.obj");
   if (!whole) return;
-  const anatomy::Anatomy reference = understood(repaired(*whole));
+  const anatomy::Anatomy reference = analyzed(repaired(*whole));
   for (const char* name : {"awkward/f_avg_mixed_winding.obj", "awkward/f_avg_nonmanifold_degenerate.obj",
                            "awkward/f_avg_soup.stl", "awkward/f_avg_holes.obj"}) {
     CAPTURE(name);
     const auto file = bodice_test::data_file(name);
     REQUIRE(file);
-    const anatomy::Anatomy found = understood(repaired(*file));
+    const anatomy::Anatomy found = analyzed(repaired(*file));
     const bool holes = std::any_of(found.warnings.begin(), found.warnings.end(),
                                    [](const engine::Warning& w) { return w.code == "holes"; });
     for (int i = 0; i < body::kLandmarkCount; ++i)

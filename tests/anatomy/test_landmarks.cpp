@@ -1,4 +1,4 @@
-// Places that the pose or the build of a body once led astray.
+// Landmarks that were once found wrong in some pose or on some build.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using body::Sex;
 using geometry::Vec3;
 using synth::Pose;
 
-anatomy::Anatomy understood(const synth::Body& truth) {
+anatomy::Anatomy analyzed(const synth::Body& truth) {
   auto found = anatomy::analyze({}, truth.mesh, {body::find_profile("ansur2").value()});
   REQUIRE(found.ok());
   return std::move(*found);
@@ -25,16 +25,16 @@ bool warns(const anatomy::Anatomy& found, const std::string& code, const std::st
                      [&](const engine::Warning& w) { return w.code == code && w.part == part; });
 }
 
-Vec3 place(const synth::Body& body, LandmarkId id) {
+Vec3 position(const synth::Body& body, LandmarkId id) {
   return body.landmarks[static_cast<std::size_t>(id)].position;
 }
 
 /// A seat drawn out behind both thighs, so that the fold below it is deep. The truth stays.
 void draw_out_seat(synth::Body& body) {
   constexpr double kFar = 0.08, kWide = 0.04;  // of the stature
-  const Vec3 perineum = place(body, LandmarkId::kPerineum);
-  const Vec3 up = (place(body, LandmarkId::kNeck) - perineum).normalized();
-  const Vec3 across = place(body, LandmarkId::kArmpitL) - place(body, LandmarkId::kArmpitR);
+  const Vec3 perineum = position(body, LandmarkId::kPerineum);
+  const Vec3 up = (position(body, LandmarkId::kNeck) - perineum).normalized();
+  const Vec3 across = position(body, LandmarkId::kArmpitL) - position(body, LandmarkId::kArmpitR);
   const Vec3 left = (across - across.dot(up) * up).normalized(), forward = left.cross(up);
   const Vec3 drawn = kFar * body.stature_m * (-forward - 0.3 * up).normalized();
   for (Vec3& p : body.mesh.positions)
@@ -65,18 +65,18 @@ TEST_CASE("legs that are drawn up alone do not take a heavy body's perineum alon
   for (int seed = 1; seed <= kBodies; ++seed) {
     const auto truth =
         heavy_in_any_pose(static_cast<std::uint64_t>(seed), 42.0, seed % 2 ? Sex::kFemale : Sex::kMale);
-    const double error = made::error(truth, understood(truth), LandmarkId::kPerineum);
+    const double error = made::error(truth, analyzed(truth), LandmarkId::kPerineum);
     CHECK(error < 0.04);
     sum += error;
   }
-  CHECK(sum / kBodies < 0.0145);  // .0129; .0168 where only the line between the legs is asked
+  CHECK(sum / kBodies < 0.0145);  // .0129; .0168 by the line between the legs alone
 }
 
 TEST_CASE("the fold below a heavy seat is not taken for the perineum in front of it") {
   for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
     auto truth = heavy_in_any_pose(2, 46.0, sex);
     draw_out_seat(truth);
-    CHECK(made::error(truth, understood(truth), LandmarkId::kPerineum) < 0.04);  // .061 in the fold
+    CHECK(made::error(truth, analyzed(truth), LandmarkId::kPerineum) < 0.04);  // .061 in the fold
   }
 }
 
@@ -122,7 +122,7 @@ TEST_CASE("heavy thighs and seats: the perineum is where the floor of the trunk 
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    CHECK(made::error(*truth, understood(*truth), LandmarkId::kPerineum) < 0.025);
+    CHECK(made::error(*truth, analyzed(*truth), LandmarkId::kPerineum) < 0.025);
   }
 }
 
@@ -144,7 +144,7 @@ TEST_CASE("a hand held over the head takes no part in the crown") {
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    CHECK(made::error(*truth, understood(*truth), LandmarkId::kCrown) < 0.025);
+    CHECK(made::error(*truth, analyzed(*truth), LandmarkId::kCrown) < 0.025);
   }
 }
 
@@ -166,14 +166,14 @@ TEST_CASE("an elbow that is raised beside a heavy neck is not the head") {
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    const auto found = understood(*truth);
+    const auto found = analyzed(*truth);
     CHECK(made::error(*truth, found, LandmarkId::kCrown) < 0.04);
     CHECK(made::error(*truth, found, LandmarkId::kNeck) < 0.04);
     CHECK(made::agreement(*truth, found.part) > 0.95);
   }
 }
 
-TEST_CASE("an armpit that another place nearly equals is right, or doubted and named") {
+TEST_CASE("an armpit that another vertex nearly equals is right, or doubted in a warning") {
   const auto truth = synth::make_body({}, {.sex = Sex::kFemale,
                                            .stature_m = 0.87621975075750458,
                                            .mass_kg = 16.493497289413895,
@@ -182,7 +182,7 @@ TEST_CASE("an armpit that another place nearly equals is right, or doubted and n
                                            .seed = 229,
                                            .childhood = 0.97649311484419643});
   REQUIRE(truth.ok());
-  const anatomy::Anatomy found = understood(*truth);
+  const anatomy::Anatomy found = analyzed(*truth);
   CHECK((made::error(*truth, found, LandmarkId::kArmpitL) < 0.04 ||
          warns(found, "armpit-uncertain", "upper_arm_l")));
   CHECK((made::error(*truth, found, LandmarkId::kArmpitR) < 0.04 ||
@@ -197,7 +197,7 @@ TEST_CASE("arms that hang or rise on a heavy or a small body are no reason to do
       const auto truth =
           synth::make_body({}, {.mass_kg = 36.0 * 1.68 * 1.68, .pose = pose, .vertices = 5000, .seed = seed});
       REQUIRE(truth.ok());
-      const anatomy::Anatomy found = understood(*truth);
+      const anatomy::Anatomy found = analyzed(*truth);
       for (const auto& [elbow, part] :
            {std::pair{LandmarkId::kElbowL, "upper_arm_l"}, std::pair{LandmarkId::kElbowR, "upper_arm_r"}}) {
         CHECK(made::error(*truth, found, elbow) < 0.025);
@@ -227,7 +227,7 @@ TEST_CASE("borders follow the build: the parts of very heavy bodies are right") 
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    CHECK(made::agreement(*truth, understood(*truth).part) > 0.94);
+    CHECK(made::agreement(*truth, analyzed(*truth).part) > 0.94);
   }
 }
 
@@ -243,5 +243,5 @@ TEST_CASE("a leg that is kicked forward leaves its seat to its own side") {
                                    .pregnant = true};
   const auto truth = synth::make_body({}, options);
   REQUIRE(truth.ok());
-  CHECK(made::swapped(*truth, understood(*truth).part) == 0.0);
+  CHECK(made::swapped(*truth, analyzed(*truth).part) == 0.0);
 }
