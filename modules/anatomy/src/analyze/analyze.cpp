@@ -5,7 +5,7 @@
 
 #include "check/diagnostics.hpp"
 #include "check/fused_limbs.hpp"
-#include "landmarks/landmarks.hpp"
+#include "landmarks/find_landmarks.hpp"
 #include "landmarks/stature.hpp"
 #include "segment/segment.hpp"
 #include "skin/halve_edges.hpp"
@@ -20,67 +20,46 @@ using engine::StageTimer;
 using engine::Warning;
 using geometry::Vec3;
 
-/// Above this the five ends do not lie as a body's do.
-constexpr double kWorstMisfit = 3.0;
+/// Above this Mahalanobis distance the five extremities do not lie as a body's do.
+constexpr double kWorstDistance = 3.0;
 
 Error no_body(const std::string& why) {
   return {ErrorCode::kUnusableGeometry, "No human body can be made out: " + why,
           "Give one closed skin with a head, two arms and two legs."};
 }
 
-Vec3 upwards(const Skin& skin, const Landmarks& marks) {
-  const Vec3 up = marks.neck_place - skin.mesh.positions[marks.perineum];
+Vec3 upwards(const Skin& skin, const Landmarks& marks, geometry::Index perineum) {
+  const Vec3 up = marks.at(LandmarkId::kNeck) - skin.mesh.positions[perineum];
   const double length = up.norm();
   return length > 0.0 ? Vec3(up / length) : Vec3(Vec3::UnitY());
 }
 
-/// Each confidence after what the second way says; at the distance that is called a contradiction, half is
-/// left.
-void weigh(const CrossCheck& second, Landmarks& marks) {
-  constexpr double kNothingLeft = 1.5;
-  const auto after = [](double& confidence, double apart, double contradiction) {
-    confidence = checked_confidence(confidence, apart, kNothingLeft * contradiction);
-  };
-  after(marks.crown_confidence, second.crown, kMaxCrownDifference);
-  after(marks.neck.confidence, second.neck, kMaxNeckDifference);
-  after(marks.perineum_confidence, second.perineum, kMaxPerineumDifference);
-  for (int side = 0; side < 2; ++side) {
-    after(marks.fingertip_confidence[side], second.fingertip[side], kMaxFingertipDifference);
-    after(marks.elbow[side].confidence, second.elbow[side], kMaxElbowDifference);
-    after(marks.armpit_confidence[side], second.armpit[side], kMaxArmpitDifference);
-    after(marks.armpit_confidence[side], second.armpits, kMaxArmpitAsymmetry);
-    after(marks.knee[side].confidence, second.knee[side], kMaxKneeDifference);
-    after(marks.toe_confidence[side], second.toe[side], kMaxToeDifference);
-  }
-}
-
-engine::Result<Anatomy> understand(const engine::Context& context, const Skin& skin, const Options& options,
-                                   Anatomy anatomy) {
+/// The analysis of a skin as it is. `anatomy` brings the stages so far.
+engine::Result<Anatomy> analyze_skin(const engine::Context& context, const Skin& skin, const Options& options,
+                                     Anatomy anatomy) {
   StageTimer geodesic_timer(context, anatomy.stages, "geodesic");
   const std::optional<Extremities> found = find_extremities(context, skin);
   geodesic_timer.stop();
-  if (!found) return no_body("its skin has no five ends far from each other.");
-  if (found->mahalanobis > kWorstMisfit)
-    return no_body("its five ends do not lie at the distances of a head, two hands and two feet.");
+  if (!found) return no_body("its skin has no five extremities far from each other.");
+  if (found->mahalanobis > kWorstDistance)
+    return no_body("its five extremities do not lie at the distances of a head, two hands and two feet.");
 
   StageTimer anatomy_timer(context, anatomy.stages, "anatomy");
   const Sides sides = find_sides(context, skin, *found);
   const BodyExtremities tips = in_body_order(*found, sides);
   const BodyCoordinates coordinates(context, skin, tips);
-  Landmarks marks = find_landmarks(context, skin, coordinates);
-  const CrossCheck second = cross_check(context, skin, coordinates, marks);
-  weigh(second, marks);
-  if (const auto spoiled = fused_limbs_error(skin, coordinates, marks, second)) return *spoiled;
-  anatomy.stature_m = find_stature(skin, tips, marks);
-  anatomy.up = upwards(skin, marks);
-  anatomy.landmarks = as_list(skin, tips, marks);
+  const CheckedLandmarks landmarks = find_landmarks(context, skin, coordinates);
+  if (const auto fused = fused_limbs_error(skin, coordinates, landmarks)) return *fused;
+  anatomy.stature_m = find_stature(skin, tips, landmarks.marks);
+  anatomy.up = upwards(skin, landmarks.marks, coordinates.perineum());
+  anatomy.landmarks = to_list(skin, landmarks.marks);
   anatomy_timer.stop();
 
   StageTimer segment_timer(context, anatomy.stages, "segment");
   anatomy.part = segment(context, skin, coordinates);
   segment_timer.stop();
   anatomy.warnings =
-      diagnose(skin, *found, sides, coordinates, marks, second, options.profile, anatomy.stature_m);
+      diagnose({skin, *found, sides, coordinates, landmarks}, options.profile, anatomy.stature_m);
   return anatomy;
 }
 
@@ -92,16 +71,18 @@ void forget_added(const std::vector<geometry::Index>& origin, std::size_t vertic
       mark.vertex = origin[mark.vertex - vertices];
 }
 
-engine::Result<Anatomy> understand_fine(const engine::Context& context, const Skin& skin,
-                                        const Options& options, Anatomy anatomy) {
+/// Coarse skins are analyzed with finer triangles of the same surface.
+engine::Result<Anatomy> analyze_fine_enough(const engine::Context& context, const Skin& skin,
+                                            const Options& options, Anatomy anatomy) {
   const std::size_t vertices = skin.mesh.positions.size();
-  if (vertices > kCoarse || vertices < kNoBody) return understand(context, skin, options, std::move(anatomy));
+  if (vertices > kCoarse || vertices < kNoBody)
+    return analyze_skin(context, skin, options, std::move(anatomy));
   StageTimer finer_timer(context, anatomy.stages, "finer skin");
   const FinerSkin finer = halve_edges(skin);
   Skin fine = make_skin(context, finer.mesh);
   fine.open_edges = skin.open_edges;
   finer_timer.stop();
-  auto result = understand(context, fine, options, std::move(anatomy));
+  auto result = analyze_skin(context, fine, options, std::move(anatomy));
   if (result.ok()) forget_added(finer.origin, vertices, *result);
   return result;
 }
@@ -109,24 +90,25 @@ engine::Result<Anatomy> understand_fine(const engine::Context& context, const Sk
 Warning touches(std::size_t vertices) {
   return {"skin-touches", "",
           "The skin touches itself in " + std::to_string(vertices) +
-              " welded vertices; they were taken apart, so that no way along the skin leads across.",
+              " welded vertices; they were taken apart, so that no path along the skin leads across.",
           "Weld less, or move the parts that touch apart."};
 }
 
-engine::Result<Anatomy> understand_apart(const engine::Context& context, const Skin& skin,
-                                         const Options& options, Anatomy anatomy) {
+/// A skin that touches itself is analyzed with its touching parts taken apart.
+engine::Result<Anatomy> analyze_apart(const engine::Context& context, const Skin& skin,
+                                      const Options& options, Anatomy anatomy) {
   SplitSkin split;
   if (!surely_unpinched(skin)) split = split_pinches(skin);
-  if (split.origin.empty()) return understand_fine(context, skin, options, std::move(anatomy));
+  if (split.origin.empty()) return analyze_fine_enough(context, skin, options, std::move(anatomy));
   const Skin apart = make_skin(context, split.mesh);
-  auto result = understand_fine(context, apart, options, std::move(anatomy));
+  auto result = analyze_fine_enough(context, apart, options, std::move(anatomy));
   if (!result.ok()) return result;
   forget_added(split.origin, skin.mesh.positions.size(), *result);
   result->warnings.push_back(touches(split.origin.size()));
   return result;
 }
 
-/// The tips of fins are no ends of a body, and ways along them lead across it. All vertices stay.
+/// The tips of fins are no extremities, and paths along them lead across the body. All vertices stay.
 geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
   const std::vector<bool> fin = geometry::find_fins(mesh, geometry::mesh_edges(mesh));
   geometry::TriMesh kept{mesh.positions, {}};
@@ -141,9 +123,9 @@ engine::Result<Anatomy> analyze_mesh(const engine::Context& context, const geome
   StageTimer skin_timer(context, anatomy.stages, "skin");
   const Skin skin = make_skin(context, mesh);
   skin_timer.stop();
-  if (skin.edges.non_manifold == 0) return understand_apart(context, skin, options, std::move(anatomy));
+  if (skin.edges.non_manifold == 0) return analyze_apart(context, skin, options, std::move(anatomy));
   const geometry::TriMesh clean = without_fins(mesh);
-  return understand_apart(context, make_skin(context, clean), options, std::move(anatomy));
+  return analyze_apart(context, make_skin(context, clean), options, std::move(anatomy));
 }
 
 }  // namespace

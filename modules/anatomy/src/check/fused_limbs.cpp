@@ -1,26 +1,26 @@
 #include "check/fused_limbs.hpp"
 
+#include "landmarks/landmark_table.hpp"
+
 namespace bodice::anatomy {
 namespace {
 
-/// A hand welded to a thigh makes the way from hand to foot shorter than this, of the size; legs welded
-/// together the way from foot to foot. Of 1,600 whole bodies the shortest ways are 1.06 and .96.
+/// A hand welded to a thigh makes the path from hand to foot shorter than this, and legs welded together the
+/// path from foot to foot; fractions of the body size. On 1,600 whole bodies the shortest paths are 1.06 and
+/// .96.
 constexpr double kHandToFoot = 1.03, kFootToFoot = 0.93;
-/// With so many places in doubt (the neck, which no weld of limbs is near, for two), nine tenths of the skin
-/// or less, mostly two thirds, get the right part; with fewer, mostly more.
-constexpr int kSpoilt = 4;
+/// With so many landmarks in doubt (the neck, which no weld of limbs is near, for two), nine tenths of the
+/// skin or less, mostly two thirds, get the right part; with fewer, mostly more.
+constexpr int kSpoiled = 4;
 
-bool doubted(double confidence, double apart, double contradiction) {
-  return confidence < kUncertain || apart > contradiction;
-}
-
-int places_in_doubt(const Landmarks& marks, const CrossCheck& second) {
-  int count = 2 * doubted(marks.neck.confidence, second.neck, kMaxNeckDifference) +
-              doubted(marks.perineum_confidence, second.perineum, kMaxPerineumDifference);
-  for (int side = 0; side < 2; ++side)
-    count += doubted(marks.armpit_confidence[side], second.armpit[side], kMaxArmpitDifference) +
-             doubted(marks.elbow[side].confidence, second.elbow[side], kMaxElbowDifference) +
-             doubted(marks.knee[side].confidence, second.knee[side], kMaxKneeDifference);
+int landmarks_in_doubt(const CheckedLandmarks& landmarks) {
+  int count = 0;
+  for_each_landmark([&](const LandmarkKind& kind, int side) {
+    const LandmarkId id = body::of_side(kind.id, side);
+    const double difference = landmarks.differences[static_cast<std::size_t>(id)][0];
+    if (landmarks.marks[id].mark.confidence < kUncertain || difference > kind.checks[0].most)
+      count += kind.doubt;
+  });
   return count;
 }
 
@@ -45,11 +45,11 @@ bool legs_fused(const BodyCoordinates& coordinates) {
 }
 
 std::optional<engine::Error> fused_limbs_error(const Skin& skin, const BodyCoordinates& coordinates,
-                                               const Landmarks& marks, const CrossCheck& second) {
-  if (skin.handles < 1 || places_in_doubt(marks, second) < kSpoilt) return std::nullopt;
+                                               const CheckedLandmarks& landmarks) {
+  if (skin.handles < 1 || landmarks_in_doubt(landmarks) < kSpoiled) return std::nullopt;
   return engine::Error{engine::ErrorCode::kUnusableGeometry,
                        "The skin is fused where " + what_meets(coordinates) +
-                           ", so that the parts of the body cannot be told apart.",
+                           ", so that the parts of the body cannot be distinguished.",
                        "Separate what touches, or give a pose with the arms and legs apart."};
 }
 

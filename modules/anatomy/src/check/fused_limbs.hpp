@@ -5,17 +5,17 @@
 
 #include <bodice/engine/result.hpp>
 
-#include "check/cross_check.hpp"
+#include "landmarks/find_landmarks.hpp"
 
 namespace bodice::anatomy {
 
-/// A way along the skin that a weld cuts short: from hand to foot, from foot to foot.
+/// True where a weld cuts a path along the skin short: from hand to foot, from foot to foot.
 bool hand_fused_to_leg(const BodyCoordinates& coordinates, int side);
 bool legs_fused(const BodyCoordinates& coordinates);
 
-/// The sentence that names what is fused, if that leaves no usable answer: a weld where limbs merely touch
-/// spoils few places, one far from the trunk moves ends, middle and most of the borders.
+/// The error that names what is fused, if that leaves no usable answer: a weld where limbs merely touch
+/// spoils few landmarks, one far from the trunk moves extremities, midline and most of the borders.
 std::optional<engine::Error> fused_limbs_error(const Skin& skin, const BodyCoordinates& coordinates,
-                                               const Landmarks& marks, const CrossCheck& second);
+                                               const CheckedLandmarks& landmarks);
 
 }  // namespace bodice::anatomy

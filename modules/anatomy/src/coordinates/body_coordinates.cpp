@@ -2,9 +2,12 @@
 
 #include <cmath>
 
+#include <coefficients/perineum.hpp>
+
 #include <bodice/engine/parallel.hpp>
 
 #include "coordinates/shoulder_level.hpp"
+#include "coordinates/signature.hpp"
 #include "skin/nearest_signature.hpp"
 #include "skin/soft_position.hpp"
 
@@ -14,18 +17,27 @@ namespace {
 using geodesic::Field;
 using geometry::Index;
 
-/// Head to feet plus foot to foot along the skin, of the stature; the two vary against each other with pose.
+/// Both feet, as a share of twice the path to where the legs merge; the difference of the feet; that of the
+/// hands, which is zero at the crown; front; back; how far behind the merge of the legs; both hands; head;
+/// detour between head and feet. The measures of the body: feet apart, hands apart, front and back at the
+/// merge.
+constexpr Signature<9, 4> kPerineum = make_signature<9, 4>(
+    coefficients::perineum::kMean, coefficients::perineum::kOfBody, coefficients::perineum::kWhiten);
+
+/// Head to feet plus foot to foot along the skin, as a multiple of the stature; the two vary against each
+/// other with pose.
 constexpr float kSizeToStature = 2.19F;
-/// The perineum is about half way between the feet.
+/// The perineum is about in the middle between the feet: shares of the path from one to the other.
 constexpr float kPerineumFrom = 0.45F, kPerineumTo = 0.58F;
-/// A place this much nearer to the breastbone along the skin is another, of the size.
+/// A vertex this much nearer to the breastbone along the skin lies elsewhere; a fraction of the body size.
 constexpr float kInFront = 0.08F;
-/// Where the legs merge, from breastbone and back, of the size: for legs whose merge is not found.
+/// The usual distances from breastbone and back to where the legs merge, for legs on which that is not found;
+/// fractions of the body size.
 constexpr float kUsualMergeFront = 0.34F, kUsualMergeBack = 0.39F;
 /// Where the loop around an arm usually widens, from fingertip to fingertip: for arms on which it does not.
 constexpr float kUsualShoulder = 0.425F;
 
-/// The vertex half way between two ends, where the midline cannot be traced.
+/// The vertex in the middle between two extremities, where the midline cannot be traced.
 SkinPoint half_way(const Skin& skin, const Field& from, Index to) {
   SkinPoint best;
   float least = 0.0F;

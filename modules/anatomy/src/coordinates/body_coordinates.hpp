@@ -1,23 +1,24 @@
 // Coordinates on the skin that belong to the body, not to space: distances from its ends and its middle, in
-// units of its own lengths. A pose hardly changes them, and the same place has nearly the same coordinates on
+// units of its own lengths. A pose hardly changes them, and the same point has nearly the same coordinates on
 // every body.
 #pragma once
 
 #include <limits>
 
-#include "coordinates/calibration.hpp"
+#include "coordinates/border.hpp"
 #include "coordinates/leg_merge.hpp"
 
 namespace bodice::anatomy {
 
-/// The fold of a heavy seat looks like a perineum, too. Where it fits best, a place in front of it fits by
-/// less than this many deviations worse, and is taken; of 2,100 rig-skinned and made bodies the five that the
-/// fold misled led by 2.7 or less, and all others but one by 3.2 or more.
+/// The fold of a heavy seat looks like a perineum, too. Where it fits best, a vertex in front of it fits by
+/// less than this many deviations worse, and is taken; among 2,100 rig-skinned and made bodies the five that
+/// the fold misled had margins of 2.7 or less, and all others but one of 3.2 or more.
 inline constexpr float kFoldMargin = 2.9F;
 
+/// The coordinates of every vertex of a skin, with the lengths and the perineum that they are measured by.
 class BodyCoordinates {
  public:
-  /// Keeps references to the fields of `ends`. Finds the perineum and measures from it and from the midline.
+  /// Keeps references to the fields of `tips`. Finds the perineum and measures from it and from the midline.
   BodyCoordinates(const engine::Context& context, const Skin& skin, const BodyExtremities& tips);
 
   /// side 0: seen from the body's left, 1: from its right.
@@ -30,7 +31,7 @@ class BodyCoordinates {
   geometry::Index perineum() const { return perineum_; }
   const geometry::Vec3& perineum_position() const { return perineum_position_; }
   float perineum_mahalanobis() const { return perineum_mahalanobis_; }
-  /// How many deviations more the best place in front of the one that fits best is off.
+  /// How many deviations more the best vertex in front of the one that fits best is off.
   float perineum_margin() const { return perineum_margin_; }
   /// Above the border of the neck.
   bool on_head(std::size_t vertex) const;

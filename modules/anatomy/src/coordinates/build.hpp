@@ -1,4 +1,4 @@
-// How a body is built, told by lengths along its skin.
+// How a body is built, by lengths along its skin.
 #pragma once
 
 #include <array>
@@ -7,8 +7,9 @@
 
 namespace bodice::anatomy {
 
-/// Of the size: hand to hand, foot to foot, perineum to crown, breastbone and back to where the legs merge,
-/// breastbone and back to the crown, head to hands. (Head to feet is what foot to foot leaves of the size.)
+/// Hand to hand, foot to foot, perineum to crown, breastbone and back to where the legs merge, breastbone and
+/// back to the crown, head to hands: fractions of the body size. Head to feet follows from foot to foot and
+/// that size.
 using Build = std::array<float, 8>;
 
 inline Build build_of(const BodyCoordinates& coordinates) {

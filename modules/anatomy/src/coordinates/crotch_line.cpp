@@ -12,17 +12,18 @@ using geodesic::Field;
 using geodesic::Isoline;
 using geometry::Vec3;
 
+/// A point of one of several lines.
 struct Nearest {
   const Isoline* line = nullptr;
   std::size_t point = 0;
 };
 
-Nearest closest_point(const std::vector<Isoline>& lines, const Vec3& place) {
+Nearest closest_point(const std::vector<Isoline>& lines, const Vec3& p) {
   Nearest nearest;
   double least = std::numeric_limits<double>::infinity();
   for (const Isoline& line : lines)
     for (std::size_t i = 0; i < line.points.size(); ++i) {
-      const double d = (line.points[i] - place).squaredNorm();
+      const double d = (line.points[i] - p).squaredNorm();
       if (!(d < least)) continue;
       least = d;
       nearest = {&line, i};
@@ -30,14 +31,15 @@ Nearest closest_point(const std::vector<Isoline>& lines, const Vec3& place) {
   return nearest;
 }
 
+/// One half of the line, from its middle.
 struct Half {
   std::array<Vec3, CrotchLine::kReach> point{};
   std::size_t last = 0;  ///< point of the line where it ends
 };
 
-/// Equal steps along the line from one of its points, forwards or (way -1) backwards; empty if the line ends,
-/// or comes round, before.
-std::optional<Half> walk(const Isoline& line, std::size_t from, int way, double step) {
+/// Equal steps along the line from one of its points, in direction 1 or -1; empty if the line ends, or comes
+/// round, before.
+std::optional<Half> walk(const Isoline& line, std::size_t from, int direction, double step) {
   Half half;
   const auto n = static_cast<std::ptrdiff_t>(line.points.size());
   auto i = static_cast<std::ptrdiff_t>(from);
@@ -45,7 +47,7 @@ std::optional<Half> walk(const Isoline& line, std::size_t from, int way, double 
   int taken = 0;
   for (std::ptrdiff_t segments = 0; taken < CrotchLine::kReach; ++segments) {
     if (segments == n) return std::nullopt;
-    const std::ptrdiff_t next = i + way;
+    const std::ptrdiff_t next = i + direction;
     if (!line.closed && (next < 0 || next >= n)) return std::nullopt;
     const Vec3 &p = line.points[static_cast<std::size_t>(i)],
                &q = line.points[static_cast<std::size_t>((next + n) % n)];

@@ -7,11 +7,11 @@
 
 namespace bodice::anatomy {
 
-/// Equally spaced points of the line on which both feet are equally far, around the place where it passes
-/// nearest to another: from the front of the body over the crotch to its back.
+/// Equally spaced points of the line on which both feet are equally far, around its point nearest to a given
+/// one: from the front of the body over the crotch to its back.
 struct CrotchLine {
   static constexpr int kReach = 12;          ///< points on either side of the middle one
-  static constexpr double kSpacing = 0.015;  ///< of the size, along the line
+  static constexpr double kSpacing = 0.015;  ///< along the line, a fraction of the body size
 
   std::array<geometry::Vec3, 2 * kReach + 1> point{};
 

@@ -1,5 +1,5 @@
-// Based on: the paper, section 2.1 (the perineum halves the way from toe to toe).
-// Differs: the way is not traced; the half-way point is the saddle of the distance from the nearer foot.
+// Based on: the paper, section 2.1 (the perineum halves the path from toe to toe).
+// Differs: the path is not traced; its middle is the saddle of the distance from the nearer foot.
 #include "coordinates/leg_merge.hpp"
 
 #include <cmath>

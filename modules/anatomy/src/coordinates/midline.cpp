@@ -39,15 +39,15 @@ Vec3 rising(const Skin& skin, Index triangle, const Field& field) {
   return sum;
 }
 
-/// Of left, up and outward on the midline two are known, so the third tells the chest (left = up x outward)
-/// from the back (left = outward x up).
+/// On the midline left and up are known from the fields, so that the outward normal distinguishes the chest,
+/// where left = up x outward, from the back, where left = outward x up.
 bool faces_front(const Skin& skin, const BodyExtremities& tips, const Field& leftward, Index edge) {
   const Index triangle = skin.edges.triangles[edge][0];
   const Vec3 up = -rising(skin, triangle, *tips.from_head);
   return rising(skin, triangle, leftward).dot(up.cross(geometry::area_vector(skin.mesh, triangle))) > 0.0;
 }
 
-/// On chest and back, the points of the midline that are nearest to the hands.
+/// The points of the midline on chest and back that are nearest to the hands.
 void find_front_and_back(const Skin& skin, const BodyExtremities& tips, Midline& middle) {
   const Field leftward = difference(*tips.from_hand[1], *tips.from_hand[0]);
   float least_front = 0.0F, least_back = 0.0F;

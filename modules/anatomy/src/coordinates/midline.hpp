@@ -5,8 +5,9 @@
 
 namespace bodice::anatomy {
 
+/// Where the midline of the trunk passes between the hands, in front and behind.
 struct Midline {
-  SkinPoint front;  ///< of the chest: the middle of the way from hand to hand over the breastbone
+  SkinPoint front;  ///< of the chest: the middle of the path from hand to hand over the breastbone
   SkinPoint back;   ///< the same over the back
 };
 

@@ -6,7 +6,7 @@
 namespace bodice::anatomy {
 namespace {
 
-/// Where arms are, and within it the upper arm, from fingertip to fingertip.
+/// Where arms are, and within it the upper arm: distances from the fingertip as fractions of hand to hand.
 constexpr float kFrom = 0.20F, kTo = 0.60F, kUpperArmFrom = 0.27F, kUpperArmTo = 0.35F, kWidensFrom = 0.32F;
 constexpr std::size_t kSteps = 40;
 /// A loop through the armpit is this many times the girth of the upper arm: it takes in the shoulder, and the

@@ -1,3 +1,4 @@
+// The level where an arm widens into the trunk.
 #pragma once
 
 #include "skin/girth_profile.hpp"

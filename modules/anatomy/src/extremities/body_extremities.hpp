@@ -1,10 +1,11 @@
+// The extremities by the body's own left and right.
 #pragma once
 
 #include "extremities/sides.hpp"
 
 namespace bodice::anatomy {
 
-/// The ends in the body's own order: index 0 left, 1 right.
+/// Head, hands and feet; index 0 is the body's left, 1 its right.
 struct BodyExtremities {
   geometry::Index head = 0;
   std::array<geometry::Index, 2> hand{}, foot{};
@@ -13,7 +14,7 @@ struct BodyExtremities {
   float hands_apart = 0.0F, feet_apart = 0.0F, head_to_feet = 0.0F;  ///< meters along the skin
 };
 
-/// Refers to the fields of `ends`.
+/// The result refers to the fields of `tips`.
 BodyExtremities in_body_order(const Extremities& tips, const Sides& sides);
 
 }  // namespace bodice::anatomy

@@ -1,4 +1,4 @@
-// Based on: Mingjun Yu, et al. (the paper's [20]) and the five ends of the paper, section 2.1.
+// Based on: Mingjun Yu, et al. (the paper's [20]) and the five extremities of the paper, section 2.1.
 // Differs: farthest-point candidates are matched to a template of mutual distances, because plain farthest
 // points take a heel, an elbow or a second toe in many poses.
 #include "extremities/extremities.hpp"
@@ -17,15 +17,15 @@ using geodesic::Field;
 using geometry::Index;
 
 constexpr std::size_t kCandidates = 8;
-/// A candidate may be a heel or a thumb; the true end is within a foot's length of it.
-constexpr float kRefineRadius = 0.2F;  // of the size
+/// A candidate may be a heel or a thumb; the true extremity is within a foot's length of it.
+constexpr float kRefineRadius = 0.2F;  // a fraction of the body size
 
-constexpr float kHeadBall = 0.30F;  // of the size
-/// What is this much nearer to a hand than the head's candidate, as a part of the candidate's way, is its
-/// arm: the elbow of an arm that is raised beside a heavy neck lies within the head's reach, and farther from
-/// the feet.
+/// Beyond this distance from its candidate nothing is of the head; a fraction of the body size.
+constexpr float kHeadBall = 0.30F;
+/// What is nearer to a hand than this share of the distance of the head's candidate is an arm: the elbow of
+/// an arm that is raised beside a heavy neck lies within the head's reach, and farther from the feet.
 constexpr float kOffArms = 0.7F;
-/// What counts as head for its ball, from the crown down, of the size.
+/// The height of the head, from the crown down, that counts for its ball; a fraction of the body size.
 constexpr float kHeadHeight = 0.15F;
 
 /// The vertex within `radius` of `end` that is farthest from the ends in `from`, among those that `may` be
@@ -105,7 +105,7 @@ std::vector<float> distances_between(const FarthestPoints& points) {
   return apart;
 }
 
-/// An arm's way to the leg of its own side is shorter. Sums over both sides cancel what a pose does to one
+/// An arm's path to the leg of its own side is shorter. Sums over both sides cancel what a pose does to one
 /// limb.
 void pair_sides(Extremities& tips, float size) {
   const float same = tips.between(kHandA, kFootA) + tips.between(kHandB, kFootB);

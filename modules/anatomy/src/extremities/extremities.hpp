@@ -1,4 +1,4 @@
-// The five ends of a body, in any pose: distances along the skin do not know the pose.
+// The five extremities of a body, in any pose: distances along the skin do not know the pose.
 #pragma once
 
 #include <array>
@@ -8,10 +8,12 @@
 
 namespace bodice::anatomy {
 
+/// Head, hands and feet before left and right are known.
 enum Extremity { kHead, kHandA, kHandB, kFootA, kFootB };
 inline constexpr int kExtremityCount = 5;
 
-/// Hand A is on the side of foot A; which of the two sides is left is decided elsewhere.
+/// The tips of head, hands and feet. Hand A is on the side of foot A; which of the two sides is left is
+/// decided elsewhere.
 struct Extremities {
   std::array<geometry::Index, kExtremityCount> vertex{};
   std::array<geodesic::Field, kExtremityCount> field;  ///< distance of every vertex from each end, meters
@@ -24,7 +26,7 @@ struct Extremities {
   float head_to_feet() const { return 0.5F * (between(kHead, kFootA) + between(kHead, kFootB)); }
 };
 
-/// Empty when the skin has no five ends at the distances that a body's have.
+/// Empty when the skin has no five extremities at the distances that a body's have.
 std::optional<Extremities> find_extremities(const engine::Context& context, const Skin& skin);
 
 }  // namespace bodice::anatomy

@@ -3,24 +3,28 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include <coefficients/extremities.hpp>
+
 namespace bodice::anatomy {
 namespace {
 
 constexpr int kPairs = 10;
 using Pairs = Eigen::Matrix<double, kPairs, 1>;
 
-/// The ten pairs of ends in a fixed order.
+/// The ten pairs of extremities in a fixed order.
 constexpr std::array<std::array<int, 2>, kPairs> kPairOf{
     {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
 
-/// Mean distances along the skin as ratios to stature, over adults of many builds and poses.
+/// Mean distances along the skin as ratios to stature, over adults of many builds and poses: head to hand,
+/// head to foot, hand to hand, foot to foot, hand to foot.
 Pairs template_distances() {
-  constexpr double head_hand = 0.65, head_foot = 1.09, hands = 0.95, feet = 1.09, hand_foot = 1.19;
+  const auto [head_hand, head_foot, hands, feet, hand_foot] =
+      std::to_array(coefficients::extremities::kDistances);
   return Pairs{head_hand, head_hand, head_foot, head_foot, hands,
                hand_foot, hand_foot, hand_foot, hand_foot, feet};
 }
 
-/// One independent way in which bodies and poses differ: what it adds to each distance, at one deviation.
+/// One independent mode in which bodies and poses differ: what it adds to each distance, at one deviation.
 Pairs mode(double deviation, const std::array<double, kExtremityCount>& of_end, double trunk = 0.0) {
   Pairs m;
   for (int p = 0; p < kPairs; ++p) {
@@ -33,7 +37,7 @@ Pairs mode(double deviation, const std::array<double, kExtremityCount>& of_end, 
 
 /// Deviations as ratios to stature. Children: larger heads, shorter legs. Poses stretch single limbs.
 Eigen::Matrix<double, kPairs, kPairs> precision() {
-  constexpr double head = 0.05, arms = 0.05, legs = 0.07, trunk = 0.06, one_limb = 0.03, noise = 0.025;
+  const auto [head, arms, legs, trunk, one_limb, noise] = std::to_array(coefficients::extremities::kSpread);
   Eigen::Matrix<double, kPairs, kPairs> spread =
       noise * noise * Eigen::Matrix<double, kPairs, kPairs>::Identity();
   const auto add = [&](const Pairs& m) { spread += m * m.transpose(); };
@@ -49,8 +53,8 @@ Eigen::Matrix<double, kPairs, kPairs> precision() {
   return spread.inverse();
 }
 
-/// Ends are further out than their neighbors (toe and heel, fingertip and thumb), so of two equal fits the
-/// one whose ends are further apart is the right one.
+/// Extremities lie farther out than their neighbors (toe and heel, fingertip and thumb), so that the fit with
+/// the greater distances is the right one of two equal fits.
 constexpr double kFartherIsBetter = 4.0;
 
 }  // namespace

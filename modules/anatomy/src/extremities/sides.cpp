@@ -15,15 +15,16 @@ using geodesic::Isoline;
 using geometry::Index;
 using geometry::Vec3;
 
-/// Where around a leg is read, as parts of the way from toe to perineum: the calf and the knee.
+/// The levels at which loops around a leg are read, as shares of the path from toe to perineum: calf and
+/// knee.
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
-constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as parts of that way
+constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as shares of that path
 
 /// What a meter through space counts against one along the skin: 8 takes the front of a pointed foot's ankle,
 /// 2 that of an obese runner's.
 constexpr float kThroughSpace = 4.0F;
 
-/// No way along the skin is longer than over the toe: nothing that is asked for lies farther than the sum of
+/// No path along the skin is longer than over the toe: nothing that is searched lies farther than the sum of
 /// two distances from the toe, and what an edge adds at either end.
 float over_the_toe(const Skin& skin, float first, float second) {
   return first + second + 2.0F * skin.graph.longest;
@@ -41,8 +42,8 @@ Field distances_from_calf(const Skin& skin, const Field& from_toe, float level, 
   return geodesic::distances_within(skin.graph, seeds, over_the_toe(skin, level, foot));
 }
 
-/// The heel is the dead end of the foot: the ways toe - heel - head and, twice, toe - heel - calf are long. A
-/// bent knee shortens the first over the back of the leg, a pointed foot the second; on a foot that is not
+/// The heel is the dead end of the foot: the paths toe - heel - head and, twice, toe - heel - calf are long.
+/// A bent knee shortens the first over the back of the leg, a pointed foot the second; on a foot that is not
 /// pointed, the heel also lies farther from the toe through space than the front of the ankle does.
 Index find_heel(const Skin& skin, const Extremities& tips, Extremity foot, float leg) {
   const Field from_calf = distances_from_calf(skin, tips.field[foot], kCalf * leg, kHeelTo * leg);
@@ -84,7 +85,7 @@ double signed_turn(std::complex<double> first, std::complex<double> second) {
   return size > 0.0 ? std::imag(second * std::conj(first)) / size : 0.0;
 }
 
-/// Mean over the loops of what `reads` says, for levels of the field that rises toward the trunk. The lower
+/// Mean over the loops of what `reads` gives, for levels of the field that rises toward the trunk. The lower
 /// a loop, the more it counts: a bent knee disturbs those near it.
 template <class Reads>
 double mean_over_loops(const Skin& skin, const Field& field, const std::array<float, kReadAt.size()>& levels,

@@ -5,6 +5,7 @@
 
 namespace bodice::anatomy {
 
+/// How hands and feet of the two sides are assigned.
 struct Sides {
   bool a_is_left = true;
   double confidence = 0.0;  ///< 0..1

@@ -1,43 +1,54 @@
-// Places of the body between its ends.
+// What is known of the landmarks while they are being found.
 #pragma once
 
 #include <bodice/body/landmark.hpp>
 
-#include "coordinates/body_coordinates.hpp"
+#include "coordinates/head_ball.hpp"
 
 namespace bodice::anatomy {
 
-/// A loop around a limb or the neck.
-struct Girth {
-  geometry::Vec3 center = geometry::Vec3::Zero();
-  geometry::Index vertex = geometry::kNoIndex;  ///< of the skin, near the loop
+using body::LandmarkId;
+
+/// A closed curve around the neck, the trunk or a limb.
+struct Loop {
+  geometry::Vec3 center = geometry::Vec3::Zero();  ///< centroid of the curve
+  geometry::Index vertex = geometry::kNoIndex;     ///< a vertex of the skin beside the curve
   double girth_m = 0.0;
-  double confidence = 0.0;
-  float level_m = 0.0F;                       ///< mean distance of the loop from the end of its limb
-  float from_front = 0.0F, from_back = 0.0F;  ///< least distance on the loop from breastbone and back, meters
+  double confidence = 0.0;                    ///< 1 for a closed curve, 0.5 for one that a hole cuts
+  float level_m = 0.0F;                       ///< mean distance of the curve from the end of its limb
+  float from_front = 0.0F, from_back = 0.0F;  ///< least distance on it from breastbone and back, meters
+
+  bool found() const { return vertex != geometry::kNoIndex; }
 };
 
+/// One landmark of one side as a step of its search gives it; landmarks in joints and levels have a loop.
+struct FoundLandmark {
+  body::Landmark mark;
+  Loop loop;
+};
+
+/// All landmarks as far as they are known, by LandmarkId.
 struct Landmarks {
-  geometry::Index crown = geometry::kNoIndex;
-  geometry::Vec3 crown_place = geometry::Vec3::Zero();
-  double crown_confidence = 1.0;
-  Girth neck;
-  geometry::Vec3 neck_place = geometry::Vec3::Zero();
-  std::array<Girth, 2> elbow, knee;
-  std::array<geometry::Vec3, 2> elbow_place{}, knee_place{};
-  std::array<geometry::Index, 2> armpit{};
-  std::array<geometry::Vec3, 2> armpit_place{};
-  std::array<double, 2> armpit_confidence{};
-  std::array<double, 2> fingertip_confidence{1.0, 1.0}, toe_confidence{1.0, 1.0};
-  geometry::Index perineum = geometry::kNoIndex;
-  geometry::Vec3 perineum_place = geometry::Vec3::Zero();
-  double perineum_confidence = 0.0;
+  std::array<FoundLandmark, body::kLandmarkCount> of;
+
+  FoundLandmark& operator[](LandmarkId id) { return of[static_cast<std::size_t>(id)]; }
+  const FoundLandmark& operator[](LandmarkId id) const { return of[static_cast<std::size_t>(id)]; }
+  const geometry::Vec3& at(LandmarkId id) const { return (*this)[id].mark.position; }
+  /// The landmark `left` or its right counterpart; side 0: left, 1: right.
+  const geometry::Vec3& at(LandmarkId left, int side) const { return at(body::of_side(left, side)); }
 };
 
-Landmarks find_landmarks(const engine::Context& context, const Skin& skin,
-                         const BodyCoordinates& coordinates);
+/// What landmarks are found from. It is complete before the search begins and does not change.
+struct LandmarkInput {
+  const engine::Context& context;
+  const Skin& skin;
+  const BodyCoordinates& coordinates;
+  Ball head;  ///< the ball that the skin above the neck's border resembles
 
-/// In the order of LandmarkId.
-std::vector<body::Landmark> as_list(const Skin& skin, const BodyExtremities& ends, const Landmarks& marks);
+  double size_m() const { return static_cast<double>(coordinates.size_m()); }
+  const BodyExtremities& tips() const { return coordinates.extremities(); }
+  /// True where limbs are welded to each other, so that landmarks near the welds may be wrong.
+  bool fused() const { return skin.handles > 0; }
+};
 
 }  // namespace bodice::anatomy

@@ -5,14 +5,15 @@
 
 namespace bodice::anatomy {
 
+/// The borders between parts, each as it runs on one body.
 struct PartBorders {
   Border neck, shoulder, knee, hip, waist;
 };
 
-/// A belly, heavy thighs and thick shoulders lengthen some ways along the skin and not others, so that one
-/// sum of distances is level with a joint on slim bodies and far from it on heavy ones: what a border counts
-/// each distance for follows eight lengths of the whole body. Landmarks read the borders as they are for all
-/// builds, to which their own corrections were fitted. O(1).
+/// A belly, heavy thighs and thick shoulders lengthen some paths along the skin and not others, so that one
+/// sum of distances is level with a joint on slim bodies and far from it on heavy ones. Therefore the weights
+/// of a border follow eight lengths of the whole body. Landmarks read the borders as they are for all builds,
+/// to which their own corrections were fitted. O(1).
 PartBorders part_borders(const BodyCoordinates& coordinates);
 
 }  // namespace bodice::anatomy

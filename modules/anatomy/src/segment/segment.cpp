@@ -20,12 +20,12 @@ using body::Part;
 constexpr std::size_t kGrain = 2048;
 /// Beyond these distances from the limb's end a border's sign means nothing.
 constexpr float kArmReach = 0.60F, kLegReach = 0.66F;
-/// So much nearer to its foot than to the other, of foot to foot, is a thigh: what lies between is the floor
-/// of the trunk. Of 900 bodies none had a vertex of the other thigh nearer by more than .022; of a
-/// later one it was .033, which the hands answer.
+/// A thigh is nearer to its foot than to the other by at least this fraction of foot to foot: what lies
+/// between is the floor of the trunk. Among 900 bodies none had a vertex of the other thigh nearer by more
+/// than .022; on a later one it was .033, which the hands correct.
 constexpr float kBetweenThighs = 0.03F;
-/// What a lead of the other side's hand takes of a foot's: a leg raised forward stretches the seat behind it,
-/// which then lies nearer to the foot of the leg that stands.
+/// How much a margin toward the other side's hand takes from a foot's margin: a leg raised forward stretches
+/// the seat behind it, which then lies nearer to the foot of the leg that stands.
 constexpr float kHandAgainstFoot = 0.5F;
 /// Where between the borders of waist and neck, by their scores, the chest line lies: about .73 of the
 /// stature.
@@ -36,19 +36,19 @@ Part on_side(Part left, int side) {
   return static_cast<Part>(static_cast<int>(left) + side);
 }
 
-/// How much nearer the head lies to the left hand than to the right, of hand to hand.
+/// How much nearer the head lies to the left hand than to the right, as a fraction of hand to hand.
 float tilt_of(const BodyExtremities& tips) {
   return ((*tips.from_hand[1])[tips.head] - (*tips.from_hand[0])[tips.head]) / tips.hands_apart;
 }
 
-/// How much nearer a place lies to the foot of a leg than to the other, of foot to foot; less if the hands
-/// tell otherwise.
-float lead_of_foot(const CoordinateArray& x, float tilt) {
+/// How much nearer a vertex lies to the foot of a leg than to the other, as a fraction of foot to foot; less
+/// if the hands contradict it.
+float foot_margin(const CoordinateArray& x, float tilt) {
   const float by_hands = x[kOtherHand] - x[kOwnHand] - tilt;
   return x[kOtherFoot] - x[kOwnFoot] + kHandAgainstFoot * std::min(0.0F, by_hands);
 }
 
-/// `tilt`: as tilt_of() tells.
+/// `tilt`: of tilt_of().
 Part part_of(const BodyCoordinates& coordinates, const PartBorders& border, float tilt, std::size_t v) {
   const CoordinateArray x[2] = {coordinates.at(v, 0), coordinates.at(v, 1)};
   const float neck = border.neck(x[0]);
@@ -56,8 +56,8 @@ Part part_of(const BodyCoordinates& coordinates, const PartBorders& border, floa
   const int arm = x[1][kOwnHand] < x[0][kOwnHand], leg = x[1][kOwnFoot] < x[0][kOwnFoot];
   if (x[arm][kOwnHand] < kArmReach && border.shoulder(x[arm]) > 0.0F)
     return on_side(kElbow(x[arm]) > 0.0F ? Part::kForearmL : Part::kUpperArmL, arm);
-  const float lead = lead_of_foot(x[leg], leg == 0 ? tilt : -tilt);
-  if (x[leg][kOwnFoot] < kLegReach && lead > kBetweenThighs && border.hip(x[leg]) > 0.0F)
+  const float margin = foot_margin(x[leg], leg == 0 ? tilt : -tilt);
+  if (x[leg][kOwnFoot] < kLegReach && margin > kBetweenThighs && border.hip(x[leg]) > 0.0F)
     return on_side(border.knee(x[leg]) > 0.0F ? Part::kCalfL : Part::kThighL, leg);
   const int side = x[1][kOwnHand] + x[1][kOwnFoot] < x[0][kOwnHand] + x[0][kOwnFoot];
   const float waist = border.waist(x[0]);

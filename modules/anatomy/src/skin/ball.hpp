@@ -1,3 +1,4 @@
+// The ball that a piece of skin resembles.
 #pragma once
 
 #include <cmath>
@@ -6,13 +7,14 @@
 
 namespace bodice::anatomy {
 
+/// A ball by its center and its radius, in meters.
 struct Ball {
   geometry::Vec3 center = geometry::Vec3::Zero();
   double radius = 0.0;  ///< root of the mean square distance from the center
 };
 
-/// The ball that a piece of skin resembles: area-weighted middle and spread of the triangles whose corners
-/// all `belong`. O(#F).
+/// The ball that a piece of skin resembles: area-weighted middle and spread of the triangles with three
+/// corners that belong. O(#F).
 template <class Belongs>
 Ball ball_of(const Skin& skin, Belongs belongs) {
   const auto over = [&](auto add) {

@@ -9,9 +9,10 @@ namespace {
 using geometry::Vec3;
 
 constexpr std::size_t kSlices = 24;
-/// Slices before and behind a joint that tell the axes of the limb there.
+/// The number of slices before and behind a joint that show the axes of the limb there.
 constexpr std::size_t kArm = 5;
 
+/// The skin between two levels, by area.
 struct Slice {
   Vec3 moment = Vec3::Zero();
   double area = 0.0;

@@ -1,3 +1,4 @@
+// The axis of a limb.
 #pragma once
 
 #include <span>

@@ -5,10 +5,11 @@
 
 namespace bodice::anatomy {
 
+/// Vertices in the order in which they were taken, with their distance fields.
 struct FarthestPoints {
   std::vector<geometry::Index> vertex;
-  /// Distance of every vertex from each, meters. Empty for the last of as many as were asked for: how far it
-  /// lies from the others, their fields tell.
+  /// Distance of every vertex from each, meters. Empty for the last of as many as were requested: the fields
+  /// of the others hold its distances from them.
   std::vector<geodesic::Field> field;
 };
 

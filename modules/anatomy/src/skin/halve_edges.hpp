@@ -15,7 +15,7 @@ struct FinerSkin {
 /// O(#V + #F).
 FinerSkin halve_edges(const Skin& skin);
 
-/// A calf of a skin with fewer vertices has ten or fewer around: ways along its edges spiral.
+/// A calf of a skin with fewer vertices has ten or fewer around: paths along its edges spiral.
 inline constexpr std::size_t kCoarse = 3000;
 /// Nothing with fewer vertices shows a head, hands and feet, however fine it is made.
 inline constexpr std::size_t kNoBody = 100;

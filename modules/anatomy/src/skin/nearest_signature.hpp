@@ -1,3 +1,4 @@
+// The vertex with the best signature.
 #pragma once
 
 #include <cmath>
@@ -8,9 +9,10 @@
 
 namespace bodice::anatomy {
 
-/// How far around the best vertex its neighbors share in the place, of the size.
+/// How far around the best vertex its neighbors share in the position, a fraction of the body size.
 inline constexpr double kSoftRadius = 0.05;
 
+/// The vertex found, and how well it fits.
 struct NearestSignature {
   geometry::Index vertex = 0;
   float mahalanobis = std::numeric_limits<float>::infinity();  ///< in deviations among bodies

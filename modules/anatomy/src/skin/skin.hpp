@@ -1,3 +1,4 @@
+// A mesh prepared for the analysis.
 #pragma once
 
 #include <bodice/geodesic/distance.hpp>
@@ -15,8 +16,8 @@ struct Skin {
   std::size_t components = 0;              ///< vertices without triangles are some of them
   std::size_t pieces = 0;                  ///< components that have triangles
   std::size_t open_edges = 0;              ///< of the input, at its holes
-  /// Handles (the genus) of the body's own component: 0 without welds between limbs, and for a skin with
-  /// holes, whose handles cannot be counted.
+  /// The genus of the body's own component: 0 without welds between limbs, and on a skin with holes, on which
+  /// handles cannot be counted.
   int handles = 0;
 };
 

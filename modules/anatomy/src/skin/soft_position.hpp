@@ -1,3 +1,4 @@
+// Positions between the vertices of a skin.
 #pragma once
 
 #include <cmath>
@@ -7,7 +8,7 @@
 
 namespace bodice::anatomy {
 
-/// The mean of the skin around a vertex, weighed by area and by weight(v) >= 0: a place that does not jump
+/// The mean of the skin around a vertex, weighed by area and by weight(v) >= 0: a position that does not jump
 /// from vertex to vertex as the best one does, and hardly depends on how fine the mesh is. Only triangles
 /// with all corners within `radius` meters take part; the vertex itself if none has weight. O(#F).
 template <class Weight>
@@ -33,12 +34,12 @@ geometry::Vec3 soft_position(const Skin& skin, geometry::Index vertex, double ra
   return all > 0.0 ? geometry::Vec3(center + moment / all) : center;
 }
 
-/// The vertex of the body nearest to a place, the lowest among equals; `otherwise` if there is none. O(#V).
-inline geometry::Index vertex_near(const Skin& skin, const geometry::Vec3& place, geometry::Index otherwise) {
+/// The vertex of the body nearest to a point, the lowest among equals; `otherwise` if there is none. O(#V).
+inline geometry::Index vertex_near(const Skin& skin, const geometry::Vec3& point, geometry::Index otherwise) {
   geometry::Index best = otherwise;
   double least = std::numeric_limits<double>::infinity();
   for (geometry::Index v = 0; v < skin.mesh.positions.size(); ++v) {
-    const double d = (skin.mesh.positions[v] - place).squaredNorm();
+    const double d = (skin.mesh.positions[v] - point).squaredNorm();
     if (skin.component[v] != 0 || !(d < least)) continue;
     least = d;
     best = v;

@@ -6,7 +6,7 @@
 namespace bodice::anatomy {
 
 /// A skin in which a vertex that joins separate fans of triangles (a hand that touches a thigh, welded) is
-/// one vertex a fan, so that no way along the skin leads through the pinch.
+/// one vertex a fan, so that no path along the skin leads through the pinch.
 struct SplitSkin {
   geometry::TriMesh mesh;               ///< the input's vertices first; the copies behind them
   std::vector<geometry::Index> origin;  ///< #copies: the vertex that each copy stands for

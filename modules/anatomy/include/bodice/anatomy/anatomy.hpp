@@ -12,10 +12,12 @@
 
 namespace bodice::anatomy {
 
+/// What the analysis compares the body with.
 struct Options {
   body::ProportionProfile profile;  ///< from body::find_profile("ansur2") or a file
 };
 
+/// What is known of a body after its analysis.
 struct Anatomy {
   double stature_m = 0.0;                       ///< of the body as if it stood, in the mesh's units
   geometry::Vec3 up = geometry::Vec3::UnitY();  ///< feet to head along the trunk, unit
@@ -25,8 +27,8 @@ struct Anatomy {
   std::vector<engine::StageTime> stages;  ///< skin, geodesic, anatomy, segment
 };
 
-/// Finds the landmarks and segments. Pose, place, turn and scale of the mesh do not matter.
-/// Fails with kUnusableGeometry when no body can be made out; the sentence says what is missing.
+/// Finds the landmarks and segments. Pose, position, rotation and scale of the mesh do not matter.
+/// Fails with kUnusableGeometry when no body can be made out; the sentence names what is missing.
 /// Precondition: a repaired mesh (geometry::repair). Deterministic for any worker count.
 engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& skin,
                                 const Options& options);

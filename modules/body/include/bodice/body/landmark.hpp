@@ -8,7 +8,7 @@
 
 namespace bodice::body {
 
-/// A landmark's name.
+/// The points of a body that are found by name; of a pair the left one comes first.
 enum class LandmarkId : std::uint8_t {
   kCrown,
   kNeck,
@@ -35,7 +35,12 @@ constexpr std::string_view name(LandmarkId id) {
   return kLandmarkNames[static_cast<int>(id)];
 }
 
-/// A named point of the body: on the skin, or for neck, elbows and knees the centroid of their girth.
+/// The landmark that is meant on a side: side 0 gives `left` itself, side 1 its right counterpart.
+constexpr LandmarkId of_side(LandmarkId left, int side) {
+  return static_cast<LandmarkId>(static_cast<int>(left) + side);
+}
+
+/// A named point of a body with a confidence. Neck, elbows and knees lie inside, in their joints.
 struct Landmark {
   LandmarkId id = LandmarkId::kCrown;
   geometry::Vec3 position = geometry::Vec3::Zero();  ///< in the coordinates of the skin, meters
