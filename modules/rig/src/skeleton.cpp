@@ -1,9 +1,11 @@
 #include <bodice/rig/skeleton.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "skeleton_errors.hpp"
+#include "tolerances.hpp"
 
 namespace bodice::rig {
 
@@ -57,6 +59,12 @@ LocalTransform to_local_transform(const Affine& map) {
     if (result.scale[k] != 0.0) linear.col(k) /= result.scale[k];
   result.rotation = Eigen::Quaterniond(linear).normalized();
   return result;
+}
+
+bool has_shear(const Affine& map) {
+  const Mat3 linear = linear_of(map).colwise().normalized();
+  return std::max({std::abs(linear.col(0).dot(linear.col(1))), std::abs(linear.col(1).dot(linear.col(2))),
+                   std::abs(linear.col(2).dot(linear.col(0)))}) > kShear;
 }
 
 engine::Result<void> validate(const Skeleton& skeleton) {

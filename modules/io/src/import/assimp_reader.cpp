@@ -9,7 +9,9 @@
 
 #include "bind_pose.hpp"
 #include "file_scene.hpp"
+#include "gltf_rig.hpp"
 #include "input_file.hpp"
+#include "scene_rig.hpp"
 #include "triangulate.hpp"
 
 namespace bodice::io {
@@ -18,9 +20,6 @@ namespace {
 
 using geometry::Index;
 using geometry::Vec3;
-
-/// A node hierarchy deeper than this is hostile; assimp itself recurses, real rigs have under 50 levels.
-constexpr int kMaxNodeDepth = 1000;
 
 geometry::TriMesh to_tri_mesh(const aiMesh& mesh, const Eigen::Matrix4d& to_world, const Vec3& offset) {
   geometry::TriMesh shape;
@@ -51,33 +50,44 @@ std::string material_name(const aiScene& scene, const aiMesh& mesh) {
                                                    : "";
 }
 
-/// Every mesh of every node in the world's coordinates.
+/// Every mesh of every node in the world's coordinates, bound to its bones.
 class Collector {
  public:
-  Collector(const aiScene& scene, const Eigen::Matrix4d& world_to_file, const Vec3& offset, FileScene& out)
-      : scene_(scene), world_to_file_(world_to_file), offset_(offset), out_(out) {}
+  Collector(const aiScene& scene, const std::filesystem::path& file, const Vec3& offset, FileScene& out)
+      : scene_(scene), offset_(offset), out_(out), nodes_(collect_nodes(scene, out.rig)) {
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) skinned_ = skinned_ || scene.mMeshes[i]->mNumBones > 0;
+    if (format_of(file) != Format::kGltf) return;
+    if (auto document = GltfDocument::open(file)) gltf_ = GltfRig::match(std::move(*document), nodes_);
+  }
 
-  void visit(const aiNode& node, const Eigen::Matrix4d& parent_to_world = Eigen::Matrix4d::Identity(),
-             int depth = 0) {
-    if (depth > kMaxNodeDepth) return;
-    const Eigen::Matrix4d to_world = parent_to_world * to_eigen(node.mTransformation);
-    for (unsigned i = 0; i < node.mNumMeshes; ++i) add(*scene_.mMeshes[node.mMeshes[i]], node, to_world);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], to_world, depth + 1);
+  void collect() {
+    for (std::uint32_t n = 0; n < nodes_.node.size(); ++n)
+      for (unsigned i = 0; i < nodes_.node[n]->mNumMeshes; ++i)
+        add(*scene_.mMeshes[nodes_.node[n]->mMeshes[i]], n, i);
+    out_.rig.clips = gltf_ ? gltf_->clips() : clips_of(scene_, nodes_);
   }
 
  private:
-  void add(const aiMesh& mesh, const aiNode& node, const Eigen::Matrix4d& to_world) {
+  void add(const aiMesh& mesh, std::uint32_t node, std::size_t primitive) {
     FileMesh result;
-    result.name = mesh.mName.length ? mesh.mName.C_Str() : node.mName.C_Str();
+    result.name = mesh.mName.length ? mesh.mName.C_Str() : nodes_.node[node]->mName.C_Str();
     result.material = material_name(scene_, mesh);
-    result.shape = to_tri_mesh(mesh, world_to_file_ * mesh_to_world(scene_, mesh, to_world), offset_);
-    if (!result.shape.triangles.empty()) out_.meshes.push_back(std::move(result));
+    const std::vector<FileBone> bones = gltf_ ? gltf_->bones(node, primitive) : bones_of(mesh, nodes_);
+    const Eigen::Matrix4d to_world =
+        mesh_to_world(bones, out_.rig.nodes, mesh, out_.rig.nodes[node].to_world);
+    result.shape = to_tri_mesh(mesh, out_.rig.world_to_file * to_world, offset_);
+    if (result.shape.triangles.empty()) return;
+    out_.rig.has_bones = out_.rig.has_bones || !bones.empty();
+    if (skinned_) result.weights = bind_mesh(bones, node, to_world, mesh.mNumVertices, out_.rig);
+    out_.meshes.push_back(std::move(result));
   }
 
   const aiScene& scene_;
-  const Eigen::Matrix4d& world_to_file_;
   const Vec3& offset_;
   FileScene& out_;
+  SceneNodes nodes_;
+  std::optional<GltfRig> gltf_;
+  bool skinned_ = false;
 };
 
 /// assimp folds the document's unit into the root node; we keep the file's own coordinates.
@@ -159,11 +169,12 @@ engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
     result.up = geometry::Axis::kY;
   }
   read_fbx_metadata(*scene, result);
-  Collector(*scene, world_to_file, offset, result).visit(*scene->mRootNode);
+  result.rig.world_to_file = world_to_file;
+  Collector(*scene, file, offset, result).collect();
   for (FileMesh& mesh : result.meshes)
     if (is_made_up(mesh.name)) mesh.name = file.stem().string();
   if (splits_vertices(format_of(file)))
-    for (FileMesh& mesh : result.meshes) mesh.shape = share_vertices(mesh.shape);
+    for (FileMesh& mesh : result.meshes) share_vertices(mesh);
   if (result.meshes.empty())
     return engine::Error{engine::ErrorCode::kUnreadable, "'" + file.string() + "' holds no triangles.",
                          "Export the body's surface as polygons, not as points, lines or curves."};

@@ -17,18 +17,6 @@ constexpr double kSameMatrix = 1e-3;
 /// A root bone turned by more than this against its mesh's node is not posed but differently oriented.
 constexpr double kPosedRootRad = 0.8;
 
-Eigen::Matrix4d world_of(const aiNode* node) {
-  Eigen::Matrix4d world = Eigen::Matrix4d::Identity();
-  for (; node; node = node->mParent) world = to_eigen(node->mTransformation) * world;
-  return world;
-}
-
-int depth_of(const aiNode* node) {
-  int depth = 0;
-  for (; node; node = node->mParent) ++depth;
-  return depth;
-}
-
 double scale_of(const Eigen::Matrix4d& matrix) {
   return std::cbrt(std::abs(matrix.topLeftCorner<3, 3>().determinant()));
 }
@@ -68,22 +56,20 @@ Eigen::Matrix4d to_eigen(const aiMatrix4x4& matrix) {
   return result;
 }
 
-Eigen::Matrix4d mesh_to_world(const aiScene& scene, const aiMesh& mesh,
-                              const Eigen::Matrix4d& node_to_world) {
+Eigen::Matrix4d mesh_to_world(std::span<const FileBone> bones, std::span<const FileNode> nodes,
+                              const aiMesh& mesh, const Eigen::Matrix4d& node_to_world) {
   const double size = mesh_size(mesh);
   Eigen::Matrix4d root = node_to_world;
   int root_depth = 0;
   bool agree = true;
-  for (unsigned i = 0; i < mesh.mNumBones; ++i) {
-    const aiNode* node = scene.mRootNode->FindNode(mesh.mBones[i]->mName);
-    if (!node) continue;
-    const Eigen::Matrix4d placed = world_of(node) * to_eigen(mesh.mBones[i]->mOffsetMatrix);
+  for (const FileBone& bone : bones) {
+    const FileNode& node = nodes[bone.node];
+    const Eigen::Matrix4d placed = node.to_world * bone.offset;
     if (!placed.allFinite()) continue;
     agree = agree && (root_depth == 0 || same_place(root, placed, size));
-    const int depth = depth_of(node);
-    if (root_depth != 0 && depth >= root_depth) continue;
+    if (root_depth != 0 && node.depth >= root_depth) continue;
     root = placed;
-    root_depth = depth;
+    root_depth = node.depth;
   }
   if (root_depth == 0) return node_to_world;
   if (agree) return root;

@@ -188,8 +188,9 @@ void report(const FileScene& scene, const std::vector<Piece>& pieces, const std:
 
 /// The chosen triangles as the file had them, with the flaws that repair will report. `wanted` tells by
 /// joined vertex.
-geometry::TriMesh gather(const FileScene& scene, const JoinedScene& joined, const std::vector<bool>& wanted) {
-  geometry::TriMesh shape;
+void gather(const FileScene& scene, const JoinedScene& joined, const std::vector<bool>& wanted,
+            ChosenBody& chosen) {
+  geometry::TriMesh& shape = chosen.shape;
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const geometry::TriMesh& mesh = scene.meshes[m].shape;
     const Index first = static_cast<Index>(shape.positions.size());
@@ -201,9 +202,10 @@ geometry::TriMesh gather(const FileScene& scene, const JoinedScene& joined, cons
       if (in) shape.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
     const bool used = !shape.triangles.empty() && shape.triangles.back()[0] >= first;
-    if (used) shape.positions.insert(shape.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    if (!used) continue;
+    shape.positions.insert(shape.positions.end(), mesh.positions.begin(), mesh.positions.end());
+    append(scene.meshes[m].weights, chosen.weights);
   }
-  return shape;
 }
 
 std::vector<bool> vertices_of(const JoinedScene& joined, const std::vector<const Piece*>& pieces) {
@@ -232,7 +234,10 @@ engine::Result<FileScene> named(const FileScene& scene, const std::string& wante
 ChosenBody take_all(const FileScene& scene) {
   ChosenBody chosen;
   chosen.name = label(scene.meshes.front());
-  for (const FileMesh& mesh : scene.meshes) append(mesh.shape, chosen.shape);
+  for (const FileMesh& mesh : scene.meshes) {
+    append(mesh.shape, chosen.shape);
+    append(mesh.weights, chosen.weights);
+  }
   return chosen;
 }
 
@@ -257,7 +262,7 @@ engine::Result<ChosenBody> choose_body(const engine::Context& context, const Fil
       grow(context, *joined, pieces, static_cast<std::size_t>(std::distance(score.begin(), best)));
   ChosenBody chosen;
   chosen.name = label(scene.meshes[body.front()->main_source()]);
-  chosen.shape = gather(scene, *joined, vertices_of(*joined, body));
+  gather(scene, *joined, vertices_of(*joined, body), chosen);
   report(scene, pieces, body, chosen);
   return chosen;
 }

@@ -14,6 +14,7 @@ namespace bodice::io {
 
 struct ChosenBody {
   geometry::TriMesh shape;  ///< file coordinates; vertices in the order of their meshes
+  FileWeights weights;      ///< of its vertices; empty where the file has no bones
   std::string name;         ///< of the mesh that gave most of it
   std::vector<engine::Warning> warnings;
 };

@@ -35,8 +35,10 @@ void append(const geometry::TriMesh& mesh, geometry::TriMesh& to) {
     to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
-geometry::TriMesh share_vertices(const geometry::TriMesh& mesh) {
+void share_vertices(FileMesh& file_mesh) {
+  const geometry::TriMesh& mesh = file_mesh.shape;
   geometry::TriMesh shared;
+  std::vector<Index> first;                       // use of each shared vertex
   std::unordered_map<Key, Index, KeyHash> found;  // looked up only: its order plays no part
   found.reserve(mesh.positions.size() / 4);
   shared.triangles.reserve(mesh.triangles.size());
@@ -45,11 +47,15 @@ geometry::TriMesh share_vertices(const geometry::TriMesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& p = mesh.positions[triangle[k]];
       const auto [at, fresh] = found.try_emplace(key_of(p), static_cast<Index>(shared.positions.size()));
-      if (fresh) shared.positions.push_back(p);
+      if (fresh) {
+        shared.positions.push_back(p);
+        first.push_back(triangle[k]);
+      }
       out[k] = at->second;
     }
   }
-  return shared;
+  file_mesh.weights = take_weights(file_mesh.weights, first);
+  file_mesh.shape = std::move(shared);
 }
 
 }  // namespace bodice::io

@@ -3,8 +3,10 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/io/import.hpp>
+#include <bodice/io/rig.hpp>
 
 #include "body_frame.hpp"
+#include "build_rig.hpp"
 #include "choose_body.hpp"
 #include "file_scene.hpp"
 
@@ -44,11 +46,17 @@ void to_inside(const geometry::Frame& frame, geometry::TriMesh& mesh) {
   for (geometry::Vec3& p : mesh.positions) p = frame.to_inside(p);
 }
 
-}  // namespace
+/// A body with what is needed to find its rig.
+struct ReadBody {
+  ImportedMesh mesh;
+  FileRig rig;
+  FileWeights weights;  // of the input vertices
+};
 
-engine::Result<ImportedMesh> import_body(const engine::Context& context, const std::filesystem::path& file,
-                                         const ImportOptions& options) {
-  ImportedMesh out;
+engine::Result<ReadBody> read_body(const engine::Context& context, const std::filesystem::path& file,
+                                   const ImportOptions& options) {
+  ReadBody read;
+  ImportedMesh& out = read.mesh;
   out.file = file;
   engine::StageTimer load(context, out.stages, "load");
   auto scene = read_scene(file);
@@ -77,6 +85,35 @@ engine::Result<ImportedMesh> import_body(const engine::Context& context, const s
   out.repair = std::move(repaired->report);
   append_warnings(out.repair.warnings, out.warnings);
   check.stop();
+  read.rig = std::move(scene->rig);
+  read.weights = std::move(chosen->weights);
+  return read;
+}
+
+}  // namespace
+
+engine::Result<ImportedMesh> import_body(const engine::Context& context, const std::filesystem::path& file,
+                                         const ImportOptions& options) {
+  auto read = read_body(context, file, options);
+  if (!read) return read.error();
+  return std::move(read->mesh);
+}
+
+engine::Result<RiggedBody> import_rigged_body(const engine::Context& context,
+                                              const std::filesystem::path& file,
+                                              const ImportOptions& options) {
+  auto read = read_body(context, file, options);
+  if (!read) return read.error();
+  RiggedBody out;
+  out.body = std::move(read->mesh);
+  engine::StageTimer stage(context, out.body.stages, "rig");
+  auto rig = build_rig(read->rig, read->weights, out.body.skin, out.body.vertex_of_input, out.body.frame,
+                       out.body.warnings);
+  stage.stop();
+  if (rig)
+    out.rig = std::move(rig);
+  else
+    out.rig = in_file(rig.error(), file);
   return out;
 }
 

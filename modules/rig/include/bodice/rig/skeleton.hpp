@@ -32,6 +32,9 @@ Affine to_affine(const LocalTransform& transform);
 /// do. A reflection becomes a negative scale along x.
 LocalTransform to_local_transform(const Affine& map);
 
+/// Whether to_local_transform() would lose the map's shear.
+bool has_shear(const Affine& map);
+
 struct Joint {
   std::string name;
   std::int32_t parent = kNoParent;  ///< index of a joint before this one, or kNoParent for a root

@@ -1,0 +1,28 @@
+// Rigs and motions from files, and rigged bodies to files.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/io/import.hpp>
+#include <bodice/rig/rig.hpp>
+
+namespace bodice::io {
+
+/// A body and what moves it. The rig's weights are those of body.skin, its bind pose is the skin as imported.
+struct RiggedBody {
+  ImportedMesh body;
+  /// One sentence where there is none: kNotFound (the file has no skeleton) or kUnusableGeometry (a bad one).
+  engine::Result<rig::Rig> rig = engine::Error{};
+};
+
+/// Reads a body as import_body() does, with its skeleton, weights and clips in meters, y up. Skinned meshes
+/// that the body is joined from share one skeleton. Fails where import_body() fails; warnings go to
+/// body.warnings. Cubic and step keys are kept for glTF; assimp's readers of other formats give linear keys.
+engine::Result<RiggedBody> import_rigged_body(const engine::Context& context,
+                                              const std::filesystem::path& file,
+                                              const ImportOptions& options = {});
+
+}  // namespace bodice::io

@@ -1,0 +1,52 @@
+// A glTF 2.0 document with its buffers: assimp drops step and cubic keys, normalized integers and all weights
+// beyond four, so rigs are read here.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace bodice::io {
+
+/// The numbers of an accessor: `components` of each of `count` elements, integers scaled where it is
+/// normalized.
+struct GltfNumbers {
+  std::size_t count = 0, components = 0;
+  std::vector<double> values;
+};
+
+class GltfDocument {
+ public:
+  /// Reads a .glb or .gltf file and the buffers it names. Empty where it is no readable document of
+  /// version 2.
+  static std::optional<GltfDocument> open(const std::filesystem::path& file);
+
+  const nlohmann::json& root() const { return json_; }
+  /// Element `index` of one of the document's arrays ("nodes", "skins", ...); null where there is none.
+  const nlohmann::json& element(const char* array, std::size_t index) const;
+  /// Empty where the accessor does not exist or points outside of its buffer.
+  std::optional<GltfNumbers> numbers(std::size_t accessor) const;
+
+ private:
+  struct Layout;
+
+  std::string_view view_bytes(std::size_t view) const;
+  bool read_dense(const nlohmann::json& accessor, const Layout& layout, GltfNumbers& out) const;
+  bool read_sparse(const nlohmann::json& accessor, const Layout& layout, GltfNumbers& out) const;
+
+  nlohmann::json json_;
+  std::vector<std::string> buffers_;
+};
+
+/// A whole number that is not negative under a key; empty where there is none.
+std::optional<std::size_t> index_at(const nlohmann::json& object, const char* key);
+/// A text under a key, or an empty one.
+std::string text_at(const nlohmann::json& object, const char* key);
+/// The array under a key, or an empty one.
+const nlohmann::json& array_at(const nlohmann::json& object, const char* key);
+
+}  // namespace bodice::io
