@@ -50,6 +50,19 @@ engine::Result<void> check_track(const GarmentTrack& track) {
   return {};
 }
 
+engine::Result<void> check_rig(const Scene& scene) {
+  if (!scene.body) return invalid("The scene has a rig but no body that it moves.");
+  if (auto checked = validate(scene.rig->skeleton); !checked) return checked;
+  for (const rig::Clip& clip : scene.rig->clips)
+    if (auto checked = validate(clip, scene.rig->skeleton); !checked) return checked;
+  rig::SkinWeights weights = scene.rig->weights;
+  const auto mended = mend(weights, scene.rig->skeleton, scene.body->positions.size());
+  if (!mended) return mended.error();
+  if (!mended->empty() || weights.weight.size() != scene.rig->weights.weight.size())
+    return invalid("The rig's skin weights do not add up to 1, or name a joint twice: mend() them.");
+  return {};
+}
+
 }  // namespace
 
 bool takes_time(const GarmentTrack& track) {
@@ -69,6 +82,8 @@ engine::Result<void> check_scene(const Scene& scene) {
                    std::to_string(scene.part.size()) + " parts.");
   if (scene.surface && !fits(*scene.surface, scene.proxy))
     return invalid("The proxy's surface is not that of the scene's proxy.");
+  if (scene.rig)
+    if (auto checked = check_rig(scene); !checked) return checked;
   for (const GarmentTrack& track : scene.garments)
     if (auto checked = check_track(track); !checked) return checked;
   return {};

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <string_view>
 
 namespace bodice::io {
 
@@ -13,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "GLB is little-endian: swap bytes on this machine");
 static_assert(sizeof(Vec3f) == 12 && sizeof(geometry::Triangle) == 12);
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125;
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963, kNoTarget = 0;
 constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
@@ -90,6 +91,27 @@ std::size_t GlbBuilder::add_times(std::span<const float> seconds) {
 std::size_t GlbBuilder::add_scalars(std::span<const float> values) {
   return add_accessor(add_view(values.data(), values.size_bytes(), kNoTarget), kFloat, values.size(),
                       "SCALAR");
+}
+
+std::size_t GlbBuilder::add_joints(std::span<const std::uint16_t> values) {
+  return add_accessor(add_view(values.data(), values.size_bytes(), kArrayBuffer), kUnsignedShort,
+                      values.size() / 4, "VEC4");
+}
+
+std::size_t GlbBuilder::add_weights(std::span<const float> values) {
+  return add_accessor(add_view(values.data(), values.size_bytes(), kArrayBuffer), kFloat, values.size() / 4,
+                      "VEC4");
+}
+
+std::size_t GlbBuilder::add_values(std::span<const float> values, const char* type) {
+  const std::string_view name = type;
+  const std::size_t components = name == "MAT4" ? 16 : name == "VEC4" ? 4 : name == "VEC3" ? 3 : 1;
+  return add_accessor(add_view(values.data(), values.size_bytes(), kNoTarget), kFloat,
+                      values.size() / components, type);
+}
+
+std::size_t GlbBuilder::size(const char* array) const {
+  return document_.contains(array) ? document_[array].size() : 0;
 }
 
 std::string GlbBuilder::finish() const {

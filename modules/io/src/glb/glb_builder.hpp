@@ -25,9 +25,15 @@ class GlbBuilder {
   std::size_t add_triangles(std::span<const geometry::Triangle> triangles);
   std::size_t add_times(std::span<const float> seconds);
   std::size_t add_scalars(std::span<const float> values);
+  std::size_t add_joints(std::span<const std::uint16_t> values);  ///< of vertices, four each
+  std::size_t add_weights(std::span<const float> values);         ///< of vertices, four each
+  std::size_t add_values(std::span<const float> values,
+                         const char* type);  ///< keys, matrices: "VEC3", "MAT4", ...
 
   /// Appends to one of the document's arrays ("nodes", "meshes", ...) and returns the new index.
   std::size_t add(const char* array, Json value);
+  /// The number of elements of one of the document's arrays.
+  std::size_t size(const char* array) const;
   /// Makes a node a root of the scene.
   void add_to_scene(std::size_t node);
 

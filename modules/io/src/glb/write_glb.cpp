@@ -9,6 +9,7 @@
 #include "../scene_check.hpp"
 #include "../unit_sphere.hpp"
 #include "glb_builder.hpp"
+#include "skin_writer.hpp"
 
 namespace bodice::io {
 
@@ -25,6 +26,8 @@ constexpr double kFarDiagonals = 16.0;
 class SceneWriter {
  public:
   explicit SceneWriter(const Scene& scene) : scene_(scene) {
+    if (scene.rig) return;  // glTF skins are in meters, y up; the nodes of skinned meshes carry no offset
+    frame_ = scene.frame;
     geometry::Box box;
     const geometry::Box inside = scene_box(scene);
     box.extend(scene.frame.to_file(inside.low));
@@ -33,16 +36,21 @@ class SceneWriter {
   }
 
   std::string write() {
+    animations_.emplace_back();
+    animations_.back().name = "drape";
     if (scene_.body) add_body();
     if (scene_.proxy) add_ellipsoids();
     for (std::size_t k = 0; k < scene_.garments.size(); ++k) add_garment(scene_.garments[k], k);
-    if (!channels_.empty())
-      glb_.add("animations", {{"name", "drape"}, {"samplers", samplers_}, {"channels", channels_}});
+    for (GlbAnimation& animation : animations_)
+      if (!animation.channels.empty())
+        glb_.add("animations", {{"name", animation.name},
+                                {"samplers", std::move(animation.samplers)},
+                                {"channels", std::move(animation.channels)}});
     return glb_.finish();
   }
 
  private:
-  Vec3f to_file(const Vec3& inside) const { return (scene_.frame.to_file(inside) - origin_).cast<float>(); }
+  Vec3f to_file(const Vec3& inside) const { return (frame_.to_file(inside) - origin_).cast<float>(); }
 
   std::vector<Vec3f> to_file(std::span<const Vec3> points) const {
     std::vector<Vec3f> result;
@@ -57,7 +65,7 @@ class SceneWriter {
     result.reserve(mesh.positions.size());
     for (const Vec3& n : vertex_normals(mesh)) {
       const Vec3 unit = n.squaredNorm() > 0.25 ? n : Vec3(Vec3::UnitY());
-      result.push_back(scene_.frame.direction_to_file(unit).cast<float>().normalized());
+      result.push_back(frame_.direction_to_file(unit).cast<float>().normalized());
     }
     return result;
   }
@@ -85,6 +93,7 @@ class SceneWriter {
     const geometry::TriMesh& body = *scene_.body;
     Json attributes = {{"POSITION", glb_.add_positions(to_file(body.positions))},
                        {"NORMAL", glb_.add_vectors(normals_of(body))}};
+    if (scene_.rig) add_skin_attributes(scene_.rig->weights, glb_, attributes);
     if (!scene_.part.empty()) {
       std::vector<Vec3f> colors;
       colors.reserve(scene_.part.size());
@@ -95,8 +104,21 @@ class SceneWriter {
     const Json primitive = {{"attributes", attributes},
                             {"indices", glb_.add_triangles(body.triangles)},
                             {"material", add_material("skin", base, 1.0f, false)}};
-    add_root(
-        {{"name", "body"}, {"mesh", glb_.add("meshes", {{"name", "body"}, {"primitives", {primitive}}})}});
+    Json node = {{"name", "body"},
+                 {"mesh", glb_.add("meshes", {{"name", "body"}, {"primitives", {primitive}}})}};
+    if (scene_.rig) node["skin"] = add_rig();
+    add_root(std::move(node));
+  }
+
+  /// Returns the skin. The first clip shares its animation with the garments.
+  std::size_t add_rig() {
+    const GlbSkeleton skeleton = add_skeleton(scene_.rig->skeleton, glb_);
+    for (std::size_t k = 0; k < scene_.rig->clips.size(); ++k) {
+      if (k > 0) animations_.emplace_back();
+      animations_[k].name = scene_.rig->clips[k].name;
+      add_clip(scene_.rig->clips[k], skeleton, glb_, animations_[k]);
+    }
+    return skeleton.skin;
   }
 
   /// One sphere for all; a mesh a part, which differ by material only; a node an ellipsoid.
@@ -131,9 +153,9 @@ class SceneWriter {
 
   /// The translation, rotation and scale that turn the unit sphere into the ellipsoid.
   Json placed(const geometry::Ellipsoid& shape) const {
-    const Vec3 center = scene_.frame.to_file(shape.center) - origin_;
-    const Vec3 radii = shape.radii / scene_.frame.meters_per_unit;
-    const geometry::Mat3 axes = scene_.frame.rotation().transpose() * shape.axes;
+    const Vec3 center = frame_.to_file(shape.center) - origin_;
+    const Vec3 radii = shape.radii / frame_.meters_per_unit;
+    const geometry::Mat3 axes = frame_.rotation().transpose() * shape.axes;
     const Eigen::Quaterniond turn = Eigen::Quaterniond(axes).normalized();
     return {{"translation", {center.x(), center.y(), center.z()}},
             {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
@@ -170,24 +192,23 @@ class SceneWriter {
   void animate(const GarmentTrack& track, std::size_t node) {
     const std::size_t n = track.frames.size();
     std::vector<float> times(n), weights(n * n, 0.0f);
+    const double begin = track.time_s.empty() || scene_.rig ? 0.0 : track.time_s[0];
     for (std::size_t i = 0; i < n; ++i) {
-      times[i] = static_cast<float>(track.time_s.empty() ? static_cast<double>(i) / 30.0
-                                                         : track.time_s[i] - track.time_s[0]);
+      times[i] =
+          static_cast<float>(track.time_s.empty() ? static_cast<double>(i) / 30.0 : track.time_s[i] - begin);
       weights[i * n + i] = 1.0f;
     }
-    const std::size_t sampler = samplers_.size();
-    samplers_.push_back({{"input", glb_.add_times(times)},
-                         {"output", glb_.add_scalars(weights)},
-                         {"interpolation", "LINEAR"}});
-    channels_.push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
+    const std::size_t input = glb_.add_times(times);
+    animations_.front().add(node, "weights", input, glb_.add_scalars(weights), "LINEAR");
   }
 
   static constexpr std::size_t kNone = ~std::size_t{0};
 
   const Scene& scene_;
+  geometry::Frame frame_;       // of the file
   Vec3 origin_ = Vec3::Zero();  // file units
   GlbBuilder glb_;
-  Json samplers_ = Json::array(), channels_ = Json::array();
+  std::vector<GlbAnimation> animations_;  // the first has the garments
 };
 
 }  // namespace

@@ -66,9 +66,12 @@ std::vector<bool> wanted_nodes(const FileRig& file, const std::vector<bool>& use
   }
   for (std::size_t n = wanted.size(); n-- > 1;)
     if (wanted[n] && file.nodes[n].parent >= 0) wanted[static_cast<std::size_t>(file.nodes[n].parent)] = true;
-  if (!wanted.empty() && !bound[0] && !animated[0] && !file.nodes[0].is_bone &&
-      file.nodes[0].local.isIdentity(0.0))
-    wanted[0] = false;
+  for (std::size_t n = 0; n < wanted.size(); ++n) {  // what stands above all bones and does nothing
+    const FileNode& node = file.nodes[n];
+    const bool on_joint = node.parent >= 0 && wanted[static_cast<std::size_t>(node.parent)];
+    if (!on_joint && !bound[n] && !animated[n] && !node.is_bone && node.local.isIdentity(0.0))
+      wanted[n] = false;
+  }
   return wanted;
 }
 

@@ -20,9 +20,9 @@ struct BuiltSkeleton {
 };
 
 /// Joints are the bones, the nodes of the bindings in `used` (#bindings of the file), all below bones, and
-/// all ancestors but a root that does nothing; where there are no bones, the nodes that a clip moves. A node
-/// with a shear becomes two joints, and a node with several used bind poses gets a joint for each. Fails with
-/// kUnusableGeometry and names the joint.
+/// all ancestors but those at the top that do nothing; where there are no bones, the nodes that a clip moves.
+/// A node with a shear becomes two joints, and a node with several used bind poses gets a joint for each.
+/// Fails with kUnusableGeometry and names the joint.
 engine::Result<BuiltSkeleton> build_skeleton(const FileRig& file, const std::vector<bool>& used,
                                              const geometry::Frame& frame);
 

@@ -6,6 +6,7 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/io/import.hpp>
 #include <bodice/rig/rig.hpp>
 
@@ -24,5 +25,12 @@ struct RiggedBody {
 engine::Result<RiggedBody> import_rigged_body(const engine::Context& context,
                                               const std::filesystem::path& file,
                                               const ImportOptions& options = {});
+
+/// Writes a skin with its rig as binary glTF 2.0 in meters, y up: a skinned mesh, the joints' nodes, inverse
+/// bind matrices, and an animation a clip. Vertices keep all their weights, four a set, strongest first (many
+/// viewers read the first set alone). Fails with kInvalidArgument or kUnusableGeometry where rig and skin do
+/// not fit, and with kWriteFailed. The file appears whole or not at all.
+engine::Result<void> write_rigged_glb(const geometry::TriMesh& skin, const rig::Rig& rig,
+                                      const std::filesystem::path& file);
 
 }  // namespace bodice::io

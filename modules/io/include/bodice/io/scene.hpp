@@ -12,6 +12,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
+#include <bodice/rig/rig.hpp>
 
 namespace bodice::io {
 
@@ -29,14 +30,18 @@ struct Scene {
   const proxy::ProxySurface* surface = nullptr;  ///< of the proxy: pictures show it for the ellipsoids
   std::span<const geometry::Vec3> landmarks;     ///< points that write_stages_picture() marks
   std::vector<GarmentTrack> garments;
-  geometry::Frame frame;  ///< of the input: what is written is in it
+  geometry::Frame frame;  ///< of the input: what is written is in it, unless there is a rig
+  const rig::Rig* rig =
+      nullptr;  ///< moves the body: write_glb() writes skeleton, weights and clips in meters, y up
 };
 
 /// One distinct color a part, sRGB 0..1, told apart by color-blind people too as far as 15 allow.
 std::span<const float, 3> part_color(body::Part part);
 
 /// Binary glTF 2.0: nodes `body`, `ellipsoids`, `cloth`, `cloth_2`...; the cloth's frames are morph targets
-/// with normals, played by a step-free animation of their weights.
+/// with normals, played by a step-free animation of their weights. With a rig the body is skinned by the
+/// nodes of its joints, each clip is an animation, and the garments' frames play in the first, at their own
+/// times. Fails with kInvalidArgument where the parts of the scene do not fit together.
 engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file);
 
 struct PictureOptions {
