@@ -21,13 +21,42 @@ function(bodice_reject_unsafe_math_flags)
   endforeach()
 endfunction()
 
+# Half of a small file's compile time goes into Eigen and the standard library. Our own build reads them once, as
+# precompiled headers. Compiler caches pass over files that use one, so a compiler launcher switches them off, and
+# so do sanitizers: their builds then show that each file includes what it uses.
+set(precompile OFF)
+if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CXX_COMPILER_LAUNCHER
+   AND NOT BODICE_SANITIZE)
+  set(precompile ON)
+endif()
+option(BODICE_PRECOMPILE "Precompile heavy headers (our own build with g++)" ${precompile})
+
+# bodice_precompile(<target> [FROM <other>]): precompiles what most files include, or takes what <other> has
+# precompiled with the same flags.
+function(bodice_precompile target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FROM" "")
+  if(NOT BODICE_PRECOMPILE)
+    return()
+  endif()
+  # A compiler takes a precompiled header only before any other file, so this one brings the guard along.
+  set_target_properties(${target} PROPERTIES BODICE_GUARD_IS_PRECOMPILED ON)
+  if(arg_FROM)
+    target_precompile_headers(${target} REUSE_FROM ${arg_FROM})
+    return()
+  endif()
+  target_precompile_headers(${target} PRIVATE "${PROJECT_SOURCE_DIR}/.cmake/require_ieee_math.hpp"
+    <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <memory> <numeric>
+    <optional> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
+endfunction()
+
 # Warnings and sanitizers live on a target that is linked PRIVATE and never
 # exported, so that none of them reaches a project that embeds bodice.
 function(bodice_define_build_flags)
   add_library(bodice_build_flags INTERFACE)
   set(include_first $<IF:$<CXX_COMPILER_ID:MSVC>,/FI,-include>)
+  set(guard "SHELL:${include_first} \"${PROJECT_SOURCE_DIR}/.cmake/require_ieee_math.hpp\"")
   target_compile_options(bodice_build_flags INTERFACE
-    "SHELL:${include_first} \"${PROJECT_SOURCE_DIR}/.cmake/require_ieee_math.hpp\"")
+    "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:BODICE_GUARD_IS_PRECOMPILED>>>:${guard}>")
   if(NOT PROJECT_IS_TOP_LEVEL)
     return()
   endif()

@@ -1,11 +1,13 @@
 # How bodice declares a layer and installs what was declared.
 
-# bodice_layer(<name> USES <layers...> [PUBLIC <targets...>] [PRIVATE <targets...>] [HEADERS <targets...>])
+# bodice_layer(<name> USES <layers...> [PUBLIC <targets...>] [PRIVATE <targets...>] [HEADERS <targets...>]
+#              [FLAGS <options...>])
 # Declares the static library bodice::<name> from <name>/src/**.cpp. It exports only its own include folder and
 # those of the layers it uses. Packages: PUBLIC ones are in its headers, PRIVATE ones must be there to link it,
-# and HEADERS ones only to compile it, so that users of an installed bodice need them not.
+# and HEADERS ones only to compile it, so that users of an installed bodice need them not. FLAGS are compile options
+# of the layer's own files.
 function(bodice_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DIR" "USES;PUBLIC;PRIVATE;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DIR" "USES;PUBLIC;PRIVATE;HEADERS;FLAGS")
   if(NOT arg_DIR)
     set(arg_DIR "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
   endif()
@@ -34,6 +36,12 @@ function(bodice_layer name)
   list(TRANSFORM packages REPLACE "::.*" "")  # a package's targets carry its name
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC}
     PRIVATE ${arg_PRIVATE} $<BUILD_INTERFACE:${arg_HEADERS}> $<BUILD_INTERFACE:bodice_build_flags>)
+  target_compile_options(${target} PRIVATE ${arg_FLAGS})
+  if(name STREQUAL "geometry" OR arg_FLAGS)  # other flags need a precompiled header of their own
+    bodice_precompile(${target})
+  elseif("geometry" IN_LIST below)
+    bodice_precompile(${target} FROM bodice_geometry)
+  endif()
   set_property(GLOBAL APPEND PROPERTY BODICE_LAYERS ${name})
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_USES ${arg_USES})
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_BELOW ${below})
