@@ -32,10 +32,10 @@ endif()
 option(BODICE_PRECOMPILE "Precompile heavy headers (our own build with g++)" ${precompile})
 
 # bodice_precompile(<target> [FROM <other>]): precompiles what most files include, or takes what <other> has
-# precompiled with the same flags.
+# precompiled with the same flags. Where there is no <other>, nothing is precompiled.
 function(bodice_precompile target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "FROM" "")
-  if(NOT BODICE_PRECOMPILE)
+  if(NOT BODICE_PRECOMPILE OR (arg_FROM AND NOT TARGET ${arg_FROM}))
     return()
   endif()
   # A compiler takes a precompiled header only before any other file, so this one brings the guard along.
