@@ -152,7 +152,7 @@ engine::Error unreadable(const std::filesystem::path& file, std::string_view why
 
 }  // namespace
 
-engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
+engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file) {
   if (auto checked = check_readable(file); !checked) return checked.error();
   Assimp::Importer importer;
   Vec3 offset = Vec3::Zero();
@@ -175,7 +175,12 @@ engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
     if (is_made_up(mesh.name)) mesh.name = file.stem().string();
   if (splits_vertices(format_of(file)))
     for (FileMesh& mesh : result.meshes) share_vertices(mesh);
-  if (result.meshes.empty())
+  return result;
+}
+
+engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
+  auto result = read_motion_scene(file);
+  if (result && result->meshes.empty())
     return engine::Error{engine::ErrorCode::kUnreadable, "'" + file.string() + "' holds no triangles.",
                          "Export the body's surface as polygons, not as points, lines or curves."};
   return result;

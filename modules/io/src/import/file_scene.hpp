@@ -34,6 +34,9 @@ struct FileScene {
 /// out, polygons triangulated. Fails with kNotFound or kUnreadable.
 engine::Result<FileScene> read_scene(const std::filesystem::path& file);
 
+/// The same, but a file without triangles will do.
+engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file);
+
 /// Appends a mesh's vertices and triangles to another's.
 void append(const geometry::TriMesh& mesh, geometry::TriMesh& to);
 

@@ -90,6 +90,7 @@ Format format_of(const std::filesystem::path& file) {
   if (extension == ".zae") return Format::kColladaArchive;
   if (extension == ".gltf" || extension == ".glb") return Format::kGltf;
   if (extension == ".fbx") return Format::kFbx;
+  if (extension == ".bvh") return Format::kBvh;
   return Format::kOther;
 }
 

@@ -12,7 +12,7 @@
 namespace bodice::io {
 
 /// Formats that need care of our own, by file extension.
-enum class Format { kOther, kObj, kCollada, kColladaArchive, kGltf, kFbx };
+enum class Format { kOther, kObj, kCollada, kColladaArchive, kGltf, kFbx, kBvh };
 Format format_of(const std::filesystem::path& file);
 
 /// Fails with one sentence where there is nothing to parse: no such file, a directory, empty, no access, a

@@ -26,6 +26,20 @@ engine::Result<RiggedBody> import_rigged_body(const engine::Context& context,
                                               const std::filesystem::path& file,
                                               const ImportOptions& options = {});
 
+/// A skeleton and its clips without a skin.
+struct ImportedMotion {
+  std::filesystem::path file;
+  rig::Skeleton skeleton;  ///< meters, y up; the bind pose is the rest pose where the file has none
+  std::vector<rig::Clip> clips;
+  std::string unit;  ///< of the file: "m", "cm", ...; "unknown" with a warning when none fits
+  std::vector<engine::Warning> warnings;
+};
+
+/// Reads the skeleton and the clips of a BVH, glTF, FBX or Collada file, whether or not it holds a skin.
+/// Fails with kNotFound, kUnreadable, or kUnusableGeometry where nothing moves.
+engine::Result<ImportedMotion> import_motion(const engine::Context& context,
+                                             const std::filesystem::path& file);
+
 /// Writes a skin with its rig as binary glTF 2.0 in meters, y up: a skinned mesh, the joints' nodes, inverse
 /// bind matrices, and an animation a clip. Vertices keep all their weights, four a set, strongest first (many
 /// viewers read the first set alone). Fails with kInvalidArgument or kUnusableGeometry where rig and skin do
