@@ -8,6 +8,7 @@
 #include <assimp/Importer.hpp>
 
 #include "bind_pose.hpp"
+#include "check_gltf.hpp"
 #include "file_scene.hpp"
 #include "gltf_rig.hpp"
 #include "input_file.hpp"
@@ -53,11 +54,10 @@ std::string material_name(const aiScene& scene, const aiMesh& mesh) {
 /// Every mesh of every node in the world's coordinates, bound to its bones.
 class Collector {
  public:
-  Collector(const aiScene& scene, const std::filesystem::path& file, const Vec3& offset, FileScene& out)
+  Collector(const aiScene& scene, std::optional<GltfDocument> document, const Vec3& offset, FileScene& out)
       : scene_(scene), offset_(offset), out_(out), nodes_(collect_nodes(scene, out.rig)) {
     for (unsigned i = 0; i < scene.mNumMeshes; ++i) skinned_ = skinned_ || scene.mMeshes[i]->mNumBones > 0;
-    if (format_of(file) != Format::kGltf) return;
-    if (auto document = GltfDocument::open(file)) gltf_ = GltfRig::match(std::move(*document), nodes_);
+    if (document) gltf_ = GltfRig::match(std::move(*document), nodes_);
   }
 
   void collect() {
@@ -154,6 +154,10 @@ engine::Error unreadable(const std::filesystem::path& file, std::string_view why
 
 engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file) {
   if (auto checked = check_readable(file); !checked) return checked.error();
+  std::optional<GltfDocument> document;
+  if (format_of(file) == Format::kGltf) document = GltfDocument::open(file);
+  if (document)
+    if (auto checked = check_gltf(*document, file); !checked) return checked.error();
   Assimp::Importer importer;
   Vec3 offset = Vec3::Zero();
   const aiScene* scene = parse(importer, file, offset);
@@ -170,7 +174,7 @@ engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file) {
   }
   read_fbx_metadata(*scene, result);
   result.rig.world_to_file = world_to_file;
-  Collector(*scene, file, offset, result).collect();
+  Collector(*scene, std::move(document), offset, result).collect();
   for (FileMesh& mesh : result.meshes)
     if (is_made_up(mesh.name)) mesh.name = file.stem().string();
   if (splits_vertices(format_of(file)))
