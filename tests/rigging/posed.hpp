@@ -25,7 +25,7 @@ Vec3 position(const bodice::rig::Skeleton& skeleton, const std::vector<Affine>& 
 
 std::vector<Vec3> skin_at(const bodice::synth::Body& body, const bodice::rig::Clip& clip, double time_s);
 
-/// Vertices of the body whose weight on the joints of this name is above a half, both sides for "foot".
+/// Vertices on which the joint of this name has more than half of the weight.
 std::vector<std::size_t> vertices_of(const bodice::synth::Body& body, std::string_view joint);
 
 }  // namespace posed

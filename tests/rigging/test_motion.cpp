@@ -103,7 +103,8 @@ const Named kBodies[] = {{"average", {}},
                          {"child", {.stature_m = 0.95, .mass_kg = 15.0, .childhood = 0.9}}};
 
 TEST_CASE("soles rest on the floor and do not sink, on any build") {
-  // Of the stature: the made skin's own soles are rounded by this much, and linear blending folds the ball.
+  // Fractions of the stature: the made skin's own soles are rounded by this much, and linear blending folds
+  // the ball.
   constexpr double kSink = 0.008, kFloat = 0.006;
   for (const auto& [label, options] : kBodies) {
     const synth::Body body = posed::made_body(options);
@@ -136,9 +137,9 @@ double slip(const synth::Body& body, const rig::Clip& clip, double within_m) {
     const auto a = posed::skin_at(body, clip, t), b = posed::skin_at(body, clip, t + dt);
     for (const std::size_t v : soles) {
       if (a[v].y() > within_m || b[v].y() > within_m) continue;
-      Vec3 way = b[v] - a[v];
-      way.y() = 0.0;
-      sum += way.norm() / dt;
+      Vec3 step = b[v] - a[v];
+      step.y() = 0.0;
+      sum += step.norm() / dt;
       ++count;
     }
   }

@@ -19,7 +19,7 @@ synth::Body made(const synth::BodyOptions& options) {
   return std::move(body).value();
 }
 
-/// Weight of all joints whose name ends so, of one vertex.
+/// Weight of all joints with names that end so, at one vertex.
 float weight_of(const synth::Body& body, std::size_t v, std::string_view end) {
   float sum = 0.0f;
   for (auto k = body.weights.first[v]; k < body.weights.first[v + 1]; ++k)

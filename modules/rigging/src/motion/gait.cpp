@@ -22,7 +22,7 @@ double wave(double phase, double shift) {
   return std::cos(2.0 * std::numbers::pi * (phase - shift));
 }
 
-/// Of one gait: when the toes leave the floor, how far a cycle comes, and where the foot strikes.
+/// When the toes leave the floor in a gait, how far a cycle comes, and where the foot strikes.
 struct Gait {
   double toes_off, stride, strike;
   double half_width;  ///< of the feet's tracks, in half widths of the hips

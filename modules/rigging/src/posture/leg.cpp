@@ -11,7 +11,7 @@ namespace {
 /// Rear end of the sole behind the ankle, as a multiple of the distance from the ankle to the ball.
 constexpr double kHeelOverBall = 0.22;
 
-/// A frame with the given x axis, whose -y axis runs along the bone.
+/// The frame with the given x axis and -y along the bone.
 Mat3 bone_frame(const Vec3& x, const Vec3& along) {
   Mat3 frame;
   frame << x, -along, x.cross(-along);

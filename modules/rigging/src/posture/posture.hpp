@@ -24,9 +24,9 @@ struct ArmPosture {
 
 struct FootPosture {
   Vec3 ground = Vec3::Zero();  ///< under the ankle of the flat foot; y is how far the sole is lifted
-  double pitch = 0.0;  ///< toes up, about the heel; below 0 heel up, about the ball, whose toes stay flat
-  double yaw = 0.0;    ///< heading of the foot, to the left
-  double toes = 0.0;   ///< most bend of the toes while the heel is up
+  double pitch = 0.0;          ///< toes up, about the heel; below 0 heel up, about the ball; toes stay flat
+  double yaw = 0.0;            ///< heading of the foot, to the left
+  double toes = 0.0;           ///< most bend of the toes while the heel is up
 };
 
 struct Posture {

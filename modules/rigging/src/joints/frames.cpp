@@ -1,0 +1,47 @@
+#include "joints/frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bodice::rigging {
+namespace {
+
+// Between these bends of a hinge, as sines, its plane comes to be trusted: 14 and 30 degrees.
+constexpr double kUncertainBend = 0.24, kCertainBend = 0.5;
+// An arm further from hanging than this, as a cosine, is turned by its side: 120 degrees.
+constexpr double kRaised = -0.5;
+
+}  // namespace
+
+Mat3 frame_of(const Vec3& across, const Vec3& upward) {
+  Mat3 frame;
+  const Vec3 x = across.normalized();
+  const Vec3 z = x.cross(upward).normalized();
+  frame << x, z.cross(x), z;
+  return frame;
+}
+
+Mat3 smallest_turn(const Vec3& from, const Vec3& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+}
+
+Mat3 bone_frame(const Mat3& carrier, const Vec3& along) {
+  return smallest_turn(-carrier.col(1), along) * carrier;
+}
+
+Mat3 upper_arm_frame(const Mat3& chest, const Vec3& along, double sign) {
+  if (along.dot(-chest.col(1)) > kRaised) return bone_frame(chest, along);
+  const Mat3 level = bone_frame(chest, sign * chest.col(0));
+  return bone_frame(level, along);
+}
+
+Mat3 with_hinge(const Mat3& bone, const Vec3& next_along, double sign) {
+  const Vec3 axis = -bone.col(1);
+  const Vec3 bend = sign * (next_along - next_along.dot(axis) * axis);
+  const double trust = std::clamp((bend.norm() - kUncertainBend) / (kCertainBend - kUncertainBend), 0.0, 1.0);
+  if (trust == 0.0) return bone;
+  const double angle_rad = std::atan2(axis.dot(bone.col(2).cross(bend)), bone.col(2).dot(bend));
+  return Eigen::AngleAxisd(trust * angle_rad, axis).toRotationMatrix() * bone;
+}
+
+}  // namespace bodice::rigging
