@@ -126,6 +126,29 @@ cmp -s triangle.obj kept.obj && cmp -s p.json kept.obj || { echo "FAILED: an inp
 for file in same.json a.json b.obj g.obj d.glb; do absent $file; done
 rm p.json
 
+# A rig: any tool's skinned GLB, for a body that has none.
+refused rig -o r.obj
+refused rig --clip fly
+says "walk"
+refused rig body.obj -o body.obj
+for value in nan 90; do refused rig --arms-out "$value"; done
+expect 1 "a triangle has no joints" "$bodice" rig triangle.obj -o none.glb
+one_line
+absent none.glb
+expect 0 "make a body to rig" "$bodice" make --vertices 3000 --pose sit -o seated.obj -q
+expect 0 "rig it" "$bodice" rig seated.obj -o seated.glb --clip walk sit
+says "22 joints, 2 clips"
+exists seated.glb
+for word in '"skins"' '"inverseBindMatrices"' '"JOINTS_0"' '"WEIGHTS_0"' '"walk"' '"sit"' '"forearm_l"'; do
+  grep -qa -- "$word" seated.glb || { echo "FAILED: no $word in the rigged GLB"; failures=$((failures + 1)); }
+done
+grep -qa '"dance"' seated.glb && { echo "FAILED: a clip that nobody wanted"; failures=$((failures + 1)); }
+expect 0 "rig it again" "$bodice" rig seated.obj -o again.glb --clip walk sit --threads 1 -q
+cmp -s seated.glb again.glb || { echo "FAILED: one worker gives another rig"; failures=$((failures + 1)); }
+expect 0 "the built-in body brings its rig" "$bodice" rig --vertices 2000 -o builtin.glb
+says "9 clips"
+expect 0 "a rigged file is a body" "$bodice" fit seated.glb --tier paper -o seated.json -q
+
 expect 0 "make a body and a garment" "$bodice" make --vertices 4500 -o body.obj --garment skirt --garment-out skirt.obj
 exists body.obj
 exists skirt.obj

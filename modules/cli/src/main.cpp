@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   add_fit_command(app, exit_code, command_line);
   add_drape_command(app, exit_code, command_line);
   add_make_command(app, exit_code);
+  add_rig_command(app, exit_code);
   add_query_command(app, exit_code);
   add_bench_command(app, exit_code, argv[0]);
   try {

@@ -55,6 +55,7 @@ fitting::FitOptions fit_options(const CommonOptions& options);
 void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line);
 void add_drape_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line);
 void add_make_command(CLI::App& app, int& exit_code);
+void add_rig_command(CLI::App& app, int& exit_code);
 void add_query_command(CLI::App& app, int& exit_code);
 void add_bench_command(CLI::App& app, int& exit_code, const std::string& program);
 
