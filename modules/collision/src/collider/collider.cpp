@@ -125,7 +125,7 @@ std::size_t Collider::size() const noexcept {
 }
 
 bool Collider::has_relief() const noexcept {
-  return impl_->tables() != nullptr;
+  return impl_->model.relief.has_value();
 }
 
 std::uint64_t Collider::proxy_hash() const noexcept {
@@ -153,7 +153,7 @@ bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
   impl_->moved_dt_s = dt_s;
   impl_->travel_m = static_cast<float>(1.001 * travel_m);
   impl_->field.update(impl_->shapes);
-  impl_->baked.update(impl_->shapes);
+  impl_->model.baked.update(impl_->shapes);
   return true;
 }
 
@@ -190,7 +190,7 @@ std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
   for (std::uint32_t k = 0; k < impl_->field.size(); ++k) {
     const geometry::ClosestPoint at = geometry::closest_point(impl_->field.shape(k), p);
     ReliefSample sample{at.signed_distance, at.normal, k};
-    if (impl_->relief) sample = correct(impl_->field, *impl_->relief, k, at);
+    if (impl_->model.relief) sample = correct(impl_->field, *impl_->model.relief, k, at);
     const Contact contact = impl_->make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), k);
     if (contact.signed_distance > within_m) continue;
     // Inserts the contact into the sorted front part; the farthest drops out when it is full.
@@ -216,7 +216,7 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
 
 ParticleSequence Collider::Impl::begin_call(const Particles& particles, WorkspaceData* workspace) const {
   if (!workspace) return {};
-  workspace->candidates.begin_call(particles.count, shapes, relief ? relief->blend_m : 0.0f);
+  workspace->candidates.begin_call(particles.count, shapes, model.beyond_m());
   workspace->order.refresh(particles);
   return {workspace->order.order(), 0, workspace};
 }
@@ -254,7 +254,7 @@ ContactReport Collider::Impl::resolve(const engine::Context& context, const Part
   }
   SharedReport total;
   for_tasks<ContactReport>(
-      context, particles, begin_call(particles, workspace), batch_size(options, relief.has_value()),
+      context, particles, begin_call(particles, workspace), batch_size(options, model.relief.has_value()),
       [&](std::size_t begin, std::size_t end, const ParticleSequence& sequence, ContactReport& report) {
         resolve_range(particles, begin, end, sequence, options, report);
       },

@@ -143,8 +143,8 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
       margin_m(proxy.margin_m()),
       shapes(local_shapes(origin, proxy, proxy_index)),
       field(shapes),
-      baked(shapes, proxy_index) {
-  if (proxy.relief().size() == shapes.size() && !shapes.empty()) relief.emplace(proxy, proxy_index);
+      model{Baked(shapes, proxy_index), std::nullopt} {
+  if (proxy.relief().size() == shapes.size() && !shapes.empty()) model.relief.emplace(proxy, proxy_index);
   internal_index.resize(proxy_index.size());
   for (std::uint32_t k = 0; k < proxy_index.size(); ++k) internal_index[proxy_index[k]] = k;
   for (const std::uint32_t k : proxy_index) part.push_back(proxy.ellipsoids()[k].part);
@@ -168,8 +168,8 @@ Contact Collider::Impl::make_contact(const Vec3& p, double distance_m, const Vec
 
 Contact Collider::Impl::exact_contact(const Vec3& p) const {
   if (!p.allFinite() || field.size() == 0) return no_contact();
-  if (relief) {
-    const ReliefSample sample = relief_sample(field, *relief, p);
+  if (model.relief) {
+    const ReliefSample sample = relief_sample(field, *model.relief, p);
     return make_contact(p, sample.distance_m, sample.gradient.stableNormalized(), sample.owner);
   }
   const Owner owner = field.owner(p, std::numeric_limits<double>::infinity());
@@ -181,6 +181,7 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   ++report.judged_exactly;
   ParticleState state = load(particles, i);
   const double clearance_m = margin_m + double{options.thickness_m};
+  const ReliefTables* const relief = model.relief ? &*model.relief : nullptr;
   if (moving) {
     const Owner owner = field.owner(state.position, std::numeric_limits<double>::infinity());
     state.surface_velocity = motion[owner.ellipsoid].at(state.position);
@@ -193,48 +194,38 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   if (options.response == Response::kPaper)
     one = resolve_paper(field, clearance_m, state);
   else
-    one = resolve_closest_point(field, tables(), clearance_m, options, state);
+    one = resolve_closest_point(field, relief, clearance_m, options, state);
   if (one.outcome == Outcome::kClear) return;
   store(state, particles, i);
   count(one, part[one.ellipsoid], report);
 }
 
-void Collider::Impl::resolve_range(const Particles& particles, std::size_t begin, std::size_t end,
-                                   const ParticleSequence& sequence, const ResolveOptions& options,
-                                   ContactReport& report) const {
+ResponseParameters Collider::Impl::parameters_of(const ResolveOptions& options) const {
+  return {.clearance_m = static_cast<float>(margin_m) + options.thickness_m,
+          .slack_m = static_cast<float>(kCertificate * field.size_m()),
+          .friction = options.friction,
+          .max_push_m = options.max_push_m,
+          .motion = moving ? motion.data() : nullptr,
+          .dt_s = static_cast<float>(moved_dt_s),
+          .travel_m = moving ? travel_m : 0.0f,
+          .blend_m = options.blend_m};
+}
+
+Status Collider::Impl::resolve_by_kernel(const Particles& particles, std::size_t begin, std::size_t end,
+                                         const ParticleSequence& sequence, const ResolveOptions& options,
+                                         ContactReport& report) const {
   GatheredBatch gathered;
   gather(particles, sequence.from(begin), begin, end, gathered);
-  if (field.size() == 0) {
-    report.not_finite += gathered.not_finite;
-    return;
-  }
   ParticleBatch& batch = gathered.batch;
   batch.cache = cache_access_of(particles, begin, end, sequence.workspace);
-  batch.next_batch = next_batch_of(particles, end, sequence, nullptr);
-  const ResponseParameters parameters{static_cast<float>(margin_m) + options.thickness_m,
-                                      static_cast<float>(kCertificate * field.size_m()),
-                                      options.friction,
-                                      options.max_push_m,
-                                      moving ? motion.data() : nullptr,
-                                      static_cast<float>(moved_dt_s),
-                                      moving ? travel_m : 0.0f,
-                                      options.blend_m};
+  batch.next = next_batch_of(particles, end, sequence, nullptr);
   BatchResponse response;
-  const bool settled = batch.count == 0 || (options.response == Response::kClosestPoint &&
-                                            resolve_batch(baked, tables(), parameters, batch, response));
-  if (!settled && options.response == Response::kClosestPoint && end - begin > kBlock) {
-    // The candidates of one block may fit where those of the batch overflow.
-    for (std::size_t from = begin; from < end; from += kBlock)
-      resolve_range(particles, from, std::min(from + kBlock, end), sequence, options, report);
-    return;
-  }
+  // A particle that is pushed too far away for floats goes to the exact side, as do those that overflow a
+  // list.
+  if (batch.count > 0 && resolve_batch(model, parameters_of(options), batch, response) != Status::kDone)
+    return Status::kTooMany;
   report.not_finite += gathered.not_finite;
   for (int i = 0; i < gathered.far_count; ++i) resolve_exactly(particles, gathered.far[i], options, report);
-  if (!settled) {
-    for (int lane = 0; lane < batch.count; ++lane)
-      resolve_exactly(particles, gathered.index[lane], options, report);
-    return;
-  }
   WorkspaceData* const workspace = sequence.workspace;
   for (std::size_t block = 0; workspace && block * kBlock < static_cast<std::size_t>(batch.count); ++block)
     workspace->order.note_radius(begin / kBlock + block, response.radius_m[block]);
@@ -247,6 +238,39 @@ void Collider::Impl::resolve_range(const Particles& particles, std::size_t begin
   report.max_iterations = std::max(report.max_iterations, response.iterations);
   for_lanes(response.left_to_exact, batch.count,
             [&](int lane) { resolve_exactly(particles, gathered.index[lane], options, report); });
+  return Status::kDone;
+}
+
+void Collider::Impl::resolve_all_exactly(const Particles& particles, std::size_t begin, std::size_t end,
+                                         const ParticleSequence& sequence, const ResolveOptions& options,
+                                         ContactReport& report) const {
+  GatheredBatch gathered;
+  gather(particles, sequence.from(begin), begin, end, gathered);
+  report.not_finite += gathered.not_finite;
+  if (field.size() == 0) return;
+  for (int i = 0; i < gathered.far_count; ++i) resolve_exactly(particles, gathered.far[i], options, report);
+  for (int lane = 0; lane < gathered.batch.count; ++lane)
+    resolve_exactly(particles, gathered.index[lane], options, report);
+}
+
+void Collider::Impl::resolve_range(const Particles& particles, std::size_t begin, std::size_t end,
+                                   const ParticleSequence& sequence, const ResolveOptions& options,
+                                   ContactReport& report) const {
+  if (field.size() == 0 || options.response != Response::kClosestPoint) {
+    resolve_all_exactly(particles, begin, end, sequence, options, report);
+    return;
+  }
+  const auto from = [&](int lane) { return begin + static_cast<std::size_t>(lane); };
+  constexpr int kSizes[] = {kBlock};
+  with_fallback(
+      {0, static_cast<int>(end - begin)}, kSizes,
+      [&](LaneSpan some) {
+        return resolve_by_kernel(particles, from(some.begin), from(some.end), sequence, options, report);
+      },
+      [&](LaneSpan some) {
+        resolve_all_exactly(particles, from(some.begin), from(some.end), sequence, options, report);
+        return Status::kDone;
+      });
 }
 
 }  // namespace bodice::collision

@@ -1,7 +1,6 @@
 // The data of a Collider, and its work on one batch at a time.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include <bodice/collision/collider.hpp>
@@ -11,8 +10,7 @@
 #include "exact/response.hpp"
 #include "exact/union_field.hpp"
 #include "model/affine_motion.hpp"
-#include "model/baked.hpp"
-#include "model/relief_tables.hpp"
+#include "model/proxy_model.hpp"
 #include "model/surface_motion.hpp"
 #include "simd/dispatch/kernels.hpp"
 
@@ -21,8 +19,6 @@ namespace bodice::collision {
 /// The data of a Collider: a proxy in all the forms that queries and responses read.
 struct Collider::Impl {
   explicit Impl(const proxy::BodyProxy& proxy);
-
-  const ReliefTables* tables() const { return relief ? &*relief : nullptr; }
 
   /// `workspace` may be null: each task then visits its particles in the order of the arrays, or in a sorted
   /// order of its own.
@@ -34,7 +30,6 @@ struct Collider::Impl {
   void query_range(const Particles& particles, std::size_t begin, std::size_t end,
                    const ParticleSequence& sequence, const QueryOptions& options,
                    std::span<Contact> contacts) const;
-  bool query_kernel(QueryBatch& batch, std::size_t block, WorkspaceData* workspace) const;
   /// Starts a call with the current pose: refreshes order and candidate cache of the workspace, which may be
   /// null, and returns the order to visit all particles in.
   ParticleSequence begin_call(const Particles& particles, WorkspaceData* workspace) const;
@@ -47,6 +42,16 @@ struct Collider::Impl {
   void resolve_range(const Particles& particles, std::size_t begin, std::size_t end,
                      const ParticleSequence& sequence, const ResolveOptions& options,
                      ContactReport& report) const;
+  /// Resolves the particles [begin, end) with the kernel. Unless it is done, no particle has moved, and
+  /// nothing is counted.
+  Status resolve_by_kernel(const Particles& particles, std::size_t begin, std::size_t end,
+                           const ParticleSequence& sequence, const ResolveOptions& options,
+                           ContactReport& report) const;
+  /// Resolves the particles [begin, end), at most kBatch, on the exact side.
+  void resolve_all_exactly(const Particles& particles, std::size_t begin, std::size_t end,
+                           const ParticleSequence& sequence, const ResolveOptions& options,
+                           ContactReport& report) const;
+  ResponseParameters parameters_of(const ResolveOptions& options) const;
   /// Resolves one particle on the exact side, in the caller's arrays.
   void resolve_exactly(const Particles& particles, std::uint32_t i, const ResolveOptions& options,
                        ContactReport& report) const;
@@ -63,8 +68,7 @@ struct Collider::Impl {
   double margin_m;
   std::vector<geometry::Ellipsoid> shapes;  ///< current pose, local frame
   UnionField field;
-  Baked baked;
-  std::optional<ReliefTables> relief;
+  ProxyModel model;
   std::vector<body::Part> part;
   std::vector<SurfaceMotion> motion;
   std::vector<AffineMotion> affine_motions;  ///< those of the last move

@@ -12,13 +12,14 @@ namespace bodice::collision {
 namespace {
 
 /// Positions of a batch and their indices in the caller's arrays.
-struct alignas(64) Positions {
+struct alignas(64) GatheredPositions {
   float x[kBatch], y[kBatch], z[kBatch];
   std::uint32_t index[kBatch];
   int count = 0;
 };
 
-void copy(const float* from, const Positions& positions, std::size_t begin, bool in_order, float* to) {
+void copy(const float* from, const GatheredPositions& positions, std::size_t begin, bool in_order,
+          float* to) {
   if (in_order) {
     std::memcpy(to, from + begin, static_cast<std::size_t>(positions.count) * sizeof(float));
     return;
@@ -27,7 +28,7 @@ void copy(const float* from, const Positions& positions, std::size_t begin, bool
 }
 
 void gather_positions(const Particles& particles, const ParticleSequence& sequence, std::size_t begin,
-                      std::size_t end, Positions& out) {
+                      std::size_t end, GatheredPositions& out) {
   out.count = static_cast<int>(end - begin);
   if (sequence.stored())
     std::iota(out.index, out.index + out.count, static_cast<std::uint32_t>(begin));
@@ -39,7 +40,7 @@ void gather_positions(const Particles& particles, const ParticleSequence& sequen
 }
 
 /// The comparison is false for NaN, too; it has no branch, so that loops compile to vector code.
-bool near(const Positions& positions, int i) {
+bool near(const GatheredPositions& positions, int i) {
   const int x = std::abs(positions.x[i]) < kFarthest_m, y = std::abs(positions.y[i]) < kFarthest_m,
             z = std::abs(positions.z[i]) < kFarthest_m;
   return (x & y & z) != 0;
@@ -47,7 +48,7 @@ bool near(const Positions& positions, int i) {
 
 /// Removes positions that floats cannot represent well enough and calls `other` for each; the rest closes up.
 template <class Other>
-void drop_far(Positions& positions, Other&& other) {
+void drop_far(GatheredPositions& positions, Other&& other) {
   int kept = 0;
   for (int i = 0; i < positions.count; ++i) {
     if (!near(positions, i)) {
@@ -63,14 +64,14 @@ void drop_far(Positions& positions, Other&& other) {
 }
 
 /// Repeats the last position until the block is full.
-void pad(Positions& positions) {
+void pad(GatheredPositions& positions) {
   const int end = (positions.count + kBlock - 1) / kBlock * kBlock;
   for (float* values : {positions.x, positions.y, positions.z})
     std::fill(values + positions.count, values + end, values[positions.count - 1]);
 }
 
 /// Takes position i alone.
-void take(const Positions& positions, int i, Positions& out) {
+void take(const GatheredPositions& positions, int i, GatheredPositions& out) {
   out.x[0] = positions.x[i];
   out.y[0] = positions.y[i];
   out.z[0] = positions.z[i];
@@ -80,14 +81,6 @@ void take(const Positions& positions, int i, Positions& out) {
 }
 
 }  // namespace
-
-bool Collider::Impl::query_kernel(QueryBatch& batch, std::size_t block, WorkspaceData* workspace) const {
-  if (!query_batch(baked, tables(), batch)) return false;
-  const std::size_t blocks = static_cast<std::size_t>((batch.count + kBlock - 1) / kBlock);
-  for (std::size_t i = 0; workspace && i < blocks; ++i)
-    workspace->order.note_radius(block + i, batch.radius_m[i]);
-  return true;
-}
 
 CacheAccess Collider::Impl::cache_access_of(const Particles& particles, std::size_t begin, std::size_t end,
                                             WorkspaceData* workspace) const {
@@ -114,25 +107,41 @@ NextBatch Collider::Impl::next_batch_of(const Particles& particles, std::size_t 
   return next;
 }
 
+namespace {
+
+/// The batch of some gathered positions; one of them alone is copied, because its block must be full.
+Positions view_of(const GatheredPositions& positions, LaneSpan lanes, GatheredPositions& alone) {
+  const auto from = static_cast<std::size_t>(lanes.begin);
+  if (lanes.size() > 1) return {positions.x + from, positions.y + from, positions.z + from, lanes.size()};
+  take(positions, lanes.begin, alone);
+  return {alone.x, alone.y, alone.z, 1};
+}
+
+}  // namespace
+
 void Collider::Impl::query_range(const Particles& particles, std::size_t begin, std::size_t end,
                                  const ParticleSequence& sequence, const QueryOptions& options,
                                  std::span<Contact> contacts) const {
   const int all = static_cast<int>(end - begin);
-  QueryBatch batch{.x = particles.x + begin,
-                   .y = particles.y + begin,
-                   .z = particles.z + begin,
-                   .index = nullptr,
-                   .count = all,
-                   .margin_m = static_cast<float>(margin_m),
-                   .within_m = options.within_m,
-                   .accuracy = options.accuracy,
-                   .contacts = contacts.data() + begin,
-                   .radius_m = {},
-                   .cache = cache_access_of(particles, begin, end, sequence.workspace)};
-  batch.next_batch = next_batch_of(particles, end, sequence, contacts.data());
+  const bool exact = options.accuracy == Accuracy::kExact;
+  Batch batch{.at = {particles.x + begin, particles.y + begin, particles.z + begin, all},
+              .cache = cache_access_of(particles, begin, end, sequence.workspace),
+              // A first-order query stores contacts in each step, and prefetching more of them would hold up
+              // these stores.
+              .next = next_batch_of(particles, end, sequence, exact ? contacts.data() : nullptr)};
+  ContactOutput out{.contacts = contacts.data() + begin,
+                    .margin_m = static_cast<float>(margin_m),
+                    .within_m = options.within_m};
+  const auto kernel = [&](std::size_t first_block) {
+    const Status status = query_batch(model, options.accuracy, batch, out);
+    const int blocks = (batch.at.count + kBlock - 1) / kBlock;
+    for (int i = 0; sequence.workspace && status == Status::kDone && i < blocks; ++i)
+      sequence.workspace->order.note_radius(first_block + static_cast<std::size_t>(i), batch.radius_m[i]);
+    return status;
+  };
   const bool in_place = sequence.stored() && all == kBatch;
-  if (in_place && field.size() > 0 && query_kernel(batch, begin / kBlock, sequence.workspace)) return;
-  Positions positions;
+  if (in_place && field.size() > 0 && kernel(begin / kBlock) == Status::kDone) return;
+  GatheredPositions positions, alone;
   gather_positions(particles, sequence, begin, end, positions);
   const auto exactly = [&](int i) {
     const Contact found =
@@ -143,35 +152,28 @@ void Collider::Impl::query_range(const Particles& particles, std::size_t begin, 
     for (int i = 0; i < positions.count; ++i) exactly(i);
     return;
   }
-  batch.contacts = contacts.data();
-  const auto kernel = [&](int from, int count) {
-    batch.x = positions.x + from, batch.y = positions.y + from, batch.z = positions.z + from;
-    batch.index = positions.index + from;
-    batch.count = count;
-    return query_kernel(batch, (begin + static_cast<std::size_t>(from)) / kBlock, sequence.workspace);
+  out.contacts = contacts.data();
+  const auto gathered = [&](LaneSpan lanes) {
+    batch.at = view_of(positions, lanes, alone);
+    out.index = positions.index + lanes.begin;
+    return kernel((begin + static_cast<std::size_t>(lanes.begin)) / kBlock);
   };
   pad(positions);
-  if (!in_place && kernel(0, positions.count)) return;
+  if (!in_place && gathered({0, positions.count}) == Status::kDone) return;
   batch.cache = {};
-  batch.next_batch = {};
+  batch.next = {};
   // Either the candidates overflowed, which those of single blocks may not, or some particles are too far
   // away for floats.
   drop_far(positions, exactly);
   if (positions.count == 0) return;
   pad(positions);
-  for (int from = 0; from < positions.count; from += kBlock) {
-    const int to = std::min(from + kBlock, positions.count);
-    if (kernel(from, to - from)) continue;
-    // Whether floats suffice for a particle must not depend on its neighbors.
-    for (int i = from; i < to; ++i) {
-      Positions alone;
-      take(positions, i, alone);
-      batch.x = alone.x, batch.y = alone.y, batch.z = alone.z;
-      batch.index = alone.index;
-      batch.count = 1;
-      if (!query_kernel(batch, 0, nullptr)) exactly(i);
-    }
-  }
+  // Whether floats suffice for a particle must not depend on its neighbors.
+  constexpr int kSizes[] = {1};
+  for (int from = 0; from < positions.count; from += kBlock)
+    with_fallback({from, std::min(from + kBlock, positions.count)}, kSizes, gathered, [&](LaneSpan lanes) {
+      exactly(lanes.begin);
+      return Status::kDone;
+    });
 }
 
 }  // namespace bodice::collision

@@ -31,26 +31,35 @@ struct CacheAccess {
 /// What the next batch will read and write, so that it can be prefetched.
 struct NextBatch {
   const float *x = nullptr, *y = nullptr, *z = nullptr;  ///< null unless its particles are consecutive
-  Contact* contacts = nullptr;                           ///< null: a response, which writes none
+  Contact* contacts = nullptr;                           ///< null: not to be prefetched
   const std::uint32_t* index = nullptr;  ///< into contacts; null: they are consecutive as well
   int count = 0;
   const CachedBatch* cached = nullptr;
 };
 
-/// Input and output of a query for one batch.
-struct QueryBatch {
-  const float *x, *y, *z;      ///< meters, local frame; the last one is repeated to fill a block
-  const std::uint32_t* index;  ///< into contacts, one a particle; null: in order
-  int count;                   ///< at most kBatch
-  float margin_m;
-  float within_m;  ///< contact distance: particles beyond it get no_contact()
-  Accuracy accuracy = Accuracy::kExact;
-  Contact* contacts;  ///< those of the whole call
-  float
-      radius_m[kBatch / kBlock];  ///< out, one a block: half the diagonal of its box; negative: not measured
-  CacheAccess cache = {};
-  NextBatch next_batch = {};
+/// Positions of at most kBatch particles; the last one is repeated to fill a block. Meters, local frame.
+struct Positions {
+  const float *x = nullptr, *y = nullptr, *z = nullptr;
+  int count = 0;
+};
 
+/// Particles that are evaluated together.
+struct Batch {
+  Positions at;
+  CacheAccess cache = {};
+  NextBatch next = {};
+  float radius_m[kBatch / kBlock] =
+      {};  ///< out, one a block: half the diagonal of its box; negative: unknown
+};
+
+/// Receives the contacts of a batch.
+struct ContactOutput {
+  Contact* contacts = nullptr;           ///< those of the whole call
+  const std::uint32_t* index = nullptr;  ///< into contacts, one a particle; null: in order
+  float margin_m = 0.0f;
+  float within_m = std::numeric_limits<float>::infinity();  ///< particles beyond it get no_contact()
+
+  Contact& of(int lane) const { return contacts[index ? index[lane] : static_cast<std::uint32_t>(lane)]; }
   bool limited() const { return within_m != std::numeric_limits<float>::infinity(); }
 };
 
@@ -72,7 +81,7 @@ struct alignas(64) ParticleBatch {
   bool has_velocity = false;
   bool has_safe = false;
   CacheAccess cache = {};
-  NextBatch next_batch = {};
+  NextBatch next = {};
 };
 
 /// Settings of a response as the kernel needs them.

@@ -1,7 +1,7 @@
-// The candidates of boxes: ellipsoids that no other ellipsoid dominates. The distance d_j is convex, and the
-// tangent plane of another ellipsoid k lies below d_k. Hence d_j minus the plane is convex and largest at a
-// corner of the box. If d_j is less than the plane at all eight corners, j dominates k: it is nearer
-// everywhere in the box.
+// The rules by which candidates of boxes are found. Candidates are ellipsoids that no other ellipsoid
+// dominates. The distance d_j is convex, and the tangent plane of another ellipsoid k lies below d_k. Hence
+// d_j minus the plane is convex and largest at a corner of the box. If d_j is less than the plane at all
+// eight corners, j dominates k: it is nearer everywhere in the box.
 #if defined(BODICE_COLLISION_DOMINATION_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_DOMINATION_INL_
 #undef BODICE_COLLISION_DOMINATION_INL_
@@ -13,51 +13,17 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
-#include "simd/broad/tangent_candidates-inl.hpp"
-#include "simd/ellipsoid/columns-inl.hpp"
-#include "simd/math/pack-inl.hpp"
+#include "simd/broad/search-inl.hpp"
+#include "simd/ellipsoid/closest_point-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-constexpr int kBlocks = kBatch / kBlock;
-constexpr int kCorners = 8, kDominators = 2;
-constexpr float kNoLimit_m = 1e30f;
+constexpr int kDominators = 2;
 static_assert(kDominators * kCorners % kWidth == 0);
 static_assert(kGroup % kWidth == 0);
-
-/// Consecutive lanes of a batch and their AABB.
-struct LaneRange {
-  Aabb box;
-  int begin, end;
-};
-
-/// Indices of candidates, rising; whole vectors are written behind the last.
-struct CandidateList {
-  int count = 0;
-  alignas(64) std::int32_t index[kMaxCandidates + 16];
-};
-
-/// The numbers of BallMap, a different ellipsoid in each lane.
-struct BallLanes {
-  V3 a0, a1, a2, offset, inverse_radius;
-};
-
-/// `row` reads the members of BallMap by their index.
-template <class Row>
-HWY_INLINE BallLanes ball_lanes(Row&& row) {
-  const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
-  return {row3(0), row3(3), row3(6), row3(kBallOffset), row3(kBallInverse)};
-}
-
-/// The points p in the frames in which the ellipsoids are unit balls.
-HWY_INLINE V3 in_ball(const BallLanes& e, V3 p) {
-  const auto row = [&](V3 a, V offset) {
-    return hn::MulAdd(a.x, p.x, hn::MulAdd(a.y, p.y, hn::MulAdd(a.z, p.z, offset)));
-  };
-  return {row(e.a0, e.offset.x), row(e.a1, e.offset.y), row(e.a2, e.offset.z)};
-}
 
 /// rounding_over() the box of each range.
 struct RangeRounding {
@@ -65,74 +31,6 @@ struct RangeRounding {
 
   HWY_INLINE RangeRounding(const LaneRange* ranges, int count) {
     for (int i = 0; i < count; ++i) m[i] = rounding_over(ranges[i].box);
-  }
-};
-
-/// Source of candidates: the proxy's ellipsoids [begin, end). Groups with boxes too far away are skipped.
-struct AllEllipsoids {
-  const Baked& baked;
-  int begin, end;  ///< begin is the first ellipsoid of a group
-
-  explicit AllEllipsoids(const Baked& b) : AllEllipsoids(b, 0, static_cast<int>(b.size())) {}
-  AllEllipsoids(const Baked& b, int first, int last) : baked(b), begin(first), end(last) {}
-
-  /// Distance from the box to the nearest group.
-  HWY_INLINE float least_gap(const Aabb& box) const {
-    V least = all(1e30f);
-    for_groups([&](int group) { least = hn::Min(least, gap(box, group)); });
-    return hn::GetLane(hn::MinOfLanes(f, least));
-  }
-  /// Calls work(index of the first ellipsoid) for each vector of ellipsoids that may come within `within_m`
-  /// of the box.
-  template <class Work>
-  HWY_INLINE void for_vectors(const Aabb& box, float within_m, Work&& work) const {
-    const V limit = all(std::max(0.0f, within_m) + baked.rounding_m + rounding_over(box));
-    for_groups([&](int group) {
-      const std::uint64_t near = bits(hn::Le(gap(box, group), limit));
-      for (std::uint64_t left = near; left != 0; left &= left - 1) {
-        const int first = (group + std::countr_zero(left)) * kGroup;
-        for (int k = first; k < std::min(first + kGroup, end); k += kWidth) work(k);
-      }
-    });
-  }
-  HWY_INLINE BallLanes balls(int k) const {
-    return ball_lanes([&](int i) { return hn::LoadU(f, baked.cull.ball[i].data() + k); });
-  }
-  /// The first ellipsoid in as many lanes as a box has corners, the second in the lanes above; a narrow
-  /// vector holds the first alone.
-  HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
-    const auto one = [&](std::int32_t k) { return broadcast(baked.ellipsoids[static_cast<std::size_t>(k)]); };
-    if constexpr (kWidth <= kCorners) return one(first);
-    return select(hn::FirstN(f, kCorners), one(first), one(second));
-  }
-
- private:
-  template <class Work>
-  HWY_INLINE void for_groups(Work&& work) const {
-    for (int group = begin / kGroup; group * kGroup < end; group += kWidth) work(group);
-  }
-  HWY_INLINE V gap(const Aabb& box, int group) const {
-    return box_distance(baked.cull.group_low, baked.cull.group_high, box, static_cast<std::size_t>(group));
-  }
-};
-
-/// Source of candidates: the columns that several blocks share.
-template <int kTables>
-struct ColumnEllipsoids {
-  const Columns& columns;
-  int end = columns.count();
-
-  HWY_INLINE float least_gap(const Aabb&) const { return 0.0f; }
-  template <class Work>
-  HWY_INLINE void for_vectors(const Aabb&, float, Work&& work) const {
-    for (int k = 0; k < end; k += kWidth) work(k);
-  }
-  HWY_INLINE BallLanes balls(int k) const {
-    return ball_lanes([&](int i) { return hn::LoadU(f, columns.row(Columns::kBall + i) + k); });
-  }
-  HWY_INLINE Shape shapes(std::int32_t first, std::int32_t second) const {
-    const VI lower = hn::Set(I(), first), upper = hn::Set(I(), second);
-    return shape_of<kTables>(columns, hn::IfThenElse(hn::FirstN(I(), kCorners), lower, upper));
   }
 };
 
@@ -261,16 +159,24 @@ HWY_INLINE M not_dominated(const BoundPlanes& at, V3 slope, V3 half, const Domin
   return hn::Not(hn::And(hn::Gt(hn::Max(lead[0], lead[1]), beyond), hn::Eq(at.base, at.base)));
 }
 
-/// Lists for each range, by rising index, the ellipsoids of the source within `within_m` of `around` that
-/// keep(bounds, planes at the middle, range) accepts. False if there are more than kMaxCandidates.
+/// The ellipsoids of a source within `within_m` of a box.
+template <class Source>
+struct Vicinity {
+  const Source& source;
+  const Aabb& around;
+  float within_m;
+};
+
+/// Lists for each range, by rising index, the ellipsoids of the vicinity that keep(bounds, planes at the
+/// middle, range) accepts. False if there are more than kMaxCandidates.
 template <class Source, class Keep>
-HWY_INLINE bool collect_candidates(const Source& source, const Aabb& around, float within_m,
-                                   const LaneRange* ranges, int count, CandidateList* out, Keep&& keep) {
+HWY_INLINE bool collect_candidates(const Vicinity<Source>& from, const LaneRange* ranges, int count,
+                                   CandidateList* out, Keep&& keep) {
   for (int i = 0; i < count; ++i) out[i].count = 0;
-  const VI end = hn::Set(I(), source.end);
+  const VI end = hn::Set(I(), from.source.end);
   bool fits = true;
-  source.for_vectors(around, within_m, [&](int k) {
-    const BallLanes lanes = source.balls(k);
+  from.source.for_vectors(from.around, from.within_m, [&](int k) {
+    const BallLanes lanes = from.source.balls(k);
     const VI index = lanes_from(k);
     const M real = hn::RebindMask(f, hn::Lt(index, end));
     for (int i = 0; i < count; ++i) {
@@ -293,49 +199,74 @@ HWY_INLINE M not_beyond(const BoundPlanes& at, V3 slope, V3 half, V limit) {
   return hn::Not(hn::Gt(hn::Sub(at.base, dot(absolute(slope), half)), limit));
 }
 
-/// Lists for each range, by rising index, the candidates among the source's ellipsoids; the boxes lie in
-/// `around`. An ellipsoid is a candidate if
+/// The rule by which candidates are found among the ellipsoids of a source. An ellipsoid is a candidate if
 /// 1. it is not dominated, or comes within `beyond_m` of the nearest ellipsoid somewhere in the box, and
-/// 2. it may come within `limit_m` of some point of the box (kNoLimit_m: always).
-/// False on overflow: more than kMaxCandidates.
-template <bool kLimited, class Source>
-HWY_INLINE bool collect_not_dominated(const Source& source, const Aabb& around, const LaneRange* ranges,
-                                      int count, const Dominators* dominators, float beyond_m, float limit_m,
-                                      CandidateList* out) {
-  const RangeRounding rounding(ranges, count);
-  const auto keep = [&](const BallLanes& lanes, const BoundPlanes& at, int i) {
-    const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // error of the plane and of the dominator
-    const V3 slope = slope_of(lanes, at), half = broadcast3(ranges[i].box.half);
-    const M chosen = not_dominated(at, slope, half, dominators[i], beyond);
-    if constexpr (!kLimited) return chosen;
-    return hn::And(chosen, not_beyond(at, slope, half, all(limit_m + rounding.m[i])));
-  };
-  const float within_m = farthest_corner_m(dominators, count) + beyond_m;
-  return collect_candidates(source, around, kLimited ? std::min(within_m, limit_m) : within_m, ranges, count,
-                            out, keep);
-}
+/// 2. it may come within `limit_m` of some point of the box (only if kLimited).
+template <bool kLimited>
+struct NotDominated {
+  float beyond_m;
+  float limit_m = kNoLimit_m;
 
-/// Finds the two dominators of each range, then its candidates as collect_not_dominated() does.
-template <bool kLimited, class Source>
-HWY_INLINE bool find_candidates(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
-                                float beyond_m, float limit_m, CandidateList* out) {
-  Dominators dominators[kBlocks];
-  find_dominators(source, around, ranges, count, dominators);
-  measure_corners(source, ranges, count, dominators);
-  return collect_not_dominated<kLimited>(source, around, ranges, count, dominators, beyond_m, limit_m, out);
-}
+  template <class Source>
+  HWY_INLINE bool operator()(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
+                             CandidateList* out) const {
+    Dominators dominators[kBlocks];
+    find_dominators(source, around, ranges, count, dominators);
+    measure_corners(source, ranges, count, dominators);
+    return collect(source, around, ranges, std::span(dominators, static_cast<std::size_t>(count)), out);
+  }
 
-/// Lists for each range, by rising index, the ellipsoids of the source that may come within `limit_m` of some
-/// point of its box. False on overflow.
-template <class Source>
-HWY_INLINE bool find_candidates_below(const Source& source, const Aabb& around, const LaneRange* ranges,
-                                      int count, float limit_m, CandidateList* out) {
-  const RangeRounding rounding(ranges, count);
-  const auto keep = [&](const BallLanes& lanes, const BoundPlanes& at, int i) {
-    return not_beyond(at, slope_of(lanes, at), broadcast3(ranges[i].box.half), all(limit_m + rounding.m[i]));
-  };
-  return collect_candidates(source, around, limit_m, ranges, count, out, keep);
-}
+  /// The candidates of ranges, one list each, given their dominators.
+  template <class Source>
+  HWY_INLINE bool collect(const Source& source, const Aabb& around, const LaneRange* ranges,
+                          std::span<const Dominators> dominators, CandidateList* out) const {
+    const int count = static_cast<int>(dominators.size());
+    const RangeRounding rounding(ranges, count);
+    const auto keep = [&](const BallLanes& lanes, const BoundPlanes& at, int i) {
+      const V beyond = all(beyond_m + 2.0f * rounding.m[i]);  // error of the plane and of the dominator
+      const V3 slope = slope_of(lanes, at), half = broadcast3(ranges[i].box.half);
+      const M chosen = not_dominated(at, slope, half, dominators.data()[i], beyond);
+      if constexpr (!kLimited) return chosen;
+      return hn::And(chosen, not_beyond(at, slope, half, all(limit_m + rounding.m[i])));
+    };
+    const float within_m = farthest_corner_m(dominators.data(), count) + beyond_m;
+    const float least_m = kLimited ? std::min(within_m, limit_m) : within_m;
+    return collect_candidates(Vicinity<Source>{source, around, least_m}, ranges, count, out, keep);
+  }
+};
+
+/// The rule of the ellipsoids that may come within `limit_m` of some point of the box.
+struct NotBeyond {
+  float limit_m;
+
+  template <class Source>
+  HWY_INLINE bool operator()(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
+                             CandidateList* out) const {
+    const RangeRounding rounding(ranges, count);
+    const auto keep = [&](const BallLanes& lanes, const BoundPlanes& at, int i) {
+      return not_beyond(at, slope_of(lanes, at), broadcast3(ranges[i].box.half),
+                        all(limit_m + rounding.m[i]));
+    };
+    return collect_candidates(Vicinity<Source>{source, around, limit_m}, ranges, count, out, keep);
+  }
+};
+
+/// The rule of a query with a contact distance. A limit that is small beside the blocks leaves about as few
+/// candidates as domination, which costs a dozen closest points a block.
+struct NotBeyondNorDominated {
+  NotDominated<true> rule;
+  bool close;  ///< the limit alone is applied
+
+  HWY_INLINE NotBeyondNorDominated(float limit_m, float beyond_m, const Aabb& first_block)
+      : rule{beyond_m, limit_m + beyond_m}, close(limit_m <= first_block.radius) {}
+
+  template <class Source>
+  HWY_INLINE bool operator()(const Source& source, const Aabb& around, const LaneRange* ranges, int count,
+                             CandidateList* out) const {
+    if (close) return NotBeyond{rule.limit_m}(source, around, ranges, count, out);
+    return rule(source, around, ranges, count, out);
+  }
+};
 
 }  // namespace bodice::collision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

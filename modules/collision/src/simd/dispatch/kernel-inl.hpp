@@ -11,28 +11,28 @@
 #include <hwy/highway.h>
 
 #include "simd/dispatch/kernels.hpp"
+#include "simd/dispatch/resolve_batch-inl.hpp"
 #include "simd/narrow/first_order-inl.hpp"
 #include "simd/narrow/query-inl.hpp"
-#include "simd/response/resolve-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
-  return query_batch_lanes(baked, relief, batch);
+Status query(const ProxyModel& model, Batch& batch, const ContactOutput& out) {
+  return with_union(model, [&](const auto& proxy) { return query_all(proxy, batch, out); });
 }
 
-bool query_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
-  return query_within_lanes(baked, relief, batch);
+Status query_within(const ProxyModel& model, Batch& batch, const ContactOutput& out) {
+  return with_union(model, [&](const auto& proxy) { return query_within(proxy, batch, out); });
 }
 
-bool query_first_order(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
-  return query_first_order_lanes(baked, relief, batch);
+Status query_first_order(const ProxyModel& model, Batch& batch, const ContactOutput& out) {
+  return with_union(model, [&](const auto& proxy) { return query_first_order(proxy, batch, out); });
 }
 
-bool resolve(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
-             const ParticleBatch& batch, BatchResponse& out) {
-  return resolve_lanes(baked, relief, parameters, batch, out);
+Status resolve(const ProxyModel& model, const ResponseParameters& parameters, const ParticleBatch& batch,
+               BatchResponse& out) {
+  return resolve_on_surface(model, parameters, batch, out);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

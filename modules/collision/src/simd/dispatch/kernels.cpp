@@ -11,11 +11,11 @@ HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
 // These are defined in kernels_<target>.cpp.
-bool query(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
-bool query_within(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
-bool query_first_order(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
-bool resolve(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
-             const ParticleBatch& batch, BatchResponse& out);
+Status query(const ProxyModel& model, Batch& batch, const ContactOutput& out);
+Status query_within(const ProxyModel& model, Batch& batch, const ContactOutput& out);
+Status query_first_order(const ProxyModel& model, Batch& batch, const ContactOutput& out);
+Status resolve(const ProxyModel& model, const ResponseParameters& parameters, const ParticleBatch& batch,
+               BatchResponse& out);
 
 const char* target() {
   return hwy::TargetName(HWY_TARGET);
@@ -37,18 +37,19 @@ HWY_EXPORT(query_first_order);
 HWY_EXPORT(resolve);
 HWY_EXPORT(target);
 
-bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
-  // On overflow the exact query is the fallback.
-  if (batch.accuracy == Accuracy::kFirstOrder &&
-      HWY_DYNAMIC_DISPATCH(query_first_order)(baked, relief, batch))
-    return true;
-  if (batch.limited()) return HWY_DYNAMIC_DISPATCH(query_within)(baked, relief, batch);
-  return HWY_DYNAMIC_DISPATCH(query)(baked, relief, batch);
+Status query_batch(const ProxyModel& model, Accuracy accuracy, Batch& batch, const ContactOutput& out) {
+  if (accuracy == Accuracy::kFirstOrder) {
+    const Status status = HWY_DYNAMIC_DISPATCH(query_first_order)(model, batch, out);
+    // On overflow the exact query is the fallback.
+    if (status != Status::kTooMany) return status;
+  }
+  if (out.limited()) return HWY_DYNAMIC_DISPATCH(query_within)(model, batch, out);
+  return HWY_DYNAMIC_DISPATCH(query)(model, batch, out);
 }
 
-bool resolve_batch(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
-                   const ParticleBatch& batch, BatchResponse& out) {
-  return HWY_DYNAMIC_DISPATCH(resolve)(baked, relief, parameters, batch, out);
+Status resolve_batch(const ProxyModel& model, const ResponseParameters& parameters,
+                     const ParticleBatch& batch, BatchResponse& out) {
+  return HWY_DYNAMIC_DISPATCH(resolve)(model, parameters, batch, out);
 }
 
 const char* kernel_target() {

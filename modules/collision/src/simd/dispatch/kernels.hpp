@@ -2,19 +2,18 @@
 // chosen at run time.
 #pragma once
 
-#include "model/baked.hpp"
 #include "model/batch.hpp"
-#include "model/relief_tables.hpp"
+#include "model/fallback.hpp"
+#include "model/proxy_model.hpp"
 
 namespace bodice::collision {
 
-/// Fills in the contacts of the batch. False on overflow or if a particle is not within kFarthest_m; some
-/// contacts are then unchanged.
-bool query_batch(const Baked& baked, const ReliefTables* relief, QueryBatch& batch);
+/// Writes the contacts of the batch; unless it is done, some contacts are unchanged.
+Status query_batch(const ProxyModel& model, Accuracy accuracy, Batch& batch, const ContactOutput& out);
 
-/// Closest-point response of a batch; false on overflow.
-bool resolve_batch(const Baked& baked, const ReliefTables* relief, const ResponseParameters& parameters,
-                   const ParticleBatch& batch, BatchResponse& out);
+/// Closest-point response of a batch; unless it is done, `out` is not valid.
+Status resolve_batch(const ProxyModel& model, const ResponseParameters& parameters,
+                     const ParticleBatch& batch, BatchResponse& out);
 
 /// Name of the instruction set in use.
 const char* kernel_target();

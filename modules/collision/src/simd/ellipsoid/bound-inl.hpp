@@ -14,12 +14,15 @@
 #define BODICE_COLLISION_BOUND_INL_
 #endif
 
-#include "model/baked.hpp"
+#include "model/batch.hpp"
+#include "model/proxy_model.hpp"
 #include "model/tolerances.hpp"
 #include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
+
+constexpr float kNoLimit_m = 1e30f;
 
 // Nearer to the center than this (in radii) the bound is only kept finite and low enough.
 constexpr float kLeastSquare = 1e-20f, kLeastSlope2 = 1e-37f;
@@ -53,6 +56,79 @@ HWY_INLINE V bound_in_ball(const BallMap& e, V3 u) {
 HWY_INLINE V lower_bound(const BallMap& e, V3 p) {
   return bound_in_ball(e, in_ball(e, p));
 }
+
+/// The numbers of BallMap, a different ellipsoid in each lane.
+struct BallLanes {
+  V3 a0, a1, a2, offset, inverse_radius;
+};
+
+/// `row` reads the members of BallMap by their index.
+template <class Row>
+HWY_INLINE BallLanes ball_lanes(Row&& row) {
+  const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
+  return {row3(0), row3(3), row3(6), row3(kBallOffset), row3(kBallInverse)};
+}
+
+/// The points p in the frames in which the ellipsoids are unit balls.
+HWY_INLINE V3 in_ball(const BallLanes& e, V3 p) {
+  const auto row = [&](V3 a, V offset) {
+    return hn::MulAdd(a.x, p.x, hn::MulAdd(a.y, p.y, hn::MulAdd(a.z, p.z, offset)));
+  };
+  return {row(e.a0, e.offset.x), row(e.a1, e.offset.y), row(e.a2, e.offset.z)};
+}
+
+constexpr std::int32_t kRankMask = kMaxCandidates - 1;
+static_assert((kMaxCandidates & kRankMask) == 0, "a rank must fit into the low bits of a bound");
+// The rank changes a bound by far less than kEstimate.
+static_assert(kMaxCandidates <= 256);
+
+/// A bound that carries its candidate's rank in its low bits.
+HWY_INLINE V ranked(V bound, VI rank) {
+  return hn::BitCast(f, hn::Or(hn::AndNot(hn::Set(I(), kRankMask), hn::BitCast(I(), bound)), rank));
+}
+
+/// The kLowest lowest bounds of each lane, rising, with their candidates' ranks in the low bits. The value
+/// after them shows whether they are all that count.
+template <int kLowest>
+struct LowestBounds {
+  V bound[kLowest + 1];
+
+  HWY_INLINE void clear() {
+    for (V& b : bound) b = hn::BitCast(f, hn::Set(I(), 0x71490000));  // 1e30 with rank 0
+  }
+  HWY_INLINE void add(V value, VI rank) {
+    V next = ranked(value, rank);
+    for (int i = 0; i < kLowest; ++i) {
+      const V higher = hn::Max(bound[i], next);
+      bound[i] = hn::Min(bound[i], next);
+      next = higher;
+    }
+    bound[kLowest] = hn::Min(bound[kLowest], next);
+  }
+  HWY_INLINE VI rank(int i) const { return hn::And(hn::BitCast(I(), bound[i]), hn::Set(I(), kRankMask)); }
+};
+
+/// Bound above which an ellipsoid is certainly farther than `distance` by more than `beyond_m`. A bound may
+/// be too high by a fraction of itself, a distance by the rounding.
+HWY_INLINE V bound_limit(const Baked& baked, V distance, float beyond_m) {
+  const V slack = all(4.0f * baked.rounding_m + beyond_m);
+  return hn::Add(hn::MulAdd(all(2.0f * kEstimate), hn::Abs(distance), distance), slack);
+}
+
+/// The contact distance as a limit on corrected distances, and as a limit on distances to plain ellipsoids.
+struct QueryLimits {
+  float surface_m, plain_m;
+
+  HWY_INLINE QueryLimits(const ProxyModel& model, float limit_m)
+      : surface_m(limit_m + 4.0f * model.baked.rounding_m), plain_m(surface_m) {
+    if (!model.relief) return;
+    plain_m = model.relief->farthest.at_zero_m[0] + model.relief->farthest.shift_m(surface_m);
+  }
+  /// The limit on bounds.
+  HWY_INLINE float of_bounds(const Baked& baked) const {
+    return hn::GetLane(bound_limit(baked, all(plain_m), 0.0f));
+  }
+};
 
 }  // namespace bodice::collision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

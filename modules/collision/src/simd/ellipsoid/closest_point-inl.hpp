@@ -24,64 +24,10 @@
 // Sums of products are written as fused operations, so that the compiler has no choice: a lane's result must
 // not depend on the loop in which it is computed.
 
-#include <cstddef>
-
-#include "model/baked.hpp"
-#include "simd/math/vec3-inl.hpp"
+#include "simd/ellipsoid/shape-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
-
-/// The numbers of BakedEllipsoid: one ellipsoid in every lane, or another one in each.
-struct Shape {
-  V3 center, row0, row1, row2;
-  V radius1, radius2, gap0, gap1, inverse1, inverse2, longest;
-};
-
-HWY_INLINE Shape broadcast(const BakedEllipsoid& e) {
-  return {broadcast3(e.center),
-          broadcast3(e.to_unit),
-          broadcast3(e.to_unit + 3),
-          broadcast3(e.to_unit + 6),
-          all(e.radius1),
-          all(e.radius2),
-          all(e.gap0),
-          all(e.gap1),
-          all(e.inverse1),
-          all(e.inverse2),
-          all(e.longest_m)};
-}
-
-HWY_INLINE Shape select(M m, const Shape& yes, const Shape& no) {
-  const auto one = [m](V a, V b) { return hn::IfThenElse(m, a, b); };
-  return {select(m, yes.center, no.center), select(m, yes.row0, no.row0), select(m, yes.row1, no.row1),
-          select(m, yes.row2, no.row2),     one(yes.radius1, no.radius1), one(yes.radius2, no.radius2),
-          one(yes.gap0, no.gap0),           one(yes.gap1, no.gap1),       one(yes.inverse1, no.inverse1),
-          one(yes.inverse2, no.inverse2),   one(yes.longest, no.longest)};
-}
-
-HWY_INLINE V field(const CullArrays& cull, std::size_t which, std::size_t k) {
-  return hn::LoadU(f, cull.baked[which].data() + k);
-}
-HWY_INLINE V3 field3(const CullArrays& cull, std::size_t which, std::size_t k) {
-  return {field(cull, which, k), field(cull, which + 1, k), field(cull, which + 2, k)};
-}
-
-/// Ellipsoid k + lane in each lane.
-HWY_INLINE Shape consecutive(const CullArrays& c, std::size_t k) {
-  return {field3(c, 0, k), field3(c, 3, k), field3(c, 6, k), field3(c, 9, k),
-          field(c, 12, k), field(c, 13, k), field(c, 14, k), field(c, 15, k),
-          field(c, 16, k), field(c, 17, k), field(c, 18, k)};
-}
-
-/// The closest points of one vector of particles, in the frames of their ellipsoids.
-struct ClosestPointLanes {
-  V distance;  ///< meters, negative inside
-  V3 n;        ///< outward normal times r0, in the octant and axes of w
-  V3 w;        ///< w of [1], in the first octant, axes by falling radius
-  V3 y;        ///< the particle in the ellipsoid's frame, signed, in units of r0
-  V u;         ///< the root of [2]
-};
 
 constexpr int kUsualSteps = 2;         // includes the one from the surface; enough near shapes like limbs
 constexpr int kMaxSteps = 24;          // the most that aspect ratios of 1:1000 need
@@ -243,27 +189,11 @@ HWY_INLINE void finish_point(const Shape& s, V3 y, Search& search, ClosestPointL
   result.distance = dot(n, off);
 }
 
-/// Rotates a vector from the ellipsoid's frame, axes by falling radius, to the collider's local frame, and
-/// divides it by r0.
-HWY_INLINE V3 out_of(const Shape& s, V3 v) {
-  return {hn::MulAdd(s.row0.x, v.x, hn::MulAdd(s.row1.x, v.y, hn::Mul(s.row2.x, v.z))),
-          hn::MulAdd(s.row0.y, v.x, hn::MulAdd(s.row1.y, v.y, hn::Mul(s.row2.y, v.z))),
-          hn::MulAdd(s.row0.z, v.x, hn::MulAdd(s.row1.z, v.y, hn::Mul(s.row2.z, v.z)))};
-}
-
-/// The outward unit normal in the collider's local frame.
-HWY_INLINE V3 normal_of(const Shape& s, const ClosestPointLanes& closest) {
-  return out_of(s, with_signs(closest.n, signs_of(closest.y)));
-}
-
 template <bool kLast>
 HWY_INLINE void usual_step(const Shape& s, Search& search) {
   search.u = usual_root(search.at, search.u, search.low);
   search.at = evaluate<kLast>(search.a, s.gap0, s.gap1, search.u);
 }
-
-/// Vectors that are computed side by side, so that one proceeds while another waits for its results.
-constexpr int kVectorsInStep = 2;
 
 /// Several vectors of problems, some lanes of which need more steps.
 template <int kCount>

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "model/batch.hpp"
-#include "simd/ellipsoid/closest_point-inl.hpp"
+#include "model/proxy_model.hpp"
+#include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -53,16 +54,16 @@ class Columns {
   /// Which rows are filled; those of tables are filled whenever there is relief.
   enum class Rows { kAll, kShapes, kBalls };
 
-  HWY_INLINE void fill(const Baked& baked, const ReliefTables* relief, const std::int32_t* ellipsoids,
-                       int count, Rows rows = Rows::kAll) {
+  HWY_INLINE void fill(const ProxyModel& model, const std::int32_t* ellipsoids, int count,
+                       Rows rows = Rows::kAll) {
     count_ = count;
     ellipsoids_ = ellipsoids;
     if (count <= kPad)
-      fill_by<kPad>(baked, relief, rows);
+      fill_by<kPad>(model, rows);
     else if (count <= 2 * kPad)
-      fill_by<2 * kPad>(baked, relief, rows);
+      fill_by<2 * kPad>(model, rows);
     else
-      fill_by<kWidest>(baked, relief, rows);
+      fill_by<kWidest>(model, rows);
   }
   int count() const { return count_; }
   /// The internal index of the ellipsoid in column i.
@@ -77,12 +78,12 @@ class Columns {
 
   // The stride is a constant, so that the copies become plain moves.
   template <int kStride>
-  HWY_INLINE void fill_by(const Baked& baked, const ReliefTables* relief, Rows rows) {
+  HWY_INLINE void fill_by(const ProxyModel& model, Rows rows) {
     stride_ = kStride;
     for (int c = 0; c < count_; c += 4) {
-      if (rows != Rows::kBalls) put<kStride>(baked.ellipsoids, c, values_);
-      if (relief) put<kStride>(relief->tables, c, values_ + kTable * kStride);
-      if (rows != Rows::kShapes) put<kStride>(baked.balls, c, values_ + kBall * kStride);
+      if (rows != Rows::kBalls) put<kStride>(model.baked.ellipsoids, c, values_);
+      if (model.relief) put<kStride>(model.relief->tables, c, values_ + kTable * kStride);
+      if (rows != Rows::kShapes) put<kStride>(model.baked.balls, c, values_ + kBall * kStride);
     }
   }
   /// Fills the columns [c, c + 4); those beyond the last repeat it.
@@ -145,18 +146,21 @@ class Lookup {
 #endif
 };
 
+/// Reads the columns of the lanes: row i as floats, or as the integers that they stand for.
 template <int kTables>
-HWY_INLINE Shape shape_of(const Columns& columns, VI column) {
-  const Lookup<kTables> at(column);
-  const auto row = [&](int i) { return at(columns.row(i)); };
-  const auto row3 = [&](int i) { return V3{row(i), row(i + 1), row(i + 2)}; };
-  return {row3(0), row3(3), row3(6), row3(9), row(12), row(13), row(14), row(15), row(16), row(17), row(18)};
-}
+class ColumnLanes {
+ public:
+  HWY_INLINE ColumnLanes(const Columns& columns, VI column, int first_row = 0)
+      : columns_(columns), at_(column), first_row_(first_row) {}
 
-template <int kTables>
-HWY_INLINE VI proxy_indices_of(const Columns& columns, VI column) {
-  return hn::BitCast(I(), Lookup<kTables>(column)(columns.row(Columns::kProxyIndex)));
-}
+  HWY_INLINE V operator()(int i) const { return at_(columns_.row(first_row_ + i)); }
+  HWY_INLINE VI integer(int i) const { return hn::BitCast(I(), (*this)(i)); }
+
+ private:
+  const Columns& columns_;
+  Lookup<kTables> at_;
+  int first_row_;
+};
 
 /// Calls work with the number of tables as a constant.
 template <class Work>

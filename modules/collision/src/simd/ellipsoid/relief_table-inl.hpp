@@ -7,7 +7,7 @@
 #endif
 
 #include "model/relief_tables.hpp"
-#include "simd/ellipsoid/columns-inl.hpp"
+#include "simd/ellipsoid/shape-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -23,12 +23,10 @@ HWY_INLINE TableLanes broadcast(const BakedTable& t) {
           all(t.h_offset_m),          all(t.a_scale),        all(t.a_offset)};
 }
 
-template <int kTables>
-HWY_INLINE TableLanes table_of(const Columns& columns, VI column) {
-  const Lookup<kTables> at(column);
-  const auto number = [&](int i) { return at(columns.row(Columns::kTable + i)); };
-  const auto integer = [&](int i) { return hn::BitCast(I(), number(i)); };
-  return {integer(0), integer(1), number(2), number(3), number(4), number(5)};
+/// `column` reads the members of BakedTable by their index, another table in each lane.
+template <class Column>
+HWY_INLINE TableLanes table_from(const Column& column) {
+  return {column.integer(0), column.integer(1), column(2), column(3), column(4), column(5)};
 }
 
 /// Reorders vectors between the proxy's axes, which tables use, and those by falling radius.
@@ -189,11 +187,9 @@ HWY_INLINE AxisOrder axes_of(const BakedTable& t) {
   return {hn::Set(I(), t.sorted_axis[0]), hn::Set(I(), t.sorted_axis[1])};
 }
 
-template <int kTables>
-HWY_INLINE AxisOrder axes_of(const Columns& columns, VI column) {
-  const Lookup<kTables> at(column);
-  return {hn::BitCast(I(), at(columns.row(Columns::kTable + 6))),
-          hn::BitCast(I(), at(columns.row(Columns::kTable + 7)))};
+template <class Column>
+HWY_INLINE AxisOrder axes_from(const Column& column) {
+  return {column.integer(6), column.integer(7)};
 }
 
 /// Corrected distance F_k and its gradient. `read_axes` returns the order of the axes; it is called only if

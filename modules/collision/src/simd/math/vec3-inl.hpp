@@ -24,6 +24,9 @@ using I = hn::RebindToSigned<F>;
 using VI = hn::Vec<I>;
 constexpr F f;
 constexpr int kWidth = static_cast<int>(hn::MaxLanes(F()));
+/// Vectors that are computed side by side, so that one proceeds while another waits for its results.
+constexpr int kVectorsInStep = 2;
+constexpr int kStep = kVectorsInStep * kWidth;  ///< lanes that are computed side by side
 
 /// A point or vector in each lane.
 struct V3 {
@@ -117,6 +120,9 @@ HWY_INLINE V3 unit(V3 a) {
 HWY_INLINE V3 load3(const float* x, const float* y, const float* z) {
   return {hn::Load(f, x), hn::Load(f, y), hn::Load(f, z)};
 }
+HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
+  return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
+}
 HWY_INLINE V3 broadcast3(const float* xyz) {
   return {all(xyz[0]), all(xyz[1]), all(xyz[2])};
 }
@@ -125,6 +131,10 @@ HWY_INLINE VI lanes_from(int first) {
   alignas(64) static constexpr std::int32_t kLanes[16] = {0, 1, 2,  3,  4,  5,  6,  7,
                                                           8, 9, 10, 11, 12, 13, 14, 15};
   return hn::Add(hn::Load(I(), kLanes), hn::Set(I(), first));
+}
+/// Mask of the lanes i, i + 1, ... that are below the end.
+HWY_INLINE M lanes_below(int i, int end) {
+  return hn::FirstN(f, static_cast<std::size_t>(end > i ? end - i : 0));
 }
 /// The mask as bits, lane 0 lowest.
 HWY_INLINE std::uint64_t bits(M m) {

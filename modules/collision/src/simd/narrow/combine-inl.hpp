@@ -9,13 +9,12 @@
 #include <bit>
 #include <cstring>
 
-#include "simd/broad/blocks-inl.hpp"
+#include "model/fallback.hpp"
+#include "simd/ellipsoid/relief_table-inl.hpp"
 #include "simd/narrow/pairs-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
-
-using BatchResults = ResultRows<kBatch>;
 
 /// Plain ellipsoids: takes the nearest; of equally near ones that of the lowest index.
 HWY_INLINE void combine_nearest(const Pairs& pairs, BatchResults& out) {
@@ -78,13 +77,13 @@ struct alignas(64) WeightedRows {
   }
 };
 
-/// Relief, for the lanes [begin, end): blends all results within the blend radius of the nearest. Sets
+/// Relief, for some lanes: blends all results within the blend radius of the nearest. Sets
 /// distance and unit gradient of the blend and the owner; `value` becomes the length of the gradient.
-HWY_INLINE void combine_blended(const ReliefTables& relief, int begin, int end, const Pairs& pairs,
-                                BatchResults& out) {
+HWY_INLINE void combine_blended(float blend_m, LaneSpan lanes, const Pairs& pairs, BatchResults& out) {
+  const auto [begin, end] = lanes;
   alignas(64) float least[kBatch];
   WeightedRows sums, of_pairs;
-  const V per_blend = all(1.0f / relief.blend_m);
+  const V per_blend = all(1.0f / blend_m);
   std::memcpy(least + begin, out.distance + begin, static_cast<std::size_t>(end - begin) * sizeof(float));
   find_nearer(pairs, least, out);
   for (int i = begin; i < end; i += kWidth)

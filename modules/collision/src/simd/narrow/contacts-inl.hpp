@@ -82,27 +82,23 @@ HWY_INLINE void hide_beyond(float within_m, ContactLanes& c) {
                                  hn::Set(I(), static_cast<std::int32_t>(none.ellipsoid)));
 }
 
-HWY_INLINE Contact& contact_of(const QueryBatch& batch, int lane) {
-  return batch.contacts[batch.index ? batch.index[lane] : static_cast<std::uint32_t>(lane)];
-}
-
 /// Writes the contacts of the lanes [i, i + kWidth) that are below the end.
-HWY_INLINE void write_contacts(const ContactLanes& c, const QueryBatch& batch, int i, int end) {
+HWY_INLINE void write_contacts(const ContactLanes& c, const ContactOutput& out, int i, int end) {
   if (end - i < kWidth) {
     alignas(64) Contact last[kWidth];
     store_contacts(c, [&](int lane) { return last + lane; });
-    for (int lane = i; lane < end; ++lane) contact_of(batch, lane) = last[lane - i];
-  } else if (batch.index) {
-    store_contacts(c, [&](int lane) { return batch.contacts + batch.index[i + lane]; });
+    for (int lane = i; lane < end; ++lane) out.of(lane) = last[lane - i];
+  } else if (out.index) {
+    store_contacts(c, [&](int lane) { return out.contacts + out.index[i + lane]; });
   } else {
-    store_contacts(c, [&](int lane) { return batch.contacts + i + lane; });
+    store_contacts(c, [&](int lane) { return out.contacts + i + lane; });
   }
 }
 
 /// Writes no_contact() for the lanes [begin, end).
-HWY_INLINE void write_none(const QueryBatch& batch, int begin, int end) {
+HWY_INLINE void write_none(const ContactOutput& out, int begin, int end) {
   const Contact none = no_contact();
-  for (int lane = begin; lane < end; ++lane) contact_of(batch, lane) = none;
+  for (int lane = begin; lane < end; ++lane) out.of(lane) = none;
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

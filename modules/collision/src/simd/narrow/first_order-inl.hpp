@@ -11,10 +11,11 @@
 #define BODICE_COLLISION_FIRST_ORDER_INL_
 #endif
 
-#include "simd/broad/cached_candidates-inl.hpp"
-#include "simd/broad/limits-inl.hpp"
+#include "simd/broad/cache-inl.hpp"
+#include "simd/broad/domination-inl.hpp"
 #include "simd/ellipsoid/relief_table-inl.hpp"
 #include "simd/narrow/contacts-inl.hpp"
+#include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -113,81 +114,102 @@ HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, con
   at.normal = scaled(gradient, inverse_sqrt(within_range(dot(gradient, gradient))));
 }
 
-template <int kTables>
-HWY_INLINE BallLanes balls_of(const Columns& columns, VI column) {
-  const Lookup<kTables> at(column);
-  return ball_lanes([&](int i) { return at(columns.row(Columns::kBall + i)); });
-}
-
 /// Vectors that are computed side by side. One needs little besides its ellipsoid, so that narrow vectors
 /// read each ellipsoid for more of them.
 constexpr int kVectorsAtOnce = kWidth < 16 ? 4 : 2;
 static_assert(CachedBatch::kSpan % (kVectorsAtOnce * kWidth) == 0);
 
-/// Writes the contacts of one range.
-template <int kTables, bool kRelief>
-HWY_INLINE void write_range(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                            const LaneRange& range, const CandidateList& candidates, const Columns& columns) {
-  const V margin = all(batch.margin_m);
-  const bool limited = batch.limited();
-  for (int from = range.begin; from < range.end; from += kVectorsAtOnce * kWidth) {
-    V3 p[kVectorsAtOnce];
+/// Writes first-order contacts of ranges of lanes with their candidates.
+template <class Union>
+struct FirstOrderEvaluation {
+  const Union& proxy;
+  const Batch& batch;
+  const ContactOutput& out;
+
+  template <class Tables>
+  HWY_INLINE Status operator()(Tables tables, const Candidates& among) const {
+    for (int i = 0; i < among.count; ++i)
+      if (among.lists[i].count == 0)
+        write_none(out, among.ranges[i].begin, among.ranges[i].end);
+      else
+        write_range<tables()>(among.ranges[i], among.lists[i], among.columns);
+    return Status::kDone;
+  }
+
+ private:
+  /// The columns of the ellipsoids of least first-order distance.
+  HWY_INLINE void find_owners(const CandidateList& candidates, const Columns& columns,
+                              const V3 (&p)[kVectorsAtOnce], VI (&column)[kVectorsAtOnce]) const {
     V least[kVectorsAtOnce];
-    load_step(batch, from, p);
     for (V& l : least) l = all(kNoLimit_m);
     for (int i = 0; i < candidates.count; ++i) {
-      const BallMap& e = baked.balls[columns.ellipsoid(candidates.index[i])];
+      const BallMap& e = proxy.model.baked.balls[columns.ellipsoid(candidates.index[i])];
       const VI rank = hn::Set(I(), candidates.index[i]);
       for (int v = 0; v < kVectorsAtOnce; ++v)
         least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
     }
-    VI column[kVectorsAtOnce];
-    BallLanes e[kVectorsAtOnce];
-    Tangent at[kVectorsAtOnce];
-#pragma GCC unroll 4
-    for (int v = 0; v < kVectorsAtOnce; ++v) {
+    for (int v = 0; v < kVectorsAtOnce; ++v)
       column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
-      e[v] = balls_of<kTables>(columns, column[v]);
-    }
+  }
+  /// The tangent planes of the ellipsoids in some columns, corrected by their tables if there are any.
+  template <int kTables>
+  HWY_INLINE void find_tangents(const Columns& columns, const VI (&column)[kVectorsAtOnce],
+                                const V3 (&p)[kVectorsAtOnce], Tangent (&at)[kVectorsAtOnce]) const {
+    BallLanes e[kVectorsAtOnce];
+#pragma GCC unroll 4
+    for (int v = 0; v < kVectorsAtOnce; ++v)
+      e[v] = ball_lanes(ColumnLanes<kTables>(columns, column[v], Columns::kBall));
     tangents_of(e, p, at);
 #pragma GCC unroll 4
     for (int v = 0; v < kVectorsAtOnce; ++v)
-      if constexpr (kRelief) correct(*relief, table_of<kTables>(columns, column[v]), e[v], at[v]);
-    for (int v = 0; v < kVectorsAtOnce; ++v) {
-      const V d = hn::Sub(at[v].distance, margin);
-      const V proxy_index = Lookup<kTables>(column[v])(columns.row(Columns::kBallProxyIndex));
-      ContactLanes c = {d, add_scaled(p[v], hn::Neg(d), at[v].normal), at[v].normal,
-                        hn::BitCast(I(), proxy_index)};
-      if (limited) hide_beyond(batch.within_m, c);
-      write_contacts(c, batch, from + v * kWidth, range.end);
+      if constexpr (Union::kBlends) {
+        const ColumnLanes<kTables> of_table(columns, column[v], Columns::kTable);
+        correct(proxy.relief(), table_from(of_table), e[v], at[v]);
+      }
+  }
+  template <int kTables>
+  HWY_INLINE void write_range(const LaneRange& range, const CandidateList& candidates,
+                              const Columns& columns) const {
+    const V margin = all(out.margin_m);
+    const bool limited = out.limited();
+    for (int from = range.begin; from < range.end; from += kVectorsAtOnce * kWidth) {
+      V3 p[kVectorsAtOnce];
+      VI column[kVectorsAtOnce];
+      Tangent at[kVectorsAtOnce];
+      load_step(batch, from, p);
+      find_owners(candidates, columns, p, column);
+      find_tangents<kTables>(columns, column, p, at);
+      for (int v = 0; v < kVectorsAtOnce; ++v) {
+        const V d = hn::Sub(at[v].distance, margin);
+        const ColumnLanes<kTables> of_owner(columns, column[v]);
+        ContactLanes c = {d, add_scaled(p[v], hn::Neg(d), at[v].normal), at[v].normal,
+                          of_owner.integer(Columns::kBallProxyIndex)};
+        if (limited) hide_beyond(out.within_m, c);
+        write_contacts(c, out, from + v * kWidth, range.end);
+      }
     }
   }
-}
+};
 
-/// First-order query of a batch. False if a particle is too far away for floats or on overflow; contacts are
-/// then unchanged or complete.
-inline bool query_first_order_lanes(const Baked& baked, const ReliefTables* relief, QueryBatch& batch) {
-  BroadPhaseLists lists;
-  const QueryLimits limits(baked, relief, std::min(batch.within_m + batch.margin_m, kNoLimit_m));
-  const float rounding_m = 4.0f * baked.rounding_m;
-  const auto work = [&](auto tables, const Columns& columns, const LaneRange* ranges, int count,
-                        const CandidateList* candidates) {
-    for (int i = 0; i < count; ++i)
-      if (candidates[i].count == 0)
-        write_none(batch, ranges[i].begin, ranges[i].end);
-      else if (relief)
-        write_range<tables(), true>(baked, relief, batch, ranges[i], candidates[i], columns);
-      else
-        write_range<tables(), false>(baked, relief, batch, ranges[i], candidates[i], columns);
-    return true;
-  };
+/// First-order query of a batch; unless it is done, contacts are unchanged or complete.
+template <class Union>
+Status query_first_order(const Union& proxy, Batch& batch, const ContactOutput& out) {
+  const ProxyModel& model = proxy.model;
+  BroadPhase broad(model);
+  const QueryLimits limits(model, std::min(out.within_m + out.margin_m, kNoLimit_m));
+  const float rounding_m = 4.0f * model.baked.rounding_m;
+  const FirstOrderEvaluation<Union> evaluate{proxy, batch, out};
   // The cache also serves exact queries, which blend.
-  const float blend_m = relief ? relief->blend_m : 0.0f;
-  if (use_cache(baked, relief, blend_m + rounding_m, batch, lists))
-    return with_cached_candidates(baked, relief, batch, rounding_m, limits.of_bounds(baked),
-                                  Columns::Rows::kBalls, lists, work);
-  if (batch.limited()) write_none(batch, 0, batch.count);  // ranges without candidates are not visited again
-  return with_limited_candidates(baked, relief, batch, rounding_m, limits, lists, work);
+  if (refresh_if_stale<NotDominated<false>>(model.beyond_m() + rounding_m, batch, broad))
+    return broad.take_cached(batch, rounding_m, limits.of_bounds(model.baked), Columns::Rows::kBalls,
+                             evaluate);
+  // Ranges without candidates are not visited again.
+  if (out.limited()) write_none(out, 0, batch.at.count);
+  const Blocks blocks(batch.at, {0, batch.at.count});
+  if (!blocks.in_float_range) return Status::kTooFar;
+  blocks.note_radii(batch.radius_m);
+  const NotBeyondNorDominated rule(limits.plain_m, rounding_m, blocks.ranges[0].box);
+  return broad.search(blocks.ranges, blocks.count, rule, evaluate);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

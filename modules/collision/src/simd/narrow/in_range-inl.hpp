@@ -8,55 +8,20 @@
 #define BODICE_COLLISION_IN_RANGE_INL_
 #endif
 
-#include "simd/broad/limits-inl.hpp"
-#include "simd/narrow/nearest-inl.hpp"
+#include "simd/broad/cache-inl.hpp"
+#include "simd/broad/domination-inl.hpp"
+#include "simd/narrow/narrow_phase-inl.hpp"
+#include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
-/// The particles of a batch that may be within the limit, closed up. Each run of those found together starts
-/// at a whole step, behind repetitions of the particle before.
-struct alignas(64) InRange {
-  static constexpr int kMaxBounds = 3, kSize = kBatch + 2 * kStep;
-  float x[kSize], y[kSize], z[kSize];
-  float bound[kMaxBounds + 1][kSize];  ///< as in LowestBounds
-  std::int32_t lane[kSize];            ///< in the batch; -1: a repetition
-  int count = 0;
-  LaneBits which;  ///< these particles as lanes of the batch
-
-  void clear() {
-    count = 0;
-    which = {};
-  }
-  /// Adds the chosen ones of the batch's lanes [first, first + kWidth).
-  template <int kLowest>
-  HWY_INLINE void add(M mask, int first, V3 p, const LowestBounds<kLowest>& lowest) {
-    const Pack pack(mask);
-    which.add(bits(mask), first);
-    pack.store(p.x, x + count);
-    pack.store(p.y, y + count);
-    pack.store(p.z, z + count);
-    for (int i = 0; i <= kLowest; ++i) pack.store(lowest.bound[i], bound[i] + count);
-    pack.store(lanes_from(first), lane + count);
-    count += pack.count();
-  }
-  /// Repeats the last particle until the run that starts at `from` has whole steps.
-  template <int kLowest>
-  HWY_INLINE void pad(int from) {
-    if (count == from) return;
-    const int last = count - 1, end = from + (count - from + kStep - 1) / kStep * kStep;
-    for (; count < end; ++count) {
-      for (float* values : {x, y, z}) values[count] = values[last];
-      for (int i = 0; i <= kLowest; ++i) bound[i][count] = bound[i][last];
-      lane[count] = -1;
-    }
-  }
-  template <int kLowest>
-  HWY_INLINE LowestBounds<kLowest> lowest(int i) const {
-    LowestBounds<kLowest> result;
-    for (int k = 0; k <= kLowest; ++k) result.bound[k] = hn::Load(f, bound[k] + i);
-    return result;
-  }
+/// One step of particles: their positions, bounds, and which may be within the limit.
+template <int kLowest>
+struct InRangeStep {
+  V3 p[kVectorsInStep];
+  LowestBounds<kLowest> lowest[kVectorsInStep];
+  M within[kVectorsInStep];
 };
 
 /// Index of an octant in OctantReach, from three signs.
@@ -70,10 +35,10 @@ HWY_INLINE VI octant_of(V3 u) {
 /// For each column and octant, the bound above which the ellipsoid leaves no particle within the limit.
 class OctantLimits {
  public:
-  HWY_INLINE OctantLimits(const Baked& baked, const ReliefTables& relief, float limit_m,
-                          const Columns& columns) {
+  HWY_INLINE OctantLimits(const ProxyModel& model, float limit_m, const Columns& columns) {
+    const Baked& baked = model.baked;
     for (int i = 0; i < columns.count(); ++i) {
-      const OctantReach& reach = relief.reaches[columns.ellipsoid(i)];
+      const OctantReach& reach = model.relief->reaches[columns.ellipsoid(i)];
       const BakedEllipsoid& e = baked.ellipsoids[columns.ellipsoid(i)];
       // Rounding may move the closest point of a particle deeper than the least radius of curvature to
       // another octant; such particles always count as within the limit.
@@ -111,136 +76,137 @@ class OctantLimits {
   float limit_[kMaxCandidates * kOctants + 16];  // whole vectors are written
 };
 
-/// Bounds as in bound_vectors(); `within` becomes the particles that may be within the limit of some
-/// ellipsoid.
+/// Bounds as in NarrowPhase::bound_step(); `within` becomes the particles that may be within the limit of
+/// some ellipsoid.
 template <int kLowest>
 HWY_INLINE void bound_by_octant(const Baked& baked, const Columns& columns, const CandidateList& candidates,
-                                const OctantLimits& octant_limits, const V3 (&p)[kVectorsInStep],
-                                LowestBounds<kLowest> (&out)[kVectorsInStep], M (&within)[kVectorsInStep]) {
-  for (int v = 0; v < kVectorsInStep; ++v) out[v].clear(), within[v] = hn::FirstN(f, 0);
+                                const OctantLimits& octant_limits, InRangeStep<kLowest>& step) {
+  for (int v = 0; v < kVectorsInStep; ++v) step.lowest[v].clear(), step.within[v] = hn::FirstN(f, 0);
   for (int i = 0; i < candidates.count; ++i) {
     const std::int32_t column = candidates.index[i];
     const BallMap& e = baked.bounds[columns.ellipsoid(column)];
     const VI rank = hn::Set(I(), column);
     for (int v = 0; v < kVectorsInStep; ++v) {
-      const V3 u = in_ball(e, p[v]);
+      const V3 u = in_ball(e, step.p[v]);
       const V bound = bound_in_ball(e, u);
-      out[v].add(bound, rank);
-      within[v] = hn::Or(within[v], hn::Le(bound, octant_limits(column, octant_of(u))));
+      step.lowest[v].add(bound, rank);
+      step.within[v] = hn::Or(step.within[v], hn::Le(bound, octant_limits(column, octant_of(u))));
     }
   }
 }
 
-/// Adds the particles of a range that may be within the limit. With relief `octant_limits` is not null.
-template <int kLowest>
-HWY_INLINE void collect_in_range(const Baked& baked, const QueryBatch& batch, float limit_m,
-                                 const OctantLimits* octant_limits, const LaneRange& range,
-                                 const CandidateList& candidates, const Columns& columns, InRange& out) {
-  const V limit = bound_limit(baked, all(limit_m), 0.0f);
-  for (int from = range.begin; from < range.end; from += kStep) {
-    V3 p[kVectorsInStep];
-    LowestBounds<kLowest> lowest[kVectorsInStep];
-    M within[kVectorsInStep];
-    load_step(batch, from, p);
-    if (octant_limits) {
-      bound_by_octant(baked, columns, candidates, *octant_limits, p, lowest, within);
-    } else {
-      bound_vectors(baked, columns, candidates, p, lowest);
-      for (int v = 0; v < kVectorsInStep; ++v) within[v] = hn::Not(hn::Gt(lowest[v].bound[0], limit));
-    }
-    for (int v = 0; v < kVectorsInStep; ++v) {
-      const int i = from + v * kWidth;
-      out.add(hn::And(within[v], lanes_below(i, range.end)), i, p[v], lowest[v]);
-    }
-  }
-}
+/// Evaluates ranges of lanes of a batch among their candidates, where particles are within the limits.
+template <class Union>
+struct EvaluationInRange {
+  Kernel<Union>& kernel;
+  const Batch& batch;
+  const QueryLimits& limits;
+  InRange& in_range;
+  BatchResults& out;
 
-/// Evaluates the probable owners of the particles [begin, in_range.count). False on overflow of the pairs
-/// that remain open.
-template <int kLowest, int kTables>
-HWY_INLINE bool evaluate_in_range(const Baked& baked, const ReliefTables* relief, float limit_m,
-                                  const InRange& in_range, const QueryBatch& at, int begin,
-                                  const Columns& columns, Open& open, BatchResults& out) {
-  const float beyond_m = relief ? relief->blend_m : 0.0f;
-  for (int from = begin; from < in_range.count; from += kStep) {
-    V3 p[kVectorsInStep];
-    VI first[kVectorsInStep];
-    Result results[kVectorsInStep];
-    for (int v = 0; v < kVectorsInStep; ++v) {
-      const int i = from + v * kWidth;
-      p[v] = load3(in_range.x + i, in_range.y + i, in_range.z + i);
-      first[v] = in_range.lowest<kLowest>(i).rank(0);
-    }
-    evaluate_each<kTables>(relief, columns, first, p, results);
-    if (!make_room<kTables>((kLowest - 1) * kVectorsInStep, relief, columns, at, open.pairs, out))
-      return false;
-    for (int v = 0; v < kVectorsInStep; ++v) {
-      const int i = from + v * kWidth;
-      put(results[v], relief != nullptr, out, i);
-      const V least = hn::Min(results[v].distance, all(limit_m));
-      const auto real = hn::RebindMask(f, hn::Gt(hn::Load(I(), in_range.lane + i), hn::Set(I(), -1)));
-      open.add<kLowest, 1>(real, in_range.lowest<kLowest>(i), bound_limit(baked, least, beyond_m),
-                           lanes_from(i));
-    }
+  template <class Tables>
+  HWY_INLINE Status operator()(Tables tables, const Candidates& among) const {
+    const int begin = in_range.count;
+    collect(among);
+    if (in_range.count == begin) return Status::kDone;
+    in_range.pad<kLowest>(begin);
+    const Batch at{.at = {in_range.x, in_range.y, in_range.z, in_range.count}};
+    NarrowPhase<Union> narrow(kernel.proxy, at, kernel.open, out);
+    narrow.start();
+    if (!evaluate<tables()>(narrow, begin, among.columns)) return Status::kTooMany;
+    return narrow.template finish<tables()>(among.columns, {begin, in_range.count});
   }
-  return true;
-}
 
-/// Evaluates some ranges of the batch with the columns as candidates.
-template <int kLowest, int kTables>
-HWY_INLINE bool evaluate_limited(const Baked& baked, const ReliefTables* relief, const QueryBatch& batch,
-                                 const QueryLimits& limits, const LaneRange* ranges, int count,
-                                 const CandidateList* candidates, const Columns& columns, InRange& in_range,
-                                 Open& open, BatchResults& out) {
-  const int begin = in_range.count;
-  const auto collect_each = [&](const OctantLimits* octant_limits) {
-    for (int i = 0; i < count; ++i)
-      if (candidates[i].count > 0)
-        collect_in_range<kLowest>(baked, batch, limits.plain_m, octant_limits, ranges[i], candidates[i],
-                                  columns, in_range);
+ private:
+  static constexpr int kLowest = Union::kLowest;
+
+  /// One step of InRange; see RangeStep.
+  struct Step {
+    const InRange& in_range;
+    int from;
+    float limit_m;
+
+    HWY_INLINE LowestBounds<kLowest> lowest(int v) const {
+      return in_range.lowest<kLowest>(from + v * kWidth);
+    }
+    HWY_INLINE M lanes(int v) const {
+      return hn::RebindMask(f, hn::Gt(hn::Load(I(), in_range.lane + from + v * kWidth), hn::Set(I(), -1)));
+    }
+    HWY_INLINE V least(V distance) const { return hn::Min(distance, all(limit_m)); }
   };
-  if (relief) {
-    const OctantLimits octant_limits(baked, *relief, limits.surface_m, columns);
-    collect_each(&octant_limits);
-  } else {
-    collect_each(nullptr);
+
+  /// Adds the particles that may be within the limits.
+  HWY_INLINE void collect(const Candidates& among) const {
+    if constexpr (Union::kBlends) {
+      const OctantLimits octant_limits(kernel.model(), limits.surface_m, among.columns);
+      collect_each(among, [&](const CandidateList& list, InRangeStep<kLowest>& step) {
+        bound_by_octant(kernel.model().baked, among.columns, list, octant_limits, step);
+      });
+    } else {
+      const NarrowPhase<Union> narrow(kernel.proxy, batch, kernel.open, out);
+      const V limit = bound_limit(kernel.model().baked, all(limits.plain_m), 0.0f);
+      collect_each(among, [&](const CandidateList& list, InRangeStep<kLowest>& step) {
+        narrow.bound_step(among.columns, list, step.p, step.lowest);
+        for (int v = 0; v < kVectorsInStep; ++v)
+          step.within[v] = hn::Not(hn::Gt(step.lowest[v].bound[0], limit));
+      });
+    }
   }
-  if (in_range.count == begin) return true;
-  in_range.pad<kLowest>(begin);
-  const QueryBatch at = batch_at(in_range.x, in_range.y, in_range.z, in_range.count);
-  open.pairs.count = open.count = 0;
-  if (!evaluate_in_range<kLowest, kTables>(baked, relief, limits.plain_m, in_range, at, begin, columns, open,
-                                           out))
-    return false;
-  if (!collect_rest<kTables>(baked, relief, columns, at, open, out)) return false;
-  flush<kTables>(relief, columns, at, open.pairs, out);
-  if (relief) combine_blended(*relief, begin, in_range.count, open.pairs, out);
-  return true;
-}
+  /// `bound` (candidates, step) sets the bounds of a step, and which of its particles may be within the
+  /// limits.
+  template <class Bound>
+  HWY_INLINE void collect_each(const Candidates& among, Bound&& bound) const {
+    for (int i = 0; i < among.count; ++i) {
+      const LaneRange& range = among.ranges[i];
+      if (among.lists[i].count == 0) continue;
+      for (int from = range.begin; from < range.end; from += kStep) {
+        InRangeStep<kLowest> step;
+        load_step(batch, from, step.p);
+        bound(among.lists[i], step);
+        for (int v = 0; v < kVectorsInStep; ++v) {
+          const int lane = from + v * kWidth;
+          in_range.add(hn::And(step.within[v], lanes_below(lane, range.end)), lane, step.p[v],
+                       step.lowest[v]);
+        }
+      }
+    }
+  }
+  /// Evaluates the probable owners of the particles [begin, in_range.count). False on overflow.
+  template <int kTables>
+  HWY_INLINE bool evaluate(NarrowPhase<Union>& narrow, int begin, const Columns& columns) const {
+    for (int from = begin; from < in_range.count; from += kStep) {
+      V3 p[kVectorsInStep];
+      for (int v = 0; v < kVectorsInStep; ++v) {
+        const int i = from + v * kWidth;
+        p[v] = load3(in_range.x + i, in_range.y + i, in_range.z + i);
+      }
+      const Step step{in_range, from, limits.plain_m};
+      if (!narrow.template evaluate_owners<kTables>(columns, from, p, step)) return false;
+    }
+    return true;
+  }
+};
 
 /// Distance, unit gradient and owner of every particle of `in_range`, as numbered there: all particles within
-/// limit_m of the surface, and some others. False on overflow, or if a particle is too far away for floats.
-inline bool nearest_in_range(const Baked& baked, const ReliefTables* relief, QueryBatch& batch, float limit_m,
-                             Scratch& scratch, InRange& in_range, BatchResults& out) {
-  const QueryLimits limits(baked, relief, limit_m);
-  const float beyond_m = (relief ? relief->blend_m : 0.0f) + 4.0f * baked.rounding_m;
-  const auto work = [&](auto tables, const Columns& columns, const LaneRange* ranges, int count,
-                        const CandidateList* lists) {
-    Open& open = scratch.open;
-    if (relief)
-      return evaluate_limited<3, tables()>(baked, relief, batch, limits, ranges, count, lists, columns,
-                                           in_range, open, out);
-    return evaluate_limited<2, tables()>(baked, nullptr, batch, limits, ranges, count, lists, columns,
-                                         in_range, open, out);
-  };
+/// limit_m of the surface, and some others.
+template <class Union>
+Status nearest_in_range(Kernel<Union>& kernel, Batch& batch, float limit_m, InRange& in_range,
+                        BatchResults& out) {
+  const QueryLimits limits(kernel.model(), limit_m);
+  const float beyond_m = kernel.beyond_m();
+  const EvaluationInRange<Union> evaluate{kernel, batch, limits, in_range, out};
   in_range.clear();
-  if (use_cache(baked, relief, beyond_m, batch, scratch.lists)) {
-    if (with_cached_candidates(baked, relief, batch, beyond_m, limits.of_bounds(baked),
-                               Columns::Rows::kShapes, scratch.lists, work))
-      return true;
+  if (refresh_if_stale<NotDominated<false>>(beyond_m, batch, kernel.broad)) {
+    if (kernel.broad.take_cached(batch, beyond_m, limits.of_bounds(kernel.model().baked),
+                                 Columns::Rows::kShapes, evaluate) == Status::kDone)
+      return Status::kDone;
     in_range.clear();
   }
-  return with_limited_candidates(baked, relief, batch, beyond_m, limits, scratch.lists, work);
+  const Blocks blocks(batch.at, {0, batch.at.count});
+  if (!blocks.in_float_range) return Status::kTooFar;
+  blocks.note_radii(batch.radius_m);
+  const NotBeyondNorDominated rule(limits.plain_m, beyond_m, blocks.ranges[0].box);
+  return kernel.broad.search(blocks.ranges, blocks.count, rule, evaluate);
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

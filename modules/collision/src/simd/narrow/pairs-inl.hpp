@@ -1,4 +1,5 @@
-// Pairs of a particle and an ellipsoid, evaluated exactly, a whole vector of them at a time.
+// Lists of the narrow phase, one array a number: results of particles, pairs of a particle and an ellipsoid,
+// and particles that a limit selects.
 #if defined(BODICE_COLLISION_PAIRS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_PAIRS_INL_
 #undef BODICE_COLLISION_PAIRS_INL_
@@ -9,8 +10,7 @@
 #include <cstdint>
 
 #include "model/batch.hpp"
-#include "simd/ellipsoid/columns-inl.hpp"
-#include "simd/ellipsoid/relief_table-inl.hpp"
+#include "simd/ellipsoid/bound-inl.hpp"
 #include "simd/math/pack-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,31 +33,13 @@ struct Result {
   VI proxy_index;
 };
 
-/// Evaluates several vectors side by side.
-template <int kTables, int kCount>
-HWY_INLINE void evaluate_each(const ReliefTables* relief, const Columns& columns, const VI (&column)[kCount],
-                              const V3 (&p)[kCount], Result (&out)[kCount]) {
-  Shape shape[kCount];
-  ClosestPointLanes closest[kCount];
-  for (int i = 0; i < kCount; ++i) shape[i] = shape_of<kTables>(columns, column[i]);
-  closest_points(shape, p, closest);
-  for (int i = 0; i < kCount; ++i) {
-    const VI proxy_index = proxy_indices_of<kTables>(columns, column[i]);
-    if (relief) {
-      const TableLanes table = table_of<kTables>(columns, column[i]);
-      const Corrected one = corrected(*relief, table, shape[i], closest[i],
-                                      [&] { return axes_of<kTables>(columns, column[i]); });
-      out[i] = {closest[i].distance, one.value, one.gradient, proxy_index};
-    } else {
-      out[i] = {closest[i].distance, closest[i].distance, normal_of(shape[i], closest[i]), proxy_index};
-    }
-  }
-}
+using BatchResults = ResultRows<kBatch>;
 
-template <int kSize>
-HWY_INLINE void put(const Result& a, bool relief, ResultRows<kSize>& to, int i) {
+/// Stores a vector of results; `value` only where results are blended.
+template <bool kBlends, int kSize>
+HWY_INLINE void put(const Result& a, ResultRows<kSize>& to, int i) {
   hn::Store(a.distance, f, to.distance + i);
-  if (relief) hn::Store(a.value, f, to.value + i);
+  if constexpr (kBlends) hn::Store(a.value, f, to.value + i);
   store3(a.gradient, to.gx + i, to.gy + i, to.gz + i);
   hn::Store(a.proxy_index, I(), to.proxy_index + i);
 }
@@ -81,30 +63,50 @@ struct Pairs {
   }
 };
 
-template <int kTables>
-HWY_INLINE void evaluate_pairs(const ReliefTables* relief, const Columns& columns, const QueryBatch& batch,
-                               Pairs& pairs) {
-  if (pairs.count == 0) return;
-  // The last vectors are filled up with valid pairs.
-  for (int v = 0; v < kVectorsInStep; ++v) {
-    hn::StoreU(hn::Set(I(), pairs.lane[0]), I(), pairs.lane + pairs.count + v * kWidth);
-    hn::StoreU(hn::Zero(I()), I(), pairs.column + pairs.count + v * kWidth);
+/// The particles of a batch that may be within the limit, closed up. Each run of those found together starts
+/// at a whole step, behind repetitions of the particle before.
+struct alignas(64) InRange {
+  static constexpr int kMaxBounds = 3, kSize = kBatch + 2 * kStep;
+  float x[kSize], y[kSize], z[kSize];
+  float bound[kMaxBounds + 1][kSize];  ///< as in LowestBounds
+  std::int32_t lane[kSize];            ///< in the batch; -1: a repetition
+  int count = 0;
+  LaneBits which;  ///< these particles as lanes of the batch
+
+  void clear() {
+    count = 0;
+    which = {};
   }
-  for (int from = 0; from < pairs.count; from += kVectorsInStep * kWidth) {
-    VI column[kVectorsInStep];
-    V3 p[kVectorsInStep];
-    Result results[kVectorsInStep];
-    for (int v = 0; v < kVectorsInStep; ++v) {
-      const VI lane = hn::Load(I(), pairs.lane + from + v * kWidth);
-      column[v] = hn::Load(I(), pairs.column + from + v * kWidth);
-      p[v] = {hn::GatherIndex(f, batch.x, lane), hn::GatherIndex(f, batch.y, lane),
-              hn::GatherIndex(f, batch.z, lane)};
+  /// Adds the chosen ones of the batch's lanes [first, first + kWidth).
+  template <int kLowest>
+  HWY_INLINE void add(M mask, int first, V3 p, const LowestBounds<kLowest>& lowest) {
+    const Pack pack(mask);
+    which.add(bits(mask), first);
+    pack.store(p.x, x + count);
+    pack.store(p.y, y + count);
+    pack.store(p.z, z + count);
+    for (int i = 0; i <= kLowest; ++i) pack.store(lowest.bound[i], bound[i] + count);
+    pack.store(lanes_from(first), lane + count);
+    count += pack.count();
+  }
+  /// Repeats the last particle until the run that starts at `from` has whole steps.
+  template <int kLowest>
+  HWY_INLINE void pad(int from) {
+    if (count == from) return;
+    const int last = count - 1, end = from + (count - from + kStep - 1) / kStep * kStep;
+    for (; count < end; ++count) {
+      for (float* values : {x, y, z}) values[count] = values[last];
+      for (int i = 0; i <= kLowest; ++i) bound[i][count] = bound[i][last];
+      lane[count] = -1;
     }
-    evaluate_each<kTables>(relief, columns, column, p, results);
-    for (int v = 0; v < kVectorsInStep; ++v)
-      put(results[v], relief != nullptr, pairs.results, from + v * kWidth);
   }
-}
+  template <int kLowest>
+  HWY_INLINE LowestBounds<kLowest> lowest(int i) const {
+    LowestBounds<kLowest> result;
+    for (int k = 0; k <= kLowest; ++k) result.bound[k] = hn::Load(f, bound[k] + i);
+    return result;
+  }
+};
 
 }  // namespace bodice::collision::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -12,29 +12,34 @@
 #include <cstring>
 
 #include "model/batch.hpp"
-#include "simd/broad/blocks-inl.hpp"
 #include "simd/math/pack-inl.hpp"
+#include "simd/math/planes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
 
+/// A plane of each particle: the half-space beyond it is clear of an ellipsoid.
+struct alignas(64) PlaneRows {
+  float nx[kBatch], ny[kBatch], nz[kBatch], offset[kBatch];
+  std::int32_t ellipsoid[kBatch];  ///< internal index; -1: not active, and the other numbers are not read
+
+  HWY_INLINE V3 normal(int i) const { return load3(nx + i, ny + i, nz + i); }
+  HWY_INLINE Plane at(int i) const { return {normal(i), hn::Load(f, offset + i)}; }
+  HWY_INLINE Plane gather(VI at) const { return {gather3(nx, ny, nz, at), hn::GatherIndex(f, offset, at)}; }
+  HWY_INLINE V3 gather_normal(VI at) const { return gather3(nx, ny, nz, at); }
+  HWY_INLINE VI ellipsoids(VI at) const { return hn::GatherIndex(I(), ellipsoid, at); }
+  HWY_INLINE M active(int i) const {
+    return hn::RebindMask(f, hn::Gt(hn::Load(I(), ellipsoid + i), hn::Set(I(), -1)));
+  }
+  HWY_INLINE void deactivate() { std::memset(ellipsoid, 0xFF, sizeof(ellipsoid)); }
+};
+
 /// One array a number for the particles of InRange.
 struct alignas(64) PushState {
-  std::int32_t owner[kBatch];                   ///< owner at the start, internal index; -1: no contact
-  float x[kBatch], y[kBatch], z[kBatch];        ///< current position
-  float n1x[kBatch], n1y[kBatch], n1z[kBatch];  ///< normals of the active planes
-  float n2x[kBatch], n2y[kBatch], n2z[kBatch];
-  float n3x[kBatch], n3y[kBatch], n3z[kBatch];
-  float offset1[kBatch], offset2[kBatch], offset3[kBatch];
-  std::int32_t ellipsoid2[kBatch],
-      ellipsoid3[kBatch];  ///< ellipsoids of the second and third plane; -1: not active
-  LaneBits open;           ///< still below the clearance after the last round
+  float x[kBatch], y[kBatch], z[kBatch];  ///< current position
+  PlaneRows plane[3];                     ///< active planes; the first is that of the owner at the start
+  LaneBits open;                          ///< still below the clearance after the last round
   std::uint32_t rounds = 0;
-
-  /// Marks the second and third planes as not active; their other numbers are not read then.
-  HWY_INLINE void clear_others() {
-    for (std::int32_t* values : {ellipsoid2, ellipsoid3}) std::memset(values, 0xFF, sizeof(ellipsoid2));
-  }
 };
 
 struct LanesBelow;
@@ -112,10 +117,6 @@ HWY_INLINE void PushedLanes::close(const LanesBelow& below) {
   pad();
 }
 
-HWY_INLINE V3 gather3(const float* x, const float* y, const float* z, VI at) {
-  return {hn::GatherIndex(f, x, at), hn::GatherIndex(f, y, at), hn::GatherIndex(f, z, at)};
-}
-
 /// Stores the lanes of a mask at an index each.
 class Scatter {
  public:
@@ -126,6 +127,11 @@ class Scatter {
     store(value.x, x);
     store(value.y, y);
     store(value.z, z);
+  }
+  HWY_INLINE void store(const Plane& plane, VI ellipsoids, PlaneRows& to) const {
+    store(plane.n, to.nx, to.ny, to.nz);
+    store(plane.offset, to.offset);
+    store(ellipsoids, to.ellipsoid);
   }
 
  private:

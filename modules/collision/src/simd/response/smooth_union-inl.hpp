@@ -9,10 +9,17 @@
 #define BODICE_COLLISION_SMOOTH_UNION_INL_
 #endif
 
-#include "simd/response/sample-inl.hpp"
+#include "simd/response/tangent_candidates-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
+
+/// The distance of the smooth union in each lane.
+struct Sample {
+  V distance;   ///< F, meters; where every ellipsoid is farther, its initial value
+  V3 gradient;  ///< unit length for plain ellipsoids
+  VI owner;
+};
 
 constexpr int kSmoothSteps = 5;  // Newton on a convex function, from above: quadratic
 

@@ -1,17 +1,17 @@
-// Uses, checks and refreshes the candidate cache of a batch.
-#if defined(BODICE_COLLISION_CACHED_CANDIDATES_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_CACHED_CANDIDATES_INL_
-#undef BODICE_COLLISION_CACHED_CANDIDATES_INL_
+// Checks and refreshes the candidate cache of a batch.
+#if defined(BODICE_COLLISION_CACHE_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_CACHE_INL_
+#undef BODICE_COLLISION_CACHE_INL_
 #else
-#define BODICE_COLLISION_CACHED_CANDIDATES_INL_
+#define BODICE_COLLISION_CACHE_INL_
 #endif
 
 #include <algorithm>
 #include <cmath>
 
 #include "model/candidate_cache.hpp"
-#include "simd/broad/blocks-inl.hpp"
-#include "simd/ellipsoid/lowest_bounds-inl.hpp"
+#include "simd/broad/search-inl.hpp"
+#include "simd/ellipsoid/closest_point-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
@@ -20,15 +20,15 @@ static_assert(CachedBatch::kSpan % kStep == 0 && kBlock % CachedBatch::kSpan == 
 
 /// Updates the bound on the displacement since the last refresh. False if it exceeds the reach for some
 /// particle, so that the cache is stale.
-HWY_INLINE bool update_displacement(CachedBatch& cached, const QueryBatch& batch) {
+HWY_INLINE bool update_displacement(CachedBatch& cached, const Batch& batch) {
   const auto traveled_m = static_cast<float>(batch.cache.traveled_m - cached.traveled_m);
   const float left_m = cached.reach_m - traveled_m;
-  if (cached.count < batch.count || !(left_m > 0.0f)) return false;
+  if (cached.count < batch.at.count || !(left_m > 0.0f)) return false;
   const V limit = all(left_m * left_m);
   V most = hn::Zero(f);
   M near = hn::FirstN(f, kWidth);
-  for (int i = 0; i < batch.count; i += kWidth) {
-    const V3 p = {hn::LoadU(f, batch.x + i), hn::LoadU(f, batch.y + i), hn::LoadU(f, batch.z + i)};
+  for (int i = 0; i < batch.at.count; i += kWidth) {
+    const V3 p = {hn::LoadU(f, batch.at.x + i), hn::LoadU(f, batch.at.y + i), hn::LoadU(f, batch.at.z + i)};
     const V3 path = p - load3(cached.x + i, cached.y + i, cached.z + i);
     const V path2 = dot(path, path);
     near = hn::And(near, hn::Lt(path2, limit));
@@ -72,10 +72,30 @@ struct StepBounds {
   float least_m;  ///< least bound of all
 };
 
-/// Bounds all candidates at one step of particles and evaluates the probable owners exactly.
+/// A refresh of the cache of one batch.
+struct CacheRefresh {
+  const Baked& baked;
+  const Batch& batch;
+  float beyond_m;
+  CachedBatch& cached;
+
+  /// How much farther than the nearest a candidate may be to be cached.
+  float widest_m() const { return beyond_m + 2.0f * cached.reach_m; }
+
+  /// Bounds all candidates at one step of particles and evaluates the probable owners exactly.
+  template <int kTables>
+  HWY_INLINE void bound_step(int from, const CandidateList& candidates, const Columns& columns,
+                             StepBounds& out) const;
+  /// Caches the candidates that, at some particle of the step, exceed the nearest distance by less than
+  /// widest_m(). False if there is no room. `slot`: a column's index in the cache, or -1.
+  template <int kTables>
+  HWY_INLINE bool cache_step(int from, const CandidateList& candidates, const Columns& columns,
+                             std::int32_t* slot) const;
+};
+
 template <int kTables>
-HWY_INLINE void bound_step(const Baked& baked, const QueryBatch& batch, int from,
-                           const CandidateList& candidates, const Columns& columns, StepBounds& out) {
+HWY_INLINE void CacheRefresh::bound_step(int from, const CandidateList& candidates, const Columns& columns,
+                                         StepBounds& out) const {
   V3 p[kVectorsInStep];
   LowestBounds<0> lowest[kVectorsInStep];
   load_step(batch, from, p);
@@ -88,7 +108,8 @@ HWY_INLINE void bound_step(const Baked& baked, const QueryBatch& batch, int from
     }
   Shape shapes[kVectorsInStep];
   ClosestPointLanes closest[kVectorsInStep];
-  for (int v = 0; v < kVectorsInStep; ++v) shapes[v] = shape_of<kTables>(columns, lowest[v].rank(0));
+  for (int v = 0; v < kVectorsInStep; ++v)
+    shapes[v] = shape_from(ColumnLanes<kTables>(columns, lowest[v].rank(0)));
   closest_points(shapes, p, closest);
   for (int v = 0; v < kVectorsInStep; ++v) out.limit[v] = bound_limit(baked, closest[v].distance, 0.0f);
   V least = lowest[0].bound[0];
@@ -96,24 +117,20 @@ HWY_INLINE void bound_step(const Baked& baked, const QueryBatch& batch, int from
   out.least_m = hn::GetLane(hn::MinOfLanes(f, least));
 }
 
-/// Caches the candidates that, at some particle of the step, exceed the nearest distance by less than
-/// `beyond_m` plus twice the reach. False if there is no room. `slot`: a column's index in the cache, or -1.
 template <int kTables>
-HWY_INLINE bool cache_step(const Baked& baked, const QueryBatch& batch, int from,
-                           const CandidateList& candidates, const Columns& columns, float beyond_m,
-                           std::int32_t* slot, CachedBatch& cached) {
+HWY_INLINE bool CacheRefresh::cache_step(int from, const CandidateList& candidates, const Columns& columns,
+                                         std::int32_t* slot) const {
   StepBounds step;
-  bound_step<kTables>(baked, batch, from, candidates, columns, step);
+  bound_step<kTables>(from, candidates, columns, step);
   const int span = from / CachedBatch::kSpan;
   cached.least_m[span] = std::min(cached.least_m[span], step.least_m);
-  const float widest_m = beyond_m + 2.0f * cached.reach_m;
   for (int i = 0; i < candidates.count; ++i) {
     V slack = all(CachedBatch::kFar_m);
     for (int v = 0; v < kVectorsInStep; ++v) {
       const V bound = hn::Load(f, step.bound + i * kStep + v * kWidth);
       slack = hn::Min(slack, hn::Max(hn::Sub(bound, step.limit[v]), hn::Zero(f)));
     }
-    if (hn::AllTrue(f, hn::Gt(slack, all(widest_m)))) continue;
+    if (hn::AllTrue(f, hn::Gt(slack, all(widest_m())))) continue;
     const float slack_m = hn::GetLane(hn::MinOfLanes(f, slack));
     const std::int32_t column = candidates.index[i];
     if (slot[column] < 0)
@@ -126,44 +143,41 @@ HWY_INLINE bool cache_step(const Baked& baked, const QueryBatch& batch, int from
 }
 
 /// Stores the positions and the pose from which displacements count.
-HWY_INLINE void cache_positions(const QueryBatch& batch, CachedBatch& cached) {
-  for (int i = 0; i < batch.count; i += kWidth) {
-    hn::Store(hn::LoadU(f, batch.x + i), f, cached.x + i);
-    hn::Store(hn::LoadU(f, batch.y + i), f, cached.y + i);
-    hn::Store(hn::LoadU(f, batch.z + i), f, cached.z + i);
+HWY_INLINE void cache_positions(const Batch& batch, CachedBatch& cached) {
+  for (int i = 0; i < batch.at.count; i += kWidth) {
+    hn::Store(hn::LoadU(f, batch.at.x + i), f, cached.x + i);
+    hn::Store(hn::LoadU(f, batch.at.y + i), f, cached.y + i);
+    hn::Store(hn::LoadU(f, batch.at.z + i), f, cached.z + i);
   }
   cached.traveled_m = batch.cache.traveled_m;
   cached.moved_m = 0.0f;
-  cached.count = batch.count;
+  cached.count = batch.at.count;
 }
 
-/// Fills the cache of a batch. False if the candidates do not fit, or if a particle is too far away for
-/// floats.
-inline bool fill_cache(const Baked& baked, const ReliefTables* relief, float beyond_m, QueryBatch& batch,
-                       BroadPhaseLists& lists) {
+/// Fills the cache of a batch; Find is a rule of domination-inl.hpp, made from how much farther than the
+/// nearest an ellipsoid still counts. False if the candidates do not fit, or if a particle is too far away
+/// for floats.
+template <class Find>
+bool fill_cache(float beyond_m, Batch& batch, BroadPhase& broad) {
   CachedBatch& cached = *batch.cache.batch;
-  const Blocks blocks(batch);
+  const Blocks blocks(batch.at, {0, batch.at.count});
   if (!blocks.in_float_range) return false;
-  for (int i = 0; i < blocks.count; ++i) batch.radius_m[i] = blocks.ranges[i].box.radius;
-  const float widest_m = beyond_m + 2.0f * cached.reach_m;
+  blocks.note_radii(batch.radius_m);
   cached.candidates = 0;
   std::fill_n(cached.slack_m[0], CachedBatch::kSpans * CachedBatch::kCapacity, CachedBatch::kFar_m);
   std::fill_n(cached.least_m, CachedBatch::kSpans, kNoLimit_m);
-  const auto find = [&](const auto& source, const Aabb& around, const LaneRange* ranges, int count,
-                        CandidateList* found) {
-    return find_candidates<false>(source, around, ranges, count, widest_m, kNoLimit_m, found);
-  };
-  const auto work = [&](auto tables, const Columns& columns, const LaneRange* ranges, int count,
-                        const CandidateList* found) {
+  const CacheRefresh refresh{broad.model().baked, batch, beyond_m, cached};
+  const auto work = [&](auto tables, const Candidates& candidates) {
     std::int32_t slot[kMaxCandidates];
-    std::fill_n(slot, columns.count(), -1);
-    for (int i = 0; i < count; ++i)
-      for (int from = ranges[i].begin; from < end_of(ranges[i]); from += kStep)
-        if (!cache_step<tables()>(baked, batch, from, found[i], columns, beyond_m, slot, cached))
-          return false;
-    return true;
+    std::fill_n(slot, candidates.columns.count(), -1);
+    for (int i = 0; i < candidates.count; ++i)
+      for (int from = candidates.ranges[i].begin; from < end_of(candidates.ranges[i]); from += kStep)
+        if (!refresh.cache_step<tables()>(from, candidates.lists[i], candidates.columns, slot))
+          return Status::kTooMany;
+    return Status::kDone;
   };
-  if (!with_candidates(baked, relief, blocks.ranges, blocks.count, lists, find, work)) return false;
+  const Find find{refresh.widest_m()};
+  if (broad.search(blocks.ranges, blocks.count, find, work) != Status::kDone) return false;
   // With more candidates, gathers would cost more than a new search.
   if (cached.candidates > kPermuted) return false;
   sort_candidates(cached);
@@ -171,9 +185,10 @@ inline bool fill_cache(const Baked& baked, const ReliefTables* relief, float bey
   return true;
 }
 
-/// Whether the batch has a valid cache. A stale one is refreshed if that is likely to pay.
-HWY_INLINE bool use_cache(const Baked& baked, const ReliefTables* relief, float beyond_m, QueryBatch& batch,
-                          BroadPhaseLists& lists) {
+/// Makes the cache of a batch valid, if it has one: a stale cache is refreshed if that is likely to pay.
+/// False if there is no valid cache.
+template <class Find>
+HWY_INLINE bool refresh_if_stale(float beyond_m, Batch& batch, BroadPhase& broad) {
   const CacheAccess& cache = batch.cache;
   if (!cache.batch) return false;
   CachedBatch& cached = *cache.batch;
@@ -183,43 +198,9 @@ HWY_INLINE bool use_cache(const Baked& baked, const ReliefTables* relief, float 
     return true;
   }
   if (!cached.begin_refresh(cache.least_reach_m, cache.most_reach_m)) return false;
-  if (fill_cache(baked, relief, beyond_m, batch, lists)) return true;
+  if (fill_cache<Find>(beyond_m, batch, broad)) return true;
   cached.give_up();
   return false;
-}
-
-/// Lists the candidates of a span that may be within `beyond_m` of the nearest by now.
-HWY_INLINE void list_cached(const CachedBatch& cached, int span, float beyond_m, CandidateList& out) {
-  const V most = all(beyond_m + 2.0f * cached.moved_m);
-  out.count = 0;
-  for (int first = 0; first < cached.candidates; first += kWidth) {
-    const Pack near(hn::Le(hn::Load(f, cached.slack_m[span] + first), most));
-    near.store(lanes_from(first), out.index + out.count);
-    out.count += near.count();
-  }
-}
-
-/// Calls work as with_candidates() does, with the cached candidates. Spans that cannot come within `limit_m`
-/// of an ellipsoid get no candidates.
-template <class Work>
-HWY_INLINE bool with_cached_candidates(const Baked& baked, const ReliefTables* relief,
-                                       const QueryBatch& batch, float beyond_m, float limit_m,
-                                       Columns::Rows rows, BroadPhaseLists& lists, Work&& work) {
-  const CachedBatch& cached = *batch.cache.batch;
-  lists.columns.fill(baked, relief, cached.candidate, cached.candidates, rows);
-  LaneRange ranges[CachedBatch::kSpans];
-  int count = 0;
-  for (int begin = 0; begin < batch.count; begin += CachedBatch::kSpan, ++count) {
-    ranges[count].begin = begin;
-    ranges[count].end = std::min(begin + CachedBatch::kSpan, batch.count);
-    lists.of_span[count].count = 0;
-    if (cached.least_m[count] - cached.moved_m <= limit_m)
-      list_cached(cached, count, beyond_m, lists.of_span[count]);
-  }
-  bool fits = false;
-  with_tables(lists.columns,
-              [&](auto tables) { fits = work(tables, lists.columns, ranges, count, lists.of_span); });
-  return fits;
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

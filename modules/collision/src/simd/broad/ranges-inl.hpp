@@ -1,34 +1,26 @@
-// AABBs of particles, and the candidates of a block for a response with fillets.
-// The signed distance to a convex body is convex, so that its tangent plane at the block's middle q bounds it
-// from below everywhere: d_k(p) >= d_k(q) + n_k . (p - q).
-#if defined(BODICE_COLLISION_TANGENT_CANDIDATES_INL_) == defined(HWY_TARGET_TOGGLE)
-#ifdef BODICE_COLLISION_TANGENT_CANDIDATES_INL_
-#undef BODICE_COLLISION_TANGENT_CANDIDATES_INL_
+// Ranges of lanes with their AABBs, and the loads of their positions.
+#if defined(BODICE_COLLISION_RANGES_INL_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BODICE_COLLISION_RANGES_INL_
+#undef BODICE_COLLISION_RANGES_INL_
 #else
-#define BODICE_COLLISION_TANGENT_CANDIDATES_INL_
+#define BODICE_COLLISION_RANGES_INL_
 #endif
 
-#include <cstring>
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
+#include <hwy/cache_control.h>
+
+#include "model/baked.hpp"
 #include "model/batch.hpp"
+#include "model/candidate_cache.hpp"
+#include "model/fallback.hpp"
 #include "model/tolerances.hpp"
-#include "simd/ellipsoid/closest_point-inl.hpp"
-#include "simd/math/pack-inl.hpp"
+#include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace bodice::collision::HWY_NAMESPACE {
-
-/// The ellipsoids near a block and their tangent planes at its middle.
-struct TangentCandidates {
-  int count = 0;
-  alignas(64) std::int32_t index[kMaxCandidates + 16];
-  alignas(64) float distance[kMaxCandidates + 16];
-  alignas(64) float nx[kMaxCandidates + 16], ny[kMaxCandidates + 16], nz[kMaxCandidates + 16];
-  float middle[3];
-  float slack_m = 0.0f;   ///< error of distances and planes over the block
-  float radius_m = 0.0f;  ///< half the diagonal of the block's box
-  float reach_m = 0.0f;   ///< pushes up to this long reach no other ellipsoid
-};
 
 /// An axis-aligned box as middle and half sides, meters; radius is half its diagonal.
 struct Aabb {
@@ -143,83 +135,81 @@ HWY_INLINE V box_distance(const CullArrays& cull, const Aabb& e, std::size_t k) 
   return box_distance(cull.low, cull.high, e, k);
 }
 
-/// Exact distance and normal at the block's middle for the ellipsoids with boxes within `window` of the
-/// block's. False on overflow. `least` is set to the least distance, or to 1e30.
-HWY_INLINE bool collect_tangents(const Baked& baked, const Aabb& e, float window, TangentCandidates& out,
-                                 float& least) {
-  const std::size_t width = hn::Lanes(f);
-  const V3 middle = broadcast3(e.middle);
-  V lowest = all(1e30f);
-  std::memcpy(out.middle, e.middle, sizeof(out.middle));
-  out.count = 0;
-  for (std::size_t k = 0; k < baked.cull.shortest.size(); k += width) {
-    // The distance to a box is zero inside it, whatever the depth.
-    const M near = hn::Le(box_distance(baked.cull, e, k), all(std::max(window, 0.0f)));
-    if (hn::AllFalse(f, near)) continue;
-    if (out.count + static_cast<int>(width) > kMaxCandidates) return false;
-    const Shape shape = consecutive(baked.cull, k);
-    const ClosestPointLanes closest = closest_point(shape, middle);
-    const V3 normal = normal_of(shape, closest);
-    lowest = hn::Min(lowest, hn::IfThenElse(near, closest.distance, all(1e30f)));
-    const VI index = lanes_from(static_cast<int>(k));
-    const int at = out.count;
-    const Pack pack(near);
-    pack.store(closest.distance, out.distance + at);
-    pack.store(normal.x, out.nx + at);
-    pack.store(normal.y, out.ny + at);
-    pack.store(normal.z, out.nz + at);
-    pack.store(index, out.index + at);
-    out.count += pack.count();
-  }
-  least = hn::GetLane(hn::MinOfLanes(f, lowest));
-  return true;
+constexpr int kBlocks = kBatch / kBlock;
+
+/// Consecutive lanes of a batch and their AABB.
+struct LaneRange {
+  Aabb box;
+  int begin, end;
+};
+
+/// End of the range's lanes, rounded up to whole steps.
+HWY_INLINE int end_of(const LaneRange& range) {
+  return range.begin + (range.end - range.begin + kStep - 1) / kStep * kStep;
 }
 
-/// Keeps the candidates with tangent planes that come within `window` of some point of the block's box, and
-/// moves the one nearest to its middle to the front.
-HWY_INLINE void drop_beyond_window(const Aabb& e, float window, TangentCandidates& c) {
-  int count = 0, nearest = 0;
-  for (int i = 0; i < c.count; ++i) {
-    const float reach =
-        std::abs(c.nx[i]) * e.half[0] + std::abs(c.ny[i]) * e.half[1] + std::abs(c.nz[i]) * e.half[2];
-    if (c.distance[i] - reach > window) continue;
-    c.index[count] = c.index[i];
-    c.distance[count] = c.distance[i];
-    c.nx[count] = c.nx[i];
-    c.ny[count] = c.ny[i];
-    c.nz[count] = c.nz[i];
-    if (c.distance[count] < c.distance[nearest]) nearest = count;
-    ++count;
+/// A span of lanes, divided into blocks.
+struct Blocks {
+  LaneRange ranges[kBlocks];
+  int count = 0;
+  bool in_float_range = true;  ///< all particles are within kFarthest_m, which NaN is not
+
+  /// `lanes` are at least one.
+  HWY_INLINE Blocks(const Positions& at, LaneSpan lanes) {
+    int begin = lanes.begin;
+    do {
+      const int end = std::min(begin + kBlock, lanes.end);
+      bool these = false;
+      ranges[count++] = {aabb_of_lanes(at.x + begin, at.y + begin, at.z + begin, end - begin, these), begin,
+                         end};
+      in_float_range = in_float_range && these;
+      begin = end;
+    } while (begin < lanes.end);
   }
-  c.count = count;
-  if (nearest == 0) return;
-  std::swap(c.index[0], c.index[nearest]);
-  std::swap(c.distance[0], c.distance[nearest]);
-  std::swap(c.nx[0], c.nx[nearest]);
-  std::swap(c.ny[0], c.ny[nearest]);
-  std::swap(c.nz[0], c.nz[nearest]);
+  /// Stores the radii of a whole batch's blocks.
+  HWY_INLINE void note_radii(float* radius_m) const {
+    for (int i = 0; i < count; ++i) radius_m[i] = ranges[i].box.radius;
+  }
+};
+
+/// Indices of candidates, rising; whole vectors are written behind the last.
+struct CandidateList {
+  int count = 0;
+  alignas(64) std::int32_t index[kMaxCandidates + 16];
+};
+
+/// Prefetches the same lanes of the next batch, a few at a time, since all at once would delay this batch's
+/// own reads. It is inlined, because g++ drops calls of a function that only prefetches.
+template <int kLanes>
+HWY_INLINE void prefetch_step(const NextBatch& next, int from) {
+  constexpr int kLine = 64 / sizeof(float);
+  for (int i = from; next.cached && i < from + kLanes; i += kLine) {
+    hwy::Prefetch(next.cached->x + i);
+    hwy::Prefetch(next.cached->y + i);
+    hwy::Prefetch(next.cached->z + i);
+    hwy::Prefetch(next.cached->slack_m[0] + i);
+  }
+  if (from + kLanes > next.count) return;
+  for (int i = from; next.x && i < from + kLanes; i += kLine) {
+    hwy::Prefetch(next.x + i);
+    hwy::Prefetch(next.y + i);
+    hwy::Prefetch(next.z + i);
+  }
+  if (!next.contacts) return;
+  if (next.index)
+    for (int i = from; i < from + kLanes; ++i) __builtin_prefetch(next.contacts + next.index[i], 1);
+  else
+    for (int i = from; i < from + kLanes; i += 2) __builtin_prefetch(next.contacts + i, 1);
 }
 
-/// All ellipsoids that some particle of the block violates the clearance of, or can be pushed into.
-HWY_INLINE bool cull_for_response(const Baked& baked, const ParticleBatch& block, float clearance_m,
-                                  TangentCandidates& out) {
-  const Aabb e = aabb_of(block);
-  out.radius_m = e.radius;
-  const float slack = out.slack_m = baked.rounding_m + rounding_over(e);
-  float least;
-  if (!collect_tangents(baked, e, clearance_m + slack, out, least)) return false;
-  const float depth = clearance_m + slack - (least - e.radius);
-  if (out.count == 0 || depth <= 0.0f) {
-    out.count = 0;
-    return true;
+/// Loads the positions of kCount vectors, from lane `from` on.
+template <int kCount>
+HWY_INLINE void load_step(const Batch& batch, int from, V3 (&p)[kCount]) {
+  prefetch_step<kCount * kWidth>(batch.next, from);
+  for (int v = 0; v < kCount; ++v) {
+    const int i = from + v * kWidth;
+    p[v] = {hn::LoadU(f, batch.at.x + i), hn::LoadU(f, batch.at.y + i), hn::LoadU(f, batch.at.z + i)};
   }
-  // A push can be longer than the depth where surfaces meet; longer ones than this are left to the exact
-  // side.
-  out.reach_m = 1.5f * depth;
-  const float window = clearance_m + out.reach_m + slack;
-  if (!collect_tangents(baked, e, window, out, least)) return false;
-  drop_beyond_window(e, window, out);
-  return true;
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE
