@@ -1,4 +1,4 @@
-// Counts taken straight from the triangles, as an oracle that shares nothing with the makers.
+// Counts from the triangles alone, as an oracle that shares nothing with the code that makes the meshes.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ inline MeshFacts facts_of(const bodice::geometry::TriMesh& mesh) {
     facts.worst_quality = std::min(facts.worst_quality, quality);
     facts.slivers += quality < 0.1;
   }
-  std::map<Index, Index> next;  // along the boundary, one loop a component of the border
+  std::map<Index, Index> next;  // along the boundary; each loop is one component of it
   long edges = 0;
   for (const auto& [edge, count] : half_edges) {
     const bool open = half_edges.find({edge[1], edge[0]}) == half_edges.end();

@@ -74,7 +74,7 @@ TEST_CASE("every pose is a closed surface of one component and genus 0") {
     }
 }
 
-TEST_CASE("the vertex count asked for is met within ten percent") {
+TEST_CASE("the requested number of vertices is met within ten percent") {
   for (const int vertices : {1500, 1900, 2600, 4508, 8850, 13380, 53514, 210000}) {
     const synth::Body body = made({.vertices = vertices});
     CHECK(static_cast<double>(body.mesh.positions.size()) == doctest::Approx(vertices).epsilon(0.1));
@@ -83,7 +83,7 @@ TEST_CASE("the vertex count asked for is met within ten percent") {
   }
 }
 
-TEST_CASE("a standing body has the stature asked for, and its volume weighs what was asked") {
+TEST_CASE("a standing body has the requested stature, and its volume the requested mass") {
   struct Case {
     body::Sex sex;
     double stature, mass;
@@ -146,11 +146,12 @@ TEST_CASE("the standing average has the survey's heights") {
     const auto share = [&](LandmarkId id) { return mark(body, id).y() / 1.7; };
     CHECK(share(LandmarkId::kCrown) == doctest::Approx(1.0).epsilon(0.01));
     CHECK(std::abs(share(LandmarkId::kPerineum) - p.crotch_height) < 0.02);
-    // Where a knee turns: Drillis, Contini. Body segment parameters. 1966. Not the survey's tibiale.
+    // The height at which a knee turns is from: Drillis, Contini. Body segment parameters. 1966. It is not
+    // the survey's tibiale.
     CHECK(std::abs(share(LandmarkId::kKneeL) - 0.285) < 0.01);
     CHECK(std::abs(share(LandmarkId::kNeck) - p.neck_height) < 0.03);
     CHECK(std::abs(share(LandmarkId::kArmpitL) - p.axilla_height) < 0.03);
-    // Rigged scans: the elbow parts the way from shoulder to wrist at .49 to .53.
+    // In rigged scans the elbow lies at .49 to .53 of the distance from shoulder to wrist.
     const double upper = (joint(body, "elbow_l") - joint(body, "shoulder_l")).norm();
     const double lower = (joint(body, "wrist_l") - joint(body, "elbow_l")).norm();
     CHECK(std::abs(upper / (upper + lower) - 0.51) < 0.02);
@@ -159,7 +160,7 @@ TEST_CASE("the standing average has the survey's heights") {
   }
 }
 
-TEST_CASE("parts are all there, on their own side, and meet at the joints") {
+TEST_CASE("every part exists, on its own side, and adjacent parts meet at their joint") {
   const synth::Body body = made({.pose = Pose::kA});
   std::array<int, body::kPartCount> count{};
   for (std::size_t v = 0; v < body.part.size(); ++v) {
@@ -228,7 +229,7 @@ TEST_CASE("one body has the same shape at all resolutions") {
 }
 
 TEST_CASE("random poses do not run limbs through the body") {
-  // A point just under the skin is wound round once; where flesh runs through flesh, twice.
+  // The winding number is one just under the skin, and two where flesh passes through flesh.
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     CAPTURE(seed);
     const synth::Body body = made({.pose = Pose::kRandom, .vertices = 2500, .seed = seed});
@@ -264,7 +265,7 @@ TEST_CASE("a child has a large head and short legs, and is a closed skin like an
   CHECK(last_leg < 0.40);
 }
 
-TEST_CASE("a pregnant body reaches further forward at the waist, and weighs what was asked") {
+TEST_CASE("a pregnant body reaches further forward at the waist, and has the requested mass") {
   const auto reach = [](const synth::Body& body) {
     double most = -1.0;
     for (const Vec3& p : body.mesh.positions)
@@ -288,7 +289,7 @@ TEST_CASE("a very heavy trunk is deep more than broad, and its armpits stay at t
   }
 }
 
-TEST_CASE("options out of range are one sentence with a remedy") {
+TEST_CASE("options out of range are refused in one sentence with a remedy") {
   CHECK(!synth::make_body({}, {.childhood = -0.1}).ok());
   CHECK(!synth::make_body({}, {.childhood = std::numeric_limits<double>::quiet_NaN()}).ok());
   const auto fails = [](const BodyOptions& options) {

@@ -38,9 +38,9 @@ void check_worn(const synth::Body& body, const geometry::MeshDistance& skin,
   CHECK(facts.components == 1);
   CHECK(facts.repeated_half_edges == 0);
   const bool tunic = options.kind == GarmentKind::kTunic;
-  CHECK(facts.boundary_loops == (tunic ? 4 : 2));  // a tunic: hem, neck and two armholes
+  CHECK(facts.boundary_loops == (tunic ? 4 : 2));  // hem, neck and two armholes
   CHECK(facts.euler == (tunic ? -2 : 0));
-  if (standing) CHECK(facts.worst_quality > 0.2);  // over a lap the rows are as far apart as the lap is deep
+  if (standing) CHECK(facts.worst_quality > 0.2);  // over a lap the rows are as far apart as it is deep
   double nearest = 1.0, below = 1.0;
   for (const Vec3& p : garment.mesh.positions) nearest = std::min(nearest, skin.signed_distance(p));
   for (std::size_t t = 0; t < garment.mesh.triangles.size(); ++t)
@@ -66,7 +66,7 @@ TEST_CASE("every garment fits every standing body, clear of the skin") {
   }
 }
 
-TEST_CASE("a skirt fits a stride and a seat") {
+TEST_CASE("a skirt fits a striding and a seated body") {
   for (const Pose pose : {Pose::kStride, Pose::kSit, Pose::kArmsUp}) {
     CAPTURE(static_cast<int>(pose));
     const synth::Body body = made({.pose = pose, .vertices = 4000});
@@ -74,7 +74,7 @@ TEST_CASE("a skirt fits a stride and a seat") {
   }
 }
 
-// Rows of equal height leave the lap to one row of cells several times the asked edge long.
+// With rows of equal height, the lap would have one row of cells several times the given edge length.
 TEST_CASE("a seated skirt has rows over the lap") {
   const synth::Body body = made({.pose = Pose::kSit, .vertices = 4000});
   const auto skirt = synth::make_garment({}, segmented(body), {});
@@ -87,7 +87,7 @@ TEST_CASE("a seated skirt has rows over the lap") {
   CHECK(longest < 4.0 * synth::GarmentOptions{}.edge_length_m);
 }
 
-TEST_CASE("edges and ease are options") {
+TEST_CASE("the garment has the edge length and ease of the options") {
   const synth::Body body = made({});
   const geometry::MeshDistance skin({}, body.mesh);
   for (const GarmentKind kind : kAllKinds) {
@@ -108,7 +108,7 @@ TEST_CASE("the skirt is held at its waistband, above where it ends") {
   CHECK(hem == doctest::Approx(0.28 * body.stature_m).epsilon(0.15));
 }
 
-TEST_CASE("a body that cannot wear the garment is one clear sentence") {
+TEST_CASE("a body that cannot wear the garment gives an error with one sentence") {
   const synth::Body body = made({.vertices = 2500});
   const auto code_of = [&](const synth::SegmentedBody& wearer, const synth::GarmentOptions& options) {
     const auto garment = synth::make_garment({}, wearer, options);
@@ -131,7 +131,7 @@ TEST_CASE("a body that cannot wear the garment is one clear sentence") {
   CHECK(code_of(segmented(body), {.ease_m = 1.0}) == engine::ErrorCode::kInvalidArgument);
   const synth::Body raised = made({.pose = Pose::kArmsUp, .vertices = 2500});
   CHECK(code_of(segmented(raised), {.kind = GarmentKind::kPoncho}) == engine::ErrorCode::kUnusableGeometry);
-  const synth::Body squatting = made({.pose = Pose::kSquat, .vertices = 2500});  // thighs against the chest
+  const synth::Body squatting = made({.pose = Pose::kSquat, .vertices = 2500});  // the thighs touch the chest
   CHECK(code_of(segmented(squatting), {.kind = GarmentKind::kTunic}) == engine::ErrorCode::kUnusableGeometry);
 }
 

@@ -1,5 +1,4 @@
-// Garments on what the program has: landmarks and parts that analyze() finds, not the truth a body was made
-// of.
+// Garments on what the program knows: landmarks and parts that analyze() finds, not the truth of a made body.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,7 +104,8 @@ TEST_CASE("a neck's border that runs over the shoulders does not keep a poncho f
   check_worn(skin, {body.mesh, body.part, body.landmarks, body.stature_m}, GarmentKind::kPoncho);
 }
 
-// A found armpit is a place on a fold some centimeters tall, and a border between parts a matter of taste.
+// A found armpit is a point on a fold some centimeters tall, and borders between parts are not sharply
+// defined.
 TEST_CASE("landmarks some centimeters off do not keep a garment from fitting") {
   auto body = synth::make_body({}, {.vertices = 4000}).value();
   const geometry::MeshDistance skin({}, body.mesh);

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, kBoneCount> kJointNames = {
     "knuckles_r", "fingers_l",  "fingers_r",   "thumb_l", "thumb_r", "hip_l",      "hip_r",
     "knee_l",     "knee_r",     "ankle_l",     "ankle_r", "ball_l",  "ball_r"};
 
-/// Draws a factor around 1, within two standard deviations.
+/// A random factor around 1, within two standard deviations.
 double factor(engine::Random& random, double deviation) {
   return 1.0 + deviation * std::clamp(random.normal(), -2.0, 2.0);
 }
@@ -31,7 +31,7 @@ void vary(Figure& figure, std::uint64_t seed) {
   const auto shifted = [&](double& length, double deviation) {
     length += deviation * std::clamp(random.normal(), -2.0, 2.0);
   };
-  // Deviations in units of stature: ANSUR II, the spread between persons of one sex.
+  // These are standard deviations in statures, over persons of one sex in ANSUR II.
   body::Proportions& p = figure.p;
   shifted(p.upper_arm, 0.006);
   shifted(p.forearm, 0.006);
@@ -50,8 +50,8 @@ void vary(Figure& figure, std::uint64_t seed) {
   b.seat = factor(random, 0.12);
 }
 
-/// From a grown-up's proportions toward a two-year-old's. The numbers are the author's, after growth charts:
-/// the head's share of the stature grows from 1/7.5 to 1/5, the legs' falls from .47 to .37.
+/// Blends an adult's proportions with those of a two-year-old. The numbers are the author's, after growth
+/// charts: the head's share of the stature grows from 1/7.5 to 1/5, the legs' share falls from .47 to .37.
 void make_young(Figure& f, double childhood) {
   body::Proportions& p = f.p;
   for (double* height : {&p.neck_height, &p.acromion_height}) *height -= 0.058 * childhood;

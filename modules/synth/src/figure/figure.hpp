@@ -1,9 +1,9 @@
-// The skeleton of a body of stature 1 in its rest pose, and the numbers that its flesh follows.
+// The skeleton of a body of stature 1 in its rest pose, and the numbers that shape its flesh.
 //
 //   rest pose: trunk upright on the y axis, facing +z, arms 45 degrees below the horizontal with the
 //   thumbs in front, legs 12 degrees apart from the vertical, feet flat
 //
-// Everything here is in units of stature; make_body scales at the end.
+// All lengths here are in statures; make_body scales at the end.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace bodice::synth {
 using geometry::Mat3;
 using geometry::Vec3;
 
-/// Bones; a limb's are in pairs, left first.
+/// A bone. Those of limbs are in pairs, left first.
 enum class Bone : std::uint8_t {
   kPelvis,
   kSpine,
@@ -49,7 +49,7 @@ enum class Bone : std::uint8_t {
 
 inline constexpr int kBoneCount = 27;
 
-/// `left` is the left bone of a pair; side 0 is left, 1 right.
+/// The bone on the given side (0 left, 1 right) of the pair of `left`.
 constexpr Bone of_side(Bone left, int side) {
   return static_cast<Bone>(static_cast<int>(left) + side);
 }
@@ -57,33 +57,33 @@ constexpr int index(Bone bone) {
   return static_cast<int>(bone);
 }
 
-/// The bone that carries this one; the pelvis carries itself.
+/// The bone that this one is attached to; the pelvis is its own parent.
 Bone parent(Bone bone);
 
 /// The name of the joint at the bone's near end: "elbow_l" for the left forearm.
 std::string_view joint_name(Bone bone);
 
-/// How this body differs from the average of its sex, as factors of cross-section radii.
+/// How the body differs from the average of its sex, in factors of cross-section radii.
 struct Build {
   double hip = 1.0, waist = 1.0, chest = 1.0, shoulder = 1.0;
   double arm = 1.0, leg = 1.0, head = 1.0, bust = 1.0, seat = 1.0;
   double neck = 1.0;
 };
 
-/// Axes of an arm or leg in the rest pose; `along` runs from the trunk to the end of the limb.
+/// The axes of an arm or leg in the rest pose; `along` runs from the trunk to the end of the limb.
 struct LimbAxes {
   Vec3 along;
-  Vec3 out;    ///< the back of the hand; the outer side of the leg
+  Vec3 out;    ///< toward the back of the hand, or the outer side of the leg
   Vec3 front;  ///< +z
 };
 
-/// Lengths, joints and build of one body, in units of stature.
+/// Lengths, joints and build of one body, in statures.
 struct Figure {
   body::Sex sex = body::Sex::kFemale;
   body::Proportions p;
   Build build;
   bool pregnant = false;
-  double fat = 0.0;  ///< 0: the table's slim body; grows girths, most of all the belly's
+  double fat = 0.0;  ///< 0 is the slim body of the tables; more grows girths, most of all the belly's
   double hip_height = 0.0, ankle_height = 0.0;
   std::array<Vec3, kBoneCount> joint;  ///< near end of each bone, rest pose
   std::array<LimbAxes, 2> arm, leg;    ///< left, right
@@ -96,15 +96,15 @@ struct Figure {
   double thigh_length() const { return hip_height - p.knee_height - kCondyle; }
 
   static constexpr double kShoulderDrop = 0.012;  ///< acromion above the center of the joint
-  // Surveys measure to radiale and tibiale, the edges of the forearm's and the shin's bone. Elbow and knee
-  // turn about the centers of the knuckles that roll on them, a radius above: some 11 and 21 mm.
+  // Surveys measure to radiale and tibiale, the edges of the bones of forearm and shin. Elbow and knee turn
+  // about the centers of the knuckles that roll on them, a radius above: about 11 and 21 mm.
   static constexpr double kCapitulum = 0.0065, kCondyle = 0.0125;
   static constexpr double kLegSpread_rad = 0.20943951023931953;
   static constexpr double kArmDrop_rad = 0.78539816339744828;
 };
 
-/// The figure of the given sex, age and proportions. Seed 0 is the average; others vary lengths and girths
-/// within the spread of the surveys.
+/// The figure of the given sex, age and proportions. Seed 0 is the average; other seeds vary lengths and
+/// girths within the spread of the surveys.
 Figure make_figure(const BodyOptions& options, const body::Proportions& proportions);
 
 }  // namespace bodice::synth

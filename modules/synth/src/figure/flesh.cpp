@@ -1,4 +1,4 @@
-// Based on: Inigo Quilez. Smooth minimum (quadratic polynomial). 2013. - the union with a blend radius
+// Based on: Inigo Quilez. Smooth minimum (quadratic polynomial). 2013. (the union with a blend radius)
 #include "figure/flesh.hpp"
 
 #include <algorithm>
@@ -9,10 +9,11 @@
 namespace bodice::synth {
 namespace {
 
-constexpr double kDerivativeStep = 1e-6;  // of stature: far below any feature, far above rounding
-constexpr double kLongestStep = 0.03;     // of stature: keeps Newton on its own limb
-constexpr double kMidGap = 4e-4;          // of stature: between thighs that are pressed together
-constexpr double kMidBlend = 0.008;       // of stature
+// Lengths in statures.
+constexpr double kDerivativeStep = 1e-6;  // far below any feature, far above rounding
+constexpr double kLongestStep = 0.03;     // keeps a Newton step on its own limb
+constexpr double kMidGap = 4e-4;          // between thighs that are pressed together
+constexpr double kMidBlend = 0.008;       // blend radius there
 
 double smooth_min(double a, double b, double radius) {
   const double h = std::max(radius - std::abs(a - b), 0.0);
@@ -100,8 +101,8 @@ double Flesh::own_value(Region region, const Vec3& p) const {
 }
 
 Vec3 Flesh::gradient(Region region, const Vec3& p, double value) const {
-  // One-sided, and along x away from the middle plane, so that left and right round alike; in the plane
-  // itself the slope along x is zero by symmetry.
+  // The differences are one-sided, and along x away from the middle plane, so that left and right round
+  // alike. In the plane itself the slope along x is zero by symmetry.
   Vec3 g = Vec3::Zero();
   for (int c = 0; c < 3; ++c) {
     if (c == 0 && std::abs(p.x()) < kDerivativeStep) continue;
@@ -119,7 +120,7 @@ Vec3 Flesh::project(Region region, Vec3 p, int steps, Vec3* normal) const {
     const double f = value(region, p);
     g = gradient(region, p, f);
     const double square = g.squaredNorm();
-    if (square < 1e-4) break;  // on an axis: no direction to go
+    if (square < 1e-4) break;  // on an axis there is no direction to move in
     Vec3 move = -f / square * g;
     const double length = move.norm();
     if (length > kLongestStep) move *= kLongestStep / length;

@@ -1,6 +1,6 @@
-// The skin of a figure in its rest pose as an implicit surface that blends only along the skeleton's tree:
-// a region sees its own lofts and those of the regions that grow from it or that it grows from, so that
-// limbs which come near one another never fuse.
+// The skin of a figure in its rest pose, as an implicit surface that blends along the skeleton's tree only. A
+// region is made of its own lofts and those of its neighbors in the tree, so that limbs that come close to
+// each other never fuse.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace bodice::synth {
 
-/// What a piece of skin belongs to. The crotch is the floor of the trunk, seen without the legs. Digits: left
-/// index, middle, ring, little, thumb, then the right's.
+/// A region of the skin. The crotch is the floor of the trunk, without the legs. Digits are index, middle,
+/// ring and little finger and thumb, first the left ones.
 enum class Region : std::uint8_t { kTrunk, kCrotch, kHead, kArmL, kArmR, kLegL, kLegR, kDigits };
 inline constexpr int kDigitsPerHand = 5;
 inline constexpr int kRegionCount = static_cast<int>(Region::kDigits) + 2 * kDigitsPerHand;
@@ -27,7 +27,7 @@ constexpr Region region_of_side(Region left, int side) {
 constexpr bool is_digit(Region region) {
   return region >= Region::kDigits;
 }
-/// 0 left, 1 right, -1 for trunk and head.
+/// The side of a region: 0 left, 1 right, -1 for trunk and head.
 constexpr int side_of(Region region) {
   if (is_digit(region))
     return (static_cast<int>(region) - static_cast<int>(Region::kDigits)) / kDigitsPerHand;
@@ -42,7 +42,7 @@ constexpr Region mirrored(Region region) {
   return static_cast<Region>(static_cast<int>(region) + (side == 0 ? step : -step));
 }
 
-/// Where a digit starts, goes and ends, rest pose.
+/// The origin, direction and length of a digit in the rest pose.
 struct Digit {
   Vec3 base, along, out, front;
   double length = 0.0, radius = 0.0;
@@ -53,10 +53,10 @@ class Flesh {
  public:
   explicit Flesh(const Figure& figure);
 
-  /// Nearly the signed distance to the skin as the region sees it, negative inside.
+  /// Approximately the signed distance to the region's skin, negative inside.
   double value(Region region, const Vec3& p) const;
 
-  /// The same of the region's own lofts alone.
+  /// The same for the region's own lofts alone.
   double own_value(Region region, const Vec3& p) const;
 
   /// Moves p to the skin by a few damped Newton steps. `normal` receives the outward unit normal there.
@@ -65,7 +65,7 @@ class Flesh {
  private:
   struct Primitive {
     Loft loft;
-    double blend;  ///< radius of the smooth union with what came before
+    double blend;  ///< radius of the smooth union with the primitives before
   };
   void add(Region region, Loft loft, double blend);
   void add_trunk(const Figure& figure);
@@ -78,9 +78,9 @@ class Flesh {
 
   std::vector<Primitive> primitives_;
   std::array<std::vector<int>, kRegionCount> own_;      ///< primitives of each region
-  std::array<std::vector<int>, kRegionCount> visible_;  ///< own and its tree neighbors', in build order
-  /// As visible_, for points of the right half: the union folds in the mirrored order, so that the body is
-  /// its own mirror image to the last bits.
+  std::array<std::vector<int>, kRegionCount> visible_;  ///< its own and its neighbors', in build order
+  /// visible_ for points of the right half. The union folds in mirrored order, so that the body is its own
+  /// mirror image to the last bit.
   std::array<std::vector<int>, kRegionCount> visible_right_;
 };
 

@@ -1,5 +1,5 @@
-// The tables of arms, hands, legs and feet. The numbers are the author's, set by eye within the girths of the
-// anthropometric surveys (units of stature).
+// The tables of arms, hands, legs and feet, in statures. The numbers are the author's, set by eye within the
+// girths of the anthropometric surveys.
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +11,9 @@ namespace bodice::synth {
 namespace {
 
 struct DigitRow {
-  double across;  // of the palm's half width, thumb side positive
-  double length;  // of the hand's length
-  double radius;  // of the hand's length
+  double across;  // in half widths of the palm, positive on the thumb's side
+  double length;  // in lengths of the hand
+  double radius;  // in lengths of the hand
   double fan_rad;
 };
 
@@ -139,7 +139,7 @@ void Flesh::add_leg(const Figure& f, int side) {
   const double sign = side == 0 ? 1.0 : -1.0, toe_out = 0.1;
   const Vec3 forward(sign * std::sin(toe_out), 0.0, std::cos(toe_out));
   const Vec3 across(std::cos(toe_out), 0.0, -sign * std::sin(toe_out));
-  // v is up: `front` is the instep's height above the axis, `back` the sole's depth below it.
+  // v points up: `front` is the instep's height above the axis, `back` the sole's depth below it.
   const double axis = 0.30 * h;
   add(leg,
       {Vec3(ankle.x(), sole + axis, ankle.z()),

@@ -1,5 +1,5 @@
-// The tables of trunk and head. The numbers are the author's, set by eye within the breadths and depths of
-// the anthropometric surveys (units of stature).
+// The tables of trunk and head, in statures. The numbers are the author's, set by eye within the breadths and
+// depths of the anthropometric surveys.
 #include <algorithm>
 
 #include <Eigen/Geometry>
@@ -9,11 +9,11 @@
 namespace bodice::synth {
 namespace {
 
-/// A row for each sex, with the share of `fat` that each direction takes.
+/// A row for one sex, with the share of `fat` that each direction takes.
 struct TrunkRow {
   double y;
-  double side, front, back;              // slim body
-  double fat_side, fat_front, fat_back;  // growth of the radii for fat 1
+  double side, front, back;              // radii of the slim body
+  double fat_side, fat_front, fat_back;  // their growth for fat 1
 };
 
 std::vector<TrunkRow> trunk_rows(const Figure& f) {

@@ -1,5 +1,5 @@
 // Based on: F. N. Fritsch, J. Butland. A method for constructing local monotone piecewise cubic
-// interpolants. 1984. (the slopes between sections: radii never overshoot the table)
+// interpolants. 1984. (the slopes between sections, so that radii never overshoot the table)
 #include "figure/loft.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ std::array<double, 5> row_of(const Section& section) {
   return {section.side, section.front, section.back, section.u, section.v};
 }
 
-/// Slope at a knot between two secants, zero at a local extremum.
+/// The slope at a knot between two secants; it is zero at a local extremum.
 double monotone_slope(double before, double after, double h_before, double h_after) {
   if (before * after <= 0.0) return 0.0;
   const double w1 = 2.0 * h_after + h_before, w2 = h_after + 2.0 * h_before;
@@ -32,7 +32,7 @@ Loft::Loft(const Vec3& origin, const Vec3& along, const Vec3& u, const Vec3& v, 
       near_cap_(near_cap),
       far_cap_(far_cap),
       squareness_(squareness) {
-  if (sections.size() == 1) {  // two knots a hair apart keep one code path
+  if (sections.size() == 1) {  // two knots close together, so that one code path suffices
     sections.push_back(sections[0]);
     sections[1].s += 1e-9;
   }

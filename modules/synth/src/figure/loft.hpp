@@ -10,26 +10,26 @@ namespace bodice::synth {
 
 using geometry::Vec3;
 
-/// One cross-section. `side` goes along the axes' +u and -u alike, `front` along +v, `back` along -v;
-/// (u, v) is the center's offset from the axis.
+/// One cross-section. `side` is the radius along +u and -u, `front` along +v, `back` along -v; (u, v) is the
+/// offset of its center from the axis.
 struct Section {
-  double s = 0.0;  ///< place along the axis
+  double s = 0.0;  ///< position along the axis
   double side = 0.0, front = 0.0, back = 0.0;
   double u = 0.0, v = 0.0;
 };
 
 class Loft {
  public:
-  /// `along`, `u`, `v` are orthonormal. The sections are sorted by s; one section makes an ellipsoid. The
-  /// ends are rounded over `near_cap` and `far_cap`. `squareness` 0 gives ellipses, 1 the rounder-cornered
-  /// fourth-power curve.
+  /// Makes a loft. `along`, `u` and `v` are orthonormal, and the sections are sorted by s; a single section
+  /// makes an ellipsoid. The ends are rounded over `near_cap` and `far_cap`. `squareness` 0 gives ellipses, 1
+  /// fourth-power curves with rounder corners.
   Loft(const Vec3& origin, const Vec3& along, const Vec3& u, const Vec3& v, std::vector<Section> sections,
        double near_cap, double far_cap, double squareness = 0.0);
 
-  /// Nearly the distance to the surface, negative inside; C1 except on the axis.
+  /// Approximately the distance to the surface, negative inside. It is C1 except on the axis.
   double value(const Vec3& p) const;
 
-  /// Where along the axis p lies, unclamped.
+  /// The coordinate of p along the axis, not clamped.
   double along_of(const Vec3& p) const { return (p - origin_).dot(along_); }
 
   const Vec3& bound_center() const { return bound_center_; }
@@ -44,7 +44,7 @@ class Loft {
   Vec3 origin_, along_, u_, v_;
   double near_cap_, far_cap_, squareness_;
   std::vector<double> knots_;
-  std::vector<std::array<Row, 4>> cubics_;  // one a pair of knots, powers of (s - knot)
+  std::vector<std::array<Row, 4>> cubics_;  // one a pair of knots, in powers of (s - knot)
   Vec3 bound_center_ = Vec3::Zero();
   double bound_radius_ = 0.0;
 };

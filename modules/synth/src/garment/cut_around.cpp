@@ -1,4 +1,4 @@
-// Garments that go round: the skirt and the tube.
+// Garments that surround the trunk: the skirt and the tube.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,9 @@ namespace {
 
 using body::Part;
 
-constexpr double kSkirtLength = 0.33;  // of stature: from the waist to the knees of one who stands
-constexpr double kBandWidth = 0.012;   // of stature: the pinned waistband
+// Lengths in statures.
+constexpr double kSkirtLength = 0.33;  // from the waist to the knees of a standing body
+constexpr double kBandWidth = 0.012;   // width of the pinned waistband
 
 engine::Error unusable(std::string message) {
   return {engine::ErrorCode::kUnusableGeometry, std::move(message),
@@ -21,19 +22,19 @@ int columns_for(const Outline& outline, double edge) {
   return std::max(12, 2 * static_cast<int>(std::lround(perimeter(outline) / (2.0 * edge))));
 }
 
-/// Outlines from the waist down, each around the same center and at least as wide as the one above: cloth
-/// hangs from the widest place, and does not follow the legs inward.
+/// Outlines from the waist down around one center, each at least as wide as the one above. Cloth hangs from
+/// the widest point and does not follow the legs inward.
 struct Funnel {
   std::vector<Outline> outlines;
   std::vector<double> heights;
 
-  /// Way along the funnel from its top to each outline, at one angle.
+  /// The length along the funnel from its top to each outline, at one angle.
   std::vector<double> lengths(double angle) const {
-    std::vector<double> way{0.0};
+    std::vector<double> length{0.0};
     for (std::size_t i = 1; i < outlines.size(); ++i)
-      way.push_back(way.back() + std::hypot(outlines[i].at(angle) - outlines[i - 1].at(angle),
-                                            heights[i] - heights[i - 1]));
-    return way;
+      length.push_back(length.back() + std::hypot(outlines[i].at(angle) - outlines[i - 1].at(angle),
+                                                  heights[i] - heights[i - 1]));
+    return length;
   }
 };
 
@@ -53,20 +54,20 @@ Funnel funnel_of(const Fitting& f, double top, double length, const PartFilter& 
   return funnel;
 }
 
-/// Rings that share each column's way down evenly. Over bent hips the way across the lap is many times that
-/// down the back, and rings of equal height would leave the lap to a single row.
+/// Adds rings at equal shares of each column's length. Over bent hips a column across the lap is many times
+/// as long as one down the back, so that rings of equal height would leave the lap a single row.
 void add_funnel(Cut& cut, const Funnel& funnel, int rings, std::span<const double> angles) {
   const std::size_t columns = angles.size(), first = cut.mesh.positions.size();
   cut.mesh.positions.resize(first + static_cast<std::size_t>(rings) * columns);
   cut.outward.resize(cut.mesh.positions.size());
   for (std::size_t c = 0; c < columns; ++c) {
     const Vec3 out(std::cos(angles[c]), 0.0, std::sin(angles[c]));
-    const std::vector<double> way = funnel.lengths(angles[c]);
+    const std::vector<double> length = funnel.lengths(angles[c]);
     std::size_t i = 0;
     for (int r = 0; r < rings; ++r) {
-      const double wanted = way.back() * r / (rings - 1);
-      while (i + 2 < way.size() && way[i + 1] < wanted) ++i;
-      const double t = std::clamp((wanted - way[i]) / (way[i + 1] - way[i]), 0.0, 1.0);
+      const double wanted = length.back() * r / (rings - 1);
+      while (i + 2 < length.size() && length[i + 1] < wanted) ++i;
+      const double t = std::clamp((wanted - length[i]) / (length[i + 1] - length[i]), 0.0, 1.0);
       const Outline &above = funnel.outlines[i], &below = funnel.outlines[i + 1];
       const double radius = (1.0 - t) * above.at(angles[c]) + t * below.at(angles[c]),
                    y = (1.0 - t) * funnel.heights[i] + t * funnel.heights[i + 1];

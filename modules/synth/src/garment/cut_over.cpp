@@ -11,9 +11,9 @@ namespace {
 using body::Part;
 using geometry::Index;
 
-constexpr double kPonchoReach = 0.3;  // of stature: from the middle of the neck to the hem
-/// What is farther from the neck's middle, and not much higher, is shoulder, whatever part it was given to;
-/// of stature.
+constexpr double kPonchoReach = 0.3;  // statures from the middle of the neck to the hem
+/// In statures. Skin farther from the neck's middle than the radius, and not much higher, is shoulder,
+/// whatever its part.
 constexpr double kNeckRadius = 0.05, kShoulderHeight = 0.03;
 constexpr double kPi = std::numbers::pi;
 
@@ -24,7 +24,7 @@ engine::Error unusable(std::string message) {
 
 }  // namespace
 
-// A flat sheet laid over the shoulders, with a hole the neck fits through.
+// Cuts a flat sheet over the shoulders, with a hole that the neck fits through.
 engine::Result<Cut> cut_poncho(const Fitting& f) {
   const double h = f.body.stature_m, edge = f.options.edge_length_m, ease = f.options.ease_m,
                reach = kPonchoReach * h;

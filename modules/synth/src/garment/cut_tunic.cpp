@@ -18,12 +18,11 @@ using body::Part;
 using geometry::Index;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kPanelShare = 0.8;      // of the armpits' distance: the panels' width
-constexpr double kFrontNeckline = 0.55;  // of the way from the armpits' height over the front to the shoulder
+constexpr double kPanelShare = 0.8;      // width of the panels, in distances of the armpits
+constexpr double kFrontNeckline = 0.55;  // from the armpits' height (0) over the front to the shoulder (1)
 constexpr double kBackNeckline = 0.7;
-constexpr double kNeckFoot =
-    0.035;                       // of stature: what counts as the foot of the neck, from the lowest skin up
-constexpr double kStrap = 0.02;  // of stature: width over a shoulder, where the neck leaves it
+constexpr double kNeckFoot = 0.035;  // in statures from the lowest skin of the head upward
+constexpr double kStrap = 0.02;      // width over a shoulder at the neck, in statures
 
 struct Plan {
   int front = 0;                      ///< cells across a panel
@@ -35,7 +34,7 @@ struct Plan {
   double top = 0.0, hem = 0.0;
 
   int columns() const { return 2 * (front + side); }
-  double x(int i) const { return half_width * (1.0 - 2.0 * i / front); }  ///< of panel column i
+  double x(int i) const { return half_width * (1.0 - 2.0 * i / front); }  ///< coordinate of panel column i
   bool in_hole(int i, int r) const {
     return i > hole_begin && i < hole_end && r > hole_front && r < hole_back;
   }
@@ -45,7 +44,7 @@ struct Plan {
   Index back_column(int i) const { return static_cast<Index>(2 * front + side - i); }
 };
 
-/// The angle in (from, to) at which the outline has the given x; x runs one way there.
+/// The angle in (from, to) at which the outline has the given x, which is monotone there.
 double angle_at(const Outline& outline, double x, double from, double to) {
   const auto x_at = [&](double a) { return outline.center.x + outline.at(a) * std::cos(a); };
   const bool falling = x_at(from) > x_at(to);
@@ -71,7 +70,7 @@ std::vector<double> ring_angles(const Plan& plan, const Outline& top) {
   return angles;
 }
 
-/// The way over the shoulder at column i: an outline in the (z, y) plane around the middle of the tube's
+/// The profile over the shoulder at column i: an outline in the (z, y) plane around the middle of the tube's
 /// edge.
 Outline profile(const Fitting& f, const Plan& plan, int i, const Vec3& front, const Vec3& back) {
   const double half = std::max(plan.half_width / plan.front, 0.5 * f.options.edge_length_m);
@@ -95,8 +94,8 @@ std::vector<double> arch_angles(const Outline& outline, int pieces) {
   return even_angles(closed, 2 * pieces, 0.0);
 }
 
-/// Half of the room that a neck hole needs to lie clear of the neck's foot: the head's lowest skin, which
-/// need not lie at the height of the neck's joint.
+/// Half the width of a neck hole that is clear of the neck. That is judged by the head's lowest skin, which
+/// need not be at the height of the neck's joint.
 double neck_width(const Fitting& f) {
   const double h = f.body.stature_m, joint = levels_of(f).neck;
   const PartFilter head = [](Part part) { return part == Part::kHead; };
@@ -107,7 +106,7 @@ double neck_width(const Fitting& f) {
   return neck + 1.5 * f.options.ease_m;
 }
 
-/// Whether cloth at +-x, and half a cell further in, passes over the shoulders without climbing the neck.
+/// Whether cloth at +-x, and half a cell further inward, passes over the shoulders without climbing the neck.
 bool beside_neck(const Fitting& f, double x) {
   const auto highest = [&](double from, double to, bool head) {
     double y = -1e9;
@@ -145,7 +144,7 @@ Plan make_plan(const Fitting& f) {
   return plan;
 }
 
-/// The panels' vertices; the number of each, by column and row.
+/// Adds the panels' vertices and returns the number of each, by column and row.
 std::vector<std::vector<Index>> add_panels(const Fitting& f, const Plan& plan, Cut& cut) {
   std::vector<std::vector<Index>> at(plan.front + 1, std::vector<Index>(plan.rows + 1, geometry::kNoIndex));
   for (int i = 0; i <= plan.front; ++i) {

@@ -29,7 +29,7 @@ engine::Result<Cut> cut_garment(const Fitting& fitting) {
                        "Use a GarmentKind."};
 }
 
-constexpr double kGreatestStretch = 10.0;  // of the edge length: cloth around a limb that is in its way
+constexpr double kGreatestStretch = 10.0;  // in edge lengths: longer edges go around a limb
 
 bool is_torn(const Cut& cut, double edge_length_m) {
   const auto& p = cut.mesh.positions;
@@ -40,7 +40,7 @@ bool is_torn(const Cut& cut, double edge_length_m) {
   });
 }
 
-/// Winding that faces away from the trunk's axis, or up for a flat sheet.
+/// Winds the cut away from the trunk's axis, or upward for a flat sheet.
 void face_outward(Cut& cut) {
   double facing = 0.0;
   for (const geometry::Triangle& t : cut.mesh.triangles) {
@@ -78,7 +78,7 @@ engine::Result<Garment> make(const engine::Context& context, const SegmentedBody
                          "Choose a smaller ease, or a pose with the arms away from the trunk."};
   if (is_torn(cut.value(), options.edge_length_m))
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
-                         "The garment would be torn between limbs that are in its way.",
+                         "The garment would be torn between limbs that it would have to cross.",
                          "Choose a pose with the limbs away from the trunk, or another garment."};
   face_outward(cut.value());
   Garment garment{std::move(cut.value().mesh), std::move(cut.value().pinned)};

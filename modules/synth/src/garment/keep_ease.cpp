@@ -10,14 +10,14 @@ namespace {
 
 using geometry::Index;
 
-constexpr int kPushes = 24;          // each gains what is missing; slanted skin needs several
-constexpr int kAlongCut = 16;        // of them: afterwards straight away from the closest point of the skin
-constexpr double kLeastPush = 2e-4;  // of stature: ends a slow approach along slanted skin
-constexpr double kGenerous = 1.3;    // a push of just the missing distance would end a little short
-constexpr int kPasses = 8;           // of pushing, spreading and looking at the triangles
+constexpr int kPushes = 24;          // each adds the missing distance; slanted skin needs several
+constexpr int kAlongCut = 16;        // pushes along the cut; later ones go straight off the skin
+constexpr double kLeastPush = 2e-4;  // in statures; it ends a slow approach along slanted skin
+constexpr double kGenerous = 1.3;    // factor on the missing distance, since exactly that ends a little short
+constexpr int kPasses = 8;           // passes of pushing, spreading and testing triangles
 constexpr int kSpreads = 12;         // steps by which a push spreads over the cloth, an edge a step
 
-/// The work of keep_ease, a step a function.
+/// The work of keep_ease(), a step a function.
 class Presser {
  public:
   Presser(const engine::Context& context, const Fitting& fitting, Cut& cut)
@@ -38,11 +38,11 @@ class Presser {
   const engine::Context& context_;
   const Fitting& fitting_;
   Cut& cut_;
-  std::vector<double> extra_;  ///< #V: distance wanted above the ease
-  std::vector<char> held_;     ///< #V: pushed since the last spread
+  std::vector<double> extra_;  ///< #V: distance above the ease
+  std::vector<char> held_;     ///< #V: whether it was pushed since the last spread
 };
 
-/// Whether task(i) holds for all i; does every one of them.
+/// Runs all tasks, and returns whether task(i) holds for every i.
 bool Presser::each(std::size_t count, const auto& task) const {
   std::vector<char> holds(count, 0);
   engine::parallel_for(context_, count, 64, [&](std::size_t begin, std::size_t end) {
@@ -72,8 +72,8 @@ bool Presser::push() {
   return each(extra_.size(), [&](std::size_t v) { return push_vertex(v); });
 }
 
-/// A push moves one row of the grid onto the next: what lies around follows by the mean of its neighbors'
-/// moves, so that cells keep their shape.
+/// Spreads the pushes. A push moves one row of the grid onto the next; its surroundings move by the mean of
+/// their neighbors' moves, so that cells keep their shape.
 void Presser::spread(const std::vector<Vec3>& before) {
   std::vector<Vec3>& p = cut_.mesh.positions;
   std::vector<Vec3> move(p.size()), sum(p.size());
@@ -95,7 +95,8 @@ void Presser::spread(const std::vector<Vec3>& before) {
   std::fill(held_.begin(), held_.end(), 0);
 }
 
-/// A triangle may cut what its corners avoid; those corners then have to keep more than the ease.
+/// Returns whether all triangles are outside. The corners of one that cuts the skin have to keep more than
+/// the ease.
 bool Presser::triangles_outside() {
   const auto& t = cut_.mesh.triangles;
   std::vector<double> depth(t.size(), 0.0);

@@ -1,4 +1,4 @@
-// The last step of every cut: off the skin by the ease.
+// The last step of every cut moves it off the skin by the ease.
 #pragma once
 
 #include "garment/tailor.hpp"
@@ -6,8 +6,8 @@
 namespace bodice::synth {
 
 /// Moves vertices off the skin until each keeps the ease and the middle of each triangle is outside, and
-/// eases what lies around them along. False if that cannot be had in a bounded number of passes: there is no
-/// room.
+/// moves their surroundings along. Returns false if a bounded number of passes does not suffice, because
+/// there is no room.
 bool keep_ease(const engine::Context& context, const Fitting& fitting, Cut& cut);
 
 }  // namespace bodice::synth

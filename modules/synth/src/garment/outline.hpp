@@ -1,4 +1,4 @@
-// The trunk's own axes, and convex outlines of slices across them: what garments are cut from.
+// The trunk's own axes, and convex outlines of slices across them, from which garments are cut.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ namespace bodice::synth {
 
 using geometry::Vec3;
 
-/// x to the body's left, y from the perineum toward the neck, z to the front; origin at the perineum.
+/// The trunk's axes: x to the body's left, y from the perineum toward the neck, z to the front. The origin is
+/// the perineum.
 struct TrunkFrame {
   geometry::Mat3 axes;  ///< columns x, y, z
   Vec3 origin;
@@ -21,10 +22,10 @@ struct TrunkFrame {
   Vec3 to_world(const Vec3& p) const { return axes * p + origin; }
 };
 
-/// Fails when a landmark is missing or two of them coincide.
+/// The frame of a body's trunk. Fails when a landmark is missing or two of them coincide.
 engine::Result<TrunkFrame> trunk_frame(const SegmentedBody& body);
 
-/// The landmark's place in the frame; precondition: trunk_frame succeeded.
+/// The landmark's coordinates in the frame. Precondition: trunk_frame succeeded.
 Vec3 local_landmark(const SegmentedBody& body, const TrunkFrame& frame, body::LandmarkId id);
 
 struct Point2 {
@@ -33,15 +34,15 @@ struct Point2 {
 
 using PartFilter = std::function<bool(body::Part)>;
 
-/// A skin in its trunk's frame, to be sliced.
+/// A skin in the frame of its trunk, ready to be sliced.
 class LocalSkin {
  public:
   LocalSkin(const SegmentedBody& body, const TrunkFrame& frame);
-  /// Points of the closed curves in which the plane at height y cuts the skin; only curves of which at least
-  /// `least_share` of the length is of wanted parts, and those whole: a label that strays over a border moves
-  /// nothing. O(#F).
+  /// Points of the closed curves in which the plane at height y cuts the skin. A curve counts, as a whole, if
+  /// at least `least_share` of its length belongs to wanted parts, so that single labels across a border do
+  /// not matter. O(#F).
   std::vector<Vec3> slice(double y, const PartFilter& wanted, double least_share = 0.5) const;
-  /// Points of the skin with low <= coordinate <= high along `axis` (0 x, 1 y, 2 z), ends included.
+  /// Points of the skin with low <= coordinate <= high along `axis` (0 x, 1 y, 2 z).
   std::vector<Vec3> slab(int axis, double low, double high, const PartFilter& wanted) const;
 
  private:
@@ -50,12 +51,13 @@ class LocalSkin {
   std::vector<std::array<double, 2>> height_;  ///< #F: lowest and highest corner
 };
 
-/// The frame with its y axis through the middle of the pelvis. A perineum's landmark lies on the skin, often
-/// well to the front, and a trunk frame through it leans. Unchanged when the skin there is no closed trunk.
+/// The frame with its y axis through the middle of the pelvis. The perineum's landmark lies on the skin,
+/// often well to the front, so that the axis through it leans. The frame is unchanged if the skin there is no
+/// closed trunk.
 TrunkFrame upright(const SegmentedBody& body, const TrunkFrame& frame);
 
-/// Convex hull, counter-clockwise from the lowest x. Based on: A. M. Andrew. Another efficient algorithm for
-/// convex hulls in two dimensions. 1979.
+/// The convex hull, counter-clockwise from the lowest x.
+/// Based on: A. M. Andrew. Another efficient algorithm for convex hulls in two dimensions. 1979.
 std::vector<Point2> convex_hull(std::vector<Point2> points);
 
 /// A convex curve around a center, as radii over equally spread directions from +x toward +z.
@@ -66,10 +68,11 @@ struct Outline {
   double at(double angle) const;
 };
 
-/// Empty slices give radius 0. `center` must lie inside the hull for the outline to be all of it.
+/// The outline of a hull. Empty slices give radius 0. `center` must lie inside the hull for the outline to be
+/// complete.
 Outline outline_of(std::span<const Point2> hull, const Point2& center);
 
-/// Angles of `count` points that cut the outline into pieces of equal length, the first at angle `from`.
+/// Angles of `count` points that cut the outline into pieces of equal length; the first is at angle `from`.
 std::vector<double> even_angles(const Outline& outline, int count, double from);
 
 double perimeter(const Outline& outline);

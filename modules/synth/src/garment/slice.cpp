@@ -11,8 +11,9 @@
 namespace bodice::synth {
 namespace {
 
-constexpr double kPelvis = 0.25;        // of the way from perineum to neck
-constexpr double kGreatestLean = 0.25;  // of that way: beyond it the slice is of something else
+// In distances from perineum to neck.
+constexpr double kPelvis = 0.25;        // height of the pelvis
+constexpr double kGreatestLean = 0.25;  // with more, the slice is not the pelvis
 
 Vec3 crossing(const Vec3& a, const Vec3& b, int axis, double plane) {
   return a + (plane - a[axis]) / (b[axis] - a[axis]) * (b - a);
@@ -20,14 +21,14 @@ Vec3 crossing(const Vec3& a, const Vec3& b, int axis, double plane) {
 
 using MeshEdge = std::pair<geometry::Index, geometry::Index>;
 
-/// What one triangle adds to a slice.
+/// The segment that one triangle adds to a slice.
 struct Piece {
-  std::array<MeshEdge, 2> edge;  ///< where it goes on in the neighbors
+  std::array<MeshEdge, 2> edge;  ///< edges across which the curve continues
   std::array<Vec3, 2> end;
-  double share = 0.0;  ///< of the triangle's corners: those of wanted parts
+  double share = 0.0;  ///< share of the triangle's corners in wanted parts
 };
 
-/// Pieces that join over shared mesh edges into curves.
+/// Segments joined across shared mesh edges into curves.
 struct Curves {
   std::vector<Piece> pieces;
 

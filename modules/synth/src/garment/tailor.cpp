@@ -10,9 +10,9 @@ using geometry::Index;
 
 namespace {
 
-constexpr double kTrunkShare = 0.85;  // of a slice's length: more than that of arms is not a trunk alone
-constexpr double kArmpitFold = 0.02;  // of stature: from the armpit to where arms and trunk have parted
-constexpr int kTopSteps = 50;  // of .002 stature: the lower half of the chest is not an armpit's height
+constexpr double kTrunkShare = 0.85;  // share of the trunk in a slice's length above which it has no arms
+constexpr double kArmpitFold = 0.02;  // statures from the armpit to where arms and trunk have separated
+constexpr int kTopSteps = 50;  // steps of .002 stature: the lower half of the chest is not an armpit's height
 
 /// Whether a ring of cloth around the trunk at height y has skin on its inner side only.
 bool has_room(const Fitting& f, double y) {
@@ -34,7 +34,7 @@ bool has_room(const Fitting& f, double y) {
   for (int d = 0; d < Outline::kDirections; d += 4) {
     const double angle = 2.0 * std::numbers::pi * d / Outline::kDirections;
     if (outline.at(angle) <= 0.0) return false;
-    // Skin as steep as sixty degrees leaves half of the ease that is added level with the ground.
+    // On skin as steep as sixty degrees, half of an ease that is added horizontally remains.
     if (distance(angle, 1.05 * ease) < 0.4 * ease || distance(angle, 2.1 * ease) < 0.4 * ease) return false;
   }
   return true;
@@ -51,7 +51,7 @@ Levels levels_of(const Fitting& f) {
   Levels levels;
   levels.neck = y(body::LandmarkId::kNeck);
   levels.armpit = 0.5 * (y(body::LandmarkId::kArmpitL) + y(body::LandmarkId::kArmpitR));
-  levels.waist = 0.36 * levels.neck;  // of the way from the perineum to the neck, as in the surveys
+  levels.waist = 0.36 * levels.neck;  // from the perineum (0) to the neck (1), as in the surveys
   return levels;
 }
 
@@ -59,11 +59,11 @@ double tube_top(const Fitting& f) {
   const auto y = [&](body::LandmarkId id) { return local_landmark(f.body, f.frame, id).y(); };
   const double armpit = std::min(y(body::LandmarkId::kArmpitL), y(body::LandmarkId::kArmpitR)),
                step = 0.002 * f.body.stature_m;
-  const double above = 0.5 * f.options.edge_length_m;  // a ring is as wide as the skin this far above it, too
+  const double above = 0.5 * f.options.edge_length_m;  // a ring is as wide as the skin this far above it
   for (int k = 0; k < kTopSteps; ++k)
     if (has_room(f, armpit - k * step)) return armpit - k * step - above;
-  // The arms lie against the trunk all the way down. Keep the cut; pushing it from the skin may still
-  // succeed.
+  // The arms lie against the trunk over their whole length. The cut stays as it is, since pushing it from the
+  // skin may still succeed.
   return armpit - kArmpitFold * f.body.stature_m;
 }
 

@@ -1,4 +1,4 @@
-// The coarse quad mesh that gives every body its connectivity: a tube a limb, joined to the trunk.
+// The coarse quad mesh that gives every body its connectivity: the trunk, and a tube for each limb.
 //
 //   trunk: 9 levels of 24 vertices        top view of a level (x to the left, z up)
 //   arm:   tube of 12, from the side           k=4  . . . . . . . . .   front
@@ -21,7 +21,7 @@ struct Cage {
   std::vector<Vec3> positions;      ///< rest pose, near the skin, units of stature
   std::vector<Quad> quads;          ///< counter-clockwise seen from outside
   std::vector<Region> quad_region;  ///< #quads
-  std::vector<Region> region;       ///< #positions: whose skin the vertex lies on
+  std::vector<Region> region;       ///< #positions: region of the skin that holds the vertex
 };
 
 Cage make_cage(const Figure& figure);

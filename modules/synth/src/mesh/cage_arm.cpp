@@ -13,7 +13,8 @@ Vec3 CagePlan::arm_point(int side, double s, double angle, double out, double fr
 
 namespace {
 
-// Around the arm from the upper back corner over the shoulder to the front, below, and up the back.
+// The angle of point n around the arm: from the upper back corner over the shoulder to the front, below, and
+// up the back.
 double arm_angle(int n) {
   return (150.0 - 30.0 * n) * CagePlan::kDegree;
 }
@@ -34,7 +35,7 @@ void CagePlan::place_armhole(int side) {
   const Loop loop = armhole_loop(side);
   for (int n = 0; n < static_cast<int>(loop.size()); ++n) {
     const double angle = arm_angle(n);
-    // The hole leans: its top lies further along the arm than its bottom, as a sleeve's seam does not.
+    // The hole leans, so that its top lies further along the arm than its bottom.
     cage.position(loop[n]) =
         arm_point(side, 0.004 + 0.012 * std::max(0.0, -std::sin(angle)), angle, 0.036, 0.036);
   }
@@ -58,7 +59,7 @@ void CagePlan::hand(int side, const Loop& wrist) {
   const double start = f.arm_length(), hand = f.p.hand;
   const auto palm = [&](double s, double half) {
     return [&, s, half](int n) {
-      // Five points across the back of the hand and the palm, one at each edge.
+      // The ring has five points across the back of the hand and the palm, and one at each edge.
       const double out = n <= 4 ? 0.008 : n == 5 || n == 11 ? 0.0 : -0.008;
       const double across = n <= 4 ? n - 2.0 : n == 5 ? 2.2 : n == 11 ? -2.2 : 8.0 - n;
       return Vec3(arm_point(side, start + s, 0.0, 0.0, 0.0) + out * f.arm[side].out +
@@ -69,7 +70,7 @@ void CagePlan::hand(int side, const Loop& wrist) {
   constexpr std::array<int, 2> kThumbSide = {4, 5};
   const Loop far = cage.extrude(near, palm(0.34 * hand, 0.021), region, kThumbSide);
   const Loop knuckles = cage.extrude(far, palm(0.53 * hand, 0.021), region);
-  // From the finger side of the thumb over the back of the hand to the wrist side.
+  // The loop runs from the finger side of the thumb over the back of the hand to the wrist side.
   digit(side, 4, {far[4], near[4], near[5], near[6], far[6], far[5]});
   fingers(side, knuckles);
 }
@@ -93,14 +94,14 @@ void CagePlan::fingers(int side, const Loop& knuckles) {
 void CagePlan::digit(int side, int digit, Loop loop) {
   const Digit d = digit_of(f, side, digit);
   const Region region = digit_region(side, digit);
-  const auto place = [&](double share) {
+  const auto position = [&](double share) {
     return [&d, share](int n) {
       const double angle = (120.0 - 60.0 * n) * kDegree;
       return Vec3(d.base + share * d.length * d.along +
                   d.radius * (std::cos(angle) * d.front + std::sin(angle) * d.out));
     };
   };
-  for (const double share : {0.33, 0.65, 0.95}) loop = cage.extrude(loop, place(share), region);
+  for (const double share : {0.33, 0.65, 0.95}) loop = cage.extrude(loop, position(share), region);
   cage.lid(loop, 1, 2, Vec3::Zero(), region);
 }
 

@@ -23,10 +23,10 @@ void CageBuilder::band(const Loop& from, const Loop& to, Region region, std::spa
   }
 }
 
-Loop CageBuilder::extrude(const Loop& from, const std::function<Vec3(int)>& place, Region region,
+Loop CageBuilder::extrude(const Loop& from, const std::function<Vec3(int)>& position, Region region,
                           std::span<const int> open) {
   Loop to;
-  for (int i = 0; i < static_cast<int>(from.size()); ++i) to.push_back(add(place(i)));
+  for (int i = 0; i < static_cast<int>(from.size()); ++i) to.push_back(add(position(i)));
   band(from, to, region, open);
   return to;
 }
@@ -51,7 +51,7 @@ void CageBuilder::lid(const Loop& loop, int columns, int rows, const Vec3& bulge
 }
 
 void CageBuilder::orient() {
-  // Spread the first quad's winding over shared edges, then let the volume's sign say which way is out.
+  // The first quad's winding spreads over shared edges; the sign of the volume then decides the orientation.
   std::map<std::pair<int, int>, std::vector<int>> quads_of_edge;
   for (int q = 0; q < static_cast<int>(cage_.quads.size()); ++q)
     for (int k = 0; k < 4; ++k)

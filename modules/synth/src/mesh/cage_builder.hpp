@@ -1,4 +1,4 @@
-// Tubes and lids: the two moves that build a cage.
+// Tubes and lids, from which a cage is built.
 #pragma once
 
 #include <functional>
@@ -25,21 +25,21 @@ class CageBuilder {
     cage_.quad_region.push_back(region);
   }
 
-  /// Quads between two loops of the same length, except those whose first edge number is in `open`.
+  /// Adds quads between two loops of the same length, except between the edges with numbers in `open`.
   void band(const Loop& from, const Loop& to, Region region, std::span<const int> open = {});
 
   /// Adds a ring of new vertices and joins it to the loop.
-  Loop extrude(const Loop& from, const std::function<Vec3(int)>& place, Region region,
+  Loop extrude(const Loop& from, const std::function<Vec3(int)>& position, Region region,
                std::span<const int> open = {});
 
   /// Closes a loop with a grid of `columns` x `rows` quads; the loop runs first along the columns. Inner
   /// vertices start on straight lines between the sides, moved by `bulge`.
   void lid(const Loop& loop, int columns, int rows, const Vec3& bulge, Region region);
 
-  /// These vertices are the floor of the trunk between the legs.
+  /// Marks a vertex of the floor of the trunk between the legs.
   void mark_crotch(int vertex) { crotch_.push_back(vertex); }
 
-  /// Orients the quads outward and says which skin each vertex lies on.
+  /// Orients the quads outward and assigns each vertex to a region of the skin.
   Cage finish();
 
  private:
@@ -50,7 +50,7 @@ class CageBuilder {
   std::vector<int> crotch_;
 };
 
-/// Which skin the meeting place of two regions lies on.
+/// The region of a vertex between two regions.
 Region meeting(Region a, Region b);
 
 }  // namespace bodice::synth

@@ -11,7 +11,8 @@ double leg_angle(int n) {
 
 }  // namespace
 
-// Round the leg from the front inner corner outward, back along the outside, and forward between the legs.
+// The loop around the leg from the front inner corner outward, back along the outside, and forward between
+// the legs.
 Loop CagePlan::leg_loop(int side) const {
   const auto column = [&](int n) { return side == 0 ? 4 + n : 4 - n; };
   Loop loop;
@@ -28,16 +29,16 @@ void CagePlan::leg(int side) {
   const Vec3& hip = f.joint[index(of_side(Bone::kThighL, side))];
   const double thigh = f.thigh_length(), calf = f.leg_length() - thigh;
   Loop ring = leg_loop(side);
-  const auto place = [&](double s, double radius) {
+  const auto position = [&](double s, double radius) {
     return [&, s, radius](int n) {
       const double a = leg_angle(n);
       return Vec3(hip + s * axes.along + radius * (std::cos(a) * axes.out + std::sin(a) * axes.front));
     };
   };
   for (const double share : {0.38, 0.58, 0.8, 1.0})
-    ring = cage.extrude(ring, place(share * thigh, 0.042), region);
+    ring = cage.extrude(ring, position(share * thigh, 0.042), region);
   for (const double share : {0.2, 0.42, 0.66, 0.9})
-    ring = cage.extrude(ring, place(thigh + share * calf, 0.026), region);
+    ring = cage.extrude(ring, position(thigh + share * calf, 0.026), region);
   const double h = f.ankle_height, l = f.p.foot_length;
   // The tube bends forward over the heel: its back runs down and along the sole, its front over the instep.
   for (const FootRing& r : {FootRing{0.9 * h, -0.16 * l, 1.1 * h, 0.14 * l, 0.02},
@@ -54,13 +55,13 @@ Loop CagePlan::foot_ring(int side, const Loop& from, const FootRing& r) {
   const double sign = side == 0 ? 1.0 : -1.0;
   const Vec3 sole = ankle - Vec3(0.0, f.ankle_height, 0.0);
   const Vec3 back = sole + Vec3(0.0, r.back_y, r.back_z), front = sole + Vec3(0.0, r.front_y, r.front_z);
-  const auto place = [&](int n) {
+  const auto position = [&](int n) {
     const double a = leg_angle(n);
     const Vec3 p = 0.5 * (back + front) + 0.5 * std::sin(a) * (front - back);
     const double turned_out = 0.1 * (p.z() - ankle.z());
     return Vec3(p + Vec3(sign * (r.half * std::cos(a) + turned_out), 0.0, 0.0));
   };
-  return cage.extrude(from, place, region_of_side(Region::kLegL, side));
+  return cage.extrude(from, position, region_of_side(Region::kLegL, side));
 }
 
 }  // namespace bodice::synth

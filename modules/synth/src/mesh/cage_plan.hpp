@@ -1,4 +1,4 @@
-// The plan of the cage: which tube starts where.
+// The plan of the cage: the loops at which tubes begin.
 #pragma once
 
 #include <array>

@@ -34,7 +34,7 @@ void CagePlan::trunk_level(int j, double y, double side, double deep, double lif
   }
 }
 
-// The top level runs round the neck in the middle and over the shoulders at the sides.
+// Shapes the top level, which runs around the neck in the middle and over the shoulders at the sides.
 void CagePlan::shoulder_line() {
   for (int n = 0; n < kPerimeter; ++n) {
     const Lattice at = lattice_of(n);
@@ -75,7 +75,7 @@ void CagePlan::trunk() {
   }
 }
 
-// A tube of 16 from the top level's middle columns, and the tops of the shoulders beside it.
+// Adds the head, a tube of 16 from the top level's middle columns, and the tops of the shoulders beside it.
 void CagePlan::head() {
   std::array<std::array<int, kDeep + 1>, kAcross + 1> top;
   for (int i = 0; i <= kAcross; ++i)
@@ -97,7 +97,7 @@ void CagePlan::head() {
     for (int k = 0; k < kDeep; ++k)
       cage.quad(top[i][k], top[i + 1][k], top[i + 1][k + 1], top[i][k + 1], Region::kTrunk);
 
-  Loop ring;  // from the back right corner, as a trunk level
+  Loop ring;  // from the back right corner, like a trunk level
   for (int i = 2; i < 6; ++i) ring.push_back(top[i][0]);
   for (int k = 0; k < kDeep; ++k) ring.push_back(top[6][k]);
   for (int i = 6; i > 2; --i) ring.push_back(top[i][kDeep]);

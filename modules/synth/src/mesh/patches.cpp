@@ -42,7 +42,7 @@ void Patches::find_edges() {
         edges_[entry->second].region = meeting(edges_[entry->second].region, cage_.quad_region[q]);
       edge_of_quad_[q][k] = entry->second;
     }
-  for (Edge& e : edges_)  // the floor of the trunk, and its rims in front and behind
+  for (Edge& e : edges_)  // the floor of the trunk, with its front and back rim
     if (cage_.region[e.a] == Region::kCrotch || cage_.region[e.b] == Region::kCrotch)
       if (std::abs(cage_.positions[e.a].x()) < 1e-12 && std::abs(cage_.positions[e.b].x()) < 1e-12)
         e.region = Region::kCrotch;
@@ -71,7 +71,7 @@ std::vector<double> Patches::class_lengths(const std::vector<Vec3>& cage_positio
     sum[e.edge_class] += (cage_positions[e.a] - cage_positions[e.b]).norm();
     number[e.edge_class] += 1.0;
   }
-  // Snapped, so that left and right do not round apart over the last bits.
+  // Sums are snapped to a grid, so that left and right do not differ in their last bits.
   for (int c = 0; c < class_count_; ++c) sum[c] = 1e-9 * std::round(1e9 * sum[c] / number[c]);
   return sum;
 }
@@ -91,7 +91,7 @@ std::vector<Index> Patches::edge_vertices(PatchMesh& mesh, int quad, int k, cons
   const Edge& edge = edges_[e];
   const int n = counts[edge.edge_class];
   const bool forward = cage_.quads[quad][k] == edge.a;
-  if (of_edge[e].empty()) {  // in the order from a to b
+  if (of_edge[e].empty()) {  // ordered from a to b
     of_edge[e].push_back(static_cast<Index>(edge.a));
     for (int i = 1; i < n; ++i) {
       const double t = forward ? static_cast<double>(i) / n : static_cast<double>(n - i) / n;
@@ -156,8 +156,9 @@ std::vector<int> counts_for(const std::vector<double>& class_lengths, double edg
 
 std::vector<int> counts_for_vertices(const Patches& patches, const std::vector<double>& class_lengths,
                                      std::int64_t vertices) {
-  // The count falls with the edge length in steps: bisect to the step, then take the nearer side.
-  double fine = 1e-4, coarse = 1.0;  // units of stature
+  // The count falls with the edge length in steps. Bisection finds the step, and the closer of its sides is
+  // taken.
+  double fine = 1e-4, coarse = 1.0;  // statures
   for (int i = 0; i < 60; ++i) {
     const double middle = std::sqrt(fine * coarse);
     (patches.vertex_count(counts_for(class_lengths, middle)) > vertices ? fine : coarse) = middle;

@@ -1,4 +1,4 @@
-// Any resolution from one cage: each quad becomes a grid, and opposite edges share their count.
+// Meshes of any resolution from one cage: each quad becomes a grid, and opposite edges have the same count.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace bodice::synth {
 
-/// A place on the cage: in a quad, u from its corner 0 to 1, v from 0 to 3.
+/// A point of the cage: a quad, with u from its corner 0 to 1 and v from 0 to 3.
 struct PatchPoint {
   int quad = 0;
   double u = 0.0, v = 0.0;
@@ -32,9 +32,9 @@ class Patches {
   explicit Patches(const Cage& cage);
 
   int class_count() const { return class_count_; }
-  /// Mean length of the edges of each class, with the positions given.
+  /// The mean length of the edges of each class, for the given positions.
   std::vector<double> class_lengths(const std::vector<Vec3>& cage_positions) const;
-  /// Vertices of the mesh with these counts (#classes), without building it.
+  /// The number of vertices of the mesh with these counts (#classes), without building it.
   std::int64_t vertex_count(const std::vector<int>& counts) const;
   PatchMesh tessellate(const std::vector<int>& counts) const;
 
@@ -55,14 +55,14 @@ class Patches {
   int class_count_ = 0;
 };
 
-/// Counts for an edge length: one piece at least.
+/// The counts for an edge length, at least one.
 std::vector<int> counts_for(const std::vector<double>& class_lengths, double edge_length);
 
-/// The counts whose vertex number is nearest to the wanted one.
+/// The counts with a vertex number closest to the wanted one.
 std::vector<int> counts_for_vertices(const Patches& patches, const std::vector<double>& class_lengths,
                                      std::int64_t vertices);
 
-/// Values given at the vertices of `mesh`, at any patch point: bilinear in its grid.
+/// Interpolates values at the vertices of `mesh` to any patch point, bilinearly in its grid.
 template <class T>
 T sample(const PatchMesh& mesh, const std::vector<T>& values, const PatchPoint& at) {
   const int nu = mesh.counts[at.quad][0], nv = mesh.counts[at.quad][1];

@@ -12,11 +12,11 @@ namespace {
 
 using geometry::Index;
 
-constexpr std::size_t kGrain = 256;     // vertices a task: each costs some ten microseconds
-constexpr double kDesignEdge = 0.013;   // of stature: resolves the trunk's curves
-constexpr int kDesignRelaxations = 24;  // until the cage's unevenness is gone
-constexpr int kFinalRelaxations = 3;    // until the sampling's creases are gone
-constexpr double kRelaxation = 0.6;     // share of the way to the neighbors' mean
+constexpr std::size_t kGrain = 256;     // vertices a task; each takes about ten microseconds
+constexpr double kDesignEdge = 0.013;   // statures; it resolves the trunk's curves
+constexpr int kDesignRelaxations = 24;  // iterations until the cage's unevenness is gone
+constexpr int kFinalRelaxations = 3;    // iterations until the sampling's creases are gone
+constexpr double kRelaxation = 0.6;     // share of the distance to the neighbors' mean
 
 void project_all(const engine::Context& context, const Flesh& flesh, const PatchMesh& mesh, int steps,
                  std::vector<Vec3>& positions) {
@@ -26,7 +26,7 @@ void project_all(const engine::Context& context, const Flesh& flesh, const Patch
   });
 }
 
-/// Slides each vertex toward the mean of its neighbors and back onto the flesh.
+/// Moves each vertex toward the mean of its neighbors, and back onto the flesh.
 void relax(const engine::Context& context, const Flesh& flesh, const PatchMesh& mesh, int iterations,
            std::vector<Vec3>& positions) {
   const Neighbors near(mesh);
@@ -34,7 +34,7 @@ void relax(const engine::Context& context, const Flesh& flesh, const PatchMesh& 
   for (int i = 0; i < iterations; ++i) {
     engine::parallel_for(context, positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
-        if (is_digit(mesh.region[v])) {  // evening out would draw the few rings of a digit toward the palm
+        if (is_digit(mesh.region[v])) {  // relaxation would draw the few rings of a digit toward the palm
           next[v] = positions[v];
           continue;
         }
@@ -52,7 +52,7 @@ void relax(const engine::Context& context, const Flesh& flesh, const PatchMesh& 
 }  // namespace
 
 Neighbors::Neighbors(const PatchMesh& mesh) : start(mesh.at.size() + 1, 0) {
-  // On a closed surface each edge is walked once in each direction: from a corner, to the next one.
+  // On a closed surface each edge occurs once in each direction: from a corner to the next one.
   for (const auto& quad : mesh.quads)
     for (const Index v : quad) ++start[v + 1];
   for (std::size_t v = 0; v + 1 < start.size(); ++v) start[v + 1] += start[v];

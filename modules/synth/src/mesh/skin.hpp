@@ -9,27 +9,27 @@
 
 namespace bodice::synth {
 
-/// A cage pulled onto the flesh and evened out, at a fixed resolution that every final mesh is sampled from,
-/// so that one body has the same shape at all resolutions.
+/// A cage relaxed on the flesh at a fixed resolution. Every final mesh is sampled from it, so that a body has
+/// the same shape at all resolutions.
 struct Skin {
   Cage cage;
   PatchMesh mesh;
-  std::vector<Vec3> positions;  ///< #mesh vertices, units of stature
+  std::vector<Vec3> positions;  ///< #mesh vertices, statures
 };
 
 Skin make_skin(const engine::Context& context, const Figure& figure, const Flesh& flesh);
 
-/// Moves the skin to another flesh of the same figure and evens it out.
+/// Moves the skin to another flesh of the same figure, and relaxes it.
 void settle(const engine::Context& context, const Flesh& flesh, Skin& skin, int relaxations);
 
-/// Volume enclosed by quads, cubic units.
+/// The volume enclosed by quads, in cubic units.
 double volume(const PatchMesh& mesh, const std::vector<Vec3>& positions);
 
-/// The finer or coarser mesh's points on the flesh.
+/// The points of a finer or coarser mesh on the flesh.
 std::vector<Vec3> sample_skin(const engine::Context& context, const Skin& skin, const Flesh& flesh,
                               const PatchMesh& mesh);
 
-/// Neighbors along quad edges, in rows of a compressed list.
+/// Neighbors along quad edges, in compressed rows.
 struct Neighbors {
   std::vector<std::size_t> start;  ///< #V + 1
   std::vector<geometry::Index> vertex;

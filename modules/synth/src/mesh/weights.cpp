@@ -6,24 +6,24 @@
 namespace bodice::synth {
 namespace {
 
-// Rounds of averaging with the neighbors: bends spread over some 6 % of stature on trunk and limbs.
+// Rounds of averaging with the neighbors, which spread bends over about 6 % of stature on trunk and limbs.
 constexpr int kSmoothings = 9;
 constexpr int kDigitSmoothings = 2;
 
-/// Where the skin of one limb ends: a plane near a joint, in the rest pose, left side.
+/// The border of a limb's skin: a plane near a joint, in the rest pose, on the left side.
 struct Cut {
-  Vec3 from_joint;  ///< of stature
+  Vec3 from_joint;  ///< statures
   Vec3 normal;      ///< toward the end of the limb
 };
 
-// As in rigged scans: the shoulder is cut upright, the groin slants, the kneecap is the thigh's, the bend of
-// the elbow the forearm's.
+// The cuts follow rigged scans: the shoulder's is upright, the groin's slants, the kneecap belongs to the
+// thigh, the bend of the elbow to the forearm.
 const Cut kShoulderCut{{-0.004, 0.0, 0.0}, {0.98, 0.12, 0.16}};
 const Cut kElbowCut{{-0.005, 0.005, 0.0}, {0.707, -0.707, 0.0}};
 const Cut kHipCut{{-0.006, -0.019, 0.0}, {0.56, -0.81, 0.15}};
 const Cut kKneeCut{{0.0, -0.011, -0.003}, {0.28, -0.87, -0.40}};
 
-/// Positive beyond the cut of the bone that starts there.
+/// How far p is beyond the cut of the bone that starts there; negative before it.
 double beyond(const Figure& f, const Cut& cut, Bone left, int side, const Vec3& p) {
   Vec3 from = p - f.joint[index(of_side(left, side))];
   if (side == 1) from.x() = -from.x();
@@ -48,7 +48,7 @@ Bone arm_bone(const Figure& f, int side, const Vec3& p) {
   return of_side(s < f.arm_length() ? Bone::kForearmL : Bone::kHandL, side);
 }
 
-/// On a wide chest, skin beyond the shoulder is the arm's only where the arm stands out of it.
+/// The bone of skin beyond the shoulder: on a wide chest it is the arm only where the arm stands out of it.
 Bone chest_or_arm_bone(const Figure& f, const Flesh& flesh, const Vec3& p) {
   const int side = side_at(p);
   const bool arm =

@@ -14,11 +14,11 @@
 namespace bodice::synth {
 namespace {
 
-constexpr double kDensity = 1010.0;   // kg per cubic meter of living body
-constexpr int kLeastVertices = 1350;  // the cage's own, with the smallest allowance of ten percent
+constexpr double kDensity = 1010.0;   // kg per cubic meter of a living body
+constexpr int kLeastVertices = 1350;  // that of the cage itself, less ten percent
 constexpr int kMostVertices = 4'000'000;
 constexpr int kGirthRounds = 8;
-constexpr int kRelaxations = 5;  // a round: enough to follow a slow change of girth
+constexpr int kRelaxations = 5;  // iterations a round, enough to follow a slow change of girth
 constexpr double kVolumeTolerance = 0.01;
 
 std::optional<engine::Error> check(const BodyOptions& o) {
@@ -31,7 +31,7 @@ std::optional<engine::Error> check(const BodyOptions& o) {
   const double bmi = o.mass_kg / (o.stature_m * o.stature_m);
   if (!(bmi >= 10.0 && bmi <= 70.0))
     return wrong(engine::message(o.mass_kg, " kg at ", o.stature_m, " m is a body mass index of ", bmi, "."),
-                 "Ask for a mass whose index lies between 10 and 70.");
+                 "Give a mass with an index between 10 and 70.");
   if (!(o.childhood >= 0.0 && o.childhood <= 1.0))
     return wrong(engine::message("A childhood of ", o.childhood, " is no share."),
                  "Ask for 0 (grown up) to 1.");
@@ -41,7 +41,7 @@ std::optional<engine::Error> check(const BodyOptions& o) {
   return std::nullopt;
 }
 
-/// Grows or slims the figure until its skin encloses the wanted volume (units of stature cubed).
+/// Changes the girths of the figure until its skin encloses the wanted volume (cubic statures).
 Skin solve_girth(const engine::Context& context, Figure& figure, double wanted) {
   double low = -1.0, high = 6.0;
   Skin skin = make_skin(context, figure, Flesh(figure));
@@ -79,8 +79,8 @@ std::vector<geometry::Triangle> triangulate(const PatchMesh& mesh, const std::ve
   return triangles;
 }
 
-/// To meters, the lowest vertex on the floor, the pelvis over the origin.
-void place(Body& body, double stature_m) {
+/// Scales the body to meters, with its lowest vertex on the floor and the pelvis above the origin.
+void scale_and_stand(Body& body, double stature_m) {
   double floor = 1e9;
   for (const Vec3& p : body.mesh.positions) floor = std::min(floor, p.y());
   const Vec3 pelvis = body.joints[index(Bone::kPelvis)].position;
@@ -102,7 +102,7 @@ Body make(const engine::Context& context, const BodyOptions& options, const body
   const PatchMesh mesh =
       patches.tessellate(counts_for_vertices(patches, patches.class_lengths(corners), options.vertices));
   std::vector<Vec3> rest = sample_skin(context, skin, Flesh(figure), mesh);
-  // Where flesh folds, this sampling encloses more than the coarse skin did: aim once more.
+  // In folds, this sampling encloses more than the coarse skin did; a second correction makes up for it.
   const double enclosed = volume(mesh, rest);
   if (std::abs(enclosed / wanted - 1.0) > 2.0 * kVolumeTolerance) {
     skin = solve_girth(context, figure, wanted * volume(skin.mesh, skin.positions) / enclosed);
@@ -121,7 +121,7 @@ Body make(const engine::Context& context, const BodyOptions& options, const body
   body.part = true_parts(posed);
   body.landmarks = true_landmarks(posed);
   body.joints = true_joints(figure, bones);
-  place(body, h);
+  scale_and_stand(body, h);
   body.skeleton = true_skeleton(bones, body.joints);
   body.weights = sparse_weights(weights);
   return body;

@@ -1,4 +1,5 @@
-// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.9, segments' closest points
+// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - section 5.1.9 (closest points of
+// segments)
 #include "pose/clearance.hpp"
 
 #include <algorithm>

@@ -35,7 +35,7 @@ std::vector<Vec3> deform(const engine::Context& context, const std::vector<Vec3>
   for (int b = 0; b < kBoneCount; ++b) {
     motion[b] = dual_quaternion(bones[b]);
     const int carrier = index(parent(static_cast<Bone>(b)));
-    if (motion[b].real.dot(motion[carrier].real) < 0.0) {  // the same motion, by the shorter way
+    if (motion[b].real.dot(motion[carrier].real) < 0.0) {  // the same motion by the shorter rotation
       motion[b].real = -motion[b].real;
       motion[b].dual = -motion[b].dual;
     }

@@ -1,4 +1,4 @@
-// Carries the skin from the rest pose to another.
+// Deforms the skin from the rest pose to another pose.
 #pragma once
 
 #include <bodice/engine/context.hpp>
@@ -8,7 +8,7 @@
 
 namespace bodice::synth {
 
-/// Blends the bones' motions of each point as dual quaternions, so that bends and twists do not collapse.
+/// Blends the bones' motions at each point as dual quaternions, so that bends and twists do not collapse.
 std::vector<Vec3> deform(const engine::Context& context, const std::vector<Vec3>& rest,
                          const std::vector<BoneWeights>& weights, const BoneTransforms& bones);
 

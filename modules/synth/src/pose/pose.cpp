@@ -11,7 +11,7 @@ namespace {
 using Turn = Eigen::Matrix3d;
 
 constexpr int kRandomTries = 64;
-constexpr double kClavicleFrom_deg = 60.0;  // the shoulder girdle follows an arm raised beyond this
+constexpr double kClavicleFrom_deg = 60.0;  // the shoulder girdle follows an arm that is raised further
 constexpr double kClavicleShare = 0.3;
 
 Turn about(const Vec3& axis, double degrees) {
@@ -43,12 +43,12 @@ void turn_leg(const LegAngles& a, int side, LocalTurns& turn) {
   const double sign = side == 0 ? 1.0 : -1.0;
   const auto of = [&](Bone left) -> Turn& { return turn[index(of_side(left, side))]; };
   const double rest = Figure::kLegSpread_rad * 180.0 / std::numbers::pi;
-  // The leg is first brought to the vertical, where the knee's axis is x, and spread after it was swung.
+  // The leg first becomes vertical, where the knee's axis is x; it is spread after it was swung.
   of(Bone::kThighL) =
       about(kZ, sign * a.spread) * about(kX, -a.flex) * about(kY, sign * a.twist) * about(kZ, -sign * rest);
   const Turn upright = about(kZ, -sign * rest);
   of(Bone::kCalfL) = upright.transpose() * about(kX, a.knee) * upright;
-  // The rest pose's foot is flat: undo the leg's lean, so that the sole stays square to the shin.
+  // The foot is flat in the rest pose. Undoing the leg's lean keeps the sole square to the shin.
   of(Bone::kFootL) = upright.transpose() * about(kX, -a.ankle);
 }
 

@@ -1,4 +1,4 @@
-// Joint angles, and what they do to a skeleton.
+// Joint angles, and the bone transforms that they give.
 #pragma once
 
 #include <array>
@@ -11,14 +11,15 @@
 
 namespace bodice::synth {
 
-/// All angles in degrees, from the rest directions of anatomy: arms hanging, legs straight down.
+/// Angles of an arm. All angles are degrees, from the rest directions of anatomy: arms hanging, legs straight
+/// down.
 struct ArmAngles {
   double raise = 45.0;   ///< away from the trunk, in the frontal plane
   double forward = 0.0;  ///< swing to the front, after the raise
   double twist = 0.0;    ///< about the upper arm's axis, inward positive
   double elbow = 4.0;
   double wrist = 0.0;  ///< palm toward the forearm
-  double curl = 8.0;   ///< of each row of finger joints
+  double curl = 8.0;   ///< bend of each row of finger joints
 };
 
 struct LegAngles {
@@ -30,23 +31,24 @@ struct LegAngles {
 };
 
 struct PoseAngles {
-  double pitch = 0.0, yaw = 0.0, roll = 0.0;  ///< of the whole body about x, y, z
-  double lean = 0.0, bend = 0.0, turn = 0.0;  ///< of the spine, in all: forward, to the left, to the left
+  double pitch = 0.0, yaw = 0.0, roll = 0.0;  ///< turns of the whole body about x, y and z
+  double lean = 0.0, bend = 0.0, turn = 0.0;  ///< of the whole spine: forward, to the left, to the left
   double nod = 0.0, look = 0.0;               ///< of the head: forward, to the left
   std::array<ArmAngles, 2> arm;
   std::array<LegAngles, 2> leg;
 };
 
-/// kRandom: the seed's angles within the range of human joints. Others do not depend on the seed.
+/// The angles of a pose. Those of kRandom lie within the range of human joints and depend on the seed; others
+/// do not.
 PoseAngles angles_of(Pose pose, std::uint64_t seed);
 
 using BoneTransforms = std::array<Eigen::Isometry3d, kBoneCount>;
 
-/// From the rest pose to the given one, by bone.
+/// The transform of each bone from the rest pose to the given one.
 BoneTransforms transforms(const Figure& figure, const PoseAngles& angles);
 
-/// The pose asked for; a random one is drawn again, at most 64 times, until no limb's core runs through
-/// another or through the trunk.
+/// The transforms of a pose. A random pose is drawn again, at most 64 times, until no limb's core passes
+/// through another or through the trunk.
 BoneTransforms pose_figure(const Figure& figure, Pose pose, std::uint64_t seed);
 
 }  // namespace bodice::synth

@@ -11,7 +11,7 @@ using body::LandmarkId;
 using body::Part;
 using geometry::Index;
 
-/// Positive where the part has more of the vertex than any other part; the trunk counts as one.
+/// The lead of the parts' weight over that of any other part, a vertex; the trunk counts as one part.
 std::vector<double> lead_of(const Posed& b, std::initializer_list<Part> parts) {
   std::vector<double> lead(b.rest.size());
   for (std::size_t v = 0; v < lead.size(); ++v) {
@@ -51,25 +51,25 @@ void walk_border(const Posed& b, const std::vector<double>& field,
   }
 }
 
-/// The border point that reaches furthest in a direction of the rest pose.
+/// The border point that is farthest in a direction of the rest pose.
 Vec3 furthest_on_border(const Posed& b, const std::vector<double>& field, const Vec3& direction) {
   double most = -1e9;
-  Vec3 place = Vec3::Zero();
+  Vec3 posed = Vec3::Zero();
   walk_border(b, field, [&](const Crossing& one, const Crossing& other) {
     for (const Crossing* end : {&one, &other})
       if (end->rest.dot(direction) > most) {
         most = end->rest.dot(direction);
-        place = end->posed;
+        posed = end->posed;
       }
   });
-  return place;
+  return posed;
 }
 
-/// The perineum of rigged scans lies where the floor of the trunk begins to rise to the front; the lowest
-/// point itself wanders on a floor that is nearly level, and lies far behind on heavy seats.
-constexpr double kLevelFloor = 0.004;  // of stature
+/// In statures. The perineum of rigged scans lies where the floor of the trunk begins to rise to the front.
+/// The lowest point wanders on a floor that is nearly level, and lies far behind on heavy seats.
+constexpr double kLevelFloor = 0.004;
 
-/// Where the midline of the crotch, followed forwards, leaves the floor.
+/// The point where the midline of the crotch, followed forward, leaves the floor.
 Vec3 front_of_floor(const Posed& b) {
   constexpr double kMiddle = 1e-6;
   std::vector<Index> line;
@@ -91,7 +91,7 @@ Vec3 front_of_floor(const Posed& b) {
   return Vec3::Zero();
 }
 
-/// The vertex of the regions that reaches furthest in the rest pose.
+/// The vertex of the region that is farthest in a direction of the rest pose.
 Index furthest(const Posed& b, Region region, const Vec3& direction) {
   Index best = 0;
   double reach = -1e9;
@@ -103,10 +103,10 @@ Index furthest(const Posed& b, Region region, const Vec3& direction) {
   return best;
 }
 
-/// How much less far than its farthest vertex the front of a foot reaches, and how far to the sides.
-constexpr double kBluntFront = 0.016, kFootWidth = 0.06;  // of stature
+/// In statures: the depth and half width of a foot's blunt front.
+constexpr double kBluntFront = 0.016, kFootWidth = 0.06;
 
-/// The vertex below the knee that reaches furthest; a heavy thigh may reach further.
+/// The farthest vertex below the knee, since a heavy thigh may reach further.
 Index front_of_foot(const Posed& b, int side) {
   const Region region = region_of_side(Region::kLegL, side);
   const double knee = b.figure.joint[index(of_side(Bone::kCalfL, side))].y();
@@ -116,8 +116,8 @@ Index front_of_foot(const Posed& b, int side) {
   return best;
 }
 
-/// The tip of a foot, a little within. Its front is blunt, so that the farthest vertex lies anywhere on it:
-/// the middle of what reaches nearly as far, the more the farther.
+/// The tip of a foot, a little inside. Its front is blunt, so that the farthest vertex lies anywhere on it.
+/// The tip is the middle of all vertices nearly as far, weighted by how far they reach.
 Vec3 tip_of_foot(const Posed& b, int side) {
   const Region region = region_of_side(Region::kLegL, side);
   const Index farthest = front_of_foot(b, side);
@@ -143,8 +143,8 @@ Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p) {
   return best;
 }
 
-/// The border of upper and lower trunk in rigged scans, above the survey's waist.
-constexpr double kWaistAboveNavel = 0.016;  // of stature
+/// In statures: the border of upper and lower trunk in rigged scans lies this much above the survey's waist.
+constexpr double kWaistAboveNavel = 0.016;
 
 Part trunk_part(const Figure& f, const Vec3& rest) {
   const bool left = rest.x() >= -1e-9;
@@ -181,7 +181,7 @@ std::vector<body::Landmark> true_landmarks(const Posed& b) {
   put_vertex(LandmarkId::kCrown, furthest(b, Region::kHead, Vec3::UnitY()));
   put(LandmarkId::kNeck, joint(Bone::kNeck));
   put(LandmarkId::kPerineum, front_of_floor(b));
-  // The armpit is the hind fold's: half way between down and back.
+  // The armpit is that of the fold behind: halfway between down and back.
   const Vec3 to_fold = Vec3(0.0, -1.0, -1.0).normalized();
   for (int side = 0; side < 2; ++side) {
     constexpr int kMiddleFinger = 1;

@@ -1,4 +1,4 @@
-// What is known of a posed body because it was made: parts, landmarks, joints.
+// The truth about a posed body, known because it was made: parts, landmarks, joints.
 #pragma once
 
 #include <bodice/synth/body.hpp>
@@ -18,10 +18,10 @@ struct Posed {
   const BoneTransforms& bones;
 };
 
-/// The part whose bones carry most of each vertex; the trunk is cut at chest, waist and middle.
+/// The part with the greatest weight at each vertex; the trunk is cut at chest, waist and middle.
 std::vector<body::Part> true_parts(const Posed& body);
 
-/// All of LandmarkId, in that order. Neck, elbows and knees are their joints.
+/// All landmarks in the order of LandmarkId. Neck, elbows and knees are their joints.
 std::vector<body::Landmark> true_landmarks(const Posed& body);
 
 std::vector<Joint> true_joints(const Figure& figure, const BoneTransforms& bones);

@@ -1,4 +1,5 @@
-// Human bodies made from numbers, with known truth: what tests, benches and the built-in example stand on.
+// Human bodies made from numbers, with known landmarks, joints and parts, for tests, benches and the built-in
+// example.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <bodice/rig/skinning.hpp>
 
 namespace bodice::synth {
+/// The pose of a made body; kRandom depends on the seed.
 
 enum class Pose {
   kA,
@@ -30,26 +32,27 @@ enum class Pose {
   kHandstand,
   kRandom
 };
+/// The numbers that a body is made from.
 
 struct BodyOptions {
   body::Sex sex = body::Sex::kFemale;
   double stature_m = 1.68;
-  double mass_kg = 62.0;  ///< sets the girths
+  double mass_kg = 62.0;  ///< kilograms; determines the girths
   Pose pose = Pose::kA;
   std::optional<body::ProportionProfile> profile;  ///< absent: "ansur2"
-  int vertices = 8850;                             ///< wanted; the mesh has this many within 10 %
-  std::uint64_t seed = 0;  ///< 0: the average body; others vary lengths and girths within the survey's spread
-  double childhood =
-      0.0;  ///< 0: grown up; 1: two years old, with a large head and short limbs; between: between
-  bool pregnant = false;  ///< near term
+  int vertices = 8850;                             ///< requested number; the mesh has it within 10 %
+  std::uint64_t seed = 0;  ///< 0: the average body; others vary within the spread of the survey
+  double childhood = 0.0;  ///< from 0 (adult) to 1 (two years old, with a large head and short limbs)
+  bool pregnant = false;   ///< as near term
 };
 
+/// A joint of a made body.
 struct Joint {
   std::string name;         ///< "elbow_l", "knee_r", "neck", ...
   geometry::Vec3 position;  ///< meters
 };
 
-/// A closed surface of one component and genus 0, with the truth it was made from.
+/// A made body: a closed surface of one component and genus 0, and the truth about it.
 struct Body {
   geometry::TriMesh mesh;        ///< meters, y up, facing +z, the body's left at +x
   std::vector<body::Part> part;  ///< #V
@@ -62,8 +65,8 @@ struct Body {
   rig::SkinWeights weights;  ///< #V
 };
 
-/// Deterministic in the options. Fails with kInvalidArgument outside stature .4..2.6 m, BMI 10..70,
-/// childhood 0..1.
+/// Makes a body. The result is a function of the options. Fails with kInvalidArgument outside stature .4..2.6
+/// m, BMI 10..70 and childhood 0..1, and with kCanceled. Cost: below a second for 8,850 vertices.
 engine::Result<Body> make_body(const engine::Context& context, const BodyOptions& options);
 
 }  // namespace bodice::synth

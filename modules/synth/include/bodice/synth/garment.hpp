@@ -1,5 +1,4 @@
-// Garments cut to fit any segmented body: open surfaces with thickness-free particles, a stated ease away
-// from the skin.
+// Garments cut to fit any segmented body: open surfaces of particles at a stated ease from the skin.
 #pragma once
 
 #include <span>
@@ -11,10 +10,11 @@
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::synth {
+/// The kind of a made garment.
 
 enum class GarmentKind { kSkirt, kTunic, kPoncho, kTube };
 
-/// What a garment is made to fit: a skin with a part a vertex and its landmarks.
+/// The body that a garment is made for: a skin with a part a vertex, and its landmarks.
 struct SegmentedBody {
   const geometry::TriMesh& mesh;
   std::span<const body::Part> part;  ///< #V
@@ -22,18 +22,21 @@ struct SegmentedBody {
   double stature_m = 0.0;
 };
 
+/// The kind and cut of a garment.
 struct GarmentOptions {
   GarmentKind kind = GarmentKind::kSkirt;
   double ease_m = 0.008;  ///< least distance to the skin
   double edge_length_m = 0.015;
 };
 
+/// A made garment.
 struct Garment {
   geometry::TriMesh mesh;
   std::vector<geometry::Index> pinned;  ///< vertices that the wearer holds (waistband); may be empty
 };
 
-/// Fails with kUnusableGeometry when the body's parts do not allow the garment (no legs for a skirt, say).
+/// Cuts a garment. Fails with kUnusableGeometry when the body does not allow the garment (a skirt needs legs,
+/// for instance), and with kCanceled.
 engine::Result<Garment> make_garment(const engine::Context& context, const SegmentedBody& body,
                                      const GarmentOptions& options);
 
