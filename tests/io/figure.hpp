@@ -1,4 +1,4 @@
-// A figure with known truth, and meshes written in every text and binary format by the tests themselves.
+// A figure of known size and volume, and writers of meshes in every text and binary format.
 #pragma once
 
 #include <string>
@@ -16,14 +16,15 @@ using bodice::geometry::Vec3;
 /// mirror-symmetric in x but not in z.
 TriMesh figure();
 
-/// Every position mapped.
+/// The mesh with every position mapped.
 template <class Map>
 TriMesh mapped(TriMesh mesh, Map&& map) {
   for (Vec3& p : mesh.positions) p = map(p);
   return mesh;
 }
 
-/// The largest distance from a vertex of one mesh to the nearest vertex of the other, both ways. Brute force.
+/// The largest distance from a vertex of one mesh to the closest vertex of the other, in both directions. It
+/// is found by brute force.
 double vertex_distance(const TriMesh& a, const TriMesh& b);
 
 struct NamedMesh {
@@ -34,11 +35,11 @@ struct NamedMesh {
 std::string to_obj(const std::vector<NamedMesh>& groups);
 std::string to_ply(const TriMesh& mesh, bool binary);
 std::string to_stl(const TriMesh& mesh, bool binary);
-/// One document with unit and up axis, a geometry a mesh.
+/// A Collada document with unit and up axis, and a geometry a mesh.
 std::string to_collada(const std::vector<NamedMesh>& meshes, double meters_per_unit,
                        std::string_view up_axis);
-/// One mesh under a node with this column-major matrix; skinned to one joint whose own node carries
-/// `joint_matrix` if that is not empty (its bind pose).
+/// A mesh under a node with this column-major matrix. If `joint_matrix` is not empty, the mesh is skinned to
+/// one joint, and that is the matrix of the joint's node (its bind pose).
 std::string to_gltf(const TriMesh& mesh, const std::string& node_matrix,
                     const std::string& joint_matrix = {});
 

@@ -54,7 +54,7 @@ TEST_CASE("the unit follows from the skin's area, for adults and children") {
   CHECK(child.unit == "cm");
 }
 
-TEST_CASE("a size that fits no unit is scaled to a person's and said so") {
+TEST_CASE("a body that fits no unit is scaled to a person's size, with a warning") {
   for (const double scale : {1e-6, 3.0, 1e6}) {
     CAPTURE(scale);
     const auto mesh = import_obj(mapped(figure(), [&](const Vec3& p) { return Vec3(scale * p); }));
@@ -65,7 +65,7 @@ TEST_CASE("a size that fits no unit is scaled to a person's and said so") {
   }
 }
 
-TEST_CASE("a unit that is told is taken, and doubted where it makes no person") {
+TEST_CASE("a given unit is kept, with a warning where it makes no person's size") {
   const auto in_feet = mapped(figure(), [](const Vec3& p) { return Vec3(p / 0.3048); });
   const auto mesh = import_obj(in_feet, {.unit = io::Unit::kFoot});
   CHECK(mesh.unit == "ft");
@@ -78,7 +78,7 @@ TEST_CASE("a unit that is told is taken, and doubted where it makes no person") 
   }
 }
 
-TEST_CASE("a unit that contradicts the shape is not believed") {
+TEST_CASE("a file's unit that contradicts the shape is replaced, with a warning") {
   const TempFolder folder;
   const auto result =
       io::import_body(kContext, folder.write("a.dae", to_collada({{"body", figure()}}, 100.0, "Y_UP")));
@@ -97,10 +97,10 @@ TEST_CASE("the up axis follows from the shape, and options override") {
     CHECK(static_cast<int>(mesh.frame.up) == up);
     CHECK(height(mesh.skin) == doctest::Approx(1.7).epsilon(1e-3));
   }
-  const auto told = import_obj(figure(), {.unit = io::Unit::kCentimeter, .up = geometry::Axis::kX});
-  CHECK(told.frame.up == geometry::Axis::kX);
-  CHECK(told.unit == "cm");
-  CHECK(geometry::bounding_box(told.skin.positions).size().norm() < 0.02);
+  const auto given = import_obj(figure(), {.unit = io::Unit::kCentimeter, .up = geometry::Axis::kX});
+  CHECK(given.frame.up == geometry::Axis::kX);
+  CHECK(given.unit == "cm");
+  CHECK(geometry::bounding_box(given.skin.positions).size().norm() < 0.02);
 }
 
 TEST_CASE("arms as wide as the body is tall do not change the up axis, y or z") {

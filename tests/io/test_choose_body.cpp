@@ -28,7 +28,7 @@ TriMesh moved(const TriMesh& mesh, const Vec3& by) {
   return mapped(mesh, [&](const Vec3& p) { return Vec3(p + by); });
 }
 
-/// Open at both ends, around the figure's hips, and of more area than the figure's hips.
+/// A skirt, open at both ends, around the figure's hips and of more area than they have.
 TriMesh skirt() {
   return moved(cylinder(0.45, 0.8, 48, 12, false), {0.0, 0.6, 0.0});
 }
@@ -43,7 +43,7 @@ const engine::Warning* find(const io::ImportedMesh& mesh, std::string_view code)
   return nullptr;
 }
 
-/// The part of the figure's triangles that `keep` picks, by the height of their middle.
+/// The triangles of the figure that `keep` accepts by the height of their middle.
 template <class Keep>
 TriMesh part_of_figure(Keep&& keep) {
   TriMesh part = figure();
@@ -74,7 +74,7 @@ TEST_CASE("the body is found whatever the order and the names") {
   }
 }
 
-TEST_CASE("loose pieces of one single mesh are told apart as well") {
+TEST_CASE("loose pieces of one single mesh are distinguished as well") {
   TriMesh all = bodice_test::joined(bodice_test::joined(eye(-0.04), eye(0.04)), skirt());
   all = bodice_test::joined(all, figure());
   const auto result = import_groups({{"", all}});
@@ -105,7 +105,7 @@ TEST_CASE("limbs that are closed pieces of their own belong to the body") {
   CHECK(geometry::bounding_box(result->skin.positions).size().x() == doctest::Approx(1.7).epsilon(0.01));
 }
 
-TEST_CASE("a mesh asked for by name is taken, and a wrong name lists what there is") {
+TEST_CASE("a mesh is taken by its name, and a wrong name is an error that lists the names") {
   const std::vector<NamedMesh> groups = {{"body", figure()}, {"Skirt", skirt()}};
   const auto skirt_only = import_groups(groups, "skirt");
   REQUIRE(skirt_only.ok());

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-/// A GLB taken apart by the words of the specification.
+/// A GLB file taken apart as the specification describes it.
 struct Glb {
   json document;
   std::string buffer;
@@ -70,7 +70,7 @@ const json& primitive(const Glb& glb, std::string_view node_name) {
   return glb.document["meshes"][node(glb, node_name)["mesh"].get<std::size_t>()]["primitives"][0];
 }
 
-/// Alignment, extents and true bounds of every accessor.
+/// Checks alignment, extents and bounds of every accessor.
 void check_accessors(const Glb& glb) {
   CHECK(glb.document["buffers"][0]["byteLength"] == glb.buffer.size());
   for (const json& view : glb.document["bufferViews"]) {
@@ -134,7 +134,7 @@ TEST_CASE("positions and ellipsoids are in the input's units and axes") {
     for (std::size_t k = 0; k < 3; ++k)
       CHECK(static_cast<double>(p[3 * v + k]) == doctest::Approx(truth[static_cast<int>(k)]).epsilon(1e-5));
   }
-  // A point of the unit sphere, placed by the node, must lie on the ellipsoid.
+  // The node takes each point of the unit sphere to the ellipsoid.
   const auto& shape = fixture.scene.proxy->ellipsoids()[0].shape;
   const json& placed = glb.document["nodes"][node(glb, "ellipsoids")["children"][0].get<std::size_t>()];
   auto triple = [](const json& j) { return Vec3(j[0], j[1], j[2]); };
@@ -146,7 +146,7 @@ TEST_CASE("positions and ellipsoids are in the input's units and axes") {
   }
 }
 
-TEST_CASE("every kept frame is a morph target whose weight alone is one at its time") {
+TEST_CASE("at the time of each kept frame the weight of its morph target is one and all others are zero") {
   const TempFolder folder;
   const SceneFixture fixture;
   const Glb glb = written(fixture.scene, folder);
@@ -169,7 +169,7 @@ TEST_CASE("every kept frame is a morph target whose weight alone is one at its t
   CHECK(floats(glb, sampler["output"].get<std::size_t>()) == std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1});
 }
 
-TEST_CASE("frames that are all of one moment are no animation; times that go back are refused") {
+TEST_CASE("frames of a single time make no animation, and times that go back are refused") {
   const TempFolder folder;
   SceneFixture fixture;
   io::GarmentTrack& track = fixture.scene.garments[0];
@@ -177,7 +177,7 @@ TEST_CASE("frames that are all of one moment are no animation; times that go bac
   const Glb glb = written(fixture.scene, folder);
   CHECK_FALSE(glb.document.contains("animations"));
   CHECK(primitive(glb, "cloth")["targets"].size() == track.frames.size());
-  track.time_s[1] = 0.5;  // and back again
+  track.time_s[1] = 0.5;  // time goes back
   CHECK_FALSE(io::write_glb(fixture.scene, folder / "again.glb").ok());
 }
 

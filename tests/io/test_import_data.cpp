@@ -1,4 +1,4 @@
-// The optional real data: what each file is known to hold.
+// The optional real bodies, with what is known of each.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -16,7 +16,7 @@ struct Known {
   const char* unit;
   geometry::Axis up;
   std::size_t vertices;
-  double volume_l;  // 0: not known
+  double volume_l;  // 0: unknown
 };
 
 constexpr Known kBodies[] = {
@@ -40,7 +40,7 @@ constexpr Known kBodies[] = {
 
 }  // namespace
 
-TEST_CASE("real bodies come in as what they are known to be") {
+TEST_CASE("real bodies are imported with their known unit, size and volume") {
   for (const Known& known : kBodies) {
     const auto file = bodice_test::data_file(known.file);
     if (!file) continue;

@@ -14,7 +14,7 @@ namespace {
 
 const engine::Context kContext;
 
-/// Imports a body that must be the figure, in meters and y up inside.
+/// Imports a body and checks that it is the figure, in meters and y up.
 io::ImportedMesh import_figure(const std::filesystem::path& file, double tolerance_m = 2e-6) {
   auto result = io::import_body(kContext, file);
   REQUIRE_MESSAGE(result.ok(), (result.ok() ? std::string() : result.error().sentence()));
@@ -29,7 +29,7 @@ io::ImportedMesh import_figure(const std::filesystem::path& file, double toleran
 }
 
 constexpr const char* kIdentity = "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
-/// Column-major: z up to y up, as Blender writes it.
+/// The column-major matrix from z up to y up, as Blender writes it.
 constexpr const char* kTurned = "[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1]";
 
 TriMesh z_up(double scale) {
@@ -73,7 +73,7 @@ TEST_CASE("the transform of a glTF node is applied") {
   import_figure(folder.write("turned.gltf", to_gltf(z_up(1.0), kTurned)));
 }
 
-TEST_CASE("a skinned mesh stands where its bones put it, not where its node is") {
+TEST_CASE("a skinned mesh is placed by its bones and not by its node") {
   const TempFolder folder;
   const char* ten_times = "[10,0,0,0, 0,10,0,0, 0,0,10,0, 0,0,0,1]";
   SUBCASE("bones in place, node elsewhere") {
@@ -94,7 +94,7 @@ TEST_CASE("Collada's unit and up axis make the frame, and its own coordinates ar
   CHECK(vertex_distance(back, z_up(100.0)) < 2e-4);
 }
 
-TEST_CASE("the map from the file's vertices leads to the same places") {
+TEST_CASE("the map from the file's vertices leads to the same positions") {
   const TempFolder folder;
   const TriMesh truth = figure();
   const auto mesh = import_figure(folder.write("a.ply", to_ply(truth, true)));
@@ -126,7 +126,7 @@ TEST_CASE("an OBJ ten kilometers from the origin keeps its digits") {
   for (const engine::Warning& warning : result->warnings) CHECK(warning.code != "far-from-origin");
 }
 
-TEST_CASE("a binary file far from the origin says what its single precision costs") {
+TEST_CASE("a binary file far from the origin gives a warning with the error of single precision") {
   const TempFolder folder;
   const TriMesh moved = mapped(figure(), [](const Vec3& p) { return Vec3(p + Vec3(5000.0, 0.0, 0.0)); });
   const auto result = io::import_body(kContext, folder.write("far.ply", to_ply(moved, true)));

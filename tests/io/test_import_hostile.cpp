@@ -14,7 +14,7 @@ namespace {
 
 const engine::Context kContext;
 
-/// An error must name the file and end in a sentence, then a remedy.
+/// Checks that the error names the file, and has a sentence and a remedy.
 void check_error(const std::filesystem::path& file, engine::ErrorCode code) {
   CAPTURE(file);
   const auto result = io::import_body(kContext, file);
@@ -26,7 +26,7 @@ void check_error(const std::filesystem::path& file, engine::ErrorCode code) {
   CHECK(!result.error().remedy.empty());
 }
 
-/// Any answer will do but a crash, a hang or numbers that are not finite.
+/// Checks that there is no crash, no hang and no number that is not finite.
 void check_survives(const std::filesystem::path& file) {
   CAPTURE(file);
   const auto result = io::import_body(kContext, file);
@@ -48,7 +48,7 @@ std::string random_bytes(std::size_t count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("what is no mesh ends in one clear sentence") {
+TEST_CASE("a file that is no mesh is refused in one sentence with a remedy") {
   const TempFolder folder;
   check_error(folder / "missing.obj", engine::ErrorCode::kNotFound);
   check_error(folder.path(), engine::ErrorCode::kUnreadable);

@@ -1,4 +1,4 @@
-// A host may have called setlocale(): files have points all the same.
+// Files have decimal points even if the host has called setlocale().
 #include <doctest/doctest.h>
 
 #include <fstream>
@@ -57,7 +57,7 @@ TEST_CASE("bodies are read the same where the host's locale has commas") {
     const auto body = io::import_body(kContext, folder / name);
     REQUIRE_MESSAGE(body.ok(), (body.ok() ? std::string() : body.error().sentence()));
     const bool is_far = std::string_view(name) == "far.obj";
-    // Nine digits of 10,000 m end at the tenth of a millimeter.
+    // With nine digits, coordinates of 10,000 m end at the tenth of a millimeter.
     CHECK(vertex_distance(body->skin, is_far ? far : truth) < (is_far ? 6e-5 : 2e-6));
   }
 }

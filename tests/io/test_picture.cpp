@@ -25,7 +25,7 @@ struct Picture {
         3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
     return {rgb[i], rgb[i + 1], rgb[i + 2]};
   }
-  /// Neither backdrop nor ground: both are near-neutral and light.
+  /// Whether a pixel is neither backdrop nor ground, which are both light and nearly neutral.
   bool drawn(int x, int y) const {
     const auto [r, g, b] = at(x, y);
     return std::max({r, g, b}) - std::min({r, g, b}) > 14;
@@ -52,7 +52,7 @@ Picture drawn(const io::Scene& scene, std::span<const std::size_t> frames,
   return read(folder / "a.png");
 }
 
-/// Of the pixels of a rectangle, how many are drawn.
+/// The number of drawn pixels in a rectangle.
 int count(const Picture& picture, int x0, int y0, int x1, int y1) {
   int n = 0;
   for (int y = y0; y < y1; ++y)
@@ -75,7 +75,7 @@ TEST_CASE("the body stands where it should in the front and the side view") {
   }
   for (const int corner : {3, 117, 123, 237})
     for (const int y : {3, 196}) CHECK(!picture.drawn(corner, y));
-  // Wider from the front (.56 m and more) than from the side (about .32 m).
+  // The figure is wider from the front (.56 m and more) than from the side (about .32 m).
   const int front = count(picture, 0, 0, 120, 200), side = count(picture, 120, 0, 240, 200);
   CHECK(side > 1000);
   CHECK(front > 1.4 * side);
@@ -122,11 +122,11 @@ TEST_CASE("the proxy's surface can be shown in place of its ellipsoids, if it is
   io::Scene scene = fixture.scene;
   scene.surface = &*surface;
   const Picture picture = drawn(scene, {}, options);
-  int differ = 0;  // drawn or not
+  int differ = 0;  // pixels drawn in one picture only
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 240; ++x) differ += picture.drawn(x, y) != ellipsoids.drawn(x, y);
-  CHECK(differ < 100);                               // of the outline's pixels
-  CHECK(picture.at(60, 50) != picture.at(60, 150));  // parts
+  CHECK(differ < 100);                               // pixels of the outline
+  CHECK(picture.at(60, 50) != picture.at(60, 150));  // different parts
   const TempFolder folder;
   for (int broken = 0; broken < 3; ++broken) {
     proxy::ProxySurface other = *surface;

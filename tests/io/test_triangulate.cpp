@@ -18,7 +18,7 @@ TriMesh import_sheet(const std::string& obj) {
   return std::move(result->skin);
 }
 
-/// Every triangle faces +z and together they cover exactly this area.
+/// Checks that every triangle faces +z and that together they cover exactly this area.
 void check_flat_cover(const TriMesh& mesh, double area, std::size_t triangles) {
   double sum = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

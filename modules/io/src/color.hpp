@@ -7,7 +7,7 @@
 
 namespace bodice::io {
 
-/// sRGB 0..1 to linear light: what glTF's colors and our own shading are in. IEC 61966-2-1.
+/// Converts sRGB 0..1 to linear light, the unit of glTF's colors and of the shading here. IEC 61966-2-1.
 inline float to_linear(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }

@@ -6,7 +6,8 @@ namespace bodice::io {
 
 namespace {
 
-// Left parts are the warm or light ones of a pair, right parts the darker: lightness tells what hue may not.
+// The left part of a pair is warm or light and the right one darker, so that lightness distinguishes what
+// hue may not.
 constexpr std::array<std::array<float, 3>, body::kPartCount> kColors = {{
     {0.94f, 0.78f, 0.60f},  // head
     {0.99f, 0.75f, 0.44f},  // torso_ul

@@ -5,16 +5,17 @@
 
 namespace bodice::io {
 
-/// What no writer could draw: nothing at all, counts that do not match, numbers that are not finite.
+/// Fails for a scene that no writer can draw: an empty one, counts that do not match, numbers that are not
+/// finite.
 engine::Result<void> check_scene(const Scene& scene);
 
-/// Whether there is anything to play: not where all frames have the same time.
+/// Whether the track has frames at different times, so that there is something to play.
 bool takes_time(const GarmentTrack& track);
 
-/// Of everything in the scene, meters, y up.
+/// The box around everything in the scene, meters, y up.
 geometry::Box scene_box(const Scene& scene);
 
-/// Cloth's color, sRGB 0..1, for the k-th garment.
+/// The color of the k-th garment, sRGB 0..1.
 std::array<float, 3> garment_color(std::size_t k);
 
 }  // namespace bodice::io

@@ -4,7 +4,7 @@
 
 namespace bodice::io {
 
-/// The unit sphere as an octahedron whose faces are split `splits` times: 4^splits * 8 triangles, wound
+/// The unit sphere as an octahedron with each face split `splits` times: 8 * 4^splits triangles, wound
 /// outward. Each position is its own normal.
 geometry::TriMesh unit_sphere(int splits);
 

@@ -1,4 +1,4 @@
-// The container of binary glTF: a JSON document and one buffer that its accessors point into.
+// The container of binary glTF: a JSON document, and a buffer that its accessors refer to.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ class GlbBuilder {
  public:
   GlbBuilder();
 
-  /// Each adds data to the buffer and returns its accessor's index.
-  std::size_t add_positions(std::span<const Vec3f> values);  ///< with the bounds that glTF demands
+  /// These add data to the buffer and return the index of its accessor.
+  std::size_t add_positions(std::span<const Vec3f> values);  ///< with the bounds that glTF requires
   std::size_t add_vectors(std::span<const Vec3f> values);    ///< normals, colors
   std::size_t add_triangles(std::span<const geometry::Triangle> triangles);
   std::size_t add_times(std::span<const float> seconds);
@@ -37,7 +37,7 @@ class GlbBuilder {
   /// Makes a node a root of the scene.
   void add_to_scene(std::size_t node);
 
-  /// The whole file; empty if it is over the 4 GiB that the format can express.
+  /// The whole file, or nothing if it exceeds the 4 GiB that the format allows.
   std::string finish() const;
 
  private:

@@ -20,7 +20,8 @@ using geometry::Vec3;
 constexpr int kSphereSplits = 3;  // 512 triangles, shared by all ellipsoids
 constexpr float kEllipsoidAlpha = 0.55f;
 constexpr std::array<float, 3> kSkin = {0.80f, 0.76f, 0.73f};
-/// Beyond this many diagonals from the origin the nodes carry the offset, so that floats keep their digits.
+/// In units of the diagonal: farther from the origin the nodes carry the offset, so that floats keep their
+/// digits.
 constexpr double kFarDiagonals = 16.0;
 
 class SceneWriter {
@@ -59,7 +60,7 @@ class SceneWriter {
     return result;
   }
 
-  /// Unit normals in the file's axes; upward where the mesh gives none, for glTF forbids zero.
+  /// Unit normals in the file's axes; they point up where the mesh gives none, since glTF forbids zero.
   std::vector<Vec3f> normals_of(const geometry::TriMesh& mesh) const {
     std::vector<Vec3f> result;
     result.reserve(mesh.positions.size());
@@ -81,7 +82,7 @@ class SceneWriter {
     return glb_.add("materials", std::move(material));
   }
 
-  /// A root node; its translation is what was taken off every position.
+  /// Adds a root node, translated by the offset that was subtracted from every position.
   std::size_t add_root(Json node) {
     if (!origin_.isZero()) node["translation"] = {origin_.x(), origin_.y(), origin_.z()};
     const std::size_t index = glb_.add("nodes", std::move(node));
@@ -121,7 +122,7 @@ class SceneWriter {
     return skeleton.skin;
   }
 
-  /// One sphere for all; a mesh a part, which differ by material only; a node an ellipsoid.
+  /// Adds a node an ellipsoid. They share a mesh a part, and the meshes differ by material only.
   void add_ellipsoids() {
     const geometry::TriMesh sphere = unit_sphere(kSphereSplits);
     std::vector<Vec3f> points;
@@ -177,7 +178,7 @@ class SceneWriter {
     if (takes_time(track)) animate(track, node);
   }
 
-  /// What to add to the mesh to make it the frame.
+  /// Adds the displacements that turn the mesh into the frame.
   Json add_target(const std::vector<geometry::Triangle>& triangles, const std::vector<Vec3>& frame,
                   const std::vector<Vec3f>& positions, const std::vector<Vec3f>& normals) {
     std::vector<Vec3f> moved = to_file(frame), turned = normals_of({frame, triangles});
@@ -188,7 +189,8 @@ class SceneWriter {
     return {{"POSITION", glb_.add_positions(moved)}, {"NORMAL", glb_.add_vectors(turned)}};
   }
 
-  /// At each kept frame its own target has weight one and all others zero; linear in between.
+  /// At each kept frame the weight of its target is one and all others are zero; between frames they are
+  /// linear.
   void animate(const GarmentTrack& track, std::size_t node) {
     const std::size_t n = track.frames.size();
     std::vector<float> times(n), weights(n * n, 0.0f);
@@ -206,7 +208,7 @@ class SceneWriter {
 
   const Scene& scene_;
   geometry::Frame frame_;       // of the file
-  Vec3 origin_ = Vec3::Zero();  // file units
+  Vec3 origin_ = Vec3::Zero();  // in file units
   GlbBuilder glb_;
   std::vector<GlbAnimation> animations_;  // the first has the garments
 };

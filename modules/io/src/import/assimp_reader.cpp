@@ -51,7 +51,7 @@ std::string material_name(const aiScene& scene, const aiMesh& mesh) {
                                                    : "";
 }
 
-/// Every mesh of every node in the world's coordinates, bound to its bones.
+/// Collects the meshes of all nodes in world coordinates, bound to their bones.
 class Collector {
  public:
   Collector(const aiScene& scene, std::optional<GltfDocument> document, const Vec3& offset, FileScene& out)
@@ -90,10 +90,10 @@ class Collector {
   bool skinned_ = false;
 };
 
-/// assimp folds the document's unit into the root node; we keep the file's own coordinates.
+/// assimp multiplies the root node by the document's unit; this keeps the file's own coordinates.
 Eigen::Matrix4d undo_collada_unit(const ColladaAsset& asset, FileScene& scene) {
   scene.meters_per_unit = asset.meters_per_unit;
-  scene.up = asset.up.value_or(geometry::Axis::kY);  // the standard's default
+  scene.up = asset.up.value_or(geometry::Axis::kY);  // the default of the standard
   Eigen::Matrix4d world_to_file = Eigen::Matrix4d::Identity();
   world_to_file.topLeftCorner<3, 3>() /= asset.meters_per_unit.value_or(1.0);
   return world_to_file;
@@ -112,13 +112,13 @@ void read_fbx_metadata(const aiScene& scene, FileScene& out) {
   if (centimeters > 0.0 && std::isfinite(centimeters)) out.meters_per_unit = 0.01 * centimeters;
 }
 
-/// `offset` becomes what to add to every position.
+/// Parses the file. `offset` receives the vector to add to every position.
 const aiScene* parse(Assimp::Importer& importer, const std::filesystem::path& file, Vec3& offset) {
-  // What an archive's document says is out of our reach: there we let assimp turn it to meters, y up.
+  // The document inside an archive is not read here, so that assimp turns it to meters, y up.
   const bool as_stored = format_of(file) != Format::kColladaArchive;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, as_stored);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  constexpr unsigned steps = 0;  // its post-processing asserts, and so aborts, on damaged meshes
+  constexpr unsigned steps = 0;  // assimp's post-processing asserts, and so aborts, on damaged meshes
   if (format_of(file) == Format::kObj) {
     if (const auto moved = move_to_origin(read_text(file))) {
       offset = moved->offset;
@@ -128,12 +128,13 @@ const aiScene* parse(Assimp::Importer& importer, const std::filesystem::path& fi
   return importer.ReadFile(file.string(), steps);
 }
 
-/// Names that assimp's readers invent where a file gives none.
+/// Whether assimp's readers made the name up because the file gives none.
 bool is_made_up(std::string_view name) {
   return name.empty() || name == "defaultobject" || name == "DefaultMaterial" || name.starts_with('<');
 }
 
-/// Formats whose faces index positions apart from normals and textures: assimp makes a vertex of each corner.
+/// Whether the format indexes positions apart from normals and textures: assimp makes a vertex of each
+/// corner.
 bool splits_vertices(Format format) {
   return format == Format::kObj || format == Format::kCollada || format == Format::kColladaArchive ||
          format == Format::kFbx;

@@ -9,8 +9,8 @@
 
 namespace bodice::io {
 
-/// Mesh space to the world, 4x4. `node_to_world` is that of the mesh's node; the bones of a skinned mesh
-/// decide where they agree on the bind pose.
+/// The matrix that takes a mesh to the world. `node_to_world` is its node's; a skinned mesh follows its bones
+/// where they agree on the bind pose.
 Eigen::Matrix4d mesh_to_world(std::span<const FileBone> bones, std::span<const FileNode> nodes,
                               const aiMesh& mesh, const Eigen::Matrix4d& node_to_world);
 

@@ -13,24 +13,24 @@ namespace {
 using geometry::Axis;
 using geometry::Vec3;
 
-// The skin's area does not change with the pose, so it is what tells the unit. Adults have 1.3 to 2.6 m2,
-// a one-year-old .45 m2 (Mosteller: sqrt(height_cm mass_kg / 3600) m2); sculpted hands, ears and mouths add
-// some. The decades of meter, decimeter, centimeter and millimeter lie a factor of 100 apart in area.
-constexpr double kSmallestSkinM2 = 0.42, kLargestSkinM2 = 4.0;
-constexpr double kSmallestAdultM2 = 1.15, kLargestAdultM2 = 2.7;
-constexpr double kTypicalSkinM2 = 1.75;
-// A file's own word on its unit, or the user's, is believed over a wider range: it may hold a stylised
-// figure.
-constexpr double kSmallestLengthM = 0.45, kLargestLengthM = 2.8, kLargestStylisedSkinM2 = 15.0;
-/// An axis must be this much longer than y to be taken as up in its stead.
+// The unit is found by the skin's area, since it does not change with the pose. Adults have 1.3 to 2.6 m2, a
+// one-year-old .45 m2 (Mosteller: sqrt(height_cm mass_kg / 3600) m2); sculpted hands, ears and mouths add
+// some. Between meter, decimeter, centimeter and millimeter the area changes by a factor of 100 each.
+constexpr double kSmallestSkin_m2 = 0.42, kLargestSkin_m2 = 4.0;
+constexpr double kSmallestAdult_m2 = 1.15, kLargestAdult_m2 = 2.7;
+constexpr double kTypicalSkin_m2 = 1.75;
+// The range for units that the file or the user gives is wider, since the file may hold a stylized figure.
+constexpr double kSmallestLength_m = 0.45, kLargestLength_m = 2.8, kLargestStylizedSkin_m2 = 15.0;
+/// The factor by which an axis must exceed y to be chosen as up instead.
 constexpr double kClearlyLonger = 1.25;
-/// Thickness to length: standing bodies have .18 to .35, sitting and crouching ones .6.
+/// Thickness over length above which a body sits or crouches. It is .18 to .35 in standing bodies, .6 in
+/// sitting ones.
 constexpr double kSitting = 0.5;
-/// The bottom of a body that rests on the ground: this far up, as a fraction of its length.
+/// The height of the sole of a body that rests on the ground, as a fraction of its length.
 constexpr double kSoleHeight = 0.01;
-/// A sitting body's ground shows as an area so many times that of any other side.
+/// The factor by which a sitting body's area at the ground exceeds that at its other sides.
 constexpr double kClearSole = 3.0;
-/// Fraction of occupied cells whose mirror image is occupied too, for a symmetric body.
+/// The least share of occupied cells with an occupied mirror image in a symmetric body.
 constexpr double kSymmetric = 0.8;
 
 struct NamedUnit {
@@ -49,44 +49,44 @@ std::optional<double> meters_from_area(double area) {
   for (const NamedUnit& unit : kUnits) {
     if (unit.unit == Unit::kInch || unit.unit == Unit::kFoot) continue;
     const double skin_m2 = area * unit.meters * unit.meters;
-    if (skin_m2 >= kSmallestSkinM2 && skin_m2 <= kLargestSkinM2) return unit.meters;
+    if (skin_m2 >= kSmallestSkin_m2 && skin_m2 <= kLargestSkin_m2) return unit.meters;
   }
   constexpr double inch = 0.0254;  // an adult in inches would be an infant in centimeters
   const double skin_m2 = area * inch * inch;
-  if (skin_m2 >= kSmallestAdultM2 && skin_m2 <= kLargestAdultM2) return inch;
+  if (skin_m2 >= kSmallestAdult_m2 && skin_m2 <= kLargestAdult_m2) return inch;
   return std::nullopt;
 }
 
-void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, std::optional<double> file_says,
+void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, std::optional<double> stated,
                  DetectedFrame& out) {
   const double length = geometry::bounding_box(body.positions).size().maxCoeff();
   for (const NamedUnit& unit : kUnits) {
     if (unit.unit != options.unit) continue;
     out.frame.meters_per_unit = unit.meters;
     out.unit = unit.name;
-    if (unit.meters * length < kSmallestLengthM || unit.meters * length > kLargestLengthM)
+    if (unit.meters * length < kSmallestLength_m || unit.meters * length > kLargestLength_m)
       out.warnings.push_back({"unit-unlikely", "",
-                              engine::message("In ", out.unit, ", as was told, the body is ",
+                              engine::message("In ", out.unit, ", the given unit, the body is ",
                                               unit.meters * length, " m long, which is no person's size."),
                               "Leave --unit out to have it found."});
     return;
   }
   const double area = surface_area(body);
-  const bool believable = file_says && *file_says * length >= kSmallestLengthM &&
-                          *file_says * length <= kLargestLengthM &&
-                          *file_says * *file_says * area <= kLargestStylisedSkinM2;
-  if (const auto meters = believable ? file_says : meters_from_area(area)) {
+  const bool believable = stated && *stated * length >= kSmallestLength_m &&
+                          *stated * length <= kLargestLength_m &&
+                          *stated * *stated * area <= kLargestStylizedSkin_m2;
+  if (const auto meters = believable ? stated : meters_from_area(area)) {
     out.frame.meters_per_unit = *meters;
     out.unit = unit_name(*meters);
-    if (file_says && !believable)
+    if (stated && !believable)
       out.warnings.push_back(
           {"unit-contradicted", "",
-           engine::message("The file says that a unit is ", *file_says, " m, which makes the body ",
-                           *file_says * length, " m long; '", out.unit, "' fits its skin and was taken."),
+           engine::message("The file gives its unit as ", *stated, " m, which makes the body ",
+                           *stated * length, " m long; '", out.unit, "' fits its skin and was taken."),
            "Give --unit if that is wrong."});
     return;
   }
-  out.frame.meters_per_unit = area > 0.0 ? std::sqrt(kTypicalSkinM2 / area) : 1.0;
+  out.frame.meters_per_unit = area > 0.0 ? std::sqrt(kTypicalSkin_m2 / area) : 1.0;
   out.unit = "unknown";
   out.warnings.push_back({"unit-unknown", "",
                           engine::message("No common unit makes the body, ", length,
@@ -95,7 +95,7 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
                           "Give --unit to set it."});
 }
 
-/// A body as a coarse grid of occupied cells, to compare it with its mirror images.
+/// A body as a coarse grid of occupied cells, which is compared with its mirror images.
 class Occupancy {
  public:
   explicit Occupancy(const geometry::TriMesh& body, const geometry::Box& box)
@@ -104,7 +104,7 @@ class Occupancy {
       for (const geometry::Index v : t) cells_[index(body.positions[v])] = true;
   }
 
-  /// Of the occupied cells, the fraction whose mirror image across the box's middle is occupied.
+  /// The share of occupied cells with an occupied mirror image across the box's middle.
   double symmetry(int axis) const {
     std::size_t occupied = 0, mirrored = 0;
     std::array<std::size_t, 3> c;
@@ -140,7 +140,8 @@ class Occupancy {
   std::vector<bool> cells_;
 };
 
-/// For a body as thick as it is long: the axis on whose ground it lies flattest, y unless another is clear.
+/// For a body as thick as it is long: the axis with the largest flat area at its low end. It is y unless
+/// another is clear.
 Axis ground_axis(const geometry::TriMesh& body, const geometry::Box& box) {
   const Vec3 limit = box.low.array() + kSoleHeight * box.size().maxCoeff();
   Vec3 sole = Vec3::Zero();

@@ -1,4 +1,4 @@
-// Which unit a body is measured in and which way is up, from its shape.
+// Finds a body's unit and up axis by its shape.
 #pragma once
 
 #include <optional>
@@ -18,12 +18,13 @@ struct DetectedFrame {
   std::vector<engine::Warning> warnings;
 };
 
-/// What the user says holds; then what the file says, while it gives a plausible body; then the shape.
+/// The user's unit and axis are used if given; then those of the file, if they make a plausible body; then
+/// the shape.
 DetectedFrame detect_frame(const geometry::TriMesh& body, const ImportOptions& options,
                            std::optional<double> meters_per_unit, std::optional<geometry::Axis> up);
 
-/// The axis a body stands along, judged by its extents, its mirror symmetry and its soles. Files of unknown
-/// convention are taken as y up where the shape does not tell.
+/// The axis along which a body stands, by its extents, its mirror symmetry and its soles. Where the shape
+/// does not decide, it is y.
 geometry::Axis up_axis_of(const geometry::TriMesh& body);
 
 /// The name of a unit of this length, or "unknown".

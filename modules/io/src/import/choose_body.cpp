@@ -19,17 +19,17 @@ using geometry::Index;
 using geometry::kNoIndex;
 using geometry::Vec3;
 
-// What tells a body from what lies in, on and around it. All are ratios.
-constexpr double kFlat = 0.05;    ///< thickness to length: floors and cards, never a body
+// Ratios that distinguish a body from what lies in, on and around it.
+constexpr double kFlat = 0.05;    ///< thickness to length: floors and cards are flatter, bodies never
 constexpr double kCompact = 1.5;  ///< area to squared diagonal: a crouching body .8, a sphere 1.05, a room 2
-constexpr double kEnoughTriangles = 100;  ///< fewer than this say little about a shape
-constexpr double kLargestLimb = 1.5;      ///< of the best piece's area: what is larger is a room or a stage
-constexpr double kTinyPiece = 0.002;      ///< of the body's area: a crumb
-constexpr double kNear = 0.04;            ///< of the body's length: what lies this near follows its skin
-constexpr double kTouching = 0.08;        ///< of the body's length: what begins this near may continue it
-constexpr double kContinues = 0.03;       ///< of the body's length: growth that makes a piece a continuation
+constexpr double kEnoughTriangles = 100;  ///< the shape of fewer triangles is uncertain
+constexpr double kLargestLimb = 1.5;      ///< of the best piece's area: larger is a room or a stage
+constexpr double kTinyPiece = 0.002;      ///< of the body's area: a smaller piece is ignored
+constexpr double kNear = 0.04;            ///< of the body's length: a piece this close follows its skin
+constexpr double kTouching = 0.08;        ///< of the body's length: a piece this close may continue it
+constexpr double kContinues = 0.03;       ///< of the body's length: a piece that adds this much does
 constexpr double kClosedLimb = 1.4;       ///< openness of an arm open at its shoulder: 1.2
-constexpr std::size_t kSamples = 400;     ///< vertices asked about each piece
+constexpr std::size_t kSamples = 400;     ///< vertices measured on each piece
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -44,7 +44,7 @@ bool contains_any(std::string_view text, std::initializer_list<std::string_view>
                      [&](std::string_view word) { return in.find(word) != std::string::npos; });
 }
 
-/// A hint that shape can overrule: names are often missing, foreign or wrong.
+/// A factor from the names. Shape can overrule it, since names are often missing, foreign or wrong.
 double name_hint(const FileMesh& mesh) {
   const std::string name = mesh.name + ' ' + mesh.material;
   if (contains_any(name,
@@ -73,26 +73,26 @@ geometry::TriMesh mesh_of(const JoinedScene& joined, const std::vector<const Pie
   return mesh;
 }
 
-/// How a piece lies to the body found so far.
+/// How a piece lies in relation to the body found so far.
 struct Relation {
-  double near_fraction = 0.0;  ///< of its vertices: inside the body or close to its skin
-  double gap = 0.0;            ///< between them, file units; 0 if any vertex is inside
+  double near_fraction = 0.0;  ///< share of its vertices inside the body or close to its skin
+  double gap = 0.0;            ///< distance between them, file units; 0 if any vertex is inside
 };
 
 Relation relate(const JoinedScene& joined, const Piece& piece, const geometry::MeshDistance& body,
                 double near_distance) {
   const std::size_t step = std::max<std::size_t>(1, piece.triangles.size() / kSamples);
-  std::size_t asked = 0, near = 0;
+  std::size_t measured = 0, near = 0;
   double gap = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < piece.triangles.size(); i += step, ++asked) {
+  for (std::size_t i = 0; i < piece.triangles.size(); i += step, ++measured) {
     const double distance = body.signed_distance(joined.mesh.corner(piece.triangles[i], 0));
     near += distance < near_distance;
     gap = std::min(gap, std::max(0.0, distance));
   }
-  return {static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(asked, 1)), gap};
+  return {static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(measured, 1)), gap};
 }
 
-/// How much further the body would reach along its longest side, as a fraction of that side.
+/// By how much the piece would extend the body along its longest side, as a fraction of that side.
 double growth(const geometry::Box& body, const geometry::Box& piece) {
   Eigen::Index longest = 0;
   const double length = body.size().maxCoeff(&longest);
@@ -109,14 +109,15 @@ bool continues_body(const JoinedScene& joined, const Piece& piece, const geometr
   return piece.openness() < kClosedLimb || growth(box, piece.box) >= kContinues;
 }
 
-/// Grows the body from its best piece by what continues it: limbs, or legs that exist only as trousers.
+/// Extends the body from its best piece by the pieces that continue it: limbs, or legs that exist only as
+/// trousers.
 std::vector<const Piece*> grow(const engine::Context& context, const JoinedScene& joined,
                                const std::vector<Piece>& pieces, std::size_t best) {
   std::vector<const Piece*> body = {&pieces[best]};
   std::vector<bool> taken(pieces.size());
   taken[best] = true;
   geometry::Box box = pieces[best].box;
-  for (bool grown = true; grown;) {  // ends: every round takes a piece
+  for (bool grown = true; grown;) {  // ends, because every round takes a piece
     grown = false;
     const geometry::MeshDistance distance(context, mesh_of(joined, body));
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -186,7 +187,7 @@ void report(const FileScene& scene, const std::vector<Piece>& pieces, const std:
                              "Name the body's mesh with --mesh if that is wrong."});
 }
 
-/// The chosen triangles as the file had them, with the flaws that repair will report. `wanted` tells by
+/// The chosen triangles as in the file, flaws included, which repair will report. `wanted` is indexed by
 /// joined vertex.
 void gather(const FileScene& scene, const JoinedScene& joined, const std::vector<bool>& wanted,
             ChosenBody& chosen) {
@@ -216,7 +217,7 @@ std::vector<bool> vertices_of(const JoinedScene& joined, const std::vector<const
   return in;
 }
 
-/// The meshes of one name, the case of letters aside.
+/// The meshes of one name, regardless of case.
 engine::Result<FileScene> named(const FileScene& scene, const std::string& wanted) {
   FileScene found;
   std::set<std::size_t> all;

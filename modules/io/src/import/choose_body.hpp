@@ -1,4 +1,4 @@
-// Which triangles of a file are the body.
+// Chooses the triangles of a file that are the body.
 #pragma once
 
 #include <optional>
@@ -15,12 +15,12 @@ namespace bodice::io {
 struct ChosenBody {
   geometry::TriMesh shape;  ///< file coordinates; vertices in the order of their meshes
   FileWeights weights;      ///< of its vertices; empty where the file has no bones
-  std::string name;         ///< of the mesh that gave most of it
+  std::string name;         ///< name of the mesh that gave most of it
   std::vector<engine::Warning> warnings;
 };
 
-/// Chooses by shape: the piece with the most closed skin, and what continues it. Names are a hint only.
-/// `wanted` takes the meshes of that name instead. Fails with kNotFound or kUnusableGeometry.
+/// Chooses by shape: the piece with the most closed skin, and what continues it. Names are a hint only. If
+/// `wanted` is given, the meshes of that name are taken instead. Fails with kNotFound or kUnusableGeometry.
 engine::Result<ChosenBody> choose_body(const engine::Context& context, const FileScene& scene,
                                        const std::optional<std::string>& wanted);
 

@@ -38,8 +38,8 @@ void append(const geometry::TriMesh& mesh, geometry::TriMesh& to) {
 void share_vertices(FileMesh& file_mesh) {
   const geometry::TriMesh& mesh = file_mesh.shape;
   geometry::TriMesh shared;
-  std::vector<Index> first;                       // use of each shared vertex
-  std::unordered_map<Key, Index, KeyHash> found;  // looked up only: its order plays no part
+  std::vector<Index> first;                       // first use of each shared vertex
+  std::unordered_map<Key, Index, KeyHash> found;  // used for lookup only, so that its order does not matter
   found.reserve(mesh.positions.size() / 4);
   shared.triangles.reserve(mesh.triangles.size());
   for (const geometry::Triangle& triangle : mesh.triangles) {

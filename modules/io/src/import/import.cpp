@@ -14,11 +14,11 @@ namespace bodice::io {
 
 namespace {
 
-/// Single precision keeps 24 bits; a coarser grid than this is worth a word.
+/// Single precision keeps 24 bits. If it spaces positions more widely than the threshold, there is a warning.
 constexpr double kFloatGrid = 0x1p-23;
-constexpr double kWorthAWordM = 1e-4;
+constexpr double kCoarseGrid_m = 1e-4;
 
-/// The error of any stage, with the file's name in front of the sentence if it is not there.
+/// The error of any stage, preceded by the file's name if the sentence lacks it.
 engine::Error in_file(engine::Error error, const std::filesystem::path& file) {
   const std::string name = file.string();
   if (error.message.find(name) == std::string::npos) error.message = "'" + name + "': " + error.message;
@@ -29,13 +29,13 @@ void append_warnings(std::vector<engine::Warning> from, std::vector<engine::Warn
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-/// Warns where the file lies so far from its origin that single precision shows.
+/// Warns if the file lies so far from its origin that single precision matters.
 void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedMesh& out) {
   double farthest = 0.0;
   for (const geometry::Vec3& p : shape.positions)
     if (p.allFinite()) farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
   const double grid_m = farthest * kFloatGrid * out.frame.meters_per_unit;
-  if (kept_digits || grid_m <= kWorthAWordM) return;
+  if (kept_digits || grid_m <= kCoarseGrid_m) return;
   out.warnings.push_back({"far-from-origin", out.mesh,
                           engine::message("The mesh lies so far from the origin that its coordinates are ",
                                           1e3 * grid_m, " mm apart in the reader's single precision."),

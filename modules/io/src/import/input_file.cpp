@@ -11,7 +11,7 @@ namespace bodice::io {
 
 namespace {
 
-/// Beyond this many diagonals from the origin, floats lose over 1e-5 of the diagonal's digits.
+/// In units of the diagonal: farther from the origin, floats lose over 1e-5 of it.
 constexpr double kFarDiagonals = 16.0;
 
 std::string lower_extension(const std::filesystem::path& file) {
@@ -36,7 +36,7 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
-/// The position of a `v x y z` line, with what follows it (w, colors) left in `line`.
+/// Reads the position of a `v x y z` line. What follows it (w, colors) is left in `line`.
 std::optional<geometry::Vec3> take_vertex(std::string_view& line) {
   std::string_view rest = skip_blanks(line);
   if (rest.size() < 2 || rest[0] != 'v' || (rest[1] != ' ' && rest[1] != '\t')) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<geometry::Vec3> take_vertex(std::string_view& line) {
   return position;
 }
 
-/// assimp looks for the end of a PLY header without an end.
+/// Whether a PLY header has an end. assimp would search for it beyond the file.
 bool has_ply_header(std::istream& stream) {
   constexpr std::size_t kLongest = 1 << 20;
   std::string head(kLongest, '\0');
@@ -71,7 +71,7 @@ void for_each_line(std::string_view text, Visit&& visit) {
   }
 }
 
-/// The text between `before` and `after`, behind position 0 of `document`.
+/// The text between `before` and `after`, after position 0 of `document`.
 std::optional<std::string_view> between(std::string_view document, std::string_view before,
                                         std::string_view after) {
   const std::size_t begin = document.find(before);
@@ -109,7 +109,7 @@ engine::Result<void> check_readable(const std::filesystem::path& file) {
                          "Check that you may read it."};
   if (stream.peek() == std::ifstream::traits_type::eof())
     return engine::Error{engine::ErrorCode::kUnreadable, name + " is empty.", "Export the mesh again."};
-  if (lower_extension(file) == ".off")  // a face list that is cut off makes assimp's reader crash
+  if (lower_extension(file) == ".off")  // assimp's reader crashes on a cut list of faces
     return engine::Error{engine::ErrorCode::kUnreadable, name + " is an OFF file, which is not read.",
                          "Export the mesh as OBJ, PLY, STL, glTF, FBX or Collada."};
   if (lower_extension(file) == ".ply" && !has_ply_header(stream))
@@ -157,7 +157,7 @@ std::optional<MovedObj> move_to_origin(std::string_view obj) {
         engine::append_number(moved.text, number, 12);
       }
     }
-    moved.text += line;  // whatever take_vertex left: colors, the line end, or the whole line
+    moved.text += line;  // what take_vertex left: colors, the line end, or the whole line
   });
   return moved;
 }

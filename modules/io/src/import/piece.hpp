@@ -1,4 +1,4 @@
-// A piece: a connected part of the whole file's surface, whatever meshes it is spread over.
+// A piece is a connected part of the whole file's surface, across all meshes.
 #pragma once
 
 #include <map>
@@ -26,8 +26,8 @@ struct Piece {
   double boundary_length = 0.0;  ///< sum over edges that have one triangle, file units
   double volume = 0.0;           ///< enclosed, absolute, file units cubed
 
-  /// Boundary length over the square root of the area: 0 closed, about 0.3 a body with open eyes and mouth,
-  /// 1.5 and more trousers, shirts and skirts. Has no unit.
+  /// Boundary length over the square root of the area, without unit. It is 0 for a closed piece, about 0.3
+  /// for a body with open eyes and mouth, 1.5 and more for trousers, shirts and skirts.
   double openness() const;
   /// The mesh that gave most of the area.
   std::size_t main_source() const;
@@ -35,7 +35,7 @@ struct Piece {
 
 engine::Result<JoinedScene> join(const engine::Context& context, const FileScene& scene);
 
-/// Largest area first.
+/// The connected parts, largest area first.
 std::vector<Piece> split(const JoinedScene& joined);
 
 }  // namespace bodice::io

@@ -1,6 +1,6 @@
 // Based on: Gary H. Meisters. Polygons have ears. 1975.
-// Differs: of the ears, quads are cut so that both triangles face along the polygon's normal (Newell's),
-// which also cuts convex quads; assimp's own step is not used because it aborts the process on some damaged
+// Differs: among the ears, quads are cut so that both triangles face along the polygon's normal (Newell's),
+// which also cuts convex quads. assimp's own step is not used, because it aborts the process on some damaged
 // files.
 #include "triangulate.hpp"
 
@@ -14,7 +14,7 @@ using geometry::Index;
 using geometry::Triangle;
 using geometry::Vec3;
 
-/// Polygons beyond this are fanned: cutting ears takes the square of their size.
+/// Larger polygons are fanned, since cutting ears takes the square of their size.
 constexpr std::size_t kLargestCut = 512;
 
 Vec3 newell_normal(std::span<const Vec3> positions, std::span<const Index> polygon) {
@@ -56,7 +56,7 @@ void triangulate(std::span<const Vec3> positions, std::span<const Index> polygon
   if (left.size() <= 3 || left.size() > kLargestCut) return fan(left, triangles);
   const Vec3 normal = newell_normal(positions, polygon);
   while (left.size() > 3) {
-    std::size_t ear = 1;  // of a convex polygon, cutting corner 1 leaves the fan of corner 0
+    std::size_t ear = 1;  // in a convex polygon, cutting corner 1 leaves the fan of corner 0
     while (ear < left.size() && !is_ear(positions, left, ear, normal)) ++ear;
     if (ear == left.size()) ear = 0;
     if (ear == 0 && !is_ear(positions, left, 0, normal)) break;

@@ -7,8 +7,9 @@
 
 namespace bodice::io {
 
-/// Splits a polygon, convex or not, into triangles wound as it is, by cutting ears; appends size - 2 of them.
-/// Fewer than three corners give none. Polygons that cross themselves or are not finite are fanned. O(n^2).
+/// Splits a polygon, convex or not, into size - 2 triangles of the same winding by cutting ears, and appends
+/// them. Fewer than three corners give none. Polygons that cross themselves or are not finite are fanned.
+/// O(n^2).
 void triangulate(std::span<const geometry::Vec3> positions, std::span<const geometry::Index> polygon,
                  std::vector<geometry::Triangle>& triangles);
 

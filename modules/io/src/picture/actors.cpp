@@ -16,7 +16,7 @@ namespace {
 constexpr std::array<float, 3> kSkin = {0.86f, 0.80f, 0.76f};
 constexpr float kDarkestShade = 0.45f;
 
-/// In the colors of the parts whose ellipsoids make it.
+/// The proxy's surface, each vertex in the color of its owner's part.
 Actor surface_actor(const proxy::BodyProxy& proxy, const proxy::ProxySurface& surface) {
   Actor actor;
   actor.triangles = surface.mesh.triangles;

@@ -1,4 +1,4 @@
-// What a scene holds, as surfaces ready to draw.
+// The content of a scene as surfaces ready to draw.
 #pragma once
 
 #include <bodice/io/scene.hpp>
@@ -11,14 +11,14 @@ enum class SkinColor { kPlain, kByPart };
 
 Actor body_actor(const Scene& scene, SkinColor color);
 
-/// One actor an ellipsoid in its part's color. `shades`: ellipsoids of a part differ in brightness, so that
-/// each can be made out.
+/// Adds one actor an ellipsoid in its part's color. With `shades`, ellipsoids of a part differ in brightness,
+/// so that each is visible.
 void add_ellipsoids(const proxy::BodyProxy& proxy, bool shades, std::vector<Actor>& actors);
 
-/// The proxy's surface if the scene has it, else its ellipsoids.
+/// Adds the proxy's surface if the scene has it, else its ellipsoids.
 void add_proxy(const Scene& scene, std::vector<Actor>& actors);
 
-/// All garments as they are in a kept frame; precondition: every garment has it.
+/// Adds all garments at a kept frame. Precondition: every garment has it.
 void add_garments(const Scene& scene, std::size_t frame, std::vector<Actor>& actors);
 
 /// The least box around all actors of all rows.

@@ -29,7 +29,7 @@ View panel_view(const geometry::Box& box, Side side, int width, int height) {
   return view;
 }
 
-/// sRGB of linear light, by table: a power a sample would cost more than the drawing.
+/// Converts linear light to sRGB by table, since a power a sample would cost more than the drawing.
 class SrgbTable {
  public:
   SrgbTable() {
@@ -48,7 +48,7 @@ class SrgbTable {
   std::array<std::uint8_t, 4096> table_;
 };
 
-/// Which triangle of which actor each sample shows. Shading comes last, once a pixel and triangle.
+/// The triangle and actor that each sample shows. Shading comes last, once a pixel and triangle.
 class Panel {
  public:
   Panel(const std::vector<Actor>& actors, const geometry::Box& box, const View& view)

@@ -1,4 +1,4 @@
-// One view of one moment.
+// One view of a scene at one time.
 #pragma once
 
 #include "png.hpp"
@@ -12,7 +12,7 @@ struct Rectangle {
   int x = 0, y = 0, width = 0, height = 0;  ///< pixels
 };
 
-/// Draws into the image's rectangle. `box` is what must fit; the ground is its bottom.
+/// Draws into the image's rectangle. The view shows the whole `box`; the ground is its bottom.
 void draw_panel(const std::vector<Actor>& actors, const geometry::Box& box, Side side, const Rectangle& where,
                 Image& image);
 

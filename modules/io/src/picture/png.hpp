@@ -9,13 +9,13 @@
 
 namespace bodice::io {
 
-/// 8-bit sRGB, row-major from the top.
+/// An image in 8-bit sRGB, row-major from the top.
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;  ///< 3 x width x height
 };
 
-/// The image as a PNG file's bytes; empty where libpng refuses.
+/// Encodes the image as PNG; the result is empty if libpng fails.
 std::vector<std::byte> encode_png(const Image& image);
 
 /// Writes the image; the file appears whole or not at all. Fails with kWriteFailed.

@@ -1,4 +1,4 @@
-// Orthographic triangles on a grid of pixels.
+// Rasterizes triangles orthographically.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,7 @@ struct DepthBuffer {
   std::vector<float> depth;
 };
 
-/// A projected triangle: barycentric weights of a point in the picture.
+/// A triangle projected to the picture, for barycentric weights of a pixel.
 struct FlatTriangle {
   Vec3f a, b, c;
   float area = (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());  ///< twice, signed
@@ -63,8 +63,8 @@ struct FlatTriangle {
   }
 };
 
-/// Calls visit(pixel) for each pixel center of the triangle that is nearer than what is there, and keeps its
-/// depth. Draws both sides.
+/// Calls visit(pixel) for each pixel center in the triangle that is nearer than the stored depth, and stores
+/// its depth. Both sides are drawn.
 template <class Visit>
 void draw_triangle(DepthBuffer& buffer, const FlatTriangle& triangle, Visit&& visit) {
   const auto& [a, b, c, area] = triangle;

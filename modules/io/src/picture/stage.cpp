@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kShadowSize = 1536;
 constexpr float kShadowBiasPixels = 5.0f;
-/// The penumbra: a ring of samples this far around the point.
+/// The radius of the ring of shadow samples that makes the penumbra.
 constexpr float kPenumbraPixels = 5.0f;
 
 View light_view(const geometry::Box& box, const View& eye) {

@@ -31,7 +31,7 @@ engine::Result<void> check_request(const Scene& scene, std::span<const std::size
   return {};
 }
 
-/// Everything of one moment; `frame` absent: the body alone.
+/// The actors of one row; without `frame`, the body alone.
 std::vector<Actor> actors_of(const Scene& scene, const std::size_t* frame, const PictureOptions& options) {
   std::vector<Actor> actors;
   const bool show_proxy = options.show_proxy && scene.proxy;

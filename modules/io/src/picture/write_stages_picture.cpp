@@ -11,7 +11,7 @@ namespace bodice::io {
 namespace {
 
 constexpr int kLargestSide = 16384;
-constexpr double kMarkRadius = 0.014;  // of the body's height
+constexpr double kMarkRadius = 0.014;  // fraction of the body's height
 constexpr std::array<float, 3> kMarkColor = {0.85f, 0.12f, 0.15f};
 
 Actor mesh_actor(const Scene& scene) {
@@ -20,7 +20,7 @@ Actor mesh_actor(const Scene& scene) {
   return actor;
 }
 
-/// Spheres in front of the body, because some landmarks lie inside it: a front view shows no depth.
+/// Adds spheres in front of the body, because some landmarks lie inside it and a front view has no depth.
 void add_landmarks(const Scene& scene, std::vector<Actor>& actors) {
   const geometry::Box box = geometry::bounding_box(scene.body->positions);
   const double radius = kMarkRadius * box.size().y();
@@ -78,7 +78,7 @@ engine::Result<void> write_stages_picture(const Scene& scene, const std::filesys
   Image image{static_cast<int>(views.size()) * options.width, options.height, {}};
   image.rgb.resize(3 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   geometry::Box box = geometry::bounding_box(scene.body->positions);
-  const double middle = box.center().z();  // a front view: its width is what must fit, not its depth
+  const double middle = box.center().z();  // only width and height have to fit into a front view
   for (const std::vector<Actor>& actors : views)
     for (const Actor& actor : actors)
       for (const Vec3f& p : actor.positions) box.extend({p.x(), p.y(), middle});

@@ -1,4 +1,5 @@
-// Files in: any format assimp reads, the body chosen among its meshes, units and axes found, vertices welded.
+// Reading mesh files: any format that assimp reads. The body is chosen among the meshes, its unit and axes
+// are found, and its vertices are welded.
 #pragma once
 
 #include <filesystem>
@@ -13,36 +14,41 @@
 
 namespace bodice::io {
 
+/// A unit of length of a file; kAuto finds it.
 enum class Unit { kAuto, kMeter, kDecimeter, kCentimeter, kMillimeter, kInch, kFoot };
 
+/// What the caller knows about a body file; the rest is found.
 struct ImportOptions {
-  Unit unit = Unit::kAuto;           ///< told: taken, with a warning where it makes no person's size
-  std::optional<geometry::Axis> up;  ///< absent: from the file, else from the shape
+  Unit unit = Unit::kAuto;  ///< a given unit is kept, with a warning where the body has no person's size
+  std::optional<geometry::Axis> up;  ///< absent: as the file states, else by shape
   std::optional<std::string> mesh;   ///< name of the body's mesh; absent: chosen by shape
 };
 
+/// A repaired mesh in meters, y up, and its relation to the file.
 struct ImportedMesh {
   std::filesystem::path file;
-  std::string mesh;        ///< name of the mesh or group that was taken
+  std::string mesh;        ///< name of the chosen mesh or group
   std::string unit;        ///< "m", "cm", ...; "unknown" with a warning when none fits
-  geometry::Frame frame;   ///< file coordinates to inside
-  geometry::TriMesh skin;  ///< repaired, meters, y up
-  /// #input vertices -> skin vertex or kNoIndex. Input vertices are the file's own, mesh after mesh; for OBJ,
-  /// FBX and Collada, whose readers split them by corner, those of the chosen meshes in order of first use.
-  std::vector<geometry::Index> vertex_of_input;  ///< #input vertices of that mesh -> skin vertex or kNoIndex
+  geometry::Frame frame;   ///< maps the file's coordinates to the skin's
+  geometry::TriMesh skin;  ///< the repaired mesh, meters, y up
+  /// #input vertices -> skin vertex or kNoIndex. Input vertices are those of the file, mesh after mesh. OBJ,
+  /// FBX and Collada are split by corner when they are read; there they are those of the chosen meshes, in
+  /// order of first use.
+  std::vector<geometry::Index> vertex_of_input;
   geometry::RepairReport repair;
   std::size_t input_vertices = 0, input_triangles = 0;
   std::vector<engine::Warning> warnings;
-  std::vector<engine::StageTime> stages;  ///< load, check
+  std::vector<engine::StageTime> stages;  ///< times of "load" and "check"
 };
 
-/// Reads a body. For skinned files the rest pose in world space. Errors name the file, what is wrong and what
-/// to do: kNotFound, kUnreadable (not a mesh), kUnusableGeometry (nothing in it is a closed-enough surface).
+/// Reads a body; of a skinned file, in its bind pose in world space. Fails with kNotFound, kUnreadable (not a
+/// mesh) or kUnusableGeometry (nothing in it is a sufficiently closed surface). Errors name the file, what is
+/// wrong and the remedy. Cost: O(n log n).
 engine::Result<ImportedMesh> import_body(const engine::Context& context, const std::filesystem::path& file,
                                          const ImportOptions& options = {});
 
-/// Reads a garment (all its triangle meshes together) in the frame of the body it is for. Not welded across
-/// pieces, not oriented: the cloth solver welds along seams.
+/// Reads a garment (all triangle meshes of the file together) in the frame of its body. It is neither welded
+/// across pieces nor oriented, since the cloth solver welds seams. Fails as import_body() does.
 engine::Result<ImportedMesh> import_garment(const engine::Context& context, const std::filesystem::path& file,
                                             const geometry::Frame& body_frame);
 

@@ -8,8 +8,8 @@
 
 namespace bodice::io {
 
-/// Writes a mesh as Wavefront OBJ in the units and axes of `frame`, with enough digits to read the same
-/// floats back; the file appears whole or not at all.
+/// Writes a mesh as Wavefront OBJ in the unit and axes of `frame`, with enough digits to read the same floats
+/// back. The file appears whole or not at all. Fails with kWriteFailed.
 engine::Result<void> write_obj(const geometry::TriMesh& mesh, const std::filesystem::path& file,
                                const geometry::Frame& frame = {});
 

@@ -1,4 +1,4 @@
-// A scene as output sees it (GLB, pictures): the body by part, its ellipsoids, garments over time.
+// A scene for output as GLB or picture: the body by part, its ellipsoids, garments over time.
 #pragma once
 
 #include <filesystem>
@@ -16,48 +16,53 @@
 
 namespace bodice::io {
 
+/// A garment over time.
 struct GarmentTrack {
   std::string name;                                 ///< "cloth", "cloth_2", ...
   geometry::TriMesh mesh;                           ///< topology and first frame, meters, y up
   std::vector<std::vector<geometry::Vec3>> frames;  ///< kept frames, #V each
-  std::vector<double> time_s;                       ///< of each kept frame: increasing, or all the same
+  std::vector<double> time_s;                       ///< time of each kept frame: increasing, or all equal
 };
 
+/// What an output shows. It refers to data that must outlive it; all members are optional.
 struct Scene {
   const geometry::TriMesh* body = nullptr;
   std::span<const body::Part> part;  ///< #V of the body, or empty
   const proxy::BodyProxy* proxy = nullptr;
-  const proxy::ProxySurface* surface = nullptr;  ///< of the proxy: pictures show it for the ellipsoids
+  const proxy::ProxySurface* surface = nullptr;  ///< the proxy's; pictures show it in place of ellipsoids
   std::span<const geometry::Vec3> landmarks;     ///< points that write_stages_picture() marks
   std::vector<GarmentTrack> garments;
-  geometry::Frame frame;  ///< of the input: what is written is in it, unless there is a rig
-  const rig::Rig* rig =
-      nullptr;  ///< moves the body: write_glb() writes skeleton, weights and clips in meters, y up
+  geometry::Frame frame;  ///< unit and axes of the output: those of the input; not used with a rig
+  /// Moves the body: write_glb() writes skeleton, weights and clips, in meters, y up.
+  const rig::Rig* rig = nullptr;
 };
 
-/// One distinct color a part, sRGB 0..1, told apart by color-blind people too as far as 15 allow.
+/// The color of a part, sRGB 0..1. The 15 colors are distinct, for color-blind people as far as 15 can be.
 std::span<const float, 3> part_color(body::Part part);
 
-/// Binary glTF 2.0: nodes `body`, `ellipsoids`, `cloth`, `cloth_2`...; the cloth's frames are morph targets
-/// with normals, played by a step-free animation of their weights. With a rig the body is skinned by the
-/// nodes of its joints, each clip is an animation, and the garments' frames play in the first, at their own
-/// times. Fails with kInvalidArgument where the parts of the scene do not fit together.
+/// Writes binary glTF 2.0 with nodes `body`, `ellipsoids`, `cloth`, `cloth_2`... The cloth's frames are morph
+/// targets with normals; an animation of their weights plays them, linear in between. With a rig the body is
+/// skinned by the nodes of its joints, each clip is an animation, and the garments' frames play in the first
+/// one, at their own times. Fails with kInvalidArgument for a scene that cannot be drawn or with parts that do
+/// not fit together, and with kWriteFailed.
 engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file);
 
+/// Size and content of a picture.
 struct PictureOptions {
-  int width = 640, height = 960;  ///< of one view, pixels
-  bool show_proxy = false;        ///< its surface if there is one, or its ellipsoids, in place of the skin
+  int width = 640, height = 960;  ///< size of one view, pixels
+  bool show_proxy = false;        ///< in place of the skin: its surface if there is one, else its ellipsoids
   bool show_garments = true;
 };
 
-/// One PNG: a row a kept frame in `frames` (indices into GarmentTrack::frames; empty: the body alone), a
-/// column for the front and the side view. Software-rendered.
+/// Writes a PNG with a row for each kept frame in `frames` (indices into GarmentTrack::frames; empty: the
+/// body alone), and a column each for the front and the side view. Rendered in software. Fails as write_glb()
+/// does.
 engine::Result<void> write_picture(const Scene& scene, std::span<const std::size_t> frames,
                                    const std::filesystem::path& file, const PictureOptions& options = {});
 
-/// One PNG, a row of front views that shows how a body is processed: its mesh, its landmarks, its parts, its
-/// ellipsoids, and its garments at their last frame; what the scene lacks is left out. `options` gives the
-/// size of a view. Fails with kInvalidArgument when the scene has no body.
+/// Writes a PNG with a row of front views of the steps of processing: mesh, landmarks, parts, ellipsoids, and
+/// garments at their last frame. What the scene lacks is left out. `options` gives the size of a view. Fails
+/// with kInvalidArgument when the scene has no body, and as write_glb() does.
 engine::Result<void> write_stages_picture(const Scene& scene, const std::filesystem::path& file,
                                           const PictureOptions& options = {});
 
