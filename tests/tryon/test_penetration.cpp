@@ -1,11 +1,14 @@
-// The account of penetration is what a user trusts: it is checked on a ball, where the depth is known.
+// Users rely on the figures of penetration, so that they are checked on a ball, where the depth is known.
 
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <vector>
 
+#include <bodice/engine/random.hpp>
 #include <bodice/tryon/penetration.hpp>
 #include <bodice/tryon/wardrobe.hpp>
+#include <bodice_test/executors.hpp>
 #include <bodice_test/shapes.hpp>
 
 using namespace bodice;
@@ -32,6 +35,54 @@ TEST_CASE("a sheet through a ball is pierced although its corners are outside") 
   CHECK(tryon::pierced_share(context, skin, corners, triangles) == doctest::Approx(0.5));
 }
 
+namespace {
+
+/// A ball of radius 0.2 m for a body of 1.7 m. With relief its surface is lifted by 5 mm in all directions.
+proxy::BodyProxy ball(bool relief) {
+  constexpr int kNodes = 4;
+  proxy::BodyProxy::Data data{.tier = proxy::Tier::kSolid, .stature_m = 1.7};
+  data.ellipsoids.push_back({{Vec3(0.1, 1.0, 0.0), geometry::Mat3::Identity(), Vec3::Constant(0.2)}});
+  if (relief) {
+    data.tier = proxy::Tier::kRelief;
+    data.relief.push_back({.nodes_per_side = kNodes, .h_offset_m = 0.005f});
+    data.texels.resize(kNodes * kNodes);
+  }
+  return proxy::BodyProxy::make(std::move(data)).value();
+}
+
+/// The number of particles counted of 600 spread over all directions at `depth_m` inside a sphere of this
+/// radius.
+std::size_t count_at(double depth_m, double radius_m, bool relief) {
+  bodice::engine::Random random(5);
+  std::vector<Vec3> positions;
+  for (int i = 0; i < 600; ++i) {
+    const Vec3 direction = Vec3(random.normal(), random.normal(), random.normal()).normalized();
+    positions.push_back(Vec3(0.1, 1.0, 0.0) + (radius_m - depth_m) * direction);
+  }
+  const auto executor = bodice_test::make_threads(2);
+  return tryon::count_inside({.executor = executor.get()}, ball(relief), positions);
+}
+
+}  // namespace
+
+TEST_CASE("particles inside a proxy are counted from the tolerance on, with relief by the lifted surface") {
+  CHECK(count_at(1e-4, 0.2, false) == 600);
+  CHECK(count_at(3e-6, 0.2, false) == 600);  // the tolerance is 1e-6 statures
+  CHECK(count_at(1e-6, 0.2, false) == 0);
+  CHECK(count_at(-1e-4, 0.2, false) == 0);
+  CHECK(count_at(1e-4, 0.205, true) == 600);
+  CHECK(count_at(6e-5, 0.205, true) == 600);  // the tolerance is 0.05 mm
+  CHECK(count_at(4e-5, 0.205, true) == 0);
+  CHECK(count_at(-1e-4, 0.205, true) == 0);
+}
+
+TEST_CASE("positions that are not finite are not counted as inside a proxy") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const std::vector<Vec3> positions = {Vec3(nan, 1.0, 0.0), Vec3(0.1, inf, 0.0), Vec3(0.1, 1.0, 0.0)};
+  CHECK(tryon::count_inside({}, ball(true), positions) == 1);
+  CHECK(tryon::count_inside({}, ball(false), positions) == 1);
+}
+
 TEST_CASE("coarser cloth is kept further off, within bounds") {
   auto square = [](double edge_m) {
     geometry::TriMesh mesh;
@@ -49,8 +100,7 @@ TEST_CASE("a tight garment is kept no further off than it was cut") {
   const engine::Context context;
   const geometry::MeshDistance skin(context, bodice_test::icosphere(0.2, 4));
   auto thickness = [&](double gap_m) {
-    const geometry::TriMesh coarse =
-        bodice_test::icosphere(0.2 + gap_m, 2);  // edges of 6 cm: 8 mm would cover
+    const geometry::TriMesh coarse = bodice_test::icosphere(0.2 + gap_m, 2);  // edges of 6 cm would need 8 mm
     return tryon::fitted_thickness_m(context, coarse, skin, 1.7);
   };
   CHECK(thickness(0.05) == doctest::Approx(0.008));

@@ -1,5 +1,5 @@
-// A body's preparation as a graph of tasks: the same proxies in the same order wherever its tasks run,
-// nothing for parts that no garment reaches, and an end at any moment.
+// A body's preparation as a graph of tasks: it gives the same proxies in the same order on every executor,
+// computes nothing for parts that no garment reaches, and ends at any cancellation.
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ tryon::PreparationOptions options_for(proxy::Tier tier) {
   return options;
 }
 
-/// Hashes of the proxies handed on, in order.
+/// The hashes of the published proxies, in order.
 std::vector<std::uint64_t> proxies_of(const engine::Context& context, proxy::Tier tier) {
   std::vector<std::uint64_t> hashes;
   auto preparation = tryon::Preparation::make(
@@ -61,7 +61,7 @@ TEST_CASE("a coarse proxy comes first, and all come in the same order to the bit
   }
 }
 
-TEST_CASE("no proxy on the way has more ellipsoids than were asked for") {
+TEST_CASE("no intermediate proxy has more ellipsoids than the options allow") {
   auto options = options_for(proxy::Tier::kTight);
   options.fit.max_ellipsoids = 20;
   std::vector<std::size_t> counts;
@@ -70,18 +70,18 @@ TEST_CASE("no proxy on the way has more ellipsoids than were asked for") {
   REQUIRE(preparation.ok());
   REQUIRE(preparation->run({}, synth::BodyOptions{.vertices = 1500}).ok());
   REQUIRE(counts.size() > 3);
-  // While parts come one by one, the solid ones stand beside coarse ones of the others.
+  // While parts are published one by one, solid parts are beside coarse ones.
   CHECK(*std::ranges::max_element(counts) <= 20);
 }
 
-TEST_CASE("parts take the places of the coarse ones as each is ready") {
+TEST_CASE("each solid part replaces the coarse one as soon as it is ready") {
   std::vector<proxy::BodyProxy> proxies;
   auto preparation =
       tryon::Preparation::make(options_for(proxy::Tier::kSolid),
                                [&](const auto&, const proxy::BodyProxy& p) { proxies.push_back(p); });
   REQUIRE(preparation.ok());
   REQUIRE(preparation->run({}, synth::BodyOptions{.vertices = 3000}).ok());
-  REQUIRE(proxies.size() >= 10);  // the coarse one, the torso and the limbs
+  REQUIRE(proxies.size() >= 10);  // the coarse proxy, then the torso and the limbs
   CHECK(proxies.front().ellipsoids().size() == body::kPartCount);
   auto of_part = [](const proxy::BodyProxy& p, int part) {
     std::vector<geometry::Vec3> centers;
@@ -92,10 +92,10 @@ TEST_CASE("parts take the places of the coarse ones as each is ready") {
   for (int part = 0; part < body::kPartCount; ++part) {
     int changes = 0;
     for (std::size_t k = 1; k < proxies.size(); ++k) {
-      CHECK_FALSE(of_part(proxies[k], part).empty());  // never without
+      CHECK_FALSE(of_part(proxies[k], part).empty());  // no proxy lacks a part
       changes += of_part(proxies[k], part) != of_part(proxies[k - 1], part);
     }
-    CHECK(changes >= 1);  // from coarse to fine, and once more where the inside of the whole asks for it
+    CHECK(changes >= 1);  // from coarse to fine, and once more where the whole body's interior needs it
     CHECK(changes <= 2);
   }
 }
@@ -110,14 +110,14 @@ TEST_CASE("a preparation prepares one body after the other") {
   }
   CHECK(statures[1] - statures[0] == doctest::Approx(0.2).epsilon(0.1));
   CHECK_FALSE(preparation->run({}, tryon::BodyFile{"nowhere.obj"}).ok());
-  CHECK(preparation->fit() == nullptr);  // nothing of the body before
+  CHECK(preparation->fit() == nullptr);  // nothing of the earlier body
   const std::string dot = preparation->dump_dot();
   for (const char* edge : {"\"body\" -> \"anatomy\"", "\"body\" -> \"distance field\"",
                            "\"region\" -> \"proxy\"", "\"coarse proxy\" -> \"solid parts\""})
     CHECK_MESSAGE(dot.find(edge) != std::string::npos, edge);
 }
 
-TEST_CASE("what no garment reaches is not computed, and the trace shows it") {
+TEST_CASE("parts that no garment reaches are not computed, as the trace shows") {
   const auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
   REQUIRE(skin.ok());
   auto trace_of = [&](std::vector<geometry::TriMesh> garments, std::uint32_t& parts) {

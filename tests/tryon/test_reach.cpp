@@ -1,6 +1,6 @@
-// What a garment cannot reach is left out, and what it can reach answers as before: to the bit where parts
-// are fitted one by one or only left out, and as well against the true skin where neighbors are fitted
-// together.
+// What a garment cannot reach is left out, and the distances where it can are as before: to the bit where
+// parts are fitted one by one or only left out, and as accurate against the true skin where neighbors are
+// fitted together.
 
 #include <doctest/doctest.h>
 
@@ -26,7 +26,7 @@ constexpr double kMargin_m = 0.05;
 struct Dressed {
   tryon::SegmentedSkin skin;
   geometry::TriMesh skirt;
-  std::vector<Vec3> places;      ///< within half the margin of the skirt
+  std::vector<Vec3> points;      ///< points within half the margin of the skirt
   std::vector<double> depths_m;  ///< the true signed distance of each
 };
 
@@ -45,15 +45,15 @@ Dressed dress() {
   for (const Vec3& p : dressed.skirt.positions)
     for (int k = 0; k < 4; ++k) {
       const double a = random.normal(), b = random.normal(), c = random.normal();
-      const Vec3 place = p + 0.5 * kMargin_m * random.uniform() * Vec3(a, b, c).stableNormalized();
-      dressed.places.push_back(place);
-      dressed.depths_m.push_back(dressed.skin.distance->signed_distance(place));
+      const Vec3 point = p + 0.5 * kMargin_m * random.uniform() * Vec3(a, b, c).stableNormalized();
+      dressed.points.push_back(point);
+      dressed.depths_m.push_back(dressed.skin.distance->signed_distance(point));
     }
   return dressed;
 }
 
 const Dressed& dressed() {
-  static const Dressed made = dress();  // once for all cases
+  static const Dressed made = dress();  // made once for all cases
   return made;
 }
 
@@ -68,33 +68,33 @@ std::uint32_t reached() {
   return tryon::reachable_parts({}, dressed().skin, {&dressed().skirt, 1}, kMargin_m).value();
 }
 
-double at(const proxy::BodyProxy& proxy, const Vec3& place) {
-  return proxy::proxy_distance(proxy, place).distance;
+double at(const proxy::BodyProxy& proxy, const Vec3& point) {
+  return proxy::proxy_distance(proxy, point).distance;
 }
 
 struct Differences {
-  std::size_t asked = 0, other_bits = 0;
+  std::size_t count = 0, other_bits = 0;
   double apart_m = 0.0, whole_error_m = 0.0, region_error_m = 0.0;  ///< means
 };
 
-/// At places that a garment acts on: those within half the margin of the body.
+/// Compares two proxies at points that a garment acts on: those within half the margin of the body.
 Differences compare(const proxy::BodyProxy& whole, const proxy::BodyProxy& region) {
   Differences d;
-  for (std::size_t i = 0; i < dressed().places.size(); ++i) {
-    const double a = at(whole, dressed().places[i]);
+  for (std::size_t i = 0; i < dressed().points.size(); ++i) {
+    const double a = at(whole, dressed().points[i]);
     if (a > 0.5 * kMargin_m) continue;
-    const double b = at(region, dressed().places[i]);
-    ++d.asked;
+    const double b = at(region, dressed().points[i]);
+    ++d.count;
     d.other_bits += a != b;
     d.apart_m += std::abs(a - b);
     d.whole_error_m += std::abs(a - dressed().depths_m[i]);
     d.region_error_m += std::abs(b - dressed().depths_m[i]);
   }
-  for (double* sum : {&d.apart_m, &d.whole_error_m, &d.region_error_m}) *sum /= static_cast<double>(d.asked);
+  for (double* sum : {&d.apart_m, &d.whole_error_m, &d.region_error_m}) *sum /= static_cast<double>(d.count);
   return d;
 }
 
-/// Neither hands nor head: what a skirt leaves alone.
+/// Whether the part is a hand or the head, which a skirt does not reach.
 bool is_far_from_skirts(body::Part part) {
   using body::Part;
   return part == Part::kHead || part == Part::kUpperArmL || part == Part::kUpperArmR ||
@@ -103,23 +103,23 @@ bool is_far_from_skirts(body::Part part) {
 
 }  // namespace
 
-TEST_CASE(
-    "every part with a place of its skin within the margin is reached, be its triangles ever so large") {
+TEST_CASE("every part with a point of its skin within the margin is reached, however large its triangles") {
   const geometry::TriMesh& skin = dressed().skin.input.skin;
   const Vec3 above(0.0, 1e-3, 0.0);
-  const auto places = geometry::sample_surface(skin, 2000, 3);
-  REQUIRE(places.size() == 2000);
-  for (const geometry::SurfaceSample& place : places) {
-    // A speck of a garment at a place between the vertices.
-    const geometry::TriMesh speck{{place.point, place.point + above, place.point + 2.0 * above}, {{0, 1, 2}}};
+  const auto points = geometry::sample_surface(skin, 2000, 3);
+  REQUIRE(points.size() == 2000);
+  for (const geometry::SurfaceSample& sample : points) {
+    // The garment is tiny and lies at a point between the vertices.
+    const geometry::TriMesh speck{{sample.point, sample.point + above, sample.point + 2.0 * above},
+                                  {{0, 1, 2}}};
     const std::uint32_t found = tryon::reachable_parts({}, dressed().skin, {&speck, 1}, 1e-4).value();
-    for (const geometry::Index v : skin.triangles[place.triangle])
+    for (const geometry::Index v : skin.triangles[sample.triangle])
       REQUIRE((found & 1u << static_cast<int>(dressed().skin.anatomy.part[v])) != 0);
-    REQUIRE(std::popcount(found) <= 4);  // and none but its neighbors
+    REQUIRE(std::popcount(found) <= 4);  // beside it only its neighbors
   }
 }
 
-TEST_CASE("paper and solid answer to the bit in the region as in the whole body") {
+TEST_CASE("paper and solid distances have the same bits in the region as in the whole body") {
   for (const proxy::Tier tier : {proxy::Tier::kPaper, proxy::Tier::kSolid}) {
     CAPTURE(proxy::name(tier));
     const proxy::BodyProxy whole = fit(tier, fitting::kAllParts), region = fit(tier, reached());
@@ -127,7 +127,7 @@ TEST_CASE("paper and solid answer to the bit in the region as in the whole body"
     CHECK(region.bytes() < whole.bytes());
     for (const proxy::ProxyEllipsoid& e : region.ellipsoids()) CHECK_FALSE(is_far_from_skirts(e.part));
     const Differences d = compare(whole, region);
-    CHECK(d.asked > 300);
+    CHECK(d.count > 300);
     CHECK(d.other_bits == 0);
   }
 }
@@ -138,14 +138,15 @@ TEST_CASE("tight and relief are as near to the skin in the region as in the whol
     const proxy::BodyProxy whole = fit(tier, fitting::kAllParts), region = fit(tier, reached());
     CHECK(region.ellipsoids().size() < whole.ellipsoids().size());
     const Differences d = compare(whole, region);
-    CHECK(d.asked > 300);
+    CHECK(d.count > 300);
     CAPTURE(d.whole_error_m);
     CHECK(d.region_error_m < 1.25 * d.whole_error_m);
-    CHECK(d.apart_m < 2.0 * d.whole_error_m);  // neither is exact: apart by no more than both are off
+    CHECK(d.apart_m <
+          2.0 * d.whole_error_m);  // neither is exact: they differ by no more than the sum of their errors
   }
 }
 
-TEST_CASE("leaving out what is beyond reach changes no answer within it, in any tier") {
+TEST_CASE("leaving out what is beyond reach changes no distance within it, in any tier") {
   for (const proxy::Tier tier :
        {proxy::Tier::kPaper, proxy::Tier::kSolid, proxy::Tier::kTight, proxy::Tier::kRelief}) {
     CAPTURE(proxy::name(tier));
@@ -154,7 +155,7 @@ TEST_CASE("leaving out what is beyond reach changes no answer within it, in any 
     REQUIRE(near.ok());
     CHECK(near->ellipsoids().size() < whole.ellipsoids().size());
     CHECK(near->bytes() < whole.bytes());
-    // Those of tight and relief lie where they cover best: one that bounds the neck may fill the chest.
+    // Ellipsoids of tight and relief cover best across borders: one that bounds the neck may fill the chest.
     const bool within_parts = tier == proxy::Tier::kPaper || tier == proxy::Tier::kSolid;
     for (const proxy::ProxyEllipsoid& e : near->ellipsoids())
       CHECK_FALSE((within_parts && is_far_from_skirts(e.part)));
@@ -167,7 +168,7 @@ TEST_CASE("leaving out what is beyond reach changes no answer within it, in any 
   }
 }
 
-TEST_CASE("what is out of reach altogether, or no margin, is an error with a remedy") {
+TEST_CASE("a garment out of reach and an invalid margin are errors with a remedy") {
   const proxy::BodyProxy whole = fit(proxy::Tier::kPaper, fitting::kAllParts);
   geometry::TriMesh far = dressed().skirt;
   for (Vec3& p : far.positions) p.x() += 10.0;
@@ -186,6 +187,6 @@ TEST_CASE("what is out of reach altogether, or no margin, is an error with a rem
     REQUIRE_FALSE(parts.ok());
     CHECK(parts.error().code == engine::ErrorCode::kInvalidArgument);
   }
-  // Everything is near enough.
+  // With this margin everything is within reach.
   CHECK(tryon::within_reach({}, whole, {&dressed().skirt, 1}, 10.0)->hash() == whole.hash());
 }

@@ -1,4 +1,5 @@
-// Bodies prepared behind the frames: they take effect at boundaries, the newest wins, a run can be repeated.
+// Bodies prepared behind the frames take effect at boundaries, the newest one counts, and a run can be
+// repeated.
 
 #include <doctest/doctest.h>
 
@@ -51,7 +52,7 @@ TEST_CASE("garments wait for their body, then fall on it") {
   std::vector<geometry::Vec3> at(session.vertices());
   session.frame(1.0 / 60.0);
   session.positions(at);
-  CHECK(at[0].y() == doctest::Approx(1.75));  // no body yet
+  CHECK(at[0].y() == doctest::Approx(1.75));  // there is no body yet
 
   const engine::Ticket ticket = session.submit(synth::BodyOptions{.vertices = 2600});
   REQUIRE(ticket.wait().ok());
@@ -59,10 +60,10 @@ TEST_CASE("garments wait for their body, then fall on it") {
   REQUIRE(session.body() != nullptr);
   session.positions(at);
   CHECK(at[0].y() < 1.74);
-  CHECK(at[0].y() > 1.2);  // caught by head or shoulders, not fallen through
+  CHECK(at[0].y() > 1.2);  // head or shoulders hold it up
 }
 
-TEST_CASE("a newer body takes the place of one still in work") {
+TEST_CASE("a newer body replaces one that is still prepared") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
@@ -74,12 +75,11 @@ TEST_CASE("a newer body takes the place of one still in work") {
   session.frame(1.0 / 60.0);
   REQUIRE(session.body() != nullptr);
   CHECK(session.body()->proxy.stature_m() > 1.75);
-  const auto superseded = first.wait();  // unless it was done before the second came
+  const auto superseded = first.wait();  // or success, if it ended before the second one came
   if (!superseded) CHECK(superseded.error().code == engine::ErrorCode::kCanceled);
 }
 
-TEST_CASE(
-    "of two bodies that wait for a frame the newer is shown, and the older one's ticket says canceled") {
+TEST_CASE("of two bodies that wait for a frame the newer is shown, and the older one's ticket is canceled") {
   tryon::Session session({}, {.fit = {.tier = proxy::Tier::kSolid}});
   const engine::Ticket older = session.submit(synth::BodyOptions{.stature_m = 1.5, .mass_kg = 50});
   const engine::Ticket newer = session.submit(synth::BodyOptions{.stature_m = 1.9, .mass_kg = 80});

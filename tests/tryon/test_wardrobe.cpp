@@ -1,4 +1,4 @@
-// Garments in memory come from anywhere: what they name and do not have is an error, never a read.
+// Garments in memory may be invalid: a vertex number that they do not have is an error, and is never read.
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@ using namespace bodice;
 
 namespace {
 
-/// A triangle in front of the chest.
+/// A garment of one triangle in front of the chest.
 tryon::WornGarment patch(std::string name) {
   tryon::WornGarment garment{.name = std::move(name)};
   garment.mesh.positions = {{-0.1, 1.2, 0.3}, {0.1, 1.2, 0.3}, {0.0, 1.3, 0.3}};
@@ -62,7 +62,7 @@ TEST_CASE("wardrobe: garments are joined in order, each with its own vertices") 
 
 TEST_CASE("wardrobe: a vertex that a garment does not have is named, wherever the garment goes") {
   tryon::WornGarment held = patch("vest"), torn = patch("");
-  held.held = {3};  // would be the scarf's first
+  held.held = {3};  // would be the first vertex of the scarf
   torn.mesh.triangles.push_back({0, 1, 77});
   CHECK(holds(why(tryon::join({held, patch("scarf")})), {"vest", "vertex 3", "3 vertices"}));
   CHECK(holds(why(tryon::join({patch("scarf"), torn})), {"Garment 1", "triangle 1", "vertex 77"}));
@@ -89,7 +89,7 @@ TEST_CASE("drape: options out of range are refused by name") {
   CHECK(shortest->garments[0].frames.size() == 2);
 }
 
-TEST_CASE("drape: the fabric that is given is used, whatever it is called") {
+TEST_CASE("drape: the given fabric is used, whatever its name") {
   const auto hash = [&](std::optional<cloth::Fabric> fabric) {
     const auto draped = tryon::drape({}, wearer(), {patch("vest")}, {.frames = 10, .fabric = fabric});
     REQUIRE(draped.ok());
@@ -102,7 +102,7 @@ TEST_CASE("drape: the fabric that is given is used, whatever it is called") {
   CHECK(hash(std::nullopt) != hash(own));
 }
 
-TEST_CASE("drape: a garment that is nowhere near the body, or in other units, is no silent success") {
+TEST_CASE("drape: a garment that is nowhere near the body, or in other units, gives a warning") {
   const auto codes = [&](auto&& change) {
     tryon::WornGarment garment = patch("vest");
     for (geometry::Vec3& p : garment.mesh.positions) p = change(p);
@@ -122,7 +122,7 @@ TEST_CASE("drape: a garment that is nowhere near the body, or in other units, is
   CHECK(codes([](const Vec3& p) { return Vec3(100.0 * (p - Vec3(0.0, 1.2, 0.3))); }) == "garment-size ");
 }
 
-TEST_CASE("report: what is needed to repeat it, and what was draped") {
+TEST_CASE("report: it holds what is needed to repeat the run, and the garments") {
   tryon::WornGarment vest = patch("vest.obj");
   vest.held = {1, 2};
   const auto draped = tryon::drape({}, wearer(), {vest}, {.frames = 2, .dt_s = 0.01});
@@ -146,7 +146,7 @@ TEST_CASE("report: what is needed to repeat it, and what was draped") {
   CHECK_FALSE(plain["accuracy"].contains("of"));
 }
 
-TEST_CASE("report: names that are not UTF-8 are written all the same") {
+TEST_CASE("report: names that are not UTF-8 do not prevent it") {
   tryon::PreparedBody named = wearer();
   named.skin.input.file = "K\xF6rper.obj";
   named.skin.input.mesh = "K\xF6rper";

@@ -1,4 +1,4 @@
-// A list of a later stage behind that of an earlier one.
+// Appends one list to another.
 #pragma once
 
 #include <vector>

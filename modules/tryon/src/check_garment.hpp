@@ -1,4 +1,4 @@
-// What a garment in memory must be before anything looks at its corners.
+// Checks a garment in memory before its corners are read.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace bodice::tryon {
 
-/// kInvalidArgument, naming the triangle, when one names a vertex that is not there.
+/// Fails with kInvalidArgument, naming the triangle, when one refers to a missing vertex.
 inline engine::Result<void> check_triangles(const geometry::TriMesh& mesh, std::string_view name) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const geometry::Index v : mesh.triangles[t])

@@ -17,7 +17,7 @@ using engine::Context;
 using engine::Result;
 using proxy::BodyProxy;
 
-/// The parts to fit, as FitOptions::parts takes them.
+/// The parts to fit, as a bit set for FitOptions::parts.
 Result<std::uint32_t> choose_region(const Context& context, const PreparationOptions& options,
                                     const SegmentedSkin& skin) {
   if (options.garments.empty()) return options.fit.parts;
@@ -26,26 +26,26 @@ Result<std::uint32_t> choose_region(const Context& context, const PreparationOpt
   if (const std::uint32_t parts = options.fit.parts & *reached) return parts;
   return of_body(
       {engine::ErrorCode::kUnusableGeometry, "No part of the body is within reach of the garments.",
-       "Check that they are in the same place and units, or raise the margin."},
+       "Check that they are in the body's coordinates and units, or raise the margin."},
       skin.input);
 }
 
-/// What has been handed on of a body. Hands each proxy on once, though the last iterate of a tier is its
-/// result as well.
-class Handover {
+/// Publishes the proxies of a body. A proxy is published once, even if it is both the last iterate of a tier
+/// and its result.
+class Publisher {
  public:
-  explicit Handover(OnProxy on_proxy) : on_proxy_(std::move(on_proxy)) {}
+  explicit Publisher(OnProxy on_proxy) : on_proxy_(std::move(on_proxy)) {}
 
   void begin(Skin skin) { skin_ = std::move(skin), last_.reset(); }
 
-  void give(const BodyProxy& proxy) {
+  void publish(const BodyProxy& proxy) {
     if (last_ && last_->hash() == proxy.hash()) return;
     last_ = proxy;
     if (on_proxy_) on_proxy_(skin_, proxy);
   }
 
-  /// The last proxy with these parts in place of its own.
-  Result<void> give_part(proxy::Tier tier, const fitting::FittedPart& part) {
+  /// Publishes the last proxy with these parts in place of its own.
+  Result<void> publish_part(proxy::Tier tier, const fitting::FittedPart& part) {
     BodyProxy::Data data{.tier = tier,
                          .stature_m = last_->stature_m(),
                          .source_hash = last_->source_hash(),
@@ -55,7 +55,7 @@ class Handover {
     data.ellipsoids.insert(data.ellipsoids.end(), part.ellipsoids.begin(), part.ellipsoids.end());
     auto proxy = BodyProxy::make(std::move(data));
     if (!proxy) return std::move(proxy).error();
-    give(*proxy);
+    publish(*proxy);
     return {};
   }
 
@@ -66,17 +66,17 @@ class Handover {
 };
 
 Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin& skin,
-                                     fitting::FitOptions options, std::uint32_t parts, Handover& handover) {
+                                     fitting::FitOptions options, std::uint32_t parts, Publisher& publisher) {
   options.parts = parts;
-  options.on_improved = [&](const BodyProxy& better) { handover.give(better); };
-  const proxy::Tier tier = options.tier.value_or(proxy::Tier::kSolid);  // parts come of plain tiers only
-  // A part that makes no proxy is not handed on; if it is no accident, the fit fails of it as well.
+  options.on_improved = [&](const BodyProxy& better) { publisher.publish(better); };
+  const proxy::Tier tier = options.tier.value_or(proxy::Tier::kSolid);  // only plain tiers give parts
+  // A part that makes no proxy is skipped. If its fault is no accident, the fit fails as well.
   options.on_part = [&](const fitting::FittedPart& part) {
-    static_cast<void>(handover.give_part(tier, part));
+    static_cast<void>(publisher.publish_part(tier, part));
   };
   auto fit = fitting::fit(context, labeled(skin), options);
   if (!fit) return of_body(std::move(fit).error(), skin.input);
-  handover.give(fit->proxy);
+  publisher.publish(fit->proxy);
   return fit;
 }
 
@@ -84,7 +84,7 @@ Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin
 
 Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_proxy) {
   const auto set = std::make_shared<const PreparationOptions>(std::move(options));
-  const auto handover = std::make_shared<Handover>(std::move(on_proxy));
+  const auto publisher = std::make_shared<Publisher>(std::move(on_proxy));
 
   engine::GraphBuilder builder;
   auto source = builder.input<BodySource>("source");
@@ -100,34 +100,34 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
       "region", [set](const Context& c, const Skin& on) { return choose_region(c, *set, *on); }, *skin);
   auto coarse = builder.add(
       "coarse proxy",
-      [handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
+      [publisher](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         auto enclosed = fitting::enclose_parts(c, labeled(*on), parts);
         if (!enclosed) return of_body(std::move(enclosed).error(), on->input);
-        handover->begin(on);
-        handover->give(*enclosed);
+        publisher->begin(on);
+        publisher->publish(*enclosed);
         return {};
       },
       *skin, region);
-  // Solid ellipsoids next, part by part: they are there in a tenth of a second, and do not leak.
+  // Solid ellipsoids come next, part by part, since they are ready in a tenth of a second and do not leak.
   auto solid = builder.add(
       "solid parts",
-      [set, handover](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
+      [set, publisher](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
-        // Within the limits that were asked for: the frames between have no more time than those after.
+        // These have the limits of the final fit: the frames until then have no more time than those after.
         auto fit = fit_parts(c, *on,
                              {.tier = proxy::Tier::kSolid,
                               .max_ellipsoids = set->fit.max_ellipsoids,
                               .budget_us = set->fit.budget_us,
                               .measure_accuracy = false},
-                             parts, *handover);
+                             parts, *publisher);
         if (!fit) return std::move(fit).error();
         return {};
       },
       *skin, region);
   auto proxy = builder.add(
       "proxy",
-      [set, handover](const Context& c, const Skin& on, const std::uint32_t& parts) {
-        return fit_parts(c, *on, set->fit, parts, *handover);
+      [set, publisher](const Context& c, const Skin& on, const std::uint32_t& parts) {
+        return fit_parts(c, *on, set->fit, parts, *publisher);
       },
       *skin, region);
   builder.order(coarse, solid);

@@ -11,13 +11,13 @@ namespace {
 
 using geometry::MeshDistance;
 
-void tell(const Progress& progress, std::string_view stage, double fraction) {
+void report(const Progress& progress, std::string_view stage, double fraction) {
   if (progress) progress(stage, fraction);
 }
 
 engine::Result<SegmentedSkin> segment_source(const engine::Context& context, const BodySource& source,
                                              const SegmentOptions& options, const Progress& progress) {
-  tell(progress, "load", 0.0);
+  report(progress, "load", 0.0);
   auto input = load_body(context, source, options.import);
   if (!input) return std::move(input).error();
   return segment_mesh(context, std::move(input).value(), options, progress);
@@ -49,7 +49,7 @@ engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, co
 
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress) {
-  tell(progress, "segment", 0.0);
+  report(progress, "segment", 0.0);
   engine::GraphBuilder builder;
   auto mesh = builder.input<io::ImportedMesh>("body");
   auto skin = add_segment_tasks(builder, mesh, options);
@@ -71,7 +71,7 @@ fitting::LabeledSkin labeled(const SegmentedSkin& skin) {
 
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress) {
-  tell(progress, "fit", 0.0);
+  report(progress, "fit", 0.0);
   auto fit = fitting::fit(context, labeled(skin), options);
   if (!fit) return of_body(std::move(fit).error(), skin.input);
   return PreparedBody{.skin = std::move(skin), .fit = std::move(fit).value()};

@@ -17,8 +17,8 @@ namespace {
 using geometry::Vec3;
 using proxy::BodyProxy;
 
-/// A triangle as the ball about its centroid: whoever is within its radius and some length of the center may
-/// be within that length of the triangle.
+/// A triangle's bounding ball about its centroid. A point within some length of the triangle is within that
+/// length plus the radius of the center.
 struct Ball {
   Vec3 center;
   double radius_m;
@@ -46,7 +46,7 @@ engine::Result<void> check_reach(std::span<const geometry::TriMesh> garments, do
   return check_triangles(garments);
 }
 
-/// Conservative: true for some that are a triangle's size too far.
+/// Whether the ellipsoid is within reach; also true for some that are a triangle's size too far.
 bool reaches(const geometry::Ellipsoid& shape, const std::vector<Ball>& balls, double within_m) {
   const double largest_m = shape.radii.maxCoeff();
   return std::ranges::any_of(balls, [&](const Ball& ball) {
@@ -76,7 +76,7 @@ BodyProxy::Data keep(const BodyProxy& whole, const std::vector<std::uint8_t>& ke
   return data;
 }
 
-/// The parts of the triangle's corners, as bits.
+/// The parts of the triangle's corners as a bit set.
 std::uint32_t parts_of(const SegmentedSkin& skin, std::size_t triangle) {
   std::uint32_t bits = 0;
   for (const geometry::Index v : skin.input.skin.triangles[triangle])
@@ -91,7 +91,7 @@ engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, co
   if (auto good = check_reach(garments, margin_m); !good) return std::move(good).error();
   return engine::catch_canceled("The search for parts within reach", [&]() -> engine::Result<std::uint32_t> {
     const geometry::TriMesh& mesh = skin.input.skin;
-    std::atomic<std::uint32_t> reached = 0;  // a union of bits: the order of the writers does not matter
+    std::atomic<std::uint32_t> reached = 0;  // a union of bits, so that the order of writing does not matter
     for (const geometry::TriMesh& garment : garments) {
       const geometry::MeshDistance to_garment(context, garment);
       engine::parallel_for(context, mesh.triangles.size(), 256, [&](std::size_t begin, std::size_t end) {
@@ -110,7 +110,7 @@ engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, co
 engine::Result<BodyProxy> within_reach(const engine::Context& context, const BodyProxy& proxy,
                                        std::span<const geometry::TriMesh> garments, double margin_m) {
   if (auto good = check_reach(garments, margin_m); !good) return std::move(good).error();
-  // Beyond its own distance an ellipsoid has a say as long as it is blended with the nearest.
+  // An ellipsoid contributes beyond its own distance, as long as it is blended with the closest one.
   const double blend_m = proxy.relief().empty() ? 0.0 : proxy::relief_reach(proxy.stature_m()).blend_m;
   const std::vector<Ball> balls = balls_of(garments);
   std::vector<std::uint8_t> kept(proxy.ellipsoids().size());
@@ -125,7 +125,7 @@ engine::Result<BodyProxy> within_reach(const engine::Context& context, const Bod
   if (std::ranges::none_of(kept, [](std::uint8_t flag) { return flag != 0; }))
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
                          "Nothing of the proxy is within reach of the garments.",
-                         "Check that they are in the same place and units, or raise the margin."};
+                         "Check that they have the same origin and units, or raise the margin."};
   return BodyProxy::make(keep(proxy, kept));
 }
 

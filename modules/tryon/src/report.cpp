@@ -134,7 +134,7 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
                  {"warnings", warnings},
                  {"stages", stages}};
   if (drape) report["drape"] = drape_json(*drape);
-  // Names of files and meshes need not be UTF-8; a report is written all the same.
+  // Names of files and meshes need not be UTF-8; invalid bytes are replaced.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -19,8 +19,8 @@ struct DistanceField {
   std::vector<engine::StageTime> stages;
 };
 
-/// Repair and anatomy both count a body's open edges; a reader wants to hear of holes once.
-void tell_holes_once(std::vector<engine::Warning>& warnings) {
+/// Keeps one of the two warnings of holes: repair and anatomy both count a body's open edges.
+void drop_repeated_holes(std::vector<engine::Warning>& warnings) {
   const auto has_code = [](std::string_view code) {
     return [code](const engine::Warning& warning) { return warning.code == code; };
   };
@@ -44,7 +44,7 @@ std::shared_ptr<SegmentedSkin> join(const engine::Context&, const io::ImportedMe
   append(skin->stages, anatomy.stages);
   append(skin->stages, field.stages);
   append(skin->warnings, anatomy.warnings);
-  tell_holes_once(skin->warnings);
+  drop_repeated_holes(skin->warnings);
   return skin;
 }
 
@@ -66,7 +66,7 @@ engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks
       },
       mesh);
   auto field = builder.add("distance field", measure_distances, mesh);
-  builder.set_priority(anatomy, 1);  // the longer of the two
+  builder.set_priority(anatomy, 1);  // the longer one starts first
   return builder.add("skin", join, mesh, anatomy, field);
 }
 

@@ -9,7 +9,7 @@ namespace {
 using LiveStream = engine::Stream<LiveBody>;
 using LiveSink = engine::Sink<LiveBody>;
 
-/// Publishes each proxy with its collider ready, so that a frame only takes a pointer.
+/// Publishes each proxy with its collider, so that a frame only takes a pointer.
 OnProxy publish_to(LiveSink& sink) {
   return [&sink, next = 0](const std::shared_ptr<const SegmentedSkin>& skin,
                            const proxy::BodyProxy& proxy) mutable {
@@ -31,12 +31,12 @@ struct Session::Impl {
   SessionOptions options;
   bool nothing_runs_behind;
   engine::FramePipeline pipeline;
-  LiveStream bodies;  // after the pipeline: streams must go first
+  LiveStream bodies;  // after the pipeline, because streams must be destroyed first
   std::optional<cloth::Solver> solver;
   Wardrobe wardrobe;
-  const LiveBody* fitted_to = nullptr;  // the body whose surface the pins lie on
+  const LiveBody* fitted_to = nullptr;  // the body with the surface that the pins lie on
 
-  /// Once a proxy, not once a frame: this one may allocate.
+  /// Sets the pins for a new proxy. It may allocate, because it does not run in every frame.
   void hold_garments_on(const LiveBody& body) {
     solver->move_pins(held_positions(wardrobe, body.collider, options.solver.thickness_m));
     fitted_to = &body;
@@ -84,7 +84,7 @@ FrameOutcome Session::frame(double dt_s) {
     outcome.has_body = body != nullptr;
     if (body) outcome.proxy_hash = body->proxy.hash();
     if (body && body != impl_->fitted_to && impl_->solver) impl_->hold_garments_on(*body);
-    // Without a body the garments would fall to the floor before there is anything to wear them.
+    // Without a body the garments would fall to the floor before the first one is ready.
     if (body && impl_->solver) outcome.cloth = impl_->solver->step(context, body->collider, dt_s);
   });
   return outcome;

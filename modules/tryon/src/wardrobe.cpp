@@ -11,10 +11,10 @@ namespace bodice::tryon {
 namespace {
 
 constexpr double kClothThickness_m = 0.0015;
-constexpr double kMostThickness_m = 0.008;  // beyond it the gap is what one sees
-constexpr std::size_t kGrain = 256;         // about a millisecond of signed distances
-constexpr double kLimbRadius =
-    0.03;  // of stature: thighs and upper arms, the tightest turns that cloth covers
+constexpr double kMostThickness_m = 0.008;  // a wider gap is visible
+constexpr std::size_t kGrain = 256;         // vertices a block: about a millisecond of signed distances
+// The radius of the tightest turns that cloth covers (thighs and upper arms), in statures.
+constexpr double kLimbRadius = 0.03;
 
 engine::Result<void> check(const WornGarment& garment, std::size_t number) {
   const std::string name = garment.name.empty() ? engine::message("Garment ", number) : garment.name;

@@ -12,12 +12,12 @@ namespace {
 using geometry::Index;
 using geometry::Vec3;
 
-/// A waistband holds vertices this near its edge, as a fraction of stature (about 1.5 cm).
+/// The height of a waistband, in statures (about 1.5 cm).
 constexpr double kWaistbandHeight = 0.009;
-/// A piece is worn only if some of it comes this near the skin, as a fraction of stature.
+/// A piece is worn if some of it is this close to the skin, in statures.
 constexpr double kWornWithin = 0.06;
 
-/// Height along the trunk, feet to head.
+/// The coordinate along the trunk, from feet to head.
 double height_of(const Vec3& p, const SegmentedSkin& body) {
   return p.dot(body.anatomy.up);
 }
@@ -34,8 +34,8 @@ double armpit_height(const SegmentedSkin& body) {
 struct Piece {
   double top = -std::numeric_limits<double>::infinity();
   bool worn = false;
-  std::vector<Index> waistband;                                        ///< the rim nearest the head
-  double waistband_height = -std::numeric_limits<double>::infinity();  ///< mean over the rim: it may slant
+  std::vector<Index> waistband;                                        ///< the rim closest to the head
+  double waistband_height = -std::numeric_limits<double>::infinity();  ///< the rim's mean, as it may slant
 };
 
 std::vector<Piece> find_pieces(const geometry::TriMesh& mesh, const geometry::Components& components,

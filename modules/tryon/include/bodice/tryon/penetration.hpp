@@ -4,23 +4,31 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/proxy/body_proxy.hpp>
 
 namespace bodice::tryon {
 
-inline constexpr double kDeepM = 0.001;  ///< "deeper than 1 mm" of the reports
+inline constexpr double kDeep_m = 0.001;  ///< the depth of "deeper than 1 mm" in reports
 
-/// How deep cloth is inside the true skin.
+/// The depth of cloth inside the true skin.
 struct Penetration {
   double deepest_m = 0.0;    ///< 0 when nothing is inside
-  std::size_t over_1mm = 0;  ///< particles deeper than kDeepM
+  std::size_t over_1mm = 0;  ///< particles deeper than kDeep_m
 };
 
-/// Measures each particle's exact signed distance to the skin; NaN positions count nowhere. Deterministic.
-/// Cost: one signed distance a particle, a few microseconds.
+/// Measures each particle's exact signed distance to the skin; positions that are not finite are skipped. The
+/// result does not depend on the number of workers. Cost: one signed distance a particle, a few microseconds.
 Penetration penetration(const engine::Context& context, const geometry::MeshDistance& skin,
                         std::span<const geometry::Vec3> positions);
 
-/// Share of the cloth's area, by its triangles' centroids, that lies inside the skin: what a viewer sees poke
+/// Counts the particles (#P, meters) inside the proxy, deeper than the rounding of float positions, or with
+/// relief than the error that a collider certifies. It is an independent check of what a response leaves: it
+/// evaluates proxy::proxy_distance() in double precision, not the collider that moved the particles.
+/// Positions that are not finite are skipped. Cost: one proxy distance a particle, some microseconds.
+std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& proxy,
+                         std::span<const geometry::Vec3> positions);
+
+/// The share of the cloth's area, by its triangles' centroids, that lies inside the skin. It is what shows
 /// through although every particle is outside. O(#triangles).
 double pierced_share(const engine::Context& context, const geometry::MeshDistance& skin,
                      std::span<const geometry::Vec3> positions,

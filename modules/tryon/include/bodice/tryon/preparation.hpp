@@ -1,5 +1,5 @@
-// A body's way from its file to its proxy, as a graph of tasks: each starts as soon as what it needs is
-// there, and what is ready is handed on.
+// The preparation of a body from its file to its proxy, as a graph of tasks. Each task starts as soon as its
+// inputs are there, and better and better proxies are published.
 #pragma once
 
 #include <filesystem>
@@ -14,25 +14,28 @@
 
 namespace bodice::tryon {
 
+/// A body to read from a file.
 struct BodyFile {
   std::filesystem::path file;
 };
+/// The source of a body: a file, the built-in body, or a mesh in memory.
 using BodySource = std::variant<BodyFile, synth::BodyOptions, io::ImportedMesh>;
 
+/// How a body is segmented and fitted.
 struct PreparationOptions {
   SegmentOptions segment;
-  fitting::FitOptions fit;  ///< its on_improved and on_part are the preparation's
+  fitting::FitOptions fit;  ///< on_improved and on_part are replaced
   /// With garments, only the parts within region_margin_m of them are fitted; the others cost nothing.
   std::vector<geometry::TriMesh> garments;
   double region_margin_m = 0.05;
 };
 
-/// Given each proxy of a body, coarse to fine, one call at a time and in the same order in every run: one
-/// enclosing ellipsoid a part, then solid parts as each is ready, then what FitOptions asks for. The skin is
-/// the same one each time.
+/// Called with each proxy of a body, coarse to fine, one call at a time and in the same order in every run:
+/// one enclosing ellipsoid a part, then solid parts one by one, then those of FitOptions. The skin is the
+/// same for all of them.
 using OnProxy = std::function<void(const std::shared_ptr<const SegmentedSkin>&, const proxy::BodyProxy&)>;
 
-/// Built once, run for one body after another.
+/// The tasks of a preparation: built once, run for one body after another.
 ///
 ///     body -> anatomy --------> skin -> region -> coarse proxy -> solid parts -> proxy
 ///         `-> distance field --^
@@ -40,13 +43,13 @@ class Preparation {
  public:
   static engine::Result<Preparation> make(PreparationOptions options, OnProxy on_proxy);
 
-  /// Fails as the task does that failed first; what was handed on before stays valid.
+  /// Prepares a body. Fails with the error of the first failed task; proxies published before stay valid.
   engine::Result<void> run(const engine::Context& context, BodySource body);
 
-  /// Of the last run, if it came so far.
+  /// The result of the last run, or null if it did not reach it.
   const fitting::FitResult* fit() const { return graph_.find(proxy_); }
 
-  /// The tasks and what they hand on, in the DOT language.
+  /// The tasks and their data flow in the DOT language.
   std::string dump_dot() const { return graph_.dump_dot(); }
 
  private:

@@ -1,4 +1,4 @@
-// Preprocessing from end to end: a body file in, landmarks, parts and a proxy out.
+// Preprocessing from end to end: from a body file to landmarks, parts and a proxy.
 #pragma once
 
 #include <filesystem>
@@ -19,16 +19,17 @@
 
 namespace bodice::tryon {
 
-/// Told where long work stands: a stage's name and the fraction done of it, 0..1. Called from one thread.
+/// Called as long work proceeds, with a stage's name and the fraction of it that is done, 0..1. Calls come
+/// from one thread.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
-/// A body whose skin is known by part: all that fitting and garment making need.
+/// A body with a part for every vertex of its skin, for fitting and garment making.
 struct SegmentedSkin {
   io::ImportedMesh input;
   anatomy::Anatomy anatomy;
-  std::shared_ptr<const geometry::MeshDistance> distance;  ///< exact, of input.skin
+  std::shared_ptr<const geometry::MeshDistance> distance;  ///< exact distance to input.skin
   std::vector<engine::StageTime> stages;
-  std::vector<engine::Warning> warnings;  ///< of import and anatomy
+  std::vector<engine::Warning> warnings;  ///< warnings of import and anatomy
 };
 
 /// A segmented body and its proxy.
@@ -36,31 +37,34 @@ struct PreparedBody {
   SegmentedSkin skin;
   fitting::FitResult fit;
 
+  /// Warnings of segmentation and fit, in this order; stages likewise.
   std::vector<engine::Warning> all_warnings() const;
   std::vector<engine::StageTime> all_stages() const;
 };
 
+/// How a body is read and analyzed.
 struct SegmentOptions {
   io::ImportOptions import;
   std::optional<body::ProportionProfile> profile;  ///< absent: "ansur2"
 };
 
-/// Reads a body file and segments it. Errors name the file and the remedy.
+/// Reads a body file and segments it. Fails as io::import_body() and anatomy::analyze() do; errors name the
+/// file and the remedy.
 engine::Result<SegmentedSkin> segment_file(const engine::Context& context, const std::filesystem::path& file,
                                            const SegmentOptions& options, const Progress& progress = {});
 
-/// Makes the built-in body and segments it like any other: its truth is not used.
+/// Makes the built-in body and segments it like any other; its known landmarks and parts are not used.
 engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, const synth::BodyOptions& body,
                                               const SegmentOptions& options, const Progress& progress = {});
 
-/// Segments a mesh that is already in memory and repaired.
+/// Segments a repaired mesh in memory.
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress = {});
 
-/// The skin as fitting takes it; valid as long as the skin.
+/// The skin in the form that fitting takes. It refers to `skin` and is valid as long.
 fitting::LabeledSkin labeled(const SegmentedSkin& skin);
 
-/// Fits a proxy to a segmented skin.
+/// Fits a proxy to a segmented skin. Fails as fitting::fit() does.
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress = {});
 

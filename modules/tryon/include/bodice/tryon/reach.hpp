@@ -1,4 +1,4 @@
-// What of a body or its proxy a garment can come near: the rest need be neither fitted, stored nor tested.
+// The part of a body or proxy that a garment can reach. The rest need not be fitted, stored or tested.
 #pragma once
 
 #include <span>
@@ -11,19 +11,18 @@
 
 namespace bodice::tryon {
 
-/// The parts of the skin within `margin_m` of any of the garments, as FitOptions::parts takes them: what a
-/// garment cannot reach need not be fitted. A part may be counted that is a triangle's size too far. Zero
-/// when none is within reach. Fails with kInvalidArgument when the margin is negative or not finite or a
-/// triangle names a vertex that is not there. Deterministic. Cost: O(#triangles of the skin log #triangles of
-/// a garment).
+/// The parts of the skin within `margin_m` of any garment, as a bit set for FitOptions::parts; 0 if there is
+/// none. A part that is farther away, by at most the size of a triangle, may be included. Fails with
+/// kInvalidArgument when the margin is negative or not finite or a triangle refers to a missing vertex, and
+/// with kCanceled. The result does not depend on the number of workers. Cost: O(#triangles of the skin log
+/// #triangles of a garment).
 engine::Result<std::uint32_t> reachable_parts(const engine::Context& context, const SegmentedSkin& skin,
                                               std::span<const geometry::TriMesh> garments, double margin_m);
 
-/// The ellipsoids, with their tables, that are within `margin_m` of any of the garments; their order stays.
-/// Where a place is within a of a garment and the whole proxy's nearest ellipsoid within margin_m - a of the
-/// place, proxy_distance() gives the same bits as with the whole proxy. A garment that moves farther than the
-/// margin may meet nothing. Fails with kUnusableGeometry when nothing is within reach, with kInvalidArgument
-/// when the margin is negative or not finite or a triangle names a vertex that is not there. Deterministic.
+/// The ellipsoids, with their tables, within `margin_m` of any garment, in their order. Consider a point
+/// within a of a garment, with the whole proxy's closest ellipsoid within margin_m - a of the point: there
+/// proxy_distance() has the same bits as for the whole proxy. A garment that moves farther than the margin
+/// may meet nothing. Fails with kUnusableGeometry when nothing is within reach, and as reachable_parts().
 /// Cost: O(#triangles #ellipsoids), a sphere test for most.
 engine::Result<proxy::BodyProxy> within_reach(const engine::Context& context, const proxy::BodyProxy& proxy,
                                               std::span<const geometry::TriMesh> garments, double margin_m);

@@ -1,7 +1,8 @@
-// A try-on in motion: frames of cloth in front, bodies prepared behind them on the same workers.
+// A try-on in motion: frames of cloth on the calling thread, and bodies prepared behind them on the same
+// workers.
 //
 //     Session session(context, {});
-//     session.submit(BodyFile{"body.obj"});  // behind the frames; work on an earlier body stops
+//     session.submit(BodyFile{"body.obj"});  // prepared behind the frames; an earlier body is canceled
 //     session.dress({{.name = "dress", .mesh = mesh}});
 //     while (running) {
 //       const FrameOutcome outcome = session.frame(1.0 / 60.0);
@@ -22,17 +23,18 @@
 
 namespace bodice::tryon {
 
+/// How bodies are prepared, frames run and garments simulated.
 struct SessionOptions {
   engine::PipelineOptions pipeline;
   SegmentOptions segment;
-  fitting::FitOptions fit;  ///< its on_improved and on_part are the session's
-  /// Given: a submitted body is fitted only where a garment worn at that moment is within this distance.
+  fitting::FitOptions fit;  ///< on_improved and on_part are replaced
+  /// If given, a submitted body is fitted only where a garment worn at that time is within this distance.
   std::optional<double> region_margin_m;
   std::optional<cloth::Fabric> fabric;  ///< absent: cotton
-  cloth::SolverOptions solver;          ///< as they stand: a runtime's eight substeps, not drape()'s sixteen
+  cloth::SolverOptions solver;  ///< the defaults: eight substeps for a runtime, not the sixteen of drape()
 };
 
-/// A body as the frames see it. Each refinement of its proxy is a new one, with the same skin.
+/// A body as the frames use it. Each refinement of its proxy is a new one, with the same skin.
 struct LiveBody {
   std::shared_ptr<const SegmentedSkin> skin;
   proxy::BodyProxy proxy;
@@ -40,38 +42,40 @@ struct LiveBody {
   int refinement = 0;  ///< 0: the first, coarse proxy of this body
 };
 
+/// What a frame did.
 struct FrameOutcome {
   engine::FrameTiming timing;
   cloth::FrameReport cloth;
   bool has_body = false;
-  std::uint64_t proxy_hash = 0;  ///< of the proxy in force
+  std::uint64_t proxy_hash = 0;  ///< hash of the proxy in use
 };
 
-/// One body, its garments, its frames. One thread calls it; background work runs on the context's executor.
+/// One body, its garments and its frames. All calls come from one thread; background work runs on the
+/// context's executor.
 class Session {
  public:
   Session(const engine::Context& context, SessionOptions options);
-  /// Cancels the work under way and waits for it.
+  /// Cancels the work in progress and waits for it.
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// Prepares a body behind the frames: an ellipsoid a part at first, then solid parts as each is ready, then
-  /// what FitOptions asks for. Each takes effect at a frame boundary. Work on an earlier body stops. Where
+  /// Prepares a body behind the frames: first an ellipsoid a part, then solid parts one by one, then the
+  /// proxies of FitOptions. Each takes effect at a frame boundary. Work on an earlier body is canceled. If
   /// the executor has one worker, nothing runs behind: the next frame() does the work first and is late.
   engine::Ticket submit(BodySource source);
 
-  /// Puts garments on, in place of those worn; not in a frame. They wait where they are for the first body.
-  /// Fails as drape() does.
+  /// Replaces the garments; not in a frame. They keep their positions until there is a body. Fails as drape()
+  /// does.
   engine::Result<void> dress(const std::vector<WornGarment>& garments);
 
-  /// A frame boundary, then dt_s of cloth. Allocates nothing once warm, but for the first frame of a new
-  /// proxy.
+  /// Runs a frame boundary, then dt_s of cloth. Allocates nothing once warm, except in the first frame of a
+  /// new proxy.
   FrameOutcome frame(double dt_s);
 
-  /// The body in force, or null before the first; valid until the next frame().
+  /// The body in use, or null before the first one; valid until the next frame().
   const LiveBody* body() const noexcept;
-  /// Vertices of all garments in the order given to dress().
+  /// The number of vertices of all garments, in the order given to dress().
   std::size_t vertices() const noexcept;
   void positions(std::span<geometry::Vec3> out) const;
   std::uint64_t hash() const noexcept;  ///< of the cloth's state

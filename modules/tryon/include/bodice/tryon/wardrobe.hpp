@@ -12,13 +12,14 @@
 
 namespace bodice::tryon {
 
+/// A garment to wear.
 struct WornGarment {
   std::string name;
   geometry::TriMesh mesh;             ///< meters, y up
   std::vector<geometry::Index> held;  ///< vertices that stay with the body
 };
 
-/// All garments as one mesh for one solver, and where each begins.
+/// All garments as one mesh for one solver, with the first vertex of each.
 struct Wardrobe {
   geometry::TriMesh mesh;
   std::vector<geometry::Index> held;
@@ -26,24 +27,24 @@ struct Wardrobe {
 };
 
 /// Joins the garments, in order. Fails with kInvalidArgument, naming garment and element, when a triangle or
-/// the list of held vertices names a vertex that the garment does not have. O(vertices).
+/// a held vertex refers to a vertex that the garment does not have. O(#vertices).
 engine::Result<Wardrobe> join(const std::vector<WornGarment>& garments);
 
-/// The fabric, or cotton where none is given.
+/// The given fabric, or else cotton.
 engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric);
 
-/// A thickness that keeps triangles out of the skin, not only their corners: 1.5 mm plus the height of the
-/// arc over a long edge (90 % are shorter) on a limb, at most 8 mm. O(#edges).
+/// A thickness that keeps triangles, and not only their corners, out of the skin. It is 1.5 mm plus the
+/// height of the arc over a long edge (90 % are shorter) on a limb, at most 8 mm. O(#edges).
 double covering_thickness_m(const geometry::TriMesh& garment, double stature_m);
 
-/// The same, but no more than half of the garment's vertices keep from the skin as it was cut (and 1.5 mm): a
-/// tight piece that is pushed further off is stretched all around. Vertices inside the skin count as touching
-/// it. Cost: one signed distance a vertex.
+/// The covering thickness, but at most the distance that half of the garment's vertices have from the skin
+/// (and at least 1.5 mm): a tight garment that is pushed farther off is stretched all around. Vertices inside
+/// the skin count as touching it. Cost: one signed distance a vertex.
 double fitted_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
                           const geometry::MeshDistance& skin, double stature_m);
 
-/// Where the held vertices are to be: their own places, pushed out of the collider where they lie inside it,
-/// as a waistband lies on the body that it is on. #held, world meters.
+/// The positions of the held vertices (#held, world meters). Those inside the collider are pushed out of it,
+/// as a waistband lies on the body.
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,
                                            double thickness_m);
 

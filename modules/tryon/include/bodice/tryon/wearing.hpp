@@ -1,4 +1,4 @@
-// What holds a garment on a body.
+// Finds the vertices by which a body holds a garment.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace bodice::tryon {
 
-/// Vertices that the wearer holds. A piece that reaches over the armpits rests on the shoulders and needs no
-/// help; one that does not (a skirt, trousers) is held by its waistband: the boundary loop nearest the head,
-/// as elastic or a belt would. Pieces that lie nowhere near the body are not held.
+/// The vertices that the wearer holds. A piece that reaches above the armpits rests on the shoulders and
+/// needs none. A lower one (a skirt, trousers) is held by its waistband, the boundary loop closest to the
+/// head, as by elastic or a belt. Pieces far from the body are not held.
 std::vector<geometry::Index> held_vertices(const geometry::TriMesh& garment, const SegmentedSkin& body);
 
 }  // namespace bodice::tryon

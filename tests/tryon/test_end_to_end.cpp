@@ -1,5 +1,5 @@
-// The whole road on generated bodies: body -> parts -> proxy -> garment -> drape -> report, with every number
-// that the report claims checked against what is known of the input.
+// All of preprocessing and draping on generated bodies: body -> parts -> proxy -> garment -> drape -> report.
+// Every number in the report is checked against what is known of the input.
 
 #include <doctest/doctest.h>
 
@@ -49,7 +49,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   const tryon::PreparedBody body = prepare(context, proxy::Tier::kSolid);
   CHECK(body.skin.anatomy.stature_m == doctest::Approx(1.68).epsilon(0.02));
   CHECK(body.fit.accuracy.interior_covered_percent > 99.0);
-  CHECK(body.fit.accuracy.gap_m.mean < 0.009);  // 6 mm; that it leaks nowhere must not cost twice
+  CHECK(body.fit.accuracy.gap_m.mean < 0.009);  // 6 mm; that it leaks nowhere must not double it
 
   const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 40});
   REQUIRE_MESSAGE(draped.ok(), draped.error().sentence());
@@ -60,7 +60,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   REQUIRE(draped->garments.size() == 1);
   CHECK(draped->garments[0].frames.size() == 31);
 
-  // It stays on: the skirt's center is still between knees and waist.
+  // The skirt stays on: its center is between knees and waist.
   double height = 0.0;
   for (const geometry::Vec3& p : draped->garments[0].frames.back()) height += p.y();
   height /= static_cast<double>(draped->garments[0].frames.back().size());
@@ -68,7 +68,7 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   CHECK(height < 0.66 * 1.68);
 }
 
-TEST_CASE("a hole in the skin is told once") {
+TEST_CASE("a hole in the skin gives one warning") {
   auto made = synth::make_body({}, {.vertices = 3000});
   REQUIRE(made.ok());
   std::erase_if(made->mesh.triangles, [&](const geometry::Triangle& t) {
@@ -79,10 +79,10 @@ TEST_CASE("a hole in the skin is told once") {
   REQUIRE(io::write_obj(made->mesh, file).ok());
   const auto skin = tryon::segment_file({}, file, {});
   REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
-  const auto told = std::ranges::count_if(skin->warnings, [](const engine::Warning& warning) {
+  const auto warnings = std::ranges::count_if(skin->warnings, [](const engine::Warning& warning) {
     return warning.code == "holes" || warning.code == "open-edges";
   });
-  CHECK(told == 1);
+  CHECK(warnings == 1);
 }
 
 TEST_CASE("the same bits for any number of workers, from body to last frame") {
@@ -117,7 +117,7 @@ TEST_CASE("only the parts that a garment can reach are fitted") {
   const auto body =
       tryon::fit_proxy(context, std::move(skin).value(), {.tier = proxy::Tier::kPaper, .parts = wanted});
   REQUIRE(body.ok());
-  // The torso's six parts are one region: reached in one, it is fitted as in the whole body.
+  // The six parts of the torso are one region: if one is reached, all are fitted as in the whole body.
   bool torso = false;
   for (int p = 0; p < body::kPartCount; ++p)
     torso = torso || (is_torso(static_cast<body::Part>(p)) && has(static_cast<body::Part>(p)));
@@ -192,7 +192,7 @@ TEST_CASE("an ellipsoid carries the part of the skin that it stands for, whereve
     const geometry::SurfacePoint nearest = body.skin.distance->closest_point(e.shape.center);
     agree += body.skin.anatomy.part[mesh.triangles[nearest.triangle][0]] == e.part;
   }
-  // Those on a border may go either way.
+  // Ellipsoids on a border may belong to either part.
   CHECK(agree > 0.8 * static_cast<double>(body.fit.proxy.ellipsoids().size()));
   for (const fitting::PartFit& part : body.fit.parts)
     CHECK_MESSAGE(part.ellipsoids > 0, body::name(part.part));
