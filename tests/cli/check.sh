@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The program as a person meets it: exit codes, one-sentence errors, outputs that are whole or absent.
+# Checks the program: exit codes, one-sentence errors, and outputs that are whole or absent.
 set -uo pipefail
 bodice=$1 scratch=$2
 rm -rf "$scratch" && mkdir -p "$scratch" && cd "$scratch" || exit 1
@@ -16,20 +16,20 @@ expect() {
     failures=$((failures + 1))
   fi
 }
-says() { grep -q -- "$1" out.txt || { echo "FAILED: '$1' not said:"; sed 's/^/    /' out.txt; failures=$((failures + 1)); }; }
+prints() { grep -q -- "$1" out.txt || { echo "FAILED: '$1' is not printed:"; sed 's/^/    /' out.txt; failures=$((failures + 1)); }; }
 exists() { [ -s "$1" ] || { echo "FAILED: no $1"; failures=$((failures + 1)); }; }
 absent() { [ ! -e "$1" ] || { echo "FAILED: $1 was left behind"; failures=$((failures + 1)); }; }
 one_line() { [ "$(wc -l <out.txt)" -eq 1 ] || { echo "FAILED: not one line:"; sed 's/^/    /' out.txt; failures=$((failures + 1)); }; }
 
 cp "$bodice" alone
 expect 0 "help" "$bodice" --help
-says "drape"
+prints "drape"
 expect 0 "help of fit" "$bodice" fit --help
-says "target-error-mm"
+prints "target-error-mm"
 expect 0 "version" "$bodice" --version
 expect 2 "no command" "$bodice"
 expect 2 "unknown option" "$bodice" fit --frobnicate
-expect 2 "two dials at once" "$bodice" fit --max-ellipsoids 50 --target-error-mm 2
+expect 2 "two limits at once" "$bodice" fit --max-ellipsoids 50 --target-error-mm 2
 expect 2 "one threshold of two" "$bodice" fit --mu-torso-mm 5
 expect 2 "thresholds and a target" "$bodice" fit --mu-torso-mm 5 --mu-limbs-mm 4 --target-error-mm 2
 expect 2 "more substeps than the solver takes" "$bodice" drape --substeps 129
@@ -37,53 +37,53 @@ expect 2 "a tier that does not exist" "$bodice" fit --tier perfect
 expect 2 "a threshold of zero" "$bodice" fit --target-error-mm 0
 
 expect 1 "a file that does not exist" "$bodice" fit nowhere.obj
-says "nowhere.obj"
+prints "nowhere.obj"
 one_line
 echo "this is not a mesh" >text.obj
 expect 1 "a file without a mesh" "$bodice" fit text.obj -o p.json
-says "text.obj"
+prints "text.obj"
 one_line
 absent p.json
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >triangle.obj
 expect 1 "a triangle is no body" "$bodice" fit triangle.obj
 one_line
 expect 1 "an output folder that does not exist" "$bodice" fit -o no/such/folder/p.json
-says "folder"
+prints "folder"
 expect 2 "a profile that does not exist" "$bodice" fit --profile martians
-says "ansur2"
+prints "ansur2"
 
-# refused COMMAND...: bad usage, said before any work is done.
+# refused COMMAND...: bad usage is refused before any work.
 refused() { expect 2 "bad usage accepted: $*" timeout 5 "$bodice" "$@"; }
 
-# Numbers that mean nothing.
-for value in nan inf 0 -1 1e999 2x ""; do refused fit --target-error-mm "$value"; says "target-error-mm"; done
+# Numbers without a meaning are refused.
+for value in nan inf 0 -1 1e999 2x ""; do refused fit --target-error-mm "$value"; prints "target-error-mm"; done
 refused fit --target-error-mm 0
-says "above 0"
+prints "above 0"
 for value in nan -1; do refused fit triangle.obj --region-of triangle.obj --region-margin-mm "$value"; done
-says "at least 0"
-for value in -1 18446744073709551616 1.5 0x10; do refused fit --seed "$value"; says "whole number"; done
+prints "at least 0"
+for value in -1 18446744073709551616 1.5 0x10; do refused fit --seed "$value"; prints "whole number"; done
 refused fit --threads 1.5
-says "whole number from 0 to 1024"
+prints "whole number from 0 to 1024"
 refused fit --max-ellipsoids 5x
-for value in 0 nan 3; do refused fit --height "$value"; says "0.4 to 2.6"; done
+for value in 0 nan 3; do refused fit --height "$value"; prints "0.4 to 2.6"; done
 refused fit --height 1.7 --mass 500
 refused drape --wind 1,2,nan
-says "finite"
+prints "finite"
 refused drape --fabric wool
-says "silk"
+prints "silk"
 
-# Names that are empty, as those of unset variables are.
+# Empty names, as of unset variables, are refused.
 refused fit ""
-says "built-in"
-for option in --region-of -o --surface --glb --labels --report --picture --trace; do refused fit "$option" ""; says "empty"; done
+prints "built-in"
+for option in --region-of -o --surface --glb --labels --report --picture --trace; do refused fit "$option" ""; prints "empty"; done
 refused fit triangle.obj --mesh ""
 refused drape triangle.obj ""
 refused make --garment-out ""
 refused query "" triangle.obj
 
-# What would be ignored.
-for option in "--height 1.7" "--sex male" "--pose t" "--mass 60" "--vertices 5000"; do refused fit triangle.obj $option; says "BODY"; done
-for option in "--unit m" "--up y" "--mesh body"; do refused fit $option; says "BODY"; done
+# Options that would be ignored are refused.
+for option in "--height 1.7" "--sex male" "--pose t" "--mass 60" "--vertices 5000"; do refused fit triangle.obj $option; prints "BODY"; done
+for option in "--unit m" "--up y" "--mesh body"; do refused fit $option; prints "BODY"; done
 refused fit --region-margin-mm 20
 refused fit --surface-mm 5
 refused drape --gust 0.5
@@ -91,11 +91,11 @@ refused drape triangle.obj triangle.obj --garment tunic
 refused drape --picture d.png --no-picture
 refused make --garment tunic
 refused make triangle.obj
-says "garment-out"
+prints "garment-out"
 refused make triangle.obj -o b.obj --garment-out g.obj
 
-# An extension decides, and one that cannot is refused.
-for option in "-o p.glb" "-o p" "--surface s.stl" "--glb g.obj" "--picture p.jpg"; do refused fit $option; says "extension"; one_line; done
+# The extension gives the format, and an unknown one is refused.
+for option in "-o p.glb" "-o p" "--surface s.stl" "--glb g.obj" "--picture p.jpg"; do refused fit $option; prints "extension"; one_line; done
 refused drape -o d.obj
 refused make -o b.stl
 refused make --garment-out g.glb
@@ -107,7 +107,7 @@ expect 0 "a device has any name" "$bodice" fit --tier paper --vertices 2000 --su
 cp triangle.obj kept.obj && ln -s triangle.obj link.obj && ln triangle.obj hard.obj && cp triangle.obj p.json
 for file in triangle.obj ./triangle.obj "$PWD/triangle.obj" "../${PWD##*/}/triangle.obj" link.obj hard.obj; do
   refused fit triangle.obj --surface "$file"
-  says "overwrite BODY"
+  prints "overwrite BODY"
   one_line
 done
 refused fit p.json -o p.json
@@ -116,7 +116,7 @@ refused make triangle.obj --garment-out triangle.obj
 refused drape body.obj triangle.obj --labels triangle.obj
 refused fit --profile p.json -o p.json
 refused fit -o same.json --report same.json
-says "overwrite -o"
+prints "overwrite -o"
 refused fit -o ./a.json --trace a.json
 refused make -o b.obj --garment-out b.obj
 refused drape -o d.glb --report d.png
@@ -156,26 +156,26 @@ expect 0 "a garment for a body" "$bodice" make body.obj --garment-out poncho.obj
 exists poncho.obj
 awk '$1 == "v" { print $1, $2 / 0.3048, $3 / 0.3048, $4 / 0.3048; next } { print }' body.obj >feet.obj
 expect 0 "a body in feet" "$bodice" fit feet.obj --unit ft --tier paper
-says "unit ft, 1.6[0-9]* m tall"
+prints "unit ft, 1.6[0-9]* m tall"
 expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --surface s.obj --labels l.txt --report r.json --picture p.png --trace t.json
 for file in p.json p.glb s.obj l.txt r.json p.png t.json; do exists $file; done
 expect 0 "a budget of time" "$bodice" fit body.obj --budget-us 90 --region-of skirt.obj
-says "10,000 particles near the skin take"
+prints "10,000 particles near the skin take"
 for budget in 1e-9 50; do
   expect 0 "a budget that no proxy can be given" "$bodice" fit body.obj --budget-us $budget
-  says "10,000 particles near the skin take"
-  grep -q "asks for as much" out.txt && { echo "FAILED: another budget is advised"; cat out.txt; failures=$((failures + 1)); }
+  prints "10,000 particles near the skin take"
+  grep -q "gives that time here" out.txt && { echo "FAILED: another budget is advised"; cat out.txt; failures=$((failures + 1)); }
 done
-expect 0 "fit the whole body tightly" "$bodice" fit body.obj --tier tight --max-ellipsoids 30 -o whole.json
+expect 0 "fit the whole body" "$bodice" fit body.obj --tier tight --max-ellipsoids 30 -o whole.json
 expect 0 "and what a skirt can reach of it" "$bodice" fit body.obj --tier tight --max-ellipsoids 30 --region-of skirt.obj --region-exact -o near.json
 [ "$(wc -c <near.json)" -lt "$(wc -c <whole.json)" ] || { echo "FAILED: nothing is out of a skirt's reach"; failures=$((failures + 1)); }
 awk '$1 == "v" && n++ % 20 == 0 { print $2, $3, $4 }' skirt.obj >points.txt
 for proxy in whole near; do "$bodice" query $proxy.json points.txt | cut -d' ' -f1-7 >$proxy.txt; done
-# To a micrometre: single precision counts from a proxy's own origin.
-paste -d' ' whole.txt near.txt | awk '{ d = $1 - $8; if (d > 1e-6 || d < -1e-6) bad = 1 } END { exit bad || NR < 100 }' || { echo "FAILED: an exact region answers otherwise"; failures=$((failures + 1)); }
+# Single precision is relative to the origin of each proxy, so that they agree to a micrometer.
+paste -d' ' whole.txt near.txt | awk '{ d = $1 - $8; if (d > 1e-6 || d < -1e-6) bad = 1 } END { exit bad || NR < 100 }' || { echo "FAILED: an exact region gives other distances"; failures=$((failures + 1)); }
 expect 0 "a surface in large cells" "$bodice" fit body.obj --tier relief --max-ellipsoids 16 --surface coarse.obj --surface-mm 20 -o r.bodice
 [ "$(($(wc -c <coarse.obj) * 5))" -lt "$(wc -c <s.obj)" ] || { echo "FAILED: the cells are no larger"; failures=$((failures + 1)); }
-for mm in 0.1 500; do expect 2 "a surface in $mm mm" "$bodice" fit body.obj --surface x.obj --surface-mm $mm; says "Give"; done
+for mm in 0.1 500; do expect 2 "a surface in $mm mm" "$bodice" fit body.obj --surface x.obj --surface-mm $mm; prints "Give"; done
 absent x.obj
 expect 2 "an exact region of nothing" "$bodice" fit body.obj --region-exact
 expect 0 "fit the built-in body, binary proxy" "$bodice" fit --tier paper --vertices 4500 -o p.bodice --quiet
@@ -189,28 +189,28 @@ awk 'NR == 1 && $1 < 3 { bad = 1 } NR == 2 && $1 > 0 { bad = 1 } END { exit bad 
   { echo "FAILED: a far point is not far, or the hip is not inside"; cat out.txt; failures=$((failures + 1)); }
 printf '1e30 0 0\n' >points.txt
 expect 0 "a point beyond single precision" "$bodice" query r.bodice points.txt
-says "^inf nan nan nan nan nan nan none$"
+prints "^inf nan nan nan nan nan nan none$"
 expect 1 "a folder of points" "$bodice" query p.json .
 one_line
 printf '0 5\n' >points.txt
 expect 1 "a malformed point" "$bodice" query p.json points.txt
-says "line 1"
+prints "line 1"
 head -c 100 p.json >cut.json
 printf '0 5 0\n' >points.txt
 expect 1 "a truncated proxy" "$bodice" query cut.json points.txt
-says "cut.json"
+prints "cut.json"
 
 expect 0 "drape files" "$bodice" drape body.obj skirt.obj --tier paper --frames 5 --wind -1,0,2 --gust 0.5 -o d.glb --report d.json
 exists d.glb
 exists d.png
-says "true skin"
+prints "true skin"
 expect 0 "drape, report to standard output" "$bodice" drape --tier paper --vertices 4500 --frames 3 -o e.glb --no-picture --json
-says '"penetration"'
+prints '"penetration"'
 absent e.png
 expect 0 "drape, the waistband free" "$bodice" drape --tier paper --vertices 4500 --frames 3 -o free.glb --no-picture --hold none -q
 cmp -s e.glb free.glb && { echo "FAILED: --hold none is ignored"; failures=$((failures + 1)); }
 expect 1 "benches that are elsewhere" ./alone bench
-says "BODICE_BUILD_BENCH"
+prints "BODICE_BUILD_BENCH"
 expect 1 "a garment that does not exist" "$bodice" drape body.obj nowhere.obj -o f.glb
 absent f.glb
 

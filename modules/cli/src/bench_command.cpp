@@ -18,7 +18,7 @@ struct BenchCommand {
   std::vector<std::string> arguments;
 };
 
-/// The benches stand in a folder beside the program.
+/// The folder of the benches, beside the program.
 fs::path bench_folder(const std::string& program) {
   std::error_code ignored;
   const fs::path self = fs::read_symlink("/proc/self/exe", ignored);

@@ -148,8 +148,9 @@ void add_drape_command(CLI::App& app, int& exit_code, const std::vector<std::str
   command->common.command_line = command_line;
   CLI::App* sub = app.add_subcommand("drape", "Drape garments over a body under gravity and wind");
   add_common_options(*sub, command->common);
-  auto* garments = sub->add_option("GARMENT", command->garments,
-                                   "garment meshes in the body's place and units (default: one made to fit)");
+  auto* garments =
+      sub->add_option("GARMENT", command->garments,
+                      "garment meshes in the body's coordinates and unit (default: one made to fit)");
   garments->check(not_empty());
   sub->add_option("--garment", command->made, "without GARMENT, make this: skirt, tunic, poncho, tube")
       ->check(CLI::IsMember({"skirt", "tunic", "poncho", "tube"}))

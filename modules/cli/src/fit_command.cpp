@@ -24,7 +24,8 @@ struct FitCommand {
   bool exact_region = false;
 };
 
-/// Keeps of the whole body's proxy what the garment of --region-of can reach: the answers there stay.
+/// Reduces the whole body's proxy to what the garment of --region-of can reach, where distances do not
+/// change.
 engine::Result<void> crop(const CommonOptions& o, const engine::Context& context,
                           std::span<const geometry::TriMesh> garments, tryon::PreparedBody& body) {
   auto near = tryon::within_reach(context, body.fit.proxy, garments, 1e-3 * o.region_margin_mm);
@@ -37,35 +38,36 @@ engine::Result<void> crop(const CommonOptions& o, const engine::Context& context
   return {};
 }
 
-constexpr double kApart = 1.2;  // as far as bodies are from the law on the machine that it was measured on
+constexpr double kApart = 1.2;  // factor by which bodies differ from the cost model on its machine
 
-/// Where the law had to leave the budget, at the fewest or the most ellipsoids, or would at the budget that
-/// is advised, another budget gives the same proxy.
+/// Whether another budget gives another proxy. It does not where the number of ellipsoids is at its bounds,
+/// now or with the advised budget.
 bool is_useful(double advised_us, const CommonOptions& o, const proxy::BodyProxy& proxy) {
-  constexpr int kFewest = 16;  // that a budget gives: fewer take as long
-  const double by_law_us =
+  constexpr int kFewest = 16;  // the least number that a budget gives: fewer take as long
+  const double predicted_us =
       fitting::predicted_frame_us(proxy.tier(), static_cast<int>(proxy.ellipsoids().size()));
   const proxy::Tier fastest = o.tier.empty() ? proxy::Tier::kTight : proxy.tier();
-  return by_law_us < kApart * *o.budget_us && *o.budget_us < kApart * by_law_us &&
+  return predicted_us < kApart * *o.budget_us && *o.budget_us < kApart * predicted_us &&
          advised_us >= fitting::predicted_frame_us(fastest, kFewest);
 }
 
-/// A budget is kept by a law, so that results repeat; what it comes to here is told beside it.
-void tell_speed(const CommonOptions& o, const tryon::PreparedBody& body) {
-  const double asked_us = *o.budget_us;
+/// Prints the measured time of a query. The fit kept the budget by a cost model, so that results repeat.
+void print_speed(const CommonOptions& o, const tryon::PreparedBody& body) {
+  const double budget_us = *o.budget_us;
   const double us = query_us(body.fit.proxy, body.skin.input.skin);
-  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (%g asked)", us,
-              asked_us);
-  const double advised_us = asked_us * asked_us / us;
-  if ((us > kApart * asked_us || kApart * us < asked_us) && is_useful(advised_us, o, body.fit.proxy))
-    std::printf("; if this machine is idle, --budget-us %.0f asks for as much here", advised_us);
+  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (budget %g)", us,
+              budget_us);
+  const double advised_us = budget_us * budget_us / us;
+  if ((us > kApart * budget_us || kApart * us < budget_us) && is_useful(advised_us, o, body.fit.proxy))
+    std::printf("; if this machine is idle, --budget-us %.0f gives that time here", advised_us);
   std::putchar('\n');
 }
 
 constexpr double kCellsAStature = 300.0, kFewestCells = 10.0;
-constexpr double kMostCells = 2000.0;  // the surface's cells go by the square of this
+constexpr double kMostCells = 2000.0;  // across a body; the number of cells goes with the square
 
-/// By the stature, so that it bounds the memory: no sooner than the body is known, but before the fit.
+/// Checks the cell against the stature, which bounds the memory. It runs before the fit, when the stature is
+/// known.
 engine::Result<void> check_surface_cell(const FitCommand& command, double stature_m) {
   const double coarsest_mm = 1e3 * stature_m / kFewestCells, finest_mm = 1e3 * stature_m / kMostCells;
   if (!command.surface_mm || (*command.surface_mm >= finest_mm && *command.surface_mm <= coarsest_mm))
@@ -76,8 +78,7 @@ engine::Result<void> check_surface_cell(const FitCommand& command, double statur
       engine::message("Give ", finest_mm, " to ", coarsest_mm, ".")};
 }
 
-/// The proxy's surface where it is wanted: to be written, or to be seen, since ellipsoids alone do not show
-/// what the tables of relief correct.
+/// The proxy's surface if it is to be written, or drawn because the ellipsoids do not show the relief.
 engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const engine::Context& context,
                                                 const proxy::BodyProxy& proxy) {
   const bool seen = !command.common.picture.empty() && !proxy.relief().empty();
@@ -134,7 +135,7 @@ engine::Result<void> fit(const FitCommand& command) {
   std::vector<std::string> written;
   if (auto done = write_outputs(command, run.context(), *body, written); !done) return done;
   auto done = run.finish(*body, nullptr, written, command.exact_region);
-  if (done && o.budget_us && !o.quiet && !o.json) tell_speed(o, *body);
+  if (done && o.budget_us && !o.quiet && !o.json) print_speed(o, *body);
   return done;
 }
 
@@ -164,9 +165,10 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
       ->needs("--surface")
       ->group("Output");
   add_common_options(*sub, command->common);
-  sub->add_flag("--region-exact", command->exact_region,
-                "fit the whole body and keep the ellipsoids that the garment of --region-of can reach: any "
-                "tier then answers there as for the whole body, whose accuracy is what is reported")
+  sub->add_flag(
+         "--region-exact", command->exact_region,
+         "fit the whole body and keep the ellipsoids that the garment of --region-of can reach: any "
+         "tier then has the distances of the whole body there; the report gives the whole body's accuracy")
       ->needs("--region-of")
       ->group("Speed against accuracy");
   sub->footer("Example: bodice fit body.obj -o proxy.json --target-error-mm 2 --report report.json");

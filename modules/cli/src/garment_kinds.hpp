@@ -8,7 +8,7 @@
 
 namespace bodice::cli {
 
-/// The garments that can be made to fit, by the names the options take.
+/// The kinds of made garments, by their names in options.
 inline const std::map<std::string, synth::GarmentKind>& garment_kinds() {
   static const std::map<std::string, synth::GarmentKind> kinds = {{"skirt", synth::GarmentKind::kSkirt},
                                                                   {"tunic", synth::GarmentKind::kTunic},

@@ -41,7 +41,7 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
   command
       .add_option("--tier", o.tier,
                   "paper (as published), solid (no leaks), tight (about a millimeter from the skin), relief "
-                  "(about a quarter of one; the default)")
+                  "(about a fifth of one; the default)")
       ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}))
       ->group(group)
       ->capture_default_str();

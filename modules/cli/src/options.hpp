@@ -1,4 +1,4 @@
-// The options that fit and drape share, as the command line gives them.
+// The options that fit and drape share, as they stand on the command line.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace bodice::cli {
 
 inline constexpr int kExitOk = 0, kExitFailed = 1, kExitUsage = 2;
 
-/// What to read, how to fit, what to write. Paths are empty when the option was not given.
+/// Input, fit and output. Paths are empty when the option was not given.
 struct CommonOptions {
   std::string body;  ///< a file; empty: the built-in body
   std::string up = "auto", unit = "auto", mesh, profile = "ansur2";
@@ -42,12 +42,12 @@ struct CommonOptions {
 /// Adds the shared options to a subcommand, grouped as its help shows them.
 void add_common_options(CLI::App& command, CommonOptions& options);
 CLI::Option* add_body_option(CLI::App& command, CommonOptions& options, const std::string& help);
-/// These two speak of BODY: it is to be added first.
+/// Adds options that refer to BODY, which has to be added before.
 void add_input_options(CLI::App& command, CommonOptions& options);
 void add_builtin_options(CLI::App& command, CommonOptions& options);
 void add_run_options(CLI::App& command, CommonOptions& options);
 
-/// The library's view of the options. Errors name the option and the values it takes.
+/// The options in the form of the library. Errors name the option and its values.
 engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& options);
 engine::Result<synth::BodyOptions> builtin_body(const CommonOptions& options);
 fitting::FitOptions fit_options(const CommonOptions& options);

@@ -20,11 +20,11 @@ bool is_stream(const fs::path& file) {
 
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;  // there, perhaps by links of either kind
-  const auto place = [&error](const fs::path& file) {
+  if (fs::equivalent(a, b, error)) return true;  // the same file, perhaps by links of either kind
+  const auto resolved = [&error](const fs::path& file) {
     return fs::weakly_canonical(fs::absolute(file, error), error);
   };
-  return place(a) == place(b);
+  return resolved(a) == resolved(b);
 }
 
 engine::Result<void> check_extension(const FileOption& output) {
@@ -33,7 +33,7 @@ engine::Result<void> check_extension(const FileOption& output) {
   std::string names;
   for (const std::string& name : known) names += (names.empty() ? "NAME" : " or NAME") + name;
   return Error{ErrorCode::kInvalidArgument, output.option + " writes " + names + ", not " + output.file + ".",
-               "Change the extension: it tells the format."};
+               "Change the extension, which gives the format."};
 }
 
 engine::Result<void> check_apart(const FileOption& output, std::span<const FileOption> others) {

@@ -1,4 +1,4 @@
-// The files that a command reads and writes, judged before any work.
+// The files that a command reads and writes, checked before any work.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,17 @@
 namespace bodice::cli {
 
 struct FileOption {
-  std::string option;                        ///< as the command line names it
-  std::string file;                          ///< empty: not given
-  std::vector<std::string> extensions = {};  ///< that an output can be written in, lower case; empty: any
+  std::string option;                        ///< its name on the command line
+  std::string file;                          ///< empty if it was not given
+  std::vector<std::string> extensions = {};  ///< extensions of its formats, lower case; empty: any
 };
 
-/// In lower case, with its dot.
+/// The extension in lower case, with its dot.
 std::string extension_of(const std::filesystem::path& file);
 
-/// Fails with kInvalidArgument when an output's extension is none of its own, or when it is one of the inputs
-/// or another output, by whatever path or link; with kWriteFailed when it could not be written after long
-/// work. Pipes and devices may have any name and take any number of outputs.
+/// Fails with kInvalidArgument when an output's extension is not one of its formats, or when the output is an
+/// input or another output, by whatever path or link. Fails with kWriteFailed when it could not be written
+/// after long work. Pipes and devices may have any name and take any number of outputs.
 engine::Result<void> check_outputs(std::span<const FileOption> outputs, std::span<const FileOption> inputs);
 
 }  // namespace bodice::cli

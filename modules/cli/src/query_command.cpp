@@ -86,7 +86,7 @@ engine::Result<void> query(const QueryCommand& command) {
 
 void add_query_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<QueryCommand>();
-  CLI::App* sub = app.add_subcommand("query", "Ask a proxy for signed distances and closest points");
+  CLI::App* sub = app.add_subcommand("query", "Evaluate a proxy's signed distances and closest points");
   sub->add_option("PROXY", command->proxy, "a proxy that `bodice fit` wrote")->check(not_empty())->required();
   sub->add_option("POINTS", command->points, "text, one point a line: x y z, in the proxy's units and axes")
       ->check(not_empty())

@@ -1,4 +1,4 @@
-// What a query costs on this machine. Printed, never part of a result.
+// Measures a query on this machine. The time is printed and never part of a result.
 #pragma once
 
 #include <bodice/geometry/tri_mesh.hpp>
@@ -6,8 +6,8 @@
 
 namespace bodice::cli {
 
-/// Time of one query of 10,000 particles within 30 mm of the skin on this thread, microseconds: the least of
-/// many. The skin needs a triangle with an area.
+/// The time of one query of 10,000 particles within 30 mm of the skin on this thread, in microseconds: the
+/// least of many runs. Precondition: a triangle of the skin has an area.
 double query_us(const proxy::BodyProxy& proxy, const geometry::TriMesh& skin);
 
 }  // namespace bodice::cli

@@ -54,9 +54,10 @@ engine::Result<fitting::FitOptions> Run::fit_options_for(const tryon::SegmentedS
   if (!reached) return reached.error();
   options.parts = *reached;
   if (options.parts == 0)
-    return engine::Error{engine::ErrorCode::kUnusableGeometry,
-                         options_.region_of + ": no part of the body is within reach of this garment.",
-                         "Check that both are in the same place and units, or raise --region-margin-mm."};
+    return engine::Error{
+        engine::ErrorCode::kUnusableGeometry,
+        options_.region_of + ": no part of the body is within reach of this garment.",
+        "Check that both are in the same coordinates and unit, or raise --region-margin-mm."};
   return options;
 }
 

@@ -1,4 +1,4 @@
-// What fit and drape do alike: set up, segment, choose the region, write what was asked for.
+// The common steps of fit and drape: set up, segment, choose the region, write the outputs.
 #pragma once
 
 #include <memory>
@@ -28,20 +28,20 @@ class Run {
   const CommonOptions& options() const { return options_; }
   ProgressLine& progress() { return progress_; }
 
-  /// check_outputs() of the shared outputs and a command's own, against the shared inputs and its own.
+  /// Calls check_outputs() with the shared and the given outputs and inputs.
   engine::Result<void> check_files(std::vector<FileOption> outputs,
                                    std::vector<FileOption> inputs = {}) const;
   engine::Result<tryon::SegmentedSkin> segment();
-  /// The garment of --region-of, where the skin is; empty when none was given.
+  /// The garment of --region-of in the skin's frame; empty if none was given.
   engine::Result<std::vector<geometry::TriMesh>> region_garments(const tryon::SegmentedSkin& skin);
-  /// The fit's options, with only the parts near `garments` when there are any.
+  /// The options of the fit, limited to the parts near `garments` if there are any.
   engine::Result<fitting::FitOptions> fit_options_for(const tryon::SegmentedSkin& skin,
                                                       std::span<const geometry::TriMesh> garments);
-  /// Writes labels, report and trace, where asked for, and prints the summary or the report. `cropped`: the
-  /// proxy was cut down after it was measured.
+  /// Writes labels, report and trace as requested, and prints the summary or the report. `cropped`: the proxy
+  /// was reduced after it was measured.
   engine::Result<void> finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
                               const std::vector<std::string>& written, bool cropped = false);
-  /// One line a file, unless the user asked for quiet.
+  /// Prints one line a file, unless --quiet was given.
   void list_written(const std::vector<std::string>& files);
 
  private:
@@ -52,7 +52,7 @@ class Run {
   ProgressLine progress_;
 };
 
-/// The body, its parts and its proxy as output sees them.
+/// The body, its parts and its proxy as a scene for output.
 io::Scene scene_of(const tryon::PreparedBody& body);
 
 }  // namespace bodice::cli

@@ -8,7 +8,7 @@
 
 namespace bodice::cli {
 
-/// What a person wants to know after a run, in about ten lines.
+/// The main results of a run in about ten lines.
 std::string summary_text(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
                          const std::vector<std::string>& files, bool cropped);
 

@@ -1,4 +1,4 @@
-// What the program says while it works: progress on a terminal, errors in one sentence.
+// Messages of the program while it works: progress on a terminal, errors in one sentence.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace bodice::cli {
 
-/// Draws one line that is overwritten as the work proceeds; silent when the standard error stream is no
-/// terminal or the user asked for quiet.
+/// Draws one line that is overwritten as the work proceeds. It is silent when the standard error stream is no
+/// terminal or --quiet was given.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet);
@@ -28,7 +28,7 @@ class ProgressLine {
   std::string last_;
 };
 
-/// Prints "bodice: <sentence>" and returns the exit code: bad usage for an argument out of its range.
+/// Prints "bodice: <sentence>" and returns the exit code, which is that of bad usage for kInvalidArgument.
 int fail(const engine::Error& error);
 
 }  // namespace bodice::cli

@@ -52,7 +52,7 @@ CLI::Validator whole(std::uint64_t low, std::uint64_t high) {
     std::uint64_t value = 0;
     const char* const end = text.data() + text.size();
     const auto read = std::from_chars(text.data(), end, value);
-    const bool octal = text.size() > 1 && text.front() == '0';  // to what reads it next
+    const bool octal = text.size() > 1 && text.front() == '0';  // for programs that read it later
     if (!octal && read.ec == std::errc() && read.ptr == end && value >= low && value <= high)
       return std::string();
     return "'" + text + "' is not a whole number from " + range(low, high, " to ");

@@ -1,4 +1,4 @@
-// What options take. A refusal reads "--name: VALUE is not WHAT", before any work; help shows WHAT.
+// Checks of option values. A refusal reads "--name: VALUE is not WHAT", before any work; --help shows WHAT.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace bodice::cli {
 
-/// Numbers: none takes NaN or an infinity.
+/// Finite numbers: NaN and infinities are refused.
 CLI::Validator finite();
 CLI::Validator above_zero();
 CLI::Validator zero_or_more();
@@ -16,7 +16,7 @@ CLI::Validator between(double low, double high);
 /// A whole number in decimal digits.
 CLI::Validator whole(std::uint64_t low, std::uint64_t high);
 
-/// Text that is there: what an unset variable of a shell leaves is not taken for an option left out.
+/// Text that is not empty: the value of an unset shell variable does not count as an option left out.
 CLI::Validator not_empty(const std::string& remedy = "give it a value or leave it out");
 
 /// The name of a built-in profile of proportions, or a JSON file.
