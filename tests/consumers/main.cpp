@@ -1,4 +1,4 @@
-// A runtime that ships ready proxies: links collision alone, pushes one particle out of a sphere.
+// A runtime with ready proxies: it links collision alone, and pushes one particle out of a sphere.
 #include <cmath>
 #include <cstdio>
 
@@ -6,7 +6,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 
 int main() {
-  int unused_on_purpose = 0;  // would be an error if our warning flags leaked to this project
+  int unused_on_purpose = 0;  // an error if the warning flags leaked to this project
   bodice::proxy::BodyProxy::Data data;
   data.stature_m = 1.7;
   data.ellipsoids.resize(1);

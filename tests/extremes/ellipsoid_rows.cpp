@@ -16,7 +16,7 @@ using bodice_test::EllipsoidCase;
 using geometry::Ellipsoid;
 using geometry::Vec3;
 
-/// Queries in floats of the collider's frame, and where those are in the world.
+/// Queries as floats in the collider's frame, and their positions in the world.
 struct Cloud {
   std::vector<float> x, y, z, vx, vy, vz;
   std::vector<Vec3> world;
@@ -43,7 +43,7 @@ proxy::BodyProxy proxy_of(const Ellipsoid& shape) {
   return proxy::BodyProxy::make(std::move(data)).value();
 }
 
-/// Float's promise: 3e-7 of what the coordinates measure, in the ellipsoid's frame.
+/// The bound for floats: 3e-7 of the largest coordinate in the ellipsoid's frame.
 double float_tolerance_m(const Ellipsoid& shape, const Vec3& point) {
   return 2e-6 * (shape.radii.maxCoeff() + (point - shape.center).norm());
 }
@@ -58,7 +58,7 @@ std::string check_nearest(const EllipsoidCase& c) {
     if (std::abs((q - found.point).norm() - std::abs(found.signed_distance)) > 1e-11 * size)
       return "distance and point disagree";
     if (std::abs(found.normal.norm() - 1.0) > 1e-9) return "the normal has no unit length";
-    // Nowhere along the ray is the surface nearer.
+    // No point of the surface along the ray is nearer.
     const double ray = (geometry::radial_projection(e, q) - q).norm();
     if (std::abs(found.signed_distance) > ray + 1e-11 * size) return "the ray's end is nearer";
   }

@@ -25,11 +25,11 @@ double size_of(const TriMesh& mesh) {
   return geometry::bounding_box(mesh.positions).size().norm();
 }
 
-/// The repaired mesh, or nothing for one that is rightly refused; `wrong` says if that is not right.
+/// The repaired mesh, or nothing if it is refused. `wrong` is set if it should not be refused, or should be.
 std::optional<TriMesh> repaired(const MeshCase& c, std::string& wrong) {
   const auto found = geometry::repair({}, c.mesh);
   if (!found.ok()) {
-    wrong = c.usable ? "refused: " + found.error().message : told(found);
+    wrong = c.usable ? "refused: " + found.error().message : check_refusal(found);
     return {};
   }
   if (!c.usable) wrong = "accepted";
@@ -70,7 +70,7 @@ std::string check_geodesics(const TriMesh& mesh, geodesic::Method method) {
 
 std::string check_anatomy(const TriMesh& mesh) {
   const auto found = anatomy::analyze({}, mesh, {.profile = body::find_profile("ansur2").value()});
-  if (!found.ok()) return told(found);
+  if (!found.ok()) return check_refusal(found);
   if (!std::isfinite(found->stature_m) || found->part.size() != mesh.positions.size()) return "not finite";
   for (const auto& landmark : found->landmarks)
     if (!landmark.position.allFinite()) return "a landmark is not finite";
@@ -89,7 +89,7 @@ std::string check_fit(const TriMesh& mesh, proxy::Tier tier) {
   std::vector<body::Part> part;
   const auto skin = labeled(mesh, part);
   const auto fit = fitting::fit({}, skin, {.tier = tier, .max_ellipsoids = 6, .time_budget_s = 0.1});
-  if (!fit.ok()) return told(fit);
+  if (!fit.ok()) return check_refusal(fit);
   const auto& a = fit->accuracy;
   if (!std::isfinite(a.gap_m.mean + a.gap_m.max + a.skin_outside_depth_m)) return "not finite";
   for (const auto& e : fit->proxy.ellipsoids())
@@ -102,7 +102,7 @@ std::string check_parts(const TriMesh& mesh) {
   std::vector<body::Part> part;
   const auto skin = labeled(mesh, part);
   const auto proxy = fitting::enclose_parts({}, skin, fitting::FitOptions{}.parts);
-  if (!proxy.ok()) return told(proxy);
+  if (!proxy.ok()) return check_refusal(proxy);
   double outside = 0.0;
   for (const geometry::Triangle& t : mesh.triangles)
     for (const geometry::Index v : t) {
@@ -117,7 +117,7 @@ std::string check_parts(const TriMesh& mesh) {
 
 std::string check_cloth(const TriMesh& mesh, double dt_s) {
   auto solver = cloth::Solver::make(mesh, {}, cloth::find_fabric("cotton").value(), {});
-  if (!solver.ok()) return told(solver);
+  if (!solver.ok()) return check_refusal(solver);
   for (int frame = 0; frame < 3; ++frame)
     if (!solver->step({}, dt_s).finite) return "not finite";
   std::vector<Vec3> at(mesh.positions.size());
@@ -154,7 +154,7 @@ std::vector<Row> mesh_rows() {
          {std::pair("fit, paper", proxy::Tier::kPaper), std::pair("fit, solid", proxy::Tier::kSolid),
           std::pair("fit, tight", proxy::Tier::kTight), std::pair("fit, relief", proxy::Tier::kRelief)})
       add(rows, c, name, [tier = tier](const TriMesh& m) { return check_fit(m, tier); });
-    // Garments come unrepaired: the solver welds them itself.
+    // Garments are not repaired here, because the solver welds them itself.
     for (const double dt_s : {0.0, 1.0 / 60.0, 1.0})
       rows.push_back({"cloth, dt " + std::to_string(dt_s) + " s", c.name,
                       [&c, dt_s] { return check_cloth(c.mesh, dt_s); }});

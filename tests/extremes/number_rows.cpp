@@ -42,10 +42,10 @@ collision::Collider ball() {
   return collision::Collider(proxy::BodyProxy::make(std::move(data)).value());
 }
 
-/// Options that are no sensible number are refused, or the sheet stays finite.
+/// Checks that absurd options are refused, or that the sheet stays finite.
 std::string check_cloth(const cloth::Fabric& fabric, const cloth::SolverOptions& options, double dt_s) {
   auto solver = cloth::Solver::make(sheet(), {}, fabric, options);
-  if (!solver.ok()) return told(solver);
+  if (!solver.ok()) return check_refusal(solver);
   const collision::Collider body = ball();
   for (int frame = 0; frame < 5; ++frame)
     if (!solver->step({}, body, dt_s).finite) return "not finite";
@@ -61,7 +61,8 @@ std::string check_fit_number(double value, void (*set)(fitting::FitOptions&, dou
   fitting::FitOptions options{.tier = proxy::Tier::kPaper};
   set(options, value);
   const auto fit = fitting::fit({}, {body.mesh, body.part, body.stature_m}, options);
-  if (!fit.ok()) return std::isfinite(value) && value > 0.0 ? "refused: " + fit.error().message : told(fit);
+  if (!fit.ok())
+    return std::isfinite(value) && value > 0.0 ? "refused: " + fit.error().message : check_refusal(fit);
   if (!(std::isfinite(value) && value > 0.0)) return "accepted";
   return expect(std::isfinite(fit->accuracy.gap_m.mean), "not finite");
 }

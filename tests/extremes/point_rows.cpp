@@ -14,7 +14,7 @@ using namespace bodice;
 using bodice_test::PointSetCase;
 using geometry::Vec3;
 
-/// What doubles of these coordinates can tell apart.
+/// The resolution of doubles at these coordinates.
 double resolution_m(const PointSetCase& c) {
   return 1e-15 * (c.offset_m + c.size_m);
 }
@@ -24,7 +24,7 @@ std::size_t not_finite(const PointSetCase& c) {
       std::ranges::count_if(c.points, [](const Vec3& p) { return !p.allFinite(); }));
 }
 
-/// Meters by which the farthest point is outside: judged by exact distance, not by the solver's own measure.
+/// By how many meters the farthest point is outside, by exact distance and not by the solver's own measure.
 double outside_m(const geometry::Ellipsoid& e, const PointSetCase& c) {
   double worst = 0.0;
   for (const Vec3& p : c.points)
@@ -40,7 +40,7 @@ std::string check_mvee(const PointSetCase& c, const fitting::Mvee& found, double
   const double outside = outside_m(e, c);
   if (outside > 1e-7 * c.size_m + resolution_m(c)) return "a point is outside by " + std::to_string(outside);
   if (found.volume_gap > most_gap) return "volume gap " + std::to_string(found.volume_gap);
-  // Where rounding decides the dimension, any is right.
+  // If rounding decides the dimension, any dimension is right.
   const bool rounding = c.offset_m > 1e3 * c.size_m || c.name.find("but for") != std::string::npos;
   return expect(rounding || found.rank == std::max(0, c.dimension),
                 "rank " + std::to_string(found.rank) + " for dimension " + std::to_string(c.dimension));

@@ -1,4 +1,4 @@
-// The table of extremes: every public algorithm met by every hostile input of its kind, a row each.
+// The table of extremes: every public algorithm with every hostile input of its kind, a row each.
 #pragma once
 
 #include <functional>
@@ -12,24 +12,24 @@ namespace extremes {
 
 struct Row {
   std::string algorithm, input;
-  std::function<std::string()> check;  ///< empty: the expected answer or error came; else what came
+  std::function<std::string()> check;  ///< empty if the result or error is as expected, else what came
 };
 
 std::vector<Row> point_rows();      ///< enclosing ellipsoids, clusters
 std::vector<Row> ellipsoid_rows();  ///< closest points in double and float, queries, responses, files
-std::vector<Row> scene_rows();      ///< unions of ellipsoids as no fit makes them, plain and with tables
+std::vector<Row> scene_rows();      ///< unions of ellipsoids that no fit makes, plain and with tables
 std::vector<Row> mesh_rows();       ///< everything that takes a mesh
-std::vector<Row> body_rows();       ///< a body at any scale and place is the same body
-std::vector<Row> number_rows();     ///< options and steps that are no sensible numbers
+std::vector<Row> body_rows();       ///< a body at any scale and offset is the same body
+std::vector<Row> number_rows();     ///< options and steps that are absurd numbers
 
-/// "" if all is well.
+/// Returns "" if it holds, else the description of what came.
 inline std::string expect(bool holds, std::string_view otherwise) {
   return holds ? std::string() : std::string(otherwise);
 }
 
-/// An error has to be told in a sentence with a remedy.
+/// Returns the error's sentence, or an objection if it lacks sentence or remedy.
 template <class Result>
-std::string told(const Result& result) {
+std::string check_refusal(const Result& result) {
   if (result.ok()) return "accepted";
   const auto& error = result.error();
   if (error.message.size() < 10 || error.message.back() != '.') return "no sentence: " + error.message;

@@ -1,4 +1,4 @@
-// Unions of ellipsoids as no fit makes them, plain and with tables.
+// Unions of ellipsoids that no fit makes, plain and with tables.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,12 +19,12 @@ using namespace bodice;
 using geometry::Ellipsoid;
 using geometry::Vec3;
 
-constexpr std::size_t kRandomPlaces = 600;
+constexpr std::size_t kRandomPoints = 600;
 
 struct Union {
   std::string name;
   std::vector<Ellipsoid> shapes;
-  double size_m = 1.0;  ///< half the side of the cube in which particles are
+  double size_m = 1.0;  ///< half the side of the cube that holds the particles
   double stature_m = 1.7;
   bool relief = false;
 };
@@ -92,7 +92,7 @@ const std::vector<Union>& unions() {
   return all;
 }
 
-/// Tables of three by three nodes: the four corners are one, every other is its own mirror.
+/// Adds tables of three by three nodes, of which the four corners are one direction.
 void add_relief(proxy::BodyProxy::Data& data) {
   engine::Random random(5);
   for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) {
@@ -116,14 +116,14 @@ proxy::BodyProxy proxy_of(const Union& u) {
   return proxy::BodyProxy::make(std::move(data)).value();
 }
 
-/// Random places, every center, and each of them twice; NaN and Inf in the third and fourth place.
+/// Random points, every center, and each of them twice; NaN and Inf at the third and fourth position.
 struct Cloud {
   std::vector<float> x, y, z, vx, vy, vz;
 
   Cloud(const Union& u, const Vec3& origin) {
     engine::Random random(9);
     const Vec3 middle = u.shapes.empty() ? Vec3(Vec3::Zero()) : u.shapes[0].center;
-    for (std::size_t i = 0; i < kRandomPlaces; ++i) add(middle + in_cube(random, u.size_m) - origin);
+    for (std::size_t i = 0; i < kRandomPoints; ++i) add(middle + in_cube(random, u.size_m) - origin);
     for (std::size_t k = 0; k < std::min<std::size_t>(u.shapes.size(), 100); ++k)
       for (int copy = 0; copy < 2; ++copy) add(u.shapes[k].center - origin);
     x[2] = std::numeric_limits<float>::quiet_NaN();
@@ -142,14 +142,14 @@ struct Cloud {
   }
 };
 
-/// What floats of these coordinates can tell; where owners blend, an error counts eightfold.
+/// The resolution of floats at these coordinates; where owners blend, an error counts eightfold.
 double tolerance_m(const Union& u) {
   double longest = u.size_m;
   for (const Ellipsoid& e : u.shapes) longest = std::max(longest, e.radii.maxCoeff());
   return (u.relief ? 1.6e-5 : 2e-6) * (longest + 2.0 * u.size_m);
 }
 
-/// A contact distance picks from the answers and changes none.
+/// Checks that a contact distance selects contacts and changes none.
 std::string check_within(const collision::Collider& collider, Cloud& cloud,
                          const std::vector<collision::Contact>& all) {
   std::vector<float> distances;
@@ -159,9 +159,10 @@ std::string check_within(const collision::Collider& collider, Cloud& cloud,
   for (const float within_m : {0.0f, distances[distances.size() / 3], distances[distances.size() / 2]}) {
     collider.query({}, cloud.particles(), found, {.within_m = within_m});
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool told = all[i].signed_distance <= within_m && all[i].ellipsoid != collision::kNoEllipsoid;
-      if ((found[i].ellipsoid != collision::kNoEllipsoid) != told) return "told of the wrong particles";
-      if (told && std::memcmp(&found[i], &all[i], sizeof(all[i])) != 0) return "a limit changes answers";
+      const bool within = all[i].signed_distance <= within_m && all[i].ellipsoid != collision::kNoEllipsoid;
+      if ((found[i].ellipsoid != collision::kNoEllipsoid) != within) return "contacts of the wrong particles";
+      if (within && std::memcmp(&found[i], &all[i], sizeof(all[i])) != 0)
+        return "a contact distance changes contacts";
     }
   }
   return {};
@@ -178,7 +179,7 @@ std::string check_query(const Union& u) {
     if ((contacts[i].ellipsoid == collision::kNoEllipsoid) != nothing) return "an ellipsoid where none is";
     if (nothing) continue;
     if (!std::isfinite(contacts[i].signed_distance)) return "not finite";
-    if (u.relief && i >= kRandomPlaces) continue;  // from a center, rounding decides where a table is read
+    if (u.relief && i >= kRandomPoints) continue;  // at a center, rounding decides where a table is read
     const double truth = proxy::proxy_distance(proxy, cloud.at(i, collider.origin())).distance;
     const double error = std::abs(double{contacts[i].signed_distance} - truth);
     if (!(error <= tolerance_m(u))) return "distance off by " + std::to_string(error / u.size_m) + " sizes";
@@ -188,7 +189,8 @@ std::string check_query(const Union& u) {
   return check_within(collider, cloud, contacts);
 }
 
-/// Off by more than rounding, but on the right side, and of plain ellipsoids not beyond the one it names.
+/// Checks that contacts to first order are on the right side, and for plain ellipsoids not beyond their
+/// owner.
 std::string check_first_order(const Union& u) {
   const auto proxy = proxy_of(u);
   const collision::Collider collider(proxy);
@@ -205,11 +207,11 @@ std::string check_first_order(const Union& u) {
     if (!(std::abs(normal.norm() - 1.0) < 1e-5)) return "a normal that is not unit";
     if (u.relief) continue;
     const Vec3 p = cloud.at(i, collider.origin());
-    const double truth = proxy::proxy_distance(proxy, p).distance, told = double{c.signed_distance};
-    if (std::abs(truth) > tolerance_m(u) && (told < 0.0) != (truth < 0.0)) return "the wrong side";
+    const double truth = proxy::proxy_distance(proxy, p).distance, found = double{c.signed_distance};
+    if (std::abs(truth) > tolerance_m(u) && (found < 0.0) != (truth < 0.0)) return "the wrong side";
     const double of_named = geometry::closest_point(proxy.ellipsoids()[c.ellipsoid].shape, p).signed_distance;
-    if (!(told <= of_named + tolerance_m(u)))
-      return "beyond its ellipsoid by " + std::to_string((told - of_named) / u.size_m) + " sizes";
+    if (!(found <= of_named + tolerance_m(u)))
+      return "beyond its ellipsoid by " + std::to_string((found - of_named) / u.size_m) + " sizes";
   }
   return {};
 }
@@ -229,7 +231,7 @@ std::string check_resolve(const Union& u, collision::Response response, double d
     if (i == 2 || i == 3) continue;
     const Vec3 p = cloud.at(i, collider.origin());
     if (!p.allFinite() || !std::isfinite(cloud.vx[i] + cloud.vy[i] + cloud.vz[i])) return "not finite";
-    if (response == collision::Response::kPaper) continue;  // leaves particles inside, and counts them
+    if (response == collision::Response::kPaper) continue;  // it leaves particles inside, and counts them
     const double depth = -proxy::proxy_distance(proxy, p).distance;
     if (depth > tolerance_m(u)) return "still inside by " + std::to_string(depth / u.size_m) + " sizes";
   }

@@ -14,21 +14,21 @@ void run(const std::vector<extremes::Row>& rows, std::size_t least) {
 
 }  // namespace
 
-TEST_CASE("extremes: point sets") {
+TEST_CASE("extremes: enclosing ellipsoids and clusters of every hostile point set") {
   run(extremes::point_rows(), 100);
 }
-TEST_CASE("extremes: ellipsoids") {
+TEST_CASE("extremes: distances and responses of every hostile ellipsoid") {
   run(extremes::ellipsoid_rows(), 200);
 }
-TEST_CASE("extremes: scenes") {
+TEST_CASE("extremes: queries of unions of ellipsoids that no fit makes") {
   run(extremes::scene_rows(), 120);
 }
-TEST_CASE("extremes: meshes") {
+TEST_CASE("extremes: every public function of a mesh, on every hostile mesh") {
   run(extremes::mesh_rows(), 300);
 }
-TEST_CASE("extremes: bodies") {
+TEST_CASE("extremes: a body at any scale and offset gives the same landmarks and fit") {
   run(extremes::body_rows(), 30);
 }
-TEST_CASE("extremes: numbers") {
+TEST_CASE("extremes: absurd numbers in options are refused or harmless") {
   run(extremes::number_rows(), 80);
 }

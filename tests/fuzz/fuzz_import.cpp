@@ -1,5 +1,5 @@
-// Bytes as a body's file, in the formats whose readers are small enough to answer for: a mesh of finite
-// meters, or a sentence.
+// Bytes as a body's file, in the formats with small readers: the result is a mesh of finite positions, or an
+// error with a sentence.
 #include <bodice/io/import.hpp>
 
 #include "harness.hpp"

@@ -1,5 +1,5 @@
-// Triangles between points of a small grid, any indices: repair, then what takes a repaired mesh; and the
-// cloth's welding, which takes what comes.
+// Triangles with any indices between points of a small grid: repair, then the functions that take a repaired
+// mesh; and the cloth's welding, which takes any mesh.
 #include <cmath>
 #include <limits>
 

@@ -1,4 +1,4 @@
-// A command line, words apart by line breaks: parsed or refused, never more.
+// A command line, with a word a line: it is parsed or refused, and nothing else happens.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     else if (byte != 0)
       words.back().push_back(static_cast<char>(byte));
   }
-  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  std::reverse(words.begin(), words.end());  // the order in which CLI11 takes them
   CLI::App app("bodice");
   cli::CommonOptions options;
   cli::add_common_options(app, options);

@@ -1,4 +1,4 @@
-// Points on a small integer grid, where ties and flat sets abound: enclosing ellipsoids and clusters.
+// Points on a small integer grid, which has many ties and flat sets: enclosing ellipsoids and clusters.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -13,7 +13,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// A grid of 8 x 8 x 8; the first byte's low bits choose scale and offset.
+/// Points of an 8 x 8 x 8 grid; the first byte's low bits choose scale and offset.
 std::vector<Vec3> points_of(fuzz::Bytes& in) {
   const std::uint8_t kind = in.next();
   const double scale = std::pow(10.0, 3 * (kind % 5) - 6);
@@ -45,7 +45,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::vector<Vec3> points = points_of(in);
   const auto exact = fitting::mvee(points);
   check_encloses(exact, points);
-  // Far away the coordinates' rounding is a part of a thin set's thickness, and the certificate says so.
+  // Far away, the rounding of coordinates is a part of a thin set's thickness, which the certificate
+  // includes.
   FUZZ_CHECK(exact.volume_gap <=
              (!points.empty() && points[0].norm() > 100.0 * size_of(points) ? 1e-2 : 1e-6));
   check_encloses(fitting::mvee_first_order(points, 1e-2), points);

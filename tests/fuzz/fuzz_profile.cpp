@@ -1,4 +1,4 @@
-// A custom proportion profile.
+// Bytes as a custom proportion profile.
 #include <bodice/body/proportions.hpp>
 
 #include "harness.hpp"

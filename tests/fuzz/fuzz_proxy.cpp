@@ -1,4 +1,4 @@
-// Proxy files, JSON and binary: what loads is whole, gives itself back, and can be asked.
+// Proxy files, JSON and binary: what is read is valid, survives being written and read, and can be queried.
 #include <cmath>
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// What every harness shares: a bounded reader of bytes, a temporary file, and a check that cannot be compiled
-// out.
+// The common parts of the harnesses: a bounded reader of bytes, a temporary file, and a check that is always
+// compiled.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@
 
 namespace fuzz {
 
-/// Reads numbers from the input; zeros once it is used up.
+/// Reads numbers from the input; they are zero once it is used up.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : left_(data, size) {}
@@ -39,7 +39,7 @@ class Bytes {
   std::span<const std::uint8_t> left_;
 };
 
-/// A file that holds the bytes, gone at the end.
+/// A file that holds the bytes, until the end of the scope.
 class TemporaryFile {
  public:
   TemporaryFile(const char* extension, std::span<const std::uint8_t> bytes)
@@ -57,7 +57,7 @@ class TemporaryFile {
   std::filesystem::path path_;
 };
 
-/// An error is told in a sentence.
+/// Checks that the error has a sentence.
 template <class Result>
 void check_told(const Result& result) {
   FUZZ_CHECK(result.ok() || result.error().message.size() > 8);

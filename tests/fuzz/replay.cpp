@@ -1,4 +1,4 @@
-// Runs a harness on every kept case, and on mutations of them that are the same in every run.
+// Runs a harness on every kept case, and on mutations of them. The mutations are the same in every run.
 //
 //     replay_<name> CASES MUTATIONS
 #include <algorithm>
@@ -17,7 +17,7 @@ using Case = std::vector<std::uint8_t>;
 std::vector<Case> cases_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path());
-  std::ranges::sort(files);  // directories come in any order
+  std::ranges::sort(files);  // directories are listed in any order
   std::vector<Case> cases;
   for (const auto& file : files) {
     std::ifstream in(file, std::ios::binary);
@@ -26,24 +26,24 @@ std::vector<Case> cases_in(const std::filesystem::path& folder) {
   return cases;
 }
 
-/// A few bytes changed, inserted, taken out, or the end cut off.
+/// The bytes with a few changed, inserted or removed, or without their end.
 Case mutated(Case bytes, bodice::engine::Random& random) {
   for (std::uint64_t edits = 1 + random.below(4); edits > 0; --edits) {
     const std::size_t at = bytes.empty() ? 0 : random.below(bytes.size());
     const auto value = static_cast<std::uint8_t>(random.below(256));
-    const auto place = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto position = bytes.begin() + static_cast<std::ptrdiff_t>(at);
     switch (random.below(5)) {
       case 0:
-        bytes.insert(place, value);
+        bytes.insert(position, value);
         break;
       case 1:
-        if (!bytes.empty()) bytes.erase(place);
+        if (!bytes.empty()) bytes.erase(position);
         break;
       case 2:
         if (random.below(8) == 0) bytes.resize(at);
         break;
       default:
-        if (!bytes.empty()) *place = value;
+        if (!bytes.empty()) *position = value;
     }
   }
   return bytes;
@@ -51,7 +51,7 @@ Case mutated(Case bytes, bodice::engine::Random& random) {
 
 const Case* running = nullptr;
 
-// The case that broke the harness, in the form that `xxd -r -p` turns into a file to keep.
+// Prints the case that broke the harness. `xxd -r -p` turns the text into a file to keep.
 extern "C" void show_case(int signal) {
   std::fprintf(stderr, "signal %d in the case ", signal);
   for (const std::uint8_t byte : *running) std::fprintf(stderr, "%02x", byte);

@@ -1,4 +1,4 @@
-// A tool that links everything: makes the built-in body's proxy and writes it as a mesh file would be.
+// A tool that links everything: it makes the built-in body's proxy and writes it.
 #include <cstdio>
 
 #include <bodice/tryon/prepare.hpp>
