@@ -1,13 +1,18 @@
 # How bodice declares a layer and installs what was declared.
 
-# bodice_layer(<name> USES <layers...> [PUBLIC <targets...>] [PRIVATE <targets...>] [HEADERS <targets...>]
-#              [FLAGS <options...>])
+# bodice_layer(<name> USES <layers...> PROMISES <headers...> | NOTHING
+#              [PUBLIC <targets...>] [PRIVATE <targets...>] [HEADERS <targets...>] [FLAGS <options...>])
 # Declares the static library bodice::<name> from <name>/src/**.cpp. It exports only its own include folder and
-# those of the layers it uses. Packages: PUBLIC ones are in its headers, PRIVATE ones must be there to link it,
-# and HEADERS ones only to compile it, so that users of an installed bodice need them not. FLAGS are compile options
-# of the layer's own files.
+# those of the layers it uses. PROMISES are the headers in include/bodice/<name>, without .hpp, that users may rely
+# on; these and the headers that they include are installed, and modules/README.md lists them. Packages: PUBLIC ones
+# are in its headers, PRIVATE ones must be there to link it, and HEADERS ones only to compile it, so that users of an
+# installed bodice need them not. FLAGS are compile options of the layer's own files.
 function(bodice_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DIR" "USES;PUBLIC;PRIVATE;HEADERS;FLAGS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DIR" "USES;PROMISES;PUBLIC;PRIVATE;HEADERS;FLAGS")
+  if(NOT arg_PROMISES)
+    message(FATAL_ERROR "bodice: layer ${name} has no PROMISES: name the headers that users may rely on, or NOTHING.")
+  endif()
+  list(REMOVE_ITEM arg_PROMISES NOTHING)
   if(NOT arg_DIR)
     set(arg_DIR "${CMAKE_CURRENT_SOURCE_DIR}/${name}")
   endif()
@@ -47,6 +52,28 @@ function(bodice_layer name)
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_BELOW ${below})
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_PACKAGES ${packages})
   set_property(GLOBAL PROPERTY BODICE_LAYER_${name}_DIR ${arg_DIR})
+  list(TRANSFORM arg_PROMISES REPLACE "(.+)" "bodice/${name}/\\1.hpp")
+  set_property(GLOBAL APPEND PROPERTY BODICE_PROMISED_HEADERS ${arg_PROMISES})
+endfunction()
+
+# Sets `out` to the headers that are installed, as bodice/<layer>/<header>: the promised ones, and those that they
+# include, which would otherwise be missing.
+function(bodice_installed_headers out)
+  get_property(open GLOBAL PROPERTY BODICE_PROMISED_HEADERS)
+  set(all "")
+  while(open)
+    list(POP_FRONT open header)
+    if(header IN_LIST all)
+      continue()
+    endif()
+    list(APPEND all ${header})
+    string(REGEX REPLACE "^bodice/([a-z_]+)/.*" "\\1" layer ${header})
+    get_property(dir GLOBAL PROPERTY BODICE_LAYER_${layer}_DIR)
+    file(STRINGS "${dir}/include/${header}" includes REGEX "^#include <bodice/")
+    list(TRANSFORM includes REPLACE ".*<(.*)>.*" "\\1")
+    list(APPEND open ${includes})
+  endwhile()
+  set(${out} ${all} PARENT_SCOPE)
 endfunction()
 
 # Installs the program, every layer and a package file, so that find_package(bodice COMPONENTS <layer>) gives
@@ -60,11 +87,17 @@ function(bodice_install_layers)
     get_property(dir GLOBAL PROPERTY BODICE_LAYER_${layer}_DIR)
     install(TARGETS bodice_${layer} EXPORT bodice-${layer} ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
     install(EXPORT bodice-${layer} NAMESPACE bodice:: DESTINATION "${package_dir}")
-    install(DIRECTORY "${dir}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
     get_property(below GLOBAL PROPERTY BODICE_LAYER_${layer}_BELOW)
     get_property(packages GLOBAL PROPERTY BODICE_LAYER_${layer}_PACKAGES)
     string(APPEND bodice_layer_table
            "set(_bodice_below_${layer} ${below})\nset(_bodice_packages_${layer} ${packages})\n")
+  endforeach()
+  bodice_installed_headers(headers)
+  foreach(header IN LISTS headers)
+    string(REGEX REPLACE "^bodice/([a-z_]+)/.*" "\\1" layer ${header})
+    get_property(dir GLOBAL PROPERTY BODICE_LAYER_${layer}_DIR)
+    cmake_path(GET header PARENT_PATH folder)
+    install(FILES "${dir}/include/${header}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/${folder}")
   endforeach()
   if(TARGET bodice_cli)
     install(TARGETS bodice_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
