@@ -48,7 +48,7 @@ std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     fail(engine::ErrorCode::kNotFound, "Cannot open the proportion profile " + file.string() + ".",
-         "Check the path.");
+         "Check the path, or give the name of a built-in profile.");
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 

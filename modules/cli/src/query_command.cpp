@@ -29,7 +29,8 @@ engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
     return engine::Error{engine::ErrorCode::kUnreadable, file + " is a folder.", "Name a file of points."};
   std::ifstream in(file);
   if (!in)
-    return engine::Error{engine::ErrorCode::kNotFound, file + ": cannot be opened.", "Check the path."};
+    return engine::Error{engine::ErrorCode::kNotFound, file + ": cannot be opened.",
+                         "Check the path, and that the file may be read."};
   std::vector<Vec3> points;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {

@@ -23,14 +23,14 @@ static_assert(4 * kMaxReliefTexels + 1000 * (kMaxEllipsoids + 1) < kLargestFile)
 
 engine::Result<std::vector<std::byte>> read_file(const fs::path& file) {
   const Error missing{ErrorCode::kNotFound, "Cannot open the proxy " + file.string() + ".",
-                      "Check the path."};
+                      "Check the path, and that the file may be read."};
   std::error_code error;
   if (!fs::is_regular_file(file, error)) return missing;
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) return missing;
   if (size > kLargestFile)
     return Error{ErrorCode::kUnreadable, file.string() + " is over half a gigabyte: not a proxy.",
-                 "Check the path."};
+                 "Give a file that bodice fit or proxy::save() wrote."};
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   std::ifstream in(file, std::ios::binary);
   if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)) && size > 0)

@@ -22,7 +22,7 @@ engine::Result<void> check(const WornGarment& garment, std::size_t number) {
   for (const geometry::Index v : garment.held)
     if (v >= garment.mesh.positions.size())
       return engine::Error{engine::ErrorCode::kInvalidArgument,
-                           engine::message(name, ": the held vertex ", v, " is none of its ",
+                           engine::message(name, ": vertex ", v, " is held, but there are ",
                                            garment.mesh.positions.size(), " vertices."),
                            "Count a garment's own vertices, from zero."};
   return {};

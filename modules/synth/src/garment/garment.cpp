@@ -25,8 +25,8 @@ engine::Result<Cut> cut_garment(const Fitting& fitting) {
     case GarmentKind::kPoncho:
       return cut_poncho(fitting);
   }
-  return engine::Error{engine::ErrorCode::kInvalidArgument, "There is no such garment.",
-                       "Use a GarmentKind."};
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       "The kind of the garment is no value of GarmentKind.", "Give one of its values."};
 }
 
 constexpr double kGreatestStretch = 10.0;  // in edge lengths: longer edges go around a limb

@@ -26,18 +26,17 @@ std::optional<engine::Error> check(const BodyOptions& o) {
     return engine::Error{engine::ErrorCode::kInvalidArgument, std::move(message), std::move(remedy)};
   };
   if (!(o.stature_m >= 0.4 && o.stature_m <= 2.6))
-    return wrong(engine::message("A stature of ", o.stature_m, " m is not a human's."),
-                 "Ask for 0.4 to 2.6 m.");
+    return wrong(engine::message("A stature of ", o.stature_m, " m is not a human's."), "Give 0.4 to 2.6 m.");
   const double bmi = o.mass_kg / (o.stature_m * o.stature_m);
   if (!(bmi >= 10.0 && bmi <= 70.0))
     return wrong(engine::message(o.mass_kg, " kg at ", o.stature_m, " m is a body mass index of ", bmi, "."),
                  "Give a mass with an index between 10 and 70.");
   if (!(o.childhood >= 0.0 && o.childhood <= 1.0))
-    return wrong(engine::message("A childhood of ", o.childhood, " is no share."),
-                 "Ask for 0 (grown up) to 1.");
+    return wrong(engine::message("A childhood of ", o.childhood, " is not in [0, 1]."),
+                 "Give 0 (adult) to 1.");
   if (o.vertices < kLeastVertices || o.vertices > kMostVertices)
     return wrong(engine::message("A body of ", o.vertices, " vertices cannot be made."),
-                 engine::message("Ask for ", kLeastVertices, " to ", kMostVertices, "."));
+                 engine::message("Give ", kLeastVertices, " to ", kMostVertices, "."));
   return std::nullopt;
 }
 
