@@ -19,7 +19,7 @@ synth::Body made(const synth::BodyOptions& options) {
   return std::move(body).value();
 }
 
-/// Weight of all joints with names that end so, at one vertex.
+/// The weight of one vertex for all joints with this ending of their name.
 float weight_of(const synth::Body& body, std::size_t v, std::string_view end) {
   float sum = 0.0f;
   for (auto k = body.weights.first[v]; k < body.weights.first[v + 1]; ++k)

@@ -40,8 +40,8 @@ engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file);
 /// Appends a mesh's vertices and triangles to another's.
 void append(const geometry::TriMesh& mesh, geometry::TriMesh& to);
 
-/// Merges vertices with the same bits, in the order of their first use, with the weights of the first one. Formats
-/// that assimp splits by corner have no other vertices. O(#V).
+/// Merges vertices with the same bits, in the order of their first use, with the weights of the first one.
+/// Formats that assimp splits by corner have no other vertices. O(#V).
 void share_vertices(FileMesh& mesh);
 
 }  // namespace bodice::io
