@@ -36,25 +36,26 @@ std::vector<std::string> keys(const Map& map) {
   return names;
 }
 
-void add_fit_options(CLI::App& command, CommonOptions& o) {
-  const auto group = "Speed against accuracy";
-  command
-      .add_option("--tier", o.tier,
-                  "paper (as published), solid (no leaks), tight (about a millimeter from the skin), relief "
-                  "(about a fifth of one; the default)")
-      ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}))
-      ->group(group)
-      ->capture_default_str();
+constexpr const char* kAccuracyGroup = "Speed against accuracy";
+
+/// The options that choose between speed and accuracy, of which at most one is given.
+struct LimitOptions {
+  CLI::Option* error;
+  CLI::Option* count;
+  CLI::Option* budget;
+};
+
+LimitOptions add_limit_options(CLI::App& command, CommonOptions& o) {
   auto* error =
       command
           .add_option("--target-error-mm", o.target_error_mm, "mean distance between proxy and skin to reach")
           ->check(above_zero())
-          ->group(group);
+          ->group(kAccuracyGroup);
   auto* count = command
                     .add_option("--max-ellipsoids", o.max_ellipsoids,
                                 "at most this many ellipsoids (solid: never more than 200)")
                     ->check(whole(1, 4096))
-                    ->group(group);
+                    ->group(kAccuracyGroup);
   auto* budget =
       command
           .add_option(
@@ -62,9 +63,13 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
               "time of one query of 10,000 particles near the skin, microseconds, on one thread of a 2.5 GHz "
               "server; measured here afterwards, so that you can scale it")
           ->check(above_zero())
-          ->group(group);
+          ->group(kAccuracyGroup);
   error->excludes(count)->excludes(budget);
   count->excludes(budget);
+  return {error, count, budget};
+}
+
+void add_threshold_options(CLI::App& command, CommonOptions& o, const LimitOptions& limits) {
   auto* torso =
       command
           .add_option(
@@ -72,33 +77,48 @@ void add_fit_options(CLI::App& command, CommonOptions& o) {
               "the paper's threshold for the torso, with the tiers paper (then the default) and solid "
               "(default: automatic)")
           ->check(above_zero())
-          ->group(group);
+          ->group(kAccuracyGroup);
   auto* limbs = command
                     .add_option("--mu-limbs-mm", o.mu_limbs_mm,
                                 "the paper's threshold for head and limbs (default: automatic)")
                     ->check(above_zero())
-                    ->group(group);
-  torso->needs(limbs)->excludes(error)->excludes(budget);
-  limbs->needs(torso)->excludes(error)->excludes(budget);
-  command
-      .add_option(
-          "--time-budget-s", o.time_budget_s,
-          "stop refining after this long, with a warning (default: after a fixed number of steps; runs "
-          "repeat to the bit)")
-      ->check(above_zero())
-      ->group(group);
+                    ->group(kAccuracyGroup);
+  torso->needs(limbs)->excludes(limits.error)->excludes(limits.budget);
+  limbs->needs(torso)->excludes(limits.error)->excludes(limits.budget);
+}
+
+void add_region_options(CLI::App& command, CommonOptions& o) {
   command
       .add_option(
           "--region-of", o.region_of,
           "fit only the parts that this garment can touch: paper and solid give them the ellipsoids of the "
           "whole body's fit, tight and relief others that are as accurate")
       ->check(not_empty())
-      ->group(group);
+      ->group(kAccuracyGroup);
   command.add_option("--region-margin-mm", o.region_margin_mm, "how far that garment can reach")
       ->check(zero_or_more())
       ->needs("--region-of")
-      ->group(group)
+      ->group(kAccuracyGroup)
       ->capture_default_str();
+}
+
+void add_fit_options(CLI::App& command, CommonOptions& o) {
+  command
+      .add_option("--tier", o.tier,
+                  "paper (as published), solid (no leaks), tight (about a millimeter from the skin), relief "
+                  "(about a fifth of one; the default)")
+      ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}))
+      ->group(kAccuracyGroup)
+      ->capture_default_str();
+  add_threshold_options(command, o, add_limit_options(command, o));
+  command
+      .add_option(
+          "--time-budget-s", o.time_budget_s,
+          "stop refining after this long, with a warning (default: after a fixed number of steps; runs "
+          "repeat to the bit)")
+      ->check(above_zero())
+      ->group(kAccuracyGroup);
+  add_region_options(command, o);
 }
 
 void add_output_options(CLI::App& command, CommonOptions& o) {
