@@ -43,8 +43,8 @@ std::span<const float, 3> part_color(body::Part part);
 /// Writes binary glTF 2.0 with nodes `body`, `ellipsoids`, `cloth`, `cloth_2`... The cloth's frames are morph
 /// targets with normals; an animation of their weights plays them, linear in between. With a rig the body is
 /// skinned by the nodes of its joints, each clip is an animation, and the garments' frames play in the first
-/// one, at their own times. Fails with kInvalidArgument for a scene that cannot be drawn or with parts that do
-/// not fit together, and with kWriteFailed.
+/// one, at their own times. Fails with kInvalidArgument for a scene that cannot be drawn or with parts that
+/// do not fit together, and with kWriteFailed.
 engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file);
 
 /// Size and content of a picture.
