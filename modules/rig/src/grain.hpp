@@ -4,7 +4,7 @@
 
 namespace bodice::rig {
 
-/// Vertices a block: a vertex with four joints takes about 25 ns, so that a block is worth its task.
-inline constexpr std::size_t kSkinGrain = 1024;
+/// Vertices a block: a vertex with two joints takes 8 ns blended linearly and 20 ns as a dual quaternion.
+inline constexpr std::size_t kSkinGrain = 4096;
 
 }  // namespace bodice::rig

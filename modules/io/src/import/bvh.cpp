@@ -20,6 +20,9 @@ namespace bodice::io {
 
 namespace {
 
+/// No length in any unit and no angle is larger; beyond it products of joints would overflow.
+constexpr double kLargest = 1e9;
+
 /// Words of a text, one after the other, with the line of the last one.
 class Words {
  public:
@@ -50,7 +53,7 @@ class Words {
     if (word.starts_with('+')) word.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+    if (error != std::errc() || end != word.data() + word.size() || !(std::abs(value) <= kLargest))
       return std::nullopt;
     return value;
   }
