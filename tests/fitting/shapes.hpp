@@ -63,4 +63,24 @@ inline Skin three_ellipsoids(double scale = 1.0, const Vec3& offset = Vec3::Zero
   return skin;
 }
 
+/// Three bent limbs with folds: no small number of ellipsoids follows them.
+inline Skin bent_limbs() {
+  Skin skin;
+  skin.stature_m = 1.7;
+  const auto add = [&](const Vec3& center, const Vec3& radii, double bend, Part part) {
+    const std::size_t first = skin.mesh.positions.size();
+    add_ellipsoid(skin, {center, bodice::geometry::Mat3::Identity(), radii}, part);
+    for (std::size_t v = first; v < skin.mesh.positions.size(); ++v) {
+      Vec3& p = skin.mesh.positions[v];
+      const double along = (p.y() - center.y()) / radii.y();
+      p.x() += bend * along * along;
+      p.z() = center.z() + (p.z() - center.z()) * (1.0 + 0.12 * std::sin(7.0 * along));
+    }
+  };
+  add({0.0, 1.2, 0.0}, {0.16, 0.35, 0.11}, 0.05, Part::kTorsoUL);
+  add({-0.12, 0.45, 0.0}, {0.08, 0.42, 0.08}, -0.10, Part::kThighR);
+  add({0.12, 0.45, 0.0}, {0.08, 0.42, 0.08}, 0.12, Part::kThighL);
+  return skin;
+}
+
 }  // namespace fitting_test

@@ -1,4 +1,4 @@
-// Where a union stands in the air, and only there.
+// Samples in the air are found where a union stands in the air, and only there.
 #include <doctest/doctest.h>
 
 #include <bodice/geometry/mesh_distance.hpp>
@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kGap_m = 0.008, kMost_m = 0.2;
 
-/// Samples that ellipsoids ask for beside two legs, 20 cm apart.
-std::vector<fitting::DistanceSample> asked_by(const std::vector<geometry::Ellipsoid>& ellipsoids,
-                                              const geometry::MeshDistance& distance,
-                                              const fitting_test::Skin& skin) {
+/// The samples in the air of ellipsoids next to two legs, 20 cm apart.
+std::vector<fitting::DistanceSample> samples_of(const std::vector<geometry::Ellipsoid>& ellipsoids,
+                                                const geometry::MeshDistance& distance,
+                                                const fitting_test::Skin& skin) {
   auto view = skin.view();
   view.distance = &distance;
   const auto source = fitting::make_skin_source({}, view, fitting::kAllParts);
@@ -25,7 +25,7 @@ std::vector<fitting::DistanceSample> asked_by(const std::vector<geometry::Ellips
 
 }  // namespace
 
-TEST_CASE("air: an ellipsoid across the gap between two legs is told how far off the skin it stands") {
+TEST_CASE("air samples: an ellipsoid across the gap between two legs gets samples with their true distance") {
   const geometry::Ellipsoid left{Vec3(0.1, 0.4, 0), geometry::Mat3::Identity(), Vec3(0.05, 0.4, 0.05)};
   const geometry::Ellipsoid right{Vec3(-0.1, 0.4, 0), geometry::Mat3::Identity(), Vec3(0.05, 0.4, 0.05)};
   const geometry::Ellipsoid across{Vec3(0, 0.4, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.05)};
@@ -34,15 +34,16 @@ TEST_CASE("air: an ellipsoid across the gap between two legs is told how far off
   fitting_test::add_ellipsoid(skin, right, body::Part::kThighR);
   skin.stature_m = 1.7;
   const geometry::MeshDistance distance({}, skin.mesh);
-  CHECK(asked_by({left, right}, distance, skin).empty());
+  CHECK(samples_of({left, right}, distance, skin).empty());
   const geometry::Ellipsoid behind{Vec3(0, 0.4, 0.03), geometry::Mat3::Identity(), Vec3(0.12, 0.3, 0.05)};
-  const auto samples = asked_by({left, across, behind}, distance, skin);
+  const auto samples = samples_of({left, across, behind}, distance, skin);
   CHECK(samples.size() > 200);
   for (const auto& s : samples) {
     CHECK(s.signed_distance_m > kGap_m);
     CHECK(s.signed_distance_m ==
           doctest::Approx(distance.closest_point(s.point).signed_distance).epsilon(1e-9));
-    for (const auto& e : {left, across, behind})  // what another ellipsoid holds is not the union's surface
+    for (const auto& e :
+         {left, across, behind})  // a point inside another ellipsoid is not on the union's surface
       CHECK(geometry::level(e, s.point) > 1.0 - 1e-9);
   }
 }

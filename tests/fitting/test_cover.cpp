@@ -22,7 +22,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// One body whose limbs bend and meet: no single ellipsoid follows any of them.
+/// A body with limbs that bend and meet, so that no single ellipsoid follows any of them.
 Skin bent_body() {
   Skin skin = three_ellipsoids();
   for (Vec3& p : skin.mesh.positions) {
@@ -32,7 +32,8 @@ Skin bent_body() {
   return skin;
 }
 
-/// The largest distance that a point of a triangle is outside all ellipsoids, at corners and inside.
+/// The largest distance of a point of a triangle to the union, over corners, a middle of two edges, and the
+/// center.
 double deepest_uncovered(const Skin& skin, const proxy::BodyProxy& proxy) {
   double deepest = 0.0;
   for (std::size_t t = 0; t < skin.mesh.triangles.size(); ++t)
@@ -47,7 +48,7 @@ double deepest_uncovered(const Skin& skin, const proxy::BodyProxy& proxy) {
   return deepest;
 }
 
-/// Of random points inside the skin: how many no ellipsoid holds.
+/// The number of random points inside the skin, out of 3000, that no ellipsoid holds.
 int leaks(const Skin& skin, const geometry::MeshDistance& distance, const proxy::BodyProxy& proxy) {
   engine::Random random(12);
   const geometry::Box box = geometry::bounding_box(skin.mesh.positions);
@@ -66,7 +67,7 @@ int leaks(const Skin& skin, const geometry::MeshDistance& distance, const proxy:
 
 }  // namespace
 
-TEST_CASE("solid: no skin and no inside is left out at any count, so more ellipsoids never leak more") {
+TEST_CASE("solid: at any count, no skin and no point of the interior is left out") {
   const Skin skin = bent_body();
   const geometry::MeshDistance distance({}, skin.mesh);
   fitting::FitOptions options;
@@ -88,7 +89,7 @@ TEST_CASE("solid: a cavity that no column passes through is found and filled") {
   const geometry::Mat3 upright = geometry::Mat3::Identity();
   Skin skin;
   fitting_test::add_ellipsoid(skin, {Vec3::Zero(), upright, Vec3::Constant(0.1)}, body::Part::kTorsoUL);
-  // Four balls hold all of it but a cavity of a few millimeters about the middle.
+  // Four balls hold all of it except a cavity of a few millimeters around the middle.
   std::vector<geometry::Ellipsoid> balls;
   for (const Vec3& corner : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
     balls.push_back({0.3 * corner.normalized(), upright, Vec3::Constant(0.298)});
@@ -113,13 +114,13 @@ TEST_CASE("solid: a cavity that no column passes through is found and filled") {
   const auto columns = fitting::interior_columns(skin.mesh, 0.05);
   for (int k = 0; k < columns.nz; ++k)
     for (int i = 0; i < columns.nx; ++i)
-      REQUIRE(std::hypot(columns.x(i), columns.z(k)) > 0.0063);  // past the cavity
+      REQUIRE(std::hypot(columns.x(i), columns.z(k)) > 0.0063);  // every column misses the cavity
   const geometry::MeshDistance distance({}, skin.mesh);
-  CHECK(fitting::cover_interior({}, columns, distance, balls) == 0.0);  // no column saw it
+  CHECK(fitting::cover_interior({}, columns, distance, balls) == 0.0);  // no column had a hole
   CHECK(outside() == 0);
 }
 
-TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering one does not") {
+TEST_CASE("tight: a fit with covering leaves no skin outside, one without it does") {
   const Skin skin = bent_body();
   fitting::FitOptions options;
   options.tier = proxy::Tier::kTight;
@@ -133,8 +134,8 @@ TEST_CASE("tight, covering: the balanced fit leaves skin outside, the covering o
   CHECK(covering->accuracy.gap_m.mean > balanced->accuracy.gap_m.mean);
 }
 
-TEST_CASE("tight, covering: skin that dips into another limb is covered up to where it dips") {
-  // Triangles of a decimeter, of which those across the seam have buried corners.
+TEST_CASE("tight: with covering, skin that dips into another limb is covered up to where it dips") {
+  // Triangles are a decimeter long; those across the seam have buried corners.
   const geometry::Ellipsoid left{Vec3(-0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
   const geometry::Ellipsoid right{Vec3(0.1, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.4, 0.15)};
   Skin skin;
@@ -151,7 +152,8 @@ TEST_CASE("tight, covering: skin that dips into another limb is covered up to wh
   int seam = 0;
   for (const auto& sample : geometry::sample_surface(skin.mesh, 20000, 5)) {
     const bool of_left = sample.triangle < skin.mesh.triangles.size() / 2;
-    if (geometry::level(of_left ? right : left, sample.point) < 1.0) continue;  // inside the other
+    if (geometry::level(of_left ? right : left, sample.point) < 1.0)
+      continue;  // the point is in the other limb
     seam += std::abs(sample.point.x()) < 0.02;
     deepest = std::max(deepest, proxy::proxy_distance(covering->proxy, sample.point).distance);
   }
@@ -159,13 +161,13 @@ TEST_CASE("tight, covering: skin that dips into another limb is covered up to wh
   CHECK(deepest <= 1e-9);
 }
 
-TEST_CASE("cover: what no triangle needs is taken back, and every triangle stays held") {
+TEST_CASE("relax cover: an ellipsoid shrinks where no triangle needs it, and every triangle stays held") {
   const geometry::Ellipsoid anchor{Vec3(0, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.1, 0.2, 0.1)};
   Skin skin;
   fitting_test::add_ellipsoid(skin, anchor, body::Part::kTorsoUL);
   std::vector<geometry::Index> all(skin.mesh.triangles.size());
   for (std::size_t t = 0; t < all.size(); ++t) all[t] = static_cast<geometry::Index>(t);
-  // Each of two ellipsoids alone holds everything; one of them is far larger than it has to be.
+  // Each of two ellipsoids alone holds everything; one of them is much larger than necessary.
   std::vector<geometry::Ellipsoid> shapes(2, anchor);
   shapes[0].radii *= 1.05;
   shapes[1].radii *= 1.6;
@@ -181,7 +183,7 @@ TEST_CASE("cover: what no triangle needs is taken back, and every triangle stays
   }
 }
 
-TEST_CASE("cover: taking back leaves alone what one ellipsoid holds by itself") {
+TEST_CASE("relax cover: a triangle that only one ellipsoid holds stays held") {
   const geometry::Mat3 upright = geometry::Mat3::Identity();
   Skin skin;
   fitting_test::add_ellipsoid(skin, {Vec3(0, 0.5, 0), upright, Vec3(0.1, 0.4, 0.1)}, body::Part::kTorsoUL);
@@ -200,7 +202,7 @@ TEST_CASE("cover: taking back leaves alone what one ellipsoid holds by itself") 
     }));
 }
 
-TEST_CASE("cover: triangles across a crease are cut, the others and the skin's area stay") {
+TEST_CASE("cut at creases: triangles across a crease are cut, the others and the skin's area stay the same") {
   const geometry::Mat3 upright = geometry::Mat3::Identity();
   Skin skin;
   fitting_test::add_ellipsoid(skin, {Vec3(0, 0.5, 0), upright, Vec3(0.1, 0.4, 0.1)}, body::Part::kTorsoUL);
@@ -220,7 +222,7 @@ TEST_CASE("cover: triangles across a crease are cut, the others and the skin's a
   std::size_t whole = 0;
   for (const auto& t : pieces.mesh.triangles)
     whole += std::ranges::all_of(t, [&](geometry::Index v) { return v < skin.mesh.positions.size(); });
-  CHECK(whole > all.size() - 6 * 48);  // only there
+  CHECK(whole > all.size() - 6 * 48);  // and nowhere else
   CHECK(whole < all.size());
   CHECK(fitting::cut_at_creases(skin.view(), all, std::span(halves).first(1)).mesh.triangles.size() ==
         all.size());

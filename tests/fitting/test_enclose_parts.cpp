@@ -1,5 +1,4 @@
-// One enclosing ellipsoid a part: holds the whole skin, and only what is asked for costs anything.
-
+// One enclosing ellipsoid a part: the union holds the whole skin.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,7 +23,8 @@ constexpr std::uint32_t bit(Part part) {
   return 1u << static_cast<unsigned>(part);
 }
 
-/// One closed ellipsoid whose lower half is thigh, the upper torso: its border triangles have both.
+/// A closed ellipsoid: its lower half is thigh, its upper half is torso, and triangles at the border have
+/// both.
 Skin two_parts_of_one() {
   Skin skin;
   fitting_test::add_ellipsoid(skin, {Vec3(0, 0.5, 0), geometry::Mat3::Identity(), Vec3(0.1, 0.5, 0.1)},
@@ -34,7 +34,7 @@ Skin two_parts_of_one() {
   return skin;
 }
 
-/// Whether one of the ellipsoids holds all three corners, and so the triangle.
+/// Whether one of the ellipsoids holds all three corners, and so the whole triangle.
 bool held(const proxy::BodyProxy& proxy, const Skin& skin, std::size_t t) {
   return std::ranges::any_of(proxy.ellipsoids(), [&](const auto& e) {
     for (std::size_t c = 0; c < 3; ++c)
@@ -45,7 +45,7 @@ bool held(const proxy::BodyProxy& proxy, const Skin& skin, std::size_t t) {
 
 }  // namespace
 
-TEST_CASE("enclose parts: every triangle is inside one ellipsoid, those across borders too") {
+TEST_CASE("enclose parts: every triangle, also one across a border, is inside one ellipsoid") {
   for (const Skin& skin : {three_ellipsoids(), three_ellipsoids(1e-3), three_ellipsoids(1e3),
                            three_ellipsoids(1.0, Vec3(1e4, 0, -1e4)), two_parts_of_one()}) {
     CAPTURE(skin.stature_m);
@@ -57,7 +57,7 @@ TEST_CASE("enclose parts: every triangle is inside one ellipsoid, those across b
   }
 }
 
-TEST_CASE("enclose parts: an ellipsoid's skin gives back that ellipsoid") {
+TEST_CASE("enclose parts: the skin of an ellipsoid gives that ellipsoid") {
   const Skin skin = three_ellipsoids();
   const auto proxy = fitting::enclose_parts({}, skin.view(), kAll);
   REQUIRE(proxy.ok());
@@ -70,7 +70,7 @@ TEST_CASE("enclose parts: an ellipsoid's skin gives back that ellipsoid") {
   CHECK((radii - Vec3(0.07, 0.09, 0.11)).norm() < 2e-3);
 }
 
-TEST_CASE("enclose parts: only the wanted parts, and the same bits for any workers") {
+TEST_CASE("enclose parts: only wanted parts are enclosed, with the same bits for any number of workers") {
   const Skin skin = three_ellipsoids();
   const auto head = fitting::enclose_parts({}, skin.view(), bit(Part::kHead));
   REQUIRE(head.ok());

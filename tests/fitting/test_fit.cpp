@@ -33,7 +33,7 @@ FitOptions options_for(Tier tier, int count) {
 
 }  // namespace
 
-TEST_CASE("fit: every tier finds three separate ellipsoids") {
+TEST_CASE("fit: every tier recovers three separate ellipsoids from their skin") {
   const Skin skin = three_ellipsoids();
   for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief}) {
     const auto result = fitting::fit({}, skin.view(), options_for(tier, 3));
@@ -53,7 +53,7 @@ TEST_CASE("fit: every tier finds three separate ellipsoids") {
   }
 }
 
-TEST_CASE("fit: the paper's ellipsoids hold every vertex, the solid tier's every triangle and the inside") {
+TEST_CASE("fit: tier paper holds every vertex, tier solid every triangle and the interior") {
   const Skin skin = three_ellipsoids();
   for (const Tier tier : {Tier::kPaper, Tier::kSolid}) {
     const auto result = fitting::fit({}, skin.view(), options_for(tier, 24));
@@ -72,14 +72,15 @@ TEST_CASE("fit: the paper's ellipsoids hold every vertex, the solid tier's every
   }
 }
 
-TEST_CASE("fit: more accurate tiers are more accurate where ellipsoids must be shared out") {
-  Skin skin;  // a bent pair that one ellipsoid cannot follow, under one label
+TEST_CASE(
+    "fit: tight is more accurate than paper, and relief than tight, where a part needs several ellipsoids") {
+  Skin skin;  // two ellipsoids under one label
   fitting_test::add_ellipsoid(skin, {Vec3(0, 0.25, 0), geometry::Mat3::Identity(), Vec3(0.08, 0.25, 0.08)},
                               body::Part::kThighL);
   fitting_test::add_ellipsoid(skin, {Vec3(0.3, 0.8, 0), geometry::Mat3::Identity(), Vec3(0.25, 0.06, 0.08)},
                               body::Part::kThighL);
   skin.stature_m = 1.0;
-  for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v) {  // waves of 3 mm that tables can follow
+  for (std::size_t v = 0; v < skin.mesh.positions.size(); ++v) {  // waves of 3 mm, which tables can follow
     Vec3& p = skin.mesh.positions[v];
     p.z() *= 1.0 + 0.04 * std::sin(60.0 * p.x()) * std::cos(50.0 * p.y());
   }
@@ -98,7 +99,7 @@ TEST_CASE("fit: more accurate tiers are more accurate where ellipsoids must be s
   }
 }
 
-TEST_CASE("fit: thresholds in, thresholds kept, and reported") {
+TEST_CASE("fit: given thresholds are kept and reported, and absent ones are found") {
   const Skin skin = three_ellipsoids();
   FitOptions options;
   options.tier = Tier::kPaper;
@@ -111,14 +112,14 @@ TEST_CASE("fit: thresholds in, thresholds kept, and reported") {
   CHECK(result->warnings.empty());
   for (const auto& part : result->parts)
     CHECK(part.radial_error_mean_m <= (body::is_torso(part.part) ? 0.004 : 0.002));
-  // The automatic thresholds are the worst errors that the count leaves.
+
   const auto automatic = fitting::fit({}, skin.view(), options_for(Tier::kPaper, 30));
   REQUIRE(automatic.ok());
   CHECK(automatic->mu_torso_m > 0.0);
   CHECK(automatic->mu_limbs_m > 0.0);
 }
 
-TEST_CASE("fit: thresholds choose the published tier, and nothing that would ignore them") {
+TEST_CASE("fit: thresholds choose tier paper, and options that would ignore them are refused") {
   const Skin skin = three_ellipsoids();
   FitOptions options;
   options.mu_torso_m = 0.004;
@@ -148,7 +149,7 @@ TEST_CASE("fit: thresholds choose the published tier, and nothing that would ign
   CHECK(refused({.budget_us = 100.0, .mu_torso_m = 0.004, .mu_limbs_m = 0.002}));
 }
 
-TEST_CASE("fit: a target error that cannot be reached is said") {
+TEST_CASE("fit: a target error that cannot be reached gives a warning") {
   const Skin skin = three_ellipsoids();
   FitOptions options = options_for(Tier::kPaper, 4);
   options.target_error_m = 1e-6;
@@ -160,9 +161,10 @@ TEST_CASE("fit: a target error that cannot be reached is said") {
   CHECK(fitting::fit({}, skin.view(), options)->warnings.empty());
 }
 
-TEST_CASE("fit: the same bits for 1, 2, 3 and 7 workers, every tier") {
+TEST_CASE("fit: every tier gives the same bits for 1, 2, 3 and 7 workers") {
   const Skin skin = three_ellipsoids();
-  for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kRelief}) {  // relief holds tight's ellipsoids
+  for (const Tier tier :
+       {Tier::kPaper, Tier::kSolid, Tier::kRelief}) {  // relief contains the ellipsoids of tight
     const auto serial = fitting::fit({}, skin.view(), options_for(tier, 12));
     REQUIRE(serial.ok());
     for (const int workers : {2, 3, 7}) {
@@ -176,7 +178,7 @@ TEST_CASE("fit: the same bits for 1, 2, 3 and 7 workers, every tier") {
   }
 }
 
-TEST_CASE("fit: scale and distance from the origin change nothing but the scale") {
+TEST_CASE("fit: at any scale and far from the origin the gap is the same fraction of the body") {
   const double gap =
       fitting::fit({}, three_ellipsoids().view(), options_for(Tier::kTight, 6))->accuracy.gap_m.mean;
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
@@ -194,7 +196,7 @@ TEST_CASE("fit: scale and distance from the origin change nothing but the scale"
   CHECK(result->accuracy.gap_m.mean < 1.5 * gap + 1e-4);
 }
 
-TEST_CASE("fit: of twin limbs the same one is split first wherever the body stands") {
+TEST_CASE("fit: of two equal limbs the same one is split first, wherever the body stands") {
   const auto counts_at = [](const Vec3& offset) {
     fitting_test::Skin skin;
     skin.stature_m = 1.0;
@@ -208,7 +210,7 @@ TEST_CASE("fit: of twin limbs the same one is split first wherever the body stan
     }
     FitOptions options;
     options.tier = Tier::kPaper;
-    options.max_ellipsoids = 18;  // the twins cannot have equal shares of all of them
+    options.max_ellipsoids = 18;  // so many cannot be shared equally between the pairs
     std::vector<std::size_t> counts;
     const auto result = fitting::fit({}, skin.view(), options);
     REQUIRE(result.ok());
@@ -231,8 +233,8 @@ TEST_CASE("fit: improvements are published in order and are valid proxies") {
   CHECK(seen.back() == Tier::kRelief);
 }
 
-TEST_CASE("fit: a time budget is the whole search's, and what is shown belongs to its first try") {
-  struct Impatient : engine::Clock {  // a minute between any two looks at it
+TEST_CASE("fit: a time budget is for the whole target search, and only its first try publishes proxies") {
+  struct Impatient : engine::Clock {  // every reading is a minute after the one before
     std::int64_t now_ns() const noexcept override { return now.fetch_add(60'000'000'000); }
     mutable std::atomic<std::int64_t> now = 0;
   };
@@ -242,7 +244,7 @@ TEST_CASE("fit: a time budget is the whole search's, and what is shown belongs t
   };
   FitOptions options;
   options.tier = Tier::kTight;
-  options.target_error_m = 2e-3;  // the law of bodies asks for far too many here
+  options.target_error_m = 2e-3;  // the gap formula of bodies gives far too many ellipsoids here
   std::vector<std::size_t> shown;
   options.on_improved = [&](const proxy::BodyProxy& proxy) { shown.push_back(proxy.ellipsoids().size()); };
   const auto patient = fitting::fit({}, skin.view(), options);
@@ -260,7 +262,7 @@ TEST_CASE("fit: a time budget is the whole search's, and what is shown belongs t
   CHECK(tries(*hasty) == 1);
 }
 
-TEST_CASE("fit: no time still gives a valid proxy; only the wanted parts are fitted") {
+TEST_CASE("fit: without any time there is a valid proxy of the wanted parts only, and a warning") {
   const Skin skin = three_ellipsoids();
   FitOptions options = options_for(Tier::kRelief, 6);
   options.time_budget_s = 0.0;
@@ -277,8 +279,8 @@ TEST_CASE("fit: no time still gives a valid proxy; only the wanted parts are fit
   CHECK(fitting::fit({}, skin.view(), options)->warnings.empty());
 }
 
-TEST_CASE("fit: where a region was cut from the body there is no skin to be far from") {
-  // One ellipsoid whose upper half is another part: the fitted half ends inside the body.
+TEST_CASE("fit: where a region was cut from the body, the cut counts as no gap") {
+  // One ellipsoid's upper half is another part, so that the fitted half ends inside the body.
   Skin skin = three_ellipsoids();
   for (std::size_t v = 0; v < skin.part.size(); ++v)
     if (skin.part[v] == body::Part::kTorsoUL && skin.mesh.positions[v].y() > 0.5)
@@ -287,12 +289,12 @@ TEST_CASE("fit: where a region was cut from the body there is no skin to be far 
   options.parts = 1u << static_cast<int>(body::Part::kTorsoUL);
   const auto region = fitting::fit({}, skin.view(), options);
   REQUIRE(region.ok());
-  // From the ends of the paper's clusters within the half; those at the cut would make it 16 and 66 mm.
+  // The remaining gap is that of the paper's clusters within the half; the cut would make it 16 and 66 mm.
   CHECK(region->accuracy.gap_m.mean < 0.012);
   CHECK(region->accuracy.gap_m.max < 0.050);
 }
 
-TEST_CASE("fit: bad input gets one clear sentence") {
+TEST_CASE("fit: bad input fails with a sentence that names the element") {
   const Skin good = three_ellipsoids();
   const auto code = [](const fitting::LabeledSkin& skin, const FitOptions& options) {
     const auto result = fitting::fit({}, skin, options);
@@ -321,7 +323,7 @@ TEST_CASE("fit: bad input gets one clear sentence") {
   CHECK(code(good.view(), options).find("no skin") != std::string::npos);
 }
 
-TEST_CASE("fit: canceled work says so") {
+TEST_CASE("fit: canceled work fails with kCanceled") {
   const Skin skin = three_ellipsoids();
   engine::CancelSource source;
   source.cancel();
@@ -332,7 +334,7 @@ TEST_CASE("fit: canceled work says so") {
   CHECK(result.error().code == engine::ErrorCode::kCanceled);
 }
 
-TEST_CASE("fit: distances to the skin are prepared for those tiers and judges that ask for them") {
+TEST_CASE("fit: distances to the skin are prepared only for tiers and measurements that need them") {
   const Skin skin = three_ellipsoids();
   const auto prepared = [&](Tier tier, bool measured) {
     FitOptions options = options_for(tier, 3);

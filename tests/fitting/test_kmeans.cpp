@@ -23,7 +23,7 @@ std::vector<Vec3> random_points(int n, double scale, const Vec3& offset) {
 
 }  // namespace
 
-TEST_CASE("kmeans: one iteration assigns and averages as brute force does") {
+TEST_CASE("kmeans: an iteration assigns points and averages them as brute force does") {
   const auto points = random_points(3000, 1.0, Vec3(2, 0, -1));
   std::vector<Vec3> centers(points.begin(), points.begin() + 7);
   const Clusters found = fitting::kmeans({}, points, {}, centers, {0.0, 1});
@@ -38,12 +38,12 @@ TEST_CASE("kmeans: one iteration assigns and averages as brute force does") {
     sum[found.of_point[i]] += points[i];
     count[found.of_point[i]] += 1.0;
   }
-  CHECK(different <= 1);  // float comparison may turn one tie
+  CHECK(different <= 1);  // comparison in float may decide one tie differently
   for (std::size_t k = 0; k < centers.size(); ++k)
     CHECK((found.centers[k] - sum[k] / count[k]).norm() < 1e-12);
 }
 
-TEST_CASE("kmeans: the pruned stop saves iterations and a zero threshold reaches a fixed point") {
+TEST_CASE("kmeans: the pruned stop saves iterations, and a zero threshold reaches a fixed point") {
   const auto points = random_points(4000, 1.0, Vec3::Zero());
   const std::vector<Vec3> centers(points.begin(), points.begin() + 12);
   const Clusters full = fitting::kmeans({}, points, {}, centers, {0.0, 1000});
@@ -54,7 +54,7 @@ TEST_CASE("kmeans: the pruned stop saves iterations and a zero threshold reaches
   CHECK(again.iterations == 1);
 }
 
-TEST_CASE("kmeans: the same bits for any number of workers, at any scale and offset") {
+TEST_CASE("kmeans: at any scale and offset, the bits are the same for any number of workers") {
   for (const double scale : {1e-6, 1.0, 1e6}) {
     const auto points = random_points(5000, scale, Vec3(1e4, 0, 0) * scale);
     const std::vector<Vec3> centers(points.begin(), points.begin() + 9);
@@ -70,7 +70,7 @@ TEST_CASE("kmeans: the same bits for any number of workers, at any scale and off
   }
 }
 
-TEST_CASE("kmeans: extremes: no points, no centers, duplicates, a center that nothing is near") {
+TEST_CASE("kmeans: no points, no centers, duplicates and a center far from all points are fine") {
   CHECK(fitting::kmeans({}, {}, {}, {Vec3::Zero()}, {}).of_point.empty());
   const std::vector<Vec3> same(10, Vec3(1, 1, 1));
   CHECK(fitting::kmeans({}, same, {}, {}, {}).of_point.size() == 10);
@@ -79,7 +79,7 @@ TEST_CASE("kmeans: extremes: no points, no centers, duplicates, a center that no
   CHECK(found.centers[1] == Vec3(9, 9, 9));
 }
 
-TEST_CASE("kmeans: weights pull the mean") {
+TEST_CASE("kmeans: a center is the weighted mean of its points") {
   const std::vector<Vec3> points = {Vec3(0, 0, 0), Vec3(1, 0, 0)};
   const std::vector<double> weights = {1.0, 3.0};
   const Clusters found = fitting::kmeans({}, points, weights, {Vec3(0.5, 0, 0)}, {});

@@ -33,7 +33,8 @@ geometry::Mat3 rotation(engine::Random& random) {
       .toRotationMatrix();
 }
 
-/// A small random set of one of eight kinds: boxes, spheres, lattices with ties, needles, plates, shells.
+/// A small random set of one of eight kinds, among them spheres, lattices with ties, needles, plates and
+/// boxes.
 std::vector<Vec3> random_set(engine::Random& random) {
   const int n = 4 + static_cast<int>(random.below(60));
   const auto kind = random.below(8);
@@ -72,7 +73,7 @@ TEST_CASE("mvee: the corners of a box give the ellipsoid known in closed form") 
   }
 }
 
-TEST_CASE("mvee: points on a known ellipsoid give it back, rotated, scaled and far from the origin") {
+TEST_CASE("mvee: points on a known ellipsoid give that ellipsoid, rotated, scaled and far from the origin") {
   engine::Random random(7);
   const geometry::Mat3 turn = rotation(random);
   const Vec3 radii(0.4, 0.15, 0.06);
@@ -89,14 +90,14 @@ TEST_CASE("mvee: points on a known ellipsoid give it back, rotated, scaled and f
         points.push_back(scale * (turn * radii.cwiseProduct(v)) + Vec3::Constant(offset));
       const Mvee m = fitting::mvee(points);
       const double tolerance = offset > 0 ? 1e-6 : 2e-8;
-      // Antipodal points make the exact answer: the ellipsoid itself is centerd and every point is on it.
+      // Every point has its opposite, so that the known ellipsoid is the least one and all points lie on it.
       CHECK((m.ellipsoid.radii / scale - radii).norm() < tolerance);
       CHECK(m.violation <= 1e-12);
       CHECK(m.volume_gap <= (offset > 0 ? 1e-5 : 1.01e-7));
     }
 }
 
-TEST_CASE("mvee: a hundred thousand small sets are all certified") {
+TEST_CASE("mvee: all of a hundred thousand small sets are certified") {
   engine::Random random(11);
   int uncertified = 0, not_finite = 0, violated = 0;
   double worst_gap = 0.0;
@@ -104,7 +105,7 @@ TEST_CASE("mvee: a hundred thousand small sets are all certified") {
     const Mvee m = fitting::mvee(random_set(random));
     not_finite += !finite(m);
     violated += m.violation > 1e-9;
-    // Flat sets pay up to 1e-6 of a level for the rounding that sticks out of their plane.
+    // In flat sets, rounding across the plane may take up to 1e-6 of a level.
     const double allowed = m.rank == 3 ? 1.01e-7 : 4e-6;
     uncertified += !(m.volume_gap <= allowed);
     worst_gap = std::max(worst_gap, m.volume_gap);
@@ -150,11 +151,11 @@ TEST_CASE("mvee: NaN and Inf points are skipped and counted") {
   const Mvee dirty = fitting::mvee(points);
   CHECK(dirty.skipped == 2);
   CHECK(dirty.ellipsoid.radii == clean.ellipsoid.radii);
-  // The regular simplex's answer, affinely mapped: volume = 3^(3/2) * 4 pi / 3 * sqrt(det S).
+  // An affine map of the regular simplex maps its ellipsoid, and the center to the mean of the corners.
   CHECK(clean.ellipsoid.center.isApprox(Vec3::Constant(0.25), 1e-7));
 }
 
-TEST_CASE("mvee: a rotated needle of aspect 1e12 stays finite and holds its points") {
+TEST_CASE("mvee: rotated needles of aspect up to 1e15 give finite ellipsoids that hold their points") {
   engine::Random random(5);
   for (const double aspect : {1e3, 1e6, 1e9, 1e12, 1e15}) {
     const geometry::Mat3 turn = rotation(random);
@@ -168,15 +169,15 @@ TEST_CASE("mvee: a rotated needle of aspect 1e12 stays finite and holds its poin
   }
 }
 
-TEST_CASE("mvee: the certificate notices arithmetic that ignores NaN") {
-  // Under -ffinite-math-only the skip of NaN points above is compiled away; this is the flag's tripwire.
+TEST_CASE("mvee: the build keeps NaN, without which points with NaN would not be skipped") {
+  // Under -ffinite-math-only compilers remove the check that skips points with NaN; this case fails then.
   const volatile double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(std::isnan(nan));
   const double copy = nan;
   CHECK_FALSE(Vec3(0.0, copy, 0.0).allFinite());
 }
 
-TEST_CASE("mvee_first_order: agrees with the exact solver within its epsilon") {
+TEST_CASE("mvee_first_order: the volume is that of the exact solver within epsilon") {
   engine::Random random(13);
   for (int trial = 0; trial < 200; ++trial) {
     const auto points = random_set(random);

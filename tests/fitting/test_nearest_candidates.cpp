@@ -1,5 +1,4 @@
-// Lists of candidates: those that brute force finds, in its order, however far the block's bound lets it
-// look.
+// Lists of candidates are those of brute force, in the same order, for blocks of any extent.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,14 +13,15 @@
 #include "tight/nearest_candidates.hpp"
 
 using namespace bodice;
-using fitting::FootEllipsoid;
+using fitting::FloatEllipsoid;
 using fitting::NearestCandidates;
 using geometry::Vec3;
 
 namespace {
 
 constexpr double kReach = 0.06;
-constexpr double kFootError = 1e-3;  // deep inside, feet of a fixed cost in floats are a little off
+constexpr double kDistanceError =
+    1e-3;  // bound on the error of batch_distances(), which is largest deep inside
 
 std::vector<geometry::Ellipsoid> scattered(engine::Random& random, int count) {
   std::vector<geometry::Ellipsoid> ellipsoids;
@@ -35,11 +35,11 @@ std::vector<geometry::Ellipsoid> scattered(engine::Random& random, int count) {
   return ellipsoids;
 }
 
-/// Samples of one block, `spread` across.
+/// The samples of one block, at most `spread` from its center along each axis.
 struct Block {
   std::vector<float> x, y, z, from_center;
   std::array<float, 3> center;
-  std::array<std::vector<float>, 4> feet;  // of the center: distance and normal
+  std::array<std::vector<float>, 4> from_ball;  // distances of the center to all ellipsoids, and the normals
 
   Block(engine::Random& random, const std::vector<geometry::Ellipsoid>& ellipsoids, std::size_t count,
         double spread) {
@@ -54,9 +54,9 @@ struct Block {
       from_center.push_back(static_cast<float>(off.norm()));
     }
     for (const auto& e : ellipsoids) {
-      const auto foot = geometry::closest_point(e, middle);
-      feet[0].push_back(static_cast<float>(foot.signed_distance));
-      for (int j = 0; j < 3; ++j) feet[1 + j].push_back(static_cast<float>(foot.normal[j]));
+      const auto closest = geometry::closest_point(e, middle);
+      from_ball[0].push_back(static_cast<float>(closest.signed_distance));
+      for (int j = 0; j < 3; ++j) from_ball[1 + j].push_back(static_cast<float>(closest.normal[j]));
     }
   }
   Vec3 point(std::size_t i) const { return {double{x[i]}, double{y[i]}, double{z[i]}}; }
@@ -65,22 +65,23 @@ struct Block {
             .at = {x.data(), y.data(), z.data()},
             .from_center = from_center.data(),
             .center = center,
-            .feet = {feet[0].data(), {feet[1].data(), feet[2].data(), feet[3].data()}, 1}};
+            .from_ball = {
+                from_ball[0].data(), {from_ball[1].data(), from_ball[2].data(), from_ball[3].data()}, 1}};
   }
 };
 
 }  // namespace
 
-TEST_CASE("candidates: brute force finds the same ones in the same order") {
+TEST_CASE("nearest candidates: they are those of brute force, in the same order") {
   engine::Random random(12);
   NearestCandidates found;
   std::size_t checked = 0, full = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const auto ellipsoids = scattered(random, 5 + trial);
-    const std::vector<FootEllipsoid> feet(ellipsoids.begin(), ellipsoids.end());
+    const std::vector<FloatEllipsoid> in_floats(ellipsoids.begin(), ellipsoids.end());
     const std::size_t count = trial % 3 == 0 ? 7 : fitting::kSampleBlock;
     const Block block(random, ellipsoids, count, trial % 2 == 0 ? 0.01 : 0.08);
-    found.find(feet, block.view(), static_cast<float>(kReach));
+    found.find(in_floats, block.view(), static_cast<float>(kReach));
     for (std::size_t i = 0; i < count; ++i) {
       std::vector<double> truth;
       for (const auto& e : ellipsoids)
@@ -90,17 +91,17 @@ TEST_CASE("candidates: brute force finds the same ones in the same order") {
       std::vector<bool> is_listed(truth.size(), false);
       for (std::size_t s = 0; s < size; ++s) {
         is_listed[listed[s]] = true;
-        if (s > 0) CHECK(truth[listed[s]] > truth[listed[s - 1]] - kFootError);
+        if (s > 0) CHECK(truth[listed[s]] > truth[listed[s - 1]] - kDistanceError);
       }
       REQUIRE(size > 0);
       const double least = *std::ranges::min_element(truth);
-      CHECK(truth[listed[0]] < least + kFootError);
-      // Those left out are beyond reach, or no nearer than the last of a full list.
+      CHECK(truth[listed[0]] < least + kDistanceError);
+      // An ellipsoid that is not listed is beyond reach, or no nearer than the last of a full list.
       const bool is_full = size == static_cast<std::size_t>(NearestCandidates::kMost);
       const double bound = is_full ? truth[listed[size - 1]] : least + kReach;
       for (std::size_t k = 0; k < truth.size(); ++k)
-        if (!is_listed[k]) CHECK(truth[k] > bound - kFootError);
-      CHECK(truth[listed[size - 1]] < least + kReach + kFootError);
+        if (!is_listed[k]) CHECK(truth[k] > bound - kDistanceError);
+      CHECK(truth[listed[size - 1]] < least + kReach + kDistanceError);
       full += is_full;
       ++checked;
     }

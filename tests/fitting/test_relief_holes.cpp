@@ -1,4 +1,4 @@
-// A hole in a table that no grid of samples meets is found where it arises.
+// A hole in a table is found even if no grid of samples has a point in it.
 #include <doctest/doctest.h>
 
 #include <bodice/geometry/mesh_distance.hpp>
@@ -15,7 +15,7 @@ namespace {
 constexpr int kNodes = 16;
 constexpr double kDepth_m = 0.007, kMargin_m = 0.002;
 
-/// One ellipsoid that is its skin; its table cuts `cut_m` at a single node and nothing elsewhere.
+/// A proxy of one ellipsoid that is its skin; the table cuts `cut_m` at a single node and nothing elsewhere.
 proxy::BodyProxy::Data with_one_bad_node(const geometry::Ellipsoid& shape, double cut_m) {
   proxy::BodyProxy::Data data;
   data.tier = proxy::Tier::kRelief;
@@ -32,7 +32,7 @@ proxy::BodyProxy::Data with_one_bad_node(const geometry::Ellipsoid& shape, doubl
 
 }  // namespace
 
-TEST_CASE("relief: a single node that cuts deep is found, one that does not is left alone") {
+TEST_CASE("relief holes: a single node that cuts deep is a hole, and one that cuts less is none") {
   const geometry::Ellipsoid shape{Vec3(0, 1, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.2, 0.12)};
   fitting_test::Skin skin;
   fitting_test::add_ellipsoid(skin, shape, body::Part::kTorsoUL, 48);

@@ -13,7 +13,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// An arm pressed into a torso by `depth_m`: for a few millimeters a handful of vertices of each are buried.
+/// An arm pressed into a torso by `depth_m`; a few millimeters bury a handful of vertices of each.
 Skin pressed_together(double depth_m) {
   Skin skin;
   const geometry::Mat3 upright = geometry::Mat3::Identity();

@@ -33,8 +33,9 @@ Ellipsoid random_ellipsoid(engine::Random& random, double size, const Vec3& orig
 
 }  // namespace
 
-// The oracle is geometry::level, corner by corner; far from the origin and at extreme scales too.
-TEST_CASE("triangle levels: a batch says what each corner's level says, and who holds or has to grow least") {
+// The oracle is geometry::level, corner by corner, also far from the origin and at extreme scales.
+TEST_CASE(
+    "triangle levels: a batch gives the largest level of the corners, and the ellipsoid that grows least") {
   engine::Random random(41);
   for (const double size : {1e-6, 1.0, 1e6}) {
     const Vec3 origin = size == 1.0 ? Vec3(1e4, -1e4, 1e4) : Vec3(Vec3::Zero());
@@ -75,8 +76,8 @@ TEST_CASE("triangle levels: a batch says what each corner's level says, and who 
   }
 }
 
-// Chords of an ellipsoid are known in closed form; a mesh of it has them a little shorter.
-TEST_CASE("interior columns: the inside of an ellipsoid has its chords, and there is nothing beside it") {
+// Chords of an ellipsoid are known in closed form; those of its mesh are a little shorter.
+TEST_CASE("interior columns: the columns through an ellipsoid are its chords, and others are empty") {
   const Ellipsoid e{Vec3(0.2, 1.0, -0.1), geometry::Mat3::Identity(), Vec3(0.3, 0.5, 0.2)};
   fitting_test::Skin skin;
   fitting_test::add_ellipsoid(skin, e, body::Part::kTorsoUL);

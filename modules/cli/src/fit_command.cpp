@@ -4,7 +4,7 @@
 
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/write_file.hpp>
-#include <bodice/fitting/budget.hpp>
+#include <bodice/fitting/cost_model.hpp>
 #include <bodice/io/obj.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice/proxy/proxy_surface.hpp>

@@ -38,13 +38,15 @@ Json input_json(const io::ImportedMesh& input) {
 
 Json parts_json(const fitting::FitResult& fit) {
   Json parts = Json::array();
-  for (const fitting::PartFit& part : fit.parts)
-    parts.push_back(
-        {{"name", body::name(part.part)},
-         {"vertices", part.vertices},
-         {"ellipsoids", part.ellipsoids},
-         {"radial_error_mm", {{"mean", mm(part.radial_error_mean_m)}, {"max", mm(part.radial_error_max_m)}}},
-         {"gap_mm", spread_mm(part.gap_m)}});
+  for (const fitting::PartFit& part : fit.parts) {
+    Json line = {
+        {"name", body::name(part.part)}, {"vertices", part.vertices}, {"ellipsoids", part.ellipsoids}};
+    if (const auto& e = part.cluster_error)
+      line["cluster_error_mm"] = {{"mean", mm(e->mean_m)}, {"max", mm(e->max_m)}};
+    line["radial_error_mm"] = {{"mean", mm(part.radial_error_mean_m)}, {"max", mm(part.radial_error_max_m)}};
+    line["gap_mm"] = spread_mm(part.gap_m);
+    parts.push_back(std::move(line));
+  }
   return parts;
 }
 

@@ -4,10 +4,10 @@
 
 namespace bodice::fitting {
 
-/// Rejects what no proxy can be made from, with the element and the remedy.
+/// Rejects a skin or options that no proxy can be made from; the error names the element and the remedy.
 engine::Result<void> check_input(const LabeledSkin& skin, const FitOptions& options);
 
-/// No triangle belongs to a wanted part.
+/// The error for a skin without a triangle of the wanted parts.
 engine::Error no_skin();
 
 }  // namespace bodice::fitting

@@ -1,8 +1,8 @@
-// The fixed-cost foot: t is the root of |w(t)| = 1, w_j = r_j y_j / (t + r_j^2), by three Newton steps on
-// 1/|w| from a lower bound (each step stays a lower bound, because 1/|w| is concave). All is multiplied by
-// (t + r_0^2)(t + r_1^2)(t + r_2^2), so that a step costs one division. Based on: David Eberly.
-// Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013. Differs: fixed number of
-// steps in float, without branches, so that compilers vectorize over the points.
+// Based on: David Eberly. Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013.
+// The closest point of y has the direction w(t), w_j = r_j y_j / (t + r_j^2), at the root t of |w(t)| = 1.
+// Newton steps on 1/|w| start from a lower bound, and each step stays a lower bound, because 1/|w| is
+// concave. All is multiplied by (t + r_0^2)(t + r_1^2)(t + r_2^2), so that a step costs one division.
+// Differs: three steps in float, without branches, so that compilers vectorize over the points.
 #include "base/closest_point_batch.hpp"
 
 #include "base/vector_clones.hpp"
@@ -10,7 +10,7 @@
 namespace bodice::fitting {
 namespace {
 
-// Own one-liners: functions compiled under other flags than these would not be inlined.
+// These stand in for std functions, which are compiled under other flags and would not be inlined.
 [[gnu::always_inline]] inline float larger(float a, float b) {
   return a < b ? b : a;
 }
@@ -24,15 +24,16 @@ namespace {
   return __builtin_sqrtf(a);
 }
 
-struct Foot {
-  float d, wx, wy, wz;
-  float nx, ny, nz;  // outward, of the length 1 / per_length, in the ellipsoid's frame
+/// The closest point of one point.
+struct Closest {
+  float d, wx, wy, wz;  // signed distance; direction w on the unit sphere
+  float nx, ny, nz;     // outward normal of length 1 / per_length, in the ellipsoid's frame
   float per_length;
 };
 
-[[gnu::always_inline]] inline Foot foot(const FootEllipsoid& e, float px, float py, float pz) {
-  constexpr float kTiny = 1e-36f;
-  const float least_t = -0.9999f * e.least_squared;  // no foot of a point inside has a lower t
+[[gnu::always_inline]] inline Closest closest(const FloatEllipsoid& e, float px, float py, float pz) {
+  constexpr float kTiny = 1e-36f;                    // keeps divisors off zero
+  const float least_t = -0.9999f * e.least_squared;  // a point inside has its root above this
   const float dx = px - e.c[0], dy = py - e.c[1], dz = pz - e.c[2];
   const float y0 = e.to_unit[0][0] * dx + e.to_unit[0][1] * dy + e.to_unit[0][2] * dz;
   const float y1 = e.to_unit[1][0] * dx + e.to_unit[1][1] * dy + e.to_unit[1][2] * dz;
@@ -62,7 +63,8 @@ struct Foot {
 
 }  // namespace
 
-FootEllipsoid::FootEllipsoid(const geometry::Ellipsoid& e) : largest(static_cast<float>(e.radii.maxCoeff())) {
+FloatEllipsoid::FloatEllipsoid(const geometry::Ellipsoid& e)
+    : largest(static_cast<float>(e.radii.maxCoeff())) {
   for (int j = 0; j < 3; ++j) {
     c[j] = static_cast<float>(e.center[j]);
     r[j] = static_cast<float>(e.radii[j]);
@@ -78,18 +80,19 @@ FootEllipsoid::FootEllipsoid(const geometry::Ellipsoid& e) : largest(static_cast
   least_squared = smaller(squared[0], smaller(squared[1], squared[2]));
 }
 
-BODICE_CLONES void foot_distances(const FootEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
-                                  const float* __restrict y, const float* __restrict z, float* __restrict d) {
-  const FootEllipsoid e = ellipsoid;
-  for (std::size_t i = 0; i < n; ++i) d[i] = foot(e, x[i], y[i], z[i]).d;
+BODICE_CLONES void batch_distances(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
+                                   const float* __restrict y, const float* __restrict z,
+                                   float* __restrict d) {
+  const FloatEllipsoid e = ellipsoid;
+  for (std::size_t i = 0; i < n; ++i) d[i] = closest(e, x[i], y[i], z[i]).d;
 }
 
-BODICE_CLONES void foot_normals(const FootEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
-                                const float* __restrict y, const float* __restrict z, float* __restrict d,
-                                float* __restrict nx, float* __restrict ny, float* __restrict nz) {
-  const FootEllipsoid e = ellipsoid;
+BODICE_CLONES void batch_normals(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
+                                 const float* __restrict y, const float* __restrict z, float* __restrict d,
+                                 float* __restrict nx, float* __restrict ny, float* __restrict nz) {
+  const FloatEllipsoid e = ellipsoid;
   for (std::size_t i = 0; i < n; ++i) {
-    const Foot f = foot(e, x[i], y[i], z[i]);
+    const Closest f = closest(e, x[i], y[i], z[i]);
     d[i] = f.d;
     nx[i] = f.per_length * (e.rt[0][0] * f.nx + e.rt[1][0] * f.ny + e.rt[2][0] * f.nz);
     ny[i] = f.per_length * (e.rt[0][1] * f.nx + e.rt[1][1] * f.ny + e.rt[2][1] * f.nz);
@@ -97,12 +100,12 @@ BODICE_CLONES void foot_normals(const FootEllipsoid& ellipsoid, std::size_t n, c
   }
 }
 
-BODICE_CLONES void foot_details(const FootEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
-                                const float* __restrict y, const float* __restrict z, float* __restrict d,
-                                float* __restrict wx, float* __restrict wy, float* __restrict wz) {
-  const FootEllipsoid e = ellipsoid;
+BODICE_CLONES void batch_directions(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict x,
+                                    const float* __restrict y, const float* __restrict z, float* __restrict d,
+                                    float* __restrict wx, float* __restrict wy, float* __restrict wz) {
+  const FloatEllipsoid e = ellipsoid;
   for (std::size_t i = 0; i < n; ++i) {
-    const Foot f = foot(e, x[i], y[i], z[i]);
+    const Closest f = closest(e, x[i], y[i], z[i]);
     d[i] = f.d;
     wx[i] = f.wx;
     wy[i] = f.wy;

@@ -7,31 +7,32 @@
 
 namespace bodice::fitting {
 
-/// An ellipsoid in floats: y = R^T (x - c); once more in units of its largest radius, so that products of
-/// three squared radii stay far from what floats cannot hold.
-struct FootEllipsoid {
+/// An ellipsoid in floats: y = R^T (x - c) maps into its frame. It is also stored in units of its largest
+/// radius, so that products of three squared radii neither overflow nor vanish.
+struct FloatEllipsoid {
   float c[3];
   float rt[3][3];  ///< rows of R^T
   float r[3];
-  float largest;                 ///< of r
-  float to_unit[3][3], unit[3];  ///< rt, r over `largest`
-  float squared[3], inverse[3];  ///< unit^2, 1 / unit
-  float most_squared, least_squared;
+  float largest;                      ///< the largest of r
+  float to_unit[3][3], unit[3];       ///< rt and r, both divided by `largest`
+  float squared[3], inverse[3];       ///< unit^2, 1 / unit
+  float most_squared, least_squared;  ///< the largest and the least of `squared`
 
-  explicit FootEllipsoid(const geometry::Ellipsoid& e);
+  explicit FloatEllipsoid(const geometry::Ellipsoid& e);
 };
 
-/// d[i] = signed distance of point i, i < n. Within 1e-5 of the largest radius near the surface; deep inside
-/// it may be too shallow. Coordinates of the order of one (scale the problem first). No aliasing.
-void foot_distances(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
-                    float* d);
+/// Writes the signed distance d[i] of each of n points: within 1e-5 of the largest radius near the surface;
+/// deep inside it may be too shallow. Coordinates have to be of the order of one (see Scaling). No arrays
+/// overlap.
+void batch_distances(const FloatEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
+                     float* d);
 
-/// As foot_distances, and the outward unit normal there.
-void foot_normals(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
-                  float* d, float* nx, float* ny, float* nz);
+/// Writes distances as batch_distances(), and the outward unit normals at the closest points.
+void batch_normals(const FloatEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
+                   float* d, float* nx, float* ny, float* nz);
 
-/// As foot_distances, and the foot's unit direction w on the sphere in the ellipsoid's frame.
-void foot_details(const FootEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
-                  float* d, float* wx, float* wy, float* wz);
+/// Writes distances as batch_distances(), and the closest points as unit vectors w: c + R (r o w).
+void batch_directions(const FloatEllipsoid& e, std::size_t n, const float* x, const float* y, const float* z,
+                      float* d, float* wx, float* wy, float* wz);
 
 }  // namespace bodice::fitting

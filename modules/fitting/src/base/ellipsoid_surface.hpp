@@ -6,15 +6,18 @@
 
 namespace bodice::fitting {
 
-/// Square meters. Based on: Knud Thomsen's approximation, within 1.1 %: only shares samples out.
+/// The surface area of an ellipsoid, square meters, within 1.1 %: it only distributes samples.
+/// Based on: Knud Thomsen. Surface area of an ellipsoid, an approximate formula. 2004.
 double surface_area(const geometry::Vec3& radii);
 
+/// A point of a surface with the area that it represents.
 struct SurfaceProbe {
   geometry::Vec3 point;
-  double area = 0.0;  ///< that it stands for
+  double area = 0.0;
 };
 
-/// About even points: Fibonacci directions on the unit sphere, with the area that each maps to.
+/// About even points of an ellipsoid: Fibonacci directions on the unit sphere, with the area that each maps
+/// to.
 std::vector<SurfaceProbe> probe_surface(const geometry::Ellipsoid& ellipsoid, int count);
 
 }  // namespace bodice::fitting

@@ -8,13 +8,15 @@ namespace {
 
 using geometry::Vec3;
 
+/// A triangle crossed by a column.
 struct Crossing {
   std::uint32_t cell;
-  int sign;  ///< +1 where the column enters, seen from below
+  int sign;  ///< +1 where the column enters the body, followed upward; else -1
   double y;
 };
 
-/// Twice the signed area of (a, b, p) in the xz plane; a point on a shared edge falls to one side only.
+/// Twice the signed area of (a, b, p) in the xz plane. A point on a shared edge belongs to one of the
+/// triangles only.
 double edge(const Vec3& a, const Vec3& b, double x, double z) {
   return (b.x() - a.x()) * (z - a.z()) - (b.z() - a.z()) * (x - a.x());
 }
@@ -37,8 +39,8 @@ void add_triangle(const Vec3& a, const Vec3& b, const Vec3& c, const InteriorCol
     }
 }
 
-/// Appends the stretches where the count of signed crossings is above zero; none if the column does not
-/// close.
+/// Appends the stretches where the count of signed crossings is above zero, or none if the crossings do not
+/// add up to zero.
 void add_stretches(std::span<Crossing> column, std::vector<InteriorColumns::Stretch>& inside) {
   std::sort(column.begin(), column.end(), [](const Crossing& a, const Crossing& b) { return a.y < b.y; });
   const std::size_t before_column = inside.size();
@@ -52,7 +54,8 @@ void add_stretches(std::span<Crossing> column, std::vector<InteriorColumns::Stre
   if (depth != 0) inside.resize(before_column);
 }
 
-/// Sorted by cell, in the order found within each; `begin` (#cells + 1) says where each cell's are.
+/// The crossings sorted by cell, in their order within a cell. Fills in `begin` (#cells + 1): where each
+/// cell's begin.
 std::vector<Crossing> by_cell(const std::vector<Crossing>& crossings, std::vector<std::uint32_t>& begin) {
   for (const Crossing& c : crossings) ++begin[c.cell + 1];
   for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];

@@ -9,10 +9,10 @@
 
 namespace bodice::fitting {
 
-/// Lines along y on a grid of nx x nz cells (some millions at most), and the stretches of each that lie
-/// inside a mesh.
+/// Lines along y on a grid of nx x nz cells (some millions at most), each with its stretches that lie inside
+/// a mesh.
 struct InteriorColumns {
-  using Stretch = std::pair<double, double>;  ///< of y, ascending
+  using Stretch = std::pair<double, double>;  ///< an interval of y, ascending
 
   geometry::Vec3 low = geometry::Vec3::Zero();
   double spacing_m = 0.0;
@@ -29,16 +29,17 @@ struct InteriorColumns {
   }
 };
 
-/// The cells whose middles lie within [low, high] of one axis of `n` cells: first and last, empty if
-/// first > last.
+/// The first and the last of the cells with middles within [low, high], along an axis of `n` cells; none
+/// if first > last.
 std::pair<int, int> cells_within(double low, double high, double origin, double spacing, int n);
 
-/// Columns `spacing_m` apart, counted as in interior_grid(); none without a box. O(#F + columns).
+/// Columns `spacing_m` apart, with the stretches that interior_grid() takes points from; none without
+/// vertices. O(#F + columns).
 InteriorColumns interior_columns(const geometry::TriMesh& mesh, double spacing_m);
 
-/// Points of a cubic grid that lie inside the mesh, `spacing_m` apart, by counting signed crossings along
-/// columns (above zero is inside, so overlaps stay inside). Columns that do not close (holes) are left out.
-/// O(#F + columns); at most about four million grid points, beyond which the spacing is widened.
+/// Points of a cubic grid, `spacing_m` apart, that lie inside the mesh. Signed crossings are counted along
+/// columns: a count above zero is inside, so that overlaps are inside too. Columns through holes of the mesh
+/// have no points. O(#F + columns). The spacing is widened to keep the grid below four million points.
 std::vector<geometry::Vec3> interior_grid(const geometry::TriMesh& mesh, double spacing_m);
 
 }  // namespace bodice::fitting

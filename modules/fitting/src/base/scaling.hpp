@@ -4,8 +4,8 @@
 
 namespace bodice::fitting {
 
-/// The optimizations run on a body of 1.7 m at the origin, so that their tolerances are lengths and floats
-/// do.
+/// Maps a body to one of 1.7 m at the origin. Optimizations run on that one, so that their tolerances are
+/// lengths and floats suffice.
 struct Scaling {
   geometry::Vec3 origin = geometry::Vec3::Zero();
   double scale = 1.0;

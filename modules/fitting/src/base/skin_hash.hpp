@@ -6,7 +6,7 @@
 
 namespace bodice::fitting {
 
-/// Identity of the mesh that a proxy was fitted to: BodyProxy::source_hash.
+/// The hash that identifies the mesh a proxy was fitted to: BodyProxy::source_hash.
 std::uint64_t skin_hash(const geometry::TriMesh& mesh);
 
 }  // namespace bodice::fitting

@@ -11,7 +11,7 @@ namespace {
 
 using Coded = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // code, index
 
-/// By codes of 30 bits, ten at a time; those alike stay in their order.
+/// A stable radix sort by codes of 30 bits, ten bits at a time.
 void sort_by_digits(Coded& coded) {
   constexpr int kBits = geometry::kMortonBits;
   Coded sorted(coded.size());

@@ -6,9 +6,9 @@
 
 namespace bodice::fitting {
 
-/// The first value that is the largest up to a relative 1e-4, the size if none is positive. Left and right of
-/// a body are alike: which of them is split first must not hang on the rounding of its coordinates, nor on
-/// the tolerance of enclosing ellipsoids.
+/// The index of the first value within a relative 1e-4 of the largest one; the number of values if none is
+/// positive. The left and the right of a body are alike: which of them is split first must depend neither on
+/// the rounding of coordinates nor on the tolerance of enclosing ellipsoids.
 inline std::size_t tolerant_argmax(std::span<const double> values) {
   constexpr double kTie = 1e-4;
   double most = 0.0;

@@ -1,9 +1,9 @@
-// One function compiled for several instruction sets, the best one chosen when the program starts. Loops that
-// are to become vector code must not call functions compiled under other flags (they would not be inlined).
+// BODICE_CLONES compiles a function for several instruction sets; the best one is chosen when the program
+// starts. Loops in it must not call functions compiled under other flags, which would not be inlined.
 #pragma once
 
-// What GCC 12 makes of them depends on -fno-math-errno and -fno-trapping-math, which modules/CMakeLists.txt
-// gives this layer: as a pragma or an attribute they are lost in the clones.
+// GCC 12 vectorizes these loops only with -fno-math-errno and -fno-trapping-math. modules/CMakeLists.txt sets
+// them for this layer, because clones ignore them as a pragma or an attribute.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__) && \
     !defined(__SANITIZE_ADDRESS__)
 #define BODICE_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))

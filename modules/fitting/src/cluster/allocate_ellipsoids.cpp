@@ -12,16 +12,17 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kMostPoints = 2048;
-constexpr std::size_t kLeastPoints = 4;  // of a cluster that is still split
+constexpr std::size_t kMostPoints = 2048;  // points in all
+constexpr std::size_t kLeastPoints = 4;    // a cluster with fewer points is not split
 
-/// Points with the ellipsoid of their covariance, scaled to hold them all, in place of the enclosing one.
-struct Rehearsed {
+/// Points and the ellipsoid of their covariance, scaled to hold them all, in place of the least enclosing
+/// ellipsoid.
+struct PointGroup {
   std::vector<Vec3> points;
   Vec3 mean = Vec3::Zero(), longest = Vec3::UnitX();
-  double error_m = 0.0;  ///< as eq. (6)
+  double error_m = 0.0;  ///< eq. (6) to the scaled ellipsoid
 
-  explicit Rehearsed(std::vector<Vec3> from) : points(std::move(from)) {
+  explicit PointGroup(std::vector<Vec3> from) : points(std::move(from)) {
     const double n = static_cast<double>(points.size());
     for (const Vec3& p : points) mean += p / n;
     geometry::Mat3 spread = geometry::Mat3::Zero();
@@ -41,15 +42,15 @@ struct Rehearsed {
   }
 };
 
-/// The worst error before each split: errors[k] with k + 1 clusters.
-std::vector<double> rehearse(const engine::Context& context, std::vector<Vec3> points, int most) {
+/// Splits the worst cluster until there are `most`; errors[k] is the largest error with k + 1 clusters.
+std::vector<double> errors_before_splits(const engine::Context& context, std::vector<Vec3> points, int most) {
   std::vector<double> errors;
-  std::vector<Rehearsed> clusters;
+  std::vector<PointGroup> clusters;
   clusters.emplace_back(std::move(points));
   while (static_cast<int>(errors.size()) < most) {
     context.checkpoint();
     std::vector<double> error;
-    for (const Rehearsed& c : clusters) error.push_back(c.points.size() < kLeastPoints ? 0.0 : c.error_m);
+    for (const PointGroup& c : clusters) error.push_back(c.points.size() < kLeastPoints ? 0.0 : c.error_m);
     const std::size_t worst = tolerant_argmax(error);
     if (worst == clusters.size()) break;
     errors.push_back(clusters[worst].error_m);
@@ -57,7 +58,7 @@ std::vector<double> rehearse(const engine::Context& context, std::vector<Vec3> p
     for (const Vec3& p : clusters[worst].points)
       ((p - clusters[worst].mean).dot(clusters[worst].longest) < 0.0 ? low : high).push_back(p);
     if (low.empty() || high.empty()) break;
-    clusters[worst] = Rehearsed(std::move(low));
+    clusters[worst] = PointGroup(std::move(low));
     clusters.emplace_back(std::move(high));
   }
   return errors;
@@ -73,13 +74,14 @@ std::vector<int> allocate_ellipsoids(const engine::Context& context, const Items
     std::vector<Vec3> points;
     for (std::size_t i = 0; i < regions[r].items.size(); i += stride)
       points.push_back(items.where[regions[r].items[i]]);
-    errors[r] = rehearse(context, std::move(points), count);
+    errors[r] = errors_before_splits(context, std::move(points), count);
     for (double& e : errors[r]) e /= regions[r].torso ? kTorsoToLimbs : 1.0;
   });
   std::vector<int> share;
   int left = count;
   for (const Region& region : regions) {
-    share.push_back(std::max(1, static_cast<int>(region.seeds.size())));  // what its refinement starts with
+    share.push_back(
+        std::max(1, static_cast<int>(region.seeds.size())));  // clusters that its refinement starts with
     left -= share.back();
   }
   for (; left > 0; --left) {

@@ -1,5 +1,5 @@
-// How many ellipsoids each region gets before any is fitted, so that the regions need not wait for each
-// other.
+// How many ellipsoids each region gets. This is decided before any is fitted, so that no region waits for
+// another.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace bodice::fitting {
 
-/// Shares `count` ellipsoids out (at least its seeds to a region): a rehearsal of the bisecting refinement on
-/// at most 2048 points, with the principal axes of each cluster instead of its enclosing ellipsoid and
-/// without K-means, in which the worst ellipsoid of all regions is split again and again. Well under a
-/// millisecond.
+/// Allocates `count` ellipsoids to the regions; each gets at least as many as it has seeds. A cheap stand-in
+/// for the bisecting refinement decides: on at most 2048 points, with principal axes in place of enclosing
+/// ellipsoids and without K-means, it splits the cluster with the largest error of all regions again and
+/// again. Well under a millisecond.
 std::vector<int> allocate_ellipsoids(const engine::Context& context, const Items& items,
                                      const std::vector<Region>& regions, int count);
 

@@ -10,17 +10,18 @@
 namespace bodice::fitting {
 namespace {
 
-/// The part of most of a triangle's corners; of the first corner if all differ.
+/// The part of most of a triangle's corners, or of the first corner if all differ.
 body::Part part_of(const LabeledSkin& skin, const geometry::Triangle& t) {
   return skin.part[t[1]] == skin.part[t[2]] ? skin.part[t[1]] : skin.part[t[0]];
 }
 
-constexpr int kTorso = static_cast<int>(body::Part::kTorsoUL);  // stands for all six
-constexpr int kLeastForSixSeeds = 20;  // ellipsoids in all; with fewer the torso starts as one cluster
+constexpr int kTorso = static_cast<int>(body::Part::kTorsoUL);  // names the region of all six torso parts
+constexpr int kLeastForSixSeeds = 20;  // ellipsoids of the body; with fewer the torso starts as one cluster
 
-/// The part whose region each part belongs to.
+/// The part that names the region of each part.
 using Homes = std::array<int, body::kPartCount>;
 
+/// The homes of all parts, joined until the parts that occur have at most `most` regions.
 Homes homes(const std::array<bool, body::kPartCount>& occurs, int most) {
   using body::Part;
   constexpr std::array<std::pair<Part, Part>, 9> kJoin = {{{Part::kForearmL, Part::kUpperArmL},

@@ -1,4 +1,4 @@
-// What each tier clusters, and the regions it is clustered in.
+// The items that each tier clusters, and the regions that they are clustered in.
 #pragma once
 
 #include <bodice/fitting/fit.hpp>
@@ -7,14 +7,15 @@
 
 namespace bodice::fitting {
 
-/// The paper's choice: vertices only.
+/// The items of tier paper: the vertices.
 Items vertex_items(const LabeledSkin& skin);
 
-/// The solid tier's: every triangle whole, where it belongs by most of its corners.
+/// The items of tier solid: whole triangles, each with the part of most of its corners.
 Items triangle_items(const engine::Context& context, const LabeledSkin& skin);
 
-/// One region a limb part (k = 1) and one for the torso, seeded by the means of its six parts. If that would
-/// be more than `most`, limbs join their neighbors, outer ones first.
+/// One region for each part that is not torso, with one seed, and one region for the torso, seeded by the
+/// means of its six parts. If these are more than `most` regions, limbs join their neighbors, the outer ones
+/// first.
 std::vector<Region> make_regions(const Items& items, int most);
 
 }  // namespace bodice::fitting

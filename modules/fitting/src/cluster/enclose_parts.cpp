@@ -11,7 +11,7 @@
 namespace bodice::fitting {
 namespace {
 
-/// Bits of the parts whose ellipsoid must hold each vertex, #V.
+/// #V: a bit for each part that must hold the vertex in its ellipsoid.
 std::vector<std::uint32_t> holders(const LabeledSkin& skin) {
   std::vector<std::uint32_t> bits(skin.mesh.positions.size(), 0);
   for (const geometry::Triangle& t : skin.mesh.triangles) {
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> holders(const LabeledSkin& skin) {
 
 engine::Result<proxy::BodyProxy> enclose_checked(const engine::Context& context, const LabeledSkin& skin,
                                                  std::uint32_t parts) {
-  // Loose on purpose: the gap is centimeters, so a volume within a percent of the least will do.
+  // The gap is centimeters anyway, so that a volume within a percent of the least will do.
   const MveeOptions loose{.volume_tolerance = 1e-2, .min_radius_m = kLeastRadius * skin.stature_m};
   const std::vector<std::uint32_t> bits = holders(skin);
   std::vector<std::vector<Vec3>> points(body::kPartCount);

@@ -12,10 +12,10 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kChunk = 64;  // points: a ball over more would rule out little
-constexpr std::size_t kGrain = 64;  // chunks a block: some 20 us of work
-constexpr Index kNowhere = ~Index{0};
-constexpr float kRounding = 1e-5f;  // of a distance in float, generously
+constexpr std::size_t kChunk = 64;     // points a chunk: the ball of a larger one would rule out few centers
+constexpr std::size_t kGrain = 64;     // chunks a task: some 20 us of work
+constexpr Index kNowhere = ~Index{0};  // a point without a center
+constexpr float kRounding = 1e-5f;     // relative bound on the rounding of a distance in float
 
 }  // namespace
 
@@ -69,7 +69,7 @@ void Lloyd::mark_moved() {
   }
 }
 
-/// The centers that can be the nearest of a point of the chunk; false if all keep theirs.
+/// Finds the centers that can be nearest to a point of the chunk; false if all its points keep their centers.
 bool Lloyd::choose_candidates(const Chunk& chunk, Scratch& scratch) const {
   const auto from_middle = [&](Index k) {
     const float x = placed_[3 * k] - chunk.middle[0], y = placed_[3 * k + 1] - chunk.middle[1],
@@ -101,7 +101,8 @@ void Lloyd::assign_chunk(std::size_t chunk, Scratch& scratch, std::vector<std::u
   std::array<Index, kChunk> nearest;
   nearest_centers(n, &local_[0][first], &local_[1][first], &local_[2][first], scratch.candidates.size(),
                   scratch.candidates.data(), placed_.data(), distance.data(), nearest.data());
-  std::uint32_t farthest = 0;  // as bits, which vector code can compare: no distance is negative
+  std::uint32_t farthest =
+      0;  // the bits of a float: vector code compares them faster, as no distance is negative
   Index differ = 0;
   for (std::size_t i = 0; i < n; ++i) {
     farthest = std::max(farthest, std::bit_cast<std::uint32_t>(distance[i]));
@@ -145,7 +146,7 @@ void Lloyd::assign(const engine::Context& context) {
     for (std::size_t k = 0; k < changed_.size(); ++k) changed_[k] |= block[k];
 }
 
-/// Moves each center to its cluster's mean, also one that was put elsewhere and kept its points; returns the
+/// Moves each center to the mean of its points, also a center that was moved and kept its points; returns the
 /// largest move.
 double Lloyd::move_centers() {
   std::vector<Sum> sums(centers_.size(), Sum::Zero());

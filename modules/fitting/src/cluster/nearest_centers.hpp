@@ -6,8 +6,9 @@
 
 namespace bodice::fitting {
 
-/// For each of n points (structure of arrays): the squared distance to the nearest of the `count` centers
-/// named by `which` (ascending), and its number; the lowest number on a tie. Nothing aliases.
+/// Finds, for each of n points (structure of arrays), the squared distance to the nearest of the `count`
+/// centers that `which` lists (ascending), and that center's index, the lowest one on a tie. No arrays
+/// overlap.
 void nearest_centers(std::size_t n, const float* x, const float* y, const float* z, std::size_t count,
                      const std::uint32_t* which, const float* centers_xyz, float* distance,
                      std::uint32_t* nearest);

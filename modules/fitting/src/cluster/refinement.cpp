@@ -12,11 +12,11 @@
 namespace bodice::fitting {
 namespace {
 
-/// Fewer items than this are not split: an ellipsoid needs four points to have a volume.
+/// A cluster with fewer items is not split: an ellipsoid needs four points to have a volume.
 constexpr std::size_t kMinItemsToSplit = 8;
-/// A cluster's error is rarely more than so many times that of its points to the ellipsoid it had before.
+/// A cluster's error is rarely more than this factor above the error of its points to its earlier ellipsoid.
 constexpr double kCautious = 1.35;
-constexpr double kUnknown = std::numeric_limits<double>::infinity();  // error of a cluster with no past
+constexpr double kUnknown = std::numeric_limits<double>::infinity();  // error of a cluster never fitted
 
 body::Part majority_part(const Items& items, std::span<const Index> members) {
   std::array<std::size_t, body::kPartCount> votes{};
@@ -30,7 +30,7 @@ std::vector<Vec3> points_of(const Items& items, std::span<const Index> members) 
   return points;
 }
 
-/// Few, for an estimate.
+/// At most 64 points of the items, enough for an estimate.
 std::vector<Vec3> some_points(const Items& items, std::span<const Index> members) {
   constexpr std::size_t kMost = 64;
   const std::size_t stride = members.size() / kMost + 1;
@@ -85,7 +85,7 @@ Refinement::Refinement(const engine::Context& context, const Items& items, const
 }
 
 void Refinement::run(double mu_m, std::size_t most) {
-  // A split that empties a cluster adds none: bounded by the items all the same.
+  // A split that leaves a cluster empty adds none, so that the number of items bounds the splits.
   for (std::size_t step = 0; step < where_.size() && clusters_.size() < most; ++step) {
     std::size_t worst = find_worst();
     if (worst == clusters_.size()) break;
@@ -100,13 +100,13 @@ void Refinement::run(double mu_m, std::size_t most) {
   fit_rest();
 }
 
-/// K-means without a past, measuring from near the region's points.
+/// K-means without earlier state, with an origin near the region's points.
 Lloyd Refinement::fresh_lloyd() const {
   return {where_, weight_, where_.empty() ? Vec3(Vec3::Zero()) : where_.front()};
 }
 
-/// The worst of those that can be split, fitted; #clusters if none can. Clusters that only won or lost points
-/// at their border are fitted when they seem the worst.
+/// The cluster with the largest error of those that can be split, fitted; #clusters if none can be split.
+/// Clusters that only gained or lost points at their border are not fitted before they seem the worst.
 std::size_t Refinement::find_worst() {
   while (true) {
     std::vector<double> error;
@@ -131,7 +131,7 @@ void Refinement::split(std::size_t worst) {
   std::vector<Vec3> centers = centers_;
   centers[worst] = e.center - end;
   centers.push_back(e.center + end);
-  clusters_[worst].error_m = kUnknown;  // of the whole: it says nothing of a half
+  clusters_[worst].error_m = kUnknown;  // the error of the whole cluster is none of a half's
   clusters_[worst].fitted = false;
   recluster(std::move(centers));
 }
@@ -149,8 +149,8 @@ void Refinement::recluster(std::vector<Vec3> centers) {
   reclassify();
 }
 
-/// Drops the empty clusters; those whose members changed are to be fitted again, and have until then the
-/// error that they may have by the ellipsoid that they had.
+/// Drops the empty clusters. Clusters with other members than before are marked for fitting; until then their
+/// error is estimated with their earlier ellipsoid.
 void Refinement::set_members(std::vector<std::vector<Index>> members) {
   std::vector<Cluster> next;
   std::vector<Vec3> centers;
@@ -198,8 +198,8 @@ void Refinement::fit_rest() {
   fit(rest);
 }
 
-/// Eq. (8) as one simultaneous pass, so that no order matters: a skin point that lies in several ellipsoids
-/// goes to the one whose surface is nearest along the ray; the pass is undone if the worst error rises.
+/// Eq. (8) as one simultaneous pass, so that no order matters: a point that lies in several ellipsoids goes
+/// to the one with the nearest surface along the ray. The pass is undone unless the largest error falls.
 void Refinement::reclassify() {
   const std::vector<Cluster> before = clusters_;
   const std::vector<Vec3> centers_before = centers_;

@@ -1,7 +1,7 @@
 // Bisecting refinement of one region: the paper's steps a to e.
-// Based on: the paper, section 3.3. Differs: ends at a count as well as at a threshold; only clusters whose
-// members changed are fitted again, and that only when they are next to be split or at the end; a cluster too
-// small to split is left alone, so refinement always ends.
+// Based on: the paper, section 3.3. Differs: it ends at a count as well as at a threshold. A cluster is
+// fitted again only if its members changed, and only when it is next to be split or at the end. A cluster
+// that is too small to split stays, so that refinement always ends.
 #pragma once
 
 #include <array>
@@ -21,57 +21,62 @@ namespace bodice::fitting {
 using geometry::Index;
 using geometry::Vec3;
 
-/// What is clustered: vertices, triangles or interior anchors.
+/// What is clustered: vertices or triangles.
 struct Items {
-  std::vector<Vec3> where;     ///< #I, the point that K-means sees
+  std::vector<Vec3> where;     ///< #I: the point of the item in K-means
   std::vector<double> weight;  ///< #I
-  /// #I, points that the item's ellipsoid must hold (may repeat); empty: `where` itself.
+  /// #I: indices into `points` of those that the item's ellipsoid must hold (may repeat). Empty: `where`
+  /// itself.
   std::vector<std::array<Index, 3>> encloses;
   std::vector<body::Part> part;  ///< #I
-  std::vector<Index> triangle;   ///< #I, of the mesh, where items are triangles
-  std::vector<Vec3> points;      ///< what `encloses` indexes
+  std::vector<Index> triangle;   ///< #I: the mesh's triangle, where items are triangles
+  std::vector<Vec3> points;      ///< indexed by `encloses`
 };
 
-/// Parts that are fitted together: the torso's six, or one limb.
+/// Parts that are fitted together: the torso's six parts, or one other part.
 struct Region {
   std::string_view name;
-  std::uint32_t parts = 0;  ///< bit a part
+  std::uint32_t parts = 0;  ///< a bit for each part
   bool torso = false;
   std::vector<Index> items;
-  std::vector<Vec3> seeds;  ///< initial centers: 6 for the torso, else 1
+  std::vector<Vec3> seeds;  ///< initial centers: six for the torso, else one
 };
 
+/// How a region is refined.
 struct RefineOptions {
-  double sigma_m = 0.0;       ///< pruned stop
-  double min_radius_m = 0.0;  ///< of every ellipsoid
-  bool reclassify = false;    ///< eq. (8)
+  double sigma_m = 0.0;       ///< eq. (7): K-means stops when no center moves farther
+  double min_radius_m = 0.0;  ///< no semi-axis of an ellipsoid is shorter
+  bool reclassify = false;    ///< whether points are reclassified by eq. (8)
 };
 
-/// No enclosing ellipsoid is thinner: a fraction of stature, half a millimeter.
+/// The least radius of an enclosing ellipsoid, a fraction of stature: half a millimeter.
 inline constexpr double kLeastRadius = 3e-4;
 
-/// Pruned stop: centers that move less than 2 parts in 1000 of stature no longer change which ellipsoid fits.
+/// Options for a body of this stature. Centers that move less than two thousandths of stature no longer
+/// change which ellipsoid fits.
 inline RefineOptions refine_options(double stature_m) {
   return {.sigma_m = 2e-3 * stature_m, .min_radius_m = kLeastRadius * stature_m};
 }
 
+/// Items with their enclosing ellipsoid.
 struct Cluster {
   std::vector<Index> items;  ///< ascending
   geometry::Ellipsoid ellipsoid;
-  double error_m = 0.0;  ///< E_j, eq. (6), over its points
-  body::Part part = body::Part::kHead;
-  bool fitted = false;  ///< false: ellipsoid and error are those of the points it had before
+  double error_m = 0.0;                 ///< E_j, eq. (6), over its points
+  body::Part part = body::Part::kHead;  ///< the part of most of its items
+  bool fitted = false;                  ///< false: ellipsoid and error belong to an earlier set of items
 };
 
-/// The points that these items' ellipsoid must hold, each once.
+/// The points that the ellipsoid of these items must hold, each once.
 std::vector<Vec3> enclosed_points(const Items& items, std::span<const Index> members);
 
-/// Along the ray from the center, between a point and the ellipsoid.
+/// Distance between a point and the ellipsoid along the ray from the center; the least radius at the center.
 double radial_distance(const geometry::Ellipsoid& ellipsoid, const Vec3& point);
 
-/// Eq. (6): mean distance along the ray from the center between the points and the ellipsoid.
+/// Eq. (6): the mean radial distance between the points and the ellipsoid; zero without points.
 double radial_error(const geometry::Ellipsoid& ellipsoid, std::span<const Vec3> points);
 
+/// The refinement of one region.
 class Refinement {
  public:
   /// The region and the items must outlive the refinement.
@@ -80,7 +85,7 @@ class Refinement {
   Refinement(const Refinement&) = delete;
   Refinement& operator=(const Refinement&) = delete;
 
-  /// All fitted once the refinement has run.
+  /// The clusters; all are fitted after run().
   const std::vector<Cluster>& clusters() const { return clusters_; }
   /// Steps b to e: splits until every error is at most `mu_m` or there are `most` clusters.
   void run(double mu_m, std::size_t most);
@@ -99,7 +104,7 @@ class Refinement {
   const Items& items_;
   const Region& region_;
   RefineOptions options_;
-  std::vector<Vec3> where_;  ///< of the region's items
+  std::vector<Vec3> where_;  ///< #items of the region
   std::vector<double> weight_;
   Lloyd lloyd_;
   std::vector<Vec3> centers_;

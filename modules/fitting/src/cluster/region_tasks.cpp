@@ -10,8 +10,8 @@
 namespace bodice::fitting {
 namespace {
 
-/// Hands regions on in their order, whatever order they end in. A worker whose region has to wait, or that
-/// finds another one handing on, leaves it and goes.
+/// Publishes regions in their order, whatever order their tasks end in. A worker does not wait: if an earlier
+/// region is not ready, or another worker is publishing, it leaves its region in the queue.
 class InOrder {
  public:
   InOrder(const std::vector<Region>& regions, const RegionTasks& tasks) : on_part_(tasks.on_part) {
@@ -42,7 +42,7 @@ class InOrder {
   };
   const std::function<void(const FittedPart&)>& on_part_;
   std::mutex mutex_;
-  std::vector<Entry> queue_;  // never resized once tasks run
+  std::vector<Entry> queue_;  // its size is fixed before tasks run
   std::size_t next_ = 0;
   bool busy_ = false;
 };

@@ -4,7 +4,7 @@ namespace bodice::fitting {
 
 namespace {
 
-/// An ellipsoid that reaches a row, and the first and last column that it may reach.
+/// An ellipsoid that reaches a row of columns, with the first and the last column that it may reach.
 struct InRow {
   std::uint32_t ellipsoid;
   int first, last;

@@ -1,4 +1,4 @@
-// Which stretch of a line along y an ellipsoid covers.
+// The stretch of a line along y that an ellipsoid covers.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace bodice::fitting {
 
-/// An ellipsoid made ready for lines along y.
+/// An ellipsoid prepared for intersection with lines along y.
 struct ColumnLine {
   geometry::Box box;
   geometry::Mat3 whiten;
@@ -36,14 +36,15 @@ struct ColumnLine {
   }
 };
 
-/// Which ellipsoids cover which stretches of a row's columns.
+/// The stretches of a row's columns that ellipsoids cover.
 struct RowCover {
+  /// A stretch of one column that one ellipsoid covers.
   struct Part {
     std::uint32_t ellipsoid;
     InteriorColumns::Stretch stretch;
   };
-  std::vector<std::uint32_t> begin;  ///< nx + 1, into parts
-  std::vector<Part> parts;           ///< of a column by ellipsoid; none where the body is not
+  std::vector<std::uint32_t> begin;  ///< nx + 1: where each column's parts begin
+  std::vector<Part> parts;           ///< by column, then by ellipsoid; a column outside the body has none
 
   std::span<const Part> at(int i) const {
     return std::span(parts).subspan(
@@ -52,11 +53,11 @@ struct RowCover {
   }
 };
 
-/// Of row k.
+/// What the ellipsoids cover of row k.
 RowCover cover_row(const InteriorColumns& columns, int k, std::span<const ColumnLine> lines);
 
-/// Appends what `wanted` has that none of the `covered` stretches (sorted by their begin) has, where it is
-/// longer than `shortest`.
+/// Appends what remains of `wanted` without the `covered` stretches, which are sorted by their begin.
+/// Remainders up to `shortest` are left out.
 void subtract(const InteriorColumns::Stretch& wanted, std::span<const InteriorColumns::Stretch> covered,
               double shortest, std::vector<InteriorColumns::Stretch>& left);
 

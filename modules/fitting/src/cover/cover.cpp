@@ -17,7 +17,7 @@ namespace {
 
 using geometry::Ellipsoid;
 
-constexpr int kPasses = 4;
+constexpr int kPasses = 4;  // of growing, before what remains is covered by stretching
 
 std::array<Vec3, 12> icosahedron() {
   const double g = std::numbers::phi, length = std::sqrt(1.0 + g * g);
@@ -32,7 +32,8 @@ std::array<Vec3, 12> icosahedron() {
   return corners;
 }
 
-/// Calls f(batch, begin) for the triangles named by `which` (positions in `triangles`), a batch at a time.
+/// Calls f(batch, begin) for the triangles that `which` lists (as indices into `triangles`), a batch at a
+/// time.
 template <class F>
 void for_each_batch(const geometry::TriMesh& mesh, std::span<const Index> triangles,
                     std::span<const Index> which, F&& f) {
@@ -53,13 +54,13 @@ std::vector<Index> all_of(std::span<const Index> triangles) {
   return all;
 }
 
-/// Of a triangle: who holds it, or who has to grow for it.
+/// The ellipsoid that holds a triangle, or the one that has to grow for it.
 struct Home {
   std::uint32_t ellipsoid = 0;
   bool held = false;
 };
 
-/// Brings the homes of the triangles named by `which` up to date.
+/// Brings the homes of the triangles that `which` lists up to date.
 void find_homes(const engine::Context& context, const geometry::TriMesh& mesh,
                 std::span<const Index> triangles, std::span<const Index> which,
                 const std::vector<Ellipsoid>& ellipsoids, std::vector<Home>& home) {
@@ -80,7 +81,7 @@ void find_homes(const engine::Context& context, const geometry::TriMesh& mesh,
       });
 }
 
-/// Corners of triangles, by the ellipsoid that has to grow for them.
+/// The corners of triangles that are not held, grouped by the ellipsoid that has to grow for them.
 class CornersToHold {
  public:
   CornersToHold(std::size_t vertices, std::size_t ellipsoids) : of_(ellipsoids), last_(vertices, 0) {}
@@ -96,7 +97,7 @@ class CornersToHold {
   const std::vector<Vec3>& of(std::size_t e) const { return of_[e]; }
 
  private:
-  /// A corner that triangles share is mostly asked for by one ellipsoid: it is noted once.
+  /// Adds a corner once, although several triangles share it: most often they have the same ellipsoid.
   void add(const geometry::TriMesh& mesh, Index v, std::uint32_t e) {
     if (last_[v] == stamp_ + e) return;
     last_[v] = stamp_ + e;
@@ -104,15 +105,15 @@ class CornersToHold {
   }
 
   std::vector<std::vector<Vec3>> of_;
-  std::vector<std::uint32_t> last_;  // of each vertex: in which round, and for whom
+  std::vector<std::uint32_t> last_;  // #V: the stamp of the round and ellipsoid that added the vertex last
   std::uint32_t stamp_ = 1;
 };
 
 }  // namespace
 
 Ellipsoid grown(const Ellipsoid& ellipsoid, std::span<const Vec3> points) {
-  static constexpr double kVolumeTolerance = 1e-3;  // a third of a thousandth of the radii
-  constexpr double kSlack = 1.0 + 1e-9;             // the point that touches is held, under rounding too
+  static constexpr double kVolumeTolerance = 1e-3;  // changes radii by a third of a thousandth
+  constexpr double kSlack = 1.0 + 1e-9;             // holds the points on the surface under rounding
   std::vector<Vec3> all(points.begin(), points.end());
   for (const Vec3& u : icosahedron())
     all.push_back(ellipsoid.center + ellipsoid.axes * ellipsoid.radii.cwiseProduct(u));
@@ -122,7 +123,7 @@ Ellipsoid grown(const Ellipsoid& ellipsoid, std::span<const Vec3> points) {
 }
 
 Ellipsoid stretched(const Ellipsoid& e, const Vec3& point) {
-  constexpr double kSlack = 1.0 + 1e-9;  // over the rounding of the new axes
+  constexpr double kSlack = 1.0 + 1e-9;  // covers the rounding of the new axes
   const Vec3 y = (e.axes.transpose() * (point - e.center)).cwiseQuotient(e.radii);
   const double rho = y.norm() * kSlack;
   if (!(rho > 1.0)) return e;
@@ -145,7 +146,8 @@ void cover_triangles(const engine::Context& context, const geometry::TriMesh& me
     find_homes(context, mesh, triangles, unsure, ellipsoids, home);
     corners.collect(mesh, triangles, home);
     const auto grows = [&](std::size_t e) { return !corners.of(e).empty(); };
-    // Growing is not nested: a new ellipsoid may let go of what the old one held. Stretching is.
+    // A grown ellipsoid may not hold everything that it held before. A stretched one does, so that the last
+    // pass ends it.
     const bool last = pass == kPasses;
     engine::parallel_for(context, ellipsoids.size(), 1, [&](std::size_t e, std::size_t) {
       if (!grows(e)) return;
@@ -162,7 +164,7 @@ void cover_triangles(const engine::Context& context, const geometry::TriMesh& me
 
 namespace {
 
-/// Which of the triangles named by `which` the ellipsoid holds.
+/// The triangles of `which` that the ellipsoid holds.
 std::vector<Index> held_of(const Ellipsoid& e, const geometry::TriMesh& mesh,
                            std::span<const Index> triangles, std::span<const Index> which) {
   std::vector<Index> held;
@@ -176,7 +178,7 @@ std::vector<Index> held_of(const Ellipsoid& e, const geometry::TriMesh& mesh,
   return held;
 }
 
-/// As little around the anchor and the triangles as growing finds, surely holding the triangles.
+/// A small ellipsoid that holds the triangles for certain and the anchor nearly.
 Ellipsoid around(const Ellipsoid& anchor, const geometry::TriMesh& mesh, std::span<const Index> triangles) {
   std::vector<Vec3> corners;
   for (const Index t : triangles)
@@ -195,7 +197,7 @@ void relax_cover(const engine::Context& context, const geometry::TriMesh& mesh,
                  std::vector<Ellipsoid>& ellipsoids) {
   constexpr int kRounds = 3;
   const std::vector<Index> all = all_of(triangles);
-  // What an ellipsoid comes to hold anew while it shrinks is not counted, which errs on the safe side.
+  // Triangles that an ellipsoid holds anew after it shrank are not counted, which errs on the safe side.
   std::vector<std::vector<Index>> held(ellipsoids.size());
   engine::parallel_for(context, held.size(), 1, [&](std::size_t e, std::size_t) {
     held[e] = held_of(ellipsoids[e], mesh, triangles, all);

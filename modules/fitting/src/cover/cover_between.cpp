@@ -12,12 +12,12 @@ namespace bodice::fitting {
 namespace {
 
 using Stretch = InteriorColumns::Stretch;
-using Near = std::vector<std::uint32_t>;  // ellipsoids
+using Near = std::vector<std::uint32_t>;  // indices of ellipsoids
 
-constexpr int kCuts = 3;
-constexpr double kShortest = 1e-2;  // of the spacing: what is shorter is the rounding of two ends
+constexpr int kCuts = 3;            // squares are cut in four so many times
+constexpr double kShortest = 1e-2;  // fraction of the spacing: a shorter stretch is the rounding of two ends
 
-/// Between four columns.
+/// A square between four columns, or a piece of one.
 struct Square {
   double x, z, size;
 };
@@ -26,7 +26,8 @@ Stretch common(const Stretch& a, const Stretch& b) {
   return {std::max(a.first, b.first), std::min(a.second, b.second)};
 }
 
-/// The stretches over which all four columns lie inside the body, into `wanted`; `scratch` keeps its memory.
+/// Writes the stretches over which all four columns lie inside the body to `wanted`; `scratch` keeps its
+/// memory.
 void find_wanted(const InteriorColumns& columns, int i, int k, std::vector<Stretch>& wanted,
                  std::vector<Stretch>& scratch) {
   const std::span<const Stretch> first = columns.at(i, k);
@@ -51,7 +52,7 @@ Stretch held_of(const Square& square, const ColumnLine& line) {
   return s;
 }
 
-/// Takes one stretch from the others, and forgets what is left of them if it is short.
+/// Subtracts one stretch from the others; remainders up to `shortest` are dropped.
 void take(const Stretch& held, double shortest, std::vector<Stretch>& left) {
   for (std::size_t n = left.size(); n-- > 0;) {
     const Stretch before{left[n].first, std::min(left[n].second, held.first)};
@@ -68,7 +69,7 @@ void take(const Stretch& held, double shortest, std::vector<Stretch>& left) {
   }
 }
 
-/// Takes what single ellipsoids hold of all four columns.
+/// Subtracts the stretches over which a single ellipsoid holds all four columns.
 void take_held(const std::array<std::span<const RowCover::Part>, 4>& corners, double shortest,
                std::vector<Stretch>& left) {
   std::array<std::size_t, 4> next{};
@@ -94,7 +95,7 @@ Near all_of(const std::array<std::span<const RowCover::Part>, 4>& corners) {
   return near;
 }
 
-/// Cuts squares until ellipsoids hold what is wanted of every piece, or it is small.
+/// Cuts squares in four until ellipsoids hold what is left of every piece, or the pieces are small.
 class Cutter {
  public:
   Cutter(std::span<const ColumnLine> lines, double shortest, std::vector<geometry::Box>& unsure)

@@ -1,4 +1,4 @@
-// What columns of the inside cannot tell: holes that lie between them.
+// Holes that lie between the columns of the interior.
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@
 
 namespace bodice::fitting {
 
-/// Boxes, as wide as an eighth of the columns' spacing, that no ellipsoid is certain to hold although the
-/// four columns around them lie inside the body. An ellipsoid is convex: one that holds a stretch of all four
-/// holds all that lies between; where none does, the square is cut in four. So what is not in a box and not
-/// within a column's spacing of the skin is covered for certain. `cover` is what ellipsoids, perhaps smaller
-/// ones, cover of each row. Deterministic, parallel.
+/// Boxes, an eighth of the columns' spacing wide, that no ellipsoid is certain to hold although the four
+/// columns around them lie inside the body. By convexity, an ellipsoid that holds a stretch of all four
+/// columns holds all that lies between; where none does, the square between the columns is cut in four. So
+/// any point outside the boxes and farther than a column's spacing from the skin is covered for certain.
+/// `cover` has what these ellipsoids, or smaller ones, cover of each row. Deterministic, parallel.
 std::vector<geometry::Box> unsure_between(const engine::Context& context, const InteriorColumns& columns,
                                           std::span<const RowCover> cover,
                                           const std::vector<geometry::Ellipsoid>& ellipsoids);

@@ -17,11 +17,12 @@ namespace {
 using geometry::Ellipsoid;
 using Stretch = InteriorColumns::Stretch;
 
+/// The ends of a stretch of a column that no ellipsoid covers.
 struct Hole {
-  Vec3 low, high;  // ends of a stretch that no ellipsoid covers
+  Vec3 low, high;
 };
 
-/// What no ellipsoid covers of the columns of row k.
+/// The holes in the columns of row k.
 std::vector<Hole> holes_of_row(const InteriorColumns& columns, int k, const RowCover& row, double shortest) {
   std::vector<Hole> holes;
   std::vector<Stretch> covered, left;
@@ -38,7 +39,7 @@ std::vector<Hole> holes_of_row(const InteriorColumns& columns, int k, const RowC
   return holes;
 }
 
-/// Fills in what covers each row.
+/// The holes in all columns; fills in what covers each row.
 std::vector<Hole> find_holes(const engine::Context& context, const InteriorColumns& columns,
                              const std::vector<Ellipsoid>& ellipsoids, double shortest,
                              std::vector<RowCover>& cover) {
@@ -59,13 +60,13 @@ std::vector<Hole> find_holes(const engine::Context& context, const InteriorColum
   return holes;
 }
 
-/// How far the point is outside, along its ray.
+/// How far a point is outside the ellipsoid along the ray from the center; zero inside.
 double ray_outside(const Ellipsoid& e, const Vec3& p) {
   const double level = geometry::level(e, p);
   return level > 1.0 ? (p - e.center).norm() * (1.0 - 1.0 / std::sqrt(level)) : 0.0;
 }
 
-/// Stretches the ellipsoid that has to grow least over all of the points.
+/// Stretches the ellipsoid that is nearest to all of the points until it holds them.
 void fill(std::span<const Vec3> points, std::vector<Ellipsoid>& ellipsoids) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
@@ -107,13 +108,14 @@ double cover_interior(const engine::Context& context, const InteriorColumns& col
       fill(std::array{low, high}, ellipsoids);
     });
   }
-  // What covered a row covers it still: stretching lets go of nothing.
+  // What covered a row still covers it, because a stretched ellipsoid holds all that it held.
   for (const geometry::Box& box : unsure_between(context, columns, cover, ellipsoids)) {
     context.checkpoint();
     const Vec3 middle = box.center(), up = 0.5 * box.size().y() * Vec3::UnitY(),
                aside = middle + up - box.high;
     for_each_piece(middle - up, middle + up, spacing_m, [&](const Vec3& low, const Vec3& high) {
-      // Columns on either side of a narrow gap, as between fingers, do not see it.
+      // Columns on either side of a narrow gap, as between fingers, leave open whether a point in it is
+      // inside.
       if (!distance.inside(0.5 * (low + high))) return;
       geometry::Box piece;
       piece.extend(low + aside);

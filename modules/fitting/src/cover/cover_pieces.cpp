@@ -15,10 +15,10 @@ namespace {
 using geometry::Index;
 using geometry::Triangle;
 
-constexpr int kCuts = 3;
-constexpr double kFine_mm = 2.0;  // edges that are not worth a cut: fine meshes keep their triangles
+constexpr int kCuts = 3;          // a triangle is cut at most so many times
+constexpr double kFine_mm = 2.0;  // triangles with shorter edges are not cut, so that fine meshes keep theirs
 
-/// Appends the nearest ellipsoid of each position that has none yet.
+/// Appends the nearest ellipsoid of each position beyond those already in `nearest`.
 void add_nearest(const Scaling& scaling, std::span<const geometry::Vec3> positions,
                  std::span<const geometry::Ellipsoid> ellipsoids, std::vector<std::uint32_t>& nearest) {
   const std::size_t known = nearest.size(), n = positions.size() - known;
@@ -29,8 +29,8 @@ void add_nearest(const Scaling& scaling, std::span<const geometry::Vec3> positio
   std::vector<float> least(n, std::numeric_limits<float>::infinity()), d(n);
   nearest.resize(positions.size(), 0);
   for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
-    foot_distances(FootEllipsoid(scaling.in(ellipsoids[k])), n, at[0].data(), at[1].data(), at[2].data(),
-                   d.data());
+    batch_distances(FloatEllipsoid(scaling.in(ellipsoids[k])), n, at[0].data(), at[1].data(), at[2].data(),
+                    d.data());
     for (std::size_t i = 0; i < n; ++i)
       if (d[i] < least[i]) least[i] = d[i], nearest[known + i] = k;
   }
@@ -41,7 +41,7 @@ double longest_edge(std::span<const geometry::Vec3> positions, const Triangle& t
                    (positions[t[2]] - positions[t[0]]).norm()});
 }
 
-/// Cuts triangles in four at the middles of their edges, which neighbors share.
+/// Cuts triangles in four at the middles of their edges; neighboring triangles share these middles.
 class Cutter {
  public:
   explicit Cutter(std::vector<geometry::Vec3>& positions) : positions_(positions) {}

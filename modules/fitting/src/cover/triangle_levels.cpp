@@ -64,7 +64,7 @@ BODICE_CLONES void offer_home(const LevelForm& ellipsoid, std::uint32_t number,
                               const TriangleBatch& triangles, TriangleHomes& homes) {
   const LevelForm e = ellipsoid;
   const std::size_t n = triangles.count;
-  float outside[kMost], ray_squared[kMost];  // level - 1, as what is left of 1 decides
+  float outside[kMost], ray_squared[kMost];  // outside: level - 1, which keeps its digits near the surface
   for (std::size_t i = 0; i < n; ++i) {
     const double level = worst_level(e, triangles, i);
     const Offset d = offset(e, triangles, 0, i);

@@ -23,8 +23,8 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;
-constexpr double kKeptTo = 1.1;     // times the target: what the search aims at
-constexpr double kWarnAbove = 1.2;  // times the target: what the dial promises
+constexpr double kKeptTo = 1.1;     // times the target: the gap that the target search aims at
+constexpr double kWarnAbove = 1.2;  // times the target: a larger gap is a warning
 
 engine::Result<Draft> run_tier(const engine::Context& context, const LabeledSkin& skin,
                                const FitOptions& options, int count, std::vector<engine::StageTime>& stages) {
@@ -39,7 +39,7 @@ engine::Result<Draft> run_tier(const engine::Context& context, const LabeledSkin
   return fit_paper(context, skin, options, count);
 }
 
-/// Runs plans one after the other; relief keeps its ellipsoids while only the size of its tables changes.
+/// Runs plans one after the other. Relief keeps its ellipsoids while only the size of its tables changes.
 class PlanRunner {
  public:
   PlanRunner(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,
@@ -51,7 +51,7 @@ class PlanRunner {
     options_.time_budget_s = time_left_s;
     auto draft = plan.tier == proxy::Tier::kRelief ? engine::Result<Draft>(run_relief(plan))
                                                    : run_tier(context_, skin_, options_, plan.count, stages_);
-    options_.on_improved = nullptr;  // another plan starts over: its iterates are no better than its result
+    options_.on_improved = nullptr;  // another plan starts over: its first proxies are worse than this result
     return draft;
   }
 
@@ -71,26 +71,39 @@ class PlanRunner {
   std::unique_ptr<ReliefRun> relief_;
 };
 
-void add_warnings(const FitOptions& options, const Draft& draft, FitResult& result) {
-  if (!draft.thresholds_reached)
-    result.warnings.push_back({"thresholds-not-reached", "",
-                               "Some ellipsoids are worse than their threshold mu.",
-                               "Allow more ellipsoids, or raise the thresholds."});
+/// Warns of parts with a cluster error above the threshold mu.
+void warn_of_thresholds(FitResult& result) {
+  std::string worse;
+  for (const PartFit& part : result.parts) {
+    const double mu_m = body::is_torso(part.part) ? result.mu_torso_m : result.mu_limbs_m;
+    if (!part.cluster_error || part.cluster_error->max_m <= mu_m) continue;
+    worse += engine::message(worse.empty() ? "" : ", ", body::name(part.part), " by ",
+                             1e3 * (part.cluster_error->max_m - mu_m), " mm");
+  }
+  if (worse.empty()) return;
+  result.warnings.push_back({"thresholds-not-reached", "",
+                             "The cluster errors of some parts exceed their threshold mu: " + worse + ".",
+                             "Allow more ellipsoids, or raise the thresholds."});
+}
+
+void add_warnings(const FitOptions& options, FitResult& result) {
+  warn_of_thresholds(result);
   const auto count = static_cast<int>(result.proxy.ellipsoids().size());
   const double frame_us = predicted_frame_us(result.proxy.tier(), count);
   if (options.budget_us && frame_us > kBudgetKeptTo * *options.budget_us)
     result.warnings.push_back({"budget-not-reached", "",
                                engine::message("A query of 10,000 particles takes about ", frame_us,
-                                               " us where ", *options.budget_us, " us were asked for."),
+                                               " us where ", *options.budget_us, " us were requested."),
                                "Allow more time, or choose tier tight with few ellipsoids."});
   if (options.target_error_m && result.accuracy.gap_m.mean > kWarnAbove * *options.target_error_m)
     result.warnings.push_back(
         {"target-error-not-reached", "",
          engine::message("The mean gap is ", 1e3 * result.accuracy.gap_m.mean, " mm where ",
-                         1e3 * *options.target_error_m, " mm were asked for."),
+                         1e3 * *options.target_error_m, " mm were requested."),
          "Choose a finer tier, allow more ellipsoids or more time."});
 }
 
+/// The result of one try of the target search.
 struct Found {
   Draft draft;
   Measured measured;
@@ -98,7 +111,7 @@ struct Found {
   bool out_of_time = false;
 };
 
-/// Anytime tiers end with what they have: a reader must not take that for what they can.
+/// An anytime tier that runs out of time ends with what it has; the warning keeps that apart from its best.
 void warn_of_time(const FitOptions& options, proxy::Tier planned, FitResult& result) {
   std::string message =
       engine::message("The fit was ended by its time budget of ", *options.time_budget_s, " s");
@@ -108,24 +121,25 @@ void warn_of_time(const FitOptions& options, proxy::Tier planned, FitResult& res
       {"time-budget-spent", "", message + ".", "Allow more time, or ask for fewer ellipsoids."});
 }
 
-/// One that keeps to the target is better than one that does not; then the nearer one.
+/// Whether `a` is better than `b`: a result within the target beats one beyond it, then the closer one wins.
 bool better(const Measured& a, const Measured& b, double target_m) {
   const double of_a = a.accuracy.gap_m.mean / target_m, of_b = b.accuracy.gap_m.mean / target_m;
   if ((of_a > kKeptTo) != (of_b > kKeptTo)) return of_a <= kKeptTo;
   return std::abs(std::log(of_a)) < std::abs(std::log(of_b));
 }
 
-/// The plan without a target, else the best of those that the dial tries. Fails if no ellipsoid comes out.
+/// Runs the one plan without a target, else the best of those that the target search tries. Fails if no
+/// ellipsoid results.
 engine::Result<Found> search(const engine::Context& context, const LabeledSkin& skin,
                              const FitOptions& options, std::vector<engine::StageTime>& stages) {
-  Dial dial(options, skin.stature_m);
+  TargetSearch tries(options, skin.stature_m);
   PlanRunner runner(context, skin, options, stages);
   const std::int64_t begin_ns = context.clock->now_ns();
   std::optional<double> left_s = options.time_budget_s;
   std::optional<Found> best;
   for (bool more = true; more;) {
-    const proxy::Tier planned = dial.plan().tier;
-    auto draft = runner.run(dial.plan(), left_s);
+    const proxy::Tier planned = tries.plan().tier;
+    auto draft = runner.run(tries.plan(), left_s);
     if (!draft) return draft.error();
     if (draft->data.ellipsoids.empty()) return no_skin();
     draft->data.stature_m = skin.stature_m;
@@ -138,7 +152,7 @@ engine::Result<Found> search(const engine::Context& context, const LabeledSkin& 
     if (left_s)
       left_s = std::max(
           0.0, *options.time_budget_s - 1e-9 * static_cast<double>(context.clock->now_ns() - begin_ns));
-    more = options.target_error_m && left_s.value_or(1.0) > 0.0 && dial.correct(now.accuracy.gap_m.mean);
+    more = options.target_error_m && left_s.value_or(1.0) > 0.0 && tries.correct(now.accuracy.gap_m.mean);
     if (!best || better(now, best->measured, options.target_error_m.value_or(0.0)))
       best = {std::move(*draft), std::move(now), planned};
   }
@@ -146,10 +160,11 @@ engine::Result<Found> search(const engine::Context& context, const LabeledSkin& 
   return std::move(*best);
 }
 
-/// The paper's tier works on vertices alone: only its judge asks for distances.
-bool asks_distances(const LabeledSkin& skin, const FitOptions& options) {
+/// Whether the fit needs signed distances to the skin: the tier paper works on vertices alone, unless it is
+/// measured.
+bool needs_distances(const LabeledSkin& skin, const FitOptions& options) {
   return options.measure_accuracy || options.target_error_m ||
-         Dial(options, skin.stature_m).plan().tier != proxy::Tier::kPaper;
+         TargetSearch(options, skin.stature_m).plan().tier != proxy::Tier::kPaper;
 }
 
 engine::Result<FitResult> fit_checked(const engine::Context& context, const LabeledSkin& skin,
@@ -157,7 +172,7 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   std::vector<engine::StageTime> stages;
   std::unique_ptr<geometry::MeshDistance> own;
   LabeledSkin judged = skin;
-  if (!skin.distance && asks_distances(skin, options)) {
+  if (!skin.distance && needs_distances(skin, options)) {
     engine::StageTimer timer(context, stages, "distance");
     own = std::make_unique<geometry::MeshDistance>(context, skin.mesh);
     judged.distance = own.get();
@@ -166,19 +181,19 @@ engine::Result<FitResult> fit_checked(const engine::Context& context, const Labe
   if (!found) return found.error();
   auto& [draft, measured, planned, out_of_time] = *found;
   if (options.target_error_m && draft.data.tier == proxy::Tier::kTight)
-    spend_slack(context, judged, draft.parts, *options.target_error_m, draft.data, measured);
+    grow_to_target(context, judged, draft.parts, *options.target_error_m, draft.data, measured);
   draft.data.source_hash = skin_hash(skin.mesh);
-  const std::vector<proxy::ProxyEllipsoid> ellipsoids = draft.data.ellipsoids;
+  const FittedEllipsoids fitted{draft.data.ellipsoids, std::move(draft.cluster_error_m)};
   auto made = proxy::BodyProxy::make(std::move(draft.data));
   if (!made) return made.error();
   FitResult result{.proxy = std::move(*made)};
   result.mu_torso_m = draft.mu.torso_m;
   result.mu_limbs_m = draft.mu.limbs_m;
   result.accuracy = measured.accuracy;
-  result.parts = part_fits(context, skin, ellipsoids, measured, draft.parts);
+  result.parts = part_fits(context, skin, fitted, measured, draft.parts);
   result.stages = std::move(stages);
   if (out_of_time) warn_of_time(options, planned, result);
-  add_warnings(options, draft, result);
+  add_warnings(options, result);
   return result;
 }
 

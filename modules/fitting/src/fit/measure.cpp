@@ -15,15 +15,16 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kSurfaceSamples = 6000;  // of the proxy's surface, shared by area
-constexpr std::size_t kSkinSamples = 4000;
-constexpr std::size_t kInteriorSamples = 3000;
-constexpr std::size_t kGrain = 64;
+constexpr std::size_t kSurfaceSamples = 6000;   // points of the proxy's surface, distributed by area
+constexpr std::size_t kSkinSamples = 4000;      // points of the skin
+constexpr std::size_t kInteriorSamples = 3000;  // about so many points of the interior
+constexpr std::size_t kGrain = 64;              // points a task
 
+/// A point of one ellipsoid's surface at which the gap is measured.
 struct GapProbe {
   SurfaceProbe at;
   std::uint32_t ellipsoid = 0;
-  double gap_m = -1.0;  ///< negative: not on the union's surface
+  double gap_m = -1.0;  ///< negative: the point does not lie on the union's surface
 };
 
 std::vector<GapProbe> gap_probes(const proxy::BodyProxy::Data& proxy) {
@@ -50,24 +51,24 @@ bool settle(const proxy::BodyProxy::Data& proxy, GapProbe& probe, double toleran
   return false;
 }
 
-/// Ellipsoids about the parts that were not asked for.
+/// Enclosing ellipsoids of the parts that are not wanted.
 std::vector<geometry::Ellipsoid> about_others(const engine::Context& context, const LabeledSkin& skin,
                                               std::uint32_t parts) {
   std::vector<geometry::Ellipsoid> shapes;
   if ((parts & kAllParts) == kAllParts) return shapes;
   const auto others = enclose_parts(context, skin, kAllParts & ~parts);
-  if (!others) return shapes;  // no skin is theirs
+  if (!others) return shapes;  // these parts have no skin
   for (const proxy::ProxyEllipsoid& e : others->ellipsoids()) shapes.push_back(e.shape);
   return shapes;
 }
 
-/// Whether the body goes on where the proxy ends, in a part that was not asked for: an end like that stands
-/// for no skin, and its way to the nearest is no gap. It lies inside the body, in that part or beside it with
-/// the skin to its side.
+/// Whether a point of the proxy's surface lies where the body goes on in a part that is not wanted. The proxy
+/// is cut there, not next to skin, so that the distance to the nearest skin is no gap. Such a point is inside
+/// the body, and inside the other part's ellipsoid or close to it with the nearest skin to the side.
 bool is_cut(const proxy::BodyProxy::Data& proxy, const geometry::SurfacePoint& skin, const Vec3& at,
             const std::vector<geometry::Ellipsoid>& others) {
-  constexpr double kBeside = 1.5 * 1.5;  // of the radii that hold the part
-  constexpr double kAhead = 0.5;         // cosine: the skin is where the surface looks
+  constexpr double kBeside = 1.5 * 1.5;  // level: 1.5 times the radii of the part's enclosing ellipsoid
+  constexpr double kAhead = 0.5;         // cosine between the surface's normal and the direction to the skin
   const Vec3 to_skin = skin.point - at;
   if (others.empty() || to_skin.dot(skin.normal) <= 0.0) return false;
   double nearest = kBeside;
@@ -77,6 +78,7 @@ bool is_cut(const proxy::BodyProxy::Data& proxy, const geometry::SurfacePoint& s
          proxy::proxy_distance(proxy, at).normal.dot(to_skin.stableNormalized()) < kAhead;
 }
 
+/// The gaps of one part's ellipsoids; of all ellipsoids if `part` is negative.
 Spread gaps(const std::vector<GapProbe>& probes, const proxy::BodyProxy::Data& proxy, int part) {
   std::vector<std::pair<double, double>> values;
   for (const GapProbe& p : probes)
@@ -107,7 +109,7 @@ void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& 
   accuracy.skin_outside_percent = counted > 0.0 ? 100.0 * uncovered / counted : 0.0;
 }
 
-/// Of the points of an interior grid, those that a wanted part's skin is nearest to.
+/// The share of interior grid points inside the proxy, over the points nearest to skin of wanted parts.
 void measure_interior(const engine::Context& context, const proxy::BodyProxy::Data& proxy,
                       const LabeledSkin& skin, const geometry::MeshDistance& distance, std::uint32_t parts,
                       FitAccuracy& accuracy) {
@@ -155,7 +157,7 @@ Spread spread_of(std::vector<std::pair<double, double>> values) {
 
 Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy, const LabeledSkin& skin,
                  const geometry::MeshDistance& distance, std::uint32_t parts) {
-  const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometer: below it is on the surface
+  const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometer: a closer point is on the surface
   std::vector<GapProbe> probes = gap_probes(proxy);
   const std::vector<geometry::Ellipsoid> others = about_others(context, skin, parts);
   engine::parallel_for(context, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {

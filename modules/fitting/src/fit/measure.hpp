@@ -1,4 +1,4 @@
-// The judge: how far a proxy's surface is from the skin, by the exact signed distance to the mesh.
+// Accuracy of a proxy, measured by the exact signed distance to the mesh.
 #pragma once
 
 #include <array>
@@ -12,16 +12,17 @@ namespace bodice::fitting {
 
 using geometry::Vec3;
 
+/// Accuracy of the whole proxy and of each part.
 struct Measured {
   FitAccuracy accuracy;
   std::array<Spread, body::kPartCount> gap_of_part{};
 };
 
-/// Samples the proxy's surface, the skin (of the wanted parts) and the interior. Deterministic.
+/// Samples the proxy's surface, the skin of the wanted parts, and the interior. Deterministic, parallel.
 Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& proxy, const LabeledSkin& skin,
                  const geometry::MeshDistance& distance, std::uint32_t parts);
 
-/// Weighted mean, 95th percentile and maximum of (value, weight) pairs; zeros if there are none.
+/// Weighted mean, weighted 95th percentile and maximum of (value, weight) pairs; zeros if there are none.
 Spread spread_of(std::vector<std::pair<double, double>> values);
 
 }  // namespace bodice::fitting

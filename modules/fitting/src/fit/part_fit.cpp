@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kGrain = 512;
 
-/// Of a vertex: the ellipsoid of its part that is nearest along its ray.
+/// The ellipsoid of a vertex's part that is nearest along the vertex's ray.
 struct Nearest {
   double distance_m = std::numeric_limits<double>::infinity();
   std::size_t ellipsoid = 0;
@@ -35,11 +35,24 @@ std::vector<Nearest> find_nearest(const engine::Context& context, const LabeledS
   return nearest;
 }
 
+/// The E_j of the named ellipsoids; absent without ellipsoids or without clusters.
+std::optional<ClusterError> cluster_error(std::span<const double> error_m,
+                                          const std::vector<std::size_t>& of_part) {
+  if (error_m.empty() || of_part.empty()) return std::nullopt;
+  ClusterError found;
+  for (const std::size_t k : of_part) {
+    found.mean_m += error_m[k] / static_cast<double>(of_part.size());
+    found.max_m = std::max(found.max_m, error_m[k]);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<PartFit> part_fits(const engine::Context& context, const LabeledSkin& skin,
-                               std::span<const proxy::ProxyEllipsoid> ellipsoids, const Measured& measured,
+                               const FittedEllipsoids& fitted, const Measured& measured,
                                std::uint32_t parts) {
+  const std::vector<proxy::ProxyEllipsoid>& ellipsoids = fitted.ellipsoids;
   std::vector<double> sum(ellipsoids.size(), 0.0), count(ellipsoids.size(), 0.0);
   std::array<PartFit, body::kPartCount> all{};
   OfParts of_part;
@@ -66,6 +79,7 @@ std::vector<PartFit> part_fits(const engine::Context& context, const LabeledSkin
       fit.radial_error_max_m = std::max(fit.radial_error_max_m, sum[k] / count[k]);
     }
     if (vertices > 0.0) fit.radial_error_mean_m /= vertices;
+    fit.cluster_error = cluster_error(fitted.cluster_error_m, of_part[part]);
     fit.gap_m = measured.gap_of_part[part];
     result.push_back(fit);
   }

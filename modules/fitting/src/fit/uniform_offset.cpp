@@ -6,7 +6,8 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kNearEnough = 1.10;
-constexpr double kMostSlack = 3.0;  // a limb that gets its first ellipsoid takes away up to 2.5 times
+constexpr double kMostRatio =
+    3.0;  // target to gap: the first ellipsoid of a limb lowers the gap up to 2.5 times
 constexpr int kSteps = 10;
 
 proxy::BodyProxy::Data grown_by(proxy::BodyProxy::Data data, double length_m) {
@@ -16,11 +17,12 @@ proxy::BodyProxy::Data grown_by(proxy::BodyProxy::Data data, double length_m) {
 
 }  // namespace
 
-void spend_slack(const engine::Context& context, const LabeledSkin& skin, std::uint32_t parts,
-                 double target_m, proxy::BodyProxy::Data& data, Measured& measured) {
+void grow_to_target(const engine::Context& context, const LabeledSkin& skin, std::uint32_t parts,
+                    double target_m, proxy::BodyProxy::Data& data, Measured& measured) {
   const double gap_m = measured.accuracy.gap_m.mean;
-  if (!(kNearEnough * gap_m < target_m && target_m < kMostSlack * gap_m)) return;
-  // Half of a tight surface lies under the skin: the gap grows at first less than the ellipsoids do.
+  if (!(kNearEnough * gap_m < target_m && target_m < kMostRatio * gap_m)) return;
+  // Half of a tight proxy's surface lies under the skin, so that the gap at first grows less than the
+  // ellipsoids.
   double low = 0.0, high = 2.0 * target_m;
   for (int step = 0; step < kSteps; ++step) {
     const double length_m = 0.5 * (low + high);

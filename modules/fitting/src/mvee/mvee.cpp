@@ -24,8 +24,9 @@ Eigen::Matrix<double, R + 1, 1> lifted(const PointFrame& frame, std::size_t i) {
   return q;
 }
 
-/// The points farthest along the axes and the diagonals, and the one that the frame was grown from: with the
-/// farthest along each axis it spans the set, so that M is positive definite from the start.
+/// Adds the points farthest along the axes and the diagonals, and the point that the frame was grown from.
+/// That point and the farthest ones along each axis span the set, so that M is positive definite from the
+/// start.
 template <int R>
 void add_extremes(const PointFrame& frame, ActiveSet<R + 1>& set) {
   constexpr int kDiagonals = 1 << (R - 1), kDirections = R + kDiagonals;
@@ -50,7 +51,7 @@ void add_extremes(const PointFrame& frame, ActiveSet<R + 1>& set) {
   for (auto i = chosen.begin(); i != end; ++i) set.add(lifted<R>(frame, *i), 1.0);
 }
 
-/// Of every point, kappa = |map q|^2; `map` is R + 1 square.
+/// Finds kappa = |map q|^2 of every point; `map` is (R + 1) x (R + 1).
 template <int R, class Map>
 void find_kappas(const PointFrame& frame, const Map& map, std::vector<double>& kappa) {
   LiftedMap lifted;
@@ -62,7 +63,8 @@ void find_kappas(const PointFrame& frame, const Map& map, std::vector<double>& k
   dual_levels(lifted, kappa.size(), frame.y[0].data(), frame.y[1].data(), frame.y[2].data(), kappa.data());
 }
 
-/// Adds the worst violator of each orthant; returns the largest kappa / N - 1 over all points.
+/// Adds the point with the largest kappa of each orthant, if it exceeds N; returns the largest kappa / N - 1
+/// over all points.
 template <int R>
 double scan(const PointFrame& frame, ActiveSet<R + 1>& set, double tolerance, std::vector<double>& kappa) {
   using Set = ActiveSet<R + 1>;
@@ -91,7 +93,7 @@ double scan(const PointFrame& frame, ActiveSet<R + 1>& set, double tolerance, st
 template <int R>
 Mvee solve(const PointFrame& frame, const MveeOptions& options) {
   constexpr int kMaxRounds = 100;
-  // gap <= N/2 * excess; half of it is left to the scan over all points.
+  // The gap is at most N/2 times the excess; half of the tolerance is left to the scan over all points.
   const double tolerance = std::max(options.volume_tolerance, 1e-13) * 2.0 / (R + 1);
   ActiveSet<R + 1> set;
   add_extremes<R>(frame, set);

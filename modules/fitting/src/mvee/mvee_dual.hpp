@@ -4,9 +4,9 @@
 // kappa = q^T M^-1 q <= N).
 // Based on: Radoslav Harman, Luc Pronzato. Improvements on removing nonoptimal support points in D-optimum
 // design algorithms. 2007. - eq. (6) (which points cannot carry weight).
-// Differs: the simplex is replaced by the penalty N sum u, which has the same optimum and needs no
-// constraint; steps are Newton's, projected on u >= 0 and taken only if ln det rises, else damped and cut at
-// the first weight that vanishes (the objective is self-concordant); multiplicative steps warm it up.
+// Differs: the penalty N sum u replaces the simplex; it has the same optimum and needs no constraint. Steps
+// are Newton's, projected on u >= 0. One that does not raise ln det is damped (the objective is
+// self-concordant) and cut where the first weight vanishes. Multiplicative steps come first.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace bodice::fitting {
 
-/// Points lifted to N = rank + 1 dimensions with their weights u, and what measure() found of them.
+/// Points lifted to N = rank + 1 dimensions with their weights u, and the results of measure().
 template <int N>
 struct ActiveSet {
   static constexpr int kCapacity = 64;
@@ -29,10 +29,10 @@ struct ActiveSet {
   using Square = Eigen::Matrix<double, N, N>;
   using Weights = std::array<double, kCapacity>;
 
-  Eigen::Matrix<double, N, kCapacity> q, z;  ///< points, and L^-1 q with M = L L^T
+  Eigen::Matrix<double, N, kCapacity> q, z;  ///< points, and z = L^-1 q with M = L L^T
   Weights u{}, kappa{};
   int size = 0;
-  double log_det = -std::numeric_limits<double>::infinity();  ///< of M
+  double log_det = -std::numeric_limits<double>::infinity();  ///< ln det M
 
   bool full() const { return size == kCapacity; }
   void add(const Lifted& point, double weight) {
@@ -65,7 +65,7 @@ struct ActiveSet {
       if (u[i] > 0.0) m += (u[i] * q.col(i)) * q.col(i).transpose();
     return m;
   }
-  /// Normalises the weights and finds z, kappa and log_det; false if M is not positive definite.
+  /// Normalizes the weights and finds z, kappa and log_det; false if M is not positive definite.
   bool measure() {
     normalize();
     const Eigen::LLT<Square> llt(moment());
@@ -87,29 +87,29 @@ struct ActiveSet {
     }
     return std::isfinite(log_det);
   }
-  /// Largest kappa / N - 1: the duality gap is at most N/2 times this.
+  /// The largest kappa / N - 1; the duality gap is at most N/2 times this.
   double excess() const { return kappa[worst()] / N - 1.0; }
   int worst() const {
     return static_cast<int>(std::max_element(kappa.begin(), kappa.begin() + size) - kappa.begin());
   }
 };
 
-/// Removes the points that cannot carry weight in this set's solution, given how far the weights are from it,
-/// unless the others alone would not span the space yet. Leaves the set measured.
+/// Removes the points that cannot carry weight in the solution of this set, which the excess decides. They
+/// stay if the others would not span the space. The set is measured afterward.
 template <int N>
 void drop_hopeless(ActiveSet<N>& set, double excess) {
   const double root = std::sqrt(std::max(0.0, excess * (4.0 + excess - 4.0 / N)));
-  // A hair below the bound, so that rounding of kappa removes nothing that lies on it.
+  // The bound is lowered a little, so that no point on it is removed by the rounding of kappa.
   const double bound = N * (1.0 + 0.5 * excess - 0.5 * root) * (1.0 - 1e-9);
   if (*std::min_element(set.kappa.begin(), set.kappa.begin() + set.size) >= bound) return;
   const ActiveSet<N> before = set;
   set.keep_if([&](int i) { return set.kappa[i] >= bound; });
-  constexpr double kMostLost = 1.0;  // of ln det
+  constexpr double kMostLost = 1.0;  // fall of ln det
   if (set.size == 0 || !set.measure() || set.log_det < before.log_det - kMostLost) set = before;
 }
 
-/// Newton's direction over the weights that are positive or whose kappa asks them to be; zero for others.
-/// Returns the Newton decrement, or a negative number if the system could not be solved.
+/// Finds Newton's direction over the weights that are positive or should be, because kappa exceeds N; it is
+/// zero for the others. Returns the Newton decrement, or a negative number if the system could not be solved.
 template <int N>
 double newton_direction(const ActiveSet<N>& set, typename ActiveSet<N>::Weights& direction) {
   using Set = ActiveSet<N>;
@@ -129,7 +129,8 @@ double newton_direction(const ActiveSet<N>& set, typename ActiveSet<N>::Weights&
       }
       d[a] = set.kappa[free[a]] - N;
     }
-    // K o K has rank at most N (N + 1) / 2; the gradient lies in its range, so a small ridge is harmless.
+    // K o K has rank at most N (N + 1) / 2. The gradient lies in its range, so that a small ridge is
+    // harmless.
     h.add_ridge(1e-11);
     if (!h.factor()) return -1.0;
     h.solve(d.data());
@@ -149,7 +150,8 @@ double newton_direction(const ActiveSet<N>& set, typename ActiveSet<N>::Weights&
   return decrement;
 }
 
-/// Moves along `direction` as far as self-concordance and u >= 0 allow; a weight that reaches zero is zero.
+/// Moves along `direction` as far as self-concordance and u >= 0 allow; a weight that reaches zero is exactly
+/// zero.
 template <int N>
 void cut_step(ActiveSet<N>& set, const typename ActiveSet<N>::Weights& direction, double decrement) {
   double length = decrement < 0.25 ? 1.0 : 1.0 / (1.0 + decrement);
@@ -163,8 +165,8 @@ void cut_step(ActiveSet<N>& set, const typename ActiveSet<N>::Weights& direction
   if (blocking >= 0) set.u[blocking] = 0.0;
 }
 
-/// A whole Newton step, projected on u >= 0, if that raises ln det; else a damped one. Leaves the set
-/// measured; false if it cannot be.
+/// Takes a whole Newton step, projected on u >= 0, if that raises ln det, else a damped one. The set is
+/// measured afterward; false if that fails.
 template <int N>
 bool newton_step(ActiveSet<N>& set) {
   typename ActiveSet<N>::Weights direction;
@@ -179,7 +181,7 @@ bool newton_step(ActiveSet<N>& set) {
   return set.measure();
 }
 
-/// One Wolfe-Atwood step: toward the worst point, or away from the least useful one. Always ascends.
+/// One Wolfe-Atwood step: toward the worst point, or away from the least useful one. ln det never falls.
 template <int N>
 void wolfe_atwood_step(ActiveSet<N>& set) {
   const int worst = set.worst();
@@ -196,7 +198,7 @@ void wolfe_atwood_step(ActiveSet<N>& set) {
   set.u[i] = away && set.u[i] + step < 1e-15 ? 0.0 : set.u[i] + step;
 }
 
-/// Maximises the dual on the active set until its own excess is below `tolerance`; bounded work.
+/// Maximizes the dual on the active set until the set's excess is below `tolerance`, with bounded work.
 /// Returns the excess reached.
 template <int N>
 double maximize_dual(ActiveSet<N>& set, double tolerance) {
@@ -211,9 +213,9 @@ double maximize_dual(ActiveSet<N>& set, double tolerance) {
       if (newton_step(set)) continue;
       if (!set.measure()) return reached;
     }
-    const bool enters = set.u[set.worst()] == 0.0;  // which multiplying cannot change
+    const bool enters = set.u[set.worst()] == 0.0;  // a multiplicative step cannot change a zero
     if (step < kNewtonSteps && reached > 0.5 && !enters) {
-      // Far away: cheap multiplicative steps before Newton pays.
+      // Far from the optimum, cheap multiplicative steps gain more than Newton's.
       for (int i = 0; i < set.size; ++i) set.u[i] *= set.kappa[i] / N;
     } else {
       wolfe_atwood_step(set);

@@ -12,9 +12,9 @@ double largest_level(const PointFrame& frame, const geometry::Ellipsoid& e) {
   return largest;
 }
 
-/// Rotates the columns of `half` against each other until they are orthogonal (one-sided Jacobi: small
-/// columns keep their relative accuracy) and sorts them from the longest down.
-void orthogonalise(Mat3& half) {
+/// Rotates the columns of `half` against each other until they are orthogonal, and sorts them from the
+/// longest down. One-sided Jacobi rotations keep the relative accuracy of small columns.
+void orthogonalize(Mat3& half) {
   constexpr int kSweeps = 30;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     bool rotated = false;
@@ -38,7 +38,7 @@ void orthogonalise(Mat3& half) {
       if (half.col(j).squaredNorm() < half.col(j + 1).squaredNorm()) half.col(j).swap(half.col(j + 1));
 }
 
-/// A right-handed orthonormal basis whose leading columns follow `half`'s; vanishing ones are completed.
+/// A right-handed orthonormal basis along the columns of `half`; vanishing columns are replaced.
 Mat3 basis_of(const Mat3& half) {
   Mat3 axes = Mat3::Identity();
   const double first = half.col(0).stableNorm();
@@ -59,7 +59,7 @@ Mat3 basis_of(const Mat3& half) {
 /// A radius that is positive and harmless whatever the scale of the coordinates.
 double radius_floor(const PointFrame& frame, double longest, double min_radius_m) {
   const double noise = 16.0 * std::numeric_limits<double>::epsilon() * frame.origin.cwiseAbs().maxCoeff();
-  // Off-plane rounding must cost the in-plane radii at most 1e-6 of a level.
+  // Rounding across a flat set's plane must change the level of its points by at most 1e-6.
   return std::max({min_radius_m, kFlatRelative * longest, 1e3 * frame.thickness, noise,
                    std::numeric_limits<double>::min() * 1e20});
 }
@@ -68,7 +68,7 @@ double radius_floor(const PointFrame& frame, double longest, double min_radius_m
 
 geometry::Ellipsoid spanned(const Vec3& center, const Mat3& half) {
   Mat3 columns = half;
-  orthogonalise(columns);
+  orthogonalize(columns);
   geometry::Ellipsoid e;
   e.center = center;
   e.axes = basis_of(columns);
@@ -84,7 +84,7 @@ void certify(const PointFrame& frame, const Vec3& center, const Mat3& half, doub
   e.radii = e.radii.cwiseMax(floor);
 
   result.rank = frame.rank;
-  // Growing repeats because the level's own rounding moves with the radii of very thin ellipsoids.
+  // Growing repeats, because rounding of the level depends on the radii of very thin ellipsoids.
   constexpr int kGrowPasses = 4;
   double reach = std::sqrt(largest_level(frame, e));
   for (int pass = 0; pass < kGrowPasses && reach > 1.0; ++pass) {

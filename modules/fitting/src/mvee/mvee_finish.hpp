@@ -1,4 +1,4 @@
-// From dual weights to an ellipsoid in meters, with its certificate re-measured on the points themselves.
+// From dual weights to an ellipsoid in meters, with its certificate measured again on the points themselves.
 #pragma once
 
 #include <algorithm>
@@ -14,27 +14,27 @@
 
 namespace bodice::fitting {
 
-/// The ellipsoid { center + half * unit ball }; vanishing columns leave vanishing radii.
+/// The ellipsoid { center + half * unit ball }; vanishing columns give vanishing radii.
 geometry::Ellipsoid spanned(const Vec3& center, const Mat3& half);
 
-/// Sets result.ellipsoid from `half`, whose columns span it (x = center + half * unit ball), floors the
-/// radii, grows it to hold every point, and records rank, gap and violation. `dual_log_volume` bounds the
-/// least volume from below (sum of log radii).
+/// Sets result.ellipsoid to { center + half * unit ball }, raises radii to their least value, grows it to
+/// hold every point, and records rank, gap and violation. `dual_log_volume`, a sum of log radii, bounds the
+/// least volume from below.
 void certify(const PointFrame& frame, const Vec3& center, const Mat3& half, double dual_log_volume,
              double min_radius_m, Mvee& result);
 
-/// Rank 0 and 1 in closed form.
+/// The solution of ranks 0 and 1, in closed form.
 Mvee finish_thin(const PointFrame& frame, double min_radius_m);
 
-/// `points` R x m in the frame, `weights` m on the simplex.
+/// Makes the ellipsoid of a dual solution: `points` is R x m in the frame, `weights` m on the simplex.
 template <int R, class Points, class Weights>
 void finish(const PointFrame& frame, const Points& points, const Weights& weights, double min_radius_m,
             Mvee& result) {
   using Vector = Eigen::Matrix<double, R, 1>;
   using Square = Eigen::Matrix<double, R, R>;
   const Vector c = points * weights;
-  const auto centerd = (points.colwise() - c).eval();
-  const Square spread = R * (centerd * weights.asDiagonal() * centerd.transpose());
+  const auto centered = (points.colwise() - c).eval();
+  const Square spread = R * (centered * weights.asDiagonal() * centered.transpose());
   const Square root = spread.llt().matrixL();
   Vec3 center = frame.origin;
   Mat3 half = Mat3::Zero();

@@ -1,8 +1,8 @@
 // Based on: Michael J. Todd, E. Alper Yildirim. On Khachiyan's algorithm for the computation of
 // minimum-volume enclosing ellipsoids. 2007. - section 4 (steps toward the worst point and away from the
-// least useful one) Differs: works in the rank-revealing frame, so flat sets are solved in their own
-// dimension; M^-1 is recomputed from the weights every 50 steps, so rounding of the rank-one updates cannot
-// pile up.
+// least useful one).
+// Differs: it works in the rank-revealing frame, so that flat sets are solved in their own dimension. M^-1 is
+// computed anew from the weights every 50 steps, so that rounding of the rank-one updates cannot accumulate.
 #include <bodice/fitting/mvee.hpp>
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 namespace bodice::fitting {
 namespace {
 
+/// The weights of all points in the course of the iteration.
 template <int R>
 struct Khachiyan {
   static constexpr int N = R + 1;
@@ -28,7 +29,7 @@ struct Khachiyan {
   Square inverse = Square::Identity();
 
   explicit Khachiyan(const PointFrame& f) : frame(f), u(f.kept.size()), kappa(f.kept.size()) {
-    // A few extremes are a far better start than all points; unless they do not span the set.
+    // A few extreme points are a far better start than all points, unless they do not span the set.
     for (int axis = 0; axis < R; ++axis) {
       const auto [low, high] = std::minmax_element(frame.y[axis].begin(), frame.y[axis].end());
       u[static_cast<std::size_t>(low - frame.y[axis].begin())] += 1.0;

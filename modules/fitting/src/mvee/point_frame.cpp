@@ -16,8 +16,8 @@ double safe_scale(const PointFrame& frame) {
   return largest > 0.0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 0.0;
 }
 
-/// The unit direction of the farthest residual p - origin with the directions so far removed, or zero length
-/// if all residuals vanish.
+/// The unit direction of the longest residual of p - origin, from which the first direction is removed if
+/// there is one. Zero if all residuals vanish.
 template <int Directions>
 Vec3 farthest_direction(const PointFrame& frame, double scale) {
   Vec3 best = Vec3::Zero();
@@ -48,7 +48,7 @@ void choose_axes(PointFrame& frame) {
   frame.axes.col(2) = first.cross(Vec3(frame.axes.col(1))).normalized();
 }
 
-/// Projects on the axes and moves the origin to the middle of each range.
+/// Projects the points on the axes and moves the origin to the middle of each range.
 void project(PointFrame& frame) {
   const std::size_t n = frame.kept.size();
   for (auto& y : frame.y) y.resize(n);
@@ -84,13 +84,13 @@ PointFrame make_point_frame(std::span<const Vec3> points, double flat_relative) 
   for (const Vec3& p : points)
     if (p.allFinite()) frame.kept.push_back(p);
   if (frame.kept.empty()) return frame;
-  // A point of the set: an origin off a flat set's plane would make the set look thick.
+  // The origin is a point of the set: one off the plane of a flat set would make the set look thick.
   frame.origin = frame.kept[0];
   choose_axes(frame);
   project(frame);
   sort_axes(frame);
 
-  // Coordinates far from the origin carry their own rounding, whatever the set's size.
+  // Coordinates far from the world's origin have rounding of their own, whatever the set's size.
   const double noise = 8.0 * std::numeric_limits<double>::epsilon() * frame.origin.cwiseAbs().maxCoeff();
   const double flat = std::max(flat_relative * frame.extent[0], noise);
   while (frame.rank < 3 && frame.extent[frame.rank] > flat) ++frame.rank;

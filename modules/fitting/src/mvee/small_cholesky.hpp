@@ -1,4 +1,4 @@
-// A dense symmetric system of a dozen unknowns on the stack: below the size where a library's blocking pays.
+// A dense symmetric system of a dozen unknowns on the stack, too small for a library's blocking to pay.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace bodice::fitting {
 
-/// A = L L^T of order at most Capacity, lower triangle, row by row.
+/// The factors A = L L^T of a matrix of order at most Capacity: the lower triangle, row by row.
 template <int Capacity>
 class SmallCholesky {
  public:
@@ -22,7 +22,7 @@ class SmallCholesky {
     for (int i = 0; i < order_; ++i) (*this)(i, i) += relative * largest;
   }
 
-  /// False if A is not positive definite.
+  /// Replaces A by L; false if A is not positive definite.
   bool factor() {
     for (int i = 0; i < order_; ++i) {
       double* const row = &(*this)(i, 0);

@@ -12,22 +12,25 @@ namespace {
 using proxy::Tier;
 
 constexpr int kMostAttempts = 9;
-constexpr double kNearEnough = 1.10;
-constexpr double kFewestToStart = 8.0;  // with fewer than the body has limbs the law does not hold
-/// Solid: of more, each grows by so much to leave no hole beside the next that the gap gets wider again.
+constexpr double kNearEnough = 1.10;    // a gap within this factor of the target has reached it
+constexpr double kFewestToStart = 8.0;  // with fewer than the body has limbs the gap formula does not hold
+/// Largest count of tier solid. With more, each ellipsoid grows so much to close the holes next to its
+/// neighbors that the gap widens again.
 constexpr int kMostSolid = 200;
-constexpr int kFewestInBudget = 16;  // fewer take as long: they are asked a register at a time
-/// Fractions of stature. Below the first, plain ellipsoids take more work and time a particle than relief.
+constexpr int kFewestInBudget =
+    16;  // fewer take as long, because a query evaluates a register of them at a time
+/// For finer targets than this fraction of stature, plain ellipsoids take more time a particle than relief.
 constexpr double kFinestPlain = 1.6e-3 / 1.7;
+/// Fractions of stature: the finest targets for which relief starts with 32 and with 55 ellipsoids.
 constexpr double kFinestOf32 = 0.75e-3 / 1.7, kFinestOf55 = 0.40e-3 / 1.7;
 
-/// gap = at_89 * stature * (89 / count)^power: where the search starts. `bench/fit --laws` prints the
-/// constants anew.
-struct Law {
+/// gap = at_89 * stature * (89 / count)^power: where the target search starts. `bench/fit --gap-formula`
+/// prints the constants anew.
+struct GapFormula {
   double at_89, power;
 };
 
-Law law_of(Tier tier) {
+GapFormula gap_formula(Tier tier) {
   switch (tier) {
     case Tier::kPaper:
       return {0.0060, 0.5};
@@ -41,9 +44,10 @@ Law law_of(Tier tier) {
   return {0.0060, 0.5};
 }
 
-/// Of relief's gap at a fixed count, by bytes.
+/// The gap of relief with a fixed count falls with this power of the bytes.
 constexpr double kReliefPower = 0.6;
 
+/// Bytes of `count` ellipsoids with the smallest useful tables.
 std::size_t least_bytes(int count) {
   return static_cast<std::size_t>(count) * (15 * sizeof(float) + sizeof(proxy::ReliefTable) + 2 * 8 * 8);
 }
@@ -53,7 +57,7 @@ int relief_count(double target_m, double stature_m, int most) {
   return std::min(most, target > kFinestOf32 ? 32 : target > kFinestOf55 ? 55 : kDefaultEllipsoids);
 }
 
-/// The most accurate plan that the budget has time for.
+/// The most accurate plan with a predicted time within the budget.
 Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double stature_m) {
   Plan best;
   double least = std::numeric_limits<double>::infinity();
@@ -72,7 +76,7 @@ Plan plan_within(double budget_us, std::optional<Tier> tier, int most, double st
 }  // namespace
 
 double predicted_frame_us(Tier tier, int ellipsoids) {
-  // Nanoseconds a particle times ten; `bench/tradeoff --only laws` measures the constants anew.
+  // Ten times the nanoseconds a particle; `bench/tradeoff --only cost-model` measures the constants anew.
   return tier == Tier::kRelief ? 10.0 * (9.7 + 0.224 * ellipsoids) : 10.0 * (6.2 + 0.12 * ellipsoids);
 }
 
@@ -83,17 +87,17 @@ int count_within_budget(Tier tier, double budget_us) {
 }
 
 double predicted_gap_m(Tier tier, int ellipsoids, double stature_m) {
-  const Law law = law_of(tier);
-  return law.at_89 * stature_m * std::pow(89.0 / std::max(1, ellipsoids), law.power);
+  const GapFormula formula = gap_formula(tier);
+  return formula.at_89 * stature_m * std::pow(89.0 / std::max(1, ellipsoids), formula.power);
 }
 
-Dial::Dial(const FitOptions& options, double stature_m)
+TargetSearch::TargetSearch(const FitOptions& options, double stature_m)
     : target_m_(options.target_error_m),
       most_(options.max_ellipsoids.value_or(kMostEllipsoids)),
       tier_is_free_(!options.tier) {
   plan_ = {options.tier.value_or(Tier::kRelief), std::min(most_, kDefaultEllipsoids), kReliefBytes};
   if (options.max_ellipsoids) plan_.count = *options.max_ellipsoids;
-  if (options.mu_torso_m) {  // they stop the split, not a count
+  if (options.mu_torso_m) {  // the thresholds stop splitting, not a count
     if (tier_is_free_) plan_.tier = Tier::kPaper;
     plan_.count = most_ = options.max_ellipsoids.value_or(10 * kMostEllipsoids);
   }
@@ -113,24 +117,25 @@ Dial::Dial(const FitOptions& options, double stature_m)
     const double ratio = predicted_gap_m(Tier::kRelief, plan_.count, stature_m) / *target_m_;
     resize(static_cast<double>(kReliefBytes) * std::pow(ratio, 1.0 / kReliefPower));
   } else {
-    const Law law = law_of(plan_.tier);
-    const double count = 89.0 * std::pow(law.at_89 * stature_m / *target_m_, 1.0 / law.power);
+    const GapFormula formula = gap_formula(plan_.tier);
+    const double count = 89.0 * std::pow(formula.at_89 * stature_m / *target_m_, 1.0 / formula.power);
     resize(plan_.tier == Tier::kTight ? std::max(kFewestToStart, count) : count);
   }
 }
 
-bool Dial::reached(double gap_m) const {
+bool TargetSearch::reached(double gap_m) const {
   return !target_m_ || (gap_m < kNearEnough * *target_m_ && *target_m_ < kNearEnough * gap_m);
 }
 
-double Dial::size() const {
+double TargetSearch::size() const {
   return plan_.tier == Tier::kRelief ? static_cast<double>(plan_.relief_bytes) : plan_.count;
 }
 
-/// Along the power law through the nearest tries on either side of the target, or, while there are none on
-/// the other side, through the last try with a power between its own and the tier's.
-double Dial::wanted_size(double gap_m) const {
-  double power = plan_.tier == Tier::kRelief ? kReliefPower : law_of(plan_.tier).power;
+/// The size that reaches the target if the gap is a power of it. The exponent is that of the nearest tries on
+/// either side of the target or, while all tries are on one side, of two of them; the tier's exponent bounds
+/// it.
+double TargetSearch::wanted_size(double gap_m) const {
+  double power = plan_.tier == Tier::kRelief ? kReliefPower : gap_formula(plan_.tier).power;
   const Try* other = nullptr;
   const auto off = [&](const Try& t) { return std::abs(std::log(t.gap_m / *target_m_)); };
   for (const Try& t : tries_) {
@@ -147,12 +152,12 @@ double Dial::wanted_size(double gap_m) const {
   return size() * std::pow(gap_m / *target_m_, 1.0 / power);
 }
 
-bool Dial::known(double wanted) const {
+bool TargetSearch::known(double wanted) const {
   return std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) { return t.size == wanted; });
 }
 
-/// False if nothing changes, or if it has been tried.
-bool Dial::resize(double wanted) {
+/// Changes the plan's size; false if that size was tried before.
+bool TargetSearch::resize(double wanted) {
   const Plan before = plan_;
   if (plan_.tier == Tier::kRelief) {
     const double least = static_cast<double>(std::min(least_bytes(plan_.count), kReliefBytes));
@@ -166,13 +171,13 @@ bool Dial::resize(double wanted) {
   return false;
 }
 
-/// A count next to the last one, where the power law asks for one that has been tried.
-bool Dial::step(double gap_m) {
+/// Changes the count by one, for when the wanted size was tried before.
+bool TargetSearch::step(double gap_m) {
   return plan_.tier != Tier::kRelief && resize(plan_.count + (gap_m > *target_m_ ? 1 : -1));
 }
 
-/// Relief whose tables are as large or as small as they get: other ellipsoids.
-bool Dial::recount(double gap_m) {
+/// Changes the count of relief, for when its tables are as large or as small as they can be.
+bool TargetSearch::recount(double gap_m) {
   if (plan_.tier != Tier::kRelief) return false;
   const int count = gap_m > *target_m_ ? std::min(most_, kDefaultEllipsoids) : std::max(8, plan_.count / 2);
   if (count == plan_.count) return false;
@@ -183,9 +188,9 @@ bool Dial::recount(double gap_m) {
   return resize(gap_m > *target_m_ ? full : 4.0 * static_cast<double>(least_bytes(count)));
 }
 
-/// Between the tries that enclose the target, and at most twice or half the last size: a fit of very few
-/// ellipsoids follows no law.
-double Dial::bounded(double wanted) const {
+/// Keeps a size between the tries that enclose the target, and within half and twice the last size, because
+/// fits of very few ellipsoids follow no formula.
+double TargetSearch::bounded(double wanted) const {
   if (plan_.tier == Tier::kRelief) return wanted;
   double low = 1.0, high = most_;
   for (const Try& t : tries_) {
@@ -196,7 +201,7 @@ double Dial::bounded(double wanted) const {
   return low <= high ? std::clamp(wanted, low, high) : wanted;
 }
 
-bool Dial::correct(double gap_m) {
+bool TargetSearch::correct(double gap_m) {
   if (reached(gap_m) || ++attempts_ >= kMostAttempts || !(gap_m > 0.0)) return false;
   tries_.push_back({size(), gap_m});
   return resize(bounded(wanted_size(gap_m))) || step(gap_m) || recount(gap_m);

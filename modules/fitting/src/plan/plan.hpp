@@ -1,46 +1,50 @@
-// From the one number a user gives to a tier, a number of ellipsoids and a size of tables.
+// From the one number that a user gives (target error or budget) to a tier, a count and a size of tables.
 #pragma once
 
 #include <vector>
 
-#include <bodice/fitting/budget.hpp>
+#include <bodice/fitting/cost_model.hpp>
 #include <bodice/fitting/fit.hpp>
 
 namespace bodice::fitting {
 
-/// Ellipsoids when nothing is asked for: the largest count of the paper's Table 2.
+/// The number of ellipsoids by default: the largest count of the paper's Table 2.
 inline constexpr int kDefaultEllipsoids = 89;
-/// A target error may ask for up to this many.
+/// A target error may lead to up to this many ellipsoids.
 inline constexpr int kMostEllipsoids = 400;
 
+/// What a fit runs with.
 struct Plan {
   proxy::Tier tier = proxy::Tier::kRelief;
   int count = kDefaultEllipsoids;
-  std::size_t relief_bytes = 0;  ///< of the whole proxy with its tables; relief only
+  std::size_t relief_bytes = 0;  ///< limit for the proxy with its tables; relief only
 };
 
-/// A budget is kept within a fifth, or there is a warning.
+/// The predicted time may exceed the budget by this factor; beyond it there is a warning.
 inline constexpr double kBudgetKeptTo = 1.2;
 
-/// The largest count whose predicted time is within the budget, at least 1.
+/// The largest count with a predicted time within the budget, at least 1.
 int count_within_budget(proxy::Tier tier, double budget_us);
 
-/// Mean gap to expect at a count, meters, for a body of this stature; relief with full tables.
+/// The mean gap to expect with so many ellipsoids, meters, for a body of this stature; relief with full
+/// tables.
 double predicted_gap_m(proxy::Tier tier, int ellipsoids, double stature_m);
 
-/// The search for a plan: tries one, is told what it achieved, tries the next. A target error changes the
-/// count of the plain tiers and the bytes of relief, because new tables on the same ellipsoids are cheap.
-class Dial {
+/// The target search: it proposes a plan, takes the gap that the plan gave, and proposes the next one. A
+/// target error changes the count of the plain tiers and the bytes of relief, because other tables on the
+/// same ellipsoids are cheap.
+class TargetSearch {
  public:
-  Dial(const FitOptions& options, double stature_m);
+  TargetSearch(const FitOptions& options, double stature_m);
 
   const Plan& plan() const { return plan_; }
-  /// Whether a gap is as near to the target as the dial promises: a tenth above or below.
+  /// Whether a gap is within a tenth of the target.
   bool reached(double gap_m) const;
-  /// Takes the gap of the plan just tried; false if there is nothing left to try.
+  /// Takes the gap of the current plan and proposes another plan; false if none is left to try.
   bool correct(double gap_m);
 
  private:
+  /// A plan that was tried: its size() and the gap that it gave.
   struct Try {
     double size, gap_m;
   };
@@ -57,7 +61,7 @@ class Dial {
   int most_ = kMostEllipsoids;
   bool tier_is_free_ = false;
   Plan plan_;
-  std::vector<Try> tries_;  ///< with the plan's tier and, for relief, its count
+  std::vector<Try> tries_;  ///< those of the plan's tier and, for relief, of its count
   int attempts_ = 0;
 };
 

@@ -12,17 +12,20 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr int kLeastSide = 4, kMostSide = 96;
-// A point this deep that is reported outside is a leak: particles there would be let out the wrong way.
-constexpr double kLeakDepth = 7e-3 / 1.7, kLeakMargin = 6e-3 / 1.7;  // of stature
-constexpr float kLeakFactor = 20.0f;
-constexpr int kLeakRounds = 4, kSettleSteps = 5, kMostLooks = 2;
-constexpr double kSpokenFor = 0.05;  // weight from which a node's value counts for the range of a table
+constexpr int kLeastSide = 4, kMostSide = 96;  // nodes along a side of a table
+/// A leak is a sample deeper than the first fraction of stature that is reported less deep than the rest of
+/// the depth beyond the second. Particles there would be pushed to the wrong side.
+constexpr double kLeakDepth = 7e-3 / 1.7, kLeakMargin = 6e-3 / 1.7;
+constexpr float kLeakFactor = 20.0f;              // a leak weighs so many times more in the next solution
+constexpr int kLeakRounds = 4, kSettleSteps = 5;  // solutions after raised weights, and their steps
+constexpr int kMostExtensions = 2;                // rounds in which samples around leaks are added
+constexpr double kLeastWeight = 0.05;  // a node with less weight does not count for the range of a table
 
 std::size_t square(int side) {
   return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
 }
 
+/// The values that a byte can represent: offset + scale * byte / 255.
 struct Range {
   float offset = 0.0f, scale = 0.0f;
 
@@ -33,12 +36,12 @@ struct Range {
   }
 };
 
-/// The range of the values that samples speak for; the others are clamped into it.
+/// The range of the values that samples determine; other values are clamped into it.
 Range range_of(std::span<const double> values, std::span<const double> weight) {
   double low = 0.0, high = 0.0;
   bool any = false;
   for (std::size_t u = 0; u < values.size(); ++u) {
-    if (!(weight[u] > kSpokenFor)) continue;
+    if (!(weight[u] > kLeastWeight)) continue;
     low = any ? std::min(low, values[u]) : values[u];
     high = any ? std::max(high, values[u]) : values[u];
     any = true;
@@ -76,27 +79,29 @@ void store_tables(const engine::Context& context, const ReliefSystem& system, co
   });
 }
 
-/// Deep samples that the tables would report (nearly) outside weigh much more from now on; returns them.
+/// Raises the weights of leaks: deep samples that the tables would report outside, or nearly. Returns their
+/// indices.
 std::vector<std::uint32_t> raise_leaks(const ReliefSystem& system, const ReliefSystem::Vector& x,
-                                       double stature_m, ReliefAnswers& answers) {
+                                       double stature_m, ReliefTerms& terms) {
   const std::vector<double> error = system.errors(x);
   std::vector<std::uint32_t> leaks;
   for (std::size_t i = 0; i < error.size(); ++i) {
-    const double s = answers.signed_distance_m[i];
-    const bool answered = answers.of_begin[i] < answers.of_begin[i + 1];
-    if (!answered || s > -kLeakDepth * stature_m || s + error[i] < -kLeakMargin * stature_m) continue;
-    answers.weight[i] *= kLeakFactor;
+    const double s = terms.signed_distance_m[i];
+    const bool has_terms = terms.of_begin[i] < terms.of_begin[i + 1];
+    if (!has_terms || s > -kLeakDepth * stature_m || s + error[i] < -kLeakMargin * stature_m) continue;
+    terms.weight[i] *= kLeakFactor;
     leaks.push_back(static_cast<std::uint32_t>(i));
   }
   return leaks;
 }
 
-/// Solves and raises what leaks until nothing does, a few times at most; returns what leaked at first.
+/// Raises the weights of leaks and solves again until none is left, at most kLeakRounds times. Returns the
+/// leaks of the first round.
 std::vector<std::uint32_t> close_leaks(const ReliefSystem& system, const ReliefSystem::Vector& free,
-                                       double stature_m, ReliefAnswers& answers, ReliefSystem::Vector& x) {
+                                       double stature_m, ReliefTerms& terms, ReliefSystem::Vector& x) {
   std::vector<std::uint32_t> first;
   for (int round = 0; round < kLeakRounds; ++round) {
-    auto leaks = raise_leaks(system, x, stature_m, answers);
+    auto leaks = raise_leaks(system, x, stature_m, terms);
     if (leaks.empty()) break;
     if (round == 0) first = std::move(leaks);
     x = system.solve(std::move(x), kSettleSteps, free);
@@ -119,8 +124,9 @@ std::vector<int> equal_sides(std::size_t ellipsoids, std::size_t texels) {
   return std::vector<int>(ellipsoids, std::clamp(static_cast<int>(std::sqrt(each)), kLeastSide, kMostSide));
 }
 
-// An ellipsoid's error falls about as c / N. The least sum of c / N for a given sum of N^2 has every c / N^3
-// alike; and c is the error found times the (equal) side it was found with.
+// The error of an ellipsoid with a table of side N falls about as c / N. The least sum of c / N for a given
+// sum of N^2 has the same c / N^3 for all. As the errors were found with equal sides, c is proportional to
+// the error.
 std::vector<int> shared_sides(std::span<const double> error, std::size_t texels) {
   std::vector<double> wanted;
   double squares = 0.0;
@@ -135,7 +141,7 @@ std::vector<int> shared_sides(std::span<const double> error, std::size_t texels)
     sides.push_back(std::clamp(static_cast<int>(std::lround(scale * w)), 2 * kLeastSide, kMostSide));
     used += square(sides.back());
   }
-  while (used > texels) {  // rounding and the clamps: the largest give way
+  while (used > texels) {  // rounding and the limits exceeded the sum: the largest sides are reduced
     int& largest = *std::max_element(sides.begin(), sides.end());
     if (largest <= kLeastSide) break;
     used -= square(largest) - square(largest - 1);
@@ -144,25 +150,25 @@ std::vector<int> shared_sides(std::span<const double> error, std::size_t texels)
   return sides;
 }
 
-std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& answers,
+std::vector<double> fit_tables(const engine::Context& context, ReliefTerms& terms,
                                std::span<const int> nodes_per_side, int solver_steps,
-                               proxy::BodyProxy::Data& data, const LookCloser& look_closer) {
-  auto system = std::make_unique<ReliefSystem>(context, answers, nodes_per_side);
+                               proxy::BodyProxy::Data& data, const MoreTerms& more_terms) {
+  auto system = std::make_unique<ReliefSystem>(context, terms, nodes_per_side);
   const auto unknowns = system->unknowns();
   using Vector = ReliefSystem::Vector;
   Vector x = system->solve(Vector::Zero(unknowns), solver_steps, Vector::Ones(unknowns));
-  // Beyond that the corrected distance would fall while the point moves outward.
+  // Beyond this limit the corrected distance would fall while a point moves outward.
   const Vector free = system->limit_slopes(x, proxy::relief_reach(data.stature_m).out_m);
   x = system->solve(std::move(x), kSettleSteps, free);
-  std::vector<std::uint32_t> leaks = close_leaks(*system, free, data.stature_m, answers, x);
+  std::vector<std::uint32_t> leaks = close_leaks(*system, free, data.stature_m, terms, x);
   store_tables(context, *system, x, nodes_per_side, data);
-  for (int look = 0; look < kMostLooks && look_closer; ++look) {
-    const ReliefAnswers more = look_closer(leaks);
+  for (int round = 0; round < kMostExtensions && more_terms; ++round) {
+    const ReliefTerms more = more_terms(leaks);
     if (more.target_m.empty()) break;
-    answers = joined(answers, more);
-    system = std::make_unique<ReliefSystem>(context, answers, nodes_per_side);
+    terms = joined(terms, more);
+    system = std::make_unique<ReliefSystem>(context, terms, nodes_per_side);
     x = system->solve(std::move(x), kSettleSteps, free);
-    leaks = close_leaks(*system, free, data.stature_m, answers, x);
+    leaks = close_leaks(*system, free, data.stature_m, terms, x);
     store_tables(context, *system, x, nodes_per_side, data);
   }
   return system->error_of_each(x);

@@ -1,4 +1,4 @@
-// The tables of the relief tier: how large each is, and what it holds.
+// The tables of tier relief: their sizes and their contents.
 #pragma once
 
 #include <functional>
@@ -9,27 +9,27 @@
 
 namespace bodice::fitting {
 
-/// Tables may use this much together with the ellipsoids.
+/// The most bytes that a proxy takes with its tables.
 inline constexpr std::size_t kReliefBytes = 128 * 1024;
 
-/// Texels that keep a proxy of `ellipsoids` within `bytes`; 0 if there is no room for useful tables.
+/// The most texels for a proxy of `ellipsoids` within `bytes`; 0 if there is no room for useful tables.
 std::size_t texels_within(std::size_t ellipsoids, std::size_t bytes);
 
-/// Equal sides that use up to `texels`.
+/// Equal sides for all tables that use up to `texels`.
 std::vector<int> equal_sides(std::size_t ellipsoids, std::size_t texels);
 
-/// Sides that use up to `texels` where they lower the error most: #E errors in, #E nodes per side out.
+/// Sides that use up to `texels` where these lower the error most: #E errors in, #E nodes a side out.
 std::vector<int> shared_sides(std::span<const double> error, std::size_t texels);
 
-/// Answers to more samples where the tables stored last leak, none if they do not; `leaks` are samples that
-/// leaked before (ascending).
-using LookCloser = std::function<ReliefAnswers(std::span<const std::uint32_t> leaks)>;
+/// Returns the terms of additional samples where the stored tables leak, none if they do not; `leaks` are the
+/// samples that leaked before (ascending).
+using MoreTerms = std::function<ReliefTerms(std::span<const std::uint32_t> leaks)>;
 
-/// Fills data.relief and data.texels from the answers; returns each ellipsoid's share of the error that is
-/// left (shared_sides takes it). Raises the weights of deep samples that would be reported outside and, if
-/// `look_closer` is given, joins what it finds to the answers and fits again. Deterministic, parallel.
-std::vector<double> fit_tables(const engine::Context& context, ReliefAnswers& answers,
+/// Fills data.relief and data.texels from the terms, and returns each ellipsoid's share of the remaining
+/// error, which shared_sides() takes. It raises the weights of deep samples that would be reported outside.
+/// If `more_terms` is given, it joins those terms to `terms` and fits again. Deterministic, parallel.
+std::vector<double> fit_tables(const engine::Context& context, ReliefTerms& terms,
                                std::span<const int> nodes_per_side, int solver_steps,
-                               proxy::BodyProxy::Data& data, const LookCloser& look_closer = {});
+                               proxy::BodyProxy::Data& data, const MoreTerms& more_terms = {});
 
 }  // namespace bodice::fitting

@@ -5,7 +5,7 @@
 namespace bodice::fitting {
 namespace {
 
-/// The node that a step past the border lands on, and the border's canonical twin.
+/// The node that a step across the border leads to.
 std::pair<int, int> wrapped(int i, int j, int n) {
   const int last = n - 1;
   if (i < 0) i = -i, j = last - j;
@@ -15,6 +15,7 @@ std::pair<int, int> wrapped(int i, int j, int n) {
   return {i, j};
 }
 
+/// The node that represents all border nodes of the same direction.
 std::pair<int, int> canonical(int i, int j, int n) {
   const int last = n - 1;
   if ((i == 0 || i == last) && (j == 0 || j == last)) return {0, 0};

@@ -1,4 +1,5 @@
-// The octahedral node grid as a closed surface: which nodes are the same direction, and who neighbors whom.
+// The grid of octahedral nodes as a closed surface: nodes of the same direction share an unknown, and steps
+// across the border lead to its other side.
 #pragma once
 
 #include <array>
@@ -7,14 +8,16 @@
 
 namespace bodice::fitting {
 
+/// The unknowns of a table.
 struct ReliefGrid {
-  int n = 0;                                         ///< nodes per side
-  int unknowns = 0;                                  ///< distinct directions
-  std::vector<std::uint32_t> unknown_of;             ///< #n*n: border nodes share theirs with their mirrors
-  std::vector<std::array<std::uint32_t, 3>> second;  ///< triples (before, node, after) along rows and columns
+  int n = 0;                              ///< nodes along a side
+  int unknowns = 0;                       ///< number of distinct directions
+  std::vector<std::uint32_t> unknown_of;  ///< n x n: border nodes have the unknown of their mirror
+  std::vector<std::array<std::uint32_t, 3>>
+      second;  ///< (before, node, after) along rows and columns, as unknowns
 };
 
-/// n >= 2. O(n^2).
+/// The grid with n nodes along a side, n >= 2. O(n^2).
 ReliefGrid make_relief_grid(int n);
 
 }  // namespace bodice::fitting

@@ -10,11 +10,12 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr int kProbes = 3;  // of each cell and depth
-/// Below the ellipsoid's surface, of the tables' reach; deeper the correction grows no more.
+constexpr int kProbes = 3;  // probes a cell and depth
+/// Probed depths below the ellipsoid's surface, fractions of the tables' reach; beyond it the correction is
+/// constant.
 constexpr double kDepths[] = {0.25, 0.35, 0.5, 0.7, 1.0};
 
-/// One table as its nodes say it.
+/// A table as its nodes define it.
 struct TableView {
   const proxy::ReliefTable& table;
   std::span<const proxy::ReliefTexel> texels;
@@ -34,7 +35,8 @@ struct TableView {
   }
 };
 
-/// The point at signed distance d from the ellipsoid's surface, over a place of the table's square.
+/// The point at signed distance d from the ellipsoid's surface, in the direction of a point of the table's
+/// square.
 Vec3 below(const geometry::Ellipsoid& e, double x, double y, double d) {
   const Vec3 w = proxy::octahedral_direction(x, y);
   return e.center + e.axes * (e.radii.cwiseProduct(w) + d * w.cwiseQuotient(e.radii).normalized());

@@ -13,11 +13,12 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr double kTouch = 1e-4;  // of a radius: a ball's own foot is no obstacle
+constexpr double kTouch =
+    1e-4;  // fraction of a radius: the point that a ball touches does not count as inside it
 
-/// Up to `reach_m` along `direction`, how far the skin point p itself is certainly the closest point of the
-/// skin: the radius of a ball that touches p and holds no skin. If that ball is empty, so is every smaller
-/// one. After Ma, Bae, Choi's shrinking ball (skin_samples.hpp), given up after two tries: then 0.
+/// How far along `direction` the skin point p is certainly the closest point of the skin, at most `reach_m`:
+/// the radius of a ball that touches p and holds no skin, because every smaller ball there is empty as well.
+/// It is found by shrinking balls (skin_samples.hpp); 0 if three tries do not suffice.
 double free_reach(const FreeSkin& skin, const Vec3& p, const Vec3& direction, double reach_m) {
   constexpr int kTries = 3;
   double radius = reach_m;
@@ -33,21 +34,24 @@ double free_reach(const FreeSkin& skin, const Vec3& p, const Vec3& direction, do
   return 0.0;
 }
 
-/// The face's normal tells the side where it can; at sharp edges and far away the winding number is asked.
+/// The signed distance of a point, at most `reach_m`. The triangle's normal decides the sign where it can,
+/// the winding number at sharp edges and far away.
 double signed_distance(const FreeSkin& skin, const Vec3& point, double reach_m) {
   const auto hit = skin.closest_point_within(point, reach_m * (1.0 + kTouch));
   if (!hit) return skin.inside(point) ? -reach_m : reach_m;
   const double d = std::abs(hit->signed_distance), side = hit->normal.dot(point - hit->point);
-  // Next to a cut the closest point may lie on the rim, whose triangle's normal tells nothing.
+  // Next to a cut the closest point may lie on the rim, where the triangle's normal decides nothing.
   if (std::abs(side) > (skin.is_cut() ? 0.9999 : 0.7) * d) return side < 0.0 ? -d : d;
   return skin.inside(point) ? -d : d;
 }
 
-/// Twice on the skin what it is far away: there a wrong sign is a missed or a false contact.
+/// The weight of a sample: on the skin, where a wrong sign is a missed or a false contact, twice that far
+/// away.
 float importance(double s, double reach_m) {
   return static_cast<float>(1.0 + std::exp(-std::abs(s) / (0.2 * reach_m)));
 }
 
+/// The samples without those of weight zero.
 std::vector<ReliefSample> with_weight(std::vector<ReliefSample> samples) {
   std::erase_if(samples, [](const ReliefSample& s) { return !(s.weight > 0.0f); });
   return samples;
@@ -68,7 +72,8 @@ std::vector<ReliefSample> sample_along_normals(const engine::Context& context, c
       const std::size_t t = surface[i].triangle;
       if (!skin.bounds(t) || !skin.wanted(skin.all().part[mesh.triangles[t][0]])) continue;
       const Vec3 normal = geometry::area_vector(mesh, t).stableNormalized();
-      // A point of a triangle that dips into another limb may itself be buried: nothing is certain of it.
+      // A point of a triangle that dips into another limb may itself be buried, so that nothing is certain
+      // about it.
       const bool open = skin.is_open(t);
       const double outward = open ? free_reach(skin, surface[i].point, normal, reach) : -reach;
       const double inward = open ? free_reach(skin, surface[i].point, -normal, reach) : -reach;
@@ -101,15 +106,15 @@ std::vector<ReliefSample> sample_inside(const engine::Context& context, const Fr
 }
 
 std::vector<ReliefSample> sample_around(const engine::Context& context, const FreeSkin& skin,
-                                        std::span<const Vec3> places, double radius_m, double reach_m) {
+                                        std::span<const Vec3> points, double radius_m, double reach_m) {
   constexpr std::size_t kEach = 48;
   const engine::Random random(23);
-  std::vector<ReliefSample> samples(places.size() * kEach);
+  std::vector<ReliefSample> samples(points.size() * kEach);
   engine::parallel_for(context, samples.size(), 256, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 u(random.uniform_at(3 * i), random.uniform_at(3 * i + 1), random.uniform_at(3 * i + 2));
-      const double reach = i % kEach == 0 ? 0.0 : radius_m;  // the place itself first
-      const Vec3 point = places[i / kEach] + reach * (2.0 * u - Vec3::Ones());
+      const double reach = i % kEach == 0 ? 0.0 : radius_m;  // the first sample is the given point itself
+      const Vec3 point = points[i / kEach] + reach * (2.0 * u - Vec3::Ones());
       const double s = signed_distance(skin, point, reach_m);
       samples[i] = {point, s, 0.25f * importance(s, reach_m)};
     }

@@ -1,6 +1,6 @@
 // Based on: Magnus R. Hestenes, Eduard Stiefel. Methods of Conjugate Gradients for Solving Linear Systems.
-// 1952. Differs: diagonal preconditioner, and a fixed number of steps at most: the last digits of a table
-// are below what a byte holds.
+// 1952. Differs: it has a diagonal preconditioner and takes few steps, because a texel is a byte and holds no
+// more digits.
 #include "relief/relief_system.hpp"
 
 #include <algorithm>
@@ -12,24 +12,24 @@
 namespace bodice::fitting {
 namespace {
 
-// Relative to the mean weight of the samples on a node.
+// Weights of the regularization, relative to the mean weight of the samples on a node.
 constexpr double kSecondDifference = 0.01;
 constexpr double kFirstDifference = 0.001;
 constexpr double kSlopeRidge = 0.001;
 constexpr double kHeightRidge = 1e-6;
-constexpr double kEnough = 1e-8;  // of the first residual, squared
+constexpr double kEnough = 1e-8;  // solving stops at this fraction of the first squared residual
 constexpr std::size_t kSampleGrain = 8192;
 
 }  // namespace
 
-ReliefSystem::ReliefSystem(const engine::Context& context, const ReliefAnswers& answers,
+ReliefSystem::ReliefSystem(const engine::Context& context, const ReliefTerms& terms,
                            std::span<const int> nodes_per_side)
     : context_(context),
-      answers_(answers),
+      terms_(terms),
       tables_(nodes_per_side.size()),
-      stencils_(answers.answer.size()),
-      of_answer_(answers.answer.size()),
-      of_sample_(answers.target_m.size()) {
+      stencils_(terms.term.size()),
+      of_term_(terms.term.size()),
+      of_sample_(terms.target_m.size()) {
   std::map<int, std::shared_ptr<const ReliefGrid>> grids;
   for (std::size_t k = 0; k < tables_.size(); ++k) {
     auto& grid = grids[nodes_per_side[k]];
@@ -48,11 +48,11 @@ void ReliefSystem::prepare(std::size_t k) {
   const ReliefGrid& grid = *table.grid;
   table.weight.assign(static_cast<std::size_t>(grid.unknowns), 0.0);
   double sum = 0.0;
-  for (std::size_t m = answers_.begin[k]; m < answers_.begin[k + 1]; ++m) {
-    const ReliefAnswer& answer = answers_.answer[m];
-    const proxy::TableStencil at = proxy::table_stencil(answer.foot.cast<double>(), grid.n);
-    const double share = static_cast<double>(answer.share);
-    const double weight = static_cast<double>(answers_.weight[answer.sample]) * share * share;
+  for (std::size_t m = terms_.begin[k]; m < terms_.begin[k + 1]; ++m) {
+    const ReliefTerm& term = terms_.term[m];
+    const proxy::TableStencil at = proxy::table_stencil(term.direction.cast<double>(), grid.n);
+    const double share = static_cast<double>(term.share);
+    const double weight = static_cast<double>(terms_.weight[term.sample]) * share * share;
     for (int j = 0; j < 4; ++j) {
       stencils_[m].unknown[j] = grid.unknown_of[at.node[j]];
       stencils_[m].weight[j] = static_cast<float>(at.weight[j]);
@@ -72,21 +72,20 @@ void ReliefSystem::read(const Vector& x) const {
     for (std::size_t k = begin; k < end; ++k) {
       const double* const h = x.data() + tables_[k].first;
       const double* const a = h + tables_[k].grid->unknowns;
-      for (std::size_t m = answers_.begin[k]; m < answers_.begin[k + 1]; ++m) {
+      for (std::size_t m = terms_.begin[k]; m < terms_.begin[k + 1]; ++m) {
         const Stencil& s = stencils_[m];
-        const double factor = static_cast<double>(answers_.answer[m].slope_factor);
+        const double factor = static_cast<double>(terms_.term[m].slope_factor);
         double value = 0.0;
         for (int j = 0; j < 4; ++j)
           value += static_cast<double>(s.weight[j]) * (h[s.unknown[j]] + factor * a[s.unknown[j]]);
-        of_answer_[m] = static_cast<double>(answers_.answer[m].share) * value;
+        of_term_[m] = static_cast<double>(terms_.term[m].share) * value;
       }
     }
   });
   engine::parallel_for(context_, of_sample_.size(), kSampleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       double sum = 0.0;
-      for (std::size_t p = answers_.of_begin[i]; p < answers_.of_begin[i + 1]; ++p)
-        sum += of_answer_[answers_.of[p]];
+      for (std::size_t p = terms_.of_begin[i]; p < terms_.of_begin[i + 1]; ++p) sum += of_term_[terms_.of[p]];
       of_sample_[i] = sum;
     }
   });
@@ -98,11 +97,11 @@ ReliefSystem::Vector ReliefSystem::write(std::span<const double> of_sample) cons
     for (std::size_t k = begin; k < end; ++k) {
       double* const h = y.data() + tables_[k].first;
       double* const a = h + tables_[k].grid->unknowns;
-      for (std::size_t m = answers_.begin[k]; m < answers_.begin[k + 1]; ++m) {
-        const ReliefAnswer& answer = answers_.answer[m];
+      for (std::size_t m = terms_.begin[k]; m < terms_.begin[k + 1]; ++m) {
+        const ReliefTerm& term = terms_.term[m];
         const double value =
-            static_cast<double>(answers_.weight[answer.sample] * answer.share) * of_sample[answer.sample];
-        const double slope = value * static_cast<double>(answer.slope_factor);
+            static_cast<double>(terms_.weight[term.sample] * term.share) * of_sample[term.sample];
+        const double slope = value * static_cast<double>(term.slope_factor);
         for (int j = 0; j < 4; ++j) {
           const auto u = stencils_[m].unknown[j];
           h[u] += static_cast<double>(stencils_[m].weight[j]) * value;
@@ -142,10 +141,10 @@ ReliefSystem::Vector ReliefSystem::inverse_diagonal() const {
     const Table& table = tables_[k];
     double* const h = d.data() + table.first;
     double* const a = h + table.grid->unknowns;
-    for (std::size_t m = answers_.begin[k]; m < answers_.begin[k + 1]; ++m) {
-      const ReliefAnswer& answer = answers_.answer[m];
-      const double weight = static_cast<double>(answers_.weight[answer.sample] * answer.share * answer.share);
-      const double slope = weight * static_cast<double>(answer.slope_factor * answer.slope_factor);
+    for (std::size_t m = terms_.begin[k]; m < terms_.begin[k + 1]; ++m) {
+      const ReliefTerm& term = terms_.term[m];
+      const double weight = static_cast<double>(terms_.weight[term.sample] * term.share * term.share);
+      const double slope = weight * static_cast<double>(term.slope_factor * term.slope_factor);
       for (int j = 0; j < 4; ++j) {
         const float w = stencils_[m].weight[j];
         h[stencils_[m].unknown[j]] += weight * static_cast<double>(w * w);
@@ -160,7 +159,7 @@ ReliefSystem::Vector ReliefSystem::inverse_diagonal() const {
 
 ReliefSystem::Vector ReliefSystem::solve(Vector x, int steps, const Vector& free) const {
   const Vector inverse = inverse_diagonal().cwiseProduct(free);
-  Vector r = write(answers_.target_m);
+  Vector r = write(terms_.target_m);
   const double stop = kEnough * r.dot(inverse.cwiseProduct(r));
   read(x);
   Vector ax = write(of_sample_);
@@ -201,7 +200,7 @@ ReliefSystem::Vector ReliefSystem::limit_slopes(Vector& x, double limit_m) const
 std::vector<double> ReliefSystem::errors(const Vector& x) const {
   read(x);
   std::vector<double> error(of_sample_.size());
-  for (std::size_t i = 0; i < error.size(); ++i) error[i] = answers_.target_m[i] - of_sample_[i];
+  for (std::size_t i = 0; i < error.size(); ++i) error[i] = terms_.target_m[i] - of_sample_[i];
   return error;
 }
 
@@ -209,9 +208,9 @@ std::vector<double> ReliefSystem::error_of_each(const Vector& x) const {
   const std::vector<double> error_of_sample = errors(x);
   std::vector<double> error(tables_.size(), 0.0);
   for (std::size_t k = 0; k < tables_.size(); ++k)
-    for (std::size_t m = answers_.begin[k]; m < answers_.begin[k + 1]; ++m)
-      error[k] += static_cast<double>(answers_.answer[m].share) *
-                  std::abs(error_of_sample[answers_.answer[m].sample]);
+    for (std::size_t m = terms_.begin[k]; m < terms_.begin[k + 1]; ++m)
+      error[k] +=
+          static_cast<double>(terms_.term[m].share) * std::abs(error_of_sample[terms_.term[m].sample]);
   return error;
 }
 

@@ -9,20 +9,21 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kBlock = 10;   // neighboring samples that share candidates
+constexpr std::size_t kBlock = 10;   // neighboring samples that share their candidates
 constexpr std::size_t kGrain = 512;  // samples a task
 
-/// The answers of one task's samples, in sample order.
+/// The terms of one task's samples, in the order of the samples.
 struct Batch {
   struct Found {
     std::uint32_t ellipsoid;
-    ReliefAnswer answer;
+    ReliefTerm term;
   };
   std::vector<Found> found;
 };
 
-/// At most the distance from `point` to the ellipsoid's surface: |x - c| - r_max, and outside the support
-/// plane across y / r (the surface lies on its far side, by convexity).
+/// A lower bound of the signed distance from `point` to the ellipsoid. It is |x - c| - r_max or, where that
+/// is at most `enough`, the larger one of it and the distance to the support plane with the normal y / r,
+/// beyond which the ellipsoid lies by convexity.
 double lower_bound(const geometry::Ellipsoid& e, const Vec3& point, double enough) {
   const Vec3 to = point - e.center;
   const double ball = to.norm() - e.radii.maxCoeff();
@@ -33,12 +34,14 @@ double lower_bound(const geometry::Ellipsoid& e, const Vec3& point, double enoug
   return std::max(ball, (level - std::sqrt(level)) / y.cwiseQuotient(e.radii).norm());
 }
 
+/// An ellipsoid with its distance to a ball's center.
 struct Candidate {
   double bound;
   std::uint32_t ellipsoid;
 };
 
-/// Ellipsoids that can be within `blend_m` of the nearest somewhere in a ball, nearest first.
+/// The ellipsoids that can be at most `blend_m` farther than the nearest one somewhere in a ball, nearest
+/// first.
 std::vector<Candidate> candidates_in(std::span<const proxy::ProxyEllipsoid> ellipsoids, const Vec3& center,
                                      double radius_m, double blend_m) {
   double least = std::numeric_limits<double>::infinity();
@@ -58,15 +61,16 @@ std::vector<Candidate> candidates_in(std::span<const proxy::ProxyEllipsoid> elli
   return found;
 }
 
+/// An ellipsoid near a sample.
 struct Near {
-  geometry::ClosestPoint foot;
+  geometry::ClosestPoint closest;
   std::uint32_t ellipsoid;
 };
 
-/// A sample's shares among the candidates; fills `near` as scratch.
-void answer(const ReliefSample& sample, std::uint32_t index, std::span<const Candidate> candidates,
-            std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach,
-            std::vector<Near>& near, Batch& batch, double& target_m) {
+/// Finds the terms of one sample among the candidates; `near` is scratch.
+void find_sample_terms(const ReliefSample& sample, std::uint32_t index, std::span<const Candidate> candidates,
+                       std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach,
+                       std::vector<Near>& near, Batch& batch, double& target_m) {
   near.clear();
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates) {
@@ -74,22 +78,22 @@ void answer(const ReliefSample& sample, std::uint32_t index, std::span<const Can
     const double enough = least + reach.blend_m;
     if (lower_bound(e, sample.point, enough) > enough) continue;
     near.push_back({geometry::closest_point(e, sample.point), c.ellipsoid});
-    least = std::min(least, near.back().foot.signed_distance);
+    least = std::min(least, near.back().closest.signed_distance);
   }
   const bool deep = least < -reach.in_m && sample.signed_distance_m < -0.5 * reach.in_m;
-  if (deep) near.clear();  // both say deep inside: nothing to correct
+  if (deep) near.clear();  // the proxy and the skin agree that it is deep inside: there is nothing to correct
   const auto weight = [&](const Near& n) {
-    const double ramp = std::max(0.0, 1.0 - (n.foot.signed_distance - least) / reach.blend_m);
+    const double ramp = std::max(0.0, 1.0 - (n.closest.signed_distance - least) / reach.blend_m);
     return ramp * ramp;
   };
   double sum = 0.0;
   for (const Near& n : near) sum += weight(n);
   target_m = -sample.signed_distance_m;
   for (const Near& n : near) {
-    const double share = weight(n) / sum, d = n.foot.signed_distance;
+    const double share = weight(n) / sum, d = n.closest.signed_distance;
     if (!(share > 0.0)) continue;
     const geometry::Ellipsoid& e = ellipsoids[n.ellipsoid].shape;
-    const Vec3 w = (e.axes.transpose() * (n.foot.point - e.center)).cwiseQuotient(e.radii).normalized();
+    const Vec3 w = (e.axes.transpose() * (n.closest.point - e.center)).cwiseQuotient(e.radii).normalized();
     const double factor = std::clamp(d, -reach.in_m, reach.out_m) / reach.out_m;
     target_m += share * d;
     batch.found.push_back(
@@ -97,49 +101,49 @@ void answer(const ReliefSample& sample, std::uint32_t index, std::span<const Can
   }
 }
 
-void answer_block(std::span<const ReliefSample> samples, std::size_t first,
-                  std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach,
-                  Batch& batch, std::span<double> target_m) {
+/// Finds the terms of a block of neighboring samples.
+void find_block_terms(std::span<const ReliefSample> samples, std::size_t first,
+                      std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach,
+                      Batch& batch, std::span<double> target_m) {
   geometry::Box box;
   for (const ReliefSample& s : samples) box.extend(s.point);
   const std::vector<Candidate> candidates =
       candidates_in(ellipsoids, box.center(), 0.5 * box.size().norm(), reach.blend_m);
   std::vector<Near> near;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    answer(samples[i], static_cast<std::uint32_t>(first + i), candidates, ellipsoids, reach, near, batch,
-           target_m[i]);
+    find_sample_terms(samples[i], static_cast<std::uint32_t>(first + i), candidates, ellipsoids, reach, near,
+                      batch, target_m[i]);
 }
 
-void group(std::span<const Batch> batches, std::size_t samples, std::size_t ellipsoids,
-           ReliefAnswers& result) {
+/// Groups the terms of all tasks by ellipsoid.
+void group(std::span<const Batch> batches, std::size_t samples, std::size_t ellipsoids, ReliefTerms& result) {
   result.begin.assign(ellipsoids + 1, 0);
   result.of_begin.assign(samples + 1, 0);
   for (const Batch& batch : batches)
     for (const Batch::Found& f : batch.found) {
       ++result.begin[f.ellipsoid + 1];
-      ++result.of_begin[f.answer.sample + 1];
+      ++result.of_begin[f.term.sample + 1];
     }
   for (std::size_t k = 0; k < ellipsoids; ++k) result.begin[k + 1] += result.begin[k];
   for (std::size_t i = 0; i < samples; ++i) result.of_begin[i + 1] += result.of_begin[i];
-  result.answer.resize(result.begin.back());
-  result.of.resize(result.answer.size());
+  result.term.resize(result.begin.back());
+  result.of.resize(result.term.size());
   std::vector<std::size_t> next(result.begin.begin(), result.begin.end() - 1);
   std::size_t position = 0;
   for (const Batch& batch : batches)
     for (const Batch::Found& f : batch.found) {
       const std::size_t at = next[f.ellipsoid]++;
-      result.answer[at] = f.answer;
+      result.term[at] = f.term;
       result.of[position++] = static_cast<std::uint32_t>(at);  // batches hold their samples in order
     }
 }
 
 }  // namespace
 
-ReliefAnswers find_answers(const engine::Context& context, std::span<const ReliefSample> samples,
-                           std::span<const proxy::ProxyEllipsoid> ellipsoids,
-                           const proxy::ReliefReach& reach) {
+ReliefTerms find_terms(const engine::Context& context, std::span<const ReliefSample> samples,
+                       std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach) {
   std::vector<Batch> batches(engine::block_count(samples.size(), kGrain));
-  ReliefAnswers result;
+  ReliefTerms result;
   result.target_m.resize(samples.size());
   result.weight.resize(samples.size());
   result.signed_distance_m.resize(samples.size());
@@ -147,8 +151,8 @@ ReliefAnswers find_answers(const engine::Context& context, std::span<const Relie
   engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i += kBlock) {
       const std::size_t count = std::min(kBlock, end - i);
-      answer_block(samples.subspan(i, count), i, ellipsoids, reach, batches[begin / kGrain],
-                   target.subspan(i, count));
+      find_block_terms(samples.subspan(i, count), i, ellipsoids, reach, batches[begin / kGrain],
+                       target.subspan(i, count));
     }
     for (std::size_t i = begin; i < end; ++i) {
       result.weight[i] = samples[i].weight;
@@ -159,28 +163,28 @@ ReliefAnswers find_answers(const engine::Context& context, std::span<const Relie
   return result;
 }
 
-ReliefAnswers joined(const ReliefAnswers& answers, const ReliefAnswers& more) {
-  const auto samples = static_cast<std::uint32_t>(answers.target_m.size());
-  ReliefAnswers all = answers;
-  all.answer.clear();
-  std::vector<std::uint32_t> place(answers.answer.size()), place_of_more(more.answer.size());
-  for (std::size_t k = 0; k + 1 < answers.begin.size(); ++k) {
-    all.begin[k] = all.answer.size();
-    for (std::size_t m = answers.begin[k]; m < answers.begin[k + 1]; ++m) {
-      place[m] = static_cast<std::uint32_t>(all.answer.size());
-      all.answer.push_back(answers.answer[m]);
+ReliefTerms joined(const ReliefTerms& terms, const ReliefTerms& more) {
+  const auto samples = static_cast<std::uint32_t>(terms.target_m.size());
+  ReliefTerms all = terms;
+  all.term.clear();
+  std::vector<std::uint32_t> index(terms.term.size()), index_of_more(more.term.size());  // into all.term
+  for (std::size_t k = 0; k + 1 < terms.begin.size(); ++k) {
+    all.begin[k] = all.term.size();
+    for (std::size_t m = terms.begin[k]; m < terms.begin[k + 1]; ++m) {
+      index[m] = static_cast<std::uint32_t>(all.term.size());
+      all.term.push_back(terms.term[m]);
     }
     for (std::size_t m = more.begin[k]; m < more.begin[k + 1]; ++m) {
-      place_of_more[m] = static_cast<std::uint32_t>(all.answer.size());
-      all.answer.push_back(more.answer[m]);
-      all.answer.back().sample += samples;
+      index_of_more[m] = static_cast<std::uint32_t>(all.term.size());
+      all.term.push_back(more.term[m]);
+      all.term.back().sample += samples;
     }
   }
-  all.begin.back() = all.answer.size();
-  for (std::uint32_t& position : all.of) position = place[position];
-  for (const std::uint32_t position : more.of) all.of.push_back(place_of_more[position]);
+  all.begin.back() = all.term.size();
+  for (std::uint32_t& position : all.of) position = index[position];
+  for (const std::uint32_t position : more.of) all.of.push_back(index_of_more[position]);
   for (std::size_t i = 1; i < more.of_begin.size(); ++i)
-    all.of_begin.push_back(answers.of.size() + more.of_begin[i]);
+    all.of_begin.push_back(terms.of.size() + more.of_begin[i]);
   const auto add = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   add(all.target_m, more.target_m);
   add(all.signed_distance_m, more.signed_distance_m);

@@ -10,7 +10,7 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr int kLeastProbes = 12;  // of an ellipsoid, however small
+constexpr int kLeastProbes = 12;  // probes of the smallest ellipsoid
 
 bool inside_another(std::span<const geometry::Ellipsoid> ellipsoids, std::size_t own, const Vec3& p) {
   for (std::size_t k = 0; k < ellipsoids.size(); ++k)

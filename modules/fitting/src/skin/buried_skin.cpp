@@ -7,22 +7,24 @@ namespace {
 
 using geometry::Index;
 
-constexpr double kStep = 2e-4;  // of stature, about .3 mm: beyond rounding, within any fold worth keeping
-constexpr int kSeedEvery = 8;
+constexpr double kStep =
+    2e-4;  // fraction of stature, about 0.3 mm: beyond rounding, within any fold that matters
+constexpr int kSeedEvery = 8;  // one vertex in so many is evaluated at first
 constexpr int kMaxPasses = 64;
 
 enum class State : std::int8_t { kUnknown = -1, kFree = 0, kBuried = 1 };
 
+/// The states of all vertices, evaluated by winding numbers or guessed from neighbors.
 struct Search {
   const engine::Context& context;
   const geometry::TriMesh& mesh;
   const geometry::MeshDistance& distance;
   std::vector<geometry::Vec3> normals;
   double step_m;
-  std::vector<State> state;
-  std::vector<std::uint8_t> exact;
+  std::vector<State> state;         ///< #V
+  std::vector<std::uint8_t> exact;  ///< #V: whether the state is evaluated
 
-  void ask(const std::vector<Index>& vertices) {
+  void evaluate(const std::vector<Index>& vertices) {
     engine::parallel_for(context, vertices.size(), 32, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const Index v = vertices[i];
@@ -33,7 +35,7 @@ struct Search {
     });
   }
 
-  /// Hands the known states on along the edges until every reachable vertex has one.
+  /// Passes the known states along the edges until every reachable vertex has one.
   void spread() {
     for (int pass = 0; pass < kMaxPasses; ++pass) {
       bool changed = false;
@@ -47,10 +49,11 @@ struct Search {
     }
   }
 
-  /// Guessed vertices that look at the back of other skin: small patches dip into another limb unseen by the
-  /// seeds. A point off the skin lies behind its nearest triangle only if it is inside something.
+  /// Guessed vertices with normals that point at the back of other skin. A small patch may dip into another
+  /// limb between the seeds, and a point off the skin lies behind its nearest triangle only if it is inside
+  /// something.
   std::vector<Index> suspects() {
-    const double reach_m = 50.0 * step_m;  // 17 mm on an adult: larger patches are seen by the seeds
+    const double reach_m = 50.0 * step_m;  // 17 mm on an adult: larger patches contain seeds
     std::vector<std::uint8_t> found(state.size(), 0);
     engine::parallel_for(context, state.size(), 256, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v) {
@@ -65,7 +68,7 @@ struct Search {
     return list;
   }
 
-  /// Guessed vertices of triangles whose corners disagree.
+  /// Guessed vertices of triangles with corners of different state; they count as evaluated from now on.
   std::vector<Index> doubtful() {
     std::vector<Index> found;
     for (const geometry::Triangle& t : mesh.triangles) {
@@ -91,13 +94,13 @@ std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const
                 std::vector<std::uint8_t>(n, 0)};
   std::vector<Index> seeds;
   for (Index v = 0; v < n; v += kSeedEvery) seeds.push_back(v);
-  search.ask(seeds);
+  search.evaluate(seeds);
   search.spread();
-  search.ask(search.suspects());
+  search.evaluate(search.suspects());
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     const std::vector<Index> doubtful = search.doubtful();
     if (doubtful.empty()) break;
-    search.ask(doubtful);
+    search.evaluate(doubtful);
   }
   std::vector<std::uint8_t> buried(mesh.triangles.size());
   for (std::size_t t = 0; t < buried.size(); ++t)

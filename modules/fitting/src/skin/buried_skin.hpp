@@ -1,5 +1,5 @@
-// Posed bodies interpenetrate: skin that lies inside another limb is no boundary of the body, and the
-// distance to it is no depth.
+// Skin that lies inside another limb of a posed body. It is no boundary of the body, and a distance to it is
+// no depth.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,9 @@
 
 namespace bodice::fitting {
 
-/// One flag a triangle. Winding numbers are asked at every eighth vertex, spread along the skin, and asked
-/// again wherever neighbors disagree and where a vertex looks at the back of other skin.
+/// One flag a triangle: whether a corner lies inside another limb. Winding numbers are evaluated at every
+/// eighth vertex, spread along the skin, and evaluated again where neighbors differ and where a normal points
+/// at the back of other skin.
 std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const geometry::TriMesh& mesh,
                                            const geometry::MeshDistance& distance, double stature_m);
 

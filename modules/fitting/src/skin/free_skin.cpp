@@ -7,10 +7,10 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr double kStep = 2e-4;  // of stature, as buried_skin.cpp steps off the skin
+constexpr double kStep = 2e-4;  // fraction of stature: the step off the skin, as in buried_skin.cpp
 
-/// SkinSource::buried flags every triangle with a buried corner; those whose middle is in the open bound the
-/// body all the same.
+/// One flag a triangle: whether its middle is buried. SkinSource::buried flags every triangle with a buried
+/// corner, but one with its middle in the open bounds the body all the same.
 std::vector<std::uint8_t> buried_to_the_middle(const engine::Context& context, const SkinSource& source) {
   const geometry::TriMesh& mesh = source.skin.mesh;
   std::vector<std::uint8_t> buried = source.buried;

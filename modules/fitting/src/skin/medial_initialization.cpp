@@ -13,7 +13,8 @@ namespace {
 
 using Balls = std::vector<InscribedBall>;
 
-/// Greedy highest averages: each ellipsoid goes to the part whose share is least served.
+/// Allocates by greedy highest averages: each ellipsoid goes to the part with the most demand for each it
+/// has.
 std::array<int, body::kPartCount> share(const std::array<double, body::kPartCount>& demand_of, int count) {
   std::array<int, body::kPartCount> given{};
   for (int n = 0; n < count; ++n) {
@@ -29,7 +30,7 @@ std::array<int, body::kPartCount> share(const std::array<double, body::kPartCoun
   return given;
 }
 
-/// Spread-out seeds: each is the point farthest from those before it.
+/// Seeds spread out over the points: each is the point farthest from the seeds before it.
 std::vector<Vec3> farthest_seeds(const std::vector<Vec3>& points, int count) {
   std::vector<Vec3> seeds = {points[0]};
   std::vector<double> nearest(points.size(), 1e300);
@@ -45,7 +46,8 @@ std::vector<Vec3> farthest_seeds(const std::vector<Vec3>& points, int count) {
   return seeds;
 }
 
-/// Points even on an ellipsoid's surface have covariance diag(r^2) / 3.
+/// The ellipsoid with the mean and covariance of the points; even points on its surface have covariance
+/// diag(r^2) / 3.
 geometry::Ellipsoid from_spread(const std::vector<Vec3>& points, double min_radius_m) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
@@ -67,9 +69,9 @@ double demand(const InscribedBall& ball, double stature_m) {
   return std::pow(std::max(ball.radius_m, 1e-4 * stature_m), -0.7);
 }
 
-std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& context,
-                                                    std::span<const InscribedBall> balls, int count,
-                                                    double stature_m) {
+std::vector<proxy::ProxyEllipsoid> ellipsoids_from_balls(const engine::Context& context,
+                                                         std::span<const InscribedBall> balls, int count,
+                                                         double stature_m) {
   std::vector<Vec3> centers;
   std::vector<double> weights;
   for (const InscribedBall& b : balls) {
@@ -86,8 +88,8 @@ std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& conte
   return ellipsoids;
 }
 
-std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const SkinSource& source,
-                                                int count) {
+std::vector<proxy::ProxyEllipsoid> medial_initialization(const engine::Context& context,
+                                                         const SkinSource& source, int count) {
   const LabeledSkin& skin = source.skin;
   const std::size_t samples = std::clamp<std::size_t>(40 * static_cast<std::size_t>(count), 1500, 12000);
   std::array<Balls, body::kPartCount> of_part;
@@ -98,10 +100,10 @@ std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, 
     demand_of[static_cast<int>(b.part)] += demand(b, skin.stature_m);
   }
   const auto parts = std::count_if(demand_of.begin(), demand_of.end(), [](double d) { return d > 0.0; });
-  if (source.parts == kAllParts && count < parts) {  // too few to give each part its own
+  if (source.parts == kAllParts && count < parts) {  // there are too few to give each part its own
     Balls all;
     for (const Balls& balls : of_part) all.insert(all.end(), balls.begin(), balls.end());
-    return start_from_balls(context, all, count, skin.stature_m);
+    return ellipsoids_from_balls(context, all, count, skin.stature_m);
   }
   const auto wanted = [&](int p) { return ((source.parts >> p) & 1u) != 0; };
   auto given = share(demand_of, count);
@@ -110,11 +112,11 @@ std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, 
     if (!wanted(p)) demand_of[p] = given[p] = 0;
     ours += given[p];
   }
-  if (ours == 0) given = share(demand_of, 1);  // fewer than the body has parts
+  if (ours == 0) given = share(demand_of, 1);  // count is smaller than the number of parts
   std::vector<proxy::ProxyEllipsoid> ellipsoids;
   for (int p = 0; p < body::kPartCount; ++p) {
     if (given[p] == 0) continue;
-    const auto more = start_from_balls(context, of_part[p], given[p], skin.stature_m);
+    const auto more = ellipsoids_from_balls(context, of_part[p], given[p], skin.stature_m);
     ellipsoids.insert(ellipsoids.end(), more.begin(), more.end());
   }
   return ellipsoids;

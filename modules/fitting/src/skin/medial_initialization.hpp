@@ -1,24 +1,25 @@
-// Where the optimization of the anytime tiers starts: clusters of inscribed balls.
+// The start of the optimization of the anytime tiers: clusters of inscribed balls.
 #pragma once
 
 #include "skin/skin_samples.hpp"
 
 namespace bodice::fitting {
 
-/// How many ellipsoids a ball's surroundings ask for: thin places need more a square meter than thick ones.
+/// The relative number of ellipsoids that a ball's surroundings need: thin limbs need more a square meter
+/// than thick ones.
 double demand(const InscribedBall& ball, double stature_m);
 
-/// At most `count` ellipsoids for one part's balls (at least one ball): K-means of the balls' centers, each
-/// ellipsoid from the spread of the skin points that its balls touch. They carry the first ball's part.
-std::vector<proxy::ProxyEllipsoid> start_from_balls(const engine::Context& context,
-                                                    std::span<const InscribedBall> balls, int count,
-                                                    double stature_m);
+/// At most `count` ellipsoids for the balls of one part, at least one ball. K-means clusters the balls'
+/// centers; each ellipsoid has the spread of the skin points that its balls touch. All have the part of the
+/// first ball.
+std::vector<proxy::ProxyEllipsoid> ellipsoids_from_balls(const engine::Context& context,
+                                                         std::span<const InscribedBall> balls, int count,
+                                                         double stature_m);
 
-/// The wanted parts' share of about `count` ellipsoids for the whole body (never more, at least one a part
-/// that has skin unless count is smaller): K-means of the balls' centers part by part, shares by the sum of
-/// radius^-0.7, each ellipsoid from the spread of the skin points its balls touch. With fewer than the body
-/// has parts, all balls are clustered together.
-std::vector<proxy::ProxyEllipsoid> medial_start(const engine::Context& context, const SkinSource& source,
-                                                int count);
+/// The wanted parts' share of at most `count` ellipsoids for the whole body. Each part gets
+/// ellipsoids_from_balls(), at least one if it has skin, in proportion to the sum of demand(). If `count` is
+/// smaller than the number of parts, the balls of all parts are clustered together.
+std::vector<proxy::ProxyEllipsoid> medial_initialization(const engine::Context& context,
+                                                         const SkinSource& source, int count);
 
 }  // namespace bodice::fitting

@@ -12,9 +12,10 @@
 namespace bodice::fitting {
 namespace {
 
-/// No body is thicker than a third of its height where it is cut across.
-constexpr double kMostRadius = 0.15;    // of stature
-constexpr double kNeighborhood = 0.02;  // of stature: how far another region's skin matters
+/// The radius of the largest ball, a fraction of stature: no cross-section is thicker than a third of the
+/// height.
+constexpr double kMostRadius = 0.15;
+constexpr double kNeighborhood = 0.02;  // fraction of stature: skin of other regions within it counts
 
 /// Fills in the balls' radii and centers.
 void grow_balls(PartSkin& part, double stature_m) {
@@ -73,8 +74,8 @@ std::vector<DistanceSample> part_samples(const std::vector<PartSkin>& skins, std
     const InscribedBall& ball = own.balls[i];
     box.extend(ball.skin);
     samples.push_back({ball.skin, 0.0, ball.part});
-    // Every third sample again, off the skin: its distance is the offset as long as the touching balls allow.
-    // Every tenth far off, so that no ellipsoid spreads in air where nothing else would ask.
+    // Every third sample is repeated off the skin, within the touching balls, where its distance is the
+    // offset. Every tenth is repeated far off, so that no ellipsoid spreads in air that has no other samples.
     const bool near = i % 3 == 0, far = i % 10 == 5;
     if (!near && !far) continue;
     const double u = random.uniform_at(i);

@@ -1,4 +1,5 @@
-// What a part's own task of the solid tier knows of the skin: no search tree, no other part.
+// The skin of one region as its task in tier solid uses it: no search tree, and of other regions only
+// samples.
 #pragma once
 
 #include <vector>
@@ -10,19 +11,19 @@
 
 namespace bodice::fitting {
 
-/// Even samples of one region's skin and the balls that touch it there.
+/// Even samples of one region's skin, and the balls that touch the skin at each.
 struct PartSkin {
   std::vector<Vec3> normals;           ///< outward, unit
-  std::vector<InscribedBall> balls;    ///< inside
-  std::vector<double> outer_radius_m;  ///< of the largest ball outside
+  std::vector<InscribedBall> balls;    ///< the largest balls inside
+  std::vector<double> outer_radius_m;  ///< radii of the largest balls outside
 };
 
 /// About `count` samples of the whole skin, sorted into the regions. Deterministic, parallel.
 std::vector<PartSkin> sample_parts(const engine::Context& context, const LabeledSkin& skin,
                                    const std::vector<Region>& regions, std::size_t count);
 
-/// What region r's ellipsoids are fitted to: its skin, points off it to either side with their distance to
-/// it, and one-sided, the skin of other regions near by.
+/// The samples that region r's ellipsoids are fitted to: its skin, points on either side of it with their
+/// distance, and nearby skin of other regions as one-sided samples.
 std::vector<DistanceSample> part_samples(const std::vector<PartSkin>& skins, std::size_t r, double stature_m);
 
 }  // namespace bodice::fitting

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kGrain = 256;
 
-/// Even samples of the skin that counts.
+/// Even samples of the wanted parts' skin that is not buried.
 std::vector<geometry::SurfaceSample> wanted_skin(const SkinSource& source, std::size_t count,
                                                  std::uint64_t seed) {
   const LabeledSkin& skin = source.skin;
@@ -25,9 +25,9 @@ std::vector<geometry::SurfaceSample> wanted_skin(const SkinSource& source, std::
   return samples;
 }
 
-/// The skin lies at most |offset| away, at the foot that the point was pushed from. Where other skin is
-/// nearer, its normal tells the side; the winding number is asked only where the normal cannot: at sharp
-/// edges and next to buried skin.
+/// The signed distance of a point that was moved off the skin by `offset`, so that it is at most |offset|.
+/// Where other skin is nearer, its normal decides the sign, or the winding number at sharp edges and next to
+/// buried skin.
 double exact_distance(const SkinSource& source, const Vec3& point, double offset) {
   const geometry::MeshDistance& distance = *source.skin.distance;
   const auto hit = distance.closest_point_within(point, std::abs(offset) * (1.0 + 1e-9));
@@ -39,8 +39,8 @@ double exact_distance(const SkinSource& source, const Vec3& point, double offset
   return distance.inside(point) ? -d : d;
 }
 
-/// Whether the closest point of the skin, |d| away, is that of a part that is not wanted: it must not draw
-/// ellipsoids there.
+/// Whether the closest point of the skin, |d| away, belongs to a part that is not wanted. Such a sample must
+/// not attract ellipsoids.
 bool is_of_others(const SkinSource& source, const Vec3& point, double d) {
   if (source.parts == kAllParts) return false;
   const auto hit = source.skin.distance->closest_point_within(point, std::abs(d) * (1.0 + 1e-6));
@@ -49,6 +49,7 @@ bool is_of_others(const SkinSource& source, const Vec3& point, double d) {
   return ((source.parts >> part) & 1u) == 0;
 }
 
+/// The radius of the largest ball that touches the skin at p, from `radius` down.
 double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const Vec3& inward, double radius) {
   constexpr int kSteps = 12;
   for (int step = 0; step < kSteps; ++step) {
@@ -105,7 +106,7 @@ std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t t = surface[i].triangle;
       const Vec3 inward = -geometry::area_vector(skin.mesh, t).stableNormalized();
-      // No body is thicker than a third of its height where it is cut across.
+      // No cross-section of a body is thicker than a third of its height.
       const double r = shrink_ball(*skin.distance, surface[i].point, inward, 0.15 * skin.stature_m);
       balls[i] = {surface[i].point + r * inward, surface[i].point, r, skin.part[skin.mesh.triangles[t][0]]};
     }

@@ -4,7 +4,7 @@
 
 namespace bodice::fitting {
 
-constexpr float kTangent = 0.01f;  // sine squared of the least angle off the tangent plane
+constexpr float kTangent = 0.01f;  // squared sine of the least angle to the tangent plane
 
 BODICE_CLONES void touching_radii(const TouchingPoints& points, float most, float* __restrict inward,
                                   float* __restrict outward) {

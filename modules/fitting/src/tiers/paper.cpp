@@ -14,17 +14,15 @@ std::uint32_t fitted_parts(const std::vector<Region>& regions, std::uint32_t par
   return all;
 }
 
-void report_thresholds(const std::vector<Region>& regions, const std::vector<FittedRegion>& fitted,
-                       const Thresholds& asked, Draft& draft) {
+void report_clusters(const std::vector<FittedRegion>& fitted, const Thresholds& given, Draft& draft) {
   Thresholds worst;
-  for (std::size_t r = 0; r < regions.size(); ++r)
-    for (const double e : fitted[r].error_m) {
-      double& mu = regions[r].torso ? worst.torso_m : worst.limbs_m;
-      mu = std::max(mu, e);
+  for (const FittedRegion& region : fitted)
+    for (std::size_t k = 0; k < region.error_m.size(); ++k) {
+      double& mu = body::is_torso(region.ellipsoids[k].part) ? worst.torso_m : worst.limbs_m;
+      mu = std::max(mu, region.error_m[k]);
+      draft.cluster_error_m.push_back(region.error_m[k]);
     }
-  draft.mu = asked.given() ? asked : worst;
-  draft.thresholds_reached =
-      !asked.given() || (worst.torso_m <= asked.torso_m && worst.limbs_m <= asked.limbs_m);
+  draft.mu = given.given() ? given : worst;
 }
 
 engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context, const Items& items,
@@ -45,7 +43,7 @@ engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& 
     return fitted;
   };
   if (mu.given()) {
-    // First without a common limit; only if that takes too many are they shared out.
+    // Each region is first refined without a common limit. Only if that takes too many are they allocated.
     tasks.share = [&](const engine::Context&) { return std::vector<int>(regions.size(), count); };
     tasks.on_part = nullptr;
     auto fitted = run_region_tasks(context, regions, tasks);
@@ -78,7 +76,7 @@ engine::Result<Draft> fit_paper(const engine::Context& context, const LabeledSki
   Draft draft;
   draft.data.tier = proxy::Tier::kPaper;
   draft.parts = fitted_parts(regions, options.parts);
-  report_thresholds(regions, *fitted, mu, draft);
+  report_clusters(*fitted, mu, draft);
   for (const FittedRegion& f : *fitted)
     draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());
   return draft;

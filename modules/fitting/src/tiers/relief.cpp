@@ -13,20 +13,21 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;
-/// First tables that are usable soon, and say where more texels pay; then those that last.
+/// Skin points, samples a point, and steps of the solver: for the first tables, which are there soon and show
+/// where more texels pay, and for the final ones.
 constexpr std::size_t kFirstNormals = 8000, kNormals = 28000;
 constexpr int kFirstPerNormal = 3, kPerNormal = 4;
 constexpr int kFirstSteps = 16, kSteps = 24;
-/// Of stature: turns most misses of a tenth of a millimeter into hits.
+/// The margin, a fraction of stature: it turns most misses of a tenth of a millimeter into hits.
 constexpr double kMargin = 0.1e-3 / 1.7;
-/// Of stature: finds every hole between ellipsoids that a thumb fits into.
+/// The spacing of interior samples, a fraction of stature: it finds every hole that a thumb fits into.
 constexpr double kInsideSpacing = 0.010 / 1.7;
-/// Leaks that are looked at more closely; posed bodies whose limbs interpenetrate have hundreds.
-constexpr std::size_t kMostPlaces = 2000;
-/// Of stature: skin this deep, reported so little inside or outside, is looked at more closely.
+/// The most leaks around which samples are added; posed bodies with interpenetrating limbs have hundreds.
+constexpr std::size_t kMostLeaks = 2000;
+/// A hole lies deeper than the first fraction of stature, and the tables report it less deep than the second.
 constexpr double kHoleDepth = 7e-3 / 1.7, kHoleMargin = 2e-3 / 1.7;
 
-/// The same ellipsoid, its axes by falling radius: tables over those are read the fastest.
+/// The same ellipsoid with its axes by falling radius, over which tables are read the fastest.
 geometry::Ellipsoid with_sorted_axes(const geometry::Ellipsoid& e) {
   const std::array<int, 3> order = geometry::axes_by_radius(e.radii);
   geometry::Ellipsoid sorted = e;
@@ -58,38 +59,38 @@ std::vector<ReliefSample> ReliefTables::samples(const ReliefSampling& sampling, 
   return samples;
 }
 
-ReliefAnswers ReliefTables::ask(std::span<const ReliefSample> samples) const {
-  return find_answers(context_, samples, data_.ellipsoids, proxy::relief_reach(data_.stature_m));
+ReliefTerms ReliefTables::terms_of(std::span<const ReliefSample> samples) const {
+  return find_terms(context_, samples, data_.ellipsoids, proxy::relief_reach(data_.stature_m));
 }
 
-ReliefAnswers ReliefTables::ask_around(std::span<const std::uint32_t> leaks) {
-  std::vector<Vec3> places =
+ReliefTerms ReliefTables::terms_around(std::span<const std::uint32_t> leaks) {
+  std::vector<Vec3> points =
       find_holes(context_, skin_, data_, kHoleDepth * data_.stature_m, kHoleMargin * data_.stature_m);
-  for (const std::uint32_t leak : leaks) places.push_back(samples_[leak].point);
-  places.resize(std::min(places.size(), kMostPlaces));
-  const auto more = sample_around(context_, skin_, places, kInsideSpacing * data_.stature_m,
+  for (const std::uint32_t leak : leaks) points.push_back(samples_[leak].point);
+  points.resize(std::min(points.size(), kMostLeaks));
+  const auto more = sample_around(context_, skin_, points, kInsideSpacing * data_.stature_m,
                                   proxy::relief_reach(data_.stature_m).in_m);
   samples_.insert(samples_.end(), more.begin(), more.end());
-  return ask(more);
+  return terms_of(more);
 }
 
 void ReliefTables::fit_first(std::size_t bytes) {
   const std::size_t ellipsoids = data_.ellipsoids.size();
   const double reach_m = proxy::relief_reach(data_.stature_m).out_m;
-  ReliefAnswers answers = ask(samples({kFirstNormals, kFirstPerNormal, reach_m, 21}, 0.0));
+  ReliefTerms terms = terms_of(samples({kFirstNormals, kFirstPerNormal, reach_m, 21}, 0.0));
   const auto sides = equal_sides(ellipsoids, texels_within(ellipsoids, bytes));
-  error_ = fit_tables(context_, answers, sides, kFirstSteps, data_);
+  error_ = fit_tables(context_, terms, sides, kFirstSteps, data_);
 }
 
 void ReliefTables::fit(std::size_t bytes) {
   const double reach_m = proxy::relief_reach(data_.stature_m).out_m;
   if (samples_.empty()) {
     samples_ = samples({kNormals, kPerNormal, reach_m, 22}, kInsideSpacing * data_.stature_m);
-    answers_ = ask(samples_);
+    terms_ = terms_of(samples_);
   }
   const auto sides = shared_sides(error_, texels_within(data_.ellipsoids.size(), bytes));
-  const auto look_closer = [&](std::span<const std::uint32_t> leaks) { return ask_around(leaks); };
-  fit_tables(context_, answers_, sides, kSteps, data_, look_closer);
+  const auto more_terms = [&](std::span<const std::uint32_t> leaks) { return terms_around(leaks); };
+  fit_tables(context_, terms_, sides, kSteps, data_, more_terms);
 }
 
 ReliefRun::ReliefRun(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,

@@ -1,5 +1,5 @@
-// The tables of one set of ellipsoids, at any size: what is asked of the skin is kept, so that another size
-// costs a solve.
+// The tables of one set of ellipsoids. Samples and their terms are kept, so that tables of another size cost
+// only another solution of the system.
 #pragma once
 
 #include <memory>
@@ -11,33 +11,35 @@
 
 namespace bodice::fitting {
 
+/// Makes the tables of a proxy at any size.
 class ReliefTables {
  public:
-  /// Makes `data` (with its ellipsoids) a proxy of the relief tier; all arguments must outlive this.
+  /// Turns `data`, which has ellipsoids, into a proxy of tier relief. All arguments must outlive this object.
   ReliefTables(const engine::Context& context, const SkinSource& source, proxy::BodyProxy::Data& data);
 
-  /// Tables that are usable soon, and say where more texels pay. `bytes` as texels_within() takes them.
+  /// Makes first tables, which are there soon and show where more texels pay. `bytes` is as in
+  /// texels_within().
   void fit_first(std::size_t bytes);
-  /// The tables that last, after fit_first. Some four times the samples, well under a second on two cores the
-  /// first time, a third of that at every other size.
+  /// Makes the final tables, after fit_first(), from about four times the samples: well under a second on two
+  /// cores the first time, and a third of that for every other size.
   void fit(std::size_t bytes);
 
  private:
   std::vector<ReliefSample> samples(const ReliefSampling& sampling, double spacing_m) const;
-  ReliefAnswers ask(std::span<const ReliefSample> samples) const;
-  ReliefAnswers ask_around(std::span<const std::uint32_t> leaks);
+  ReliefTerms terms_of(std::span<const ReliefSample> samples) const;
+  ReliefTerms terms_around(std::span<const std::uint32_t> leaks);
 
   const engine::Context& context_;
   FreeSkin skin_;
   proxy::BodyProxy::Data& data_;
-  std::vector<double> error_;          ///< #E, of the first tables
-  std::vector<ReliefSample> samples_;  ///< of fit(); empty before
-  ReliefAnswers answers_;              ///< to them
+  std::vector<double> error_;          ///< #E, left by the first tables
+  std::vector<ReliefSample> samples_;  ///< those of fit(); empty before the first call
+  ReliefTerms terms_;                  ///< of samples_
 };
 
-/// The relief tier: tight ellipsoids, for half of a time budget, and their tables. Anytime: tells
-/// options.on_improved of the first tables and leaves it at them once the budget is spent. With more
-/// ellipsoids than tables fit (about 1000) the draft stays plain.
+/// Tier relief: tight ellipsoids, in half of a time budget, and their tables. It is an anytime task: it
+/// publishes the first tables to options.on_improved and stops with them once the budget is spent. With too
+/// many ellipsoids for tables to fit (about 1000) the draft stays plain.
 class ReliefRun {
  public:
   ReliefRun(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,
@@ -47,11 +49,11 @@ class ReliefRun {
 
   int count() const { return count_; }
   const Draft& draft() const { return draft_; }
-  /// Tables of another size for the same ellipsoids.
+  /// Makes tables of another size for the same ellipsoids.
   void resize(std::size_t bytes);
 
  private:
-  /// What a fit of some regions only uses of the whole body's bytes.
+  /// The share of the whole body's bytes that a fit of some regions uses.
   std::size_t share_of(std::size_t bytes) const;
 
   const engine::Context& context_;
@@ -59,7 +61,7 @@ class ReliefRun {
   int count_;
   std::unique_ptr<SkinSource> source_;
   Draft draft_;
-  std::unique_ptr<ReliefTables> tables_;  ///< null: no room for any
+  std::unique_ptr<ReliefTables> tables_;  ///< null: there is no room for tables
 };
 
 }  // namespace bodice::fitting

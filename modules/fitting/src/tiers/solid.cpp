@@ -1,5 +1,6 @@
-// Every part for itself, from its own skin alone: medial clusters, a short descent, and growth until each of
-// its triangles is held whole. Then the inside of the whole body, which no part can see alone.
+// Tier solid. Every region is fitted on its own, from its own skin: medial clusters, a short descent, and
+// growth until an ellipsoid holds each triangle whole. Then the interior is closed, which concerns all
+// regions together.
 #include <algorithm>
 #include <cmath>
 
@@ -16,19 +17,22 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr double kOverStepOfFew = 1.3;  // so few steps must settle
-constexpr int kIterations = 9;          // too few for a move of ellipsoids elsewhere to pay
-/// Of the scaled body: with so few samples and ellipsoids a region, choosing candidates again costs more than
-/// keeping all that may ever be near.
+constexpr double kOverStepOfFew = 1.3;  // over-relaxation of the steps, of which there are few
+constexpr int kIterations = 9;          // steps of the descent: too few for split-and-merge moves to pay
+/// Motion in the scaled body up to which candidates stay valid. With so few samples and ellipsoids a region,
+/// choosing candidates again costs more than keeping all that may ever be near.
 constexpr double kMostMotion = 0.3;
-constexpr int kCandidates = 6;            // of a sample: more change nothing but the time
+constexpr int kCandidates = 6;            // candidates a sample: more of them change only the time
 constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
-constexpr double kColumnSpacing = 4e-3;   // of stature: 7 mm, finer than any cavity worth a particle
-constexpr float kUncoveredWeight = 3.0f;  // growth costs more than a little overlap
-constexpr double kGrowFirst_mm = 2.0;     // before any ellipsoid has to grow more for its triangles
-/// Up to so many in a region, growth after a descent may cost more than enclosing clusters of triangles.
+constexpr double kColumnSpacing = 4e-3;   // fraction of stature: 7 mm, finer than any cavity worth a particle
+constexpr float kUncoveredWeight =
+    3.0f;  // skin outside weighs more, because growth costs more than some overlap
+constexpr double kGrowFirst_mm = 2.0;  // growth of all ellipsoids before any grows for its triangles
+/// With up to so many ellipsoids in a region, enclosing clusters of triangles may take less volume than
+/// growing.
 constexpr int kFewEllipsoids = 2;
 
+/// How many of `count` ellipsoids each region gets, by the sum of its balls' demands.
 std::vector<int> shares_by_demand(const std::vector<PartSkin>& skins, int count, double stature_m) {
   std::vector<double> need(skins.size(), 0.0);
   for (std::size_t r = 0; r < skins.size(); ++r)
@@ -46,22 +50,23 @@ std::vector<int> shares_by_demand(const std::vector<PartSkin>& skins, int count,
 /// Ellipsoids that follow one region's skin, in meters.
 std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const LabeledSkin& skin,
                                           const std::vector<PartSkin>& skins, std::size_t r, int count) {
-  auto ellipsoids = start_from_balls(context, skins[r].balls, count, skin.stature_m);
+  auto ellipsoids = ellipsoids_from_balls(context, skins[r].balls, count, skin.stature_m);
   const Scaling scaling(skin);
-  const TightLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
+  const RobustLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
   const std::vector<DistanceSample> samples = part_samples(skins, r, skin.stature_m);
-  TightProblem problem(samples, scaling, loss, kMostMotion, kCandidates);
+  LeastSquaresProblem problem(samples, scaling, loss, kMostMotion, kCandidates);
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;
   descend(context, problem, shapes,
-          {.iterations = kIterations, .relocate = false, .over_step = kOverStepOfFew});
+          {.iterations = kIterations, .split_and_merge = false, .over_step = kOverStepOfFew});
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = scaling.out(shapes[k]);
   take_parts(problem, ellipsoids);
   return ellipsoids;
 }
 
-/// A region too small to have samples: one ellipsoid around its vertices, by the closing cover.
+/// The ellipsoid of a region that is too small to have samples: it starts at one vertex and grows by the
+/// cover.
 proxy::ProxyEllipsoid speck(const Items& items, const Region& region, double stature_m) {
   proxy::ProxyEllipsoid e;
   e.part = items.part[region.items.front()];
@@ -70,6 +75,7 @@ proxy::ProxyEllipsoid speck(const Items& items, const Region& region, double sta
   return e;
 }
 
+/// Grows a region's ellipsoids until each of its triangles is held.
 FittedRegion cover_region(const engine::Context& context, const LabeledSkin& skin, const Items& items,
                           const Region& region, std::vector<proxy::ProxyEllipsoid> ellipsoids) {
   if (ellipsoids.empty()) ellipsoids.push_back(speck(items, region, skin.stature_m));
@@ -106,7 +112,7 @@ InteriorColumns columns_of(const LabeledSkin& skin) {
   return interior_columns(skin.mesh, kColumnSpacing * skin.stature_m);
 }
 
-/// Fills in the columns of the inside, if they are asked for, while the skin is sampled.
+/// Fits all regions. If `columns` is not null, they are found while the skin is sampled.
 engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& context,
                                                         const LabeledSkin& skin, const Items& items,
                                                         const std::vector<Region>& regions, int count,
@@ -137,6 +143,7 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
   return run_region_tasks(context, regions, tasks);
 }
 
+/// Grows ellipsoids until the union holds the interior.
 void close_inside(const engine::Context& context, const LabeledSkin& skin, const InteriorColumns& columns,
                   std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   std::vector<geometry::Ellipsoid> shapes;
@@ -154,7 +161,7 @@ engine::Result<Draft> fit_solid(const engine::Context& context, const LabeledSki
   const Thresholds mu{options.mu_torso_m.value_or(0.0), options.mu_limbs_m.value_or(0.0)};
   Draft draft;
   draft.data.tier = proxy::Tier::kSolid;
-  // The inside of a body of some regions only is not its own to cover.
+  // The interior is closed for whole bodies only: some regions alone have no interior of their own.
   draft.parts = fitted_parts(regions, options.parts);
   const bool whole = draft.parts == fitted_parts(regions, kAllParts);
   InteriorColumns columns;
@@ -163,7 +170,7 @@ engine::Result<Draft> fit_solid(const engine::Context& context, const LabeledSki
       mu.given() ? refine_regions(context, items, regions, refine_options(skin.stature_m), mu, count, options)
                  : cover_regions(context, skin, items, regions, count, options, whole ? &columns : nullptr);
   if (!fitted) return fitted.error();
-  if (mu.given()) report_thresholds(regions, *fitted, mu, draft);
+  if (mu.given()) report_clusters(*fitted, mu, draft);
   for (const FittedRegion& f : *fitted)
     draft.data.ellipsoids.insert(draft.data.ellipsoids.end(), f.ellipsoids.begin(), f.ellipsoids.end());
   if (whole) close_inside(context, skin, columns, draft.data.ellipsoids);

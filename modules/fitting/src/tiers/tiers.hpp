@@ -10,37 +10,39 @@
 
 namespace bodice::fitting {
 
+/// What a tier makes of a skin.
 struct Draft {
   proxy::BodyProxy::Data data;
-  Thresholds mu;
-  bool thresholds_reached = true;
-  std::uint32_t parts = kAllParts;  ///< of the regions that were fitted
+  Thresholds mu;                        ///< in force; zeros for tiers without clusters
+  std::vector<double> cluster_error_m;  ///< E_j, one an ellipsoid; empty for tiers without clusters
+  std::uint32_t parts = kAllParts;      ///< a bit for each part of the fitted regions
 };
 
-/// The wanted parts, and those that share a region with them.
+/// The wanted parts and the parts that share a region with them.
 std::uint32_t fitted_parts(const std::vector<Region>& regions, std::uint32_t wanted);
 
-/// As written: vertices, k-means, enclosing ellipsoids.
+/// Tier paper, as published: vertices, K-means, enclosing ellipsoids.
 engine::Result<Draft> fit_paper(const engine::Context& context, const LabeledSkin& skin,
                                 const FitOptions& options, int count);
 
-/// The paper's refinement of every region as a task of its own: to the thresholds if they are given and at
-/// most `count` ellipsoids suffice, else to shares of `count`.
+/// Refines every region as the paper does, in a task of its own: to the thresholds if they are given and at
+/// most `count` ellipsoids suffice for that, else to each region's share of `count`.
 engine::Result<std::vector<FittedRegion>> refine_regions(const engine::Context& context, const Items& items,
                                                          const std::vector<Region>& regions,
                                                          const RefineOptions& refine, const Thresholds& mu,
                                                          int count, const FitOptions& options);
 
-/// No leaks: every triangle ends inside one ellipsoid, and what the union then misses inside is added until
-/// nothing is.
+/// Tier solid, without leaks: every triangle ends inside one ellipsoid, then ellipsoids grow until the union
+/// holds the interior.
 engine::Result<Draft> fit_solid(const engine::Context& context, const LabeledSkin& skin,
                                 const FitOptions& options, int count);
 
-/// The worst E_j by class, and whether the thresholds asked for were reached, into the draft.
-void report_thresholds(const std::vector<Region>& regions, const std::vector<FittedRegion>& fitted,
-                       const Thresholds& asked, Draft& draft);
+/// Notes every E_j in the draft, and the thresholds in force: the given ones, else the largest E_j of the
+/// torso's and of the limbs' ellipsoids.
+void report_clusters(const std::vector<FittedRegion>& fitted, const Thresholds& given, Draft& draft);
 
-/// All ellipsoids optimized together against the exact signed distance, from medial clusters; anytime.
+/// Tier tight: optimizes all ellipsoids together against the exact signed distance, from medial clusters. It
+/// is an anytime task: it ends after `time_budget_s` with what it has.
 Draft fit_tight(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                 int count, double time_budget_s);
 

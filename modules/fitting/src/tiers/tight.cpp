@@ -15,28 +15,29 @@
 namespace bodice::fitting {
 namespace {
 
-/// The first steps are taken on one sample in so many, and may be long: where ellipsoids are needed can be
-/// found on few.
+/// The first steps use one sample in so many and may be long: few samples suffice to find where ellipsoids
+/// are needed.
 constexpr std::size_t kCoarse = 3;
 constexpr int kCoarseIterations = 64, kIterations = 48;
-constexpr double kCoarseMotion = 0.03, kMotion = 0.012;  // of the scaled body
-/// What those samples find fits them better than the skin between them, by a twentieth: the last steps are
-/// taken on so many times the samples, without a search for other places.
+constexpr double kCoarseMotion = 0.03,
+                 kMotion = 0.012;  // longest motions between refreshes, in the scaled body
+/// The last steps use so many times the samples, without split-and-merge moves: a fit to fewer samples is
+/// worse by a twentieth on the skin between them.
 constexpr std::size_t kFine = 4;
 constexpr int kFineIterations = 16;
 constexpr double kFineMotion = 0.005;
-/// Depths are asked for as heights are: ellipsoids that are right on the skin alone are a third more wrong
-/// 2 cm under it, and leave holes there.
+/// How far samples reach into the body and out of it. Ellipsoids fitted to the skin alone are a third more
+/// wrong 2 cm under it, and leave holes there.
 constexpr double kInward_mm = 25.0, kOutward_mm = 20.0;
-constexpr std::size_t kAirProbes = 8;    // samples a probe of the union's surface
-constexpr float kCoveringWeight = 4.0f;  // of uncovered skin, before what is left is covered by growth
+constexpr std::size_t kAirProbes = 8;    // samples for each probe of the union's surface
+constexpr float kCoveringWeight = 4.0f;  // weight of uncovered skin, before growth covers the rest
 
-/// What all ellipsoids give before any has to grow for its triangles, and what none gives back: less and a
-/// few have to grow much.
+/// All ellipsoids grow by the first before any grows for its triangles, and none shrinks below the second
+/// times its fitted size; with less of either, a few ellipsoids have to grow much.
 constexpr double kGrowFirst_mm = 3.0, kLeastGrown = 1.03;
 
-/// Triangles that reach into the open: one that dips into another limb is flagged as buried, but its rest
-/// bounds the body.
+/// The wanted triangles with a corner outside all other limbs. A triangle that dips into another limb is
+/// flagged as buried, but the rest of it bounds the body.
 std::vector<Index> open_triangles(const SkinSource& source) {
   const auto& [positions, triangles] = source.skin.mesh;
   std::vector<std::uint8_t> open(positions.size(), 0);
@@ -52,7 +53,7 @@ std::vector<Index> open_triangles(const SkinSource& source) {
   return found;
 }
 
-/// Every open triangle of the wanted skin into ellipsoids, in pieces.
+/// Grows the ellipsoids until each open triangle of the wanted skin, or each piece of one, is held.
 void cover_skin(const engine::Context& context, const SkinSource& source,
                 std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   const LabeledSkin& skin = source.skin;
@@ -70,7 +71,7 @@ void cover_skin(const engine::Context& context, const SkinSource& source,
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = shapes[k];
 }
 
-/// The descent of one draft, on few samples first.
+/// The descent of one draft: on few samples, on all, then on more.
 class TightRun {
  public:
   TightRun(const engine::Context& context, const SkinSource& source, const FitOptions& options, Draft& draft,
@@ -94,7 +95,7 @@ class TightRun {
       const std::vector<DistanceSample> more = drawn((kFine - 1) * count, 12);
       samples.insert(samples.end(), more.begin(), more.end());
       air_probes_ = samples.size() / kAirProbes;
-      descent_.relocate = false;
+      descent_.split_and_merge = false;
       idle = descend_on(samples, kFineMotion, kFineIterations, state);
     }
     for (const std::size_t k : std::views::reverse(idle))
@@ -103,17 +104,18 @@ class TightRun {
   }
 
  private:
-  /// Less than a third on the skin: with more, ellipsoids spread in air that nobody asks about.
+  /// Draws samples, less than a third of them on the skin: with more, ellipsoids spread in air that has no
+  /// samples.
   std::vector<DistanceSample> drawn(std::size_t count, std::uint64_t seed) const {
     const double mm = scaling_.mm();
     return sample_near_skin(context_, source_,
                             {count, kInward_mm * mm, kOutward_mm * mm, 0.3, 0.15, 200 * mm, seed});
   }
 
-  /// Returns the ellipsoids that stand for nothing, ascending.
+  /// Returns the indices of the ellipsoids that hold no skin, ascending.
   std::vector<std::size_t> descend_on(std::span<const DistanceSample> samples, double motion, int iterations,
                                       std::vector<geometry::Ellipsoid>& state) {
-    TightProblem problem(samples, scaling_, loss_, motion);
+    LeastSquaresProblem problem(samples, scaling_, loss_, motion);
     descent_.iterations = iterations;
     if (options_.on_improved)
       descent_.on_improved = [&](std::span<const geometry::Ellipsoid> found) { publish(problem, found); };
@@ -123,11 +125,12 @@ class TightRun {
     return idle;
   }
 
+  /// Stores scaled ellipsoids in the draft.
   void take(std::span<const geometry::Ellipsoid> found) {
     for (std::size_t k = 0; k < found.size(); ++k) draft_.data.ellipsoids[k].shape = scaling_.out(found[k]);
   }
 
-  void publish(const TightProblem& problem, std::span<const geometry::Ellipsoid> found) {
+  void publish(const LeastSquaresProblem& problem, std::span<const geometry::Ellipsoid> found) {
     take(found);
     proxy::BodyProxy::Data data = draft_.data;
     take_parts(problem, data.ellipsoids);
@@ -148,7 +151,7 @@ class TightRun {
   const FitOptions& options_;
   Draft& draft_;
   Scaling scaling_;
-  TightLoss loss_;
+  RobustLoss loss_;
   DescentOptions descent_;
   std::size_t air_probes_ = 0;
 };
@@ -162,7 +165,7 @@ Draft fit_tight(const engine::Context& context, const SkinSource& source, const 
   Draft draft;
   draft.data.tier = proxy::Tier::kTight;
   draft.parts = source.parts;
-  draft.data.ellipsoids = medial_start(context, source, count);
+  draft.data.ellipsoids = medial_initialization(context, source, count);
   TightRun(context, source, options, draft, deadline_ns)
       .run(std::clamp<std::size_t>(250 * static_cast<std::size_t>(count), 7500, 75000));
   if (options.covering) cover_skin(context, source, draft.data.ellipsoids);

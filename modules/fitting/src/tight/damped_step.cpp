@@ -9,10 +9,11 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr double kMinRadius = 0.002;
+constexpr double kMinRadius = 0.002;  // least radius, in the scaled body
 
-/// Distances to convex bodies differ by no more than their support functions do: a shift by its length, radii
-/// by their largest change, and a turn about an axis by the difference of the two radii that it mixes.
+/// A bound on how much a step changes the distance at any point. Distances to convex bodies differ by no more
+/// than their support functions do: a shift changes these by its length, radii by their largest change, and a
+/// turn about an axis by the difference of the two radii across the axis.
 double motion_of(const geometry::Vec3& radii, const NormalBlock::Vector& step) {
   const geometry::Vec3 mixed(radii[1] - radii[2], radii[2] - radii[0], radii[0] - radii[1]);
   return step.head<3>().norm() + radii.cwiseProduct(step.segment<3>(3)).cwiseAbs().maxCoeff() +
@@ -21,8 +22,8 @@ double motion_of(const geometry::Vec3& radii, const NormalBlock::Vector& step) {
 
 }  // namespace
 
-TightStep damped_step(const geometry::Ellipsoid& e, const NormalBlock& block, double damping,
-                      double most_motion, double over_step) {
+DampedStep damped_step(const geometry::Ellipsoid& e, const NormalBlock& block, double damping,
+                       double most_motion, double over_step) {
   NormalBlock::Matrix a = block.jtj;
   const double typical = a.trace() / 9.0;
   for (int j = 0; j < 9; ++j) a(j, j) += damping * (a(j, j) + 0.005 * typical) + 1e-4 * typical + 1e-12;

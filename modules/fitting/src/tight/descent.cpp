@@ -1,7 +1,9 @@
-// Based on: Kenneth Levenberg. 1944; Donald W. Marquardt. 1963 (damped Gauss-Newton).
-// Differs: each residual depends on its nearest ellipsoid alone, so the normal matrix is block-diagonal, each
-// block of 9 has its own damping and its own verdict; steps are bounded so that no ellipsoid overtakes the
-// lists of who can be nearest; now and then ellipsoids are moved to where they gain more (relocation.hpp).
+// Based on: Kenneth Levenberg. A Method for the Solution of Certain Non-Linear Problems in Least Squares.
+// 1944. Based on: Donald W. Marquardt. An Algorithm for Least-Squares Estimation of Nonlinear Parameters.
+// 1963. Differs: each residual depends on its nearest ellipsoid alone, so that the normal matrix is
+// block-diagonal. Each block of 9 unknowns has its own damping, and its step is kept or undone on its own.
+// Steps are bounded so that lists of candidates stay valid. Every few steps, split-and-merge moves are tried
+// (split_and_merge.hpp).
 #include "tight/descent.hpp"
 
 #include <algorithm>
@@ -17,32 +19,33 @@ namespace {
 
 using geometry::Ellipsoid;
 
-constexpr int kRelocateEvery = 8;
-constexpr int kIdleRounds = 3;           // after a search that found no move
-constexpr double kExact = 2e-5;          // root of the mean square residual: nothing is left to gain
-constexpr double kHeldBack = 0.9;        // of what it may move: an ellipsoid waits for other candidates
-constexpr std::uint32_t kLeastSkin = 4;  // samples; with fewer an ellipsoid stands for nothing
+constexpr int kMovesEvery = 8;     // split-and-merge moves are tried once in so many steps
+constexpr int kIdleRounds = 3;     // rounds without moves after one that found none
+constexpr double kExact = 2e-5;    // root mean square residual at which nothing is left to gain
+constexpr double kHeldBack = 0.9;  // fraction of the allowed motion after which candidates are chosen afresh
+constexpr std::uint32_t kLeastSkin = 4;  // samples; an ellipsoid with fewer of them holds no skin
 
+/// All ellipsoids with their damping.
 struct State {
   std::vector<Ellipsoid> ellipsoids;
   std::vector<double> damping;
 };
 
-/// One descent under way.
+/// A descent in progress.
 class Descent {
  public:
-  Descent(const engine::Context& context, TightProblem& problem, const std::vector<Ellipsoid>& ellipsoids,
-          const DescentOptions& options)
+  Descent(const engine::Context& context, LeastSquaresProblem& problem,
+          const std::vector<Ellipsoid>& ellipsoids, const DescentOptions& options)
       : context_(context),
         problem_(problem),
         options_(options),
         state_{ellipsoids, std::vector<double>(ellipsoids.size(), kFirstDamping)},
         moved_(ellipsoids.size(), 0.0) {
-    ask_for_samples();
+    add_samples();
     refresh();
     best_ = state_;
     is_best_ = true;
-    best_cost_ = told_ = problem_.total();
+    best_cost_ = published_cost_ = problem_.total();
   }
 
   void run() {
@@ -50,8 +53,8 @@ class Descent {
       context_.checkpoint();
       iterate();
       note_best();
-      if (options_.relocate && i % kRelocateEvery == 0 && i < options_.iterations) {
-        look_around();
+      if (options_.split_and_merge && i % kMovesEvery == 0 && i < options_.iterations) {
+        extend_samples();
         make_moves();
       }
     }
@@ -66,13 +69,14 @@ class Descent {
     std::fill(moved_.begin(), moved_.end(), 0.0);
   }
 
-  /// One damped step of every ellipsoid; those that made it worse stay where they were.
+  /// Takes one damped step of every ellipsoid; steps that raised the cost are undone.
   void iterate() {
-    // One that waits costs more than a refresh: its neighbors settle around a place that it will leave.
+    // An ellipsoid that is held back costs more than a refresh: its neighbors settle around a position that
+    // it leaves.
     const double most = kHeldBack * problem_.most_motion();
     if (std::ranges::any_of(moved_, [&](double motion) { return motion > most; })) refresh();
     const auto blocks = problem_.normal_equations(context_, state_.ellipsoids);
-    std::vector<TightStep> steps(blocks.size());
+    std::vector<DampedStep> steps(blocks.size());
     engine::parallel_for(context_, steps.size(), 8, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k)
         steps[k] = damped_step(state_.ellipsoids[k], blocks[k], state_.damping[k],
@@ -80,13 +84,13 @@ class Descent {
     });
     problem_.remember();
     std::vector<Ellipsoid> trial;
-    for (const TightStep& step : steps) trial.push_back(step.ellipsoid);
+    for (const DampedStep& step : steps) trial.push_back(step.ellipsoid);
     problem_.evaluate(context_, trial);
     problem_.assign(context_);
     judge_steps(steps);
   }
 
-  void judge_steps(const std::vector<TightStep>& steps) {
+  void judge_steps(const std::vector<DampedStep>& steps) {
     const std::vector<double> gain = problem_.gains();
     bool restored = false;
     for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -109,36 +113,39 @@ class Descent {
     if (!is_best_) return;
     best_cost_ = cost;
     best_ = state_;
-    if (!options_.on_improved || cost >= 0.95 * told_) return;
-    told_ = cost;
+    if (!options_.on_improved || cost >= 0.95 * published_cost_) return;
+    published_cost_ = cost;
     options_.on_improved(best_.ellipsoids);
   }
 
-  bool ask_for_samples() {
+  /// Adds the samples that the state needs; false if there are none.
+  bool add_samples() {
     if (!options_.more_samples) return false;
     const auto more = options_.more_samples(state_.ellipsoids);
     if (!more.empty()) problem_.add(more);
     return !more.empty();
   }
 
-  /// More samples change what the cost is: the best so far is then the state that they were asked for.
-  void look_around() {
-    if (!ask_for_samples()) return;
+  /// Adds samples. They change the cost, so that the best state so far becomes the one that they were found
+  /// for.
+  void extend_samples() {
+    if (!add_samples()) return;
     refresh();
     best_ = state_;
     is_best_ = true;
     best_cost_ = problem_.total();
   }
 
-  /// Moves are tried with the rest fixed: what several do together may still be worse.
+  /// Makes split-and-merge moves and undoes them if the cost rose: each was tried with all others fixed, so
+  /// that several together may be worse.
   void make_moves() {
     if (rounds_off_ > 0) return void(--rounds_off_);
     State moved = state_;
-    const auto changed = relocate(context_, problem_, moved.ellipsoids);
+    const auto changed = fitting::split_and_merge(context_, problem_, moved.ellipsoids);
     for (const std::size_t k : changed) moved.damping[k] = kFirstDamping;
     if (changed.empty()) return void(rounds_off_ = kIdleRounds);
     const double cost = problem_.total();
-    TightProblem kept = problem_;
+    LeastSquaresProblem kept = problem_;
     const std::vector<double> kept_motion = moved_;
     std::swap(state_, moved);
     refresh();
@@ -154,18 +161,18 @@ class Descent {
   bool is_out_of_time() const { return options_.out_of_time && options_.out_of_time(); }
 
   const engine::Context& context_;
-  TightProblem& problem_;
+  LeastSquaresProblem& problem_;
   const DescentOptions& options_;
   State state_, best_;
-  std::vector<double> moved_;  ///< #E: motion since the last refresh, at most
-  bool is_best_ = true;        ///< state_ is best_
-  int rounds_off_ = 0;
-  double best_cost_ = 0.0, told_ = 0.0;
+  std::vector<double> moved_;  ///< #E: bound on the motion since the last refresh
+  bool is_best_ = true;        ///< whether state_ is best_
+  int rounds_off_ = 0;         ///< rounds left without moves
+  double best_cost_ = 0.0, published_cost_ = 0.0;
 };
 
 }  // namespace
 
-std::vector<std::size_t> descend(const engine::Context& context, TightProblem& problem,
+std::vector<std::size_t> descend(const engine::Context& context, LeastSquaresProblem& problem,
                                  std::vector<Ellipsoid>& ellipsoids, const DescentOptions& options) {
   Descent descent(context, problem, ellipsoids, options);
   descent.run();
@@ -177,7 +184,7 @@ std::vector<std::size_t> descend(const engine::Context& context, TightProblem& p
   return idle;
 }
 
-void take_parts(const TightProblem& problem, std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
+void take_parts(const LeastSquaresProblem& problem, std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   const auto votes = problem.skin_of_each();
   for (std::size_t k = 0; k < ellipsoids.size(); ++k) {
     const auto most = std::max_element(votes[k].begin(), votes[k].end());

@@ -13,13 +13,14 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kGrain = 2048;
-constexpr std::size_t kEllipsoidGrain = 8;
+constexpr std::size_t kGrain = 2048;        // samples a task
+constexpr std::size_t kEllipsoidGrain = 8;  // ellipsoids a task
+constexpr float kSkin = 0.005f;  // a sample this close to the skin counts as skin, in the scaled body
 
 }  // namespace
 
-TightProblem::TightProblem(std::span<const DistanceSample> samples, const Scaling& scaling,
-                           const TightLoss& loss, double most_motion, int candidates)
+LeastSquaresProblem::LeastSquaresProblem(std::span<const DistanceSample> samples, const Scaling& scaling,
+                                         const RobustLoss& loss, double most_motion, int candidates)
     : scaling_(scaling),
       loss_(loss),
       most_motion_(most_motion),
@@ -28,7 +29,7 @@ TightProblem::TightProblem(std::span<const DistanceSample> samples, const Scalin
   add(samples);
 }
 
-void TightProblem::add(std::span<const DistanceSample> samples) {
+void LeastSquaresProblem::add(std::span<const DistanceSample> samples) {
   std::vector<Vec3> points;
   points.reserve(samples.size());
   for (const DistanceSample& s : samples) points.push_back((s.point - scaling_.origin) * scaling_.scale);
@@ -46,14 +47,14 @@ void TightProblem::add(std::span<const DistanceSample> samples) {
   bound_blocks();
 }
 
-void TightProblem::bound_blocks() {
+void LeastSquaresProblem::bound_blocks() {
   for (auto& axis : ball_center_) axis.clear();
   from_center_.resize(target_.size());
   for (std::size_t begin = 0; begin < target_.size(); begin += kSampleBlock)
     bound_block(begin, std::min(begin + kSampleBlock, target_.size()));
 }
 
-void TightProblem::bound_block(std::size_t begin, std::size_t end) {
+void LeastSquaresProblem::bound_block(std::size_t begin, std::size_t end) {
   std::array<float, 3> center;
   for (int j = 0; j < 3; ++j) {
     const auto [low, high] = std::minmax_element(&point_[j][begin], &point_[j][begin] + (end - begin));
@@ -67,28 +68,32 @@ void TightProblem::bound_block(std::size_t begin, std::size_t end) {
   }
 }
 
-/// Of the blocks' centers, #E x #blocks: distances, and the ellipsoids' outward unit normals there.
-struct TightProblem::BlockFeet {
+/// #E x #blocks, for the centers of the blocks: signed distances, and the outward unit normals at the closest
+/// points.
+struct LeastSquaresProblem::BlockDistances {
   std::array<std::unique_ptr<float[]>, 4> of;
 };
 
-void TightProblem::find_feet(const engine::Context& context, std::span<const FootEllipsoid> ellipsoids,
-                             BlockFeet& feet) const {
+void LeastSquaresProblem::measure_centers(const engine::Context& context,
+                                          std::span<const FloatEllipsoid> ellipsoids,
+                                          BlockDistances& centers) const {
   const std::size_t blocks = ball_center_[0].size();
-  for (auto& values : feet.of) values = std::make_unique_for_overwrite<float[]>(ellipsoids.size() * blocks);
+  for (auto& values : centers.of)
+    values = std::make_unique_for_overwrite<float[]>(ellipsoids.size() * blocks);
   engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin, at = begin * blocks; k < end; ++k, at += blocks)
-      foot_normals(ellipsoids[k], blocks, ball_center_[0].data(), ball_center_[1].data(),
-                   ball_center_[2].data(), &feet.of[0][at], &feet.of[1][at], &feet.of[2][at],
-                   &feet.of[3][at]);
+      batch_normals(ellipsoids[k], blocks, ball_center_[0].data(), ball_center_[1].data(),
+                    ball_center_[2].data(), &centers.of[0][at], &centers.of[1][at], &centers.of[2][at],
+                    &centers.of[3][at]);
   });
 }
 
-/// Into pairs_of_, for now as ellipsoids.
-void TightProblem::choose_candidates(const engine::Context& context,
-                                     std::span<const FootEllipsoid> ellipsoids) {
-  BlockFeet feet;
-  find_feet(context, ellipsoids, feet);
+/// Finds each sample's candidates and stores them in pairs_of_ as indices of ellipsoids, which number_pairs()
+/// replaces.
+void LeastSquaresProblem::choose_candidates(const engine::Context& context,
+                                            std::span<const FloatEllipsoid> ellipsoids) {
+  BlockDistances centers;
+  measure_centers(context, ellipsoids, centers);
   const std::size_t blocks = ball_center_[0].size();
   engine::parallel_for(context, blocks, 16, [&](std::size_t begin, std::size_t end) {
     NearestCandidates found;
@@ -99,7 +104,9 @@ void TightProblem::choose_candidates(const engine::Context& context,
                   .at = {&point_[0][first], &point_[1][first], &point_[2][first]},
                   .from_center = &from_center_[first],
                   .center = {ball_center_[0][b], ball_center_[1][b], ball_center_[2][b]},
-                  .feet = {&feet.of[0][b], {&feet.of[1][b], &feet.of[2][b], &feet.of[3][b]}, blocks}},
+                  .from_ball = {&centers.of[0][b],
+                                {&centers.of[1][b], &centers.of[2][b], &centers.of[3][b]},
+                                blocks}},
                  reach_);
       for (std::size_t i = 0; i < samples; ++i) {
         count_of_[first + i] = static_cast<std::uint8_t>(std::min(found.count(i), candidates_));
@@ -110,8 +117,9 @@ void TightProblem::choose_candidates(const engine::Context& context,
   });
 }
 
-/// Lays the pairs out by ellipsoid, then by sample; returns #chunks x #E where each chunk of samples begins.
-std::vector<std::uint32_t> TightProblem::count_pairs(const engine::Context& context) {
+/// Orders the pairs by ellipsoid, then by sample. Returns #chunks x #E: the first pair of each chunk of
+/// samples.
+std::vector<std::uint32_t> LeastSquaresProblem::count_pairs(const engine::Context& context) {
   const std::size_t chunks = engine::block_count(target_.size(), kGrain);
   std::vector<std::uint32_t> next(chunks * ellipsoids_, 0);
   engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -129,8 +137,8 @@ std::vector<std::uint32_t> TightProblem::count_pairs(const engine::Context& cont
   return next;
 }
 
-/// Ellipsoids in pairs_of_ become pairs.
-void TightProblem::number_pairs(const engine::Context& context, std::vector<std::uint32_t> next) {
+/// Replaces the ellipsoids in pairs_of_ by indices of pairs, and fills in the pairs.
+void LeastSquaresProblem::number_pairs(const engine::Context& context, std::vector<std::uint32_t> next) {
   const std::size_t pairs = pair_begin_.back();
   for (auto* list : {&pair_sample_, &ellipsoid_of_pair_}) list->resize(pairs);
   for (auto* list : {&distance_, &previous_}) list->resize(pairs);
@@ -154,30 +162,33 @@ void TightProblem::number_pairs(const engine::Context& context, std::vector<std:
   });
 }
 
-void TightProblem::refresh(const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids) {
+void LeastSquaresProblem::refresh(const engine::Context& context,
+                                  std::span<const geometry::Ellipsoid> ellipsoids) {
   ellipsoids_ = ellipsoids.size();
-  choose_candidates(context, std::vector<FootEllipsoid>(ellipsoids.begin(), ellipsoids.end()));
+  choose_candidates(context, std::vector<FloatEllipsoid>(ellipsoids.begin(), ellipsoids.end()));
   number_pairs(context, count_pairs(context));
   assign(context);
 }
 
-void TightProblem::evaluate(const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids) {
+void LeastSquaresProblem::evaluate(const engine::Context& context,
+                                   std::span<const geometry::Ellipsoid> ellipsoids) {
   std::swap(distance_, previous_);
   engine::parallel_for(context, ellipsoids.size(), kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t first = pair_begin_[k];
-      foot_distances(FootEllipsoid(ellipsoids[k]), pair_begin_[k + 1] - first, pair_point_[0].data() + first,
-                     pair_point_[1].data() + first, pair_point_[2].data() + first, distance_.data() + first);
+      batch_distances(FloatEllipsoid(ellipsoids[k]), pair_begin_[k + 1] - first,
+                      pair_point_[0].data() + first, pair_point_[1].data() + first,
+                      pair_point_[2].data() + first, distance_.data() + first);
     }
   });
 }
 
-void TightProblem::restore(std::size_t k) {
+void LeastSquaresProblem::restore(std::size_t k) {
   std::copy(previous_.begin() + pair_begin_[k], previous_.begin() + pair_begin_[k + 1],
             distance_.begin() + pair_begin_[k]);
 }
 
-void TightProblem::assign(const engine::Context& context) {
+void LeastSquaresProblem::assign(const engine::Context& context) {
   engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     std::array<float, kGrain> nearest;
     for (std::size_t i = begin; i < end; ++i) {
@@ -196,18 +207,18 @@ void TightProblem::assign(const engine::Context& context) {
   });
 }
 
-void TightProblem::remember() {
+void LeastSquaresProblem::remember() {
   remembered_owner_ = owner_;
   remembered_cost_ = cost_;
 }
 
-double TightProblem::total() const {
+double LeastSquaresProblem::total() const {
   double sum = 0.0;
   for (const float c : cost_) sum += static_cast<double>(c);
   return sum;
 }
 
-std::vector<Nearest3> TightProblem::rank(const engine::Context& context) const {
+std::vector<Nearest3> LeastSquaresProblem::rank(const engine::Context& context) const {
   constexpr float kNone = std::numeric_limits<float>::infinity();
   std::vector<Nearest3> ranked(target_.size());
   engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -216,10 +227,10 @@ std::vector<Nearest3> TightProblem::rank(const engine::Context& context) const {
       for (int s = 0; s < count_of_[i]; ++s) {
         std::uint32_t k = ellipsoid_of_pair_[pairs_of_[i][s]];
         float d = distance_[pairs_of_[i][s]];
-        for (std::size_t place = 0; place < nearest.distance.size(); ++place)
-          if (d < nearest.distance[place]) {
-            std::swap(d, nearest.distance[place]);
-            std::swap(k, nearest.ellipsoid[place]);
+        for (std::size_t slot = 0; slot < nearest.distance.size(); ++slot)
+          if (d < nearest.distance[slot]) {
+            std::swap(d, nearest.distance[slot]);
+            std::swap(k, nearest.ellipsoid[slot]);
           }
       }
       ranked[i] = nearest;
@@ -228,19 +239,19 @@ std::vector<Nearest3> TightProblem::rank(const engine::Context& context) const {
   return ranked;
 }
 
-Neighborhood TightProblem::around(std::span<const std::uint32_t> ellipsoids,
-                                  std::span<const Nearest3> ranked) const {
+Neighborhood LeastSquaresProblem::around(std::span<const std::uint32_t> ellipsoids,
+                                         std::span<const Nearest3> ranked) const {
   const std::uint32_t first = ellipsoids.front(), last = ellipsoids.back();
   Neighborhood found;
   found.resize(pair_begin_[first + 1] - pair_begin_[first] + pair_begin_[last + 1] - pair_begin_[last]);
   std::size_t count = 0;
   const auto add = [&](std::uint32_t i) {
     const Nearest3& nearest = ranked[i];
-    std::size_t place = 0;
-    while (place < 2 && (nearest.ellipsoid[place] == first || nearest.ellipsoid[place] == last)) ++place;
+    std::size_t slot = 0;
+    while (slot < 2 && (nearest.ellipsoid[slot] == first || nearest.ellipsoid[slot] == last)) ++slot;
     found.x[count] = point_[0][i], found.y[count] = point_[1][i], found.z[count] = point_[2][i];
     found.target[count] = target_[i];
-    found.others[count] = nearest.distance[place];
+    found.others[count] = nearest.distance[slot];
     found.one_sided[count] = one_sided_[i];
     found.cost += static_cast<double>(cost_[i]);
     ++count;
@@ -248,7 +259,7 @@ Neighborhood TightProblem::around(std::span<const std::uint32_t> ellipsoids,
   const auto sample = pair_sample_.begin();
   const auto firsts = std::span(sample + pair_begin_[first], sample + pair_begin_[first + 1]);
   for (const std::uint32_t i : firsts) add(i);
-  auto next = firsts.begin();  // both lists ascend: a sample of both was taken with the first
+  auto next = firsts.begin();  // both lists ascend; a sample in both was added with the first
   for (std::uint32_t pair = pair_begin_[last]; last != first && pair < pair_begin_[last + 1]; ++pair) {
     const std::uint32_t i = pair_sample_[pair];
     while (next != firsts.end() && *next < i) ++next;
@@ -258,18 +269,18 @@ Neighborhood TightProblem::around(std::span<const std::uint32_t> ellipsoids,
   return found;
 }
 
-std::vector<std::array<std::uint32_t, body::kPartCount>> TightProblem::skin_of_each() const {
+std::vector<std::array<std::uint32_t, body::kPartCount>> LeastSquaresProblem::skin_of_each() const {
   std::vector<std::array<std::uint32_t, body::kPartCount>> held(ellipsoids_);
   for (std::size_t i = 0; i < owner_.size(); ++i)
-    if (!one_sided_[i] && std::fabs(target_[i]) < 0.005f && distance_[owner_[i]] < loss_.far)
+    if (!one_sided_[i] && std::fabs(target_[i]) < kSkin && distance_[owner_[i]] < loss_.far)
       ++held[ellipsoid_of_pair_[owner_[i]]][static_cast<std::size_t>(part_[i])];
   return held;
 }
 
-std::vector<double> TightProblem::gains() const {
+std::vector<double> LeastSquaresProblem::gains() const {
   std::vector<double> gain(ellipsoids_, 0.0);
   if (owner_.empty()) return gain;
-  std::uint32_t last = 0;  // neighbors have the same owner: its sum stays in a register
+  std::uint32_t last = 0;  // neighboring samples mostly have the same owner: its sum stays in a register
   double of_last = 0.0;
   for (std::size_t i = 0; i < owner_.size(); ++i) {
     const double fall = static_cast<double>(remembered_cost_[i] - cost_[i]);
@@ -286,8 +297,8 @@ std::vector<double> TightProblem::gains() const {
   return gain;
 }
 
-/// The samples that ellipsoid k is answerable for.
-void TightProblem::gather(std::size_t k, BlockSamples& mine) const {
+/// Gathers the samples that ellipsoid k owns and that have a cost.
+void LeastSquaresProblem::gather(std::size_t k, BlockSamples& mine) const {
   const std::uint32_t first = pair_begin_[k], *const sample = pair_sample_.data() + first;
   const auto picked = pick(pair_begin_[k + 1] - first, mine.picked, [&](std::size_t p) {
     const bool owned = owner_[sample[p]] == first + p, costs = cost_[sample[p]] > 0.0f;
@@ -302,7 +313,7 @@ void TightProblem::gather(std::size_t k, BlockSamples& mine) const {
   mine.weigh(loss_);
 }
 
-std::vector<NormalBlock> TightProblem::normal_equations(
+std::vector<NormalBlock> LeastSquaresProblem::normal_equations(
     const engine::Context& context, std::span<const geometry::Ellipsoid> ellipsoids) const {
   std::vector<NormalBlock> blocks(ellipsoids_);
   engine::parallel_for(context, ellipsoids_, kEllipsoidGrain, [&](std::size_t begin, std::size_t end) {

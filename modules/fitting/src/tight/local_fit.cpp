@@ -13,11 +13,10 @@ namespace {
 
 using geometry::Ellipsoid;
 
-constexpr std::size_t kLeastSamples =
-    18;                               // two an unknown: with fewer an ellipsoid stays, it might go anywhere
-constexpr double kMostMotion = 0.03;  // a step, of the scaled body
-
-constexpr std::size_t kLanes = 16;  // sums are kept apart by lane, so that they are vectors in a fixed order
+/// Two samples an unknown: an ellipsoid with fewer of them is not moved, because it might go anywhere.
+constexpr std::size_t kLeastSamples = 18;
+constexpr double kMostMotion = 0.03;  // longest step, in the scaled body
+constexpr std::size_t kLanes = 16;    // each lane has its own sum, so that vector code adds in a fixed order
 
 }  // namespace
 
@@ -39,7 +38,7 @@ void Neighborhood::resize(std::size_t count) {
   one_sided.resize(count);
 }
 
-LocalFit::LocalFit(const Neighborhood& samples, const TightLoss& loss, std::vector<Ellipsoid> ellipsoids)
+LocalFit::LocalFit(const Neighborhood& samples, const RobustLoss& loss, std::vector<Ellipsoid> ellipsoids)
     : samples_(samples), loss_(loss), ellipsoids_(std::move(ellipsoids)), damping_(kFirstDamping) {
   const std::size_t n = samples.x.size();
   for (Assignment* made : {&now_, &before_}) {
@@ -54,8 +53,8 @@ double LocalFit::evaluate(const std::vector<Ellipsoid>& ellipsoids) {
   std::ranges::copy(samples_.others, now_.least.begin());
   std::ranges::fill(now_.owner, static_cast<std::uint32_t>(ellipsoids.size()));
   for (std::uint32_t e = 0; e < ellipsoids.size(); ++e) {
-    foot_distances(FootEllipsoid(ellipsoids[e]), n, samples_.x.data(), samples_.y.data(), samples_.z.data(),
-                   distance_.data());
+    batch_distances(FloatEllipsoid(ellipsoids[e]), n, samples_.x.data(), samples_.y.data(), samples_.z.data(),
+                    distance_.data());
     lower(n, e, distance_.data(), now_.least.data(), now_.owner.data());
   }
   count_costs(loss_, n, samples_.target.data(), samples_.one_sided.data(), now_.least.data(),

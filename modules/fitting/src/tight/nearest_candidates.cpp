@@ -10,7 +10,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr std::size_t kLanes = kSampleBlock;
-constexpr float kRounding = 1e-5f;  // of distances, in scaled units
+constexpr float kRounding = 1e-5f;  // bound on the rounding of distances, in scaled units
 
 constexpr std::array<std::uint32_t, kLanes> kBit = [] {
   std::array<std::uint32_t, kLanes> bit{};
@@ -24,13 +24,13 @@ BODICE_CLONES static void lower(const float* __restrict d, float* __restrict lea
   for (std::size_t i = 0; i < kLanes; ++i) least[i] = d[i] < least[i] ? d[i] : least[i];
 }
 
-/// A plane by its height over the origin and the slopes of that height.
+/// A linear function: its value at the origin and its slopes.
 struct Tangent {
   float at_origin;
   std::array<float, 3> slope;
 };
 
-/// Whether it is somewhere below `most`.
+/// Whether the function is at most most[i] at some point i.
 BODICE_CLONES static bool tangent_reaches(const Tangent& tangent, const float* __restrict x,
                                           const float* __restrict y, const float* __restrict z,
                                           const float* __restrict most) {
@@ -41,7 +41,7 @@ BODICE_CLONES static bool tangent_reaches(const Tangent& tangent, const float* _
   return below != 0;
 }
 
-/// Bit i: d[i] <= most[i].
+/// A mask in which bit i is set if d[i] <= most[i].
 BODICE_CLONES static std::uint32_t at_most(const float* __restrict d, const float* __restrict most,
                                            const std::uint32_t* __restrict bit) {
   std::uint32_t mask = 0;
@@ -49,17 +49,17 @@ BODICE_CLONES static std::uint32_t at_most(const float* __restrict d, const floa
   return mask;
 }
 
-/// Signed distances are 1-Lipschitz: one whose distance from the ball's center is above this is within reach
-/// of no sample's nearest.
+/// Signed distances are 1-Lipschitz, so that an ellipsoid farther than this from the ball's center is beyond
+/// `reach` of every sample's nearest distance.
 static float enough(const SampleBlock& block, const float* nearest, float reach) {
   float most = -std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < block.count; ++i) most = std::max(most, nearest[i] + block.from_center[i]);
   return most + reach;
 }
 
-/// By their distance to the ball's center, those that may be near enough.
+/// Sorts the ellipsoids that may be near enough by their distance to the ball's center.
 void NearestCandidates::sort_by_ball(std::size_t ellipsoids, const SampleBlock& block, float reach) {
-  const auto of_ball = [&](std::size_t k) { return block.feet.d[k * block.feet.stride]; };
+  const auto of_ball = [&](std::size_t k) { return block.from_ball.d[k * block.from_ball.stride]; };
   float nearest = std::numeric_limits<float>::infinity();
   for (std::size_t k = 0; k < ellipsoids; ++k) nearest = std::min(nearest, of_ball(k));
   const float radius = *std::max_element(block.from_center, block.from_center + block.count);
@@ -69,7 +69,7 @@ void NearestCandidates::sort_by_ball(std::size_t ellipsoids, const SampleBlock& 
   std::ranges::sort(order_);
 }
 
-/// Lanes beyond the samples repeat the last.
+/// Loads the samples' offsets from the ball's center; lanes beyond the samples repeat the last sample.
 void NearestCandidates::load(const SampleBlock& block) {
   for (std::size_t j = 0; j < 3; ++j)
     for (std::size_t i = 0; i < kLanes; ++i)
@@ -78,13 +78,14 @@ void NearestCandidates::load(const SampleBlock& block) {
 
 bool NearestCandidates::may_reach(const SampleBlock& block, std::uint32_t k, float d, const Lanes& least,
                                   float reach) const {
-  const auto normal = [&](std::size_t j) { return block.feet.normal[j][k * block.feet.stride]; };
+  const auto normal = [&](std::size_t j) { return block.from_ball.normal[j][k * block.from_ball.stride]; };
   return tangent_reaches({d - reach - kRounding, {normal(0), normal(1), normal(2)}}, from_[0].data(),
                          from_[1].data(), from_[2].data(), least.data());
 }
 
-/// Distances of all samples to the ellipsoids that may be within reach of one; returns each sample's least.
-NearestCandidates::Lanes NearestCandidates::measure(std::span<const FootEllipsoid> ellipsoids,
+/// Measures all samples' distances to the ellipsoids that may be within reach of one; returns each sample's
+/// least one.
+NearestCandidates::Lanes NearestCandidates::measure(std::span<const FloatEllipsoid> ellipsoids,
                                                     const SampleBlock& block, float reach) {
   Lanes least;
   least.fill(std::numeric_limits<float>::infinity());
@@ -96,7 +97,7 @@ NearestCandidates::Lanes NearestCandidates::measure(std::span<const FootEllipsoi
     if (distance_.size() == ellipsoid_.size()) distance_.emplace_back();
     Lanes& d = distance_[ellipsoid_.size()];
     ellipsoid_.push_back(k);
-    foot_distances(ellipsoids[k], block.count, block.at[0], block.at[1], block.at[2], d.data());
+    batch_distances(ellipsoids[k], block.count, block.at[0], block.at[1], block.at[2], d.data());
     std::fill(d.begin() + static_cast<std::ptrdiff_t>(block.count), d.end(), d[block.count - 1]);
     lower(d.data(), least.data());
     most = enough(block, least.data(), reach);
@@ -104,7 +105,7 @@ NearestCandidates::Lanes NearestCandidates::measure(std::span<const FootEllipsoi
   return least;
 }
 
-void NearestCandidates::find(std::span<const FootEllipsoid> ellipsoids, const SampleBlock& block,
+void NearestCandidates::find(std::span<const FloatEllipsoid> ellipsoids, const SampleBlock& block,
                              float reach) {
   load(block);
   sort_by_ball(ellipsoids.size(), block, reach);

@@ -5,7 +5,7 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kLanes = 16;  // sums are kept apart by lane, so that they are vectors in a fixed order
+constexpr std::size_t kLanes = 16;  // each lane has its own sum, so that vector code adds in a fixed order
 constexpr int kUnknowns = 9, kEntries = 45;
 
 struct Sums {
@@ -15,12 +15,12 @@ struct Sums {
 
 }  // namespace
 
-/// n is a multiple of kLanes.
-BODICE_CLONES static void add_up(const FootEllipsoid& ellipsoid, std::size_t n, const float* __restrict wx,
+/// Adds the terms of n samples; n is a multiple of kLanes.
+BODICE_CLONES static void add_up(const FloatEllipsoid& ellipsoid, std::size_t n, const float* __restrict wx,
                                  const float* __restrict wy, const float* __restrict wz,
                                  const float* __restrict residual, const float* __restrict weight,
                                  Sums& sums) {
-  const FootEllipsoid e = ellipsoid;
+  const FloatEllipsoid e = ellipsoid;
   const float r0 = e.r[0], r1 = e.r[1], r2 = e.r[2];
   float j[kUnknowns][kLanes], wj[kUnknowns][kLanes];
   for (std::size_t first = 0; first < n; first += kLanes) {
@@ -78,9 +78,9 @@ NormalBlock normal_block(const geometry::Ellipsoid& ellipsoid, BlockSamples& sam
     samples.add(samples.x.front(), samples.y.front(), samples.z.front(), 0.0f, 0.0f);
   }
   const std::size_t n = samples.count;
-  const FootEllipsoid e(ellipsoid);
-  foot_details(e, n, samples.x.data(), samples.y.data(), samples.z.data(), samples.d.data(),
-               samples.wx.data(), samples.wy.data(), samples.wz.data());
+  const FloatEllipsoid e(ellipsoid);
+  batch_directions(e, n, samples.x.data(), samples.y.data(), samples.z.data(), samples.d.data(),
+                   samples.wx.data(), samples.wy.data(), samples.wz.data());
   Sums sums{};
   add_up(e, n, samples.wx.data(), samples.wy.data(), samples.wz.data(), samples.residual.data(),
          samples.weight.data(), sums);

@@ -4,16 +4,16 @@
 
 namespace bodice::fitting {
 
-BODICE_CLONES void count_costs(const TightLoss& counted, std::size_t n, const float* __restrict target,
+BODICE_CLONES void count_costs(const RobustLoss& counted, std::size_t n, const float* __restrict target,
                                const std::uint8_t* __restrict one_sided, const float* __restrict d,
                                float* __restrict cost) {
-  const TightLoss loss = counted;
+  const RobustLoss loss = counted;
   for (std::size_t i = 0; i < n; ++i) cost[i] = loss.cost(target[i], one_sided[i] != 0, d[i]);
 }
 
-BODICE_CLONES void weigh(const TightLoss& counted, std::size_t n, const float* __restrict target,
+BODICE_CLONES void weigh(const RobustLoss& counted, std::size_t n, const float* __restrict target,
                          const float* __restrict d, float* __restrict residual, float* __restrict weight) {
-  const TightLoss loss = counted;
+  const RobustLoss loss = counted;
   for (std::size_t i = 0; i < n; ++i) {
     residual[i] = d[i] - target[i];
     weight[i] = loss.weight(target[i], d[i]);

@@ -1,3 +1,5 @@
+// The cost of a residual: squared where it is small, linear where it is large.
+// Based on: Peter J. Huber. Robust Estimation of a Location Parameter. 1964.
 #pragma once
 
 #include <cstddef>
@@ -5,16 +7,18 @@
 
 namespace bodice::fitting {
 
-/// How residuals (union distance - skin distance) are counted. Lengths in units of the scaled problem.
-/// Always inlined and without branches, so that loops over samples become vector code (vector_clones.hpp).
-struct TightLoss {
-  float huber = 0.002f;  ///< squared below, linear above
-  float uncovered_huber = 0.002f;
-  float uncovered_weight = 1.0f;  ///< of skin and interior that the union leaves outside
-  float ignore_depth = 0.008f;    ///< deeper samples that are inside ask nothing
-  float far = 0.030f;             ///< samples farther outside ask only not to be nearer than they are
+/// The cost of residuals, which are union distance less skin distance. Lengths are those of the scaled body.
+/// Functions are always inlined and have no branches, so that loops over samples become vector code
+/// (vector_clones.hpp).
+struct RobustLoss {
+  float huber = 0.002f;            ///< residuals are squared below this and linear above
+  float uncovered_huber = 0.002f;  ///< the same for skin and interior that the union leaves outside
+  float uncovered_weight = 1.0f;   ///< weight of skin and interior that the union leaves outside
+  float ignore_depth = 0.008f;     ///< a deeper sample costs nothing if it is inside
+  float far = 0.030f;              ///< a sample farther outside costs nothing if the union is that far, too
 
-  /// Of a sample at `target` from the skin and `d` from the union; a one-sided one asks only d >= target.
+  /// The cost of a sample at distance `target` from the skin and `d` from the union. A one-sided sample costs
+  /// nothing if d >= target.
   [[gnu::always_inline]] float cost(float target, bool one_sided, float d) const {
     const bool is_free = (one_sided & (d >= target)) |
                          ((target < -ignore_depth) & (d < -0.5f * ignore_depth)) |
@@ -23,7 +27,7 @@ struct TightLoss {
     const float counted = side(target, d) * (r <= h ? 0.5f * r * r : h * (r - 0.5f * h));
     return is_free ? 0.0f : counted;
   }
-  /// Of the squared residual in the normal equations.
+  /// The weight of the squared residual in the normal equations.
   [[gnu::always_inline]] float weight(float target, float d) const {
     const float r = __builtin_fabsf(d - target), h = huber_at(target, d);
     return side(target, d) * (r <= h ? 1.0f : h / r);
@@ -41,12 +45,13 @@ struct TightLoss {
   }
 };
 
-/// Of n samples at `target` from the skin and `d` from the union. No aliasing.
-void count_costs(const TightLoss& loss, std::size_t n, const float* target, const std::uint8_t* one_sided,
+/// Writes the costs of n samples at distances `target` from the skin and `d` from the union. No arrays
+/// overlap.
+void count_costs(const RobustLoss& loss, std::size_t n, const float* target, const std::uint8_t* one_sided,
                  const float* d, float* cost);
 
-/// Residuals, and their weights in the normal equations.
-void weigh(const TightLoss& loss, std::size_t n, const float* target, const float* d, float* residual,
+/// Writes the residuals of n samples and their weights in the normal equations. No arrays overlap.
+void weigh(const RobustLoss& loss, std::size_t n, const float* target, const float* d, float* residual,
            float* weight);
 
 }  // namespace bodice::fitting

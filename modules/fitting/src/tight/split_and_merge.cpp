@@ -1,10 +1,11 @@
 // Based on: Naonori Ueda, Ryohei Nakano, Zoubin Ghahramani, Geoffrey Hinton. SMEM algorithm for mixture
-// models. 2000 (splits and merges at once, tried with all other components fixed). Differs: least squares;
-// every ellipsoid's split and removal and every pair of neighbors' merge is tried; as many moves are made at
-// once as do not touch each other.
+// models. 2000. (a split and a merge at once, tried with all other components fixed)
+// Differs: the cost is that of least squares. Splits and removals of all ellipsoids and merges of all
+// neighbors are tried, and all moves that do not touch each other are made at once.
 #include "tight/split_and_merge.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
@@ -18,32 +19,58 @@ namespace {
 using geometry::Ellipsoid;
 using Partners = std::vector<std::vector<std::uint32_t>>;
 
-constexpr std::size_t kPartners = 3;
-constexpr int kFirstSteps = 4, kLastSteps = 6;  // of a trial; the first tell which trials are worth the last
-constexpr double kHopeless = 1.0;  // times the most that any split gains: a merge that costs more is left
+constexpr std::size_t kPartners = 3;  // merges are tried with so many neighbors
+constexpr int kFirstSteps = 4,
+              kLastSteps = 6;  // steps of a trial; the first decide whether the last are taken
+constexpr double kHopeless =
+    1.0;  // a merge is given up if it costs more than this times the best split's gain
 
-/// #E x up to kPartners: who is second nearest to an ellipsoid's samples, the most frequent first.
-Partners partners_of(std::span<const Nearest3> ranked, std::size_t count) {
-  std::vector<std::uint32_t> votes(count * count, 0);
+/// The second nearest ellipsoids of each ellipsoid's own samples.
+struct Neighbors {
+  std::vector<std::size_t> first;     ///< #E + 1, into `second`
+  std::vector<std::uint32_t> second;  ///< one a sample that has two candidates, in groups by its nearest
+};
+
+Neighbors neighbors_of(std::span<const Nearest3> ranked, std::size_t count) {
+  Neighbors found{std::vector<std::size_t>(count + 1, 0), {}};
   for (const auto& [k, at] : ranked)
-    if (k[1] < count) ++votes[k[0] * count + k[1]];
+    if (k[1] < count) ++found.first[k[0] + 1];
+  std::partial_sum(found.first.begin(), found.first.end(), found.first.begin());
+  found.second.resize(found.first.back());
+  std::vector<std::size_t> next = found.first;
+  for (const auto& [k, at] : ranked)
+    if (k[1] < count) found.second[next[k[0]]++] = k[1];
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> frequent_neighbors(std::span<const Nearest3> ranked,
+                                                           std::size_t count) {
+  const Neighbors all = neighbors_of(ranked, count);
+  std::vector<std::uint32_t> votes(count, 0);  // used for one ellipsoid at a time, and then reset to zeros
   Partners found(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const auto mine = std::span(votes).subspan(k * count, count);
-    for (std::uint32_t other = 0; other < count; ++other)
-      if (mine[other] > 0) found[k].push_back(other);
-    std::ranges::stable_sort(found[k], std::ranges::greater{},
-                             [&](std::uint32_t other) { return mine[other]; });
-    if (found[k].size() > kPartners) found[k].resize(kPartners);
+    const auto mine = std::span(all.second).subspan(all.first[k], all.first[k + 1] - all.first[k]);
+    for (const std::uint32_t other : mine)
+      if (votes[other]++ == 0) found[k].push_back(other);
+    const auto most = found[k].begin() + static_cast<std::ptrdiff_t>(std::min(kPartners, found[k].size()));
+    std::partial_sort(found[k].begin(), most, found[k].end(), [&](std::uint32_t a, std::uint32_t b) {
+      return votes[a] != votes[b] ? votes[a] > votes[b] : a < b;
+    });
+    for (const std::uint32_t other : mine) votes[other] = 0;
+    found[k].erase(most, found[k].end());
   }
   return found;
 }
 
-/// What has been tried in place of one ellipsoid (then it is `second`, too) or of two.
+namespace {
+
+/// A trial: what replaces one ellipsoid, or two in a merge.
 struct Trial {
-  std::uint32_t first = 0, second = 0;
-  double rise = 0.0;             ///< of the cost
-  std::vector<Ellipsoid> found;  ///< two of a split, one of a merge, none if one goes without
+  std::uint32_t first = 0, second = 0;  ///< the replaced ellipsoids; equal if there is one
+  double rise = 0.0;                    ///< rise of the cost
+  std::vector<Ellipsoid> found;         ///< two in a split, one in a merge, none in a removal
 };
 
 /// Two ellipsoids over the halves of one along an axis.
@@ -56,8 +83,8 @@ std::vector<Ellipsoid> halves(Ellipsoid e, int axis) {
   return {e, twin};
 }
 
-/// One ellipsoid with the volume's mean and covariance of both. (A solid ellipsoid has covariance diag(r^2)
-/// / 5.)
+/// The ellipsoid with the mean and the covariance of the volume of both. A solid ellipsoid has covariance
+/// diag(r^2) / 5.
 Ellipsoid merged(const Ellipsoid& a, const Ellipsoid& b) {
   const double of_a = a.radii.prod() / (a.radii.prod() + b.radii.prod());
   Ellipsoid e;
@@ -70,7 +97,8 @@ Ellipsoid merged(const Ellipsoid& a, const Ellipsoid& b) {
   const Eigen::SelfAdjointEigenSolver<geometry::Mat3> eigen(of_a * moment(a) + (1.0 - of_a) * moment(b));
   e.axes = eigen.eigenvectors();
   if (e.axes.determinant() < 0.0) e.axes.col(2) = -e.axes.col(2);
-  e.radii = (5.0 * eigen.eigenvalues()).cwiseMax(0.0).cwiseSqrt();  // none below the least of both
+  e.radii =
+      (5.0 * eigen.eigenvalues()).cwiseMax(0.0).cwiseSqrt();  // no radius is below the least one of both
   return e;
 }
 
@@ -79,12 +107,12 @@ void sort_by_rise(std::vector<Trial>& trials) {
                    [](const Trial& a, const Trial& b) { return a.rise < b.rise; });
 }
 
-/// #E splits and #E removals.
+/// Trials with single ellipsoids: the splits that lower the cost, best first, and #E removals.
 struct OneByOne {
   std::vector<Trial> splits, removals;
 };
 
-OneByOne try_each(const engine::Context& context, const TightProblem& problem,
+OneByOne try_each(const engine::Context& context, const LeastSquaresProblem& problem,
                   std::span<const Nearest3> ranked, const std::vector<Ellipsoid>& ellipsoids) {
   const std::size_t count = ellipsoids.size();
   OneByOne tried{std::vector<Trial>(count), std::vector<Trial>(count)};
@@ -107,14 +135,14 @@ OneByOne try_each(const engine::Context& context, const TightProblem& problem,
   return tried;
 }
 
-std::vector<Trial> try_merges(const engine::Context& context, const TightProblem& problem,
+std::vector<Trial> try_merges(const engine::Context& context, const LeastSquaresProblem& problem,
                               std::span<const Nearest3> ranked, const Partners& partners,
                               const std::vector<Ellipsoid>& ellipsoids, double most_rise) {
   std::vector<Trial> merges;
   for (std::uint32_t k = 0; k < partners.size(); ++k)
     for (const std::uint32_t other : partners[k]) {
-      const bool told_twice = std::ranges::find(partners[other], k) != partners[other].end();
-      if (k < other || !told_twice) merges.push_back({std::min(k, other), std::max(k, other), 0.0, {}});
+      const bool is_mutual = std::ranges::find(partners[other], k) != partners[other].end();
+      if (k < other || !is_mutual) merges.push_back({std::min(k, other), std::max(k, other), 0.0, {}});
     }
   engine::parallel_for(context, merges.size(), 1, [&](std::size_t i, std::size_t) {
     Trial& merge = merges[i];
@@ -131,12 +159,12 @@ std::vector<Trial> try_merges(const engine::Context& context, const TightProblem
 
 }  // namespace
 
-std::vector<std::size_t> relocate(const engine::Context& context, const TightProblem& problem,
-                                  std::vector<Ellipsoid>& ellipsoids) {
+std::vector<std::size_t> split_and_merge(const engine::Context& context, const LeastSquaresProblem& problem,
+                                         std::vector<Ellipsoid>& ellipsoids) {
   const std::vector<Nearest3> ranked = problem.rank(context);
   const auto [splits, removals] = try_each(context, problem, ranked, ellipsoids);
   if (splits.empty()) return {};
-  const Partners partners = partners_of(ranked, ellipsoids.size());
+  const Partners partners = frequent_neighbors(ranked, ellipsoids.size());
   std::vector<Trial> merges =
       try_merges(context, problem, ranked, partners, ellipsoids, -kHopeless * splits.front().rise);
   merges.insert(merges.end(), removals.begin(), removals.end());

@@ -1,4 +1,4 @@
-// The quickest proxy that a body has: one enclosing ellipsoid a part.
+// The proxy that is made quickest: one enclosing ellipsoid a part.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,12 @@
 
 namespace bodice::fitting {
 
-/// Encloses every triangle that has a corner in a part, for each wanted part that has any, so that the union
-/// holds the whole skin: tier solid, loose (centimeters), for the time until a better one is there. Fails as
-/// fit() does. Parts in parallel, O(#vertices) each: about 1 ms for 10k vertices, 20 ms for 200k.
-/// Based on: the paper, figure 8 (a), one ellipsoid a part. Differs: encloses the triangles across borders.
+/// Makes a proxy of tier solid with one ellipsoid for each wanted part that has skin. The ellipsoid encloses
+/// every triangle that has a corner in the part, so that the union holds the whole skin of these parts. Its
+/// gap is centimeters: it serves until a better proxy is there. parts  a bit for each wanted part, see
+/// kAllParts. Fails as fit() does. Deterministic for any worker count. O(#V) a part, parts in parallel: 1 ms
+/// for 10k vertices, 20 ms for 200k. Based on: the paper, figure 8 (a). Differs: triangles across a border
+/// are enclosed by both parts.
 engine::Result<proxy::BodyProxy> enclose_parts(const engine::Context& context, const LabeledSkin& skin,
                                                std::uint32_t parts);
 

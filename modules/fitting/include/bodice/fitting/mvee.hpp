@@ -14,9 +14,11 @@ using geometry::Vec3;
 /// of the coordinates decides the shape.
 inline constexpr double kFlatRelative = 1e-10;
 
+/// How exact an enclosing ellipsoid has to be.
 struct MveeOptions {
-  double volume_tolerance = 1e-7;  ///< stop when ln(volume / least volume) is certified below this
-  double min_radius_m = 0.0;       ///< no semi-axis is shorter; 0: kFlatRelative of the longest
+  double volume_tolerance =
+      1e-7;                   ///< the solver stops when ln(volume / least volume) is certified below this
+  double min_radius_m = 0.0;  ///< no semi-axis is shorter; 0: kFlatRelative of the longest
 };
 
 /// An ellipsoid that holds every point, and how far from the smallest it can be.
@@ -29,12 +31,13 @@ struct Mvee {
   std::size_t skipped = 0;  ///< points with NaN or Inf
 };
 
-/// Active-set solution, exact to options.volume_tolerance. Flat, collinear, single and empty sets give a thin
-/// ellipsoid with the minimum radius; never NaN. Cost: O(#points) a round, about 5 to 20 rounds.
+/// The active-set solution, exact to options.volume_tolerance. Flat, collinear, single and empty sets give a
+/// thin ellipsoid with the minimum radius, never NaN. Cost: O(#points) a round, about 5 to 20 rounds.
 Mvee mvee(std::span<const Vec3> points, const MveeOptions& options = {});
 
-/// First-order solution with away steps, the cheap end of the dial: stops when the certified gap is below
-/// `epsilon`, or after 10,000 steps with whatever gap is certified then. Cost: O(#points) a step.
+/// The first-order solution with away steps, cheaper where a loose ellipsoid will do. It stops when the
+/// certified gap is below `epsilon`, or after 10,000 steps with the gap that is certified then. Cost:
+/// O(#points) a step.
 Mvee mvee_first_order(std::span<const Vec3> points, double epsilon, double min_radius_m = 0.0);
 
 }  // namespace bodice::fitting

@@ -1,4 +1,4 @@
-// Feet at a fixed cost: as exact as they promise near the surface, and numbers everywhere.
+// Closest points at a fixed cost are as exact as promised near the surface, and finite everywhere.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,12 +13,12 @@
 #include "base/closest_point_batch.hpp"
 
 using namespace bodice;
-using fitting::FootEllipsoid;
+using fitting::FloatEllipsoid;
 using geometry::Vec3;
 
 namespace {
 
-constexpr double kNearSurface = 1e-5;  // of the largest radius
+constexpr double kNearSurface = 1e-5;  // bound on the error near the surface, fraction of the largest radius
 
 struct Points {
   std::vector<float> x, y, z, d;
@@ -31,7 +31,7 @@ struct Points {
   Vec3 at(std::size_t i) const { return {double{x[i]}, double{y[i]}, double{z[i]}}; }
   void measure(const geometry::Ellipsoid& e) {
     d.resize(x.size());
-    fitting::foot_distances(FootEllipsoid(e), x.size(), x.data(), y.data(), z.data(), d.data());
+    fitting::batch_distances(FloatEllipsoid(e), x.size(), x.data(), y.data(), z.data(), d.data());
   }
 };
 
@@ -43,7 +43,7 @@ geometry::Ellipsoid turned(engine::Random& random, const Vec3& radii) {
 
 }  // namespace
 
-TEST_CASE("foot: near the surface it is the closest point's distance") {
+TEST_CASE("closest point batch: near the surface, distances are those of the exact closest point") {
   engine::Random random(31);
   double worst = 0.0;
   for (int trial = 0; trial < 40; ++trial) {
@@ -64,7 +64,8 @@ TEST_CASE("foot: near the surface it is the closest point's distance") {
   CHECK(worst < kNearSurface);
 }
 
-TEST_CASE("foot: thin, flat and round ellipsoids answer with numbers, near and far and from their centers") {
+TEST_CASE(
+    "closest point batch: thin, flat and round ellipsoids give finite distances, from center to far away") {
   engine::Random random(32);
   for (const Vec3& radii : {Vec3(0.1, 0.1, 0.1), Vec3(1e-3, 1e-3, 1e-3), Vec3(1e-3, 1e-3, 1.0),
                             Vec3(1e-3, 1.0, 1.0), Vec3(0.5, 0.01, 0.1)}) {
@@ -84,7 +85,7 @@ TEST_CASE("foot: thin, flat and round ellipsoids answer with numbers, near and f
   }
 }
 
-TEST_CASE("foot: the tangent at a point lies below the distance everywhere") {
+TEST_CASE("closest point batch: the tangent at a point lies below the distance everywhere") {
   engine::Random random(33);
   for (int trial = 0; trial < 40; ++trial) {
     const auto radius = [&] { return random.uniform(0.02, 0.2); };
@@ -97,9 +98,9 @@ TEST_CASE("foot: the tangent at a point lies below the distance everywhere") {
     for (int i = 0; i < 37; ++i) points.add(anywhere());
     std::array<std::vector<float>, 4> found;
     for (auto& values : found) values.resize(points.x.size());
-    fitting::foot_normals(FootEllipsoid(e), points.x.size(), points.x.data(), points.y.data(),
-                          points.z.data(), found[0].data(), found[1].data(), found[2].data(),
-                          found[3].data());
+    fitting::batch_normals(FloatEllipsoid(e), points.x.size(), points.x.data(), points.y.data(),
+                           points.z.data(), found[0].data(), found[1].data(), found[2].data(),
+                           found[3].data());
     points.measure(e);
     for (std::size_t i = 0; i < points.x.size(); ++i) {
       CHECK(double{found[0][i]} == doctest::Approx(double{points.d[i]}).epsilon(1e-5));

@@ -1,4 +1,4 @@
-// One number in, what it promises out: skins that no constant of the dial was measured on.
+// A target error or a budget is reached on skins from which no constant of the target search was made.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,35 +10,12 @@
 
 using namespace bodice;
 using fitting::FitOptions;
+using fitting_test::bent_limbs;
 using fitting_test::Skin;
 using geometry::Vec3;
 using proxy::Tier;
 
-namespace {
-
-/// Three bent limbs with folds: no small number of ellipsoids follows them.
-Skin bent_limbs() {
-  Skin skin;
-  skin.stature_m = 1.7;
-  const auto add = [&](const Vec3& center, const Vec3& radii, double bend, body::Part part) {
-    const std::size_t first = skin.mesh.positions.size();
-    fitting_test::add_ellipsoid(skin, {center, geometry::Mat3::Identity(), radii}, part);
-    for (std::size_t v = first; v < skin.mesh.positions.size(); ++v) {
-      Vec3& p = skin.mesh.positions[v];
-      const double along = (p.y() - center.y()) / radii.y();
-      p.x() += bend * along * along;
-      p.z() = center.z() + (p.z() - center.z()) * (1.0 + 0.12 * std::sin(7.0 * along));
-    }
-  };
-  add({0.0, 1.2, 0.0}, {0.16, 0.35, 0.11}, 0.05, body::Part::kTorsoUL);
-  add({-0.12, 0.45, 0.0}, {0.08, 0.42, 0.08}, -0.10, body::Part::kThighR);
-  add({0.12, 0.45, 0.0}, {0.08, 0.42, 0.08}, 0.12, body::Part::kThighL);
-  return skin;
-}
-
-}  // namespace
-
-TEST_CASE("dial: a target error is reached within a fifth, from relief to a handful of ellipsoids") {
+TEST_CASE("target search: a target error is reached within a fifth, from relief to a handful of ellipsoids") {
   const Skin skin = bent_limbs();
   for (const double target_mm : {1.0, 2.0, 4.0, 8.0}) {
     FitOptions options;
@@ -55,7 +32,7 @@ TEST_CASE("dial: a target error is reached within a fifth, from relief to a hand
   }
 }
 
-TEST_CASE("dial: a coarser target never costs more ellipsoids") {
+TEST_CASE("target search: a coarser target never takes more ellipsoids") {
   const Skin skin = bent_limbs();
   std::optional<std::size_t> finer;
   for (const double target_mm : {2.0, 3.0, 5.0, 8.0}) {
@@ -69,7 +46,7 @@ TEST_CASE("dial: a coarser target never costs more ellipsoids") {
   }
 }
 
-TEST_CASE("dial: a target between a limb with and without an ellipsoid is spent on covered skin") {
+TEST_CASE("uniform offset: a target that no count reaches is met by covering more skin") {
   const Skin skin = bent_limbs();
   const auto with = [&](int count) {
     return fitting::fit({}, skin.view(), {.tier = Tier::kTight, .max_ellipsoids = count});
@@ -77,7 +54,7 @@ TEST_CASE("dial: a target between a limb with and without an ellipsoid is spent 
   const auto three = with(3), two = with(2);
   REQUIRE((three.ok() && two.ok()));
   const double finer_m = three->accuracy.gap_m.mean, target_m = 2.0 * finer_m;
-  REQUIRE(two->accuracy.gap_m.mean > 1.1 * target_m);  // no whole number comes within a tenth
+  REQUIRE(two->accuracy.gap_m.mean > 1.1 * target_m);  // no count comes within a tenth of the target
   FitOptions options;
   options.tier = Tier::kTight;
   options.target_error_m = target_m;
@@ -88,7 +65,7 @@ TEST_CASE("dial: a target between a limb with and without an ellipsoid is spent 
   CHECK(result->accuracy.skin_outside_percent < 0.5 * three->accuracy.skin_outside_percent);
 }
 
-TEST_CASE("dial: more time gives a finer proxy; a budget below the fixed cost of a query is said to be") {
+TEST_CASE("budget: more time gives a finer proxy, and a budget below a query's fixed cost gives a warning") {
   const Skin skin = bent_limbs();
   std::size_t fewer = 0;
   for (const double budget_us : {5.0, 90.0, 140.0, 250.0}) {
@@ -99,7 +76,7 @@ TEST_CASE("dial: more time gives a finer proxy; a budget below the fixed cost of
     CAPTURE(budget_us);
     const std::size_t count = result->proxy.ellipsoids().size();
     CHECK(result->proxy.tier() == (budget_us > 120.0 ? Tier::kRelief : Tier::kTight));
-    CHECK(count >= 12);  // fewer save no time; up to four of sixteen may turn out idle
+    CHECK(count >= 12);  // fewer save no time, and up to four of sixteen may hold no skin
     const bool warned = !result->warnings.empty() && result->warnings[0].code == "budget-not-reached";
     CHECK(warned == (budget_us < 50.0));
     if (budget_us > 200.0) CHECK(count > 2 * fewer);
@@ -107,7 +84,7 @@ TEST_CASE("dial: more time gives a finer proxy; a budget below the fixed cost of
   }
 }
 
-TEST_CASE("solid: leave to use more ellipsoids than help costs less than a tenth of the gap") {
+TEST_CASE("solid: a limit above the useful number of ellipsoids costs less than a tenth of the gap") {
   const Skin skin = bent_limbs();
   const auto gap_m = [&](int most) {
     const auto result = fitting::fit({}, skin.view(), {.tier = Tier::kSolid, .max_ellipsoids = most});
@@ -133,12 +110,12 @@ TEST_CASE("tight: no ellipsoid stands in the air between limbs, however few ther
     const auto result = fitting::fit({}, skin.view(), options);
     REQUIRE(result.ok());
     CAPTURE(count);
-    // Two cannot follow three limbs; else nothing is farther off than a limb is thick.
+    // Two ellipsoids cannot follow three limbs; with more, no gap exceeds the thickness of a limb.
     CHECK(result->accuracy.gap_m.max < (count == 2 ? 0.24 : 0.16));
   }
 }
 
-TEST_CASE("fit: accuracy that nobody reads is not measured and changes nothing") {
+TEST_CASE("fit: without measured accuracy the proxy has the same bits, and only a target error measures") {
   const Skin skin = fitting_test::three_ellipsoids();
   FitOptions options;
   options.tier = Tier::kSolid;
@@ -151,6 +128,6 @@ TEST_CASE("fit: accuracy that nobody reads is not measured and changes nothing")
   CHECK(measured->accuracy.gap_m.mean > 0.0);
   CHECK(silent->accuracy.gap_m.mean == 0.0);
   for (const auto& stage : silent->stages) CHECK(stage.name != "measure");
-  options.target_error_m = 0.05;  // has to be measured all the same
+  options.target_error_m = 0.05;
   CHECK(fitting::fit({}, skin.view(), options)->accuracy.gap_m.mean > 0.0);
 }

@@ -1,4 +1,4 @@
-// Moves of ellipsoids: made where they pay, as foretold by the trials, and nowhere else.
+// Split-and-merge moves are made where they pay, and a trial predicts the cost after its move.
 #include <doctest/doctest.h>
 
 #include <bodice/engine/random.hpp>
@@ -7,7 +7,7 @@
 #include "tight/split_and_merge.hpp"
 
 using namespace bodice;
-using fitting::TightProblem;
+using fitting::LeastSquaresProblem;
 using geometry::Ellipsoid;
 using geometry::Vec3;
 
@@ -19,7 +19,7 @@ Ellipsoid ball(double x, double y, double radius) {
   return {Vec3(x, y, 0.0), geometry::Mat3::Identity(), Vec3::Constant(radius)};
 }
 
-/// A ball by itself, and two that overlap.
+/// A ball apart from the others, and two balls that overlap.
 const std::vector<Ellipsoid> kTruth = {ball(-0.4, 0.85, 0.1), ball(0.3, 0.7, 0.1), ball(0.3, 0.88, 0.1)};
 
 double union_distance(const std::vector<Ellipsoid>& ellipsoids, const Vec3& point) {
@@ -42,12 +42,12 @@ std::vector<fitting::DistanceSample> samples_of_truth() {
   return samples;
 }
 
-/// The problem of these samples, 1.7 m to a stature, about the origin.
+/// The least-squares problem of these samples, for a body of 1.7 m around the origin.
 struct Setting {
   std::vector<fitting::DistanceSample> samples = samples_of_truth();
-  fitting::TightLoss loss;
+  fitting::RobustLoss loss;
   fitting::Scaling scaling;
-  TightProblem problem;
+  LeastSquaresProblem problem;
 
   Setting() : scaling(skin_of_one()), problem(samples, scaling, loss, kMotion) {}
 
@@ -72,7 +72,7 @@ struct Setting {
 
 }  // namespace
 
-TEST_CASE("relocation: the half of a ball that is not needed goes to two balls that have one ellipsoid") {
+TEST_CASE("split and merge: a second ellipsoid of one ball moves to two balls that share one ellipsoid") {
   Setting setting;
   const Ellipsoid lower{Vec3(-0.4, 0.8, 0.0), geometry::Mat3::Identity(), Vec3(0.1, 0.06, 0.1)};
   const Ellipsoid upper{Vec3(-0.4, 0.9, 0.0), geometry::Mat3::Identity(), Vec3(0.1, 0.06, 0.1)};
@@ -81,19 +81,19 @@ TEST_CASE("relocation: the half of a ball that is not needed goes to two balls t
   const double before = setting.cost(ellipsoids);
   setting.problem.refresh({}, ellipsoids);
   CHECK(setting.problem.total() == doctest::Approx(before).epsilon(0.01));
-  CHECK(fitting::relocate({}, setting.problem, ellipsoids).size() == 3);
+  CHECK(fitting::split_and_merge({}, setting.problem, ellipsoids).size() == 3);
   CHECK(setting.cost(ellipsoids) < 0.02 * before);
 }
 
-TEST_CASE("relocation: nothing moves where every ellipsoid is where it belongs") {
+TEST_CASE("split and merge: no ellipsoid moves where each fits one ball") {
   Setting setting;
   std::vector<Ellipsoid> ellipsoids = kTruth;
   setting.problem.refresh({}, ellipsoids);
-  CHECK(fitting::relocate({}, setting.problem, ellipsoids).empty());
+  CHECK(fitting::split_and_merge({}, setting.problem, ellipsoids).empty());
   CHECK(ellipsoids[1].center == kTruth[1].center);
 }
 
-TEST_CASE("local fit: what it says the cost rises by is what it rises by") {
+TEST_CASE("local fit: the predicted rise of the cost is the true one") {
   Setting setting;
   std::vector<Ellipsoid> ellipsoids = kTruth;
   ellipsoids[1].center.x() += 0.01;
@@ -111,4 +111,40 @@ TEST_CASE("local fit: what it says the cost rises by is what it rises by") {
   const double rise = setting.cost({ellipsoids[0], found[0], found[1]}) - before;
   CHECK(fit.rise() == doctest::Approx(rise).epsilon(0.01));
   CHECK(fit.rise() < -0.95 * before);
+}
+
+TEST_CASE("frequent neighbors: the same as counting every pair, ties by index, none beyond the ellipsoids") {
+  engine::Random random(9);
+  for (const std::uint32_t count : {1u, 2u, 7u, 60u}) {
+    std::vector<fitting::Nearest3> ranked(2000);
+    for (auto& r : ranked) {  // up to count itself, which stands for none
+      const auto first = static_cast<std::uint32_t>(random.below(count));
+      r = {{first, static_cast<std::uint32_t>(random.below(count + 1)), count}, {0.0f, 0.0f, 0.0f}};
+    }
+    std::vector<std::vector<int>> pairs(count, std::vector<int>(count, 0));
+    for (const auto& r : ranked)
+      if (r.ellipsoid[1] < count) ++pairs[r.ellipsoid[0]][r.ellipsoid[1]];
+    const auto found = fitting::frequent_neighbors(ranked, count);
+    REQUIRE(found.size() == count);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      std::vector<std::uint32_t> expected;
+      for (std::uint32_t rank = 0; rank < 3; ++rank) {
+        std::uint32_t best = count;
+        for (std::uint32_t j = 0; j < count; ++j)
+          if (pairs[k][j] > 0 && std::ranges::find(expected, j) == expected.end() &&
+              (best == count || pairs[k][j] > pairs[k][best]))
+            best = j;
+        if (best < count) expected.push_back(best);
+      }
+      CHECK(found[k] == expected);
+    }
+  }
+}
+
+TEST_CASE("frequent neighbors: memory grows with the samples, not with the pairs of ellipsoids") {
+  constexpr std::uint32_t kMany = 1'000'000;  // a count for every pair would take terabytes
+  const std::vector<fitting::Nearest3> ranked = {{{5, kMany - 1, 3}, {}}, {{5, 7, 3}, {}}, {{5, 7, 3}, {}}};
+  const auto found = fitting::frequent_neighbors(ranked, kMany);
+  CHECK(found[5] == std::vector<std::uint32_t>{7, kMany - 1});
+  CHECK(found[4].empty());
 }

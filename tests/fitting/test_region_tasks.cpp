@@ -29,7 +29,7 @@ FitOptions options_for(Tier tier) {
 
 }  // namespace
 
-TEST_CASE("part tasks: each wanted region has a task of its own, by name, and no other has") {
+TEST_CASE("region tasks: each wanted region has a task with its name, and no other region has one") {
   const auto skin = three_ellipsoids();
   for (const auto& [tier, verb] : {std::pair(Tier::kPaper, "refine "), std::pair(Tier::kSolid, "cover ")}) {
     FitOptions options = options_for(tier);
@@ -46,7 +46,7 @@ TEST_CASE("part tasks: each wanted region has a task of its own, by name, and no
   }
 }
 
-TEST_CASE("part tasks: parts are handed on once each, and the result is made of them") {
+TEST_CASE("region tasks: each region is published once, and the result consists of them") {
   const auto skin = three_ellipsoids();
   for (const int workers : {1, 2, 5}) {
     const auto executor = bodice_test::make_threads(workers);
@@ -74,7 +74,7 @@ TEST_CASE("part tasks: parts are handed on once each, and the result is made of 
   }
 }
 
-TEST_CASE("part tasks: a fit of some parts gives their regions the same bits as a fit of the whole body") {
+TEST_CASE("region tasks: paper and solid give some parts the same bits as in a fit of the whole body") {
   const auto skin = three_ellipsoids();
   const auto executor = bodice_test::make_threads(3);
   engine::Context context;
@@ -108,8 +108,7 @@ TEST_CASE("part tasks: a fit of some parts gives their regions the same bits as 
     }
 }
 
-TEST_CASE(
-    "part tasks: the finer tiers give some parts their share of the whole body's ellipsoids and bytes") {
+TEST_CASE("region tasks: tight and relief give some parts their share of the body's ellipsoids and bytes") {
   const auto skin = three_ellipsoids();
   for (const Tier tier : {Tier::kTight, Tier::kRelief}) {
     FitOptions options = options_for(tier);
@@ -120,14 +119,14 @@ TEST_CASE(
     CHECK(some->proxy.ellipsoids().size() < whole->proxy.ellipsoids().size());
     CHECK(2 * some->proxy.bytes() < whole->proxy.bytes());
     CHECK(some->accuracy.gap_m.mean < 1.5 * whole->accuracy.gap_m.mean + 1e-4);
-    options.max_ellipsoids = 1;  // of the whole body: a part gets one all the same
+    options.max_ellipsoids = 1;  // one for the whole body; a single part still gets one
     const auto one = fitting::fit({}, skin.view(), options);
     REQUIRE(one.ok());
     CHECK(one->proxy.ellipsoids().size() == 1);
   }
 }
 
-TEST_CASE("part tasks: parts are handed on in one order, whoever ends first") {
+TEST_CASE("region tasks: regions are published in the same order, whichever task ends first") {
   const auto skin = three_ellipsoids();
   for (const Tier tier : {Tier::kPaper, Tier::kSolid})
     for (const int workers : {1, 2, 5})
@@ -143,7 +142,7 @@ TEST_CASE("part tasks: parts are handed on in one order, whoever ends first") {
       }
 }
 
-TEST_CASE("part tasks: six seeds of a small torso do not exceed the limit") {
+TEST_CASE("region tasks: six seeds of a small torso do not exceed the limit") {
   auto skin = three_ellipsoids();
   for (std::size_t v = 0; v < skin.part.size(); ++v) {
     if (!body::is_torso(skin.part[v])) continue;
@@ -161,7 +160,7 @@ TEST_CASE("part tasks: six seeds of a small torso do not exceed the limit") {
   }
 }
 
-TEST_CASE("part tasks: fewer ellipsoids than parts joins neighbors and keeps the limit") {
+TEST_CASE("region tasks: with fewer ellipsoids than regions, the limit holds and every vertex is inside") {
   const auto skin = three_ellipsoids();
   for (const int count : {1, 2, 3}) {
     for (const Tier tier : {Tier::kPaper, Tier::kSolid}) {
