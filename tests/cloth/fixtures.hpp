@@ -50,7 +50,7 @@ inline bodice::cloth::Fabric cotton() {
   return *bodice::cloth::find_fabric("cotton");
 }
 
-/// No air, no damping, no self-contact: what closed forms assume.
+/// Options without air and self-contact, as closed forms assume.
 inline bodice::cloth::SolverOptions vacuum() {
   bodice::cloth::SolverOptions options;
   options.environment.air_density_kg_m3 = 0.0;

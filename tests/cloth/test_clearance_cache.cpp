@@ -1,4 +1,5 @@
-// Whoever is said to be clear of the body is: against each particle's own distance in every substep.
+// A cluster that the cache calls clear of the body is clear: the oracle is each particle's own distance in
+// every substep.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ using namespace bodice_test;
 namespace {
 
 constexpr double kThickness_m = 0.004;
-constexpr std::size_t kClusters = 40, kCount = kClusters * cloth::kCluster - 13;  // the last one is not full
+constexpr std::size_t kClusters = 40,
+                      kCount = kClusters * cloth::kCluster - 13;  // the last cluster is not full
 
 std::vector<geometry::Ellipsoid> shapes() {
   std::vector<geometry::Ellipsoid> out;
@@ -39,34 +41,34 @@ double distance_m(const std::vector<geometry::Ellipsoid>& all, const Vec3& at) {
   return least;
 }
 
-Vec3 random_place(const engine::Random& random, std::uint64_t key, double reach) {
+Vec3 random_point(const engine::Random& random, std::uint64_t key, double reach) {
   return reach * Vec3(2.0 * random.uniform_at(3 * key) - 1.0, 2.0 * random.uniform_at(3 * key + 1) - 1.0,
                       2.0 * random.uniform_at(3 * key + 2) - 1.0);
 }
 
-/// Clusters of 4 cm at random places up to half a meter away, some of them in the body.
+/// Clusters of 4 cm at random points up to half a meter away, some of them in the body.
 cloth::Particles scatter(const engine::Random& random, const Vec3& origin) {
   cloth::Particles p;
   p.size = kCount;
   p.origin = origin;
   for (auto* a : {&p.x, &p.y, &p.z, &p.old_x, &p.old_y, &p.old_z}) a->assign(kCount + 3, 0.0f);
   for (std::size_t i = 0; i < kCount; ++i) {
-    const Vec3 at = random_place(random, i / cloth::kCluster, 0.5) + random_place(random, 1000 + i, 0.02);
+    const Vec3 at = random_point(random, i / cloth::kCluster, 0.5) + random_point(random, 1000 + i, 0.02);
     p.x[i] = static_cast<float>(at[0]), p.y[i] = static_cast<float>(at[1]),
     p.z[i] = static_cast<float>(at[2]);
   }
   return p;
 }
 
-/// Each cluster goes its own way; one particle of each goes twice as fast, a random one.
 const std::vector<std::uint8_t> untouched(kCount, 0);
 
+/// Moves each cluster in its own direction, and one random particle of each twice as far.
 void travel(const engine::Random& random, std::uint64_t substep, cloth::Particles& p) {
   p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
   for (std::size_t i = 0; i < kCount; ++i) {
     const std::uint64_t cluster = i / cloth::kCluster;
     const bool fast = i % cloth::kCluster == random.bits_at(77 * cluster + substep) % cloth::kCluster;
-    const Vec3 by = (fast ? 2.0 : 1.0) * random_place(random, 5000 + cluster + substep / 4 * 100, 0.015);
+    const Vec3 by = (fast ? 2.0 : 1.0) * random_point(random, 5000 + cluster + substep / 4 * 100, 0.015);
     p.x[i] += static_cast<float>(by[0]), p.y[i] += static_cast<float>(by[1]),
         p.z[i] += static_cast<float>(by[2]);
   }
@@ -75,17 +77,17 @@ void travel(const engine::Random& random, std::uint64_t substep, cloth::Particle
 }  // namespace
 
 TEST_CASE(
-    "no particle in reach of the body is missed, and a cluster that may touch may for the whole frame") {
+    "clearance cache: a particle that touches is never missed, and its cluster stays in for the frame") {
   const std::vector<geometry::Ellipsoid> all = shapes();
   const collision::Collider body = body_of(all);
   std::size_t clear = 0, in_reach = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const engine::Random random(seed);
     cloth::Particles p = scatter(random, body.origin());
-    cloth::Clearance clearance = cloth::make_clearance(kCount);
-    // Whatever travel was expected: some go farther here than all but the last of these.
+    cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
+    // The result holds for any expected travel: some particles travel farther than all but the last of these.
     const double expected_m = std::array{0.0, 0.01, 0.05, 0.2, 1.0}[seed - 1];
-    cloth::begin_clearance({}, &body, kThickness_m, expected_m, untouched, p, clearance);
+    cloth::begin_clearance_frame({}, &body, kThickness_m, expected_m, untouched, p, clearance);
     std::vector<bool> may(kClusters, false);
     for (std::uint64_t substep = 0; substep < 16; ++substep) {
       travel(random, substep, p);
@@ -103,34 +105,35 @@ TEST_CASE(
       }
     }
   }
-  CHECK(clear > 200);      // it does spare clusters,
-  CHECK(in_reach > 1000);  // and had the chance to spare wrong ones
+  CHECK(clear > 200);      // some clusters are clear,
+  CHECK(in_reach > 1000);  // and enough particles touch to be missed
 }
 
-TEST_CASE("without a body that stands still every cluster may touch") {
+TEST_CASE("clearance cache: without a body at rest every cluster may touch") {
   const collision::Collider body = body_of(shapes());
   cloth::Particles p = scatter(engine::Random(3), body.origin() + Vec3::Constant(9.0));
-  cloth::Clearance clearance = cloth::make_clearance(kCount);
-  cloth::begin_clearance({}, nullptr, kThickness_m, 1.0, {}, p, clearance);
+  cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
+  cloth::begin_clearance_frame({}, nullptr, kThickness_m, 1.0, {}, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance));
 }
 
-TEST_CASE("a cluster of which one touched is near without asking, and no other for that") {
+TEST_CASE(
+    "clearance cache: a cluster with a touching particle may touch, and no other cluster for that reason") {
   const collision::Collider body = body_of(shapes());
   cloth::Particles p = scatter(engine::Random(3), body.origin());
   for (float& y : p.y) y += 9.0f;
   p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
   std::vector<std::uint8_t> touching = untouched;
   touching[2 * cloth::kCluster - 1] = 1;
-  cloth::Clearance clearance = cloth::make_clearance(kCount);
-  cloth::begin_clearance({}, &body, kThickness_m, 1.0, touching, p, clearance);
+  cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
+  cloth::begin_clearance_frame({}, &body, kThickness_m, 1.0, touching, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance) == (c == 1));
 }
 
-TEST_CASE("nor is one missed where relief rises at once") {
-  // A ball in rings half a millimeter apart, in turns flat and 2.5 mm high.
+TEST_CASE("clearance cache: a particle that touches is not missed where relief is steep") {
+  // The ball has rings half a millimeter apart, alternately flat and 2.5 mm high.
   constexpr double kRadius_m = 0.05;
   constexpr int kNodes = 255;
   proxy::BodyProxy::Data data;
@@ -143,7 +146,8 @@ TEST_CASE("nor is one missed where relief rises at once") {
   data.relief[0].h_scale_m = 0.0025f;
   for (int j = 0; j < kNodes; ++j)
     for (int i = 0; i < kNodes; ++i) {
-      const int ring = std::min({i, j, kNodes - 1 - i, kNodes - 1 - j});  // all of the border is alike
+      const int ring =
+          std::min({i, j, kNodes - 1 - i, kNodes - 1 - j});  // the whole border has the same value
       data.texels.push_back({static_cast<std::uint8_t>(ring / 2 % 2 == 0 ? 0 : 255), 0});
     }
   const auto proxy = proxy::BodyProxy::make(std::move(data));
@@ -153,19 +157,20 @@ TEST_CASE("nor is one missed where relief rises at once") {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const engine::Random random(seed);
     cloth::Particles p = scatter(random, body.origin());
-    for (std::size_t i = 0; i < kCount; ++i) {  // a cluster at one place, up to 6 mm out of reach of the ball
+    for (std::size_t i = 0; i < kCount;
+         ++i) {  // a cluster is at one point, up to 6 mm beyond touching the ball
       const std::uint64_t cluster = i / cloth::kCluster;
       const double height_m = kRadius_m + kThickness_m + 0.006 * random.uniform_at(40000 + cluster);
-      const Vec3 at = height_m * random_place(random, 9000 + cluster, 1.0).normalized() +
-                      random_place(random, 50000 + i, 1e-4);
+      const Vec3 at = height_m * random_point(random, 9000 + cluster, 1.0).normalized() +
+                      random_point(random, 50000 + i, 1e-4);
       p.x[i] = static_cast<float>(at[0]), p.y[i] = static_cast<float>(at[1]),
       p.z[i] = static_cast<float>(at[2]);
     }
-    cloth::Clearance clearance = cloth::make_clearance(kCount);
-    cloth::begin_clearance({}, &body, kThickness_m, 0.01, untouched, p, clearance);
+    cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
+    cloth::begin_clearance_frame({}, &body, kThickness_m, 0.01, untouched, p, clearance);
     p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
     for (std::size_t i = 0; i < kCount; ++i) {
-      const Vec3 by = random_place(random, 100000 + i / cloth::kCluster, 5e-4);
+      const Vec3 by = random_point(random, 100000 + i / cloth::kCluster, 5e-4);
       p.x[i] += static_cast<float>(by[0]), p.y[i] += static_cast<float>(by[1]),
           p.z[i] += static_cast<float>(by[2]);
     }

@@ -26,12 +26,12 @@ void check_coloring(const std::vector<geometry::Index>& particles, std::size_t a
 
 }  // namespace
 
-TEST_CASE("no two constraints of a color share a particle, and none is lost") {
+TEST_CASE("coloring: no two constraints of a color share a particle, and every constraint has a color") {
   const engine::Random random(7);
   for (const std::size_t arity : {2u, 4u}) {
     std::vector<geometry::Index> particles;
     for (std::uint64_t k = 0; k < 3000; ++k) {
-      // Distinct members: a random start and steps that never wrap onto it.
+      // The members are distinct: steps from a random start never wrap around to it.
       const auto first = static_cast<geometry::Index>(random.bits_at(k) % 400);
       for (geometry::Index q = 0; q < arity; ++q) particles.push_back((first + 37 * q) % 400);
     }
@@ -39,13 +39,13 @@ TEST_CASE("no two constraints of a color share a particle, and none is lost") {
   }
 }
 
-TEST_CASE("a fan of 200 constraints around one particle needs 200 colors, more than a word holds") {
+TEST_CASE("coloring: 200 constraints around one particle take 200 colors, more than a word holds") {
   std::vector<geometry::Index> particles;
   for (geometry::Index k = 1; k <= 200; ++k) particles.insert(particles.end(), {0, k});
   check_coloring(particles, 2, 201);
   CHECK(cloth::color(particles, 2, 201).colors() == 200);
 }
 
-TEST_CASE("nothing to color is no color") {
+TEST_CASE("coloring: no constraints take no colors") {
   CHECK(cloth::color({}, 2, 10).colors() == 0);
 }

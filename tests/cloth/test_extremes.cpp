@@ -1,4 +1,4 @@
-// Whatever the host does, a frame ends, stays finite and bounded, and says what it had to bound.
+// For any input of the host, a frame ends, stays finite and bounded, and reports what was bounded.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -12,6 +12,7 @@ using namespace bodice_test;
 
 namespace {
 
+/// The last frame's report, with the limits of all frames.
 struct Outcome {
   cloth::FrameReport report;
   double reach = 0.0;  ///< largest distance from the start, meters
@@ -39,7 +40,7 @@ Outcome run(const TriMesh& mesh, const cloth::SolverOptions& options, const coll
 
 }  // namespace
 
-TEST_CASE("a step of no time changes no bit and still reports") {
+TEST_CASE("extremes: a step of no time changes no bit, and reports") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
   cloth::Solver solver = make_solver(sheet(6, 6, 0.6, 0.6, Vec3(-0.3, 1.25, -0.3)), {}, cotton(), {});
   const engine::Context context;
@@ -53,7 +54,7 @@ TEST_CASE("a step of no time changes no bit and still reports") {
   }
 }
 
-TEST_CASE("long, short and violent frames stay finite and say what was bounded") {
+TEST_CASE("extremes: long, short and violent frames stay finite and report what was bounded") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
   const TriMesh mesh = sheet(12, 12, 0.6, 0.6, Vec3(-0.3, 1.25, -0.3));
   cloth::SolverOptions options;
@@ -65,11 +66,11 @@ TEST_CASE("long, short and violent frames stay finite and say what was bounded")
   options.environment.gravity_m_s2 /= 100.0;
   options.environment.wind_m_s = Vec3(100, 0, 0);
   options.environment.gust = 1.0;
-  // Nothing in the air outruns the air by more than gravity's share.
+  // Cloth in the air is faster than the air only by the effect of gravity.
   CHECK(run(mesh, options, body, 1.0 / 60.0, 60).reach < 200.0 + 5.0);
 }
 
-TEST_CASE("a garment thrown at the body at 50 m/s does not end inside or beyond it") {
+TEST_CASE("extremes: a garment thrown at the body at 50 m/s does not end inside or beyond it") {
   const geometry::Ellipsoid shape{Vec3(0, 1, 0), geometry::Mat3::Identity(), Vec3(0.3, 0.2, 0.3)};
   const collision::Collider body = ellipsoid_body(shape.center, shape.radii);
   const TriMesh mesh = sheet(16, 16, 0.4, 0.4, Vec3(-0.2, 1.8, -0.2));
@@ -85,7 +86,7 @@ TEST_CASE("a garment thrown at the body at 50 m/s does not end inside or beyond 
   for (const Vec3& p : positions(solver, mesh.positions.size())) CHECK(p[1] > 0.7);
 }
 
-TEST_CASE("small, large and far scenes drape as the same scene at home") {
+TEST_CASE("extremes: small, large and far scenes drape without unresolved contacts") {
   for (const double scale : {1e-3, 1.0, 30.0}) {
     for (const double shift : {0.0, 1e4}) {
       cloth::SolverOptions options;
@@ -101,13 +102,13 @@ TEST_CASE("small, large and far scenes drape as the same scene at home") {
   }
 }
 
-TEST_CASE("one triangle, slivers and wild mass ratios are garments too") {
+TEST_CASE("extremes: one triangle, slivers and extreme mass ratios stay bounded") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
   TriMesh one;
   one.positions = {Vec3(-0.05, 1.3, 0), Vec3(0.05, 1.3, 0), Vec3(0, 1.3, 0.1)};
   one.triangles = {{0, 1, 2}};
   CHECK(run(one, {}, body, 1.0 / 60.0, 120).reach < 50.0);
-  TriMesh mixed = one;  // areas 1e4 apart, joined at a corner; most are small, so that none is dropped
+  TriMesh mixed = one;  // areas differ by a factor of 1e4; most triangles are small, so that none is dropped
   for (Index k = 0; k < 6; ++k) {
     mixed.positions.insert(mixed.positions.end(),
                            {Vec3(0.0005, 1.3, 0.101 + 0.001 * k), Vec3(-0.0005, 1.3, 0.101 + 0.001 * k)});
@@ -125,7 +126,7 @@ TEST_CASE("one triangle, slivers and wild mass ratios are garments too") {
   CHECK(run(sliver, {}, body, 1.0 / 60.0, 120).reach < 50.0);
 }
 
-TEST_CASE("options out of range are refused by name") {
+TEST_CASE("solver options: one out of range fails with a message that names it") {
   const TriMesh mesh = sheet(1, 1, 0.1, 0.1, Vec3::Zero());
   cloth::SolverOptions options;
   options.substeps = 0;

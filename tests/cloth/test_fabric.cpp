@@ -6,7 +6,8 @@
 
 using namespace bodice;
 
-TEST_CASE("every preset is found by its name, is valid and keeps the order of its class") {
+TEST_CASE(
+    "fabric: every preset is found by its name and is valid, and known fabrics are in the known order") {
   const auto names = cloth::fabric_names();
   REQUIRE(names.size() == 5);
   for (const std::string& name : names) {
@@ -15,20 +16,20 @@ TEST_CASE("every preset is found by its name, is valid and keeps the order of it
     CHECK(fabric->name == name);
     CHECK(cloth::check(*fabric).ok());
   }
-  // What anyone knows by hand, whatever the exact constants.
+  // These orders are common knowledge and hold for any exact constants.
   CHECK(cloth::find_fabric("silk")->density_kg_m2 < cloth::find_fabric("denim")->density_kg_m2);
   CHECK(cloth::find_fabric("jersey")->stretch_n_m < cloth::find_fabric("cotton")->stretch_n_m);
   CHECK(cloth::find_fabric("silk")->bend_n_m < cloth::find_fabric("leather")->bend_n_m);
 }
 
-TEST_CASE("an unknown fabric names those that exist") {
+TEST_CASE("fabric: an unknown name fails with a remedy that lists the names") {
   const auto none = cloth::find_fabric("steel");
   REQUIRE_FALSE(none.ok());
   CHECK(none.error().code == engine::ErrorCode::kNotFound);
   CHECK(none.error().remedy.find("denim") != std::string::npos);
 }
 
-TEST_CASE("constants out of range are refused by name") {
+TEST_CASE("fabric: a constant out of range fails with a message that names it") {
   for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
     cloth::Fabric fabric;
     fabric.density_kg_m2 = bad;

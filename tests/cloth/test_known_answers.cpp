@@ -1,4 +1,4 @@
-// Closed forms that a cloth solver must meet whatever its inside.
+// Closed forms that any cloth solver has to reproduce.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
 
-// Free swing of one triangle about its pinned edge, which lies along x: its third corner is a point pendulum.
+// The period of a triangle that swings freely about its pinned edge along x: its third corner is a point
+// pendulum.
 double measured_period(double length, double start_angle, double step_s) {
   TriMesh mesh;
   mesh.positions = {Vec3(-0.1, 0, 0), Vec3(0.1, 0, 0),
@@ -37,7 +38,7 @@ double measured_period(double length, double start_angle, double step_s) {
 
 }  // namespace
 
-TEST_CASE("a swinging triangle keeps a point pendulum's period") {
+TEST_CASE("known answers: a swinging triangle has the period of a point pendulum") {
   for (const double length : {0.3, 1.0}) {
     constexpr double kAngle = 0.2;
     // The first terms of the elliptic integral for a finite amplitude.
@@ -48,8 +49,8 @@ TEST_CASE("a swinging triangle keeps a point pendulum's period") {
   }
 }
 
-TEST_CASE("a sheet hung by two opposite edges takes the shape of a catenary") {
-  // A strip 1 m long hung at two edges 0.8 m apart: y = a cosh(x / a) with 2 a sinh(0.4 / a) = 1.
+TEST_CASE("known answers: a sheet that hangs from two opposite edges has the shape of a catenary") {
+  // The strip is 1 m long and hangs from edges 0.8 m apart: y = a cosh(x / a) with 2 a sinh(0.4 / a) = 1.
   double low = 0.1, high = 10.0;
   for (int i = 0; i < 100; ++i) {
     const double a = 0.5 * (low + high);
@@ -71,7 +72,7 @@ TEST_CASE("a sheet hung by two opposite edges takes the shape of a catenary") {
   const engine::Context context;
   std::vector<Vec3> ends;
   for (const Index p : pins) ends.push_back(mesh.positions[p]);
-  // The ends move together over two seconds, then the strip comes to rest.
+  // The ends move toward each other for two seconds, then the strip comes to rest.
   for (int frame = 0; frame < 600; ++frame) {
     const double t = std::min(1.0, frame / 120.0);
     for (std::size_t i = 0; i < pins.size(); ++i) {
@@ -86,8 +87,8 @@ TEST_CASE("a sheet hung by two opposite edges takes the shape of a catenary") {
   CHECK(-lowest == doctest::Approx(sag).epsilon(0.02));
 }
 
-// A sweep carries a pull a few of its hundred edges far; the coarse levels must take part from the start.
-TEST_CASE("a ribbon let go hangs no longer than its strain limit allows, in any frame") {
+// A sweep transmits a pull over a few of the hundred edges, so that coarse levels have to act from the start.
+TEST_CASE("known answers: a released ribbon is never longer than its strain limit allows") {
   TriMesh mesh = sheet(2, 100, 0.02, 1.0, Vec3::Zero());
   for (Vec3& p : mesh.positions) p = Vec3(p.x(), -p.z(), 0.0);
   for (const int substeps : {4, 8, 16}) {
@@ -102,8 +103,9 @@ TEST_CASE("a ribbon let go hangs no longer than its strain limit allows, in any 
   }
 }
 
-TEST_CASE("a fold let go keeps the angle that friction holds, and none without friction") {
-  // Two equilateral triangles: under moments a meter of fold, B t / h = m with h the area over the edge.
+TEST_CASE(
+    "known answers: a released fold keeps the angle that friction holds, and no angle without friction") {
+  // For two equilateral triangles and a moment m a meter of fold, B t / h = m with h the area over the edge.
   constexpr double kSide = 0.01, kFriction_n = 2.0e-4, kBend_n_m = 8.0e-6;
   const double height = kSide * std::sqrt(0.75);
   TriMesh mesh;
@@ -114,10 +116,10 @@ TEST_CASE("a fold let go keeps the angle that friction holds, and none without f
     cloth::Fabric fabric = cotton();
     fabric.bend_n_m = kBend_n_m;
     fabric.bend_friction_n = friction_n;
-    fabric.damping_per_s = 1000.0;  // creeps to where it stays
+    fabric.damping_per_s = 1000.0;  // the fold creeps to its final angle
     cloth::SolverOptions options = vacuum();
     options.substeps = 16;
-    options.environment.gravity_m_s2 *= 50.0;  // bends it well beyond
+    options.environment.gravity_m_s2 *= 50.0;  // bends the fold far beyond that angle
     cloth::Solver solver = make_solver(mesh, {0, 1, 2}, fabric, options);
     const engine::Context context;
     for (int frame = 0; frame < 60; ++frame) solver.step(context, kFrame_s);
@@ -132,7 +134,7 @@ TEST_CASE("a fold let go keeps the angle that friction holds, and none without f
   CHECK(kept_rad(kFriction_n) == doctest::Approx(kFriction_n * height / kBend_n_m).epsilon(0.05));
 }
 
-TEST_CASE("a sheet dropped on one ellipsoid rests on its offset surface") {
+TEST_CASE("known answers: a sheet dropped on an ellipsoid rests on its offset surface") {
   const engine::Context context;
   for (const Vec3& radii : {Vec3(0.2, 0.2, 0.2), Vec3(0.3, 0.15, 0.2)}) {
     const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), radii);

@@ -1,4 +1,4 @@
-// A body that moves takes along what lies on it, as fast as friction allows, and sweeps away what it meets.
+// A moving body moves the cloth on it as fast as friction allows, and pushes the cloth in its path.
 #include <doctest/doctest.h>
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
@@ -21,7 +21,8 @@ cloth::Fabric undamped(double friction) {
   return fabric;
 }
 
-/// Gravity would have the band slip off: see README.md on what friction of tight cloth holds.
+/// Options without gravity, in which the band would slip off: see the limits of friction in
+/// modules/cloth/README.md.
 cloth::SolverOptions weightless() {
   cloth::SolverOptions options = vacuum();
   options.environment.gravity_m_s2 = Vec3::Zero();
@@ -32,7 +33,7 @@ void move(collision::Collider& body, const geometry::Ellipsoid& shape) {
   body.move_to({&shape, 1}, kFrame_s);
 }
 
-/// A spheroid about y that turns, and a band around its middle that is too short for it by a fiftieth.
+/// A spheroid about y that turns.
 struct Turntable {
   geometry::Ellipsoid shape{Vec3(0, 1, 0), geometry::Mat3::Identity(), Vec3(0.15, 0.3, 0.15)};
   collision::Collider body = ellipsoid_body(shape.center, shape.radii);
@@ -62,7 +63,7 @@ TriMesh band(double radius) {
   return mesh;
 }
 
-/// Mean angle about y from one state to another, less than half a turn.
+/// The mean angle about y from one state to another, less than half a turn.
 double turned_rad(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
   double sine = 0.0, cosine = 0.0;
   for (std::size_t v = 0; v < from.size(); ++v) {
@@ -72,6 +73,7 @@ double turned_rad(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
   return std::atan2(sine, cosine);
 }
 
+/// A band on a turning body: it turns for a second and a half, and is measured over the last second.
 struct Ride {
   double turned = 0.0;  ///< radians
   std::uint64_t hash = 0;
@@ -84,7 +86,7 @@ Ride ride(double friction, engine::Executor& executor) {
   const engine::Context context{.executor = &executor};
   std::vector<Vec3> before;
   for (int frame = 0; frame < 90; ++frame) {
-    if (frame == 30) before = positions(solver, mesh.positions.size());  // up to speed
+    if (frame == 30) before = positions(solver, mesh.positions.size());  // the band has its speed by now
     table.turn(1.5 * kFrame_s);
     solver.step(context, table.body, kFrame_s);
   }
@@ -93,17 +95,17 @@ Ride ride(double friction, engine::Executor& executor) {
 
 }  // namespace
 
-TEST_CASE("a band turns with the body it sits on, and does not without friction") {
+TEST_CASE("moving body: a band turns with its body, and does not turn without friction") {
   CHECK(ride(0.45, engine::inline_executor()).turned == doctest::Approx(1.5).epsilon(0.005));
   CHECK(std::abs(ride(0.0, engine::inline_executor()).turned) < 0.02);
 }
 
-TEST_CASE("a ride has the same bits for any number of workers") {
+TEST_CASE("moving body: a band on it has the same bits for any number of workers") {
   const std::uint64_t serial = ride(0.45, engine::inline_executor()).hash;
   for (const int workers : {2, 3, 7}) CHECK(ride(0.45, *make_threads(workers)).hash == serial);
 }
 
-TEST_CASE("a band comes to rest with its body") {
+TEST_CASE("moving body: a band comes to rest when its body stops") {
   Turntable table;
   cloth::Solver solver = make_solver(band(0.149), {}, cotton(), weightless());
   for (int frame = 0; frame < 30; ++frame) {
@@ -119,7 +121,7 @@ TEST_CASE("a band comes to rest with its body") {
   CHECK(report.asleep == solver.particles());
 }
 
-TEST_CASE("a cloth on a sliding floor follows it up to the acceleration of friction, mu g") {
+TEST_CASE("moving body: cloth on a sliding floor follows it up to the acceleration of friction, mu g") {
   constexpr double kMu = 0.4, kGravity = 9.81;
   for (const double acceleration : {0.5 * kMu * kGravity, 2.0 * kMu * kGravity}) {
     CAPTURE(acceleration);
@@ -140,7 +142,7 @@ TEST_CASE("a cloth on a sliding floor follows it up to the acceleration of frict
   }
 }
 
-TEST_CASE("an arm that crosses its own width in a frame pushes a curtain and does not pass through it") {
+TEST_CASE("moving body: an arm that moves by its own width in a frame pushes a curtain without passing it") {
   geometry::Ellipsoid arm{Vec3(0, 0.7, -0.3), geometry::Mat3::Identity(), Vec3(0.5, 0.03, 0.03)};
   collision::Collider body = ellipsoid_body(arm.center, arm.radii);
   TriMesh mesh = sheet(30, 30, 0.6, 0.6, Vec3(-0.3, 0, 0));
@@ -148,13 +150,13 @@ TEST_CASE("an arm that crosses its own width in a frame pushes a curtain and doe
   std::vector<Index> top;
   for (Index i = 0; i <= 30; ++i) top.push_back(i);
   cloth::Solver solver = make_solver(mesh, top, cotton(), {});
-  for (int frame = 0; frame < 6; ++frame) {  // 0.06 m each, 0.06 m beyond the curtain
+  for (int frame = 0; frame < 6; ++frame) {  // by 0.06 m a frame, to 0.06 m beyond the curtain
     arm.center.z() += 0.06;
     move(body, arm);
     CHECK(solver.step({}, body, kFrame_s).contacts.unresolved == 0);
     const std::vector<Vec3> now = positions(solver, mesh.positions.size());
     for (const Vec3& p : now) REQUIRE(geometry::closest_point(arm, p).signed_distance > -1e-5);
-    for (Index i = 0; i <= 30; ++i) {  // each column still has its part before the arm
+    for (Index i = 0; i <= 30; ++i) {  // each column still has particles in front of the arm
       double foremost = 0.0;
       for (Index j = 0; j <= 30; ++j) foremost = std::max(foremost, now[31 * j + i].z());
       CHECK(foremost > arm.center.z() + 0.01);
@@ -162,7 +164,7 @@ TEST_CASE("an arm that crosses its own width in a frame pushes a curtain and doe
   }
 }
 
-TEST_CASE("a ride allocates nothing once warm") {
+TEST_CASE("moving body: a step allocates nothing once warm") {
   if (!bodice_test::counts_allocations()) return;
   Turntable table;
   cloth::Solver solver = make_solver(band(0.149), {}, cotton(), {});

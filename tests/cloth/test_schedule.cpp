@@ -1,4 +1,5 @@
-// Constraints are reordered into packs and named by their place in a block: none may be lost or renamed.
+// Constraints are reordered into packs, with particles as indices within a block: none may be lost or
+// changed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using namespace bodice_test;
 
 namespace {
 
-/// More particles than 16 bits can name.
+/// A garment with more particles than 16 bits can index.
 struct Garment {
   TriMesh mesh = sheet(270, 250, 2.7, 2.5, Vec3::Zero());
   cloth::Topology topology = cloth::find_topology(mesh);
@@ -22,7 +23,7 @@ struct Garment {
       cloth::make_particles(mesh, 0.1, std::vector<bool>(mesh.positions.size(), false));
 };
 
-/// Calls visit(pack, first) for all packs, what they name counted from `first` on.
+/// Calls visit(pack, first) for all packs; their particles are stored relative to `first`.
 template <class Constraints, class Visit>
 void for_each_pack(const Constraints& c, std::size_t particle_count, Visit&& visit) {
   const std::size_t size = cloth::block_size(particle_count);
@@ -31,7 +32,7 @@ void for_each_pack(const Constraints& c, std::size_t particle_count, Visit&& vis
   for (const auto& pack : c.across) visit(pack, std::size_t{0});
 }
 
-/// The particles that a pack's constraint names, ascending.
+/// The particles of a constraint in a pack, ascending.
 template <std::size_t arity, class Name>
 std::array<std::size_t, arity> named(std::size_t first, Name&& name) {
   std::array<std::size_t, arity> out;
@@ -42,7 +43,8 @@ std::array<std::size_t, arity> named(std::size_t first, Name&& name) {
 
 }  // namespace
 
-TEST_CASE("packs name every edge once, of a garment beyond 16 bits, too, and share no particle") {
+TEST_CASE(
+    "schedule: packs have every edge of a large garment once, and the edges of a pack share no particle") {
   const Garment g;
   REQUIRE(g.particles.count() > 65536);
   const cloth::StretchConstraints c = cloth::make_stretch(g.mesh, g.topology, cotton(), g.particles);
@@ -67,7 +69,7 @@ TEST_CASE("packs name every edge once, of a garment beyond 16 bits, too, and sha
   CHECK(found == expected);
 }
 
-TEST_CASE("packs name every hinge once, of a garment beyond 16 bits, too, and share no particle") {
+TEST_CASE("schedule: packs have every hinge of a large garment once, and those of a pack share no particle") {
   const Garment g;
   const cloth::BendConstraints c = cloth::make_bend(g.mesh, g.topology, cotton(), g.particles);
   std::set<std::array<std::size_t, 4>> expected, found;
@@ -78,7 +80,7 @@ TEST_CASE("packs name every hinge once, of a garment beyond 16 bits, too, and sh
     std::set<std::size_t> taken;
     std::size_t own = 0;
     for (std::size_t k = 0; k < cloth::kPack; ++k) {
-      if (cloth::to_float(pack.k[1][k]) == 0.0f) continue;  // idle
+      if (cloth::to_float(pack.k[1][k]) == 0.0f) continue;  // the slot is idle
       const auto corners = named<4>(first, [&](std::size_t q) { return std::size_t{pack.corner[q][k]}; });
       found.insert(corners), taken.insert(corners.begin(), corners.end()), ++own;
     }

@@ -1,4 +1,4 @@
-// Determinism, memory, rest and layers.
+// The solver: determinism, memory, rest, sleep, pins, layers and budget.
 #include <doctest/doctest.h>
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
@@ -26,7 +26,7 @@ cloth::SolverOptions windy() {
 
 std::uint64_t hash_after(engine::Executor& executor, int frames) {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3(0.2, 0.15, 0.2));
-  // More particles than a block of any loop holds, so that workers share every kind of loop.
+  // There are more particles than a task of any loop takes, so that workers share every loop.
   cloth::Solver solver = make_solver(sheet(80, 80, 0.8, 0.8, Vec3(-0.4, 1.16, -0.4)), {}, cotton(), windy());
   const engine::Context context{.executor = &executor};
   for (int frame = 0; frame < frames; ++frame) solver.step(context, body, kFrame_s);
@@ -35,14 +35,14 @@ std::uint64_t hash_after(engine::Executor& executor, int frames) {
 
 }  // namespace
 
-TEST_CASE("a garment in gusts has the same bits for any number of workers") {
+TEST_CASE("solver: a garment in gusts has the same bits for any number of workers") {
   const std::uint64_t serial = hash_after(engine::inline_executor(), 12);
   for (const int workers : {1, 2, 3, 7}) {
     CHECK(hash_after(*bodice_test::make_threads(workers), 12) == serial);
   }
 }
 
-TEST_CASE("a step allocates nothing once warm") {
+TEST_CASE("solver: a step allocates nothing once warm") {
   if (!bodice_test::counts_allocations()) return;
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
   cloth::Solver solver = make_solver(sheet(30, 30, 0.8, 0.8, Vec3(-0.4, 1.21, -0.4)), {}, cotton(), windy());
@@ -53,9 +53,9 @@ TEST_CASE("a step allocates nothing once warm") {
   CHECK(bodice_test::allocations() == before);
 }
 
-TEST_CASE("quantiles of a frame are those that sorting finds") {
+TEST_CASE("solver: the report's quantiles are those of sorted values") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3::Constant(0.2));
-  const TriMesh mesh = sheet(70, 50, 0.8, 0.8, Vec3(-0.4, 1.21, -0.4));  // several blocks of every loop
+  const TriMesh mesh = sheet(70, 50, 0.8, 0.8, Vec3(-0.4, 1.21, -0.4));  // several tasks of every loop
   cloth::Solver solver = make_solver(mesh, {}, cotton(), windy());
   const engine::Context context;
   for (int frame = 0; frame < 20; ++frame) solver.step(context, body, kFrame_s);
@@ -77,14 +77,13 @@ TEST_CASE("quantiles of a frame are those that sorting finds") {
   CHECK(report.median_speed_m_s == doctest::Approx(speeds[(speeds.size() - 1) / 2]).epsilon(1e-3));
 }
 
-TEST_CASE("a sheet on a body comes to rest and never gains energy on the way") {
+TEST_CASE("solver: a sheet on a body comes to rest and never gains energy meanwhile") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3(0.25, 0.2, 0.25));
   cloth::Solver solver = make_solver(sheet(24, 24, 0.7, 0.7, Vec3(-0.35, 1.21, -0.35)), {}, cotton(), {});
   const engine::Context context;
   cloth::FrameReport report = solver.step(context, body, kFrame_s);
   double energy = report.kinetic_energy_j + report.gravity_energy_j;
-  const double weight_energy =
-      0.14 * 0.7 * 0.7 * 9.81 * 0.35;  // joules it could lose by falling by half its width
+  const double weight_energy = 0.14 * 0.7 * 0.7 * 9.81 * 0.35;  // of a fall by half of its width, joules
   for (int frame = 0; frame < 600; ++frame) {
     report = solver.step(context, body, kFrame_s);
     const double now = report.kinetic_energy_j + report.gravity_energy_j;
@@ -94,12 +93,13 @@ TEST_CASE("a sheet on a body comes to rest and never gains energy on the way") {
   CHECK(report.median_speed_m_s < 1e-3);
 }
 
-TEST_CASE("at rest no energy appears, the elastic one included, and who sleeps stays") {
+TEST_CASE(
+    "solver: at rest the energy, with the elastic one, does not rise, and half of the particles sleep") {
   struct Case {
     int substeps;
     bool self_collision;
   };
-  // With few substeps a sweep leaves much unsolved: folds tremble, and must be put to rest none the less.
+  // With few substeps a sweep leaves large errors and folds tremble, but they have to come to rest as well.
   for (const Case which : {Case{2, true}, Case{4, true}, Case{8, false}, Case{8, true}, Case{16, true}}) {
     CAPTURE(which.substeps);
     const collision::Collider body = ellipsoid_body(Vec3(0, 1, 0), Vec3(0.25, 0.2, 0.25));
@@ -111,7 +111,7 @@ TEST_CASE("at rest no energy appears, the elastic one included, and who sleeps s
     const engine::Context context;
     cloth::FrameReport report;
     for (int frame = 0; frame < 300; ++frame) report = solver.step(context, body, kFrame_s);
-    // A millimeter's fall of the whole sheet: a hundredth of what folds still give away.
+    // The energy of a fall of the sheet by a millimeter is a hundredth of what folds still lose.
     const double millimeter_j = 0.14 * 0.7 * 0.7 * 9.81 * 1e-3;
     auto energy = [](const cloth::FrameReport& r) {
       return r.kinetic_energy_j + r.gravity_energy_j + r.elastic_energy_j;
@@ -133,21 +133,21 @@ TEST_CASE("at rest no energy appears, the elastic one included, and who sleeps s
   }
 }
 
-TEST_CASE("who sleeps wakes when another body takes the place of the one below") {
+TEST_CASE("sleep: particles wake when another body replaces the one below") {
   collision::Collider body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.5, 3));
   cloth::Solver solver = make_solver(sheet(8, 8, 0.2, 0.2, Vec3(-0.1, 0.502, -0.1)), {}, cotton(), {});
   const engine::Context context;
   cloth::FrameReport report;
   for (int frame = 0; frame < 300; ++frame) report = solver.step(context, body, kFrame_s);
   REQUIRE(report.asleep == solver.particles());
-  body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.3, 3));  // the same object, the same origin
+  body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.3, 3));  // the object and the origin stay the same
   for (int frame = 0; frame < 60; ++frame) report = solver.step(context, body, kFrame_s);
   std::vector<Vec3> at(solver.particles());
   solver.positions(at);
   for (const Vec3& p : at) CHECK(p.y() < 0.32);
 }
 
-TEST_CASE("who sleeps wakes when the body below is put elsewhere in no time") {
+TEST_CASE("sleep: particles wake when the body below is moved in no time") {
   geometry::Ellipsoid floor{Vec3(0, 0, 0), geometry::Mat3::Identity(), Vec3(3, 0.5, 3)};
   collision::Collider body = ellipsoid_body(floor.center, floor.radii);
   cloth::Solver solver = make_solver(sheet(8, 8, 0.2, 0.2, Vec3(-0.1, 0.502, -0.1)), {}, cotton(), {});
@@ -163,7 +163,7 @@ TEST_CASE("who sleeps wakes when the body below is put elsewhere in no time") {
   for (const Vec3& p : at) CHECK(p.y() < 0.32);
 }
 
-TEST_CASE("who sleeps is not drawn out by pins that begin to move slowly, nor left behind by a push") {
+TEST_CASE("sleep: particles follow pins that begin to move slowly, and a new velocity, without stretching") {
   cloth::SolverOptions options;
   options.substeps = 16;
   const TriMesh mesh = sheet(10, 10, 0.3, 0.3, Vec3(-0.15, 1.0, -0.15));
@@ -176,7 +176,7 @@ TEST_CASE("who sleeps is not drawn out by pins that begin to move slowly, nor le
   REQUIRE(report.asleep >= solver.particles() - 2);
   const double stretch_asleep = report.stretch_max;
   for (int frame = 1; frame <= 120; ++frame) {
-    const Vec3 by(0.03 * kFrame_s * frame, 0.0, 0.0);  // 3 cm/s, slower than what wakes a neighbor
+    const Vec3 by(0.03 * kFrame_s * frame, 0.0, 0.0);  // 3 cm/s, which wakes no neighbor
     const Vec3 targets[] = {mesh.positions[pins[0]] + by, mesh.positions[pins[1]] + by};
     solver.move_pins(targets);
     report = solver.step(context, kFrame_s);
@@ -191,10 +191,10 @@ TEST_CASE("who sleeps is not drawn out by pins that begin to move slowly, nor le
   CHECK(report.stretch_max < stretch_asleep + 0.1);
 }
 
-// What the body does to a pin is undone; a velocity left of it would drag the cloth in all later substeps.
-TEST_CASE("a pin that the body would push leaves its cloth at rest, whatever the substeps") {
+// The body's push of a pin is undone; a remaining velocity would drag the cloth in all later substeps.
+TEST_CASE("pins: one inside the body leaves its cloth at rest, for any number of substeps") {
   const TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3(-0.2, 0.098, -0.2));
-  const std::vector<Index> middle = {12};  // 2 mm inside a ball that nothing else of the sheet touches
+  const std::vector<Index> middle = {12};  // 2 mm inside a ball that no other particle of the sheet touches
   for (const auto response : {collision::Response::kClosestPoint, collision::Response::kPaper}) {
     const collision::Collider body = ellipsoid_body(Vec3::Zero(), Vec3::Constant(0.1));
     for (const int substeps : {2, 8, 32, 128}) {
@@ -214,14 +214,14 @@ TEST_CASE("a pin that the body would push leaves its cloth at rest, whatever the
   }
 }
 
-TEST_CASE("a first frame of no time reports a garment at rest") {
+TEST_CASE("solver: a first frame of no time reports a garment at rest") {
   cloth::Solver solver = make_solver(sheet(6, 6, 0.2, 0.2, Vec3(0, 1, 0)), {}, cotton(), {});
   const cloth::FrameReport report = solver.step({}, 0.0);
   CHECK(report.stretch_max < 1e-5);
   CHECK(report.elastic_energy_j < 1e-6);
 }
 
-TEST_CASE("a wind of no gusts carries, and a seed changes gusts only") {
+TEST_CASE("gusts: the seed changes the result with gusts, and does not without") {
   auto drift = [](double gust, std::uint64_t seed) {
     cloth::SolverOptions options = windy();
     options.environment.gust = gust;
@@ -236,7 +236,7 @@ TEST_CASE("a wind of no gusts carries, and a seed changes gusts only") {
   CHECK(drift(0.5, 1) != drift(0.5, 2));
 }
 
-TEST_CASE("a layer dropped on another lies on it") {
+TEST_CASE("self-contact: a layer dropped on another one lies on it, and sinks in without self-contact") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.5, 3));
   TriMesh mesh = sheet(16, 16, 0.4, 0.4, Vec3(-0.2, 0.5, -0.2));
   const TriMesh top = sheet(16, 16, 0.4, 0.4, Vec3(-0.19, 0.53, -0.19));
@@ -258,7 +258,7 @@ TEST_CASE("a layer dropped on another lies on it") {
   CHECK(std::abs(mean_gap(false)) < 0.002);
 }
 
-TEST_CASE("a budget that cannot be met drops work in the stated order and says so") {
+TEST_CASE("budget: one that cannot be met drops work in the stated order and reports it") {
   cloth::SolverOptions options;
   options.budget_us = 1e-3;
   cloth::Solver solver = make_solver(sheet(8, 8, 0.4, 0.4, Vec3::Zero()), {}, cotton(), options);
@@ -270,7 +270,7 @@ TEST_CASE("a budget that cannot be met drops work in the stated order and says s
                                               cloth::kNoSelfContact | cloth::kBendingHalved, kBits, kBits});
 }
 
-TEST_CASE("layers that meet after the body below is gone share their momentum") {
+TEST_CASE("self-contact: layers that meet after the body below is removed keep their total momentum") {
   const collision::Collider body = ellipsoid_body(Vec3(0, 0, 0), Vec3(3, 0.5, 3));
   TriMesh mesh = sheet(8, 8, 0.2, 0.2, Vec3(-0.1, 0.502, -0.1));
   const TriMesh top = sheet(8, 8, 0.2, 0.2, Vec3(-0.09, 0.53, -0.09));
@@ -293,12 +293,13 @@ TEST_CASE("layers that meet after the body below is gone share their momentum") 
     return (mean_height(begin, end) - before) / kFrame_s;
   };
   const auto last = static_cast<Index>(mesh.positions.size());
-  // The lower one lies on the body when the upper one is about to reach it.
+  // The lower layer lies on the body when the upper one is about to reach it.
   while (mean_height(first, last) - mean_height(0, first) > 0.015) {
     const cloth::FrameReport report = solver.step(context, body, kFrame_s);
     REQUIRE(report.finite);
   }
-  // They meet in the first of these frames; were the lower one still held, the upper one would bounce off it.
+  // They meet in the first of these frames. If the lower layer were still held, the upper one would bounce
+  // off.
   double speed = mean_speed(0, last);
   for (int frame = 0; frame < 6; ++frame) {
     const double now = mean_speed(0, last);

@@ -1,4 +1,5 @@
-// Seams become one particle, damage is dropped and told, and every input vertex finds its particle.
+// Vertices of seams become one particle, damage is dropped and reported, and every input vertex has its
+// particle.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -12,7 +13,7 @@ using namespace bodice_test;
 
 namespace {
 
-// Every triangle with corners of its own: as files with seams everywhere come.
+// The same mesh with corners of its own for every triangle, like a file that has seams everywhere.
 TriMesh soup(const TriMesh& mesh, double jitter_m) {
   TriMesh out;
   for (const auto& t : mesh.triangles) {
@@ -28,7 +29,7 @@ TriMesh soup(const TriMesh& mesh, double jitter_m) {
 
 }  // namespace
 
-TEST_CASE("a soup of triangles welds back to the sheet at any scale and place") {
+TEST_CASE("weld: separate triangles become the sheet again, at any scale and offset") {
   for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     for (const double shift : {0.0, 1e3}) {
       const TriMesh flat = sheet(7, 5, 0.7 * scale, 0.5 * scale, Vec3::Constant(shift * scale));
@@ -46,8 +47,9 @@ TEST_CASE("a soup of triangles welds back to the sheet at any scale and place") 
   }
 }
 
-TEST_CASE("an edge far shorter than the others is a particle, and a chain of such does not shrink to one") {
-  // A strip whose quads are 1 high and 1 wide, but for three columns of 0.06 in its middle.
+TEST_CASE(
+    "weld: an edge much shorter than others becomes a particle, and a chain of them several particles") {
+  // The quads of the strip are 1 high and 1 wide, except for three columns of 0.06 in its middle.
   const double x[] = {0.0, 1.0, 2.0, 2.06, 2.12, 2.18, 3.18, 4.18};
   TriMesh mesh;
   for (Index i = 0; i < 8; ++i)
@@ -57,7 +59,7 @@ TEST_CASE("an edge far shorter than the others is a particle, and a chain of suc
                           {{2 * i, 2 * i + 2, 2 * i + 3}, {2 * i, 2 * i + 3, 2 * i + 1}});
   const auto welded = cloth::weld(mesh);
   REQUIRE(welded.ok());
-  CHECK(welded->mesh.positions.size() == 12);  // 2 and 2.06 are one, 2.12 and 2.18 are
+  CHECK(welded->mesh.positions.size() == 12);  // 2 and 2.06 are one particle, 2.12 and 2.18 another
   CHECK(welded->particle_of_vertex[4] == welded->particle_of_vertex[6]);
   CHECK(welded->particle_of_vertex[8] == welded->particle_of_vertex[10]);
   CHECK(welded->particle_of_vertex[6] != welded->particle_of_vertex[8]);
@@ -65,10 +67,10 @@ TEST_CASE("an edge far shorter than the others is a particle, and a chain of suc
     CHECK((welded->mesh.positions[welded->particle_of_vertex[v]] - mesh.positions[v]).norm() < 0.1);
 }
 
-TEST_CASE("damaged vertices and triangles are dropped and reported, the rest stays") {
+TEST_CASE("weld: damaged vertices and triangles are dropped and reported, and the others stay") {
   TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3::Zero());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  mesh.positions[12] = Vec3(nan, 0, 0);  // the middle: its triangles go
+  mesh.positions[12] = Vec3(nan, 0, 0);  // the middle vertex, with all its triangles
   mesh.positions.push_back(Vec3(9, 9, 9));
   mesh.triangles.push_back({0, 1, 1});
   mesh.triangles.push_back(mesh.triangles.front());
@@ -84,7 +86,7 @@ TEST_CASE("damaged vertices and triangles are dropped and reported, the rest sta
   CHECK(welded->warnings[2].code == "garment-triangles-dropped");
 }
 
-TEST_CASE("a garment without a usable triangle is one clear error") {
+TEST_CASE("weld: a garment without a usable triangle fails with kUnusableGeometry") {
   TriMesh line;
   line.positions = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)};
   line.triangles = {{0, 1, 2}};

@@ -8,9 +8,7 @@
 namespace bodice::cloth {
 namespace {
 
-/// Floats square lengths.
-constexpr double kMostMeters = 1e9;
-
+constexpr double kMostMeters = 1e9;  // squares of larger lengths would overflow in float
 constexpr int kMaxIterations = 64;
 
 engine::Error bad(const std::string& what, const std::string& remedy) {

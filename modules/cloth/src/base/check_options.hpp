@@ -4,8 +4,9 @@
 
 namespace bodice::cloth {
 
-/// Each fails with kInvalidArgument, naming the option and the range.
+/// Fails with kInvalidArgument if a value is not finite or out of range.
 engine::Result<void> check(const Environment& environment);
+/// Fails with kInvalidArgument, naming the option and its range.
 engine::Result<void> check(const SolverOptions& options);
 
 }  // namespace bodice::cloth

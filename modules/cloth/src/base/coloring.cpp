@@ -6,9 +6,9 @@ namespace bodice::cloth {
 namespace {
 
 constexpr std::uint32_t kUncolored = ~std::uint32_t{0};
-constexpr std::uint32_t kColorsAPass = 64;  // one machine word of used colors a particle
+constexpr std::uint32_t kColorsAPass = 64;  // a machine word holds the used colors of a particle
 
-// Colors what fits into one word of colors; leaves the rest for the next pass. Returns how many it left.
+// Colors the constraints that fit into 64 more colors. Returns how many are left for the next pass.
 std::size_t color_pass(std::span<const geometry::Index> particles, std::size_t arity,
                        std::uint32_t first_color, std::vector<std::uint64_t>& used,
                        std::vector<std::uint32_t>& color_of) {

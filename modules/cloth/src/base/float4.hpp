@@ -1,4 +1,4 @@
-// Particles as four floats: a particle is one load, where separate arrays would cost four gathers.
+// Particles as four floats. A particle is read by one load; separate arrays would take four gathers.
 #pragma once
 
 #include <bit>
@@ -17,16 +17,16 @@ using geometry::max;
 using geometry::min;
 using geometry::square_root;
 
-/// A particle as the constraints see it.
+/// A particle as constraints read it.
 struct alignas(16) Point {
   float x = 0.0f, y = 0.0f, z = 0.0f;  ///< meters
-  float weight = 0.0f;                 ///< inverse mass; 0: pinned or asleep
+  float weight = 0.0f;                 ///< inverse mass; 0: the particle is pinned or asleep
 };
 
-/// The upper half of a float (bfloat16): its range at three digits, enough for what is known of a fabric.
+/// The upper half of a float (bfloat16): its range with three digits, which suffice for constants of fabrics.
 enum class Half : std::uint16_t {};
 
-/// To nearest, of a finite value.
+/// Rounds a finite value to the nearest.
 inline Half to_half(double value) {
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(value));
   return Half{static_cast<std::uint16_t>((bits + 0x8000u) >> 16)};
@@ -55,7 +55,7 @@ inline Float4 splat(float s) {
   return Float4{s, s, s, s};
 }
 
-/// x, y, z; zero in place of the weight.
+/// The point with its weight set to zero.
 inline Float4 xyz(Float4 v) {
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(v) & Int4{-1, -1, -1, 0});
 }

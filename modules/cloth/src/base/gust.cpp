@@ -1,4 +1,4 @@
-// Based on: Geoffrey Taylor. The Spectrum of Turbulence. 1938. (turbulence is carried by the mean wind)
+// Based on: Geoffrey Taylor. The Spectrum of Turbulence. 1938. (the mean wind carries turbulence along)
 #include "base/gust.hpp"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ double smooth(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// One number a lattice node; the masks keep 21 bits a coordinate, the pattern repeats after 2 million eddies.
+// The number of a lattice node. A coordinate keeps 21 bits, so that the pattern repeats after 2 million
+// eddies.
 double node(const engine::Random& random, std::int64_t x, std::int64_t y, std::int64_t z) {
   constexpr std::int64_t kMask = (std::int64_t{1} << 21) - 1;
   const auto key = static_cast<std::uint64_t>((x & kMask) | ((y & kMask) << 21) | ((z & kMask) << 42));

@@ -1,6 +1,6 @@
-// Based on: Donald Knuth. The Art of Computer Programming 3. 1998. - section 5.2.5, radix exchange, of which
-// only the bucket that holds the rank is followed, and partitioned once it is small. The bits of floats from
-// zero up order as they do.
+// Based on: Donald Knuth. The Art of Computer Programming 3. 1998. - section 5.2.5 (radix exchange)
+// Differs: only the bucket that holds the rank is followed, and it is partitioned once it is small. Floats of
+// at least zero have the same order as their bits.
 #include "base/nth_largest.hpp"
 
 #include <algorithm>
@@ -12,10 +12,12 @@
 namespace bodice::cloth {
 namespace {
 
-constexpr int kDigitBits = 11;  // the exponent and three bits more: buckets an eighth wide
+constexpr int kDigitBits =
+    11;  // the exponent and three bits more, so that values of a bucket differ by an eighth
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-constexpr std::size_t kBlocks = 8;         // a row of counts each
-constexpr std::size_t kLeastGrain = 4096;  // below it, adding up the rows costs more than counting
+constexpr std::size_t kBlocks = 8;  // tasks; each has a row of counts
+constexpr std::size_t kLeastGrain =
+    4096;  // with fewer values a task, adding up the rows costs more than counting
 
 float from_zero(float value) {
   return value > 0.0f ? value : 0.0f;
@@ -25,13 +27,13 @@ std::uint32_t digit(float value) {
   return std::bit_cast<std::uint32_t>(from_zero(value)) >> (32 - kDigitBits);
 }
 
-// Without branches: half of a garment's edges are shortened, in no order that a processor could guess.
+// There are no branches: half of a garment's edges are shortened, in an order that no processor predicts.
 void count_digits(std::span<const float> values, std::uint32_t* row) {
   std::fill_n(row, kDigits, 0u);
   for (const float value : values) ++row[digit(value)];
 }
 
-// The digit whose values hold the rank; `rank` becomes that among them.
+// The digit of the value at this rank; `rank` becomes the rank among the values with that digit.
 std::uint32_t digit_of_rank(std::vector<std::uint32_t>& counts, std::size_t blocks, std::size_t& rank) {
   for (std::size_t b = 1; b < blocks; ++b)
     for (std::size_t d = 0; d < kDigits; ++d) counts[d] += counts[b * kDigits + d];
@@ -42,7 +44,7 @@ std::uint32_t digit_of_rank(std::vector<std::uint32_t>& counts, std::size_t bloc
   return 0;
 }
 
-// Copies the values with this digit to `near`, which has room for all; returns how many.
+// Copies the values with this digit to `near`, which has room for all values; returns their number.
 std::uint32_t copy_near(std::span<const float> values, std::uint32_t sought, float* near) {
   std::uint32_t count = 0;
   for (const float value : values) {

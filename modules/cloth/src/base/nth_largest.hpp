@@ -1,4 +1,4 @@
-// One value of many by its rank, by all workers.
+// The value of a given rank among many, found by all workers together.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace bodice::cloth {
 
-/// What a selection works in; keep it, so that a warm call allocates nothing.
+/// The memory of a selection; it is kept, so that a warm call allocates nothing.
 struct Selection {
-  std::vector<std::uint32_t> counts;  ///< of leading digits, a row a block
-  std::vector<float> near;            ///< as many as values: those with the digit of the one sought
+  std::vector<std::uint32_t> counts;  ///< counts of leading digits, a row for each task
+  std::vector<float> near;            ///< room for all values: those with the digit of the result
 };
 
-/// For at most this many values.
+/// Memory for selections from at most `values` values.
 Selection make_selection(std::size_t values);
 
-/// The value that `rank` others are larger than or stand before (0: the largest), values below zero taken as
-/// zero; zero if there are no more than `rank`. Two passes over the values, O(#values).
+/// The value at position `rank` if the values are sorted downward (0: the largest), with values below zero
+/// counted as zero. Zero if there are not more than `rank` values. Two passes over the values, O(#values).
 float nth_largest(const engine::Context& context, std::span<const float> values, std::size_t rank,
                   Selection& selection);
 

@@ -11,8 +11,8 @@
 namespace bodice::cloth {
 namespace {
 
-// No particle is lighter than this share of the mean: one sliver triangle must not make a particle that the
-// others throw about.
+// The least mass, a fraction of the mean: a sliver triangle would give a particle so light that others fling
+// it about.
 constexpr double kMassFloor = 1e-4;
 
 std::vector<double> vertex_masses(const geometry::TriMesh& mesh, double density) {
@@ -64,7 +64,7 @@ Particles make_particles(const geometry::TriMesh& mesh, double density_kg_m2,
     p.z[i] = p.old_z[i] = static_cast<float>(local[2]);
     p.mass[i] = static_cast<float>(mass[i]);
     p.inverse_mass[i] = pinned[i] ? 0.0f : static_cast<float>(1.0 / mass[i]);
-    p.point[i] = {p.x[i], p.y[i], p.z[i], p.inverse_mass[i]};  // a first frame of no time reports, too
+    p.point[i] = {p.x[i], p.y[i], p.z[i], p.inverse_mass[i]};  // for the report of a first frame without time
   }
   return p;
 }

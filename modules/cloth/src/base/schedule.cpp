@@ -9,9 +9,11 @@ namespace {
 
 using geometry::Index;
 
-constexpr std::size_t kSmallestBlock = 256;  // below it, more constraints cross than stay inside
-constexpr std::size_t kFewBlocks = 8;        // enough for a few workers to share evenly
+constexpr std::size_t kSmallestBlock =
+    256;                               // in smaller blocks, more constraints lie across blocks than inside
+constexpr std::size_t kFewBlocks = 8;  // enough blocks for a few workers to share evenly
 
+// The constraints to schedule.
 struct Wanted {
   std::span<const Index> members;
   std::size_t arity, particle_count;
@@ -21,7 +23,7 @@ struct Wanted {
   }
 };
 
-// Packs of the listed constraints, color by color; returns where each color begins.
+// Appends packs of the listed constraints, color by color; returns the first pack of each color.
 std::vector<std::uint32_t> append(const Wanted& wanted, const std::vector<std::uint32_t>& listed, Index idle,
                                   Schedule& out) {
   std::vector<Index> members;

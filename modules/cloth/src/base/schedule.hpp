@@ -1,6 +1,7 @@
-// Who is solved when: particles lie in blocks (they are in Morton order, so a block is a patch of cloth).
-// Constraints inside a block are one worker's, one after the other, while the patch is in its cache; the few
-// across blocks follow by color. That is two meetings of the workers a sweep in place of one a color.
+// The parallel schedule of constraints. Particles form blocks, which are patches of cloth, because particles
+// are in Morton order. One worker solves all constraints inside a block, one after the other, while the patch
+// is in its cache; the few constraints across blocks follow color by color. A sweep thus synchronizes once
+// for all blocks, and then only for the colors across them.
 #pragma once
 
 #include <algorithm>
@@ -17,54 +18,58 @@
 namespace bodice::cloth {
 
 inline constexpr std::size_t kPack = 8;  ///< constraints solved together; they share no particle
-inline constexpr std::uint32_t kIdle = ~std::uint32_t{0};
-/// Packs a task, of those across blocks.
-inline constexpr std::size_t kPackGrain = 32;
-/// Particles a block; its points, 16 bytes each, and what it is solved with fit into a core's second cache.
+inline constexpr std::uint32_t kIdle = ~std::uint32_t{0};  ///< a slot without a constraint
+inline constexpr std::size_t kPackGrain = 32;              ///< packs a task, for those across blocks
+/// The most particles in a block: their points, 16 bytes each, and their constraints fit into a core's
+/// second-level cache.
 inline constexpr std::size_t kLargestBlock = 1024;
 
-/// A particle by its place in a block.
+/// The index of a particle within its block.
 using Local = std::uint16_t;
 static_assert(kLargestBlock <= 0xFFFF);
 
-/// A block's points while its worker solves them; the one behind the last is what idle slots name.
+/// The points of a block while its worker solves them. Idle slots use the point after the last one.
 struct Patch {
   Point at[kLargestBlock + 1];
 };
 
+/// Constraints in packs: first those inside blocks, block by block, then those across blocks, color by color.
 struct Schedule {
-  std::size_t pack = kPack;                ///< slots a pack
-  std::vector<std::uint32_t> slot;         ///< a constraint each, or kIdle
-  std::vector<geometry::Index> idle;       ///< a pack: the particle that its idle slots may name
-  std::vector<std::uint32_t> block_begin;  ///< #blocks + 1, packs
-  std::vector<std::uint32_t> color_begin;  ///< #colors + 1, packs across blocks
+  std::size_t pack = kPack;                ///< slots in a pack
+  std::vector<std::uint32_t> slot;         ///< the constraint of each slot, or kIdle
+  std::vector<geometry::Index> idle;       ///< #packs: the particle that the pack's idle slots use
+  std::vector<std::uint32_t> block_begin;  ///< #blocks + 1: the first pack of each block
+  std::vector<std::uint32_t> color_begin;  ///< #colors + 1: the first pack of each color across blocks
 
   std::size_t packs() const { return idle.size(); }
   std::size_t blocks() const { return block_begin.size() - 1; }
   std::size_t packs_inside() const { return block_begin.back(); }
-  /// Of `inside`, the packs inside a block.
+  /// The packs inside a block, out of `inside`.
   template <class Pack>
   std::span<Pack> inside(std::span<Pack> inside, std::size_t block) const {
     return inside.subspan(block_begin[block], block_begin[block + 1] - block_begin[block]);
   }
-  /// Of `across`, the packs across blocks, those numbered [begin, end) among all.
+  /// The packs with numbers [begin, end), out of those across blocks.
   template <class Pack>
   std::span<Pack> across(std::span<Pack> across, std::size_t begin, std::size_t end) const {
     return across.subspan(begin - packs_inside(), end - begin);
   }
 };
 
-/// Particles a block: it depends on their number alone. At least eight blocks where that leaves patches.
+/// The number of particles in a block, which depends on the number of particles alone. There are at least
+/// eight blocks, unless these would be too small.
 std::size_t block_size(std::size_t particles);
-/// Idle slots name particles from `particles` on, one a block and one more, so that no two tasks share one.
+/// The number of additional points that idle slots use: one for each block and one more, so that no two tasks
+/// share one.
 std::size_t idle_particles(std::size_t particles);
 
-/// `members` holds `arity` particles (< particle_count) a constraint. O(#C arity + #blocks #P).
+/// Schedules constraints; `members` holds `arity` particles (< particle_count) for each. O(#C arity + #blocks
+/// #P).
 Schedule make_schedule(std::span<const geometry::Index> members, std::size_t arity,
                        std::size_t particle_count, std::size_t pack = kPack);
 
-/// Calls fill(pack, place in it, constraint or kIdle, first, idle) for every slot; what it names is counted
-/// from `first` on, the block's first particle (0 across blocks), and an idle slot names `idle`.
+/// Calls fill(pack, lane, constraint or kIdle, first, idle) for every slot. Particles of the pack are stored
+/// relative to `first`, the block's first particle (0 across blocks); an idle slot uses the particle `idle`.
 template <class Fill>
 void for_each_slot(const Schedule& schedule, std::size_t particle_count, Fill&& fill) {
   const std::size_t size = block_size(particle_count), pack_size = schedule.pack;
@@ -79,7 +84,7 @@ void for_each_slot(const Schedule& schedule, std::size_t particle_count, Fill&& 
   fill_packs(schedule.packs_inside(), schedule.packs(), 0, particle_count + schedule.blocks());
 }
 
-/// Calls solve(begin, end) for the packs across blocks, color by color.
+/// Calls solve(begin, end) for ranges of packs across blocks, color by color.
 template <class Solve>
 void for_each_across(const engine::Context& context, const Schedule& schedule, Solve&& solve) {
   for (std::size_t c = 0; c + 1 < schedule.color_begin.size(); ++c) {

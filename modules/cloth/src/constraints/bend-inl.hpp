@@ -1,4 +1,4 @@
-// A vector of hinges: solved, and measured.
+// Solving and measuring a vector of hinges.
 #if defined(BODICE_CLOTH_BEND_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_CLOTH_BEND_INL_
 #undef BODICE_CLOTH_BEND_INL_
@@ -13,6 +13,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace bodice::cloth::HWY_NAMESPACE {
 
+/// The state of a vector of hinges.
 struct Bent {
   Lanes value;       // n . K x - rest
   Lanes nx, ny, nz;  // unit normal; zero where the hinge is folded shut
@@ -23,11 +24,11 @@ HWY_INLINE Lanes stencil_row(const Lanes (&weight)[4], Lanes e, Lanes to_c, Lane
   return spread<k>(weight[1]) * e + spread<k>(weight[2]) * to_c + spread<k>(weight[3]) * to_d;
 }
 
-/// Hinges with their corners at at[corner][row].
+/// Measures hinges with their corners at at[corner][row].
 HWY_INLINE Bent measure_bend(Lanes rest, const Lanes (&at)[4][4], const Lanes (&weight)[4]) {
   Lanes e[4], f[4], to_c[4], to_d[4];
   for (std::size_t k = 0; k < 4; ++k) {
-    // Differences to the first corner: the weights sum to zero, and small numbers keep their digits.
+    // Differences to the first corner suffice, because the weights sum to zero, and they keep more digits.
     to_c[k] = at[2][k] - at[0][k], to_d[k] = at[3][k] - at[0][k];
     e[k] = at[1][k] - at[0][k], f[k] = to_c[k] - to_d[k];
   }
@@ -52,7 +53,7 @@ HWY_INLINE void read_hinges(const HingePack<Id>& pack, std::size_t first, const 
   weight[0] = -(weight[1] + weight[2] + weight[3]);
 }
 
-/// Solves the hinges of the slots from `first` on, and lets go what friction does not hold.
+/// Solves the hinges in the slots from `first` on; a hinge beyond the limit of friction slips.
 template <class Id>
 HWY_INLINE void solve_hinges(HingePack<Id>& pack, std::size_t first, const YarnFriction& yarn,
                              Lanes inverse_h2, Point* p) {
@@ -60,10 +61,10 @@ HWY_INLINE void solve_hinges(HingePack<Id>& pack, std::size_t first, const YarnF
   read_hinges(pack, first, p, at, weight);
   const Bent bent = measure_bend(read(&pack.rest_m[first]), at, weight);
   const Lanes compliance = read(&pack.compliance[first]), slip = yarn.slip_n * compliance;
-  // At most `slip` from the value; NaN leaves it.
+  // The held value follows at a distance of at most `slip`; NaN does not change it.
   const Lanes held = smaller(bent.value + slip, larger(bent.value - slip, read(&pack.held[first])));
   write(&pack.held[first], held);
-  // Two springs, to the rest shape and to where it is held, are one.
+  // The springs to the rest shape and to the held value are combined into one.
   Lanes yielding = yarn.soften * compliance * inverse_h2 + kTinyWeight;
   for (std::size_t q = 0; q < 4; ++q) {
     w[q] = weights_of(at[q][0], at[q][1], at[q][2], at[q][3]) * weight[q];
@@ -81,7 +82,8 @@ HWY_INLINE void solve_hinges(HingePack<Id>& pack, std::size_t first, const YarnF
   }
 }
 
-/// Twice the energies of the slots from `first` on, joules, that of what friction holds included.
+/// Twice the energies of the hinges in the slots from `first` on, joules, with those of the springs of
+/// friction.
 template <class Id>
 HWY_INLINE Lanes hinge_energies(const HingePack<Id>& pack, std::size_t first, const YarnFriction& yarn,
                                 const Point* p) {

@@ -1,11 +1,11 @@
 // Based on: Miklos Bergou, Max Wardetzky, David Harmon, Denis Zorin, Eitan Grinspun. A Quadratic Bending
-// Model for Inextensible Surfaces. 2006. - eq. (3), the cotangent stencil K of a hinge. Differs: the
-// stencil's vector K x is as long as edge * angle and lies along the hinge's normal n under isometry, so the
+// Model for Inextensible Surfaces. 2006. - eq. (3), the cotangent stencil K of a hinge.
+// Differs: under isometry the vector K x is as long as edge * angle and lies along the hinge's normal n. The
 // constraint is the signed number n . K x, which keeps a curved rest shape and costs one normal; its gradient
-// holds n fixed. The energy is B (K x)^2 / (2 A) with A the area of both triangles: a strip of width e bent
-// by the angle t at folds h apart stores B t^2 e / (2 h), and e h = A. Beside it, friction between yarns: a
-// spring to where the hinge was held last, which gives way above a moment, so that a small swing of a fold
-// ends. Based on: Paul Dahl. A Solid Friction Model. 1968. (here with an abrupt slip)
+// holds n fixed. The energy is B (K x)^2 / (2 A), with A the area of both triangles: a strip of width e, bent
+// by the angle t at folds h apart, stores B t^2 e / (2 h), and e h = A. Based on: Paul Dahl. A Solid Friction
+// Model. 1968. (friction between yarns) Differs: a second spring pulls the hinge to the value at which it is
+// held. Above a moment the held value slips at once, so that small swings of a fold end.
 #include "constraints/bend.hpp"
 
 #include <algorithm>
@@ -20,10 +20,12 @@
 namespace bodice::cloth {
 namespace {
 
-// A sliver's cotangent beyond this (0.06 degrees) would only put weights of 1e3 into floats.
+// The largest cotangent (0.06 degrees): slivers would otherwise give weights that floats cannot combine with
+// others.
 constexpr double kMaxCotangent = 1e3;
 
-// Stiffness of the held hinge in bending stiffnesses: it slips after a bend too slight to be seen.
+// Stiffness of friction's spring, in bending stiffnesses: it slips after a bend that is too slight to be
+// visible.
 constexpr float kStick = 20.0f;
 
 double cotangent(const Vec3& corner, const Vec3& u, const Vec3& v) {
@@ -33,12 +35,12 @@ double cotangent(const Vec3& corner, const Vec3& u, const Vec3& v) {
 }
 
 struct Stencil {
-  std::array<Half, 3> k = {};  // of b, c and d
+  std::array<Half, 3> k = {};  // weights of b, c and d
   double rest = 0.0;
   double area = 1.0;
 };
 
-// The rest shape is that of the weights as they are rounded.
+// The stencil of a hinge. The rest value is computed with the rounded weights.
 Stencil stencil(const geometry::TriMesh& mesh, const Hinge& h) {
   const Vec3 &a = mesh.positions[h.a], &b = mesh.positions[h.b], &c = mesh.positions[h.c],
              &d = mesh.positions[h.d];

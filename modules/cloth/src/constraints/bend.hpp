@@ -13,42 +13,46 @@
 
 namespace bodice::cloth {
 
-/// Hinges that share no particle; idle ones have weights of zero. The constraint is n . sum_i k_i x_i - rest,
-/// n the hinge's normal.
+/// Hinges that share no particle; those of idle slots have weights of zero. The constraint is n . sum_i k_i
+/// x_i - rest, with n the hinge's normal.
 template <class Id>
 struct HingePack {
-  Id corner[4][kPack];     ///< the edge's ends, then the two opposite corners
-  Half k[3][kPack];        ///< cotangent weights of all but the first corner: they sum to zero
+  Id corner[4][kPack];  ///< the edge's ends, then the two opposite corners
+  Half k[3][kPack];  ///< cotangent weights of all but the first corner; the weights of all four sum to zero
   Half compliance[kPack];  ///< meters a newton
   float rest_m[kPack];
-  float held[kPack];  ///< value at which friction holds it
+  float held[kPack];  ///< the value at which friction holds the hinge
 };
 
-static_assert(sizeof(HingePack<Local>) == 24 * kPack);  // a large garment's sweep is as fast as memory
+static_assert(sizeof(HingePack<Local>) ==
+              24 * kPack);  // memory bandwidth bounds a sweep over a large garment
 
-/// A spring to where each hinge is held, beside that to its rest shape.
+/// Friction between yarns: a second spring, to the value at which a hinge is held.
 struct YarnFriction {
-  float soften = 1.0f;  ///< compliance of both springs together, in that of bending
-  float slip_n = 0.0f;  ///< friction gives way this far from held, in compliances
+  float soften = 1.0f;  ///< compliance of both springs together, in compliances of bending
+  float slip_n = 0.0f;  ///< the held value follows a hinge at this distance, in compliances
 };
 
+/// All hinges of a garment.
 struct BendConstraints {
   Schedule schedule;
   YarnFriction yarn;
-  std::vector<HingePack<Local>> inside;
-  std::vector<HingePack<Index>> across;
+  std::vector<HingePack<Local>> inside;  ///< packs inside blocks
+  std::vector<HingePack<Index>> across;  ///< packs across blocks
 };
 
+/// The hinges of a garment; none if the fabric has no bending stiffness.
 BendConstraints make_bend(const geometry::TriMesh& mesh, const Topology& topology, const Fabric& fabric,
                           const Particles& particles);
 
-/// A Gauss-Seidel sweep is all blocks, in any order, then what lies across them. `inverse_h2` is sweeps a
-/// substep over its length squared.
+/// Solves the hinges inside a block. A Gauss-Seidel sweep consists of all blocks, in any order, then of the
+/// constraints across them. `inverse_h2` is the number of sweeps in a substep over the square of its length.
 void solve_bend_block(BendConstraints& constraints, std::size_t block, float inverse_h2, Patch& patch);
+/// Solves the hinges across blocks.
 void solve_bend_across(const engine::Context& context, BendConstraints& constraints, float inverse_h2,
                        Particles& particles);
 
-/// Potential energy of all hinges, joules, that of what friction holds included.
+/// The potential energy of all hinges, joules, with that of the springs of friction.
 double bend_energy(const engine::Context& context, const BendConstraints& constraints,
                    const Particles& particles);
 

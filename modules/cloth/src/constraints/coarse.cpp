@@ -1,7 +1,7 @@
 // Based on: Matthias Mueller. Hierarchical Position Based Dynamics. 2008.
-// Differs: nodes carry the mass of all that they stand for, so that momentum is kept; their constraints only
-// pull (limits along the cloth), so that folds stay free; the corrections, not the positions, are
-// interpolated.
+// Differs: a node has the mass of all particles that it represents, so that momentum is kept. Constraints of
+// nodes only pull (they limit distances along the cloth), so that folds stay free. Corrections are
+// interpolated, not positions.
 #include "constraints/coarse.hpp"
 
 #include <atomic>
@@ -14,7 +14,7 @@
 namespace bodice::cloth {
 namespace {
 
-// Four ties; true if one was too long.
+// Solves a pack of ties; true if one was too long.
 bool pull_pack(CoarseLevel& level, std::size_t pack) {
   const std::size_t first = pack * kTiePack;
   const Index *a = &level.ties.a[first], *b = &level.ties.b[first];
@@ -40,7 +40,7 @@ bool pull_pack(CoarseLevel& level, std::size_t pack) {
   return true;
 }
 
-// One sweep over all ties; true if one was too long.
+// Makes a sweep over all ties; true if one was too long.
 bool pull(const engine::Context& context, CoarseLevel& level) {
   const Schedule& schedule = level.ties.schedule;
   std::atomic<bool> pulled{false};
@@ -61,7 +61,7 @@ bool pull(const engine::Context& context, CoarseLevel& level) {
   return pulled.load();
 }
 
-// What the nodes' displacements come to at particle i.
+// The displacement of particle i, interpolated from the nodes.
 Float4 carried(const CoarseLevel& level, std::size_t i) {
   const Parents& parents = level.parents[i];
   Float4 sum = splat(0.0f);
@@ -69,7 +69,7 @@ Float4 carried(const CoarseLevel& level, std::size_t i) {
   return sum;
 }
 
-// Where the levels before have brought particle i.
+// The position of particle i after the displacements of the levels so far.
 Float4 moved_to(std::span<const CoarseLevel* const> moved, const Particles& p, std::size_t i) {
   Float4 at = load(p.point[i]);
   if (p.point[i].weight == 0.0f) return at;
@@ -95,7 +95,7 @@ void to_displacements(const engine::Context& context, CoarseLevel& level) {
   });
 }
 
-// The inverse of what node n carries; one that nothing moves has none.
+// The inverse of the mass that node n represents; zero if its own particle is pinned or asleep.
 float inverse_mass(const Particles& p, const CoarseLevel& level, std::size_t n) {
   if (!(p.point[level.node[n]].weight > 0.0f)) return 0.0f;
   float mass = 0.0f;
@@ -119,7 +119,8 @@ void update_weights(const engine::Context& context, const Particles& p, std::vec
   }
 }
 
-// A finer level's nodes start where the coarser ones bring them; the particles follow all levels at once.
+// Nodes of a finer level start at the positions that the coarser levels give; particles follow all levels at
+// the end.
 void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& p) {
   const CoarseLevel* moved[kMostLevels] = {};
   std::size_t count = 0;
@@ -127,7 +128,8 @@ void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& leve
     load_nodes(context, {moved, count}, p, level);
     bool pulled = false;
     for (int sweep = 0; sweep < level.sweeps; ++sweep) {
-      if (!pull(context, level)) break;  // all within their limits: a further sweep would find the same
+      if (!pull(context, level))
+        break;  // all ties are within their limits, and another sweep would change nothing
       pulled = true;
     }
     if (!pulled) continue;

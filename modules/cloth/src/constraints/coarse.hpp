@@ -1,5 +1,5 @@
-// Coarse levels against numerical stretch: one sweep a substep lets a long piece hang like rubber, because a
-// pull travels only an edge or two a sweep. A coarse node stands for the particles around it.
+// Coarse levels against numerical stretch. With one sweep a substep a long piece would hang like rubber,
+// because a pull travels only an edge or two a sweep. A coarse node represents the particles around it.
 #pragma once
 
 #include <array>
@@ -13,50 +13,53 @@
 
 namespace bodice::cloth {
 
-inline constexpr std::size_t kParents = 4;
-inline constexpr std::size_t kMostLevels = 2;
-inline constexpr std::size_t kTiePack = 4;  ///< ties solved together; larger packs of so few were half idle
+inline constexpr std::size_t kParents = 4;     ///< nodes that move a particle
+inline constexpr std::size_t kMostLevels = 2;  ///< coarse levels
+inline constexpr std::size_t kTiePack =
+    4;  ///< ties solved together; there are few, and larger packs were half idle
 
-/// Nodes that carry a particle.
+/// The nodes that move a particle.
 struct Parents {
   std::array<Index, kParents> node = {};
   std::array<float, kParents> share = {};  ///< they sum to one
 };
 
-/// What a node carries of a particle.
+/// The share of a particle that a node represents.
 struct Child {
   Index particle = 0;
   float share = 0.0f;
 };
 
-/// Nodes that must not part further than their limit: a slot of the schedule each.
+/// Pairs of nodes that must not be farther apart than their limit, one for each slot of the schedule.
 struct Ties {
   Schedule schedule;
   std::vector<Index> a, b;
   std::vector<float> limit_m;
 };
 
+/// The nodes of one level.
 struct CoarseLevel {
-  int sweeps = 1;
-  std::vector<Index> node;  ///< #N, the particle at each node
-  std::vector<Point> at;    ///< #N, those that idle slots name; weight: inverse mass it stands for
-  std::vector<Point> move;  ///< #N, meters: where a solve begins, and after it how far it went
+  int sweeps = 1;           ///< the most sweeps over the ties a substep
+  std::vector<Index> node;  ///< #N: the particle at each node
+  std::vector<Point>
+      at;  ///< #N, then points for idle slots; the weight is the inverse of the represented mass
+  std::vector<Point> move;  ///< #N, meters: where a solution begins, and after it the displacement
   Ties ties;
   std::vector<Parents> parents;    ///< #P
-  std::vector<Index> child_begin;  ///< #N + 1, offsets into child
-  std::vector<Child> child;        ///< ascending particles
+  std::vector<Index> child_begin;  ///< #N + 1: offsets into child
+  std::vector<Child> child;        ///< the particles of each node, ascending
 };
 
-/// Levels from the coarsest to the finest; none for a garment of a few edges. The limit is the distance along
-/// the cloth, enlarged by `slack`. O(#P log #P) a level.
+/// The levels from the coarsest to the finest; none for a garment of a few edges. The limit of a tie is its
+/// distance along the cloth, enlarged by the fraction `slack`. O(#P log #P) a level.
 std::vector<CoarseLevel> make_coarse(const geometry::TriMesh& mesh, const Topology& topology,
                                      double median_edge_m, double slack);
 
-/// Sums the masses of the nodes from the points' weights. Whenever those change.
+/// Sums the masses of the nodes from the points' weights. Call it whenever these change.
 void update_weights(const engine::Context& context, const Particles& particles,
                     std::vector<CoarseLevel>& levels);
 
-/// Pulls nodes together that are further apart than their limit, and the particles with them.
+/// Pulls nodes together that are farther apart than their limit, and moves the particles with them.
 void solve_coarse(const engine::Context& context, std::vector<CoarseLevel>& levels, Particles& particles);
 
 }  // namespace bodice::cloth

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-// The baseline and AVX2: wider vectors would hold four particles to a row, and those are read one by one. On
-// x86 the bits below AVX3's are of better targets still, of which each new Highway has more.
+// The targets are the baseline and AVX2. Wider vectors would not help, because particles are read one by one.
+// On x86 the bits below that of AVX3 belong to wider targets, and new versions of Highway add more of them.
 #define HWY_DISABLED_TARGETS                                                                            \
   (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3 | (HWY_AVX3 - 1) | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | \
    HWY_RVV)
@@ -59,7 +59,7 @@ double bend_energy(std::span<const HingePack<Id>> packs, const YarnFriction& yar
   return energy;
 }
 
-// What is exported must be no template.
+// Highway exports functions, not templates.
 void solve_stretch_inside(std::span<const EdgePack<Local>> packs, float longest, float inverse_h2, Point* p) {
   solve_stretch(packs, longest, inverse_h2, p);
 }

@@ -1,5 +1,5 @@
-// Eight constraints at a time where a machine has AVX2, four anywhere else. A vector is one or two blocks of
-// four lanes, as wide as a particle: block b of row k belongs to constraint 4 b + k.
+// Vectors of eight constraints with AVX2, and of four otherwise. A vector consists of one or two blocks of
+// four lanes, each as wide as a particle: block b of row k belongs to constraint 4 b + k.
 #if defined(BODICE_CLOTH_LANES_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_CLOTH_LANES_INL_
 #undef BODICE_CLOTH_LANES_INL_
@@ -36,7 +36,7 @@ HWY_INLINE void write_points(Point* p, const Id* id, Lanes v) {
   store(p[id[0]], __builtin_shufflevector(v, v, 0, 1, 2, 3));
   store(p[id[4]], __builtin_shufflevector(v, v, 4, 5, 6, 7));
 }
-/// Lane k of each block in all of it.
+/// Copies lane k of each block to all lanes of the block.
 template <int k>
 HWY_INLINE Lanes spread(Lanes v) {
   return __builtin_shufflevector(v, v, k, k, k, k, 4 + k, 4 + k, 4 + k, 4 + k);

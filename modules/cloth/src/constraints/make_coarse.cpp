@@ -1,4 +1,5 @@
-// Nodes of the coarse levels, who carries whom, and which nodes are tied.
+// Construction of the coarse levels: the nodes, the particles that each represents, and the ties between
+// nodes.
 #include "constraints/coarse.hpp"
 
 #include <algorithm>
@@ -9,15 +10,15 @@
 namespace bodice::cloth {
 namespace {
 
-// Node spacings in median edges, coarsest first, and sweeps over each level's limits.
+// The spacing of nodes in median edges, coarsest level first, and the most sweeps over the ties.
 struct Spacing {
   double edges;
   int sweeps;
 };
 constexpr Spacing kSpacings[kMostLevels] = {{16.0, 8}, {4.0, 3}};
-constexpr double kNeighbors = 1.7;  // nodes this many spacings apart are tied
-constexpr double kReach = 1.7;      // a particle's parents lie within this many spacings
-constexpr std::size_t kFewNodes = 3;
+constexpr double kNeighbors = 1.7;    // nodes within this many spacings are tied
+constexpr double kReach = 1.7;        // the parents of a particle lie within this many spacings
+constexpr std::size_t kFewNodes = 3;  // a level with so few nodes is left out
 
 void pick_nodes(const geometry::TriMesh& mesh, ClothDistance& distance, double spacing, CoarseLevel& level) {
   std::vector<bool> covered(mesh.positions.size(), false);
@@ -71,7 +72,7 @@ Ties make_ties(const std::vector<Tie>& wanted, std::size_t nodes) {
   return out;
 }
 
-// The parents' shares, seen from the nodes.
+// Lists the particles of each node, with their shares.
 void list_children(CoarseLevel& level) {
   level.child_begin.assign(level.node.size() + 1, 0);
   for (const Parents& parents : level.parents)

@@ -1,4 +1,4 @@
-// A vector of edges: solved, and measured.
+// Solving and measuring a vector of edges.
 #if defined(BODICE_CLOTH_STRETCH_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_CLOTH_STRETCH_INL_
 #undef BODICE_CLOTH_STRETCH_INL_
@@ -20,7 +20,7 @@ HWY_INLINE void move_ends(Point* p, const Id* a, const Id* b, Lanes at_a, Lanes 
   write_points(p, b + k, at_b + spread<k>(to_b) * apart);
 }
 
-/// Solves the edges of the slots from `first` on. `longest`: length allowed, in rest lengths.
+/// Solves the edges in the slots from `first` on. `longest` is the allowed length, in rest lengths.
 template <class Id>
 HWY_INLINE void solve_edges(const EdgePack<Id>& pack, std::size_t first, Lanes longest, Lanes inverse_h2,
                             Point* p) {
@@ -35,8 +35,8 @@ HWY_INLINE void solve_edges(const EdgePack<Id>& pack, std::size_t first, Lanes l
   Lanes x = d[0], y = d[1], z = d[2], none = d[3];
   transpose_blocks(x, y, z, none);
   const Lanes length = square_root(x * x + y * y + z * z + kTinyLength2);
-  // The larger of (length - rest) / yielding and (length - limit) / w, over the length, by one division; the
-  // second is above the first only beyond the limit.
+  // This is the larger of (length - rest) / yielding and (length - limit) / w, over the length, with one
+  // division. The second exceeds the first only beyond the limit.
   const Lanes rest = read(&pack.rest_m[first]);
   const Lanes w = wa + wb + kTinyWeight, yielding = w + read(&pack.compliance[first]) * inverse_h2;
   const Lanes soft = (length - rest) * w, hard = (length - longest * rest) * yielding;
@@ -48,7 +48,7 @@ HWY_INLINE void solve_edges(const EdgePack<Id>& pack, std::size_t first, Lanes l
   move_ends<3>(p, a, b, at_a[3], at_b[3], d[3], to_a, to_b);
 }
 
-/// Strains of the slots from `first` on; returns twice their energies, joules.
+/// Measures the strains of the edges in the slots from `first` on; returns twice their energies, joules.
 template <class Id>
 HWY_INLINE Lanes measure_edges(const EdgePack<Id>& pack, std::size_t first, const Point* p, Lanes& strain) {
   Lanes d[4];

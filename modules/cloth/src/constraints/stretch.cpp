@@ -1,9 +1,12 @@
 // Based on: Miles Macklin, Matthias Mueller, Nuttapong Chentanez. XPBD: Position-Based Simulation of
-// Compliant Constrained Dynamics. 2016. - eq. (18); Miles Macklin et al. Small Steps in Physics Simulation.
-// 2019. Stiffness of an edge: Allen Van Gelder. Approximate Simulation of Elastic Membranes by Triangulated
-// Spring Meshes. 1998. - eq. (20) with zero Poisson ratio. Differs: one sweep a substep, so that the
-// multiplier starts at zero and is never stored; the diagonal of a quad carries the shear modulus; beyond the
-// strain limit an edge is rigid.
+// Compliant Constrained Dynamics. 2016. - eq. (18)
+// Based on: Miles Macklin, Kier Storey, Michelle Lu, Pierre Terdiman, Nuttapong Chentanez, Stefan Jeschke,
+// Matthias Mueller. Small Steps in Physics Simulation. 2019.
+// Based on: Allen Van Gelder. Approximate Simulation of Elastic Membranes by Triangulated Spring Meshes.
+// 1998.
+// - eq. (20) with zero Poisson ratio (the stiffness of an edge)
+// Differs: with one sweep a substep the multiplier starts at zero and is not stored. The diagonal of a quad
+// has the shear modulus. Beyond the strain limit an edge is rigid.
 #include "constraints/stretch.hpp"
 
 #include <algorithm>
@@ -17,14 +20,14 @@
 namespace bodice::cloth {
 namespace {
 
-// Lengths of substeps, in seconds: above it a second sweep over a block, which is in the cache already, lets
-// cloth hang a quarter less too long. Below it gravity moves a particle by a few steps of its floats, and
-// what a second correction rounds away is more than what it gains.
+// Substeps longer than this get a second sweep over a block, which is in the cache already; it lowers the
+// excess length of hanging cloth by a quarter. In shorter substeps gravity moves a particle by a few units of
+// rounding, and a second correction loses more to rounding than it gains.
 constexpr float kWorthTwoSweeps_s = 3e-4f;
 
-// Newtons a meter of elongation. A strip of length l and width w is E w / l, and the triangles of an edge
-// have the area l w. A diagonal of length l feels the shear angle g as the strain g A / l^2, the quad holds
-// G g^2 A / 2, hence k = G l^2 / A.
+// The stiffness of an edge, newtons a meter of elongation. That of a strip of length l and width w is E w /
+// l, and the triangles of an edge have the area l w. In a quad with the shear angle g, a diagonal of length l
+// has the strain g A / l^2, and the quad stores G g^2 A / 2; hence k = G l^2 / A.
 double edge_stiffness(const Edge& edge, double length, const Fabric& fabric) {
   const double shape = edge.area_m2 / (length * length);
   return edge.diagonal ? fabric.shear_n_m / shape : fabric.stretch_n_m * shape;

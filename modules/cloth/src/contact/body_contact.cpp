@@ -1,7 +1,8 @@
-// Friction on positions: within a substep the tangential displacement of a touching particle is taken back as
-// far as the cone allows, so that a garment at rest does not creep by g h a substep.
-// Based on: Matthias Mueller et al. Detailed Rigid Body Simulation with Extended Position Based Dynamics.
-// 2020. - section 3.5 (static friction on positions, zero restitution on velocities)
+// Friction acts on positions: the tangential displacement of a touching particle in a substep is reduced as
+// far as the friction cone allows, so that a garment at rest does not creep by g h a substep. Based on:
+// Matthias Mueller, Miles Macklin, Nuttapong Chentanez, Stefan Jeschke, Tae-Yong Kim. Detailed Rigid Body
+// Simulation with Extended Position Based Dynamics. 2020. - section 3.5 (static friction on positions, zero
+// restitution)
 #include "contact/body_contact.hpp"
 
 #include <algorithm>
@@ -15,8 +16,8 @@
 namespace bodice::cloth {
 namespace {
 
-// How fast a particle that is deeper than its last path explains is brought out: a garment that begins two
-// centimeters inside is out after a frame, and neighbors feel no jerk.
+// The speed at which a particle that was inside before its last step is moved out. A garment that begins two
+// centimeters inside is out after a frame, without a jerk for neighboring particles.
 constexpr float kRecovery_m_s = 1.0f;
 
 collision::Particles view(Particles& p, std::size_t begin, std::size_t end, bool with_velocities) {
@@ -34,8 +35,9 @@ void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end,
   for (std::size_t i = begin; i < end; ++i) p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
 }
 
-// The push out is `depth` along n. Friction may take back that much times mu of the displacement along the
-// surface, against the body's material, which comes `carried` far; no velocity against it is left along n.
+// Applies friction to a pushed particle and sets its velocity. The push has the length `depth` along n.
+// Friction removes up to mu times that of the displacement along the surface, relative to the body's
+// material, which moved by `carried`. The velocity along n becomes that of the material.
 void friction_and_velocity(Particles& p, std::size_t i, Float4 carried, float mu, float inverse_h) {
   const Point& before = p.point[i];
   const float px = p.x[i] - before.x, py = p.y[i] - before.y, pz = p.z[i] - before.z;
@@ -53,7 +55,8 @@ void friction_and_velocity(Particles& p, std::size_t i, Float4 carried, float mu
   p.vz[i] = (kept * tz + carried[2]) * inverse_h;
 }
 
-struct Meeting {
+// What all patches of a body contact pass share.
+struct BodyContact {
   const collision::Collider* collider;
   collision::ResolveOptions how;
   float friction;
@@ -63,9 +66,9 @@ struct Meeting {
   bool paper() const { return how.response == collision::Response::kPaper; }
 };
 
-// A pin goes where the host wants it, whatever the body says. Its velocity, too: with that of a push, it
-// would go that far in every substep of the frame that is left.
-void put_back(Particles& p, std::size_t i, float inverse_h) {
+// Undoes a push of a pin, because the host sets its position. The velocity is undone as well, or the push
+// would repeat in every remaining substep of the frame.
+void restore_pin(Particles& p, std::size_t i, float inverse_h) {
   const Point& before = p.point[i];
   p.x[i] = before.x, p.y[i] = before.y, p.z[i] = before.z;
   p.vx[i] = (p.x[i] - p.old_x[i]) * inverse_h;
@@ -73,43 +76,44 @@ void put_back(Particles& p, std::size_t i, float inverse_h) {
   p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
 }
 
-void respond(Particles& p, ContactState& s, std::size_t i, const Meeting& meeting) {
+void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& contact) {
   const Point& before = p.point[i];
-  if (p.inverse_mass[i] == 0.0f) put_back(p, i, meeting.inverse_h);
+  if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.inverse_h);
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
-  if (!s.touching[i] || meeting.paper()) return;
-  const Float4 carried = (meeting.share.end - meeting.share.begin) * load(s.carry.by[i]);
-  friction_and_velocity(p, i, carried, meeting.friction, meeting.inverse_h);
+  if (!s.touching[i] || contact.paper()) return;
+  const Float4 carried = (contact.share.end - contact.share.begin) * load(s.motion.by[i]);
+  friction_and_velocity(p, i, carried, contact.friction, contact.inverse_h);
 }
 
-// The collider sees the clusters that may touch, in runs as long as they come.
-void meet_patch(const engine::Context& alone, const Meeting& meeting, std::size_t begin, std::size_t end,
-                ContactState& s, Particles& p) {
+// Resolves the contacts of a patch. Only clusters that may touch the body go to the collider, in runs of
+// consecutive ones.
+void resolve_patch(const engine::Context& alone, const BodyContact& contact, std::size_t begin,
+                   std::size_t end, ContactState& s, Particles& p) {
   ContactPatch& patch = s.patch[begin / kPatch];
-  std::size_t first = begin;  // of the run so far
-  auto meet_run = [&](std::size_t last) {
+  std::size_t first = begin;  // where the current run begins
+  auto resolve_run = [&](std::size_t last) {
     if (first == last) return;
     const std::int64_t begin_ns = alone.clock->now_ns();
     patch.report.add(
-        s.carry.moving && !meeting.paper()
-            ? meet_carried(alone, *meeting.collider, meeting.how, s.carry, meeting.share, first, last, p)
-            : meeting.collider->resolve(alone, view(p, first, last, meeting.paper()), meeting.how));
+        s.motion.moving && !contact.paper()
+            ? resolve_moving(alone, *contact.collider, contact.how, s.motion, contact.share, first, last, p)
+            : contact.collider->resolve(alone, view(p, first, last, contact.paper()), contact.how));
     patch.spent_ns += alone.clock->now_ns() - begin_ns;
-    if (!meeting.paper()) velocities_from_positions(p, first, last, meeting.inverse_h);
-    for (std::size_t i = first; i < last; ++i) respond(p, s, i, meeting);
+    if (!contact.paper()) velocities_from_positions(p, first, last, contact.inverse_h);
+    for (std::size_t i = first; i < last; ++i) respond(p, s, i, contact);
   };
   for (std::size_t from = begin; from < end; from += kCluster) {
     const std::size_t to = std::min(from + kCluster, end);
     if (may_touch(p, from, to, s.clearance)) continue;
-    meet_run(from);
-    if (!meeting.paper()) velocities_from_positions(p, from, to, meeting.inverse_h);
+    resolve_run(from);
+    if (!contact.paper()) velocities_from_positions(p, from, to, contact.inverse_h);
     std::fill_n(&s.touching[from], to - from, std::uint8_t{0});
     first = to;
   }
-  meet_run(end);
+  resolve_run(end);
 }
 
-// From four points to the positions, if they are finite.
+// Copies four points to the positions; false if they are not finite.
 bool take_four(Particles& p, std::size_t i) {
   const Point* const point = &p.point[i];
   Float4 x = load(point[0]), y = load(point[1]), z = load(point[2]), weight = load(point[3]);
@@ -120,7 +124,8 @@ bool take_four(Particles& p, std::size_t i) {
   return true;
 }
 
-// From the points to the positions. A particle that is not finite goes back to where the substep began.
+// Copies points to the positions. A particle that is not finite returns to its position at the start of the
+// substep.
 std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end) {
   std::uint32_t limits = 0;
   for (std::size_t i = begin; i < end; ++i) {
@@ -141,8 +146,8 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 ContactState make_contacts(std::size_t particles) {
   ContactState s;
   s.touching.assign(particles, 0);
-  s.clearance = make_clearance(particles);
-  s.carry.by.resize(particles), s.carry.ahead.resize(particles);
+  s.clearance = make_clearance_cache(particles);
+  s.motion.by.resize(particles), s.motion.ahead.resize(particles);
   s.patch.resize(engine::block_count(particles, kPatch));
   return s;
 }
@@ -151,35 +156,35 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
                          const SolverOptions& options, double frame_s, double travel_m, Particles& particles,
                          ContactState& s) {
   const std::int64_t begin_ns = context.clock->now_ns();
-  // The paper's response goes by its own distances and takes surface velocities by itself.
+  // The paper's response has distances of its own and uses surface velocities by itself.
   const collision::Collider* body = options.response == collision::Response::kPaper ? nullptr : collider;
-  begin_carry(context, moved ? body : nullptr, frame_s, particles, s.carry);
-  begin_clearance(context, s.carry.moving ? nullptr : body, options.thickness_m, travel_m, s.touching,
-                  particles, s.clearance);
+  begin_motion_frame(context, moved ? body : nullptr, frame_s, particles, s.motion);
+  begin_clearance_frame(context, s.motion.moving ? nullptr : body, options.thickness_m, travel_m, s.touching,
+                        particles, s.clearance);
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
 }
 
-std::uint32_t meet_body(const engine::Context& context, const collision::Collider* collider,
-                        const SolverOptions& options, float friction, const Substep& substep, ContactState& s,
-                        Particles& p) {
+std::uint32_t resolve_body_contacts(const engine::Context& context, const collision::Collider* collider,
+                                    const SolverOptions& options, float friction, const Substep& substep,
+                                    ContactState& s, Particles& p) {
   const bool paper = options.response == collision::Response::kPaper;
-  const Meeting meeting = {collider,
-                           {.response = options.response,
-                            .thickness_m = static_cast<float>(options.thickness_m),
-                            .friction = paper ? friction : 0.0f,
-                            .max_push_m = kRecovery_m_s * substep.length_s},
-                           friction,
-                           1.0f / substep.length_s,
-                           substep.share};
-  engine::Context alone = context;  // a patch is one worker's
+  const BodyContact contact = {collider,
+                               {.response = options.response,
+                                .thickness_m = static_cast<float>(options.thickness_m),
+                                .friction = paper ? friction : 0.0f,
+                                .max_push_m = kRecovery_m_s * substep.length_s},
+                               friction,
+                               1.0f / substep.length_s,
+                               substep.share};
+  engine::Context alone = context;  // one worker resolves a whole patch
   alone.executor = &engine::inline_executor();
   std::atomic<std::uint32_t> limits{0};
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     if (const std::uint32_t reset = take_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
-    if (paper || collider == nullptr) velocities_from_positions(p, begin, end, meeting.inverse_h);
-    if (collider != nullptr) meet_patch(alone, meeting, begin, end, s, p);
+    if (paper || collider == nullptr) velocities_from_positions(p, begin, end, contact.inverse_h);
+    if (collider != nullptr) resolve_patch(alone, contact, begin, end, s, p);
   });
   return limits.load();
 }

@@ -1,5 +1,5 @@
-// Contact with the body at the end of a substep: the collider moves particles out, this adds Coulomb friction
-// on positions, against the body's material, and takes the velocity that pushing out would give.
+// The body contact pass at the end of a substep. The collider moves particles out; this adds Coulomb friction
+// on positions, relative to the body's material, and removes the velocity that the push would give.
 #pragma once
 
 #include <cstdint>
@@ -15,16 +15,18 @@ namespace bodice::cloth {
 
 static_assert(kPatch % kCluster == 0);
 
+/// What happened to a patch of particles since the frame began.
 struct ContactPatch {
-  collision::ContactReport report;  ///< since the frame began
-  std::int64_t spent_ns = 0;        ///< inside the collider, since the frame began
+  collision::ContactReport report;
+  std::int64_t spent_ns = 0;  ///< time inside the collider
 };
 
+/// The state of body contact.
 struct ContactState {
-  std::vector<std::uint8_t> touching;  ///< #P, moved by the collider in the last substep
+  std::vector<std::uint8_t> touching;  ///< #P: whether the collider moved the particle in the last substep
   std::vector<ContactPatch> patch;     ///< #P / kPatch
-  Clearance clearance;
-  Carry carry;
+  ClearanceCache clearance;
+  BodyMotion motion;
 };
 
 /// One of a frame's substeps.
@@ -33,21 +35,23 @@ struct Substep {
   FrameShare share;
 };
 
+/// The state for so many particles.
 ContactState make_contacts(std::size_t particles);
 
-/// `moved`: as moves(*collider) has it; `travel_m`: as begin_clearance() has it.
+/// Begins a frame. `collider` may be null: there is no body. `moved` is the result of is_moving(*collider);
+/// `travel_m` is as in begin_clearance_frame().
 void begin_contact_frame(const engine::Context& context, const collision::Collider* collider, bool moved,
                          const SolverOptions& options, double frame_s, double travel_m, Particles& particles,
                          ContactState& state);
 
-/// Takes the positions from the points, where the constraints left them, and moves them out of the body;
-/// old_* are those at the start of the substep. Sets the velocities of all particles. `collider` may be null:
-/// no body. Returns FrameLimit bits: a particle that is not finite goes back to where the substep began.
-std::uint32_t meet_body(const engine::Context& context, const collision::Collider* collider,
-                        const SolverOptions& options, float friction, const Substep& substep,
-                        ContactState& state, Particles& particles);
+/// Copies the points, which constraints moved, to the positions, moves these out of the body, and sets the
+/// velocities of all particles; old_* are the positions at the start of the substep. `collider` may be null:
+/// there is no body. A particle that is not finite returns to its old position. Returns FrameLimit bits.
+std::uint32_t resolve_body_contacts(const engine::Context& context, const collision::Collider* collider,
+                                    const SolverOptions& options, float friction, const Substep& substep,
+                                    ContactState& state, Particles& particles);
 
-/// What happened since begin_contact_frame().
+/// Adds what happened since begin_contact_frame() to the report.
 void report_contacts(const ContactState& state, FrameReport& report);
 
 }  // namespace bodice::cloth

@@ -11,14 +11,17 @@
 namespace bodice::cloth {
 namespace {
 
-constexpr int kFewestBits = 12;        // 16 cells a row, 256 rows: near ones stay apart
-constexpr int kSlotsAParticle = 1;     // more would leave the caches, which costs more than far cells met
-constexpr double kGolden = 0.381966;   // skew of the lattice, in rows: its shortest vector is the longest
-constexpr float kFarthestCell = 1e8f;  // beyond it, integers would overflow
+constexpr int kFewestBits =
+    12;  // at least 16 cells a row and 256 rows, so that near cells have slots of their own
+constexpr int kSlotsAParticle =
+    1;  // more slots would leave the caches, which costs more than points of far cells
+constexpr double kGolden = 0.381966;   // skew of the lattice, in rows, with the longest shortest vector
+constexpr float kFarthestCell = 1e8f;  // beyond this cell, integers would overflow
 
-constexpr int kChapterBits = 7;  // chapters of the table: some for each worker, few enough to count fast
+constexpr int kChapterBits =
+    7;  // chapters of the table: several for each worker, and few enough to count fast
 constexpr std::size_t kChapters = std::size_t{1} << kChapterBits;
-constexpr std::size_t kBlocks = 32;  // of points; each counts chapters on its own
+constexpr std::size_t kBlocks = 32;  // blocks of points; each counts the chapters on its own
 
 std::size_t block_grain(std::size_t points) {
   return std::max(kParticleGrain, points / kBlocks + 1);
@@ -45,7 +48,7 @@ CellGrid::CellGrid(float cell_m, std::size_t points) {
 CellGrid::Cell CellGrid::cell_of(const Point& at) const {
   auto cell = [&](float value) {
     const float at_cell = std::clamp(value * per_cell_, -kFarthestCell, kFarthestCell);
-    const int whole = static_cast<int>(at_cell);  // toward zero; std::floor would be a call
+    const int whole = static_cast<int>(at_cell);  // rounded toward zero; std::floor would be a function call
     return whole - (static_cast<float>(whole) > at_cell ? 1 : 0);
   };
   return {cell(at.x), cell(at.y), cell(at.z)};
@@ -80,25 +83,25 @@ void CellGrid::fill(const engine::Context& context, std::span<const Point> point
   begin_.back() = static_cast<Index>(points.size());
 }
 
-// From counts to places: chapter by chapter, in each the blocks in their order, so that entries stay
-// ascending.
+// Turns counts into offsets: chapter by chapter, and in each block by block, so that entries stay ascending.
 void CellGrid::begin_chapters(std::size_t blocks) {
-  Index place = 0;
+  Index offset = 0;
   for (std::size_t c = 0; c < kChapters; ++c) {
-    chapter_begin_[c] = place;
-    for (std::size_t b = 0; b < blocks; ++b) place += std::exchange(chapter_next_[b * kChapters + c], place);
+    chapter_begin_[c] = offset;
+    for (std::size_t b = 0; b < blocks; ++b)
+      offset += std::exchange(chapter_next_[b * kChapters + c], offset);
   }
-  chapter_begin_[kChapters] = place;
+  chapter_begin_[kChapters] = offset;
 }
 
-// A counting sort of the chapter's points by slot.
+// Sorts the chapter's points by slot, by counting.
 void CellGrid::sort_chapter(std::size_t chapter) {
   const Index first = chapter_begin_[chapter], last = chapter_begin_[chapter + 1];
   const std::size_t slots = std::size_t{1} << chapter_shift_;
   Index* const ends = &begin_[chapter * slots];
   std::fill_n(ends, slots, 0);
   for (Index k = first; k < last; ++k) ++begin_[staged_[k].slot];
-  for (Index place = first; Index & end : std::span(ends, slots)) end = place += end;
+  for (Index offset = first; Index & end : std::span(ends, slots)) end = offset += end;
   for (Index k = last; k-- > first;) {
     const Staged& from = staged_[k];
     const Index to = --begin_[from.slot];

@@ -9,86 +9,87 @@
 namespace bodice::cloth {
 namespace {
 
-/// Meters of distance that a meter of travel takes off at most, beyond a rise at once.
+/// Bounds how a distance falls with travel: by at most slope times the travel, plus rise_m.
 struct Steepness {
   float slope, rise_m;
 };
 constexpr Steepness kPlain = {1.0f, 0.0f};
-// Tables of relief are steep in places. On five made bodies (seeds 0, 3, 5, 7 and 11, three poses) 1.4
-// million ways each of 0.5 to 40 mm toward the surface took at most 2.3 mm more than twice their length.
+// Tables of relief are steep at some points. On five made bodies (seeds 0, 3, 5, 7 and 11, three poses), 1.4
+// million paths of 0.5 to 40 mm toward the surface lowered the distance by at most 2.3 mm more than twice
+// their length.
 constexpr Steepness kRelief = {2.0f, 3e-3f};
-// Travel asked for, in that expected: constraints pull some particles faster than gravity does.
-constexpr float kSpare = 2.0f;
-constexpr double kFar_m = 1e6;
-// Where fewer clusters are far, asking costs more than it spares; how many frames to wait then.
-constexpr std::size_t kWorthAsking = 8;
+constexpr float kSpare =
+    2.0f;  // the query band covers this times the expected travel: constraints pull some faster
+constexpr double kFar_m = 1e6;  // bounds the query band
+// If fewer than one cluster in kWorthQueries is clear, queries cost more than they save, and pause for kWait
+// frames.
+constexpr std::size_t kWorthQueries = 8;
 constexpr int kWait = 15;
 
-/// How far from the body it matters how far.
-struct Reach {
-  float touch_m = 0.0f;  // nearer may touch without a way
-  float free_m = 0.0f;   // beyond
+/// The query band: distances beyond it need not be exact.
+struct QueryBand {
+  float touch_m = 0.0f;  // a nearer particle may touch without moving
+  float free_m = 0.0f;   // width of the band beyond touch_m
 };
 
-// Distances of the particles [begin, end), whole clusters, and what each cluster may travel.
-void ask_run(const collision::Collider& body, const Reach& reach, std::size_t begin, std::size_t end,
-             Particles& p, Clearance& c) {
+// Queries the particles [begin, end), which are whole clusters, and sets how far each cluster may travel.
+void query_run(const collision::Collider& body, const QueryBand& band, std::size_t begin, std::size_t end,
+               Particles& p, ClearanceCache& c) {
   if (begin == end) return;
   const engine::Context alone{.executor = &engine::inline_executor()};
   const collision::Particles run{.count = end - begin, .x = &p.x[begin], .y = &p.y[begin], .z = &p.z[begin]};
   body.query(alone, run, std::span(c.nearest).subspan(begin, end - begin),
-             {.within_m = reach.touch_m + reach.free_m});
+             {.within_m = band.touch_m + band.free_m});
   for (std::size_t i = begin; i < end; ++i) {
     float& free_m = c.free_m[i / kCluster];
-    free_m =
-        std::min(i % kCluster == 0 ? reach.free_m : free_m, c.nearest[i].signed_distance - reach.touch_m);
+    free_m = std::min(i % kCluster == 0 ? band.free_m : free_m, c.nearest[i].signed_distance - band.touch_m);
   }
 }
 
-// Those of which one touched are near, and need no asking.
-void ask(const engine::Context& context, const collision::Collider& body, const Reach& reach,
-         std::span<const std::uint8_t> touching, Particles& p, Clearance& c) {
+// Queries all clusters without a touching particle; the others may touch anyway.
+void query_clusters(const engine::Context& context, const collision::Collider& body, const QueryBand& band,
+                    std::span<const std::uint8_t> touching, Particles& p, ClearanceCache& c) {
   engine::parallel_for(context, p.count(), kCluster * 16, [&](std::size_t begin, std::size_t end) {
-    std::size_t first = begin;  // of the run so far
+    std::size_t first = begin;  // where the current run begins
     for (std::size_t from = begin; from < end; from += kCluster) {
       const std::size_t to = std::min(from + kCluster, end);
       if (std::ranges::count(touching.subspan(from, to - from), 0) == static_cast<std::ptrdiff_t>(to - from))
         continue;
-      ask_run(body, reach, first, from, p, c);
+      query_run(body, band, first, from, p, c);
       c.free_m[from / kCluster] = 0.0f;
       first = to;
     }
-    ask_run(body, reach, first, end, p, c);
+    query_run(body, band, first, end, p, c);
   });
 }
 
 }  // namespace
 
-Clearance make_clearance(std::size_t particles) {
-  Clearance c;
+ClearanceCache make_clearance_cache(std::size_t particles) {
+  ClearanceCache c;
   c.free_m.assign(engine::block_count(particles, kCluster), 0.0f);
   c.nearest.resize(particles);
   return c;
 }
 
-void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
-                     double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
-                     Particles& particles, Clearance& c) {
+void begin_clearance_frame(const engine::Context& context, const collision::Collider* still_body,
+                           double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
+                           Particles& particles, ClearanceCache& c) {
   const bool wait = c.frames_without > 0 && --c.frames_without > 0;
   if (wait || still_body == nullptr) {
     std::ranges::fill(c.free_m, 0.0f);
     return;
   }
   const Steepness& steepness = still_body->has_relief() ? kRelief : kPlain;
-  const Reach reach = {static_cast<float>(thickness_m) + steepness.rise_m,
-                       kSpare * steepness.slope * static_cast<float>(std::min(kFar_m, travel_m))};
+  const QueryBand band = {static_cast<float>(thickness_m) + steepness.rise_m,
+                          kSpare * steepness.slope * static_cast<float>(std::min(kFar_m, travel_m))};
   c.slope = steepness.slope;
-  ask(context, *still_body, reach, touching, particles, c);
+  query_clusters(context, *still_body, band, touching, particles, c);
   const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });
-  if (static_cast<std::size_t>(far) * kWorthAsking < c.free_m.size()) c.frames_without = kWait;
+  if (static_cast<std::size_t>(far) * kWorthQueries < c.free_m.size()) c.frames_without = kWait;
 }
 
-bool may_touch(const Particles& p, std::size_t begin, std::size_t end, Clearance& c) {
+bool may_touch(const Particles& p, std::size_t begin, std::size_t end, ClearanceCache& c) {
   float& free_m = c.free_m[begin / kCluster];
   if (!(free_m > 0.0f)) return true;
   Float4 longest2 = splat(0.0f);

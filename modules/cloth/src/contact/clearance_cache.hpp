@@ -1,5 +1,5 @@
-// Who cannot meet the body in this frame: distances are asked once, and what a cluster of particles travels
-// since is taken off them. The collider sees the others only.
+// The clearance cache. Distances to the body are queried once a frame, and reduced by each cluster's travel.
+// A cluster that cannot have reached the body skips the collider.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,32 @@
 
 namespace bodice::cloth {
 
-/// Neighbors on the cloth; as many as a block of the collider's kernels.
+/// Particles in a cluster, which are neighbors on the cloth; as many as in a block of the collider.
 inline constexpr std::size_t kCluster = 64;
 
-struct Clearance {
-  std::vector<float> free_m;                ///< a cluster: may be traveled before one of it can touch
-  std::vector<collision::Contact> nearest;  ///< #P
-  float slope = 1.0f;                       ///< meters of distance that a meter of travel takes off at most
-  int frames_without = 0;                   ///< until distances are worth asking again
+/// How far each cluster may travel before one of its particles can touch the body.
+struct ClearanceCache {
+  std::vector<float> free_m;                ///< #clusters: the remaining travel; not above zero: it may touch
+  std::vector<collision::Contact> nearest;  ///< #P: scratch of the queries
+  float slope = 1.0f;                       ///< bound on how much a meter of travel lowers a distance
+  int frames_without = 0;                   ///< frames left without queries
 };
 
-Clearance make_clearance(std::size_t particles);
+/// The cache for so many particles.
+ClearanceCache make_clearance_cache(std::size_t particles);
 
-/// Begins a frame. Everything counts as near without a body that stands still (what one sweeps over says
-/// nothing to distances at its end), and for some frames after most was found near. `touching`: who was moved
-/// by the body in the substep before, #P. `travel_m`: nobody is expected to go farther in the frame;
-/// distances that this cannot use up are not asked for (who does go farther meets the collider in time).
-void begin_clearance(const engine::Context& context, const collision::Collider* still_body,
-                     double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
-                     Particles& particles, Clearance& clearance);
+/// Begins a frame. `still_body` is null if there is no body or it moves; then every cluster may touch,
+/// because distances at the end of a motion bound nothing on its path. So it is for some frames after most
+/// clusters were found near. touching   #P: whether the body moved the particle in the substep before
+/// travel_m   expected longest travel in the frame, which bounds the queried distances; a particle that
+/// travels farther is
+///            handled correctly, because its cluster then may touch
+void begin_clearance_frame(const engine::Context& context, const collision::Collider* still_body,
+                           double thickness_m, double travel_m, std::span<const std::uint8_t> touching,
+                           Particles& particles, ClearanceCache& clearance);
 
-/// Whether the particles [begin, end) of a cluster, moved from old_* to their positions, may touch now.
-bool may_touch(const Particles& particles, std::size_t begin, std::size_t end, Clearance& clearance);
+/// Whether the particles [begin, end) of a cluster, which moved from old_* to their positions, may touch the
+/// body now. Subtracts the travel from the cache.
+bool may_touch(const Particles& particles, std::size_t begin, std::size_t end, ClearanceCache& clearance);
 
 }  // namespace bodice::cloth

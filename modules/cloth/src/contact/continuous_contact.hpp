@@ -1,6 +1,6 @@
-// A body that moves shows the pose where its frame ends, but substeps fall in between. So each particle is
-// met as far on as the surface under it still has to go; friction holds it to the body's material instead of
-// to the world.
+// Contact with a moving body. The collider has the pose at the end of the frame, but substeps end before. So
+// each particle is displaced by the remaining motion of the surface near it before it is resolved, and
+// friction acts relative to the body's material.
 #pragma once
 
 #include <vector>
@@ -12,34 +12,36 @@
 
 namespace bodice::cloth {
 
-/// Particles a task of contact, and the most that meet_carried() takes.
+/// Particles a task of contact, and the most that resolve_moving() takes.
 inline constexpr std::size_t kPatch = 512;
 
-struct Carry {
-  float followed_m = 0.0f;   ///< who comes farther in a substep, against the body, is followed on its way
-  bool moving = false;       ///< in this frame
-  std::vector<Point> by;     ///< #P, meters in the frame, of the material nearest to each; zero if none moves
-  std::vector<Point> ahead;  ///< #P, its part along the surface's normal
+/// The motion of the body in a frame, near each particle.
+struct BodyMotion {
+  float ccd_threshold_m =
+      0.0f;                  ///< a longer path relative to the body in a substep takes continuous collision
+  bool moving = false;       ///< whether the body moves in this frame
+  std::vector<Point> by;     ///< #P: displacement in the frame of the nearest material, meters; zero at rest
+  std::vector<Point> ahead;  ///< #P: the component of `by` along the surface's normal
 };
 
-/// A substep's part of its frame, as shares of it.
+/// Begin and end of a substep, as fractions of its frame.
 struct FrameShare {
   float begin = 0.0f, end = 1.0f;
 };
 
-/// Whether anything of the body moved to where it is now.
-bool moves(const collision::Collider& body);
+/// Whether any ellipsoid of the body has a velocity.
+bool is_moving(const collision::Collider& body);
 
-/// Begins a frame in which the body comes to where it is now, `frame_s` after where it was; null: none moves.
-/// Cost: two queries a particle if it moves, nothing otherwise.
-void begin_carry(const engine::Context& context, const collision::Collider* moving_body, double frame_s,
-                 const Particles& particles, Carry& carry);
+/// Begins a frame of `frame_s` at the end of which the body has its current pose; null: no body moves. It
+/// costs two queries a particle if the body moves, and nothing otherwise.
+void begin_motion_frame(const engine::Context& context, const collision::Collider* moving_body,
+                        double frame_s, const Particles& particles, BodyMotion& motion);
 
-/// Moves the particles [begin, end) out of a moving body as it stands at the end of a substep; old_* is where
-/// they were at its begin.
-collision::ContactReport meet_carried(const engine::Context& context, const collision::Collider& body,
-                                      const collision::ResolveOptions& how, const Carry& carry,
-                                      const FrameShare& substep, std::size_t begin, std::size_t end,
-                                      Particles& particles);
+/// Moves the particles [begin, end) out of a moving body in its pose at the end of a substep; old_* are their
+/// positions at the start of the substep.
+collision::ContactReport resolve_moving(const engine::Context& context, const collision::Collider& body,
+                                        const collision::ResolveOptions& how, const BodyMotion& motion,
+                                        const FrameShare& substep, std::size_t begin, std::size_t end,
+                                        Particles& particles);
 
 }  // namespace bodice::cloth

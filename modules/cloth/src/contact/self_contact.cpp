@@ -12,28 +12,32 @@
 namespace bodice::cloth {
 namespace {
 
-// Radii: pairs this near may meet before the next search. A flat quad's free diagonal is 1.89 long: nearly
-// all pairs of smooth cloth would be such.
+// Distance in radii within which pairs are listed, because they may touch before the next search. The
+// diagonal of a flat quad without an edge is 1.89 long; with a larger distance, smooth cloth would consist of
+// pairs.
 constexpr float kSearch = 1.8f;
 
-// Reaches a cell: several particles share what is gathered round it, and few of that lie out of their reach.
+// Size of a cell in search distances: several particles share the points gathered around it, and few of these
+// are too far.
 constexpr float kCell = 2.0f;
 
-// A particle that lies on the body gives way this much less to another layer: what the body will take back
-// would let the outer layer sink into the inner one.
+// A particle on the body counts as so many times heavier against another layer. The body undoes its part of
+// the push, and the outer layer would sink into the inner one.
 constexpr float kTouchingMass = 8.0f;
 
-// Layers that begin too near part at this speed: a fold's width in a few frames.
+// The speed at which layers that begin too close move apart: a fold's width in a few frames.
 constexpr float kRecovery_m_s = 0.1f;
 
-constexpr std::size_t kBlock = 256;  // particles a task: few of a garment's touch, and those lie together
+constexpr std::size_t kBlock =
+    256;  // particles a task: few particles of a garment touch, and those are neighbors
 static_assert(kParticleGrain % kBlock == 0);
 
-constexpr double kFresh = 0.3;  // radii the fastest may travel between searches; 0.4 is the bound
+constexpr double kFresh = 0.3;  // travel of the fastest particle between searches, in radii; the bound is 0.4
 
+// Friction and the recovery speed in a substep.
 struct Rub {
   float friction;
-  float recovery_m;  // a substep
+  float recovery_m;
 };
 
 float distance2(const Point& a, const Point& b) {
@@ -48,7 +52,7 @@ Joined join(Index own, std::span<const Index> ring) {
   return out;
 }
 
-// Asked for each particle near another.
+// Whether an edge joins two particles. It is called for every pair of near particles.
 bool are_joined(const Joined& joined, const Ring& ring, Index i, Index j) {
   const auto id = static_cast<int>(j);
   const Int4 ids = {id, id, id, id};
@@ -65,9 +69,9 @@ void offer(SelfContact& s, Index i, Index j) {
   four.keep_m[at % 4] = std::min(s.radius_m, std::sqrt(distance2(s.rest[i], s.rest[j])));
 }
 
-constexpr std::size_t kMasked = 64;  // points whose nearness is one word
+constexpr std::size_t kMasked = 64;  // points in a mask of one word
 
-// Of the points from `first` on, a bit each that is near.
+// A mask of the points from `first` on that are near.
 std::uint64_t near_ones(const PointRun& points, std::size_t first, Float4 x, Float4 y, Float4 z,
                         Float4 reach2) {
   const std::size_t count = std::min(kMasked, points.count - first);
@@ -80,7 +84,7 @@ std::uint64_t near_ones(const PointRun& points, std::size_t first, Float4 x, Flo
   return count < kMasked ? near & ((std::uint64_t{1} << count) - 1) : near;
 }
 
-// Pairs of the points `inside` a slot with those `round` it.
+// Lists the pairs of points `inside` a slot with those `round` it.
 void find_close(const Ring& ring, const PointRun& inside, const PointRun& round, SelfContact& s) {
   const float reach_m = kSearch * s.radius_m;
   for (std::size_t k = 0; k < inside.count; ++k) __builtin_prefetch(&s.joined[inside.particle[k]]);
@@ -107,14 +111,14 @@ float length_of(Float4 v) {
   return std::sqrt(vv[0] + vv[1] + vv[2] + kTinyLength2);
 }
 
-// How far a particle has come in this substep.
+// The displacement of a particle in this substep.
 Float4 traveled(const Particles& p, Index i) {
   return xyz(load(p.point[i])) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f};
 }
 
-// What parts two particles that are too near: as far as they came toward each other, and out of what was too
-// near before at a bounded speed, for a push is a velocity and a fold that throws its sides about never
-// rests. Then friction, as on the body.
+// The correction between two particles that are too close. It undoes their approach in this substep, and
+// removes the rest at a bounded speed, because a push becomes a velocity and a fold with fast sides never
+// comes to rest. Friction is added as on the body.
 Float4 part(const Particles& p, const Rub& rub, Index i, Index j, float near_m) {
   const Float4 apart = xyz(load(p.point[i]) - load(p.point[j]));
   const float length = length_of(apart);
@@ -127,7 +131,7 @@ Float4 part(const Particles& p, const Rub& rub, Index i, Index j, float near_m) 
   return push * normal - held * tangent;
 }
 
-// Of four pairs of which `taken` are, a bit each that is too near.
+// A mask of the pairs that are too close, out of four of which the first `taken` are pairs.
 unsigned too_near(const Particles& p, const ClosePairs::Four& close, std::size_t taken, Index i) {
   const Float4 at = load(p.point[i]);
   Float4 d[4];
@@ -170,7 +174,7 @@ void list_active(const engine::Context& context, SelfContact& s) {
   });
 }
 
-// Calls visit(k) for each place k of `active` that is taken.
+// Calls visit(k) for each used index k of `active`.
 template <class Visit>
 void for_each_active(const engine::Context& context, const SelfContact& s, Visit&& visit) {
   engine::parallel_for(context, s.active.size(), kBlock, [&](std::size_t begin, std::size_t) {

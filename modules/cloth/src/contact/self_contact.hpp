@@ -1,5 +1,5 @@
-// Layers of one garment keep apart: particles repel each other. Not covered: edges and faces between
-// particles, and layers that already passed through each other (the side is not remembered).
+// Self-contact: particles of different layers repel each other. Edges and faces between particles are not
+// covered, nor are layers that passed through each other, because sides are not stored.
 #pragma once
 
 #include <limits>
@@ -13,45 +13,50 @@
 
 namespace bodice::cloth {
 
-inline constexpr std::size_t kMaxClose = 8;  ///< pairs kept a particle; the first in the grid's order
+inline constexpr std::size_t kMaxClose =
+    8;  ///< the most pairs of a particle: the first ones in the grid's order
 
-/// The first particles that edges join to one, itself last; itself where there are fewer.
+/// The first particles that edges join to a particle, which is the last entry itself and fills unused ones.
 struct Joined {
-  static constexpr std::size_t kFirst = 8;  ///< as most vertices of a mesh have at most
+  static constexpr std::size_t kFirst = 8;  ///< most vertices of a mesh have no more neighbors
   Int4 id[kFirst / 4];
 };
 
-/// The particles near one, four to a load; a line of the cache holds them all.
+/// The particles near a particle, in groups of four for a load; all fit into a cache line.
 struct alignas(64) ClosePairs {
   struct Four {
-    Index with[4] = {};    ///< places that are not taken name a particle, too
+    Index with[4] = {};    ///< unused entries have a valid index as well
     float keep_m[4] = {};  ///< distance that each pair must keep
   };
   Four four[kMaxClose / 4];
 };
 
+/// The state of self-contact.
 struct SelfContact {
-  float radius_m = 0.0f;  ///< particles are kept this far apart, or as far as they were at rest
-  double travel_m = std::numeric_limits<double>::infinity();  ///< of the fastest since the pairs were found
+  float radius_m = 0.0f;  ///< distance that particles keep, unless they were closer at rest
+  double travel_m =
+      std::numeric_limits<double>::infinity();  ///< of the fastest particle since the last search
   CellGrid grid;
-  std::vector<Point> rest;                ///< #P, meters, in the particles' frame of the start
+  std::vector<Point> rest;                ///< #P: positions at rest, meters, in the particles' first frame
   std::vector<Joined> joined;             ///< #P
   std::vector<ClosePairs> close;          ///< #P
   std::vector<std::uint8_t> close_count;  ///< #P
-  std::vector<Index> active;              ///< #P, from each block's first on: its particles with pairs
+  std::vector<Index> active;              ///< #P: from the start of each block, its particles with pairs
   std::vector<Index> active_count;        ///< #blocks
-  std::vector<Point> move;                ///< as active: meters, corrections of this sweep
+  std::vector<Point> move;                ///< as active: corrections of this sweep, meters
 };
 
+/// The state for a garment at rest, with particles that keep `radius_m` apart.
 SelfContact make_self_contact(const Particles& particles, const Ring& ring, double radius_m);
 
-/// Finds the pairs nearer than 1.8 times the radius, unless none of the last search can have been missed: two
-/// particles that each moved 0.4 radii since are still a radius apart. O(#P).
+/// Finds the pairs closer than 1.8 times the radius, unless those of the last search suffice: two particles
+/// that were farther apart and moved by up to 0.4 radii each are still a radius apart. O(#P).
 void find_close_pairs(const engine::Context& context, const Ring& ring, const Particles& particles,
                       SelfContact& self);
 
-/// One Jacobi sweep: each particle sums its pairs' corrections from the same positions, so that neither order
-/// nor workers matter; with Coulomb friction. `touching`: who lies on the body, #P.
+/// Makes one Jacobi sweep with Coulomb friction. Each particle sums its pairs' corrections from the same
+/// positions, so that neither their order nor the number of workers matters. `touching` is #P: whether the
+/// particle lies on the body.
 void push_apart(const engine::Context& context, const std::vector<std::uint8_t>& touching, float friction,
                 float substep_s, SelfContact& self, Particles& particles);
 

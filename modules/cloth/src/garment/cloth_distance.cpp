@@ -1,6 +1,6 @@
 // Based on: Edsger Dijkstra. A Note on Two Problems in Connexion with Graphs. 1959.
-// Differs: steps across a pair of triangles unfolded into a plane (edges alone are too long by 4 % on
-// average).
+// Differs: steps also cross pairs of triangles that are unfolded into a plane; paths along edges are 4 % too
+// long on average.
 #include "garment/cloth_distance.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ using geometry::Vec3;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Distance of the corners c and d with their triangles laid flat along the edge (a, b); infinite if the
-// straight line between them misses the edge.
+// The distance of the corners c and d with both triangles unfolded into a plane; infinite if the straight
+// line between them misses the edge (a, b).
 double unfolded(const geometry::TriMesh& mesh, const Hinge& h) {
   const Vec3& a = mesh.positions[h.a];
   const Vec3 edge = mesh.positions[h.b] - a, c = mesh.positions[h.c] - a, d = mesh.positions[h.d] - a;

@@ -8,11 +8,12 @@
 
 namespace bodice::cloth {
 
+/// Finds distances along a cloth; it keeps its memory between calls.
 class ClothDistance {
  public:
   ClothDistance(const geometry::TriMesh& mesh, const Topology& topology);
 
-  /// All particles within `radius_m` of `from` with their distance, nearest first. O(k log k).
+  /// The k particles within `radius_m` of `from` with their distances, nearest first. O(k log k).
   const std::vector<std::pair<double, Index>>& within(Index from, double radius_m);
 
  private:

@@ -10,8 +10,8 @@ namespace {
 using geometry::TriMesh;
 using geometry::Vec3;
 
-// Cosine of the angle opposite a quad's diagonal, up to which the quad counts as a rectangle (75 to 105
-// degrees): meshes of garments are mostly quads cut in two along warp and weft.
+// A quad counts as a rectangle up to this cosine of the angle opposite its diagonal (75 to 105 degrees).
+// Meshes of garments mostly consist of quads along warp and weft that are cut in two.
 constexpr double kRectangleCosine = 0.26;
 
 struct HalfEdge {

@@ -1,4 +1,4 @@
-// What the constraints hang on: the edges of a welded garment and the hinges across them.
+// The edges of a welded garment and the hinges across them, which constraints are made from.
 #pragma once
 
 #include <span>
@@ -10,10 +10,11 @@ namespace bodice::cloth {
 
 using geometry::Index;
 
+/// An edge between two particles.
 struct Edge {
   Index a = 0, b = 0;     ///< a < b
-  double area_m2 = 0.0;   ///< of all its triangles
-  bool diagonal = false;  ///< across a quad that was cut in two: carries shear, not stretch
+  double area_m2 = 0.0;   ///< area of all its triangles
+  bool diagonal = false;  ///< whether it is the diagonal of a quad, which resists shear in place of stretch
 };
 
 /// Two triangles (a, b, c) and (a, b, d) that share the edge (a, b).
@@ -21,12 +22,13 @@ struct Hinge {
   Index a = 0, b = 0, c = 0, d = 0;
 };
 
+/// All edges and hinges of a garment.
 struct Topology {
   std::vector<Edge> edges;    ///< sorted by (a, b)
   std::vector<Hinge> hinges;  ///< in the order of their edges; k - 1 for an edge with k triangles
 };
 
-/// The particles that edges join to each, in CSR form.
+/// The particles that edges join to each particle, in compressed rows.
 struct Ring {
   std::vector<Index> begin;  ///< #P + 1, offsets into neighbor
   std::vector<Index> neighbor;
@@ -36,9 +38,10 @@ struct Ring {
   }
 };
 
+/// The neighbors of all particles.
 Ring make_ring(const geometry::TriMesh& mesh, const Topology& topology);
 
-/// O(n log n). The winding of the triangles does not matter.
+/// Finds edges and hinges; the winding of the triangles does not matter. O(n log n).
 Topology find_topology(const geometry::TriMesh& mesh);
 
 }  // namespace bodice::cloth

@@ -17,7 +17,7 @@ using geometry::Triangle;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-// Twice the area over the square of the longest edge below which a triangle has no direction.
+// A triangle counts as flat if twice its area over the square of its longest edge is below this.
 constexpr double kFlatRelative = 1e-7;
 
 bool usable_indices(const TriMesh& mesh, const Triangle& t) {
@@ -56,7 +56,8 @@ std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance) {
   for (const Vec3& p : mesh.positions) {
     if (p.allFinite()) box.extend(p);
   }
-  // 2^40 cells a side keep the integers exact; a garment that large relative to its edges has no seams.
+  // 2^40 cells a side keep integers exact; a garment that is so large in comparison with its edges has no
+  // seams.
   const double cell = std::max(tolerance, box.empty() ? 0.0 : box.size().maxCoeff() * 0x1.0p-40);
   std::vector<Cell> cells;
   for (Index v = 0; v < mesh.positions.size(); ++v) {
@@ -68,12 +69,13 @@ std::vector<Cell> sorted_cells(const TriMesh& mesh, double tolerance) {
   return cells;
 }
 
-// Representative of each vertex: the lowest index of those linked by steps of at most `tolerance`.
+// The representative of each vertex: the lowest index among the vertices linked by steps of at most
+// `tolerance`.
 std::vector<Index> representatives(const TriMesh& mesh, double tolerance) {
   geometry::DisjointSets linked(mesh.positions.size());
   const std::vector<Cell> cells = sorted_cells(mesh, tolerance);
   for (const Cell& c : cells) {
-    for (int n = 0; n < 9; ++n) {  // the three cells along z are one run of the sorted list
+    for (int n = 0; n < 9; ++n) {  // three cells along z are one run of the sorted list
       const std::array<std::int64_t, 3> low = {c.key[0] + n / 3 - 1, c.key[1] + n % 3 - 1, c.key[2] - 1};
       for (auto it = std::lower_bound(cells.begin(), cells.end(), Cell{low, 0}); it != cells.end(); ++it) {
         if (it->key[0] != low[0] || it->key[1] != low[1] || it->key[2] > c.key[2] + 1) break;
@@ -88,8 +90,9 @@ std::vector<Index> representatives(const TriMesh& mesh, double tolerance) {
   return rep;
 }
 
-// Ends of an edge that is too short are one particle, too: the one that comes first and is none of another's.
-// So that no chain of short edges shrinks, nobody moves farther than `tolerance`.
+// Joins the ends of edges that are too short. The end with the lower index represents both, unless another
+// vertex represents it already. So no chain of short edges shrinks to a point, and no vertex moves farther
+// than `tolerance`.
 void join_short_edges(const TriMesh& mesh, double tolerance, std::vector<Index>& rep) {
   std::vector<std::pair<Index, Index>> edges;
   for (const Triangle& t : mesh.triangles) {
@@ -102,7 +105,7 @@ void join_short_edges(const TriMesh& mesh, double tolerance, std::vector<Index>&
   std::sort(edges.begin(), edges.end());
   std::vector<Index> joined(rep.size());
   std::iota(joined.begin(), joined.end(), Index{0});
-  for (const auto& [a, b] : edges)  // ascending in a: whether it joined another is settled
+  for (const auto& [a, b] : edges)  // edges ascend in a, so that it is known whether a joined another vertex
     if (joined[a] == a && joined[b] == b) joined[b] = a;
   for (Index& r : rep) r = joined[r];
 }
@@ -113,7 +116,7 @@ bool has_area(const TriMesh& mesh, const Triangle& t) {
   return std::isfinite(longest) && u.cross(v).norm() > kFlatRelative * longest;
 }
 
-// Triangles over representatives, without the flat and the repeated ones.
+// The triangles with representatives as corners, without flat and repeated ones.
 std::vector<Triangle> kept_triangles(const TriMesh& garment, const std::vector<Index>& rep) {
   std::vector<std::pair<Triangle, std::size_t>> keyed;
   std::vector<Triangle> over_reps;

@@ -1,8 +1,7 @@
-// A particle's share of the surface is a flat plate: the relative velocity along the normal is resisted with
-// the plate's drag coefficient, the velocity along the surface with skin friction. The component of the
-// normal force across the wind is the lift.
-// Based on: Sighard Hoerner. Fluid-Dynamic Drag. 1965. (plates: 1.17 square, 2 long; skin friction
-// 0.005-0.05)
+// A particle's share of the surface counts as a flat plate. The relative velocity along the normal meets the
+// plate's drag, and the velocity along the surface meets skin friction. The component of the normal force
+// across the wind is the lift. Based on: Sighard Hoerner. Fluid-Dynamic Drag. 1965. (plates: 1.17 if square,
+// 2 if long; skin friction 0.005 to 0.05)
 #include "motion/aerodynamics.hpp"
 
 #include <algorithm>
@@ -31,8 +30,8 @@ void update_triangles(const Particles& p, Air& air, std::size_t begin, std::size
   }
 }
 
-// Neighboring triangles may be wound against each other: each is turned to the first one's side, which is
-// right wherever the surface is not folded sharply.
+// Finds the normal and the area of a particle. Neighboring triangles may have opposite windings; each is
+// turned to the side of the first one, which is right unless the surface is folded sharply.
 void update_normal(Air& air, std::size_t i) {
   float sx = 0.0f, sy = 0.0f, sz = 0.0f, area = 0.0f;
   for (Index k = air.corner_begin[i]; k < air.corner_begin[i + 1]; ++k) {
@@ -105,7 +104,8 @@ void accelerate(const Environment& environment, const Air& air, float substep_s,
     const Float4 rx = load(&air.wind_x[i]) - vx, ry = load(&air.wind_y[i]) - vy,
                  rz = load(&air.wind_z[i]) - vz;
     const Float4 speed = square_root(rx * rx + ry * ry + rz * rz);
-    // dv/dt = k |r| r, implicit in r: the share k / (1 + k) of the relative velocity is taken over.
+    // dv/dt = k |r| r is implicit in r: the particle takes over the share k / (1 + k) of the relative
+    // velocity.
     const Float4 rate = pressure * load(&air.area_m2[i]) * speed * load(&p.inverse_mass[i]);
     const Float4 along = rate * kTangentCoefficient / (1.0f + rate * kTangentCoefficient);
     const Float4 across = rate * kNormalCoefficient / (1.0f + rate * kNormalCoefficient) - along;

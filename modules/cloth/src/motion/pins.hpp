@@ -1,4 +1,4 @@
-// Vertices that the host holds.
+// Pins: particles with positions that the host sets.
 #pragma once
 
 #include <span>
@@ -8,18 +8,19 @@
 
 namespace bodice::cloth {
 
+/// The pins of a garment.
 struct Pins {
-  std::vector<Index> particle;  ///< one a pin of make(); kNoIndex: dropped
-  std::vector<Vec3> to;         ///< world meters, at the end of the frame
+  std::vector<Index> particle;  ///< #pins: the particle of each; kNoIndex: it was dropped
+  std::vector<Vec3> to;         ///< #pins: the position at the end of the frame, world meters
 };
 
-/// Whether any target is new.
+/// Sets targets; false if none is new.
 bool set_pin_targets(std::span<const Vec3> world_positions, Pins& pins);
 
-/// Gives each pin the velocity that takes it to its target in `time_s`.
+/// Gives each pin the velocity with which it reaches its target in `time_s`.
 void aim_pins(const Pins& pins, double time_s, Particles& particles);
 
-/// The frame is over: the pins are where they were to be, free of rounding.
+/// Puts the pins on their targets at the end of a frame, without rounding of the substeps.
 void settle_pins(const Pins& pins, Particles& particles);
 
 }  // namespace bodice::cloth

@@ -6,7 +6,7 @@
 namespace bodice::cloth {
 namespace {
 
-// Slows particle i to the travel allowed; puts it to rest if its velocity is not finite.
+// Slows particle i to the top speed, or stops it if its velocity is not finite.
 std::uint32_t bound_velocity(Particles& p, std::size_t i, float top_speed) {
   const float v2 = p.vx[i] * p.vx[i] + p.vy[i] * p.vy[i] + p.vz[i] * p.vz[i];
   if (v2 <= top_speed * top_speed || p.inverse_mass[i] == 0.0f) return 0;
@@ -21,7 +21,7 @@ struct Velocity {
   Float4 x, y, z;
 };
 
-// Those that nothing but the host or the end of sleep moves get their velocity back.
+// Damps the velocities of free particles, and restores those of pinned and sleeping ones.
 void keep_held(const Velocity& before, std::size_t i, Float4 weight, Float4 damping, Particles& p) {
   const auto free = weight > splat(0.0f);
   store(&p.vx[i], free ? damping * load(&p.vx[i]) : before.x);
@@ -32,12 +32,12 @@ void keep_held(const Velocity& before, std::size_t i, Float4 weight, Float4 damp
 bool any_faster(const Particles& p, std::size_t i, float top_speed) {
   const Float4 x = load(&p.vx[i]), y = load(&p.vy[i]), z = load(&p.vz[i]);
   const Float4 v2 = x * x + y * y + z * z;
-  const float limit = top_speed * top_speed;  // written so that NaN is faster, too
+  const float limit = top_speed * top_speed;  // the comparison below counts NaN as faster
   return !(v2[0] <= limit && v2[1] <= limit && v2[2] <= limit && v2[3] <= limit);
 }
 
-// Four points at (x, y, z), fewer at the end: what is behind it is what idle slots name.
-void place(Float4 x, Float4 y, Float4 z, Float4 weight, std::size_t count, Point* point) {
+// Writes four points at (x, y, z), or fewer at the end, because idle slots use the points beyond it.
+void write_points(Float4 x, Float4 y, Float4 z, Float4 weight, std::size_t count, Point* point) {
   Float4 at[4] = {x, y, z, weight};
   transpose(at[0], at[1], at[2], at[3]);
   for (std::size_t k = 0; k < count; ++k) store(point[k], at[k]);
@@ -58,9 +58,9 @@ std::uint32_t predict(const Environment& environment, const Air& air, const Pred
     keep_held(before, i, weight, damping, p);
     if (any_faster(p, i, how.top_speed_m_s))
       for (std::size_t k = i; k < last; ++k) limits |= bound_velocity(p, k, how.top_speed_m_s);
-    place(load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]),
-          load(&p.old_y[i]) + how.substep_s * load(&p.vy[i]),
-          load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]), weight, last - i, at + (i - begin));
+    write_points(load(&p.old_x[i]) + how.substep_s * load(&p.vx[i]),
+                 load(&p.old_y[i]) + how.substep_s * load(&p.vy[i]),
+                 load(&p.old_z[i]) + how.substep_s * load(&p.vz[i]), weight, last - i, at + (i - begin));
   }
   return limits;
 }

@@ -10,25 +10,27 @@
 namespace bodice::cloth {
 namespace {
 
-constexpr float kSlow_m_s = 0.010f;    // slower than this is resting: a sixth of a millimeter a frame
-constexpr float kWaking_m_s = 0.050f;  // a neighbor faster than this wakes
-constexpr float kQuiet_s = 0.5f;       // longer than the turning point of any swing that one can see
-// Who keeps this near to a place trembles; a drift as slow as resting leaves it in half of the time.
+constexpr float kSlow_m_s = 0.010f;    // a slower particle rests: a sixth of a millimeter a frame
+constexpr float kWaking_m_s = 0.050f;  // a faster neighbor wakes a particle
+constexpr float kQuiet_s =
+    0.5f;  // a particle sleeps after this time, longer than a visible swing takes to turn
+// A particle that stays this close to its anchor only trembles; a drift at kSlow_m_s leaves that in kQuiet_s
+// / 2.
 constexpr float kTremble_m = 0.5f * kSlow_m_s * kQuiet_s;
 
-bool stays(const Particles& p, std::size_t i, const Point& place) {
-  const float dx = p.x[i] - place.x, dy = p.y[i] - place.y, dz = p.z[i] - place.z;
+bool stays(const Particles& p, std::size_t i, const Point& anchor) {
+  const float dx = p.x[i] - anchor.x, dy = p.y[i] - anchor.y, dz = p.z[i] - anchor.z;
   return dx * dx + dy * dy + dz * dz < kTremble_m * kTremble_m;
 }
 
-// Speeds of particles [begin, end) over the frame; returns the largest.
+// Finds the speeds of the particles [begin, end) over the frame; returns the largest one.
 float find_speeds(const Particles& p, std::size_t begin, std::size_t end, float per_s, Sleep& sleep) {
   float fastest = 0.0f;
   for (std::size_t i = begin; i < end; ++i) {
     const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
                 dz = p.z[i] - sleep.start_z[i];
     sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
-    sleep.stays[i] = stays(p, i, sleep.place[i]);
+    sleep.stays[i] = stays(p, i, sleep.anchor[i]);
     fastest = std::max(fastest, sleep.speed[i]);
   }
   return fastest;
@@ -44,7 +46,7 @@ bool woken(const Ring& ring, std::size_t i, const Sleep& sleep) {
 Sleep make_sleep(std::size_t particles) {
   Sleep s;
   for (auto* a : {&s.start_x, &s.start_y, &s.start_z, &s.speed, &s.quiet_s}) a->assign(particles, 0.0f);
-  s.place.assign(particles, Point{}), s.stays.assign(particles, 0);
+  s.anchor.assign(particles, Point{}), s.stays.assign(particles, 0);
   return s;
 }
 
@@ -70,7 +72,7 @@ float end_sleep_frame(const engine::Context& context, const Ring& ring, double f
     for (std::size_t i = begin; i < end; ++i) {
       const bool quiet = (sleep.speed[i] < kSlow_m_s || sleep.stays[i]) && !woken(ring, i, sleep);
       sleep.quiet_s[i] = quiet ? std::min(kQuiet_s, sleep.quiet_s[i] + static_cast<float>(frame_s)) : 0.0f;
-      if (!quiet || !sleep.stays[i]) sleep.place[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
+      if (!quiet || !sleep.stays[i]) sleep.anchor[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
       if (sleeps(sleep, i)) p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
     }
   });

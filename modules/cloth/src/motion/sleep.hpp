@@ -1,5 +1,6 @@
-// Particles that hardly moved for a while hold still, so that a garment at rest is at rest. So do those that
-// only tremble: what a sweep leaves unsolved can swing a fold to and fro for ever where substeps are few.
+// Sleep: particles that hardly moved for a while hold still, so that a garment at rest does not move at all.
+// So do particles that only tremble: with few substeps, the errors that sweeps leave can swing a fold to and
+// fro forever.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +13,30 @@
 
 namespace bodice::cloth {
 
+/// How long each particle has been quiet.
 struct Sleep {
-  std::vector<float> start_x, start_y, start_z;  ///< #P, meters, at the start of the frame
-  std::vector<float> speed;                      ///< #P, meters a second, mean over the frame
-  std::vector<Point> place;                      ///< #P, meters, where the particle last was not quiet
-  std::vector<std::uint8_t> stays;               ///< #P, near that place
-  std::vector<float> quiet_s;                    ///< #P, how long the particle has been slow or near it
+  std::vector<float> start_x, start_y, start_z;  ///< #P: positions at the start of the frame, meters
+  std::vector<float> speed;                      ///< #P: mean speed over the frame, meters a second
+  std::vector<Point> anchor;        ///< #P: the position where the particle last was not quiet, meters
+  std::vector<std::uint8_t> stays;  ///< #P: whether the particle is near its anchor
+  std::vector<float> quiet_s;       ///< #P: how long the particle has been slow or near its anchor
 };
 
+/// The state for so many particles, all awake.
 Sleep make_sleep(std::size_t particles);
 
-/// A sleeping particle is one that the constraints cannot move.
+/// Whether a particle sleeps; constraints cannot move it then.
 bool sleeps(const Sleep& sleep, std::size_t particle);
 
+/// Stores the positions of the particles [begin, end) at the start of a frame.
 void begin_sleep_frame(const Particles& particles, std::size_t begin, std::size_t end, Sleep& sleep);
 
-/// Speeds of the frame; who falls asleep, and who wakes because a neighbor or the body moves it. Returns the
-/// largest speed.
+/// Finds the speeds of the frame, puts quiet particles to sleep, and wakes those that a neighbor or the body
+/// moves. Returns the largest speed.
 float end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& particles,
                       Sleep& sleep);
 
+/// Wakes all particles.
 void wake_all(Sleep& sleep);
 
 }  // namespace bodice::cloth

@@ -1,8 +1,8 @@
-// One frame: substeps of predict, solve, contact.
+// A frame: substeps of prediction, constraints and contact.
 // Based on: Miles Macklin, Kier Storey, Michelle Lu, Pierre Terdiman, Nuttapong Chentanez, Stefan Jeschke,
 // Matthias Mueller. Small Steps in Physics Simulation. 2019. - algorithm 1
-// Differs: coarse levels too. With several sweeps a substep each gets its share of the compliance instead
-// of a stored multiplier: soft constraints sum to the same force, stiff ones do not feel it.
+// Differs: there are coarse levels. With several sweeps a substep, each sweep has its share of the compliance
+// in place of a stored multiplier: soft constraints sum to the same force, and stiff ones are not affected.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -30,7 +30,8 @@ double fastest(const engine::Context& context, const Particles& p) {
   return static_cast<double>(std::sqrt(v2));
 }
 
-// Who takes part in this frame: pinned and sleeping particles have no weight. True if that changed.
+// Copies the particles [begin, end) to the points, with weights for this frame: pinned and sleeping particles
+// have none. True if a weight changed.
 bool load_points(const Sleep& sleep, std::size_t begin, std::size_t end, Particles& p) {
   bool changed = false;
   for (std::size_t i = begin; i < end; ++i) {
@@ -60,8 +61,8 @@ void solve_block(std::size_t block, bool bend, float inverse_h2, Patch& patch, S
   solve_stretch_block(s.stretch, block, inverse_h2, patch);
 }
 
-// Prediction and one sweep over the constraints inside blocks: a block's worker does both, while its patch of
-// cloth is at hand.
+// Predicts, and makes one sweep over the constraints inside blocks. One worker does both for a block, while
+// its patch of cloth is in the cache.
 std::uint32_t predict_and_sweep(const engine::Context& context, const Plan& plan, bool bend, float inverse_h2,
                                 State& s) {
   const Prediction how = {plan.substep_s, static_cast<float>(s.fabric.damping_per_s),
@@ -112,8 +113,8 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
   if (s.options.self_collision && !(plan.limits & kNoSelfContact))
     push_apart(context, s.contacts.touching, static_cast<float>(s.fabric.friction), plan.substep_s, s.self,
                p);
-  return limits | meet_body(context, collider, s.options, static_cast<float>(s.fabric.friction),
-                            {plan.substep_s, share(substep, plan)}, s.contacts, p);
+  return limits | resolve_body_contacts(context, collider, s.options, static_cast<float>(s.fabric.friction),
+                                        {plan.substep_s, share(substep, plan)}, s.contacts, p);
 }
 
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {
@@ -125,18 +126,19 @@ void end_frame(const engine::Context& context, const Plan& plan, State& s) {
     for (std::size_t i = begin; i < end; ++i) p.point[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};
   });
   s.self.travel_m += plan.simulated_s * static_cast<double>(fastest_m_s);
-  if (e.gust > 0.0 && e.wind_m_s != Vec3::Zero()) wake_all(s.sleep);  // the air never rests
+  if (e.gust > 0.0 && e.wind_m_s != Vec3::Zero()) wake_all(s.sleep);  // gusts never end
   s.time_s += plan.simulated_s;
 }
 
-// A body that moved or changed may have taken a sleeper's support away. Whether it moved.
-bool meet_collider(const collision::Collider* collider, State& s) {
+// Begins a frame with this body; returns whether it moves. A body that moved or changed may no longer support
+// a sleeping particle, so that all particles wake.
+bool begin_collider(const collision::Collider* collider, State& s) {
   const Vec3 before = s.particles.origin;
   if (collider != nullptr) rebase(s.particles, collider->origin());
-  const bool moved = collider != nullptr && moves(*collider);
-  // An address alone does not tell: a better proxy may be put in place of one.
+  const bool moved = collider != nullptr && is_moving(*collider);
+  // The address does not suffice: another proxy may have been assigned to the same object.
   const std::uint64_t proxy_hash = collider != nullptr ? collider->proxy_hash() : 0;
-  // Nor do speeds: a pose that was taken in no time has none.
+  // Velocities do not suffice either: a pose that was set in no time has none.
   const std::uint64_t poses = collider != nullptr ? collider->poses() : 0;
   if (moved || collider != s.last_collider || proxy_hash != s.last_proxy_hash || poses != s.last_poses ||
       before != s.particles.origin)
@@ -153,7 +155,7 @@ bool meet_collider(const collision::Collider* collider, State& s) {
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
                     State& s) {
   const std::int64_t start_ns = context.clock->now_ns();
-  const bool moved = meet_collider(collider, s);
+  const bool moved = begin_collider(collider, s);
   const Plan plan = plan_frame(s.options, dt_s, fastest(context, s.particles),
                                static_cast<double>(s.max_travel_m), s.budget.level);
   FrameReport report;
@@ -169,7 +171,7 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
   if (plan.substeps > 0) end_frame(context, plan, s);
   measure(context, s, report);
   report.frame_us = 1e-3 * static_cast<double>(context.clock->now_ns() - start_ns);
-  learn(s.options, report.frame_us, s.budget);
+  adjust_quality(s.options, report.frame_us, s.budget);
   return report;
 }
 

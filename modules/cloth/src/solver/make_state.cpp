@@ -8,27 +8,30 @@
 namespace bodice::cloth {
 namespace {
 
-// Share of the strain limit that coarse limits allow: distances along edges are 2 % too long as it is.
+// Limits of ties exceed distances along the cloth by this fraction of the strain limit; distances along edges
+// are 2 % too long anyway.
 constexpr double kCoarseSlack = 0.25;
 
-// Of the longest travel in a substep. A garment a meter across: 5 mm, within the radius of fingers.
-constexpr float kFollowed = 0.1f;
+// The threshold of continuous collision, a fraction of the longest travel in a substep: 5 mm for a garment a
+// meter across, which is within the radius of fingers.
+constexpr float kCcdThreshold = 0.1f;
 
-// Layers keep this share of the median edge apart: below 0.71 a particle passes through the middle of a quad.
+// The distance that layers keep, a fraction of the median edge. Below 0.71 a particle passes through the
+// middle of a quad.
 constexpr double kSelfRadius = 0.75;
 
-// Particles in Morton order; the map from vertices follows.
+// Puts the particles in Morton order and updates the map from vertices.
 void reorder(WeldedGarment& garment) {
   const std::vector<Index> order = morton_order(garment.mesh.positions);
-  std::vector<Index> place(order.size());
+  std::vector<Index> index(order.size());
   std::vector<Vec3> positions;
   for (Index i = 0; i < order.size(); ++i) {
-    place[order[i]] = i;
+    index[order[i]] = i;
     positions.push_back(garment.mesh.positions[order[i]]);
   }
   garment.mesh.positions = std::move(positions);
-  for (Triangle& t : garment.mesh.triangles) t = {place[t[0]], place[t[1]], place[t[2]]};
-  for (Index& p : garment.particle_of_vertex) p = p == geometry::kNoIndex ? p : place[p];
+  for (Triangle& t : garment.mesh.triangles) t = {index[t[0]], index[t[1]], index[t[2]]};
+  for (Index& p : garment.particle_of_vertex) p = p == geometry::kNoIndex ? p : index[p];
 }
 
 Pins make_pins(const WeldedGarment& garment, std::span<const Index> pinned,
@@ -58,8 +61,9 @@ std::vector<bool> pinned_particles(const Pins& pins, std::size_t particles) {
   return out;
 }
 
-// Where a dropped vertex is reported: its input place, or the garment's center if that is not finite.
-std::vector<Vec3> resting_places(const geometry::TriMesh& garment, const geometry::TriMesh& particles) {
+// The reported position of each vertex that is dropped: its input position, or the garment's center if that
+// is not finite.
+std::vector<Vec3> reported_positions(const geometry::TriMesh& garment, const geometry::TriMesh& particles) {
   const Vec3 center = geometry::bounding_box(particles.positions).center();
   std::vector<Vec3> out = garment.positions;
   for (Vec3& p : out) p = p.allFinite() ? p : center;
@@ -86,7 +90,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.stretch = make_stretch(mesh, topology, fabric, s.particles);
   s.bend = make_bend(mesh, topology, fabric, s.particles);
   s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
-  update_weights({}, s.particles, s.coarse);  // from here on, whenever somebody falls asleep or wakes
+  update_weights({}, s.particles, s.coarse);  // later whenever a particle falls asleep or wakes
   s.air = make_air(mesh);
   s.ring = make_ring(mesh, topology);
   s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
@@ -95,8 +99,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.scratch.resize(s.stretch.slots());
   s.selection = make_selection(std::max(s.stretch.slots(), s.particles.count()));
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());
-  s.contacts.carry.followed_m = kFollowed * s.max_travel_m;
-  s.input = resting_places(garment, mesh);
+  s.contacts.motion.ccd_threshold_m = kCcdThreshold * s.max_travel_m;
+  s.input = reported_positions(garment, mesh);
   s.particle_of_vertex = std::move(welded->particle_of_vertex);
   return s;
 }

@@ -8,6 +8,7 @@
 namespace bodice::cloth {
 namespace {
 
+// Sums over particles.
 struct Motion {
   double kinetic = 0.0, gravity = 0.0;  // joules
   std::size_t asleep = 0;
@@ -18,7 +19,8 @@ Motion add(const Motion& a, const Motion& b) {
   return {a.kinetic + b.kinetic, a.gravity + b.gravity, a.asleep + b.asleep, a.finite && b.finite};
 }
 
-// The 95th percentile is that of the longest 5 % of edges; idle slots and shortened edges hold no elongation.
+// The 95th percentile of the strain: 5 % of the edges are longer. Idle slots and shortened edges count as
+// zero.
 double strain_p95(const engine::Context& context, State& s) {
   const auto longer = static_cast<std::size_t>(0.05 * static_cast<double>(s.stretch.edges));
   return static_cast<double>(nth_largest(context, s.scratch, longer, s.selection));

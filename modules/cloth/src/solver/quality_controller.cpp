@@ -6,13 +6,14 @@
 namespace bodice::cloth {
 namespace {
 
-/// A frame shorter than this moves nothing that floats could tell, and the inverse square of its substeps
-/// would overflow.
+/// A shorter frame moves nothing within the precision of floats, and the inverse square of its substeps would
+/// overflow.
 constexpr double kLeastFrame_s = 1e-15;
-constexpr int kWorstLevel = 3;
-constexpr int kGoodFrames = 60;
-constexpr int kFewestSubsteps = 2;
+constexpr int kWorstLevel = 3;      // the level at which everything is dropped
+constexpr int kGoodFrames = 60;     // frames at half of the budget, after which quality rises by a level
+constexpr int kFewestSubsteps = 2;  // substeps are not halved below this
 
+/// The FrameLimit bits of a level.
 std::uint32_t dropped(int level) {
   return (level >= 1 ? kNoSelfContact : 0u) | (level >= 2 ? kBendingHalved : 0u) |
          (level >= 3 ? kSubstepsHalved : 0u);
@@ -29,19 +30,19 @@ Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s,
   }
   plan.simulated_s = std::min(dt_s, kMaxSubsteps * kMaxSubstep_s);
   plan.limits = dropped(level) | (plan.simulated_s < dt_s ? kTimeCut : 0u);
-  const int asked = level >= 3 ? std::max(kFewestSubsteps, options.substeps / 2) : options.substeps;
+  const int requested = level >= 3 ? std::max(kFewestSubsteps, options.substeps / 2) : options.substeps;
   plan.travel_m =
       plan.simulated_s * (top_speed_m_s + plan.simulated_s * options.environment.gravity_m_s2.norm());
   const double wanted =
-      std::max({static_cast<double>(asked), std::ceil(plan.simulated_s / kMaxSubstep_s - 1e-9),
+      std::max({static_cast<double>(requested), std::ceil(plan.simulated_s / kMaxSubstep_s - 1e-9),
                 std::ceil(plan.travel_m / max_travel_m)});
   plan.substeps = static_cast<int>(std::min(wanted, static_cast<double>(kMaxSubsteps)));
-  if (plan.substeps > asked) plan.limits |= kMoreSubsteps;
+  if (plan.substeps > requested) plan.limits |= kMoreSubsteps;
   plan.substep_s = static_cast<float>(plan.simulated_s / plan.substeps);
   return plan;
 }
 
-void learn(const SolverOptions& options, double frame_us, Budget& budget) {
+void adjust_quality(const SolverOptions& options, double frame_us, Budget& budget) {
   if (!(options.budget_us > 0.0)) return;
   budget.good_frames = frame_us < 0.5 * options.budget_us ? budget.good_frames + 1 : 0;
   if (frame_us > options.budget_us) {

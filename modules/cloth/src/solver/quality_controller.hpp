@@ -1,4 +1,4 @@
-// How many substeps a frame gets, and what it does without when frames are over their budget.
+// The number of substeps of a frame, and what frames leave out to stay within their budget.
 #pragma once
 
 #include <cstdint>
@@ -7,25 +7,29 @@
 
 namespace bodice::cloth {
 
+/// The substeps of a frame.
 struct Plan {
   int substeps = 0;
   float substep_s = 0.0f;
   double simulated_s = 0.0;
-  double travel_m = 0.0;     ///< of the fastest, falling, in the frame
+  double travel_m = 0.0;     ///< travel of the fastest particle in the frame if it falls
   std::uint32_t limits = 0;  ///< FrameLimit bits
 };
 
-/// `top_speed_m_s` of the particles now, `max_travel_m` a substep may move them, `level` of degradation.
+/// Plans a frame of `dt_s`. `top_speed_m_s` is the speed of the fastest particle, `max_travel_m` the most
+/// that a substep may move a particle, `level` that of the budget.
 Plan plan_frame(const SolverOptions& options, double dt_s, double top_speed_m_s, double max_travel_m,
                 int level);
 
-/// Levels of degradation; 0: none, each adds one of the budget's bits.
+/// The level of quality. At 0 nothing is dropped; each further level adds one of the budget's FrameLimit
+/// bits.
 struct Budget {
   int level = 0;
-  int good_frames = 0;
+  int good_frames = 0;  ///< consecutive frames at less than half of the budget
 };
 
-/// One level down after a frame over the budget, one up after a second of frames at half of it.
-void learn(const SolverOptions& options, double frame_us, Budget& budget);
+/// Lowers the quality by a level after a frame over the budget, and raises it by a level after kGoodFrames
+/// frames at less than half of the budget.
+void adjust_quality(const SolverOptions& options, double frame_us, Budget& budget);
 
 }  // namespace bodice::cloth

@@ -25,7 +25,7 @@ engine::Result<Solver> Solver::make(const geometry::TriMesh& garment, std::span<
 
 FrameReport Solver::step(const engine::Context& context, const collision::Collider& collider, double dt_s) {
   engine::Context whole = context;
-  whole.cancel = {};  // a frame stopped half-way would leave a garment that never was
+  whole.cancel = {};  // a frame canceled halfway would leave the garment in an invalid state
   return advance(whole, &collider, dt_s, impl_->state);
 }
 
@@ -36,7 +36,7 @@ FrameReport Solver::step(const engine::Context& context, double dt_s) {
 }
 
 void Solver::move_pins(std::span<const geometry::Vec3> world_positions) {
-  // Sleepers weigh nothing and would let their neighbors' edges be drawn out.
+  // Constraints cannot move sleeping particles, so that edges between them and moving pins would stretch.
   if (set_pin_targets(world_positions, impl_->state.pins)) wake_all(impl_->state.sleep);
 }
 

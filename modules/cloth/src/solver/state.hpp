@@ -1,3 +1,4 @@
+// The state of a solver.
 #pragma once
 
 #include <vector>
@@ -19,7 +20,7 @@
 
 namespace bodice::cloth {
 
-/// Everything a garment in motion is made of.
+/// A garment in motion, with its constraints and contacts.
 struct State {
   Fabric fabric;
   SolverOptions options;
@@ -34,14 +35,14 @@ struct State {
   SelfContact self;
   Sleep sleep;
   Budget budget;
-  const collision::Collider* last_collider = nullptr;  ///< compared, never read
+  const collision::Collider* last_collider = nullptr;  ///< compared with, never dereferenced
   std::uint64_t last_proxy_hash = 0, last_poses = 0;
-  std::vector<float> scratch;  ///< #slots of edges, strains
+  std::vector<float> scratch;  ///< strain of each slot of edges
   Selection selection;
-  float max_travel_m = 0.0f;  ///< a substep
-  double time_s = 0.0;
+  float max_travel_m = 0.0f;  ///< the most that a particle may move in a substep
+  double time_s = 0.0;        ///< simulated time
 
-  std::vector<Vec3> input;                ///< #V, where dropped vertices stay
+  std::vector<Vec3> input;                ///< #V: reported positions of dropped vertices
   std::vector<Index> particle_of_vertex;  ///< #V
   std::vector<engine::Warning> warnings;
 };
@@ -54,7 +55,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
                     State& state);
 
-/// Strains, speeds and energies of the present state; sets `finite`.
+/// Adds strains, speeds and energies of the current state to the report, and sets `finite`.
 void measure(const engine::Context& context, State& state, FrameReport& report);
 
 }  // namespace bodice::cloth

@@ -1,4 +1,4 @@
-// XPBD cloth with small substeps against a collider: the garment side of the paper's sections 4 and 5.
+// XPBD cloth with small substeps against a collider: the garments of the paper's sections 4 and 5.
 #pragma once
 
 #include <cstdint>
@@ -14,67 +14,75 @@
 
 namespace bodice::cloth {
 
+/// What acts on a garment besides the body.
 struct Environment {
   geometry::Vec3 gravity_m_s2 = {0.0, -9.81, 0.0};
   geometry::Vec3 wind_m_s = {0.0, 0.0, 0.0};
-  double gust = 0.0;  ///< 0..1, share of the wind that fluctuates
+  double gust = 0.0;  ///< share of the wind that fluctuates, 0 to 1
   double air_density_kg_m3 = 1.2;
 };
 
+/// How a garment is simulated.
 struct SolverOptions {
-  int substeps = 8;
-  int iterations = 1;          ///< constraint sweeps a substep
-  double thickness_m = 0.001;  ///< cloth kept this far from the proxy
-  bool self_collision = true;
+  int substeps = 8;            ///< substeps a frame; more of them make cloth stiffer
+  int iterations = 1;          ///< sweeps over the constraints a substep
+  double thickness_m = 0.001;  ///< distance that particles keep from the proxy
+  bool self_collision = true;  ///< whether layers of cloth keep apart
   collision::Response response = collision::Response::kClosestPoint;
   Environment environment;
-  std::uint64_t seed = 0;
-  /// Time a frame may take; 0: no budget. A frame above it makes the next ones do without, in this order:
-  /// self-contact, bending on every second substep, half of the substeps. The clock then takes part in the
-  /// result, so that equal bits are promised only without a budget.
+  std::uint64_t seed = 0;  ///< of the gusts
+  /// Time that a frame may take, microseconds; 0: no budget. After a frame above it, the next ones leave out,
+  /// in this order: self-contact, bending in every second substep, half of the substeps. The clock then
+  /// affects the result, so that equal bits are promised only without a budget.
   double budget_us = 0.0;
 };
 
-/// What a frame had to leave out or bound, as bits of FrameReport::limits.
+/// What a frame left out or bounded, as bits of FrameReport::limits.
 enum FrameLimit : std::uint32_t {
-  kTimeCut = 1u << 0,       ///< dt_s was above what kMaxSubsteps substeps may cover, the rest was dropped; or
-                            ///< under 1e-15 s, and all of it was
-  kMoreSubsteps = 1u << 1,  ///< more substeps than asked for, because dt_s or the speeds were large
-  kSpeedClamped = 1u << 2,  ///< a particle would have crossed kMaxTravel in a substep and was slowed
-  kParticlesReset = 1u << 3,  ///< a particle became NaN or infinite and was put back where it was
-  kNoSelfContact = 1u << 4,   ///< dropped for the budget
-  kBendingHalved = 1u << 5,   ///< for the budget: on every second substep only
-  kSubstepsHalved = 1u << 6   ///< for the budget
+  kTimeCut = 1u << 0,  ///< dt_s was longer than kMaxSubsteps substeps may be, and the rest was dropped; or it
+                       ///< was under 1e-15 s and was dropped
+  kMoreSubsteps =
+      1u << 1,  ///< there were more substeps than the option has, because dt_s or a speed was large
+  kSpeedClamped = 1u << 2,  ///< a particle was slowed, because it would have crossed kMaxTravel in a substep
+  kParticlesReset = 1u << 3,  ///< a particle became NaN or infinite and was returned to its last position
+  kNoSelfContact = 1u << 4,   ///< the budget dropped self-contact
+  kBendingHalved = 1u << 5,   ///< the budget dropped bending in every second substep
+  kSubstepsHalved = 1u << 6   ///< the budget dropped half of the substeps
 };
 
-/// A substep is never longer than this: beyond it a fold crosses the body's thin parts in one step.
+/// The longest substep: in a longer one a fold crosses thin parts of the body.
 inline constexpr double kMaxSubstep_s = 1.0 / 120.0;
-/// A frame never has more substeps than this, whatever dt_s.
+/// The most substeps of a frame, whatever dt_s.
 inline constexpr int kMaxSubsteps = 128;
-/// No particle moves further in a substep than this share of the rest garment's diagonal.
+/// How far a particle may move in a substep, as a fraction of the diagonal of the garment at rest.
 inline constexpr double kMaxTravel = 0.05;
 
+/// The state of a garment after a frame, and what the frame took.
 struct FrameReport {
   collision::ContactReport contacts;            ///< summed over the substeps
-  double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain, elongation only
-  double median_speed_m_s = 0.0;                ///< of the distances covered in the frame
+  double stretch_p95 = 0.0, stretch_max = 0.0;  ///< strain of edges, elongation only
+  double median_speed_m_s = 0.0;  ///< median over particles of the distance moved in the frame, a second
   double kinetic_energy_j = 0.0;
-  double gravity_energy_j = 0.0;  ///< potential, relative to the world's origin
-  double elastic_energy_j = 0.0;  ///< of edges and hinges as they stand, what a sweep left over included
-  double simulated_s = 0.0;       ///< dt_s, unless kTimeCut
-  double frame_us = 0.0;          ///< the step, by the context's clock
-  double collision_us = 0.0;      ///< inside the collider, summed over workers
-  std::size_t asleep = 0;         ///< particles that hold still
+  double gravity_energy_j = 0.0;  ///< potential energy, relative to the world's origin
+  double elastic_energy_j = 0.0;  ///< of all edges and hinges, including what sweeps left unsolved
+  double simulated_s = 0.0;       ///< dt_s, unless kTimeCut is set
+  double frame_us = 0.0;          ///< duration of the step, by the context's clock
+  double collision_us = 0.0;      ///< time inside the collider, summed over workers
+  std::size_t asleep = 0;         ///< number of particles that sleep
   int substeps = 0;
   std::uint32_t limits = 0;  ///< FrameLimit bits
-  bool finite = true;
+  bool finite = true;        ///< whether all positions and velocities are finite
 };
 
-/// One garment (or several layers together) in motion. Not thread-safe; one frame at a time.
+/// One garment, or several layers of cloth together, in motion. Not thread-safe: it makes one frame at a
+/// time.
 class Solver {
  public:
-  /// `garment` in world meters; vertices at one place are one particle, isolated ones are dropped and
-  /// reported. `pinned` are vertices of `garment` that do not move relative to the body.
+  /// garment  #V x 3, world meters. Vertices at the same position become one particle; isolated vertices are
+  /// dropped
+  ///          and reported as warnings.
+  /// pinned   vertices of `garment` that the host moves with move_pins().
+  /// Fails with kInvalidArgument (fabric or options out of range) or kUnusableGeometry (no usable triangle).
   static engine::Result<Solver> make(const geometry::TriMesh& garment,
                                      std::span<const geometry::Index> pinned, const Fabric& fabric,
                                      const SolverOptions& options);
@@ -82,27 +90,31 @@ class Solver {
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  /// Advances by dt_s (0 is a no-op that still reports). Allocates nothing once warm. A body that moves: call
-  /// collider.move_to(shapes, dt_s) before each step, and with the same shapes again once it stands still.
-  /// A frame begun is finished: the context's cancellation is not looked at.
+  /// Advances by dt_s; with 0 nothing moves, and the report is made. Allocates nothing once warm. For a body
+  /// that moves, call collider.move_to(shapes, dt_s) before each step, and once more with the same shapes
+  /// when it stops. The context's cancellation is ignored: a frame that has begun is finished.
   FrameReport step(const engine::Context& context, const collision::Collider& collider, double dt_s);
-  /// The same without a body.
+  /// Advances by dt_s without a body.
   FrameReport step(const engine::Context& context, double dt_s);
 
-  /// Where the pinned vertices are to be at the end of the next step, in the order given to make(); they
-  /// move there in a straight line over its substeps. Values that are not finite leave their pin where it is;
-  /// a new target wakes what sleeps.
+  /// Sets the positions of the pinned vertices at the end of the next step, in the order given to make().
+  /// They move there in a straight line over the substeps. A value that is not finite leaves its pin
+  /// unchanged; a new target wakes all sleeping particles.
   void move_pins(std::span<const geometry::Vec3> world_positions);
-  /// Gravity and air from the next step on; wakes what sleeps. kInvalidArgument as in make().
+  /// Sets gravity and air from the next step on, and wakes all sleeping particles. Fails with
+  /// kInvalidArgument as make().
   engine::Result<void> set_environment(const Environment& environment);
-  /// Gives every free particle this velocity, and wakes what sleeps.
+  /// Gives every free particle this velocity, and wakes all sleeping particles.
   void set_velocity(const geometry::Vec3& velocity_m_s);
 
+  /// The number of particles.
   std::size_t particles() const noexcept;
-  /// World positions of the input garment's vertices (#V of the garment), through the weld map.
+  /// Writes the world positions of the garment's vertices (#V).
   void positions(std::span<geometry::Vec3> out) const;
+  /// What make() dropped.
   std::span<const engine::Warning> warnings() const noexcept;
-  std::uint64_t hash() const noexcept;  ///< of positions and velocities
+  /// A hash of positions and velocities.
+  std::uint64_t hash() const noexcept;
 
  private:
   struct Impl;
