@@ -14,11 +14,11 @@ namespace {
 using namespace bodice;
 
 constexpr double kFrame_s = 1.0 / 60.0;
-constexpr int kWarmFrames = 30;  // in contact, folds begun
+constexpr int kWarmFrames = 30;  // until the cloth is in contact and begins to fold
 constexpr int kTurns = 20;
-constexpr int kTimedFramesATurn = 3;  // after one that finds the caches full of the others
+constexpr int kTimedFramesATurn = 3;  // after one frame that fills the processor's caches again
 
-/// A poncho in contact whose frames are timed one by one.
+/// A poncho in contact with the body, and the times of its frames.
 class TimedCloth {
  public:
   TimedCloth(std::size_t particles, int workers)
@@ -65,8 +65,8 @@ void print_row(const char* what, const char* unit, double value, double bar) {
 
 void print_bars() {
   TimedCloth small(10'000, 2), large(100'000, 2), alone(10'000, 1);
-  // In turns, so that a slow minute hits all alike, and as many frames of each: a poncho that has come to
-  // rest is cheaper than one that folds.
+  // The cloths take turns, so that a slow minute affects all of them alike. Each has the same number of
+  // frames, because a poncho at rest is cheaper than one that folds.
   for (int turn = 0; turn < kTurns; ++turn)
     for (TimedCloth* cloth : {&large, &small, &alone}) cloth->take_turn();
   std::printf("8 substeps, self-contact, two workers, %d frames in turns\n", kTurns * kTimedFramesATurn);

@@ -2,7 +2,7 @@
 
 namespace bench {
 
-/// What a frame may cost, with what it costs here beside it.
+/// Prints the bars on a frame's time, with the measured times beside them.
 void print_bars();
 
 }  // namespace bench

@@ -1,6 +1,6 @@
-// What does a frame of cloth cost, by particles, substeps and workers, and what does it buy?
-// The bars come first; --benchmark_filter=none leaves it at them. body:0 steps the same garment without the
-// body: the difference is what contact costs.
+// What does a frame of cloth cost, by particles, substeps and workers, and how much stretch is left?
+// The program prints the bars first; with --benchmark_filter=none it ends after them. Rows with body:0 step
+// the same garment without the body, so that the difference is the cost of contact.
 #include <benchmark/benchmark.h>
 
 #include "bars.hpp"

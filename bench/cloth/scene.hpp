@@ -4,10 +4,10 @@
 
 namespace bench {
 
-/// A torso of 9 by 10 ellipsoids: as many as a fitted body has.
+/// A torso of 9 by 10 ellipsoids, about as many as a fitted body has.
 bodice::collision::Collider torso();
 
-/// A poncho: a square sheet over the torso's top, about `particles` in all.
+/// A poncho: a square sheet of about `particles` vertices over the top of the torso.
 bodice::geometry::TriMesh poncho(std::size_t particles);
 
 }  // namespace bench

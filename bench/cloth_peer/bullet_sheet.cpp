@@ -11,6 +11,7 @@ namespace bench {
 
 using bodice::geometry::Vec3;
 
+/// Bullet's world with its parts, in the order in which they refer to each other.
 struct BulletSheet::World {
   btSoftBodyRigidBodyCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -38,7 +39,7 @@ std::unique_ptr<btSoftBody> make_soft_body(btSoftBodyWorldInfo& info, const bodi
   sheet->generateBendingConstraints(2, bending);
   sheet->m_cfg.piterations = 4;  // with one, 10k particles fly apart
   sheet->m_cfg.kDF = btScalar(0.45);
-  sheet->m_cfg.kKHR = 1;  // contact with what stands still; its default takes a tenth of the depth a sweep
+  sheet->m_cfg.kKHR = 1;  // hardness of contact with still bodies; by default a tenth of the depth a sweep
   sheet->m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
   sheet->getCollisionShape()->setMargin(static_cast<btScalar>(kThickness_m));
   sheet->setTotalMass(btScalar(0.14 * 1.44));
@@ -54,12 +55,12 @@ BulletSheet::BulletSheet(const bodice::geometry::TriMesh& mesh) : world_(std::ma
   w.world.getWorldInfo().m_gravity = gravity;
   auto& field = w.world.getWorldInfo().m_sparsesdf;
   field.Initialize();
-  field.setDefaultVoxelsz(btScalar(kRadius_m / 16));  // 0.25 m by default: between two nodes lies the ball
-  field.Reset();                                      // or the size does not count
-  btTransform place = btTransform::getIdentity();
-  place.setOrigin({btScalar(kCenter.x()), btScalar(kCenter.y()), btScalar(kCenter.z())});
+  field.setDefaultVoxelsz(btScalar(kRadius_m / 16));  // the default, 0.25 m, is the radius of the ball
+  field.Reset();                                      // applies the size
+  btTransform at_center = btTransform::getIdentity();
+  at_center.setOrigin({btScalar(kCenter.x()), btScalar(kCenter.y()), btScalar(kCenter.z())});
   btRigidBody::btRigidBodyConstructionInfo still(0, nullptr, &w.ball);
-  still.m_startWorldTransform = place;
+  still.m_startWorldTransform = at_center;
   w.body = std::make_unique<btRigidBody>(still);
   w.world.addRigidBody(w.body.get());
   w.sheet = make_soft_body(w.world.getWorldInfo(), mesh);

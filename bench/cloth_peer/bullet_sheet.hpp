@@ -7,8 +7,9 @@
 
 namespace bench {
 
-/// The scene as a soft body of Bullet's: links of full stiffness, bending links of a twentieth, contact of
-/// full hardness by its signed distance fields in voxels of a sixteenth of the ball, four sweeps a substep.
+/// The scene as a soft body of Bullet: links of full stiffness, bending links of a twentieth of it, four
+/// sweeps a substep, and contact of full hardness with signed distances in voxels of a sixteenth of the
+/// ball's radius.
 class BulletSheet {
  public:
   explicit BulletSheet(const bodice::geometry::TriMesh& mesh);
@@ -16,7 +17,7 @@ class BulletSheet {
   BulletSheet(const BulletSheet&) = delete;
   BulletSheet& operator=(const BulletSheet&) = delete;
 
-  void step();  ///< a frame of kSubsteps
+  void step();  ///< one frame of kSubsteps substeps
   std::vector<bodice::geometry::Vec3> positions() const;
 
  private:

@@ -1,4 +1,4 @@
-// A square sheet over a ball: the scene that both solvers get.
+// The scene of both solvers: a square sheet over a ball.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace bench {
 
 inline constexpr double kFrame_s = 1.0 / 60.0;
 inline constexpr int kSubsteps = 8;
-inline constexpr int kWarmFrames = 60;  ///< in contact, folds begun
+inline constexpr int kWarmFrames = 60;  ///< until the sheet is in contact and begins to fold
 inline constexpr double kRadius_m = 0.25;
 inline constexpr double kThickness_m = 0.002;
 inline const bodice::geometry::Vec3 kCenter = {0.0, 1.25, 0.0};
 
-/// side * side particles over 1.2 m, a centimeter above the ball.
+/// A square of side * side particles, 1.2 m wide, a centimeter above the ball.
 inline bodice::geometry::TriMesh sheet(int side) {
   bodice::geometry::TriMesh mesh;
   for (int j = 0; j < side; ++j)
@@ -34,7 +34,7 @@ inline bodice::geometry::TriMesh sheet(int side) {
   return mesh;
 }
 
-/// Elongation that 95 % of the triangles' sides keep below.
+/// The 95th percentile of the elongation of the triangles' sides, at least 0.
 inline double stretch_p95(const bodice::geometry::TriMesh& rest,
                           const std::vector<bodice::geometry::Vec3>& now) {
   std::vector<double> strain;

@@ -1,7 +1,6 @@
-// drape [--data DIR] [--only TEXT] [--cache DIR] [--sheet FILE.png]: every garment of the data folder on its
-// body for 300 frames of gusty wind and 300 calm ones; the bars stand over the columns. --substeps
-// 2,4,8,16,32 makes a table of what they buy. Of a garment there in two resolutions the outlines are
-// compared; --halve makes the second one. --turn 90 turns the bodies.
+// How does every garment of the data folder drape on its body? Each one hangs for 300 frames of gusty wind
+// and 300 calm ones; the bars are printed over the columns. --substeps 2,4,8,16,32 shows how the result
+// improves with substeps, --halve compares outlines of two resolutions, --turn 90 turns the bodies.
 #include <cstdio>
 #include <map>
 
@@ -13,7 +12,7 @@
 
 namespace {
 
-// Bars, in the columns' units; stretch is judged for the preset that the bar is stated for.
+// Bars, in the units of the columns. The bar on stretch is that of tryon's default fabric and substeps.
 constexpr double kSettledDeepest_mm = 3.0, kEndDeepest_mm = 1.0, kStretchP95_percent = 5.0,
                  kRestSpeed_mm_s = 1.0, kOutlines_percent = 2.0;
 
@@ -57,7 +56,7 @@ struct Hung {
   double stature_m = 0.0;
 };
 
-/// NAME_fine__BODY against NAME__BODY.
+/// Compares the outlines of NAME_fine__BODY and NAME__BODY.
 void print_outlines(const std::map<std::string, Hung>& hung) {
   for (const auto& [name, fine] : hung) {
     const std::size_t at = name.find("_fine__");
@@ -72,64 +71,74 @@ void print_outlines(const std::map<std::string, Hung>& hung) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  using namespace bodice;
+/// The command line, with its defaults.
+struct Arguments {
   std::string data = "../shared/data", only, cache, picture, fabric = "cotton", tier = "relief";
   std::vector<double> wind = {0.0, 0.0, 2.0};
+  std::vector<int> substeps = {bodice::tryon::DrapeOptions{}.solver.substeps};
   int workers = 2;
   double turn_deg_s = 0.0;
   bool also_halved = false;
-  std::vector<int> substeps = {bodice::tryon::DrapeOptions{}.solver.substeps};
-  bench::WearOptions options;
-  options.solver = bodice::tryon::DrapeOptions{}.solver;
-  options.solver.environment.gust = 0.3;
-  CLI::App app("Every garment of the data folder on its body");
-  app.add_option("--data", data, "folder with garments/ and bodies/");
-  app.add_option("--only", only, "garments whose name holds this");
-  app.add_option("--cache", cache, "folder that keeps the proxies from run to run");
-  app.add_option("--sheet", picture, "write a contact sheet, a PNG");
-  app.add_option("--fabric", fabric);
-  app.add_option("--tier", tier);
-  app.add_option("--frames", options.windy_frames, "frames with wind");
-  app.add_option("--calm", options.calm_frames, "frames without, after them");
-  app.add_option("--substeps", substeps, "one row each")->delimiter(',');
-  app.add_option("--iterations", options.solver.iterations, "sweeps a substep");
-  app.add_option("--wind", wind, "meters a second")->expected(3)->delimiter(',');
-  app.add_option("--gust", options.solver.environment.gust);
-  app.add_option("--threads", workers);
-  app.add_option("--turn", turn_deg_s, "degrees a second that the body turns");
-  app.add_flag("--halve", also_halved, "each garment again with its edges halved");
-  app.add_flag("--trace", options.trace, "a line every thirty frames");
-  CLI11_PARSE(app, argc, argv);
-  options.solver.environment.wind_m_s = {wind[0], wind[1], wind[2]};
-  options.fabric = cloth::find_fabric(fabric).value();
-  options.turn_rad_s = turn_deg_s * kRadians;
+  bench::WearOptions wear = {.solver = bodice::tryon::DrapeOptions{}.solver};
+};
 
-  const auto executor = engine::make_tbb_executor(workers);
+void add_options(CLI::App& app, Arguments& a) {
+  app.add_option("--data", a.data, "folder with garments/ and bodies/");
+  app.add_option("--only", a.only, "only garments with this text in their names");
+  app.add_option("--cache", a.cache, "folder that keeps the proxies from run to run");
+  app.add_option("--sheet", a.picture, "write a contact sheet, a PNG");
+  app.add_option("--fabric", a.fabric, "the fabric of all garments");
+  app.add_option("--tier", a.tier, "the tier of all proxies");
+  app.add_option("--frames", a.wear.windy_frames, "frames with wind");
+  app.add_option("--calm", a.wear.calm_frames, "frames without wind, after them");
+  app.add_option("--substeps", a.substeps, "numbers of substeps, a row for each")->delimiter(',');
+  app.add_option("--iterations", a.wear.solver.iterations, "sweeps a substep");
+  app.add_option("--wind", a.wind, "wind, meters a second")->expected(3)->delimiter(',');
+  app.add_option("--gust", a.wear.solver.environment.gust, "strength of gusts, a share of the wind");
+  app.add_option("--threads", a.workers, "workers");
+  app.add_option("--turn", a.turn_deg_s, "turns the body, degrees a second");
+  app.add_flag("--halve", a.also_halved, "each garment again with its edges halved");
+  app.add_flag("--trace", a.wear.trace, "a line every thirty frames");
+}
+
+/// Drapes every garment; false if the contact sheet cannot be written.
+bool drape_all(Arguments a) {
+  using namespace bodice;
+  a.wear.solver.environment.wind_m_s = {a.wind[0], a.wind[1], a.wind[2]};
+  a.wear.fabric = cloth::find_fabric(a.fabric).value();
+  a.wear.turn_rad_s = a.turn_deg_s * kRadians;
+  const auto executor = engine::make_tbb_executor(a.workers);
   const engine::Context context{.executor = executor.get()};
   bench::Sheet sheet;
   std::map<std::string, Hung> hung;
   print_head();
-  for (const bench::Outfit& outfit : bench::find_outfits(data, only, also_halved)) {
+  for (const bench::Outfit& outfit : bench::find_outfits(a.data, a.only, a.also_halved)) {
     const bench::Body body =
-        bench::load_body(context, outfit.body, proxy::tier_from_name(tier).value(), cache);
+        bench::load_body(context, outfit.body, proxy::tier_from_name(a.tier).value(), a.cache);
     const tryon::WornGarment garment = bench::load_garment(context, outfit, body);
     bench::Wear worn;
-    for (const int count : substeps) {
-      options.solver.substeps = count;
-      worn = bench::wear(context, body, garment, options);
-      print_row(substeps.size() > 1 ? std::to_string(count) + " " + outfit.name : outfit.name, worn);
-      if (turn_deg_s != 0.0) std::printf("  behind its body by %.2f degrees\n", worn.behind_rad / kRadians);
+    for (const int count : a.substeps) {
+      a.wear.solver.substeps = count;
+      worn = bench::wear(context, body, garment, a.wear);
+      print_row(a.substeps.size() > 1 ? std::to_string(count) + " " + outfit.name : outfit.name, worn);
+      if (a.turn_deg_s != 0.0) std::printf("  behind its body by %.2f degrees\n", worn.behind_rad / kRadians);
     }
     sheet.add(body, garment, worn.end);
     hung[outfit.name] = {{worn.end, garment.mesh.triangles}, body.proxy.stature_m()};
   }
   print_outlines(hung);
-  if (!picture.empty() && !sheet.write(picture)) {
-    std::fprintf(stderr, "could not write %s\n", picture.c_str());
-    return 1;
-  }
-  return 0;
+  return a.picture.empty() || sheet.write(a.picture);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  arguments.wear.solver.environment.gust = 0.3;
+  CLI::App app("Every garment of the data folder on its body");
+  add_options(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  if (drape_all(arguments)) return 0;
+  std::fprintf(stderr, "could not write %s\n", arguments.picture.c_str());
+  return 1;
 }

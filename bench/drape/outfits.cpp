@@ -23,7 +23,7 @@ T or_exit(engine::Result<T> result) {
   std::exit(1);
 }
 
-/// Each triangle as four, cut at the middles of its edges.
+/// The mesh with each triangle cut in four at the middles of its edges.
 geometry::TriMesh halve_edges(const geometry::TriMesh& mesh) {
   geometry::TriMesh fine{.positions = mesh.positions};
   std::map<std::pair<geometry::Index, geometry::Index>, geometry::Index> middle;

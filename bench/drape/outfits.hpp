@@ -12,15 +12,15 @@ namespace bench {
 struct Outfit {
   std::string name;
   std::filesystem::path garment, body;
-  bool halved = false;  ///< its edges: each triangle is four
+  bool halved = false;  ///< whether its edges are halved: each triangle becomes four
 };
 
-/// Those of garments.json whose name holds `only`; each followed by NAME_fine__BODY, its edges halved, if
-/// asked for.
+/// The outfits of garments.json with `only` in their names. With `also_halved`, each one is followed by
+/// NAME_fine__BODY with halved edges.
 std::vector<Outfit> find_outfits(const std::filesystem::path& data, const std::string& only,
                                  bool also_halved);
 
-/// What a drape needs of a body.
+/// A body as a drape needs it: skin and proxy.
 struct Body {
   bodice::tryon::SegmentedSkin skin;
   bodice::proxy::BodyProxy proxy;

@@ -9,14 +9,15 @@ using bodice::geometry::Index;
 using bodice::geometry::TriMesh;
 using bodice::geometry::Vec3;
 
-/// Bodies stand on a diagonal, so that none hides another from the front or from the side.
+/// Columns of bodies are moved to the right and back alike, so that no body hides another from the front or
+/// from the side.
 constexpr int kColumns = 7;
 constexpr double kColumn_m = 1.8, kRow_m = 2.1;
 
 void append(const std::vector<Vec3>& positions, const std::vector<bodice::geometry::Triangle>& triangles,
-            const Vec3& place, TriMesh& to) {
+            const Vec3& offset, TriMesh& to) {
   const auto first = static_cast<Index>(to.positions.size());
-  for (const Vec3& p : positions) to.positions.push_back(p + place);
+  for (const Vec3& p : positions) to.positions.push_back(p + offset);
   for (const auto& t : triangles) to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
@@ -28,9 +29,9 @@ void Sheet::add(const Body& body, const bodice::tryon::WornGarment& garment,
   ++count_;
   const TriMesh& skin = body.skin.input.skin;
   const Vec3 middle = bodice::geometry::bounding_box(skin.positions).center();
-  const Vec3 place(kColumn_m * column - middle.x(), -kRow_m * row, kColumn_m * column - middle.z());
-  append(skin.positions, skin.triangles, place, bodies_);
-  append(positions, garment.mesh.triangles, place, garments_.mesh);
+  const Vec3 offset(kColumn_m * column - middle.x(), -kRow_m * row, kColumn_m * column - middle.z());
+  append(skin.positions, skin.triangles, offset, bodies_);
+  append(positions, garment.mesh.triangles, offset, garments_.mesh);
 }
 
 bool Sheet::write(const std::filesystem::path& png) const {

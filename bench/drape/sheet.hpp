@@ -6,7 +6,7 @@
 
 namespace bench {
 
-/// A contact sheet: every outfit as it hangs at the end, from the front and from the left.
+/// A contact sheet of all outfits at the end of their windy frames, from the front and from the left.
 class Sheet {
  public:
   void add(const Body& body, const bodice::tryon::WornGarment& garment,

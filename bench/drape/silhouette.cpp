@@ -12,8 +12,9 @@ using bodice::geometry::TriMesh;
 using bodice::geometry::Vec3;
 
 constexpr double kRow_m = 0.01;
-constexpr int kSamples = 8;  // a side, so that a coarse mesh has as dense an outline as a fine one
+constexpr int kSamples = 8;  // of each side, so that the outline of a coarse mesh has no gaps
 
+/// The extent of a row of an outline.
 struct Interval {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
@@ -41,6 +42,7 @@ double distance(double at, int row, const Outline& to) {
   return nearest;
 }
 
+/// How far `from` reaches beyond `to`.
 double beyond(const Outline& from, const Outline& to) {
   double most = 0.0;
   for (const auto& [row, interval] : from)

@@ -13,7 +13,7 @@ using namespace bodice;
 using geometry::Vec3;
 
 constexpr double kFrame_s = 1.0 / 60.0;
-constexpr int kFirstFrames = 10;  // a garment that starts inside may take them to come out
+constexpr int kFirstFrames = 10;  // a garment that starts inside the body may take so long to come out
 
 double mean_height(const std::vector<Vec3>& positions) {
   double sum = 0.0;
@@ -21,7 +21,7 @@ double mean_height(const std::vector<Vec3>& positions) {
   return sum / static_cast<double>(positions.size());
 }
 
-/// The body's pose: turned about the vertical through its middle.
+/// The pose of a body that turns about the vertical through its middle.
 class Turntable {
  public:
   Turntable(const proxy::BodyProxy& proxy, const Vec3& middle) : middle_(middle) {
@@ -39,7 +39,7 @@ class Turntable {
   }
   void carry(std::vector<Vec3>& rest_to_now) const { rotate(rotation(), rest_to_now); }
   void carry_back(std::vector<Vec3>& now_to_rest) const { rotate(rotation().transpose(), now_to_rest); }
-  /// Mean angle from one state to the other.
+  /// Mean angle about the vertical from one set of positions to the other.
   double angle_between(const std::vector<Vec3>& from, const std::vector<Vec3>& to) const {
     double sine = 0.0, cosine = 0.0;
     for (std::size_t v = 0; v < from.size(); ++v) {

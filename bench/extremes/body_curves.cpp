@@ -19,52 +19,53 @@ using geometry::TriMesh;
 using geometry::Vec3;
 
 constexpr double kRefused = std::numeric_limits<double>::infinity();
-constexpr unsigned kBody = kScale | kOffset;  // a human body has but one aspect
-constexpr double kBall = 0.3;                 // radius of what the sheet falls on, in sizes
+constexpr unsigned kBody = kScale | kOffset;  // the aspect of a human body is fixed
+constexpr double kBall = 0.3;                 // radius of the ball under the sheet, in sizes
 constexpr int kVertices = 1500, kEllipsoids = 24;
 
-/// One body and what is found where it was made.
-class Home {
+/// A body at the origin, in meters; errors compare a scaled and moved copy of it with the original.
+class BodyAtOrigin {
  public:
-  Home() : body_(synth::make_body({}, {.vertices = kVertices}).value()) {}
+  BodyAtOrigin() : body_(synth::make_body({}, {.vertices = kVertices}).value()) {}
 
-  /// Landmarks found elsewhere, carried back.
-  double landmark_error(const Place& place) const {
-    const auto home = anatomy::analyze({}, body_.mesh, {.profile = profile_});
-    const auto there = anatomy::analyze({}, at(place), {.profile = profile_});
-    if (!home || !there) return kRefused;
+  /// The largest distance between a landmark of the copy, mapped back to the original, and the landmark that
+  /// the original gives.
+  double landmark_error(const Placement& placement) const {
+    const auto origin = anatomy::analyze({}, body_.mesh, {.profile = profile_});
+    const auto there = anatomy::analyze({}, at(placement), {.profile = profile_});
+    if (!origin || !there) return kRefused;
     double worst = 0.0;
-    for (std::size_t k = 0; k < home->landmarks.size(); ++k) {
-      const Vec3 back = back_home(there->landmarks[k].position, place);
-      worst = std::max(worst, (back - home->landmarks[k].position).norm());
+    for (std::size_t k = 0; k < origin->landmarks.size(); ++k) {
+      const Vec3 back = to_origin(there->landmarks[k].position, placement);
+      worst = std::max(worst, (back - origin->landmarks[k].position).norm());
     }
     return worst / body_.stature_m;
   }
 
-  double label_error(const Place& place) const {
-    const auto home = anatomy::analyze({}, body_.mesh, {.profile = profile_});
-    const auto there = anatomy::analyze({}, at(place), {.profile = profile_});
-    if (!home || !there) return kRefused;
+  double label_error(const Placement& placement) const {
+    const auto origin = anatomy::analyze({}, body_.mesh, {.profile = profile_});
+    const auto there = anatomy::analyze({}, at(placement), {.profile = profile_});
+    if (!origin || !there) return kRefused;
     std::size_t other = 0;
-    for (std::size_t v = 0; v < home->part.size(); ++v) other += home->part[v] != there->part[v];
-    return static_cast<double>(other) / static_cast<double>(home->part.size());
+    for (std::size_t v = 0; v < origin->part.size(); ++v) other += origin->part[v] != there->part[v];
+    return static_cast<double>(other) / static_cast<double>(origin->part.size());
   }
 
-  double gap_error(const Place& place, proxy::Tier tier) {
+  double gap_error(const Placement& placement, proxy::Tier tier) {
     if (!gap_.contains(tier)) gap_[tier] = gap(body_.mesh, 1.0, tier);
-    const double there = gap(at(place), place.scale_m / body_.stature_m, tier);
+    const double there = gap(at(placement), placement.scale_m / body_.stature_m, tier);
     return std::abs(there - gap_[tier]) / gap_[tier];
   }
 
  private:
-  /// Standing upright: what is swept is not the turn.
-  TriMesh at(const Place& place) const {
+  /// The copy. It stays upright, because anatomy expects an upright body.
+  TriMesh at(const Placement& placement) const {
     TriMesh mesh = body_.mesh;
-    for (Vec3& p : mesh.positions) p = place.scale_m / body_.stature_m * p + place.center_m();
+    for (Vec3& p : mesh.positions) p = placement.scale_m / body_.stature_m * p + placement.center_m();
     return mesh;
   }
-  Vec3 back_home(const Vec3& p, const Place& place) const {
-    return (p - place.center_m()) * (body_.stature_m / place.scale_m);
+  Vec3 to_origin(const Vec3& p, const Placement& placement) const {
+    return (p - placement.center_m()) * (body_.stature_m / placement.scale_m);
   }
   double gap(const TriMesh& mesh, double scale, proxy::Tier tier) const {
     const auto found = fitting::fit({}, {mesh, body_.part, scale * body_.stature_m},
@@ -77,11 +78,12 @@ class Home {
   std::map<proxy::Tier, double> gap_;
 };
 
-/// A cotton sheet falls on a ball for half a second, in a gravity of its scale: where its vertices are then,
-/// from the ball's center. Nothing if it is refused or does not stay finite.
-std::vector<Vec3> drape(const Place& place) {
+/// Drops a cotton sheet on a ball for half a second, in gravity proportional to the scale. Returns its
+/// vertices relative to the ball's center; empty if an input is refused or a position is not finite.
+std::vector<Vec3> drape(const Placement& placement) {
   constexpr int kCells = 12, kFrames = 30;
-  const geometry::Ellipsoid ball{place.center_m(), geometry::Mat3::Identity(), kBall * place.extents_m()};
+  const geometry::Ellipsoid ball{placement.center_m(), geometry::Mat3::Identity(),
+                                 kBall * placement.extents_m()};
   proxy::BodyProxy::Data data;
   data.stature_m = 2.0 * ball.radii.maxCoeff();
   data.ellipsoids = {{ball}};
@@ -92,7 +94,7 @@ std::vector<Vec3> drape(const Place& place) {
   for (int j = 0; j <= kCells; ++j)
     for (int i = 0; i <= kCells; ++i)
       sheet.positions.push_back(ball.center +
-                                place.scale_m * (Vec3(i, 0.0, j) / kCells - Vec3(0.5, -0.32, 0.5)));
+                                placement.scale_m * (Vec3(i, 0.0, j) / kCells - Vec3(0.5, -0.32, 0.5)));
   for (geometry::Index j = 0; j < kCells; ++j)
     for (geometry::Index i = 0; i < kCells; ++i) {
       const geometry::Index a = j * (kCells + 1) + i, c = a + kCells + 1;
@@ -100,8 +102,8 @@ std::vector<Vec3> drape(const Place& place) {
       sheet.triangles.push_back({a + 1, c, c + 1});
     }
   cloth::SolverOptions options;
-  options.thickness_m = 1e-3 * place.scale_m;
-  options.environment.gravity_m_s2 *= place.scale_m;
+  options.thickness_m = 1e-3 * placement.scale_m;
+  options.environment.gravity_m_s2 *= placement.scale_m;
   auto solver = cloth::Solver::make(sheet, {}, cloth::find_fabric("cotton").value(), options);
   if (!solver) return {};
   for (int frame = 0; frame < kFrames; ++frame)
@@ -112,39 +114,40 @@ std::vector<Vec3> drape(const Place& place) {
   return now;
 }
 
-double depth_in_ball(const Place& place) {
-  const geometry::Ellipsoid ball{Vec3::Zero(), geometry::Mat3::Identity(), kBall * place.extents_m()};
-  const auto sheet = drape(place);
+double depth_in_ball(const Placement& placement) {
+  const geometry::Ellipsoid ball{Vec3::Zero(), geometry::Mat3::Identity(), kBall * placement.extents_m()};
+  const auto sheet = drape(placement);
   double depth = sheet.empty() ? kRefused : 0.0;
   for (const Vec3& p : sheet) depth = std::max(depth, -geometry::closest_point(ball, p).signed_distance);
-  return depth / place.scale_m;
+  return depth / placement.scale_m;
 }
 
-/// Against the same scene at the origin.
-double moved_by_offset(const Place& place) {
-  Place home = place;
-  home.offset = 0.0;
-  const auto here = drape(place), there = drape(home);
-  if (here.empty() || here.size() != there.size()) return kRefused;
+/// The largest distance between a vertex of the sheet and the same vertex of the same scene at the origin.
+double moved_by_offset(const Placement& placement) {
+  Placement at_origin = placement;
+  at_origin.offset = 0.0;
+  const auto moved = drape(placement), original = drape(at_origin);
+  if (moved.empty() || moved.size() != original.size()) return kRefused;
   double worst = 0.0;
-  for (std::size_t v = 0; v < here.size(); ++v) worst = std::max(worst, (here[v] - there[v]).norm());
-  return worst / place.scale_m;
+  for (std::size_t v = 0; v < moved.size(); ++v) worst = std::max(worst, (moved[v] - original[v]).norm());
+  return worst / placement.scale_m;
 }
 
 }  // namespace
 
 std::vector<Curve> body_curves() {
   using proxy::Tier;
-  const auto home = std::make_shared<Home>();
+  const auto origin = std::make_shared<BodyAtOrigin>();
   std::vector<Curve> curves = {{"anatomy::analyze", "landmark moved, to stature",
-                                [=](const Place& p) { return home->landmark_error(p); }, kBody},
+                                [=](const Placement& p) { return origin->landmark_error(p); }, kBody},
                                {"anatomy::analyze", "share of vertices with another part",
-                                [=](const Place& p) { return home->label_error(p); }, kBody}};
+                                [=](const Placement& p) { return origin->label_error(p); }, kBody}};
   for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief})
-    curves.push_back({"fit, " + std::string(proxy::name(tier)), "mean gap, to that at home",
-                      [=](const Place& p) { return home->gap_error(p, tier); }, kBody});
+    curves.push_back({"fit, " + std::string(proxy::name(tier)), "change of the mean gap, to itself",
+                      [=](const Placement& p) { return origin->gap_error(p, tier); }, kBody});
   curves.push_back({"cloth::Solver", "depth inside the body, to size", depth_in_ball});
-  curves.push_back({"cloth::Solver", "a vertex from where it is at home, to size", moved_by_offset, kOffset});
+  curves.push_back({"cloth::Solver", "change of a vertex from the same scene at the origin, to size",
+                    moved_by_offset, kOffset});
   return curves;
 }
 

@@ -1,4 +1,4 @@
-// An algorithm's error at one place of the sweep: one curve is a row of the table.
+// The error of an algorithm as a function of the input's scale, offset and aspect.
 #pragma once
 
 #include <functional>
@@ -9,27 +9,29 @@
 
 namespace extremes_bench {
 
-/// Where the input is put. One of the three is swept, the others stay at home.
-struct Place {
+/// How the input is scaled, moved and flattened. A sweep varies one of the three; the others keep their
+/// defaults.
+struct Placement {
   double scale_m = 1.0;  ///< size of the input
   double offset = 0.0;   ///< distance from the origin in sizes, along an oblique direction
   double aspect = 1.0;   ///< longest over shortest extent; the middle one is their geometric mean
 
-  /// Radii or half sizes of 1 : 1/sqrt(aspect) : 1/aspect.
+  /// Radii or half sizes of the input, in the ratio 1 : 1/sqrt(aspect) : 1/aspect.
   bodice::geometry::Vec3 extents_m() const;
   bodice::geometry::Vec3 center_m() const;
-  /// What no axis is parallel to.
+  /// A rotation that leaves no axis of the input parallel to a coordinate axis.
   static bodice::geometry::Mat3 turn();
-  /// Into the world: turned and moved.
-  bodice::geometry::Vec3 put(const bodice::geometry::Vec3& local_m) const;
+  /// Rotates and moves a point of the input to the world.
+  bodice::geometry::Vec3 to_world(const bodice::geometry::Vec3& local_m) const;
 };
 
-/// What a curve is drawn against; as bits.
+/// The quantity that a sweep varies, as bits.
 enum Sweep : unsigned { kScale = 1, kOffset = 2, kAspect = 4 };
 
+/// A row of the tables: an algorithm, its measure of error, and the sweeps in which it appears.
 struct Curve {
-  std::string algorithm, error;  ///< the error is a ratio: to the size, or to what is said
-  std::function<double(const Place&)> at;
+  std::string algorithm, error;  ///< the error is a ratio, to the size or to the quantity in its name
+  std::function<double(const Placement&)> at;
   unsigned sweeps = kScale | kOffset | kAspect;
 };
 

@@ -17,11 +17,12 @@ using geometry::Vec3;
 
 constexpr int kQueries = 2000;
 
-Ellipsoid ellipsoid_at(const Place& place) {
-  return {place.center_m(), Place::turn(), place.extents_m()};
+Ellipsoid ellipsoid_at(const Placement& placement) {
+  return {placement.center_m(), Placement::turn(), placement.extents_m()};
 }
 
-/// Half within a tenth of the size of the surface, half anywhere out to one and a half sizes.
+/// Query points. One half lies near the surface (a tenth of size_m at most), the other half reaches out to
+/// 1.5 times the radii.
 std::vector<Vec3> queries_at(const Ellipsoid& e, double size_m) {
   engine::Random random(2);
   std::vector<Vec3> queries;
@@ -36,14 +37,15 @@ std::vector<Vec3> queries_at(const Ellipsoid& e, double size_m) {
   return queries;
 }
 
-double nearest_error(const Place& place) {
-  const Ellipsoid e = ellipsoid_at(place);
+double nearest_error(const Placement& placement) {
+  const Ellipsoid e = ellipsoid_at(placement);
   double worst = 0.0;
-  for (const Vec3& q : queries_at(e, place.scale_m))
+  for (const Vec3& q : queries_at(e, placement.scale_m))
     worst = std::max(worst, std::abs(geometry::closest_point(e, q).signed_distance - signed_distance(e, q)));
-  return worst / place.scale_m;
+  return worst / placement.scale_m;
 }
 
+/// Points as the collider takes them: structure of arrays of floats relative to its origin.
 struct Cloud {
   std::vector<float> x, y, z;
 
@@ -71,28 +73,28 @@ collision::Collider collider_of(const Ellipsoid& e) {
   return collision::Collider(*proxy);
 }
 
-double query_error(const Place& place) {
-  const Ellipsoid e = ellipsoid_at(place);
+double query_error(const Placement& placement) {
+  const Ellipsoid e = ellipsoid_at(placement);
   const auto collider = collider_of(e);
-  Cloud cloud(queries_at(e, place.scale_m), collider.origin());
+  Cloud cloud(queries_at(e, placement.scale_m), collider.origin());
   std::vector<collision::Contact> contacts(cloud.x.size());
   collider.query({}, cloud.particles(), contacts);
   double worst = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i)
     worst = std::max(worst, std::abs(double{contacts[i].signed_distance} -
                                      signed_distance(e, cloud.at(i, collider.origin()))));
-  return worst / place.scale_m;
+  return worst / placement.scale_m;
 }
 
-double depth_left(const Place& place) {
-  const Ellipsoid e = ellipsoid_at(place);
+double depth_left(const Placement& placement) {
+  const Ellipsoid e = ellipsoid_at(placement);
   const auto collider = collider_of(e);
-  Cloud cloud(queries_at(e, place.scale_m), collider.origin());
+  Cloud cloud(queries_at(e, placement.scale_m), collider.origin());
   collider.resolve({}, cloud.particles(), {});
   double worst = 0.0;
   for (std::size_t i = 0; i < cloud.x.size(); ++i)
     worst = std::max(worst, -signed_distance(e, cloud.at(i, collider.origin())));
-  return worst / place.scale_m;
+  return worst / placement.scale_m;
 }
 
 }  // namespace

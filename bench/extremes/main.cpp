@@ -1,13 +1,14 @@
 // How large each algorithm's error is, against the input's scale, its distance from the origin and its
-// aspect: three tables, a curve a row, on the terminal, and as a page and CSV in FOLDER. Repeats to the bit.
-// Usage: extremes [--out FOLDER] [--quick]    quick: without the fits of whole bodies
+// aspect: three tables, a curve a row, on the terminal, and as a page and CSV in a folder. Repeats to the
+// bit.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
-#include <string_view>
+
+#include <CLI/CLI.hpp>
 
 #include <bench_support/table.hpp>
 
@@ -16,12 +17,13 @@
 namespace {
 
 using extremes_bench::Curve;
-using extremes_bench::Place;
+using extremes_bench::Placement;
 
+/// A sweep: the quantity that varies, and its values.
 struct Range {
   const char *name, *caption;
   std::vector<double> values;
-  double Place::*swept;
+  double Placement::*swept;
   extremes_bench::Sweep sweep;
 };
 
@@ -29,17 +31,17 @@ const Range kRanges[] = {
     {"extremes_scale",
      "Error against the input's size in meters.",
      {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6},
-     &Place::scale_m,
+     &Placement::scale_m,
      extremes_bench::kScale},
     {"extremes_offset",
      "Error against the distance from the origin, in sizes of the input (a body 10 km away: 6e3).",
      {0.0, 1.0, 1e2, 1e3, 1e4, 1e5, 1e6},
-     &Place::offset,
+     &Placement::offset,
      extremes_bench::kOffset},
     {"extremes_aspect",
      "Error against the aspect, longest to shortest extent.",
      {1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6},
-     &Place::aspect,
+     &Placement::aspect,
      extremes_bench::kAspect}};
 
 std::string short_text(double value) {
@@ -57,34 +59,28 @@ bench::Table measure(const Range& range, const std::vector<Curve>& curves) {
     std::fprintf(stderr, "extremes: %s: %s\n", range.name, curve.algorithm.c_str());
     std::vector<bench::Cell> row = {curve.algorithm, curve.error};
     for (const double value : range.values) {
-      Place place;
-      place.*range.swept = value;
-      row.emplace_back(short_text(curve.at(place)));
+      Placement placement;
+      placement.*range.swept = value;
+      row.emplace_back(short_text(curve.at(placement)));
     }
     table.add(std::move(row));
   }
   return table;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  std::filesystem::path folder;
-  bool quick = false;
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    if (word == "--quick")
-      quick = true;
-    else if (word == "--out" && i + 1 < argc)
-      folder = argv[++i];
-    else
-      return std::fputs("usage: extremes [--out FOLDER] [--quick]\n", stderr), 2;
-  }
+std::vector<Curve> all_curves(bool quick) {
   std::vector<Curve> curves;
   for (auto make : {extremes_bench::point_curves, extremes_bench::ellipsoid_curves,
                     extremes_bench::mesh_curves, extremes_bench::body_curves})
     for (Curve& curve : make())
       if (!quick || !curve.algorithm.starts_with("fit")) curves.push_back(std::move(curve));
+  return curves;
+}
+
+/// Prints the page and, with a folder, writes it there with a CSV file for each table; false if a file cannot
+/// be written.
+bool report(const std::filesystem::path& folder, bool quick) {
+  const std::vector<Curve> curves = all_curves(quick);
   const bench::Origin origin = bench::find_origin();
   if (!folder.empty()) std::filesystem::create_directories(folder);
   const std::string command = quick ? "extremes --quick" : "extremes";
@@ -103,5 +99,17 @@ int main(int argc, char** argv) {
   }
   write("extremes.md", page);
   std::fputs(page.c_str(), stdout);
-  return written ? 0 : 1;
+  return written;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::filesystem::path folder;
+  bool quick = false;
+  CLI::App app("The error of each algorithm against the input's scale, offset and aspect.", "extremes");
+  app.add_option("--out", folder, "folder for the page and CSV files");
+  app.add_flag("--quick", quick, "leave out the fits of whole bodies");
+  CLI11_PARSE(app, argc, argv);
+  return report(folder, quick) ? 0 : 1;
 }

@@ -17,11 +17,11 @@ using geometry::Vec3;
 
 constexpr int kQueries = 1000, kCells = 16;
 
-TriMesh box_at(const Place& place) {
+TriMesh box_at(const Placement& placement) {
   TriMesh mesh;
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 u(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-    mesh.positions.push_back(place.put(place.extents_m().cwiseProduct(u)));
+    mesh.positions.push_back(placement.to_world(placement.extents_m().cwiseProduct(u)));
   }
   mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
@@ -33,29 +33,31 @@ double box_distance(const Vec3& half, const Vec3& p) {
   return over.cwiseMax(0.0).norm() + std::min(0.0, over.maxCoeff());
 }
 
-double mesh_distance_error(const Place& place) {
-  const geometry::MeshDistance distance({}, box_at(place));
+double mesh_distance_error(const Placement& placement) {
+  const geometry::MeshDistance distance({}, box_at(placement));
   engine::Random random(3);
   double worst = 0.0;
   for (int i = 0; i < kQueries; ++i) {
     Vec3 u;
     for (int axis = 0; axis < 3; ++axis) u[axis] = random.uniform(-1.5, 1.5);
-    const Vec3 local = i % 2 == 0 ? place.extents_m().cwiseProduct(u).eval() : Vec3(place.scale_m * u);
-    const double truth = box_distance(place.extents_m(), local);
-    worst = std::max(worst, std::abs(distance.signed_distance(place.put(local)) - truth));
+    const Vec3 local =
+        i % 2 == 0 ? placement.extents_m().cwiseProduct(u).eval() : Vec3(placement.scale_m * u);
+    const double truth = box_distance(placement.extents_m(), local);
+    worst = std::max(worst, std::abs(distance.signed_distance(placement.to_world(local)) - truth));
   }
-  return worst / place.scale_m;
+  return worst / placement.scale_m;
 }
 
-/// A flat sheet, aspect times as long as wide: the distance along it is the straight line.
-double geodesic_error(const Place& place, geodesic::Method method) {
+/// The worst relative error on a flat rectangle, `aspect` times as wide as long, where geodesics are straight
+/// lines.
+double geodesic_error(const Placement& placement, geodesic::Method method) {
   TriMesh sheet;
   std::vector<double> truth;
   for (int j = 0; j <= kCells; ++j)
     for (int i = 0; i <= kCells; ++i) {
-      const Vec3 local = place.scale_m / kCells * Vec3(i, 0.0, j / place.aspect);
+      const Vec3 local = placement.scale_m / kCells * Vec3(i, 0.0, j / placement.aspect);
       truth.push_back(local.norm());
-      sheet.positions.push_back(place.put(local));
+      sheet.positions.push_back(placement.to_world(local));
     }
   for (Index j = 0; j < kCells; ++j)
     for (Index i = 0; i < kCells; ++i) {
@@ -77,11 +79,11 @@ std::vector<Curve> mesh_curves() {
   using geodesic::Method;
   return {{"MeshDistance", "distance, to size", mesh_distance_error},
           {"geodesics, edges", "distance on a flat sheet, to itself",
-           [](const Place& p) { return geodesic_error(p, Method::kEdges); }},
+           [](const Placement& p) { return geodesic_error(p, Method::kEdges); }},
           {"geodesics, unfolded", "distance on a flat sheet, to itself",
-           [](const Place& p) { return geodesic_error(p, Method::kUnfolded); }},
+           [](const Placement& p) { return geodesic_error(p, Method::kUnfolded); }},
           {"geodesics, fast marching", "distance on a flat sheet, to itself",
-           [](const Place& p) { return geodesic_error(p, Method::kFastMarching); }}};
+           [](const Placement& p) { return geodesic_error(p, Method::kFastMarching); }}};
 }
 
 }  // namespace extremes_bench

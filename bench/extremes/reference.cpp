@@ -9,8 +9,8 @@ namespace {
 using Real = long double;
 using Real3 = Eigen::Matrix<Real, 3, 1>;
 
-/// Sum of (r y / (s + r^2 - r_min^2))^2 - 1: falls as s = t + r_min^2 grows. From the least radius, so that
-/// nothing cancels next to the medial plane.
+/// Eberly's function, the sum of (r y / (s + r^2 - r_min^2))^2 - 1, which falls as s = t + r_min^2 grows. It
+/// is written in s instead of t, so that nothing cancels next to the medial plane.
 Real excess(const Real3& r, const Real3& y, Real r_min, Real s) {
   Real sum = -1.0L;
   for (int k = 0; k < 3; ++k) {

@@ -3,14 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace fit_bench {
+#include "questions.hpp"
 
-double stage_ms(const bodice::fitting::FitResult& result, std::string_view name) {
-  double ms = 0.0;
-  for (const auto& stage : result.stages)
-    if (stage.name == name) ms += stage.ms;
-  return ms;
-}
+namespace fit_bench {
 
 void Bars::at_most(const std::string& kind, const std::string& measure, double bar, double value,
                    const std::string& body) {
@@ -65,6 +60,49 @@ void Bars::print() const {
 int Bars::missed() const {
   return static_cast<int>(
       std::ranges::count_if(lines_, [](const auto& entry) { return entry.second.missed > 0; }));
+}
+
+namespace {
+
+using namespace bodice;
+
+/// The time of the stage that makes the tier, ms: the median of several fits for tiers that take few
+/// milliseconds.
+double time_of(const engine::Context& context, const Subject& subject, fitting::FitOptions options,
+               const fitting::FitResult& result) {
+  using proxy::Tier;
+  constexpr int kRepeats = 9;
+  if (options.tier == Tier::kRelief) return stage_ms(result, "relief");
+  if (options.tier == Tier::kTight) return stage_ms(result, "tight");
+  options.measure_accuracy = false;
+  std::vector<double> ms{stage_ms(result, "fit")};
+  for (int i = 1; i < kRepeats; ++i)
+    if (const auto again = fitted(context, subject, options)) ms.push_back(stage_ms(*again, "fit"));
+  const auto middle = ms.begin() + static_cast<std::ptrdiff_t>(ms.size() / 2);
+  std::ranges::nth_element(ms, middle);
+  return *middle;
+}
+
+}  // namespace
+
+bool print_bars(const engine::Context& context, const Arguments& arguments) {
+  Bars table;
+  const bool all = for_each_subject(context, arguments, [&](const Subject& subject) {
+    for (const char* const kind : {"paper", "solid", "tight", "covering", "relief"}) {
+      fitting::FitOptions options;
+      options.covering = kind == std::string("covering");
+      options.tier = options.covering ? proxy::Tier::kTight : *proxy::tier_from_name(kind);
+      options.max_ellipsoids = 89;
+      const auto result = fitted(context, subject, options);
+      if (!result) return false;
+      table.note(subject.name, kind, *result, bench::judge(context, result->proxy, subject.probes),
+                 time_of(context, subject, options, *result), subject.body.mesh.positions.size());
+    }
+    return true;
+  });
+  table.print();
+  if (table.missed() > 0) std::fprintf(stderr, "fit: %d bars are missed\n", table.missed());
+  return all && table.missed() == 0;
 }
 
 }  // namespace fit_bench

@@ -1,4 +1,4 @@
-// What each tier promises beside the worst that was measured.
+// The bars of each tier, which are its promises, beside the worst value that was measured.
 #pragma once
 
 #include <map>
@@ -12,21 +12,20 @@
 
 namespace fit_bench {
 
+/// Bars of time hold for bodies of this many vertices.
 inline constexpr double kTimedVertices = 8850.0;
 
-/// Milliseconds of a stage of the fit, by its name.
-double stage_ms(const bodice::fitting::FitResult& result, std::string_view name);
-
-/// Collects fits at 89 ellipsoids; each measure keeps its worst body.
+/// Collects fits with 89 ellipsoids, and keeps the worst body of each measure.
 class Bars {
  public:
-  /// `kind` is a tier's name, or "covering"; `ms` is what its stage took. The bars of time are those of
-  /// kTimedVertices: a larger body, whose time may grow with its vertices, has as many times as long.
+  /// Adds a fit. `kind` is a tier's name, or "covering"; `ms` is the time of its stage. For a body with more
+  /// vertices than kTimedVertices the time is divided by the ratio, because it may grow with the vertices.
   void note(const std::string& body, const std::string& kind, const bodice::fitting::FitResult& result,
             const bench::NearSkin& near, double ms, std::size_t vertices);
-  /// CSV: kind, measure, bar (at most), mean over the bodies, worst, worst body, bodies that miss it.
+  /// Prints CSV: kind, measure, bar (at most), mean over the bodies, worst, worst body, number of misses, of
+  /// bodies.
   void print() const;
-  /// Bars that some body misses.
+  /// The number of bars that some body misses.
   int missed() const;
 
  private:

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kWidth = 720, kHeight = 480, kLeft = 70, kRight = 110, kTop = 40, kBottom = 60;
 
+/// A logarithmic axis of the picture.
 struct Axis {
   double low, high, from, to;
   double at(double value) const { return from + (to - from) * std::log(value / low) / std::log(high / low); }
@@ -26,12 +27,13 @@ std::string number(double value) {
   return words.str();
 }
 
-/// Names at the ends of lines that end close together stay a line of text apart.
+/// The name of a line at its end.
 struct Label {
   double y;
   std::string words;
 };
 
+/// Writes the names at least a line of text apart, also where lines end close together.
 void names(std::ostream& out, std::vector<Label> labels) {
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
   double least_y = 0.0;

@@ -1,17 +1,22 @@
-#include "laws.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
+#include "questions.hpp"
+
 namespace fit_bench {
 namespace {
+
+using namespace bodice;
+
+constexpr double kLeastCount = 16.0;  // the formula holds from this count up
 
 struct Line {
   double at_zero = 0.0, slope = 0.0, worst = 0.0;
 };
 
+/// The least-squares line, with its largest residual.
 Line line_through(const std::vector<double>& x, const std::vector<double>& y) {
   const auto n = static_cast<double>(x.size());
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
@@ -24,26 +29,32 @@ Line line_through(const std::vector<double>& x, const std::vector<double>& y) {
   return line;
 }
 
+/// The fits of one tier.
+struct Columns {
+  std::vector<double> log_ratio;  ///< log(89 / count)
+  std::vector<double> log_gap;    ///< log(gap / stature)
+};
+
 }  // namespace
 
-void print_laws(const std::vector<LawPoint>& points) {
-  constexpr double kLeastCount = 16.0;
-  struct Columns {
-    std::vector<double> log_ratio, log_gap;
-  };
+bool print_gap_formula(const engine::Context& context, const Arguments& arguments) {
   std::map<std::string, Columns> tiers;
-  for (const LawPoint& p : points) {
-    if (p.ellipsoids < kLeastCount || !(p.gap_of_stature > 0.0)) continue;
-    Columns& c = tiers[p.tier];
-    c.log_ratio.push_back(std::log(89.0 / p.ellipsoids));
-    c.log_gap.push_back(std::log(p.gap_of_stature));
-  }
+  const bool all =
+      for_each_fit(context, arguments, [&](const Subject& subject, int, const fitting::FitResult& result) {
+        const auto count = static_cast<double>(result.proxy.ellipsoids().size());
+        const double gap = result.accuracy.gap_m.mean / subject.body.stature_m;
+        if (count < kLeastCount || !(gap > 0.0)) return;
+        Columns& c = tiers[std::string(proxy::name(result.proxy.tier()))];
+        c.log_ratio.push_back(std::log(89.0 / count));
+        c.log_gap.push_back(std::log(gap));
+      });
   std::printf("tier,fits,at_89_of_stature,power,worst_factor\n");
   for (const auto& [tier, c] : tiers) {
     const Line gap = line_through(c.log_ratio, c.log_gap);
     std::printf("%s,%zu,%.6f,%.2f,%.2f\n", tier.c_str(), c.log_gap.size(), std::exp(gap.at_zero), gap.slope,
                 std::exp(gap.worst));
   }
+  return all;
 }
 
 }  // namespace fit_bench

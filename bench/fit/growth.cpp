@@ -1,19 +1,19 @@
-#include "growth.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
 
-#include <bodice/fitting/fit.hpp>
 #include <bodice/synth/body.hpp>
+
+#include "questions.hpp"
 
 namespace fit_bench {
 namespace {
 
 using namespace bodice;
 
+/// The time of a fit.
 struct Row {
   double vertices = 0.0, ms = 0.0;
 };
@@ -36,8 +36,7 @@ bool print_growth(const engine::Context& context) {
       options.measure_accuracy = false;
       const auto fitted = fitting::fit(context, {body->mesh, body->part, body->stature_m}, options);
       if (!fitted) return false;
-      Row row{static_cast<double>(body->mesh.positions.size()), 0.0};
-      for (const auto& stage : fitted->stages) row.ms += stage.ms;
+      const Row row{static_cast<double>(body->mesh.positions.size()), total_ms(*fitted)};
       const auto power = [&](const Row& from) {
         return from.ms > 0.0 ? std::log(row.ms / from.ms) / std::log(row.vertices / from.vertices) : 0.0;
       };
@@ -50,8 +49,9 @@ bool print_growth(const engine::Context& context) {
       last[name] = row;
     }
   }
-  std::printf("# over ten times the vertices and more, time grows by their power %.2f at most (bar: 1)\n",
-              worst);
+  std::printf(
+      "# over more than ten times the vertices, time grows as a power of them of at most %.2f (bar: 1)\n",
+      worst);
   return true;
 }
 

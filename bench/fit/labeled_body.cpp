@@ -1,4 +1,4 @@
-#include "real_body.hpp"
+#include "labeled_body.hpp"
 
 #include <cstdlib>
 #include <fstream>
@@ -20,6 +20,7 @@ constexpr Part kPartOfClass[16] = {Part::kHead,      Part::kHead,     Part::kTor
                                    Part::kCalfL,     Part::kCalfL,    Part::kUpperArmR, Part::kForearmR,
                                    Part::kForearmR,  Part::kThighR,   Part::kCalfR,     Part::kCalfR};
 
+/// Reads positions and faces of an OBJ file; false without triangles.
 bool read_obj(const std::filesystem::path& file, bodice::geometry::TriMesh& mesh) {
   std::ifstream in(file);
   std::string line;
@@ -40,7 +41,7 @@ bool read_obj(const std::filesystem::path& file, bodice::geometry::TriMesh& mesh
   return !mesh.triangles.empty();
 }
 
-/// Thirds along y (the torso's own extent), halves along x (its mean).
+/// Splits the torso into six parts: at thirds of its height, and at the mean of x.
 void split_torso(LabeledBody& body) {
   bodice::geometry::Box box;
   double x = 0.0, count = 0.0;
@@ -57,7 +58,7 @@ void split_torso(LabeledBody& body) {
   }
 }
 
-/// The number after "stature_m" in the file of truths beside a body: a sitting body is less high than tall.
+/// The number after "stature_m" in the truth file of a body; the height of a sitting body is not its stature.
 std::optional<double> stature(const std::filesystem::path& json) {
   std::ifstream in(json);
   const std::string text((std::istreambuf_iterator<char>(in)), {});

@@ -1,4 +1,5 @@
-// Bodies with true labels a vertex, from OBJ files or made, for judging fits without the anatomy layer.
+// Bodies with a true label for each vertex, from OBJ files or made, so that fits are judged without the layer
+// anatomy.
 #pragma once
 
 #include <cstdint>
@@ -11,17 +12,19 @@
 
 namespace fit_bench {
 
+/// A body mesh with its parts.
 struct LabeledBody {
   bodice::geometry::TriMesh mesh;
   std::vector<bodice::body::Part> part;  ///< #V
   double stature_m = 0.0;
 };
 
-/// `labels` holds one fine class a vertex (head, neck, upper_torso, lower_torso, l_upper_arm, ...). The
-/// torso's two classes are cut into six parts at thirds of its height and at its middle plane.
+/// Reads a body; nothing if that fails. `labels` has one fine class for each vertex (head, neck, upper_torso,
+/// lower_torso, l_upper_arm, ...). The torso's two classes are split into six parts at thirds of its height
+/// and at its middle plane.
 std::optional<LabeledBody> load(const std::filesystem::path& obj, const std::filesystem::path& labels);
 
-/// A parametric body that nothing was developed on: sex, mass and pose follow from the seed.
+/// A made body from which no constant was derived: sex, mass and pose follow from the seed.
 std::optional<LabeledBody> make_synthetic(std::uint64_t seed);
 
 }  // namespace fit_bench

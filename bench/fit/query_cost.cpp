@@ -13,7 +13,7 @@ namespace fit_bench {
 double query_ns(const bodice::proxy::BodyProxy& proxy, const bodice::geometry::TriMesh& skin) {
   using namespace bodice;
   constexpr std::size_t kParticles = 10000;
-  constexpr int kRuns = 80;  // a run takes a fraction of a millisecond: one of them is undisturbed
+  constexpr int kRuns = 80;  // a run takes a fraction of a millisecond, so that some run is undisturbed
   constexpr double kBand_m = 0.030;
   const collision::Collider collider(proxy);
   bench::Cloud cloud =

@@ -1,4 +1,4 @@
-// What a query against a proxy costs: the measured side of the fit's cost model.
+// The measured time of a query against a proxy, beside the cost model of fits.
 #pragma once
 
 #include <bodice/geometry/tri_mesh.hpp>
@@ -6,8 +6,8 @@
 
 namespace fit_bench {
 
-/// Nanoseconds of processor time a particle, one thread, the least of many runs: particles within 30 mm of
-/// the skin, in Morton order, with nothing kept from an earlier query.
+/// Processor time of a query, nanoseconds a particle: the least of many runs on one thread, for particles
+/// within 30 mm of the skin, in Morton order, without a workspace.
 double query_ns(const bodice::proxy::BodyProxy& proxy, const bodice::geometry::TriMesh& skin);
 
 }  // namespace fit_bench

@@ -1,7 +1,8 @@
-// What a better distance costs: time of one field by method and queue on a made body of 13,000 vertices, and
-// its error against exact polyhedral distances. What the whole analysis takes: bench/anatomy --cost.
-// Bars: edges 4 % mean error, unfolded 1.7 % for 0.7 to 1.3 of the time, fast marching .56 % for 4.8; the
-// bucket queue .37 of a heap's time. Run it on a quiet machine; ratios within one run are what counts.
+// What does a better distance cost? Time of one distance field by method and queue on a made body of 13,000
+// vertices, and its error against exact polyhedral distances. The time of a whole analysis is in
+// bench/anatomy --cost. Bars: edges 4 % mean error; unfolded 1.7 % for 0.7 to 1.3 times the time of edges,
+// fast marching 0.56 % for 4.8 times; the bucket queue 0.37 of a heap's time. Compare times within one run on
+// a quiet machine only.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -29,14 +30,15 @@ geometry::TriMesh body_mesh(int vertices) {
 constexpr int kBody = 13000;
 constexpr std::array<geometry::Index, 4> kSources{0, 2500, 7000, 11000};
 
+/// A body with exact distances, the reference for all errors.
 struct Yardstick {
   geometry::TriMesh mesh;
   geometry::MeshEdges edges;
   std::vector<std::vector<double>> exact;
-  double exact_ms = 0.0;  ///< a source
+  double exact_ms = 0.0;  ///< time of the exact distances from one source
 };
 
-/// The body and its exact distances, made once.
+/// The yardstick, computed at the first call.
 const Yardstick& yardstick() {
   static const Yardstick made = [] {
     Yardstick y{body_mesh(kBody), {}, {}, 0.0};
@@ -51,7 +53,8 @@ const Yardstick& yardstick() {
   return made;
 }
 
-/// Mean and worst relative error against exact polyhedral distances, beyond a twentieth of the farthest.
+/// Reports the mean and the largest relative error against exact polyhedral distances, at vertices farther
+/// than a twentieth of the largest distance.
 void count_error(benchmark::State& state, const geodesic::DistanceSolver& solver) {
   const Yardstick& y = yardstick();
   double sum = 0.0, worst = 0.0;
@@ -91,7 +94,7 @@ void building(benchmark::State& state, Metric metric) {
     benchmark::DoNotOptimize(geodesic::edge_graph({}, y.mesh, geometry::mesh_edges(y.mesh), metric).mean);
 }
 
-/// The yardstick itself; measured once.
+/// The time of the exact distances, as measured when the yardstick was computed.
 void exact(benchmark::State& state) {
   for (auto _ : state) state.SetIterationTime(1e-3 * yardstick().exact_ms);
 }

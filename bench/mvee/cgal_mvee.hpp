@@ -7,8 +7,7 @@
 namespace mvee_bench {
 
 #ifdef BENCH_CGAL
-/// Volume of the ellipsoid that CGAL's Approximate_min_ellipsoid_d gives at `epsilon`; 0 if the set is flat
-/// to it.
+/// Volume of the ellipsoid of CGAL's Approximate_min_ellipsoid_d at `epsilon`; 0 if CGAL finds the set flat.
 double cgal_volume(std::span<const bodice::geometry::Vec3> points, double epsilon);
 #endif
 

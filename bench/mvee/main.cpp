@@ -12,7 +12,7 @@ namespace {
 
 using bodice::geometry::Vec3;
 
-/// A Gaussian cloud or, if asked, points on a sphere: the hard case, where every point matters.
+/// Points of a Gaussian cloud or of an ellipsoid's surface, the hard case, where every point may touch.
 std::vector<Vec3> cloud(std::int64_t count, bool on_sphere) {
   bodice::engine::Random random(9);
   std::vector<Vec3> points;

@@ -14,7 +14,7 @@ namespace {
 using namespace bodice;
 using engine::Context;
 
-// An open tube of about 5000 particles, wide enough for the trunk, at the height of the hips.
+/// An open tube of about 5000 particles, wide enough for the trunk, at the height of the hips.
 geometry::TriMesh make_tube() {
   constexpr std::uint32_t kAround = 100, kRows = 50;
   geometry::TriMesh mesh;
@@ -39,7 +39,7 @@ collision::Collider solid_body() {
       fitting::fit(Context{}, {body.mesh, body.part, body.stature_m}, options).value().proxy);
 }
 
-// In memory, as a host hands it over, so that no file is read in the timing.
+/// A made body in memory, as a host hands it over, so that no file is read while time is measured.
 io::ImportedMesh body_of(int vertices) {
   return tryon::segment_builtin(Context{}, {.vertices = vertices}, {}).value().input;
 }

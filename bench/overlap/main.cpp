@@ -1,6 +1,4 @@
 // How long do frames take while a body is prepared, and how long does the body take behind the frames?
-//
-//     build/release/bench/overlap [--quick] [--workers N] [--body 200000] [--tier tight] [--csv FILE]
 #include <cstdio>
 #include <fstream>
 
@@ -13,7 +11,7 @@ using namespace bodice_bench;
 
 namespace {
 
-// Each group begins with its idle frames, which the others of the group are compared with.
+// All conditions. Each group begins with idle frames, to which the others of the group are compared.
 std::vector<Condition> conditions(int workers, bool yields) {
   using enum BackgroundYield;
   const int spared = std::max(1, workers - 1);
@@ -31,7 +29,8 @@ std::vector<Condition> conditions(int workers, bool yields) {
   return all;
 }
 
-// Blocks of loops are drawn in the picture only; timing runs are not slowed by them.
+/// A workload with a trace span for each block of its loops. Only the picture uses it, so that spans do not
+/// slow the timed runs.
 class TracedBlocks final : public Workload {
  public:
   explicit TracedBlocks(Workload& work, Executor& executor) : work_(work), executor_(executor) {}
@@ -85,42 +84,34 @@ void draw(Workload& work, Executor& executor, const std::string& svg_path, const
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  CLI::App app("Frames beside preprocessing: frame times, and time until the first and the final result");
+/// The command line, with its defaults.
+struct Arguments {
   bool quick = false, picture_only = false, yields = false;
   int workers = 0;
   double slice_us = 200.0;
   int vertices = 0;
-  std::string tier_name = "tight", csv_path, svg_path, trace_path;
-  app.add_flag("--quick", quick, "Shorter runs");
-  app.add_flag("--picture-only", picture_only, "No table, only --svg and --trace");
-  app.add_flag("--yields", yields, "The other ways of yielding to a frame, too");
-  app.add_option("--workers", workers, "Workers, the caller included; 0: one a hardware thread");
-  app.add_option("--slice-us", slice_us, "Length of a background block of the synthetic work");
-  app.add_option("--body", vertices, "Real work: cloth frames, and fitting a body of so many vertices");
-  app.add_option("--tier", tier_name,
-                 "Real work: the tier that the body is fitted to: paper, solid, tight, relief");
-  app.add_option("--csv", csv_path, "Write the rows here, too");
-  app.add_option("--svg", svg_path, "Draw a timeline of 60 ms");
-  app.add_option("--trace", trace_path, "Write the trace of the drawn run (Chrome trace events)");
-  CLI11_PARSE(app, argc, argv);
+  std::string tier = "tight", csv, svg, trace;
+};
 
-  const auto executor = make_tbb_executor(workers);
-  const auto tier = bodice::proxy::tier_from_name(tier_name);
-  if (!tier) {
-    std::fprintf(stderr, "%s is no tier. Give paper, solid, tight or relief.\n", tier_name.c_str());
-    return 2;
-  }
-  const auto work = vertices > 0 ? make_body_work(vertices, *tier) : make_synthetic(slice_us);
-  if (picture_only) {
-    draw(*work, *executor, svg_path, trace_path);
-    return 0;
-  }
-  const double foreground_ms = foreground_fit_ms(*work, *executor);
-  std::printf("%s; %d workers\nfit alone, in the foreground: %.0f ms\n\n", work->describe().c_str(),
-              executor->concurrency(), foreground_ms);
+void add_options(CLI::App& app, Arguments& a) {
+  app.add_flag("--quick", a.quick, "Shorter runs");
+  app.add_flag("--picture-only", a.picture_only, "No table, only --svg and --trace");
+  app.add_flag("--yields", a.yields, "Also the other values of BackgroundYield");
+  app.add_option("--workers", a.workers, "Workers, the caller included; 0: one a hardware thread");
+  app.add_option("--slice-us", a.slice_us, "Length of a background block of the synthetic work");
+  app.add_option("--body", a.vertices, "Real work: cloth frames, and fitting a body of so many vertices");
+  app.add_option("--tier", a.tier, "Real work: the tier of the body's proxy")
+      ->check(CLI::IsMember({"paper", "solid", "tight", "relief"}));
+  app.add_option("--csv", a.csv, "Also write the rows to this file");
+  app.add_option("--svg", a.svg, "Draw a timeline of 60 ms");
+  app.add_option("--trace", a.trace, "Write the trace of the drawn run (Chrome trace events)");
+}
+
+/// Prints the table, a row for each condition. Returns it as CSV.
+std::string print_table(Workload& work, Executor& executor, const Arguments& arguments) {
+  const double foreground_ms = foreground_fit_ms(work, executor);
+  std::printf("%s; %d workers\nfit alone, in the foreground: %.0f ms\n\n", work.describe().c_str(),
+              executor.concurrency(), foreground_ms);
   std::printf(
       "| condition | frames | p50 ms | p99 ms | max ms | p99 / idle p99 | first result ms | last result ms | "
       "fit ms "
@@ -130,8 +121,8 @@ int main(int argc, char** argv) {
       "other_"
       "load\n";
   double idle_p99_ms = 0.0;
-  for (const Condition& condition : conditions(executor->concurrency(), yields)) {
-    const Row row = measure(condition, *work, *executor, quick ? 1.0 : 5.0, nullptr);
+  for (const Condition& condition : conditions(executor.concurrency(), arguments.yields)) {
+    const Row row = measure(condition, work, executor, arguments.quick ? 1.0 : 5.0, nullptr);
     if (!condition.fit) idle_p99_ms = row.p99_ms;
     std::printf("| %s | %zu | %.2f | %.2f | %.2f | %.2f |", row.name.c_str(), row.frames, row.p50_ms,
                 row.p99_ms, row.max_ms, row.p99_ms / idle_p99_ms);
@@ -145,11 +136,29 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
     char line[256];
     std::snprintf(line, sizeof line, "\"%s\",%d,%zu,%.4f,%.4f,%.4f,%.2f,%.2f,%.2f,%.2f,%.3f\n",
-                  row.name.c_str(), executor->concurrency(), row.frames, row.p50_ms, row.p99_ms, row.max_ms,
+                  row.name.c_str(), executor.concurrency(), row.frames, row.p50_ms, row.p99_ms, row.max_ms,
                   row.first_result_ms, row.last_result_ms, row.fit_ms, foreground_ms, row.other_load);
     csv += line;
   }
-  if (!csv_path.empty()) std::ofstream(csv_path) << csv;
-  if (!svg_path.empty() || !trace_path.empty()) draw(*work, *executor, svg_path, trace_path);
+  return csv;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Frames beside preprocessing: frame times, and time until the first and the final result");
+  add_options(app, arguments);
+  CLI11_PARSE(app, argc, argv);
+  const auto executor = make_tbb_executor(arguments.workers);
+  const auto tier = bodice::proxy::tier_from_name(arguments.tier);
+  const auto work =
+      arguments.vertices > 0 ? make_body_work(arguments.vertices, *tier) : make_synthetic(arguments.slice_us);
+  if (!arguments.picture_only) {
+    const std::string csv = print_table(*work, *executor, arguments);
+    if (!arguments.csv.empty()) std::ofstream(arguments.csv) << csv;
+  }
+  if (arguments.picture_only || !arguments.svg.empty() || !arguments.trace.empty())
+    draw(*work, *executor, arguments.svg, arguments.trace);
   return 0;
 }

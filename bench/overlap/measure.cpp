@@ -18,7 +18,7 @@ double ms_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-// Busy seconds of the whole machine so far, all processors, stolen time included (Linux; 0 elsewhere).
+/// Busy seconds of all processors since the machine started, stolen time included (Linux; 0 elsewhere).
 double machine_busy_s() {
   std::ifstream file("/proc/stat");
   std::string cpu;
@@ -34,6 +34,15 @@ double own_cpu_s() {
 double quantile(const std::vector<double>& sorted, double q) {
   return sorted[std::min(sorted.size() - 1,
                          static_cast<std::size_t>(q * static_cast<double>(sorted.size())))];
+}
+
+/// Sets the statistics of the frames.
+void summarize(std::vector<double> frame_ms, Row& row) {
+  row.frames = frame_ms.size();
+  std::ranges::sort(frame_ms);
+  row.p50_ms = quantile(frame_ms, 0.5);
+  row.p99_ms = quantile(frame_ms, 0.99);
+  row.max_ms = frame_ms.back();
 }
 
 }  // namespace
@@ -94,11 +103,7 @@ Row measure(const Condition& condition, Workload& work, Executor& executor, doub
   const double wall_s = ms_since(begin) * 1e-3;
   const double others_s = machine_busy_s() - busy_before - (own_cpu_s() - own_before);
   row.other_load = std::max(0.0, others_s / (wall_s * std::thread::hardware_concurrency()));
-  row.frames = frame_ms.size();
-  std::ranges::sort(frame_ms);
-  row.p50_ms = quantile(frame_ms, 0.5);
-  row.p99_ms = quantile(frame_ms, 0.99);
-  row.max_ms = frame_ms.back();
+  summarize(std::move(frame_ms), row);
   return row;
 }
 

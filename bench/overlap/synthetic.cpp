@@ -12,7 +12,7 @@ namespace {
 
 using namespace bodice::engine;
 
-// About a microsecond a thousand, without memory traffic.
+/// Arithmetic without memory traffic; a thousand rounds take about a microsecond.
 double churn(double x, int rounds) {
   for (int i = 0; i < rounds; ++i) x = std::fma(x, 0.999, 0.001) / (1.0 + 1e-3 * x);
   return x;

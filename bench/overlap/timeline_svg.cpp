@@ -18,7 +18,7 @@ std::string_view fill_of(std::string_view name) {
   return "#f4ddb0";
 }
 
-// Jobs behind, their blocks and the frame's loops in front.
+/// The height of a bar. Blocks and loops are lower than the jobs and frames that they are drawn over.
 double height_of(std::string_view name) {
   if (name == "frame loop" || name == "background block") return kLane - 22.0;
   return kLane - 8.0;
@@ -47,6 +47,7 @@ void append_legend(std::string& svg, double y) {
   append_text(svg, x, y + 12.0, "&#9650; result published");
 }
 
+/// A bar of the picture: one event of the trace, or several that touch.
 struct Bar {
   std::size_t lane;
   double left, right;
@@ -54,7 +55,7 @@ struct Bar {
   double height;
 };
 
-// Bars of one kind that touch on paper become one.
+/// Adds a bar, or extends the last bar of its lane and color if the two touch in the picture.
 void add_bar(std::vector<Bar>& bars, const Bar& bar) {
   for (auto last = bars.rbegin(); last != bars.rend() && last - bars.rbegin() < 64; ++last) {
     if (last->lane != bar.lane || last->fill != bar.fill) continue;

@@ -10,7 +10,7 @@
 
 namespace bodice_bench {
 
-/// What the frames simulate and what is prepared behind them.
+/// The work of a frame, and the work of preparing a body behind the frames.
 class Workload {
  public:
   virtual ~Workload() = default;
@@ -22,12 +22,12 @@ class Workload {
                                                bodice::engine::FunctionRef<void()> publish) const = 0;
 };
 
-/// Arithmetic in the shape of the real thing: a frame of 8 substeps of 3 loops over 20k particles, and
-/// preprocessing of loops whose blocks take about `slice_us`, with a serial stretch in between.
+/// Arithmetic in the pattern of real work: a frame is 8 substeps of 3 loops over 20k particles, and
+/// preprocessing alternates loops, with blocks of about `slice_us`, and serial work.
 std::unique_ptr<Workload> make_synthetic(double slice_us);
 
-/// A tube of cloth of 5k particles, 8 substeps a frame, on a body proxy; and the preparation of a generated
-/// body of `vertices` from its mesh to a proxy of `tier`, as a try-on session does it.
+/// Real work: a frame steps a tube of cloth of 5k particles on a body proxy, 8 substeps, and preprocessing
+/// takes a made body of `vertices` from its mesh to a proxy of `tier`, as a try-on session does.
 std::unique_ptr<Workload> make_body_work(int vertices, bodice::proxy::Tier tier);
 
 }  // namespace bodice_bench

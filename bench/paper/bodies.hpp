@@ -10,7 +10,7 @@
 
 namespace paper_bench {
 
-/// A row of the paper's Table 2: its body, its counts, its seconds on a Core i3-2350M.
+/// A row of the paper's Table 2: its body, its counts, and its seconds on a Core i3-2350M.
 struct PaperRow {
   const char* body;
   int vertices, ellipsoids;
@@ -23,14 +23,15 @@ inline constexpr PaperRow kTable2[] = {{"Male 1", 4508, 55, 0.8, 1.4, 0.5, 1.3},
                                        {"Male 2", 8750, 88, 2.4, 2.5, 1.7, 2.5},
                                        {"Female 2", 8850, 89, 1.1, 2.6, 0.8, 2.3}};
 
+/// A body of this bench that takes the role of one of the paper's.
 struct Subject {
   PaperRow paper;
   std::string source;  ///< "synth", or the file's name
   bodice::geometry::TriMesh mesh;
 };
 
-/// All four; from `data`/counts if that folder is given, else made by synth, whose vertex counts are within a
-/// few percent of those asked for.
+/// The four bodies, in the order of kTable2. They come from `data`/counts if that folder is given, else synth
+/// makes them with vertex counts within a few percent of the paper's.
 bodice::engine::Result<std::vector<Subject>> four_bodies(const std::filesystem::path& data);
 
 }  // namespace paper_bench

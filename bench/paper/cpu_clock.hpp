@@ -1,4 +1,4 @@
-// Processor time as a clock: what a busy machine takes away is not counted. For one-threaded work.
+// Processor time as a clock, for work on one thread: other programs on a busy machine do not add to it.
 #pragma once
 
 #include <ctime>
@@ -7,6 +7,7 @@
 
 namespace paper_bench {
 
+/// The processor time of this process.
 class CpuClock final : public bodice::engine::Clock {
  public:
   std::int64_t now_ns() const noexcept override {

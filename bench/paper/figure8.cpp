@@ -15,9 +15,10 @@ namespace {
 using namespace bodice;
 
 constexpr double kNoThreshold_m = 1e3;
-constexpr double kTorsoToLimbs = 1.6;  // of the thresholds, as our automatic ones
-constexpr int kNoLimit = 2000;         // ellipsoids: the thresholds decide
+constexpr double kTorsoToLimbs = 1.6;  // ratio of the thresholds, as in fitting's automatic ones
+constexpr int kNoLimit = 2000;         // so many ellipsoids that the thresholds decide
 
+/// One fit of the figure: its thresholds.
 struct Variant {
   const char *key, *caption;
   double mu_torso_m, mu_limbs_m;
@@ -52,8 +53,8 @@ engine::Result<fitting::FitResult> fit_to(const fitting::LabeledSkin& skin, doub
   return fitting::fit({}, skin, options);
 }
 
-/// The paper sets its thresholds by hand and does not say which. The limbs' threshold for which the number of
-/// ellipsoids is nearest to the paper's, by bisection.
+/// The limbs' threshold for which the number of ellipsoids is nearest to the paper's, by bisection. The paper
+/// sets its thresholds by hand and does not give them.
 engine::Result<double> threshold_for(const fitting::LabeledSkin& skin, int ellipsoids) {
   constexpr int kSteps = 9;
   double low_m = 0.005, high_m = 0.05, best_m = high_m, off = 1e9;

@@ -13,21 +13,23 @@
 
 namespace paper_bench {
 
+/// A picture of one fit.
 struct Figure8Picture {
   std::string file, caption;
 };
 
+/// All fits of one body.
 struct Figure8Row {
-  std::vector<std::vector<bench::Cell>> cells;  ///< one row of the table a fit
+  std::vector<std::vector<bench::Cell>> cells;  ///< a row of the table for each fit
   std::vector<Figure8Picture> pictures;
 };
 
-/// Fits one body three times with the paper's tier, and draws each into `folder`.
+/// Fits one body three times with the paper's tier, and writes a picture of each fit to `folder`.
 bodice::engine::Result<Figure8Row> draw_figure8(const Subject& subject, std::size_t samples,
                                                 const std::filesystem::path& folder);
 
 bench::Table figure8_table(const std::vector<Figure8Row>& rows);
-/// The pictures of a body beside each other.
+/// A table in Markdown with the pictures of each body side by side.
 std::string figure8_pictures(const std::vector<Figure8Row>& rows);
 
 }  // namespace paper_bench

@@ -13,6 +13,7 @@ using bodice::proxy::Tier;
 
 constexpr int kBodyVertices = 8850, kEllipsoids = 89;  // the paper's Female 2
 
+/// A body with the proxies of both tiers.
 struct Body {
   bodice::synth::Body body;
   BodyProxy paper, solid;
@@ -42,21 +43,21 @@ FrameTimes measure(const Body& body, const bodice::geometry::TriMesh& garment) {
 }  // namespace
 
 std::vector<FrameTimes> over_body_vertices(std::span<const int> body_vertices, int particles,
-                                           const Tell& tell) {
+                                           const Progress& progress) {
   const auto garment = bench::garment_over(bench::make_subject(particles).mesh);
   std::vector<FrameTimes> rows;
   for (const int vertices : body_vertices) {
-    tell("figure 11: a body of " + std::to_string(vertices) + " vertices");
+    progress("figure 11: a body of " + std::to_string(vertices) + " vertices");
     rows.push_back(measure(prepare(vertices), garment));
   }
   return rows;
 }
 
-std::vector<FrameTimes> over_particles(std::span<const int> particles, const Tell& tell) {
+std::vector<FrameTimes> over_particles(std::span<const int> particles, const Progress& progress) {
   const Body body = prepare(kBodyVertices);
   std::vector<FrameTimes> rows;
   for (const int count : particles) {
-    tell("figure 12: " + std::to_string(count) + " particles");
+    progress("figure 12: " + std::to_string(count) + " particles");
     rows.push_back(measure(body, bench::garment_over(bench::make_subject(count).mesh)));
   }
   return rows;
@@ -81,7 +82,7 @@ bench::Plot frame_plot(const std::string& title, bool over_bodies, const std::ve
                    .footer = {},
                    .series = {{"paper's tier, response", {}, true, false},
                               {"solid, exact response", {}, true, false},
-                              {"pair of trees (rival)", {}, true, true}}};
+                              {"pair of trees", {}, true, true}}};
   for (const FrameTimes& row : rows) {
     const auto x = static_cast<double>(over_bodies ? row.body_vertices : row.particles);
     plot.series[0].points.push_back({x, row.paper_ms, {}});

@@ -15,13 +15,13 @@ using bodice::geometry::Vec3;
 namespace {
 
 constexpr double kDeep_m = 0.010;
-constexpr double kOn_m = 1e-6;  // what counts as on a surface
+constexpr double kOn_m = 1e-6;  // a point this near to a surface lies on it
 
-/// Distance to the union: exact outside of it, negative inside.
+/// The signed distance to the union: exact outside of it, some negative number inside.
 double distance_to(std::span<const Ellipsoid> ellipsoids, const Vec3& p) {
   double least = 1e30;
   for (const Ellipsoid& e : ellipsoids) {
-    // The enclosing ball is no farther than the ellipsoid: skips most of them.
+    // The enclosing ball is no farther than the ellipsoid, so that it rules out most ellipsoids.
     const double reach = (p - e.center).norm() - e.radii.maxCoeff();
     if (reach < least) least = std::min(least, bodice::geometry::closest_point(e, p).signed_distance);
   }
@@ -32,11 +32,13 @@ double percent(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
+/// The distance to the skin of a point of the union's surface, and the area that the point represents.
 struct Gap {
   double gap_m, area;
 };
 
-/// Over one ellipsoid's free surface: Fibonacci directions, weighted by the area they map to.
+/// Adds the gaps of the part of ellipsoid k's surface that no other ellipsoid covers, at Fibonacci
+/// directions.
 void add_gaps(std::span<const Ellipsoid> ellipsoids, std::size_t k,
               const bodice::geometry::MeshDistance& distance, int count, std::vector<Gap>& gaps) {
   const Ellipsoid& e = ellipsoids[k];

@@ -1,4 +1,4 @@
-// How well ellipsoids stand for a skin, whoever made them: by the exact signed distance, one judge for all.
+// How well ellipsoids approximate a skin, measured alike for every method by the exact signed distance.
 #pragma once
 
 #include <span>
@@ -10,23 +10,24 @@
 
 namespace paper_bench {
 
+/// The errors of a set of ellipsoids against a skin.
 struct Approximation {
-  /// The paper's measure, E_j: mean and worst over the ellipsoids. A vertex counts for the ellipsoid whose
-  /// surface is nearest along the ray from its center, since a proxy does not tell its clusters.
+  /// Mean and maximum over the ellipsoids of the mean radial error, eq. (6). A vertex counts for the
+  /// ellipsoid with the nearest surface along the ray from its center, because a proxy has no clusters.
   double radial_mean_mm = 0.0, radial_worst_mm = 0.0;
   double gap_mean_mm = 0.0, gap_p95_mm = 0.0;      ///< from the union's surface to the skin, by area
-  double interior_percent = 0.0;                   ///< of the body's volume that is inside some ellipsoid
-  double outside_percent = 0.0, outside_mm = 0.0;  ///< of the skin's area outside of all; its depth
-  double leak_percent = 0.0;                       ///< of the points over 10 mm deep that no ellipsoid holds
+  double interior_percent = 0.0;                   ///< share of the body's volume inside some ellipsoid
+  double outside_percent = 0.0, outside_mm = 0.0;  ///< share of the skin's area outside of all; its distance
+  double leak_percent = 0.0;  ///< share of the points over 10 mm deep that no ellipsoid holds
 };
 
-/// Points that the judge looks at, made once a body.
+/// Measures sets of ellipsoids against one body, on points that are sampled once.
 class Judge {
  public:
-  /// `samples` of the skin, and as many of the interior and of each union's surface.
+  /// Takes `samples` points of the skin, as many of the interior, and about as many of each union's surface.
   Judge(const bodice::engine::Context& context, const bodice::geometry::TriMesh& mesh, std::size_t samples);
 
-  /// Deterministic.
+  /// Measures the ellipsoids; deterministic.
   Approximation judge(std::span<const bodice::geometry::Ellipsoid> ellipsoids) const;
   const bodice::geometry::MeshDistance& distance() const { return distance_; }
 

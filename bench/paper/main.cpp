@@ -1,10 +1,10 @@
-// The paper's own experiments again, into a folder: paper.md, with tables as CSV, plots as SVG and pictures
-// as PNG beside it. Runs differ only in their times.
-// Usage: paper [--out FOLDER] [--data FOLDER] [--quick]
+// The paper's own experiments again. The folder of results gets paper.md, tables as CSV, plots as SVG and
+// pictures as PNG. Runs differ only in their times.
 #include <cstdio>
 #include <filesystem>
 #include <string>
-#include <string_view>
+
+#include <CLI/CLI.hpp>
 
 #include <bench_support/stopwatch.hpp>
 
@@ -23,33 +23,23 @@ constexpr const char* kDiffers =
     "What differs from the paper: the machine (its laptop had a Core i3-2350M at 2.3 GHz; here one "
     "thread is timed, in processor time); the bodies (its were exported from Marvelous Designer and "
     "are not public; those of `synth` have their vertex counts within a few percent, those of `--data` "
-    "exactly); its thresholds, which it does not give, follow from its numbers of ellipsoids; its "
-    "rival [19] is a stand-in written from one sentence about it, [27] is a pair of refitted trees of "
-    "boxes that only detects. So compare ratios and shapes of curves, not seconds.";
+    "exactly); its thresholds, which it does not give, follow from its numbers of ellipsoids; a "
+    "stand-in, written from one sentence, replaces its reference [19], and a pair of refitted trees "
+    "of boxes, which only detects contacts, replaces [27]. So compare ratios and shapes of curves, "
+    "not seconds.";
 
+/// The command line, with its defaults.
 struct Arguments {
   std::filesystem::path out = "paper", data;
   bool quick = false;
-  std::string command;
+
+  /// The command as the page quotes it: without the names of folders.
+  std::string command() const {
+    return std::string("paper") + (data.empty() ? "" : " --data FOLDER") + (quick ? " --quick" : "");
+  }
 };
 
-bool parse(int argc, char** argv, Arguments& arguments) {
-  arguments.command = "paper";
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    if (word == "--quick")
-      arguments.quick = true, arguments.command += " --quick";
-    else if (word == "--out" && i + 1 < argc)
-      arguments.out = argv[++i];
-    else if (word == "--data" && i + 1 < argc)
-      arguments.data = argv[++i], arguments.command += " --data FOLDER";
-    else
-      return false;
-  }
-  return true;
-}
-
-void tell(const std::string& what) {
+void progress(const std::string& what) {
   static const bench::Stopwatch since_start;
   std::fprintf(stderr, "paper: %5.1f s  %s\n", 1e-3 * since_start.wall_ms(), what.c_str());
 }
@@ -57,7 +47,7 @@ void tell(const std::string& what) {
 Result<void> add_table2(const std::vector<pb::Subject>& bodies, const pb::Effort& effort, pb::Page& page) {
   std::vector<pb::Table2Row> rows;
   for (const pb::Subject& body : bodies) {
-    tell(std::string("table 2: ") + body.paper.body);
+    progress(std::string("table 2: ") + body.paper.body);
     auto row = pb::measure_table2(body, effort);
     if (!row) return row.error();
     rows.push_back(std::move(*row));
@@ -70,7 +60,7 @@ Result<void> add_table2(const std::vector<pb::Subject>& bodies, const pb::Effort
 Result<void> add_figure8(const std::vector<pb::Subject>& bodies, std::size_t samples, pb::Page& page) {
   std::vector<pb::Figure8Row> rows;
   for (const std::size_t i : {2u, 1u}) {  // Male 2 and Female 1, as in the paper
-    tell(std::string("figure 8: ") + bodies[i].paper.body);
+    progress(std::string("figure 8: ") + bodies[i].paper.body);
     auto row = pb::draw_figure8(bodies[i], samples, page.folder());
     if (!row) return row.error();
     rows.push_back(std::move(*row));
@@ -92,10 +82,10 @@ void add_frame_times(bool quick, pb::Page& page) {
       "as plain scalar code that also checks where each particle ends; the exact response is the "
       "vectorized one. A garment is a skin 4 mm over the body's; bodies and garments of all sizes are "
       "made by `synth`.");
-  const auto eleven = pb::over_body_vertices(bodies, quick ? 4000 : 20000, tell);
+  const auto eleven = pb::over_body_vertices(bodies, quick ? 4000 : 20000, progress);
   page.add(pb::frame_table("figure11", "Figure 11. The body gets finer, the garment stays.", eleven));
   page.add("figure11", pb::frame_plot("Figure 11: the body gets finer", true, eleven));
-  const auto twelve = pb::over_particles(garments, tell);
+  const auto twelve = pb::over_particles(garments, progress);
   page.add(pb::frame_table("figure12", "Figure 12. The garment gets finer, the body stays.", twelve));
   page.add("figure12", pb::frame_plot("Figure 12: the garment gets finer", false, twelve));
 }
@@ -103,7 +93,7 @@ void add_frame_times(bool quick, pb::Page& page) {
 Result<void> run(const Arguments& arguments) {
   const auto bodies = pb::four_bodies(arguments.data);
   if (!bodies) return bodies.error();
-  pb::Page page(arguments.out, arguments.command);
+  pb::Page page(arguments.out, arguments.command());
   page.add(kDiffers);
   const pb::Effort effort = arguments.quick ? pb::Effort{1, 4000} : pb::Effort{};
   if (auto ok = add_table2(*bodies, effort, page); !ok) return ok;
@@ -116,10 +106,11 @@ Result<void> run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  if (!parse(argc, argv, arguments)) {
-    std::fputs("usage: paper [--out FOLDER] [--data FOLDER] [--quick]\n", stderr);
-    return 2;
-  }
+  CLI::App app("Repeats the paper's experiments: Table 2 and figures 8, 11 and 12.", "paper");
+  app.add_option("--out", arguments.out, "folder for the results")->capture_default_str();
+  app.add_option("--data", arguments.data, "folder of bodies; without it synth makes them");
+  app.add_flag("--quick", arguments.quick, "fewer samples and smaller sizes");
+  CLI11_PARSE(app, argc, argv);
   if (const auto done = run(arguments); !done) {
     std::fprintf(stderr, "paper: %s\n", done.error().sentence().c_str());
     return 1;

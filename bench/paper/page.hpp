@@ -11,16 +11,17 @@
 
 namespace paper_bench {
 
+/// The page and its files, written as they are added.
 class Page {
  public:
-  /// `command` is how the folder was made.
+  /// `command` is the command line that made the folder.
   Page(std::filesystem::path folder, std::string command);
 
   const std::filesystem::path& folder() const { return folder_; }
   void add(const std::string& markdown) { text_ += markdown + "\n\n"; }
-  /// The table into the page, and NAME.csv.
+  /// Adds the table to the page, and writes NAME.csv.
   void add(const bench::Table& table);
-  /// NAME.svg, shown in the page.
+  /// Writes NAME.svg, and shows it in the page.
   void add(const std::string& name, bench::Plot plot);
 
   /// Writes paper.md; the first file that could not be written is the error.

@@ -1,4 +1,4 @@
-#include "rival.hpp"
+#include "stand_in.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -13,9 +13,10 @@ using bodice::geometry::Vec3;
 
 namespace {
 
-constexpr double kVolumeTolerance = 1e-4;  // as our own fits
-constexpr std::size_t kLeastPoints = 8;    // fewer are not split, as in our own fits
+constexpr double kVolumeTolerance = 1e-4;  // of enclosing ellipsoids, as in bodice::fitting
+constexpr std::size_t kLeastPoints = 8;    // a cluster with fewer is not split, as in bodice::fitting
 
+/// A clustering with the ellipsoids and the errors of its clusters.
 struct State {
   std::vector<Vec3> centers;
   std::vector<Ellipsoid> ellipsoids;
@@ -24,15 +25,16 @@ struct State {
   double worst_m = 0.0;
 };
 
-class Rival {
+/// The state of the method, and its two steps: split and cluster again.
+class StandIn {
  public:
-  Rival(const bodice::engine::Context& context, std::span<const Vec3> skin, double min_radius_m)
+  StandIn(const bodice::engine::Context& context, std::span<const Vec3> skin, double min_radius_m)
       : context_(context), skin_(skin), min_radius_m_(min_radius_m) {
     const Vec3 sum = std::accumulate(skin.begin(), skin.end(), Vec3(Vec3::Zero()));
     state_ = cluster({sum / static_cast<double>(skin.size())});
   }
 
-  /// One ellipsoid more; false if none can be split.
+  /// Adds an ellipsoid; false if none can be split.
   bool split(int most_tries) {
     std::vector<std::size_t> order;
     for (std::size_t k = 0; k < state_.centers.size(); ++k)
@@ -56,7 +58,7 @@ class Rival {
   }
 
   std::size_t count() const { return state_.ellipsoids.size(); }
-  RivalFit finish() {
+  StandInFit finish() {
     fit_.ellipsoids = state_.ellipsoids;
     return fit_;
   }
@@ -94,7 +96,7 @@ class Rival {
   std::span<const Vec3> skin_;
   double min_radius_m_;
   State state_;
-  RivalFit fit_;
+  StandInFit fit_;
 };
 
 }  // namespace
@@ -105,13 +107,13 @@ double radial_error(const Ellipsoid& ellipsoid, std::span<const Vec3> points) {
   return points.empty() ? 0.0 : sum / static_cast<double>(points.size());
 }
 
-RivalFit fit_rival(const bodice::engine::Context& context, std::span<const Vec3> skin, std::size_t count,
-                   int most_tries, double min_radius_m) {
+StandInFit fit_stand_in(const bodice::engine::Context& context, std::span<const Vec3> skin, std::size_t count,
+                        int most_tries, double min_radius_m) {
   if (skin.empty()) return {};
-  Rival rival(context, skin, min_radius_m);
-  while (rival.count() < count && rival.split(most_tries)) {
+  StandIn stand_in(context, skin, min_radius_m);
+  while (stand_in.count() < count && stand_in.split(most_tries)) {
   }
-  return rival.finish();
+  return stand_in.finish();
 }
 
 }  // namespace paper_bench

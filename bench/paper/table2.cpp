@@ -7,14 +7,14 @@
 #include <bodice/fitting/fit.hpp>
 
 #include "cpu_clock.hpp"
-#include "rival.hpp"
+#include "stand_in.hpp"
 
 namespace paper_bench {
 namespace {
 
 using namespace bodice;
 
-constexpr double kLeastRadius = 3e-4;  // of stature, as in our own fits
+constexpr double kLeastRadius = 3e-4;  // of an ellipsoid, a share of stature, as in bodice::fitting
 
 std::vector<geometry::Ellipsoid> shapes_of(const proxy::BodyProxy& proxy) {
   std::vector<geometry::Ellipsoid> shapes;
@@ -53,14 +53,14 @@ engine::Result<MethodResult> measure_ours(const Subject& subject, const Judge& j
   return result;
 }
 
-/// Once: it takes a second, beside which noise is small.
-MethodResult measure_rival(const Subject& subject, const Judge& judge, int tries) {
+/// Runs once: it takes a second, and noise is small beside that.
+MethodResult measure_stand_in(const Subject& subject, const Judge& judge, int tries) {
   const CpuClock clock;
   const auto& skin = subject.mesh.positions;
   const double stature_m = geometry::bounding_box(skin).size().y();
   const std::int64_t begin_ns = clock.now_ns();
-  const RivalFit fit = fit_rival({}, skin, static_cast<std::size_t>(subject.paper.ellipsoids), tries,
-                                 kLeastRadius * stature_m);
+  const StandInFit fit = fit_stand_in({}, skin, static_cast<std::size_t>(subject.paper.ellipsoids), tries,
+                                      kLeastRadius * stature_m);
   MethodResult result{.fit_ms = clock.ms_since(begin_ns)};
   result.ellipsoids = fit.ellipsoids.size();
   result.backtracks = fit.backtracks;
@@ -76,9 +76,9 @@ engine::Result<Table2Row> measure_table2(const Subject& subject, const Effort& e
   auto ours = measure_ours(subject, judge, effort.repeats);
   if (!ours) return ours.error();
   row.methods.push_back(std::move(*ours));
-  row.methods.push_back(measure_rival(subject, judge, kMostTries));
+  row.methods.push_back(measure_stand_in(subject, judge, kMostTries));
   row.methods.back().method = "stand-in for [19]";
-  row.methods.push_back(measure_rival(subject, judge, 1));
+  row.methods.push_back(measure_stand_in(subject, judge, 1));
   row.methods.back().method = "stand-in, never going back";
   return row;
 }

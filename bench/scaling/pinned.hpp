@@ -2,8 +2,8 @@
 
 namespace bodice_bench {
 
-/// The calling thread stays on one of the processors that it may use (modulo their number) while this lives;
-/// does nothing where the system does not offer it.
+/// Keeps the calling thread on one of its processors (modulo their number) during the lifetime of this
+/// object. Does nothing where the system has no such call.
 class Pinned {
  public:
   explicit Pinned(int processor);

@@ -13,8 +13,9 @@ namespace bodice_bench {
 
 using bench::Origin;
 
-/// One row a sample; the origin stands in every row.
+/// A row for each sample; every row has the origin.
 std::string to_csv(const std::vector<std::vector<Sample>>& stages, const Origin& origin);
+/// Work and span of one stage.
 struct Limit {
   std::string stage, element;
   std::size_t size = 0;
@@ -23,7 +24,7 @@ struct Limit {
 std::string to_markdown(const std::vector<Limit>& limits, const std::vector<std::vector<Sample>>& strong,
                         const std::vector<std::vector<Sample>>& weak, const std::vector<Cost>& costs,
                         const Origin& origin);
-/// Speed-up over workers, a line a stage, beside the ideal.
+/// A plot of speed-up over workers, with a line for each stage and one for the ideal.
 std::string to_svg(const std::vector<std::vector<Sample>>& strong, const Origin& origin);
 
 }  // namespace bodice_bench

@@ -18,8 +18,8 @@ struct Stage {
   std::string element;  ///< what size counts
   std::size_t quick_size, full_size;
   std::function<Work(std::size_t size)> make;
-  bool draws_blocks =
-      false;  ///< spreads its blocks itself, so that work and span cannot be seen from outside
+  /// Whether the stage distributes its blocks itself, so that work and span cannot be measured from outside.
+  bool draws_blocks = false;
 };
 
 // The engine's own loops.

@@ -4,10 +4,10 @@
 
 namespace bodice_bench {
 
-/// What the blocks of a stage allow, whatever the machine is doing beside it.
+/// The limits that a stage's blocks set to its speed-up; other programs on the machine do not change them.
 struct WorkSpan {
   double work_ms = 0.0;  ///< processor time of one serial run
-  double span_ms = 0.0;  ///< of that, the longest chain of parts that cannot run side by side
+  double span_ms = 0.0;  ///< the longest chain of parts that cannot run in parallel
   /// The least speed-up that a scheduler which never idles beside ready blocks reaches with n workers.
   double speed_up(int workers) const { return work_ms / (span_ms + (work_ms - span_ms) / workers); }
 };

@@ -27,7 +27,7 @@ struct Axis {
   }
   double at(double value) const { return from + (to - from) * std::log(value / low) / std::log(high / low); }
 
-  /// 1, 2 and 5 times powers of ten; powers alone over many decades.
+  /// Values of the ticks: 1, 2 and 5 times powers of ten; over many decades only the powers.
   std::vector<double> ticks() const {
     const bool dense = high / low < 2e3;
     std::vector<double> values;
@@ -58,7 +58,7 @@ std::string words(double x, double y, const std::string& text, const char* style
   return format("<text x='%.1f' y='%.1f' %s>", x, y, style) + escaped(text) + "</text>\n";
 }
 
-/// 50000, 1 million: no exponents.
+/// A number for an axis, without exponents: 50000, 1 million.
 std::string number(double value) {
   return value >= 1e6 ? format("%g million", 1e-6 * value) : format("%g", value);
 }
@@ -83,7 +83,7 @@ std::string frame(const Plot& plot, const Axis& x, const Axis& y) {
   return svg + words(kLeft, kHeight - 12, plot.footer, "font-size='10' fill='#777'");
 }
 
-/// Where labels stand already: a new one goes to the first corner of its point that is free.
+/// The labels drawn so far. A new label goes to the first free corner of its point.
 class Labels {
  public:
   std::string put(double x, double y, const std::string& text, const char* color) {
@@ -140,8 +140,8 @@ std::string to_svg(const Plot& plot) {
   double legend_y = kTop + 10;
   for (std::size_t i = 0; i < plot.series.size(); ++i) {
     const PlotSeries& series = plot.series[i];
-    const std::size_t place = series.color < 0 ? i : static_cast<std::size_t>(series.color);
-    const char* const color = kColors[place % std::size(kColors)];
+    const std::size_t index = series.color < 0 ? i : static_cast<std::size_t>(series.color);
+    const char* const color = kColors[index % std::size(kColors)];
     if (std::ranges::none_of(series.points, shows)) continue;
     svg += draw(series, color, x, y, labels);
     svg += format("<circle cx='%.1f' cy='%.1f' r='4' stroke='%s' stroke-width='2' fill='%s'/>\n",

@@ -16,7 +16,7 @@ using namespace bodice;
 
 constexpr double kBand_m = 0.030;
 
-/// Particles and their truth, which is taken of the rounded places that the contenders are given.
+/// Adds particles and their exact distances, which belong to the rounded positions that the contenders get.
 void add_truth(const engine::Context& context, Subject& subject) {
   const geometry::MeshDistance& skin = *subject.skin.distance;
   bench::Cloud near;
@@ -35,9 +35,9 @@ Subject from_skin(const engine::Context& context, std::string name, tryon::Segme
 }
 
 std::vector<fs::path> meshes_in(const fs::path& folder) {
-  const fs::path place = fs::is_directory(folder / "bodies") ? folder / "bodies" : folder;
+  const fs::path bodies = fs::is_directory(folder / "bodies") ? folder / "bodies" : folder;
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(place)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(bodies)) {
     const std::string ending = entry.path().extension().string();
     if (ending == ".obj" || ending == ".ply" || ending == ".glb") files.push_back(entry.path());
   }
@@ -55,7 +55,7 @@ synth::BodyOptions body_of_seed(std::uint64_t seed, int vertices) {
   options.seed = seed;
   options.vertices = vertices;
   options.pose = kPoses[seed % std::size(kPoses)];
-  if (seed == 0) return options;  // the built-in body
+  if (seed == 0) return options;  // seed 0 is the built-in body
   options.sex = seed % 2 == 0 ? body::Sex::kFemale : body::Sex::kMale;
   options.stature_m = random.uniform(1.5, 1.9);
   options.mass_kg = random.uniform(19.0, 33.0) * options.stature_m * options.stature_m;

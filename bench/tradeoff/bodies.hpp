@@ -1,4 +1,4 @@
-// Whom the dials are tried on: bodies made from seeds, and those of a folder, each with its exact truth.
+// The bodies that are measured: bodies made from seeds, and those of a folder, each with exact distances.
 #pragma once
 
 #include <filesystem>
@@ -14,23 +14,24 @@
 
 namespace tradeoff {
 
-/// A segmented body, and places near its skin whose exact signed distance is known.
+/// A segmented body, and particles near its skin with their exact signed distances.
 struct Subject {
   std::string name;
   bodice::tryon::SegmentedSkin skin;
-  std::optional<bodice::synth::Body> made;  ///< with its true landmarks, if it was made
+  std::optional<bodice::synth::Body> made;  ///< with its true landmarks, if the body was made
   bench::Cloud particles;                   ///< within 30 mm of the skin, in Morton order
   std::vector<double> truth_m;              ///< of each particle
 };
 
-/// What makes a subject, later: bodies are large, and not every sweep needs each.
+/// A subject that is made when it is needed, because bodies are large and few sweeps need all.
 struct SubjectSource {
   std::string name;
   std::function<Subject(const bodice::engine::Context&)> make;
 };
 
-/// Sex, stature, girth and pose follow from the seed; nothing was developed on these.
+/// The options of a made body: sex, stature, girth and pose follow from the seed.
 bodice::synth::BodyOptions body_of_seed(std::uint64_t seed, int vertices);
+/// `count` made bodies of consecutive seeds.
 std::vector<SubjectSource> made_bodies(std::uint64_t first_seed, int count, int vertices);
 
 /// Every mesh in DIR/bodies, or in DIR itself, by name.

@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-// A rival gets the vectors that our kernels have.
+// The capsules get the same vector instructions as the kernels of bodice.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define BENCH_VECTOR_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
@@ -19,6 +19,7 @@ namespace {
 using bodice::geometry::Mat3;
 using bodice::geometry::Vec3;
 
+/// The capsule of one part's points.
 Capsule around(const std::vector<Vec3>& points) {
   const auto count = static_cast<double>(points.size());
   Vec3 mean = Vec3::Zero();
@@ -68,7 +69,7 @@ void capsule_distances(std::span<const Capsule> capsules, const bench::Cloud& pa
   const float *px = particles.x.data(), *py = particles.y.data(), *pz = particles.z.data();
   float* const out = distance_m.data();
   for (const Capsule& c : capsules)
-    for (std::size_t i = 0; i < count; ++i) {  // the inner loop, so that the compiler makes vectors of it
+    for (std::size_t i = 0; i < count; ++i) {  // this is the inner loop, so that compilers vectorize it
       const float x = px[i] - c.start[0], y = py[i] - c.start[1], z = pz[i] - c.start[2];
       const float dot = x * c.along[0] + y * c.along[1] + z * c.along[2];
       const float t = std::min(1.0f, std::max(0.0f, dot * c.inverse_squared_length));

@@ -1,4 +1,4 @@
-// What games put around a body: one capsule a part.
+// Capsules around a body, one a part, as games have them.
 #pragma once
 
 #include <span>
@@ -11,18 +11,19 @@
 
 namespace tradeoff {
 
+/// All points within a radius of a segment.
 struct Capsule {
-  float start[3], along[3];      ///< meters; the segment goes from start to start + along
+  float start[3], along[3];      ///< meters; the segment runs from start to start + along
   float inverse_squared_length;  ///< 0 for a sphere
   float radius;
 };
 
-/// For each part that has vertices: the axis of greatest spread through the mean, the median distance from it
-/// as radius, and an end a radius short of where the part ends.
+/// A capsule for each part that has vertices: its axis is that of greatest spread through the mean, its
+/// radius is the median distance from the axis, and its segment ends a radius before the ends of the part.
 std::vector<Capsule> fit_capsules(const bodice::geometry::TriMesh& mesh,
                                   std::span<const bodice::body::Part> part);
 
-/// Signed distance of every particle to the union.
+/// Writes the signed distance of every particle to the union of capsules.
 void capsule_distances(std::span<const Capsule> capsules, const bench::Cloud& particles,
                        std::span<float> distance_m);
 

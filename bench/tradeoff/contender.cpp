@@ -15,8 +15,8 @@ namespace {
 using namespace bodice;
 using collision::Collider;
 
-/// A proxy, its particles, and room for the answers. Without a Workspace: the same particles are asked about
-/// again and again, and what it keeps of them would be worth more than in a motion.
+/// A proxy with particles and contacts. It has no workspace: the same particles are queried repeatedly, so
+/// that a candidate cache would gain more than in a motion.
 struct Queries {
   Collider collider, moving;
   std::vector<geometry::Ellipsoid> shapes;
@@ -66,13 +66,13 @@ double fit_ms(const fitting::FitResult& fit) {
   return ms;
 }
 
-Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::string dial,
+Contender of_proxy(const Subject& subject, const fitting::FitResult& fit, std::string setting,
                    collision::Accuracy accuracy) {
   const bool exact = accuracy == collision::Accuracy::kExact;
   const auto queries = std::make_shared<Queries>(fit.proxy, subject.particles, accuracy);
   Contender c;
   c.kind = std::string(proxy::name(fit.proxy.tier())) + (exact ? "" : " to first order");
-  c.dial = std::move(dial);
+  c.setting = std::move(setting);
   c.ours = true;
   c.size = static_cast<double>(fit.proxy.ellipsoids().size());
   c.bytes = static_cast<double>(fit.proxy.bytes());
@@ -94,7 +94,7 @@ std::vector<Cost> time_all(const std::vector<Contender>& contenders, int rounds)
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<Cost> costs(contenders.size(), Cost{inf, inf});
   const auto measure = [](const std::function<void()>& work, std::size_t particles, double& least) {
-    work();  // what came before has filled the caches with its own data
+    work();  // the contender before has filled the caches with its own data
     const bench::Stopwatch watch;
     work();
     least = std::min(least, 1e6 * watch.cpu_ms() / static_cast<double>(particles));

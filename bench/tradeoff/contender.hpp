@@ -1,4 +1,4 @@
-// Whoever can say how far a particle is from the skin: our proxies at a setting of their dials, and rivals.
+// Contenders, which find the distance from particles to the skin: proxies with different settings, and peers.
 #pragma once
 
 #include <functional>
@@ -12,39 +12,41 @@
 
 namespace tradeoff {
 
+/// A method that finds distances, with its costs.
 struct Contender {
-  std::string kind;  ///< the tier, or the rival
-  std::string dial;  ///< its setting
-  bool ours = false;
-  bool has_sign = true;
-  double size = 0.0;              ///< ellipsoids, capsules; 0: neither
+  std::string kind;               ///< the tier, or the peer
+  std::string setting;            ///< the count, target error or cell size
+  bool ours = false;              ///< whether it is a proxy of bodice
+  bool has_sign = true;           ///< whether distances are signed
+  double size = 0.0;              ///< number of ellipsoids or capsules; 0: neither
   double bytes = 0.0;             ///< 0: not known
-  double prepare_ms = 0.0;        ///< from the segmented skin to the first query
-  double update_us = 0.0;         ///< what a body that moves pays a frame
-  std::size_t particles = 0;      ///< of one query or response
-  std::function<void()> query;    ///< all particles once
-  std::function<void()> respond;  ///< pushes all out once; empty: cannot
+  double prepare_ms = 0.0;        ///< time from the segmented skin to the first query
+  double update_us = 0.0;         ///< time a frame for a moving body
+  std::size_t particles = 0;      ///< particles of a query or response
+  std::function<void()> query;    ///< queries all particles once
+  std::function<void()> respond;  ///< pushes all particles out once; empty: there is no response
   std::function<std::vector<float>()> distances_m;
 };
 
-/// Our proxy, answering through the collider that the frame path uses. Responses are always exact: to first
-/// order it has none.
-Contender of_proxy(const Subject& subject, const bodice::fitting::FitResult& fit, std::string dial,
+/// A proxy of bodice, queried by the collider that the frame path uses. Responses are always exact; there is
+/// none to first order.
+Contender of_proxy(const Subject& subject, const bodice::fitting::FitResult& fit, std::string setting,
                    bodice::collision::Accuracy accuracy = bodice::collision::Accuracy::kExact);
 
-/// Embree where it is installed, distance grids, a capsule a part.
-std::vector<Contender> rivals(const Subject& subject, const std::vector<double>& grid_cells_m);
+/// The peers: Embree where it is installed, distance grids, and a capsule a part.
+std::vector<Contender> peers(const Subject& subject, const std::vector<double>& grid_cells_m);
 
-/// Least processor time of one call, of five batches, because the clock counts in microseconds.
+/// The least processor time of a call, over five batches, because the clock counts microseconds.
 double least_us(const std::function<void()>& work, int batch = 50);
 
-/// The time of the fit proper: not of the measurement of its accuracy.
+/// The time of a fit without the measurement of its accuracy.
 double fit_ms(const bodice::fitting::FitResult& fit);
 
-/// Least processor time a particle, ns, of interleaved rounds, so that a slow minute hits all alike.
+/// The processor time of a contender, nanoseconds a particle.
 struct Cost {
-  double query_ns = 0.0, response_ns = 0.0;  ///< the latter 0 if it cannot
+  double query_ns = 0.0, response_ns = 0.0;  ///< the response's is 0 if there is none
 };
+/// The least times over rounds in which the contenders take turns, so that a slow minute affects all alike.
 std::vector<Cost> time_all(const std::vector<Contender>& contenders, int rounds);
 
 }  // namespace tradeoff

@@ -1,4 +1,4 @@
-// What a frame of cloth costs and how deep it ends inside the true skin: tier, response and substeps.
+// The time of a frame of cloth and its depth inside the true skin, by tier, response and substeps.
 #include <bodice/tryon/drape.hpp>
 
 #include <algorithm>
@@ -15,20 +15,21 @@ using namespace bodice;
 using collision::Response;
 using proxy::Tier;
 
-struct Way {
+/// How a garment is draped.
+struct Choice {
   Tier tier;
   Response response;
   int substeps;
 };
 
-std::vector<Way> ways(const Setting& setting) {
+std::vector<Choice> choices(const Setting& setting) {
   if (setting.effort == Effort::kSmallest) return {{Tier::kSolid, Response::kClosestPoint, 4}};
-  std::vector<Way> all;
+  std::vector<Choice> all;
   for (const Tier tier : {Tier::kPaper, Tier::kSolid, Tier::kTight, Tier::kRelief})
     for (const Response response : {Response::kPaper, Response::kClosestPoint}) {
-      // The paper's tier leaks, and is draped by the paper's response alone.
+      // The paper's tier leaks; it is draped with the paper's response alone.
       if (tier == Tier::kPaper && response == Response::kClosestPoint) continue;
-      // Paper's response takes many times as long: two points of it show where it lies.
+      // The paper's response takes many times as long, so that two rows have to suffice.
       const bool few = setting.effort == Effort::kQuick || response == Response::kPaper;
       const auto counts = few ? std::vector{4, 16} : std::vector{4, 8, 16, 32};
       for (const int substeps : counts) all.push_back({tier, response, substeps});
@@ -40,7 +41,7 @@ const char* name(Response response) {
   return response == Response::kPaper ? "paper" : "nearest";
 }
 
-/// One proxy a tier, fitted once.
+/// The proxies of all tiers, each fitted once.
 class Fits {
  public:
   Fits(const Setting& setting, const Subject& subject) : setting_(setting), subject_(subject) {}
@@ -61,32 +62,33 @@ class Fits {
 };
 
 tryon::DrapeReport drape(const Setting& setting, const tryon::PreparedBody& body,
-                         const tryon::WornGarment& garment, const Way& way) {
+                         const tryon::WornGarment& garment, const Choice& choice) {
   tryon::DrapeOptions options;
   options.frames = setting.by_effort(3, 20, 60);
-  options.solver.substeps = way.substeps;
-  options.solver.response = way.response;
+  options.solver.substeps = choice.substeps;
+  options.solver.response = choice.response;
   options.solver.environment.wind_m_s = {0.0, 0.0, 2.0};
   options.solver.environment.gust = 0.3;
   return must(tryon::drape(setting.context, body, {garment}, options)).report;
 }
 
-void add_garment(const Setting& setting, const Subject& subject, const GarmentChoice& choice, Fits& fits,
+void add_garment(const Setting& setting, const Subject& subject, const GarmentChoice& kind, Fits& fits,
                  bench::Table& table, std::map<std::string, bench::PlotSeries>& series) {
   constexpr double kLeastDrawn_mm = 0.01;
-  const auto garment = cut_for(setting.context, subject, choice, setting.by_effort(0.03, 0.02, 0.015));
-  for (const Way& way : ways(setting)) {
-    progress("drapes", subject.name + ", " + choice.name + ", " + std::string(proxy::name(way.tier)) + ", " +
-                           name(way.response) + ", " + std::to_string(way.substeps) + " substeps");
-    const tryon::DrapeReport r = drape(setting, fits[way.tier], garment, way);
-    table.add({subject.name, choice.name, proxy::name(way.tier), name(way.response), way.substeps,
-               r.particles, 1e3 * r.penetration_max_m, 1e3 * r.penetration_end_m, r.penetration_over_1mm,
+  const auto garment = cut_for(setting.context, subject, kind, setting.by_effort(0.03, 0.02, 0.015));
+  for (const Choice& choice : choices(setting)) {
+    const std::string tier(proxy::name(choice.tier));
+    progress("drapes", subject.name + ", " + kind.name + ", " + tier + ", " + name(choice.response) + ", " +
+                           std::to_string(choice.substeps) + " substeps");
+    const tryon::DrapeReport r = drape(setting, fits[choice.tier], garment, choice);
+    table.add({subject.name, kind.name, tier, name(choice.response), choice.substeps, r.particles,
+               1e3 * r.penetration_max_m, 1e3 * r.penetration_end_m, r.penetration_over_1mm,
                100.0 * r.pierced_share, 100.0 * r.stretch_p95, 1e3 * r.median_speed_m_s, r.inside_union,
                r.frame_ms_median, r.frame_ms_p99});
-    bench::PlotSeries& line = series[std::string(proxy::name(way.tier)) + ", " + name(way.response)];
-    if (&choice != kGarments) continue;  // one garment a plot
+    bench::PlotSeries& line = series[tier + ", " + name(choice.response)];
+    if (&kind != kGarments) continue;  // the plot shows the first garment
     line.points.push_back({r.frame_ms_median, std::max(kLeastDrawn_mm, 1e3 * r.penetration_max_m),
-                           std::to_string(way.substeps)});
+                           std::to_string(choice.substeps)});
   }
 }
 
@@ -109,15 +111,14 @@ Findings sweep_drapes(const Setting& setting) {
   Findings found;
   found.text =
       "Frames of 1/60 s, two sweeps a substep, thickness as `bodice drape` chooses it. A garment that ends "
-      "faster than a meter a second has been thrown off the body: that nothing of it is inside says "
-      "nothing.\n";
+      "faster than a meter a second was thrown off the body, so that its depth has no meaning.\n";
   found.shown.push_back(std::move(table));
   bench::Plot plot{"Depth in the true skin against the time of a frame (skirt; labels: substeps)",
                    "median frame, ms",
                    "deepest particle of any frame, mm (0.01: none)",
                    "",
                    {}};
-  std::map<std::string, int> colors;  // one a tier, hollow where the response is the paper's
+  std::map<std::string, int> colors;  // each tier has a color; marks are hollow for the paper's response
   for (auto& [label, line] : series) {
     line.name = label, line.hollow = label.ends_with(", paper");
     line.color =

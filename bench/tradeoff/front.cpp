@@ -1,4 +1,5 @@
-// The front: every tier over its counts and tables, beside the rivals, on the same particles.
+// The front of error against cost: every tier with its counts and tables, beside the peers, on the same
+// particles.
 #include <algorithm>
 #include <string>
 
@@ -15,18 +16,18 @@ namespace {
 using namespace bodice;
 using proxy::Tier;
 
-constexpr double kExact_mm = 0.05;  ///< plots draw less than this at this
+constexpr double kExact_mm = 0.05;  ///< plots draw smaller errors at this value
 constexpr double kFrameParticles = 1e4;
 
-/// A setting of the dials: a count, or (relief) the error that decides how large the tables are.
-struct Dial {
+/// The options of a fit: a count or, for relief, a target error that decides the size of the tables.
+struct FitSetting {
   Tier tier;
   int count = 89;
   double target_mm = 0.0;
 
   std::string label() const {
     if (target_mm == 0.0) return std::to_string(count);
-    return "asked 0." + std::to_string(static_cast<int>(1e2 * target_mm + 0.5)) + " mm";
+    return "target 0." + std::to_string(static_cast<int>(1e2 * target_mm + 0.5)) + " mm";
   }
   fitting::FitOptions options() const {
     fitting::FitOptions o{.tier = tier, .max_ellipsoids = count};
@@ -35,12 +36,12 @@ struct Dial {
   }
 };
 
-std::vector<Dial> dials(const Setting& setting) {
+std::vector<FitSetting> fit_settings(const Setting& setting) {
   if (setting.effort == Effort::kSmallest) return {{Tier::kPaper}, {Tier::kSolid, 30}, {Tier::kTight, 15}};
   if (setting.effort == Effort::kQuick)
     return {{Tier::kPaper},     {Tier::kSolid, 15}, {Tier::kSolid},     {Tier::kTight, 15},
             {Tier::kTight, 30}, {Tier::kTight},     {Tier::kRelief, 32}};
-  std::vector<Dial> all;
+  std::vector<FitSetting> all;
   for (const int count : {15, 30, 55, 89, 200}) all.push_back({Tier::kPaper, count});
   for (const int count : {15, 30, 55, 89, 200, 400}) all.push_back({Tier::kSolid, count});
   for (const int count : {5, 8, 15, 22, 30, 55, 89, 160, 300}) all.push_back({Tier::kTight, count});
@@ -51,7 +52,7 @@ std::vector<Dial> dials(const Setting& setting) {
 
 /// One contender over all bodies.
 struct Row {
-  std::string kind, dial;
+  std::string kind, setting;
   bool ours = false;
   std::vector<Error> errors;
   double size = 0.0, bytes = 0.0, prepare_ms = 0.0, update_us = 0.0, query_ns = 0.0, response_ns = 0.0;
@@ -63,23 +64,23 @@ struct Row {
 
 std::vector<Contender> contenders_of(const Setting& setting, const Subject& subject) {
   std::vector<Contender> all;
-  for (const Dial& dial : dials(setting)) {
-    progress("front", subject.name + ", " + std::string(proxy::name(dial.tier)) + " " + dial.label());
-    const auto fit = must(fitting::fit(setting.context, tryon::labeled(subject.skin), dial.options()));
-    all.push_back(of_proxy(subject, fit, dial.label()));
-    if (dial.tier == Tier::kTight || dial.tier == Tier::kRelief)
-      all.push_back(of_proxy(subject, fit, dial.label(), collision::Accuracy::kFirstOrder));
+  for (const FitSetting& chosen : fit_settings(setting)) {
+    progress("front", subject.name + ", " + std::string(proxy::name(chosen.tier)) + " " + chosen.label());
+    const auto fit = must(fitting::fit(setting.context, tryon::labeled(subject.skin), chosen.options()));
+    all.push_back(of_proxy(subject, fit, chosen.label()));
+    if (chosen.tier == Tier::kTight || chosen.tier == Tier::kRelief)
+      all.push_back(of_proxy(subject, fit, chosen.label(), collision::Accuracy::kFirstOrder));
   }
-  progress("front", subject.name + ", rivals");
+  progress("front", subject.name + ", peers");
   const auto cells = setting.by_effort<std::vector<double>>({0.04}, {0.04, 0.02}, {0.04, 0.02, 0.01, 0.005});
-  for (Contender& rival : rivals(subject, cells)) all.push_back(std::move(rival));
+  for (Contender& peer : peers(subject, cells)) all.push_back(std::move(peer));
   return all;
 }
 
 bench::Table table_by_body() {
   return {"front_by_body",
           "Every setting on every body.",
-          {"body", "kind", "dial", "size", "bytes", "mean_mm", "p95_mm", "max_mm", "missed_percent",
+          {"body", "kind", "setting", "size", "bytes", "mean_mm", "p95_mm", "max_mm", "missed_percent",
            "false_percent", "prepare_ms", "update_us", "query_ns", "response_ns"}};
 }
 
@@ -90,10 +91,11 @@ void judge_body(const Setting& setting, const Subject& subject, std::vector<Row>
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Contender& c = all[i];
     const Error e = judge(c.distances_m(), subject.truth_m, c.has_sign);
-    table.add({subject.name, c.kind, c.dial, c.size, c.bytes, e.mean_mm, e.p95_mm, e.max_mm, e.missed_percent,
-               e.false_percent, c.prepare_ms, c.update_us, costs[i].query_ns, costs[i].response_ns});
+    table.add({subject.name, c.kind, c.setting, c.size, c.bytes, e.mean_mm, e.p95_mm, e.max_mm,
+               e.missed_percent, e.false_percent, c.prepare_ms, c.update_us, costs[i].query_ns,
+               costs[i].response_ns});
     Row& row = rows[i];
-    row.kind = c.kind, row.dial = c.dial, row.ours = c.ours;
+    row.kind = c.kind, row.setting = c.setting, row.ours = c.ours;
     row.errors.push_back(e);
     row.size += c.size, row.bytes += c.bytes, row.prepare_ms += c.prepare_ms, row.update_us += c.update_us;
     row.query_ns += costs[i].query_ns, row.response_ns += costs[i].response_ns;
@@ -104,13 +106,13 @@ bench::Table table_of(const std::vector<Row>& rows, const std::vector<bool>& by_
                       const std::vector<bool>& by_bytes) {
   bench::Table table(
       "front", "Means over the bodies.",
-      {"kind", "dial", "size", "KB", "mean_mm", "p95_mm", "max_mm", "missed_%", "false_%", "prepare_ms",
+      {"kind", "setting", "size", "KB", "mean_mm", "p95_mm", "max_mm", "missed_%", "false_%", "prepare_ms",
        "update_us", "query_ns", "response_ns", "on_front_of_memory", "on_front_of_time_timed"});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& r = rows[i];
     const Error e = mean_of(r.errors);
     const auto known = [](double value) { return value > 0.0 ? bench::Cell(value) : bench::Cell(); };
-    table.add({r.kind, r.dial, known(r.size), known(1e-3 * r.bytes), e.mean_mm, e.p95_mm, e.max_mm,
+    table.add({r.kind, r.setting, known(r.size), known(1e-3 * r.bytes), e.mean_mm, e.p95_mm, e.max_mm,
                e.missed_percent, e.false_percent, r.prepare_ms, r.update_us, r.query_ns, known(r.response_ns),
                by_bytes[i] ? "yes" : "", by_time[i] ? "yes" : ""});
   }
@@ -121,15 +123,15 @@ bench::Plot plot_of(const std::vector<Row>& rows, const char* title, const char*
                     double (*cost)(const Row&)) {
   bench::Plot plot{title, label, "mean error of the signed distance within 30 mm of the skin, mm", "", {}};
   for (const Row& row : rows) {
-    // Relief of smaller tables is another line than relief of fewer ellipsoids.
-    const bool asked = row.dial.starts_with("asked");
-    const std::string name = asked ? row.kind + ", asked" : row.kind;
+    // Relief with smaller tables and relief with fewer ellipsoids are separate lines.
+    const bool is_target = row.setting.starts_with("target");
+    const std::string name = is_target ? row.kind + ", target" : row.kind;
     auto at = std::ranges::find(plot.series, name, &bench::PlotSeries::name);
     if (at == plot.series.end()) at = plot.series.insert(at, {name, {}, row.ours, !row.ours});
     const double error_mm = mean_of(row.errors).mean_mm;
-    const std::string dial = asked ? row.dial.substr(sizeof "asked") : row.dial;
+    const std::string text = is_target ? row.setting.substr(sizeof "target") : row.setting;
     at->points.push_back(
-        {cost(row), std::max(kExact_mm, error_mm), error_mm < kExact_mm ? dial + ": 0" : dial});
+        {cost(row), std::max(kExact_mm, error_mm), error_mm < kExact_mm ? text + ": 0" : text});
   }
   return plot;
 }
@@ -163,17 +165,21 @@ Findings sweep_front(const Setting& setting) {
     by_frame.push_back({moving_frame_us(row), error});
     by_bytes.push_back({row.bytes, error});
     ours.push_back(row.ours);
-    names.push_back(row.kind + " " + row.dial);
+    names.push_back(row.kind + " " + row.setting);
   }
   found.text =
       "Particles spread evenly over depths up to 30 mm on either side of the skin, in Morton order, one "
-      "thread; errors are against the exact signed distance (Embree has no sign: distances alone). Rivals "
-      "answer with a distance, ours with the closest point, the normal and the ellipsoid as well; 'to first "
-      "order' is the same proxy asked with Accuracy::kFirstOrder. "
-      "`prepare` starts from the segmented skin; `update` is what a moved body pays a frame: ours and the "
-      "capsules are carried rigidly by part, Embree and the grids are built anew and stay as exact (a refit "
-      "would cost Embree about a tenth of that). A row "
-      "on a front is beaten by no other in both error and that cost.\n";
+      "thread. Errors are against the exact signed distance (of Embree, which has no sign, against its "
+      "absolute "
+      "value). Peers give a distance; proxies give the closest point, the normal and the ellipsoid as well. "
+      "'To first "
+      "order' is the same proxy with Accuracy::kFirstOrder. `prepare` starts from the segmented skin. "
+      "`update` is the "
+      "time a frame for a moving body: ellipsoids and capsules move rigidly with their part, Embree and the "
+      "grids are "
+      "built anew and stay exact (a refit of Embree would take about a tenth of that). A row is on a front "
+      "if no "
+      "other row has both a smaller error and a smaller cost.\n";
   found.shown.push_back(table_of(rows, on_front(by_time), on_front(by_bytes)));
   found.shown.push_back(levels_by_time(names, by_time, ours));
   found.shown.push_back(levels_by_moving_frame(names, by_frame, ours));

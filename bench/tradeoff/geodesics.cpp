@@ -1,4 +1,4 @@
-// How distances along the skin are measured, and how far the landmarks that follow from them are off.
+// The error and time of distances along the skin, and the error of the landmarks that follow from them.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ constexpr std::pair<const char*, geodesic::Method> kMethods[] = {
     {"unfolded", geodesic::Method::kUnfolded},
     {"fast marching", geodesic::Method::kFastMarching}};
 
-/// From each tip of the body, against exact polyhedral distances beyond a twentieth of the farthest.
+/// The error of a field against exact polyhedral distances, beyond a twentieth of the largest one.
 struct FieldError {
   double sum = 0.0, worst = 0.0, worst_mm = 0.0, count = 0.0;
 
@@ -93,8 +93,8 @@ Findings sweep_geodesics(const Setting& setting) {
     add_landmarks(subject, landmarks);
   }
   found.text =
-      "The analysis measures with the one method that it needs; errors of a method in millimeters bound what "
-      "it moves a landmark by.\n";
+      "The analysis uses one method; the errors of a method in millimeters bound how far it moves a "
+      "landmark.\n";
   found.shown.push_back(std::move(landmarks));
   return found;
 }

@@ -1,4 +1,4 @@
-// How far answers are off the exact signed distance.
+// The errors of distances against the exact signed distance.
 #pragma once
 
 #include <span>
@@ -6,13 +6,14 @@
 
 namespace tradeoff {
 
+/// Errors over all particles.
 struct Error {
   double mean_mm = 0.0, p95_mm = 0.0, max_mm = 0.0;
-  double missed_percent = 0.0;  ///< of all: deeper than 1 mm but called outside
-  double false_percent = 0.0;   ///< of all: over 1 mm outside but called inside
+  double missed_percent = 0.0;  ///< particles deeper than 1 mm that are found outside
+  double false_percent = 0.0;   ///< particles more than 1 mm outside that are found inside
 };
 
-/// Without a sign only the distances are compared, and nothing counts as missed or false.
+/// Compares distances; without a sign only absolute values, and none counts as missed or false.
 Error judge(std::span<const float> found_m, std::span<const double> truth_m, bool has_sign);
 
 /// The mean of each number over bodies.

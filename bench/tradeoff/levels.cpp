@@ -6,13 +6,13 @@ namespace {
 constexpr double kLevels_mm[] = {0.5, 1.0, 2.0, 5.0, 10.0, 20.0};
 constexpr const char* kTimed = "_timed";
 
-/// `timed` ends the names of columns that depend on times without being times.
+/// `timed` is the suffix of columns that depend on times but are none.
 bench::Table levels(const char* name, const char* caption, const std::string& unit, const std::string& timed,
                     double scale, const std::vector<std::string>& names, std::span<const Offer> offers,
                     const std::vector<bool>& ours) {
   bench::Table table(name, caption,
-                     {"error_at_most_mm", "ours" + timed, "cost_" + unit, "nearest_rival" + timed,
-                      "its_cost_" + unit, "rival_over_ours" + timed});
+                     {"error_at_most_mm", "ours" + timed, "cost_" + unit, "best_peer" + timed,
+                      "its_cost_" + unit, "peer_over_ours" + timed});
   for (const double level : kLevels_mm) {
     const auto mine = cheapest(offers, ours, true, level), theirs = cheapest(offers, ours, false, level);
     std::vector<bench::Cell> row{level, "none", "", "none", "", ""};
@@ -28,7 +28,7 @@ bench::Table levels(const char* name, const char* caption, const std::string& un
 
 bench::Table levels_by_time(const std::vector<std::string>& names, std::span<const Offer> offers,
                             const std::vector<bool>& ours) {
-  return levels("levels_time", "The least time a particle at a mean error, and the nearest rival.", "ns",
+  return levels("levels_time", "The least time a particle at a mean error, and that of the best peer.", "ns",
                 kTimed, 1.0, names, offers, ours);
 }
 
@@ -42,7 +42,7 @@ bench::Table levels_by_moving_frame(const std::vector<std::string>& names, std::
 
 bench::Table levels_by_bytes(const std::vector<std::string>& names, std::span<const Offer> offers,
                              const std::vector<bool>& ours) {
-  return levels("levels_memory", "The least memory at a mean error, and the nearest rival of known size.",
+  return levels("levels_memory", "The least memory at a mean error, and that of the best peer of known size.",
                 "KB", "", 1e-3, names, offers, ours);
 }
 

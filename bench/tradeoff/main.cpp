@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 constexpr Sweep kSweeps[] = {
     {"front", "Error against time, memory and preparation", sweep_front},
-    {"dials", "The dial: asked and achieved", sweep_dials},
-    {"laws", "What a budget of time goes by", sweep_laws},
+    {"targets", "Targets and budgets: requested and achieved", sweep_targets},
+    {"cost-model", "The cost model of time budgets", sweep_cost_model},
     {"regions", "Only what a garment can reach", sweep_regions},
     {"drapes", "A frame of cloth", sweep_drapes},
     {"geodesics", "Distances along the skin", sweep_geodesics},
@@ -73,7 +73,7 @@ int run(const Setting& setting, const std::vector<std::string>& only, const fs::
 
 int main(int argc, char** argv) {
   using namespace tradeoff;
-  CLI::App app("What each dial costs and what it buys");
+  CLI::App app("What each choice costs and what it buys");
   std::string data, folder = "tradeoff";
   std::vector<std::string> only, names;
   bool quick = false, smallest = false;

@@ -7,7 +7,7 @@
 
 namespace tradeoff {
 
-/// The value, or the end of the program with the error's sentence.
+/// The value of a result; ends the program with the error's sentence if there is none.
 template <class T>
 T must(bodice::engine::Result<T> result) {
   if (result) return std::move(result).value();

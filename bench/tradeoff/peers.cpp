@@ -9,16 +9,16 @@
 namespace tradeoff {
 namespace {
 
-Contender of_peer(const Subject& subject, std::string kind, std::string dial, bench::Peer peer) {
+Contender of_peer(const Subject& subject, std::string kind, std::string setting, bench::Peer peer) {
   const auto shared = std::make_shared<bench::Peer>(std::move(peer));
   const auto found = std::make_shared<std::vector<float>>(subject.particles.size());
   const bench::Cloud* const particles = &subject.particles;
   Contender c;
   c.kind = std::move(kind);
-  c.dial = std::move(dial);
+  c.setting = std::move(setting);
   c.bytes = shared->bytes;
   c.prepare_ms = shared->build_ms;
-  c.update_us = 1e3 * shared->build_ms;  // a body that moves is built anew
+  c.update_us = 1e3 * shared->build_ms;  // the peer is built anew for a moving body
   c.particles = particles->size();
   c.query = [=] { shared->query(*particles, *found); };
   c.distances_m = [=] {
@@ -28,7 +28,7 @@ Contender of_peer(const Subject& subject, std::string kind, std::string dial, be
   return c;
 }
 
-/// A step of a turn about the vertical.
+/// Turns the capsules about the vertical by a small angle.
 void turn(std::vector<Capsule>& capsules) {
   constexpr float kSine = 0.001f, kCosine = 0.9999995f;
   for (Capsule& c : capsules)
@@ -53,13 +53,13 @@ Contender of_capsules(const Subject& subject) {
   Contender c = of_peer(subject, "capsules", "one a part", std::move(peer));
   c.size = count;
   c.update_us = least_us(
-      [moving = *capsules]() mutable { turn(moving); });  // bones carry them, as they carry our ellipsoids
+      [moving = *capsules]() mutable { turn(moving); });  // capsules move with bones, like ellipsoids
   return c;
 }
 
 }  // namespace
 
-std::vector<Contender> rivals(const Subject& subject, const std::vector<double>& grid_cells_m) {
+std::vector<Contender> peers(const Subject& subject, const std::vector<double>& grid_cells_m) {
   constexpr double kReach_m = 0.031;
   std::vector<Contender> all;
   for (bench::Peer& peer : bench::embree_peers(subject.skin.input.skin, kReach_m)) {

@@ -1,4 +1,4 @@
-// Float or double: the frame path's vector kernels against the reference that defines the proxy.
+// Float or double: the vector kernels of the frame path against the reference in double.
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +52,7 @@ Findings sweep_precision(const Setting& setting) {
     if (setting.effort != Effort::kSmallest || tier == proxy::Tier::kSolid)
       add_tier(setting, subject, tier, table);
   Findings found;
-  found.text = "What the float path gives away is far below what the fit does.\n";
+  found.text = "The error of floats is far below that of the fit.\n";
   found.shown.push_back(std::move(table));
   return found;
 }

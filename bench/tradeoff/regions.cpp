@@ -1,4 +1,5 @@
-// Only what a garment can reach: what is saved, and whether its answers are those of the whole body.
+// Proxies of only what a garment can reach: what they save, and whether their distances are those of the
+// whole body.
 #include <algorithm>
 #include <cmath>
 
@@ -19,9 +20,9 @@ namespace {
 using namespace bodice;
 using proxy::Tier;
 
-constexpr double kMargin_m = 0.05;  // as `bodice fit --region-of` has it
+constexpr double kMargin_m = 0.05;  // the default of `bodice fit --region-of`
 
-/// Places near the garment: each vertex, moved in a random direction.
+/// Points near the garment: each vertex, moved in a random direction.
 bench::Cloud around(const geometry::TriMesh& garment, double within_m) {
   engine::Random random(31);
   bench::Cloud cloud;
@@ -32,7 +33,7 @@ bench::Cloud around(const geometry::TriMesh& garment, double within_m) {
   return bench::coherent(cloud);
 }
 
-/// Nanoseconds a particle of the query, with nothing kept from an earlier one.
+/// Nanoseconds a particle of a query without a workspace.
 double query_ns(const proxy::BodyProxy& proxy, const bench::Cloud& cloud) {
   const collision::Collider collider(proxy);
   bench::Cloud local = bench::local(cloud, collider);
@@ -41,14 +42,15 @@ double query_ns(const proxy::BodyProxy& proxy, const bench::Cloud& cloud) {
   return 1e3 * us / static_cast<double>(cloud.size());
 }
 
-/// Of answers that a garment acts on: at places nearer to the body than half the margin.
+/// The difference of distances that matter to a garment: at points closer to the body than half of the
+/// margin.
 struct Agreement {
-  std::size_t asked = 0, same_bits = 0;
+  std::size_t points = 0, same_bits = 0;
   double largest_mm = 0.0, mean_mm = 0.0;
   double error_mm = 0.0;  ///< mean, against the exact signed distance
 
   double same_percent() const {
-    return asked == 0 ? 0.0 : 100.0 * static_cast<double>(same_bits) / static_cast<double>(asked);
+    return points == 0 ? 0.0 : 100.0 * static_cast<double>(same_bits) / static_cast<double>(points);
   }
 };
 
@@ -59,20 +61,21 @@ Agreement compare(const Subject& subject, const proxy::BodyProxy& whole, const p
     const double a = proxy::proxy_distance(whole, cloud.at(i)).distance;
     if (a > 0.5 * kMargin_m) continue;
     const double b = proxy::proxy_distance(region, cloud.at(i)).distance;
-    ++agreement.asked;
+    ++agreement.points;
     agreement.same_bits += a == b;
     agreement.largest_mm = std::max(agreement.largest_mm, 1e3 * std::abs(a - b));
     agreement.mean_mm += 1e3 * std::abs(a - b);
     agreement.error_mm += 1e3 * std::abs(b - subject.skin.distance->signed_distance(cloud.at(i)));
   }
-  const auto asked = static_cast<double>(std::max<std::size_t>(1, agreement.asked));
-  agreement.mean_mm /= asked, agreement.error_mm /= asked;
+  const auto points = static_cast<double>(std::max<std::size_t>(1, agreement.points));
+  agreement.mean_mm /= points, agreement.error_mm /= points;
   return agreement;
 }
 
+/// A fit with its time.
 struct Fitted {
   fitting::FitResult fit;
-  double ms = 0.0;  ///< the fit, and finding out what can be reached
+  double ms = 0.0;
 };
 
 Fitted fit_parts(const Setting& setting, const Subject& subject, Tier tier, std::uint32_t parts) {
@@ -83,7 +86,7 @@ Fitted fit_parts(const Setting& setting, const Subject& subject, Tier tier, std:
   return {std::move(fit), ms};
 }
 
-/// A proxy for the garment, beside the whole one.
+/// A proxy for the garment.
 struct Variant {
   const char* name;
   proxy::BodyProxy proxy;
@@ -94,7 +97,7 @@ void add_row(const Subject& subject, const tryon::WornGarment& garment, const pr
              const Variant& v, const bench::Cloud& cloud, bench::Table& table) {
   const Agreement agree = compare(subject, whole, v.proxy, cloud);
   table.add({subject.name, garment.name, proxy::name(whole.tier()), v.name, v.proxy.ellipsoids().size(),
-             1e-3 * static_cast<double>(v.proxy.bytes()), agree.asked, agree.same_percent(), agree.mean_mm,
+             1e-3 * static_cast<double>(v.proxy.bytes()), agree.points, agree.same_percent(), agree.mean_mm,
              agree.largest_mm, agree.error_mm, v.prepare_ms, query_ns(v.proxy, cloud)});
 }
 
@@ -128,10 +131,11 @@ void add_tier(const Setting& setting, const Subject& subject, const tryon::WornG
 Findings sweep_regions(const Setting& setting) {
   bench::Table table(
       "regions",
-      "The whole body, and the parts within 50 mm of the garment; cropped: of these the "
-      "ellipsoids within 50 mm. Answers against the whole's (apart) and the exact signed distance (error), "
-      "at places within 25 mm of garment and body.",
-      {"body", "garment", "tier", "fitted", "ellipsoids", "KB", "places", "same_bits_%", "mean_apart_mm",
+      "The whole body, and the parts within 50 mm of the garment; cropped: only the ellipsoids within 50 mm. "
+      "Distances against those of the whole body (apart) and the exact ones (error), at points within 25 mm "
+      "of "
+      "garment and body.",
+      {"body", "garment", "tier", "fitted", "ellipsoids", "KB", "points", "same_bits_%", "mean_apart_mm",
        "most_apart_mm", "mean_error_mm", "prepare_ms", "query_ns"});
   const std::vector<Tier> tiers = setting.effort == Effort::kSmallest
                                       ? std::vector{Tier::kSolid}
@@ -144,13 +148,15 @@ Findings sweep_regions(const Setting& setting) {
   }
   Findings found;
   found.text =
-      "`bodice fit --region-of GARMENT` fits only what the garment can reach: the parts of it, and the torso "
-      "as one. Paper and solid fit a part alone as they fit it in the whole body: the answers are the "
-      "whole's, "
-      "to the bit. Tight and relief fit neighbors together, so that other neighbors give other ellipsoids: "
-      "as near to the skin (error) as the whole's, not the same (apart). "
-      "`tryon::within_reach` crops a proxy to a garment without changing an answer. Answers are compared by "
-      "the reference in double.\n";
+      "`bodice fit --region-of GARMENT` fits only the parts that the garment can reach, with the torso as "
+      "one. Paper "
+      "and solid fit a part alone as in the whole body, so that distances have the same bits. Tight and "
+      "relief fit "
+      "neighbors together, so that other neighbors give other ellipsoids: they are as close to the skin "
+      "(error) as "
+      "those of the whole body, but not the same (apart). `tryon::within_reach` crops a proxy to a garment "
+      "without "
+      "changing a distance. Distances are those of the reference in double.\n";
   found.shown.push_back(std::move(table));
   return found;
 }

@@ -1,4 +1,4 @@
-// Where the fit's inner iterations stop: the enclosing ellipsoid's gap, and K-means' sigma.
+// Where inner iterations of fits stop: the gap of enclosing ellipsoids, and sigma of K-means.
 #include <cmath>
 
 #include <bodice/engine/random.hpp>
@@ -25,7 +25,7 @@ PointSets points_by_part(const Subject& subject) {
   return sets;
 }
 
-/// On a sphere that is stretched: the hard case, where every point matters.
+/// Points on a stretched sphere: the hard case, in which every point matters.
 PointSets stretched_sphere(std::size_t count) {
   engine::Random random(9);
   PointSets sets(1);
@@ -60,8 +60,8 @@ void add_row(const char* points, const PointSets& sets, const char* method, doub
 
 bench::Table enclosing(const Setting& setting, const Subject& subject) {
   bench::Table table("mvee",
-                     "Enclosing ellipsoids: the stop against the volume above the least, the certified gap "
-                     "and the farthest point outside, of the worst set.",
+                     "Enclosing ellipsoids: the stop, and for the worst set the volume above the least, the "
+                     "certified gap and the farthest point outside.",
                      {"points", "sets", "method", "stop", "excess_volume_%", "certified_gap", "violation",
                       "rounds", "time_us"});
   const std::pair<const char*, PointSets> all[] = {
@@ -89,10 +89,11 @@ double rms_mm(const std::vector<Vec3>& points, const fitting::Clusters& clusters
 }
 
 bench::Table clustering(const Setting& setting, const Subject& subject) {
-  bench::Table table("kmeans",
-                     "K-means over the skin's vertices: stop when no center moves farther than sigma (the "
-                     "paper's eq. 7); spread is the root mean square distance from the center.",
-                     {"centers", "sigma_mm", "iterations", "spread_mm", "above_converged_%", "time_us"});
+  bench::Table table(
+      "kmeans",
+      "K-means over the skin's vertices. It stops when no center moves farther than sigma (the "
+      "paper's eq. 7); the spread is the root mean square distance from the center.",
+      {"centers", "sigma_mm", "iterations", "spread_mm", "above_converged_%", "time_us"});
   const std::vector<Vec3>& points = subject.skin.input.skin.positions;
   for (const std::size_t count : setting.by_effort<std::vector<std::size_t>>({15}, {15, 89}, {15, 89, 200})) {
     progress("stops", "K-means, " + std::to_string(count) + " centers");

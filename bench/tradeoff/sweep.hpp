@@ -1,4 +1,4 @@
-// A sweep: one dial, or a few that belong together, turned through its range.
+// A sweep: one choice, or a few that belong together, over all values.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,15 @@
 
 namespace tradeoff {
 
+/// How many values and bodies a sweep takes.
 enum class Effort { kSmallest, kQuick, kFull };
 
-/// What every sweep is given.
+/// The input of every sweep.
 struct Setting {
   bodice::engine::Context context;
   Effort effort = Effort::kFull;
   std::filesystem::path data;  ///< folder of bodies; may be empty
-  int most_bodies = 1000;      ///< made ones, a sweep
+  int most_bodies = 1000;      ///< the most made bodies of a sweep
 
   template <class T>
   T by_effort(T smallest, T quick, T full) const {
@@ -32,26 +33,27 @@ struct Setting {
   int vertices() const { return by_effort(1500, 3000, 8850); }
 };
 
-/// What it found: a chapter of the page, tables that become CSV files as well, plots.
+/// The results of a sweep, which become a chapter of the page, CSV files and plots.
 struct Findings {
-  std::string text;                   ///< Markdown: how it was measured, and what it says
-  std::vector<bench::Table> shown;    ///< in the page and as CSV
-  std::vector<bench::Table> details;  ///< as CSV only
-  std::vector<std::pair<std::string, bench::Plot>> plots;  ///< by file name, without its ending
+  std::string text;                                        ///< Markdown: how the numbers were measured
+  std::vector<bench::Table> shown;                         ///< tables in the page and as CSV
+  std::vector<bench::Table> details;                       ///< tables as CSV only
+  std::vector<std::pair<std::string, bench::Plot>> plots;  ///< with their file names, without extension
 };
 
+/// A sweep by its name.
 struct Sweep {
   const char* name;
   const char* title;
   Findings (*run)(const Setting&);
 };
 
-/// Tells standard error where long work stands.
+/// Writes the progress of long work to standard error.
 void progress(const char* what, const std::string& detail);
 
 Findings sweep_front(const Setting& setting);
-Findings sweep_dials(const Setting& setting);
-Findings sweep_laws(const Setting& setting);
+Findings sweep_targets(const Setting& setting);
+Findings sweep_cost_model(const Setting& setting);
 Findings sweep_regions(const Setting& setting);
 Findings sweep_drapes(const Setting& setting);
 Findings sweep_geodesics(const Setting& setting);

@@ -9,6 +9,7 @@
 
 namespace tradeoff {
 
+/// A kind of made garment with its name.
 struct GarmentChoice {
   const char* name;
   bodice::synth::GarmentKind kind;
@@ -17,7 +18,7 @@ inline constexpr GarmentChoice kGarments[] = {{"skirt", bodice::synth::GarmentKi
                                               {"tunic", bodice::synth::GarmentKind::kTunic},
                                               {"poncho", bodice::synth::GarmentKind::kPoncho}};
 
-/// A garment cut to fit the body, held where its wearer holds it.
+/// A garment cut to fit the body, with its pinned vertices.
 bodice::tryon::WornGarment cut_for(const bodice::engine::Context& context, const Subject& subject,
                                    const GarmentChoice& choice, double edge_m);
 

@@ -4,7 +4,7 @@
 
 namespace bench {
 
-/// Where numbers come from.
+/// Commit, compiler and machine of a measurement.
 struct Origin {
   std::string commit, compiler, flags, cpu;
   unsigned hardware_threads = 0;
@@ -12,7 +12,7 @@ struct Origin {
 
 Origin find_origin();
 
-/// One line for titles: commit, compiler, processor.
+/// The origin in one line, for titles: commit, compiler, processor.
 std::string title(const Origin& origin);
 
 }  // namespace bench

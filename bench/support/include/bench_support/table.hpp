@@ -19,7 +19,7 @@ class Cell {
   Cell(std::integral auto whole) : text_(std::to_string(whole)) {}
   Cell(double number) : is_real_(true), number_(number) {}
 
-  /// Numbers with this many significant digits.
+  /// The cell as text; numbers have this many significant digits.
   std::string text(int digits) const;
 
  private:
@@ -28,12 +28,12 @@ class Cell {
   double number_ = 0.0;
 };
 
-/// Rows under named columns. A column whose name ends in _ns, _us, _ms or _s holds times, one that ends in
-/// _timed what follows from times in another unit (the page leaves that word out): only these may differ from
+/// Rows under named columns. Columns with names ending in _ns, _us, _ms or _s hold times; columns with names
+/// ending in _timed hold ratios of times, and pages leave that ending out. Only these columns may differ from
 /// run to run.
 class Table {
  public:
-  /// `name` is the CSV's, without its ending; `caption` one sentence that says what is in it.
+  /// `name` is that of the CSV file without its ending; `caption` describes the table in one sentence.
   Table(std::string name, std::string caption, std::vector<std::string> columns)
       : name_(std::move(name)), caption_(std::move(caption)), columns_(std::move(columns)) {}
 
@@ -44,7 +44,7 @@ class Table {
   const std::string& caption() const { return caption_; }
   bool empty() const { return rows_.empty(); }
 
-  /// Comment lines that say where the numbers come from, a line of names, a line a row.
+  /// CSV: comment lines with the origin of the numbers, a line of names, and a line for each row.
   std::string csv(const Origin& origin, const std::string& command) const;
   std::string markdown() const;
 
