@@ -1,5 +1,6 @@
 #include "summary.hpp"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -13,6 +14,19 @@ namespace {
   std::vsnprintf(line, sizeof line, format, arguments);
   va_end(arguments);
   text.append(line).push_back('\n');
+}
+
+/// The largest cluster error E_j of torso and limbs beside its threshold, for tiers with clusters.
+void add_clusters(std::string& text, const fitting::FitResult& fit) {
+  double torso_m = 0.0, limbs_m = 0.0;
+  for (const fitting::PartFit& part : fit.parts)
+    if (part.cluster_error) {
+      double& worst = body::is_torso(part.part) ? torso_m : limbs_m;
+      worst = std::max(worst, part.cluster_error->max_m);
+    }
+  if (torso_m == 0.0 && limbs_m == 0.0) return;
+  add_line(text, "clusters    error up to %.2f mm on the torso (mu %.2f), %.2f mm on the limbs (mu %.2f)",
+           torso_m * 1e3, fit.mu_torso_m * 1e3, limbs_m * 1e3, fit.mu_limbs_m * 1e3);
 }
 
 void add_body(std::string& text, const tryon::PreparedBody& body, bool cropped) {
@@ -29,6 +43,7 @@ void add_body(std::string& text, const tryon::PreparedBody& body, bool cropped) 
   add_line(text, "            interior covered %.2f %%; skin outside %.2f %% of the area, up to %.2f mm deep",
            fit.accuracy.interior_covered_percent, fit.accuracy.skin_outside_percent,
            fit.accuracy.skin_outside_depth_m * 1e3);
+  add_clusters(text, fit);
 }
 
 void add_drape(std::string& text, const tryon::DrapeReport& d) {
