@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include <bodice/io/rig.hpp>
+#include <bodice/rigging/clear_arms.hpp>
 #include <bodice/rigging/make_rig.hpp>
 #include <bodice/rigging/motion.hpp>
 
@@ -17,13 +19,14 @@ struct RigCommand {
   std::string output = "rigged.glb";
   std::vector<std::string> clips = {"all"};
   bool travel = false;
-  double arms_out_deg = 0.0;
+  std::optional<double> arms_out_deg;  ///< absent: as the body's width needs
 };
 
 /// A skin, its rig, and what to report of both.
 struct RiggedSkin {
   io::ImportedMesh input;
   rigging::FoundRig found;
+  std::vector<body::Part> part;  ///< #V
 };
 
 std::vector<std::string> clip_names() {
@@ -41,6 +44,7 @@ engine::Result<RiggedSkin> rig_builtin(Run& run) {
   RiggedSkin skin;
   skin.input.skin = std::move(body->mesh);
   skin.found.rig = {std::move(body->skeleton), std::move(body->weights), {}};
+  skin.part = std::move(body->part);
   return skin;
 }
 
@@ -54,19 +58,23 @@ engine::Result<RiggedSkin> rig_file(Run& run) {
     return error;
   }
   found->warnings = segmented->warnings;  // those of the import too; anatomy's are among them
-  return RiggedSkin{std::move(segmented->input), std::move(found).value()};
+  return RiggedSkin{std::move(segmented->input), std::move(found).value(),
+                    std::move(segmented->anatomy.part)};
 }
 
-engine::Result<void> add_clips(const RigCommand& command, rig::Rig& rig) {
+engine::Result<void> add_clips(const RigCommand& command, RiggedSkin& skin) {
+  rig::Rig& rig = skin.found.rig;
   const auto wanted = [&](const std::string& name) {
     return std::find(command.clips.begin(), command.clips.end(), name) != command.clips.end();
   };
   if (wanted("none")) return {};
+  const double arms_out_deg =
+      command.arms_out_deg ? *command.arms_out_deg : rigging::clear_arms_deg(skin.input.skin, skin.part, rig);
   for (int i = 0; i < rigging::kMotionCount; ++i) {
     const auto motion = static_cast<rigging::Motion>(i);
     if (!wanted("all") && !wanted(std::string(name(motion)))) continue;
-    auto clip = rigging::make_clip(rig.skeleton, motion,
-                                   {.travel = command.travel, .arms_out_deg = command.arms_out_deg});
+    auto clip =
+        rigging::make_clip(rig.skeleton, motion, {.travel = command.travel, .arms_out_deg = arms_out_deg});
     if (!clip) return std::move(clip).error();
     rig.clips.push_back(std::move(clip).value());
   }
@@ -98,7 +106,7 @@ engine::Result<void> make_rigged_file(const RigCommand& command) {
   if (auto ok = run.check_files({{"-o", command.output, {".glb"}}}); !ok) return ok;
   auto skin = o.body.empty() ? rig_builtin(run) : rig_file(run);
   if (!skin) return std::move(skin).error();
-  if (auto added = add_clips(command, skin->found.rig); !added) return added;
+  if (auto added = add_clips(command, *skin); !added) return added;
   if (auto saved = io::write_rigged_glb(skin->input.skin, skin->found.rig, command.output); !saved)
     return saved;
   run.progress().clear();
@@ -126,9 +134,8 @@ void add_rig_command(CLI::App& app, int& exit_code) {
   sub->add_flag("--travel", command->travel,
                 "walk and run over the floor (default: in place, so that the clip loops)");
   sub->add_option("--arms-out", command->arms_out_deg,
-                  "hold the arms this many degrees farther from a wide body")
-      ->check(between(-10.0, 60.0))
-      ->capture_default_str();
+                  "hold the arms this many degrees farther from the body (default: as its width needs)")
+      ->check(between(-10.0, 60.0));
   add_input_options(*sub, command->common);
   add_builtin_options(*sub, command->common);
   add_run_options(*sub, command->common);
@@ -137,7 +144,7 @@ void add_rig_command(CLI::App& app, int& exit_code) {
       "mesh.\n"
       "Examples: bodice rig scan.obj -o rigged.glb                    every motion, for any tool that opens "
       "GLB\n"
-      "          bodice rig scan.obj --clip walk sit --arms-out 8     two of them, arms clear of wide hips\n"
+      "          bodice rig scan.obj --clip walk sit                   two of them\n"
       "          bodice rig --height 1.8 --sex male -o man.glb        the built-in body");
   sub->callback([command, &exit_code] {
     const auto done = make_rigged_file(*command);

@@ -90,7 +90,7 @@ void run_side(double phase, const Build& build, int side, Posture& p) {
   foot.pitch = pitch(phase);
   foot.ground.y() = lift(phase);
   ArmPosture& arm = p.arm[side];
-  arm.raise = 14.0;
+  arm.raise = 20.0;  // bent forearms would cut into the waist below that
   arm.forward = -8.0 - 36.0 * wave(phase, 0.03);
   arm.twist = 16.0 - 10.0 * wave(phase, 0.03);
   arm.elbow = 88.0 - 10.0 * wave(phase, 0.08);

@@ -50,7 +50,7 @@ Posture sit(double phase, const Build& build) {
   for (ArmPosture& arm : p.arm) {
     arm.forward = hands(phase);
     arm.elbow = elbow(phase);
-    arm.raise = 9.0 + 5.0 * down(phase);
+    arm.raise = 10.0 + 5.0 * down(phase);
     arm.twist = 12.0 * down(phase);
   }
   return p;
@@ -75,14 +75,15 @@ Posture squat(double phase, const Build& build) {
 }
 
 Posture arms_up(double phase, const Build& build) {
-  static const Curve raise({{0.0, 9.0}, {0.04, 9.0}, {0.40, 168.0}, {0.60, 168.0}, {0.96, 9.0}, {1.0, 9.0}});
+  static const Curve raise(
+      {{0.0, 10.0}, {0.04, 10.0}, {0.40, 168.0}, {0.60, 168.0}, {0.96, 10.0}, {1.0, 10.0}});
   static const Curve elbow({{0.0, 14.0}, {0.40, 6.0}, {0.60, 6.0}, {1.0, 14.0}});
   Posture p = standing(build);
   for (ArmPosture& arm : p.arm) {
     arm.raise = raise(phase);
     arm.elbow = elbow(phase);
   }
-  p.lean = -0.03 * (p.arm[0].raise - 9.0);
+  p.lean = -0.03 * (p.arm[0].raise - 10.0);
   return p;
 }
 

@@ -15,7 +15,7 @@ using geometry::Vec3;
 
 /// From an arm that hangs straight down with its palm inward. In this order: twist, raise, forward.
 struct ArmPosture {
-  double raise = 9.0;    ///< away from the trunk, in the frontal plane
+  double raise = 10.0;   ///< away from the trunk, in the frontal plane
   double forward = 0.0;  ///< swing to the front
   double twist = 0.0;    ///< about the upper arm's axis, inward positive
   double elbow = 14.0;

@@ -43,11 +43,14 @@ constexpr bool is_cyclic(Motion motion) {
   return motion != Motion::kSit;
 }
 
+/// How far standing and walking bodies hold their arms from upright, degrees, with MotionOptions as they are.
+inline constexpr double kHangingRaise_deg = 10.0;
+
 struct MotionOptions {
   /// Walking and running: true moves the body over the floor, so that soles rest on it; false keeps the body
   /// where it is, as on a treadmill, so that the clip loops: soles then travel backward with one speed.
   bool travel = false;
-  double arms_out_deg = 0.0;  ///< added to how far hanging arms are held from the trunk, for wide bodies
+  double arms_out_deg = 0.0;  ///< added to how far arms are held from the trunk; see clear_arms_deg()
 };
 
 /// The motion as a clip of a skeleton. Legs are solved for the skeleton's lengths, so that soles stay on the

@@ -1,0 +1,17 @@
+// How far arms have to be held out so that they clear the body they hang beside.
+#pragma once
+
+#include <span>
+
+#include <bodice/body/part.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/rig/rig.hpp>
+
+namespace bodice::rigging {
+
+/// MotionOptions::arms_out_deg with which hanging arms pass trunk and thighs: 0 for slim bodies, 12 for heavy
+/// ones, never more than 30. `part` is #V; the rig is bound to the skin and has the common skeleton, else the
+/// result is 0. O(#V).
+double clear_arms_deg(const geometry::TriMesh& skin, std::span<const body::Part> part, const rig::Rig& rig);
+
+}  // namespace bodice::rigging

@@ -1,0 +1,73 @@
+#include <bodice/rigging/clear_arms.hpp>
+
+#include <algorithm>
+
+#include <doctest/doctest.h>
+#include <bodice/geometry/mesh_distance.hpp>
+
+#include "posed.hpp"
+
+namespace {
+
+using namespace bodice;
+using geometry::Vec3;
+using rigging::Motion;
+
+bool is_arm(body::Part part) {
+  return part >= body::Part::kUpperArmL && part <= body::Part::kForearmR;
+}
+
+/// Deepest point of forearms and hands inside the rest of the posed skin, in eight moments of a motion,
+/// meters.
+double deepest(const synth::Body& body, Motion motion, double arms_out_deg) {
+  const rig::Clip clip = posed::made_clip(body.skeleton, motion, {.arms_out_deg = arms_out_deg});
+  double depth = 0.0;
+  for (int k = 0; k < 8; ++k) {
+    geometry::TriMesh rest{posed::skin_at(body, clip, clip.duration_s * (k + 0.5) / 8.0), {}};
+    for (const geometry::Triangle& t : body.mesh.triangles)
+      if (std::none_of(t.begin(), t.end(), [&](geometry::Index v) { return is_arm(body.part[v]); }))
+        rest.triangles.push_back(t);
+    const geometry::MeshDistance distance({}, rest);
+    for (std::size_t v = 0; v < body.part.size(); v += 3)
+      if (body.part[v] == body::Part::kForearmL || body.part[v] == body::Part::kForearmR)
+        depth = std::max(depth, -distance.signed_distance(rest.positions[v]));
+  }
+  return depth;
+}
+
+TEST_CASE("with the angle that is found, the hands of slim and of heavy bodies clear trunk and thighs") {
+  double heaviest = 0.0;
+  for (const double mass_kg : {52.0, 62.0, 78.0, 95.0}) {
+    CAPTURE(mass_kg);
+    const synth::Body body = posed::made_body({.mass_kg = mass_kg, .vertices = 3000});
+    const double out = rigging::clear_arms_deg(body.mesh, body.part, {body.skeleton, body.weights, {}});
+    CAPTURE(out);
+    CHECK(out >= heaviest);  // the wider the body, the more
+    heaviest = out;
+    for (const Motion motion : {Motion::kWalk, Motion::kTurn, Motion::kSit, Motion::kDance})
+      CHECK(deepest(body, motion, out) < 0.008);
+  }
+  CHECK(heaviest > 5.0);
+  CHECK(heaviest < 15.0);
+  const synth::Body heavy = posed::made_body({.mass_kg = 95.0, .vertices = 3000});
+  CHECK(deepest(heavy, Motion::kWalk, 0.0) > 0.03);  // without it they do not
+}
+
+TEST_CASE("the angle that arms need does not depend on the pose or the heading of the bound skin") {
+  const auto needed = [](synth::Pose pose) {
+    const synth::Body body = posed::made_body({.mass_kg = 90.0, .pose = pose, .vertices = 3000, .seed = 5});
+    return rigging::clear_arms_deg(body.mesh, body.part, {body.skeleton, body.weights, {}});
+  };
+  const double standing = needed(synth::Pose::kA);
+  CHECK(standing > 3.0);
+  for (const synth::Pose pose : {synth::Pose::kSit, synth::Pose::kLying, synth::Pose::kRandom})
+    CHECK(std::abs(needed(pose) - standing) < 4.0);
+}
+
+TEST_CASE("a skeleton that is not the common one needs no angle") {
+  synth::Body body = posed::made_body({.vertices = 2000});
+  body.skeleton.joints[0].name = "hips";
+  CHECK(rigging::clear_arms_deg(body.mesh, body.part, {body.skeleton, body.weights, {}}) == 0.0);
+}
+
+}  // namespace
