@@ -104,16 +104,15 @@ TEST_CASE("cluster error: of many clusters a part, mean and maximum are those of
 }
 
 TEST_CASE("cluster error: with enough ellipsoids no part exceeds its threshold, and nothing is warned of") {
-  Skin skin = bent_limbs();
+  const Skin skin = bent_limbs();
   for (const Tier tier : {Tier::kPaper, Tier::kSolid}) {
-    if (tier == Tier::kSolid)
-      skin.stature_m = 8.0;  // coarse columns: closing the interior is not the subject
     const auto result =
         fitting::fit({}, skin.view(), {.tier = tier, .mu_torso_m = 0.016, .mu_limbs_m = 0.010});
     REQUIRE(result.ok());
     for (const auto& part : result->parts) REQUIRE(part.cluster_error.has_value());
     CHECK(parts_above(*result).empty());
     CHECK(result->warnings.empty());
+    if (tier == Tier::kSolid) CHECK(result->accuracy.interior_covered_percent == 100.0);
   }
 }
 

@@ -60,17 +60,33 @@ std::vector<Hole> find_holes(const engine::Context& context, const InteriorColum
   return holes;
 }
 
+/// The total length of all columns inside the body.
+double interior_length_m(const InteriorColumns& columns) {
+  double sum = 0.0;
+  for (const auto& [low, high] : columns.inside) sum += high - low;
+  return sum;
+}
+
 /// How far a point is outside the ellipsoid along the ray from the center; zero inside.
 double ray_outside(const Ellipsoid& e, const Vec3& p) {
   const double level = geometry::level(e, p);
   return level > 1.0 ? (p - e.center).norm() * (1.0 - 1.0 / std::sqrt(level)) : 0.0;
 }
 
+/// Whether the point is certainly farther than `least` outside the ellipsoid along the ray from the center:
+/// it is so far outside the enclosing ball.
+bool certainly_farther(const Ellipsoid& e, const Vec3& p, double least) {
+  constexpr double kRounding = 1e-12;
+  const double distance = (p - e.center).norm();
+  return distance - e.radii.maxCoeff() > least + kRounding * distance;
+}
+
 /// Stretches the ellipsoid that is nearest to all of the points until it holds them.
 void fill(std::span<const Vec3> points, std::vector<Ellipsoid>& ellipsoids) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < ellipsoids.size(); ++e) {
+  for (std::size_t e = 0; e < ellipsoids.size() && least > 0.0; ++e) {
+    if (certainly_farther(ellipsoids[e], points.front(), least)) continue;
     double outside = 0.0;
     for (const Vec3& p : points) outside = std::max(outside, ray_outside(ellipsoids[e], p));
     if (outside < least) least = outside, best = e;
@@ -108,7 +124,11 @@ double cover_interior(const engine::Context& context, const InteriorColumns& col
       fill(std::array{low, high}, ellipsoids);
     });
   }
-  // What covered a row still covers it, because a stretched ellipsoid holds all that it held.
+  // The rows' covers remain valid, because a stretched ellipsoid holds all that it held. After much
+  // stretching they hold far more, and without an update nearly the whole interior would be unsure.
+  constexpr double kMuch = 0.1;
+  if (length_m > kMuch * interior_length_m(columns))
+    find_holes(context, columns, ellipsoids, 1e-3 * spacing_m, cover);
   for (const geometry::Box& box : unsure_between(context, columns, cover, ellipsoids)) {
     context.checkpoint();
     const Vec3 middle = box.center(), up = 0.5 * box.size().y() * Vec3::UnitY(),
