@@ -1,4 +1,5 @@
 // Based on: David Eberly. Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid. 2013.
+// Derivation: modules/geometry/README.md, equations (1) to (6), here in t in place of u.
 // The closest point of y has the direction w(t), w_j = r_j y_j / (t + r_j^2), at the root t of |w(t)| = 1.
 // Newton steps on 1/|w| start from a lower bound, and each step stays a lower bound, because 1/|w| is
 // concave. All is multiplied by (t + r_0^2)(t + r_1^2)(t + r_2^2), so that a step costs one division.

@@ -1,7 +1,8 @@
-// The closest point of an ellipsoid's surface, one problem a lane. In the ellipsoid's frame, with r0 as the
-// unit of length, y is the particle and r = (1, r1, r2) are the radii. The closest point is r o w, w a unit
-// vector, and the normal there is parallel to w / r. Hence y = r o w + t w / r, and with a = r o |y|, u = t +
-// r2^2, gap_j = r_j^2 - r2^2:
+// The closest point of an ellipsoid's surface, one problem a lane. modules/geometry/README.md has the
+// derivation; [1] to [4] are its equations (3) to (6). In
+// the ellipsoid's frame, with r0 as the unit of length, y is the particle and r = (1, r1, r2) are the radii.
+// The closest point is r o w, w a unit vector, and the normal there is parallel to w / r. Hence y = r o w + t
+// w / r, and with a = r o |y|, u = t + r2^2, gap_j = r_j^2 - r2^2:
 //   [1] w_j(u) = a_j / (u + gap_j)
 //   [2] |w(u)| = 1 at the root u > 0
 //   [3] distance = n . (|y| - r o w), n = (w / r) / |w / r|
