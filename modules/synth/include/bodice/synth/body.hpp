@@ -16,8 +16,8 @@
 #include <bodice/rig/skinning.hpp>
 
 namespace bodice::synth {
-/// The pose of a made body; kRandom depends on the seed.
 
+/// The pose of a made body; kRandom depends on the seed.
 enum class Pose {
   kA,
   kT,
@@ -32,8 +32,8 @@ enum class Pose {
   kHandstand,
   kRandom
 };
-/// The numbers that a body is made from.
 
+/// The numbers that a body is made from.
 struct BodyOptions {
   body::Sex sex = body::Sex::kFemale;
   double stature_m = 1.68;

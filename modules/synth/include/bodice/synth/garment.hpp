@@ -10,8 +10,8 @@
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::synth {
-/// The kind of a made garment.
 
+/// The kind of a made garment.
 enum class GarmentKind { kSkirt, kTunic, kPoncho, kTube };
 
 /// The body that a garment is made for: a skin with a part a vertex, and its landmarks.
