@@ -2,6 +2,7 @@
 
 #include <bodice/engine/hash.hpp>
 
+#include "binding/binding_bytes.hpp"
 #include "check.hpp"
 #include "round44.hpp"
 
@@ -47,6 +48,7 @@ std::uint64_t hash_of(const BodyProxy::Data& data) {
   }
   hasher.add(data.texels.size());
   for (const ReliefTexel& texel : data.texels) hasher.add(texel.h * 256 + texel.a);
+  if (data.binding) add_to_hash(hasher, *data.binding);
   return hasher.value();
 }
 

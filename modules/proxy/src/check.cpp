@@ -1,5 +1,7 @@
 #include "check.hpp"
 
+#include "binding/check_binding.hpp"
+
 #include <cmath>
 #include <string>
 
@@ -85,6 +87,8 @@ std::optional<engine::Error> find_fault(const BodyProxy::Data& data) {
     if (data.relief.empty()) continue;
     if (Fault bad = check_table(data.relief[i], data.texels.size(), which)) return bad;
   }
+  if (data.binding)
+    if (const std::string what = binding_fault(*data.binding, data); !what.empty()) return fault(what);
   return std::nullopt;
 }
 

@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include <bodice/proxy/proxy_file.hpp>
 
+#include "binding/binding_bytes.hpp"
 #include "json_form.hpp"
 
 namespace bodice::proxy {
@@ -169,10 +172,27 @@ void check_format(const json& root) {
   if (text(root, "format", "") != kJsonFormat) fail("format", "bodice-proxy");
   const std::int64_t version =
       integer(member(root, "version", ""), "version", 0, std::numeric_limits<int>::max());
-  if (version == kJsonVersion) return;
+  if (version == kJsonVersion || version == kBoundJsonVersion) return;
   throw BadProxy{{engine::ErrorCode::kUnreadable,
                   "Proxy JSON: version " + std::to_string(version) + " is not known here.",
-                  "This build reads version " + std::to_string(kJsonVersion) + "."}};
+                  "This build reads versions " + std::to_string(kJsonVersion) + " and " +
+                      std::to_string(kBoundJsonVersion) + "."}};
+}
+
+std::shared_ptr<const Binding> read_binding(const json& value) {
+  if (!value.is_object()) fail("binding", "an object");
+  const std::string hex = text(value, "bytes", "binding.");
+  std::vector<std::byte> bytes;
+  bytes.reserve(hex.size() / 2);
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    const int high = hex_digit(hex[i]), low = hex_digit(hex[i + 1]);
+    if (high < 0 || low < 0) fail("binding.bytes", "hexadecimal");
+    bytes.push_back(static_cast<std::byte>(16 * high + low));
+  }
+  auto binding = std::make_shared<Binding>();
+  ByteReader in(bytes);
+  if (hex.size() % 2 != 0 || !get_binding(in, *binding)) fail("binding.bytes", "a whole binding");
+  return binding;
 }
 
 BodyProxy::Data read_data(const json& root) {
@@ -192,6 +212,7 @@ BodyProxy::Data read_data(const json& root) {
   for (std::size_t i = 0; i < relief.size(); ++i)
     data.relief.push_back(read_table(relief[i], data.frame, "relief[" + std::to_string(i) + "]."));
   data.texels = read_texels(text(root, "texels", ""));
+  if (root.contains("binding")) data.binding = read_binding(root["binding"]);
   return data;
 }
 

@@ -6,6 +6,7 @@
 #include <bodice/engine/text.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
+#include "binding/binding_bytes.hpp"
 #include "json_form.hpp"
 
 namespace bodice::proxy {
@@ -61,6 +62,21 @@ std::string texel_hex(std::span<const ReliefTexel> texels) {
   return text;
 }
 
+/// The joints' names for people, and the binding in its binary form: meters and y up in any file.
+std::string binding_line(const Binding& binding) {
+  ByteWriter bytes;
+  put_binding(bytes, binding);
+  std::string hex;
+  for (const std::byte byte : bytes.written()) {
+    hex += kHexDigits[std::to_integer<unsigned>(byte) >> 4];
+    hex += kHexDigits[std::to_integer<unsigned>(byte) & 15];
+  }
+  Json json;
+  json["joints"] = binding.joint_names;
+  json["bytes"] = std::move(hex);
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 }  // namespace
 
 std::string to_json(const BodyProxy& proxy) {
@@ -70,7 +86,7 @@ std::string to_json(const BodyProxy& proxy) {
     text += " \"" + std::string(key) + "\": " + value + end;
   };
   field("format", Json(kJsonFormat).dump());
-  field("version", Json(kJsonVersion).dump());
+  field("version", Json(proxy.binding() ? kBoundJsonVersion : kJsonVersion).dump());
   field("tier", Json(name(proxy.tier())).dump());
   field("metres_per_unit", Json(frame.meters_per_unit).dump());
   field("up", Json(kAxisNames[static_cast<std::size_t>(frame.up)]).dump());
@@ -80,7 +96,8 @@ std::string to_json(const BodyProxy& proxy) {
   field("hash", Json(engine::hex64(proxy.hash())).dump());
   field("ellipsoids", lines(proxy.ellipsoids(), [&](const auto& e) { return ellipsoid_line(e, frame); }));
   field("relief", lines(proxy.relief(), [&](const auto& t) { return table_line(t, frame); }));
-  field("texels", Json(texel_hex(proxy.texels())).dump(), "\n}\n");
+  field("texels", Json(texel_hex(proxy.texels())).dump(), proxy.binding() ? ",\n" : "\n}\n");
+  if (proxy.binding()) field("binding", binding_line(*proxy.binding()), "\n}\n");
   return text;
 }
 

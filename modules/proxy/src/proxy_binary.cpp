@@ -5,23 +5,27 @@
 //   ellipsoid:  f64 center[3], f64 axes[9] by columns, f64 radii[3], u8 part, u8 0, u16 bone     124 bytes
 //   table:      u16 nodes a side, u16 0, f32 h scale, h offset, a scale, a offset, u32 first      24 bytes
 //   texel:      u8 h, u8 a
+//   since version 3: u32 1 and a binding (binding/binding_bytes.hpp)
 //   u64 checksum of all bytes before it
 #include "proxy_binary.hpp"
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 
 #include <bodice/engine/hash.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
+#include "binding/binding_bytes.hpp"
 #include "bytes.hpp"
 
 namespace bodice::proxy {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'B', 'O', 'D', 'I', 'C', 'E', 'P', 'X'};
-constexpr std::uint32_t kVersion = 2;
+// Proxies without a binding are written in version 2, so that earlier builds read them.
+constexpr std::uint32_t kVersion = 2, kBoundVersion = 3;
 constexpr std::uint64_t kEllipsoidBytes = 124, kTableBytes = 24, kTexelBytes = 2, kChecksumBytes = 8;
 
 engine::Error damaged(std::string what) {
@@ -74,7 +78,7 @@ ReliefTable get_table(ByteReader& in) {
 
 void put_header(ByteWriter& out, const BodyProxy& proxy) {
   for (char c : kMagic) out.put(static_cast<std::uint8_t>(c));
-  out.put(kVersion);
+  out.put(proxy.binding() ? kBoundVersion : kVersion);
   out.put(static_cast<std::uint8_t>(proxy.tier()));
   out.put(static_cast<std::uint8_t>(proxy.frame().up));
   out.put(std::uint16_t{0});
@@ -83,7 +87,7 @@ void put_header(ByteWriter& out, const BodyProxy& proxy) {
 }
 
 /// Reads what lies between the magic and the checksum. Sizes are compared before anything is allocated.
-engine::Result<BodyProxy> read_body(ByteReader& in) {
+engine::Result<BodyProxy> read_body(ByteReader& in, std::uint32_t version) {
   BodyProxy::Data data;
   data.tier = static_cast<Tier>(in.get<std::uint8_t>());
   data.frame.up = static_cast<geometry::Axis>(in.get<std::uint8_t>());
@@ -95,13 +99,20 @@ engine::Result<BodyProxy> read_body(ByteReader& in) {
   const std::uint64_t ellipsoids = in.get<std::uint32_t>();
   const std::uint64_t tables = in.get<std::uint32_t>();
   const std::uint64_t texels = in.get<std::uint32_t>();
-  if (!in.ok() || in.left() != ellipsoids * kEllipsoidBytes + tables * kTableBytes + texels * kTexelBytes)
+  const std::uint64_t rest = ellipsoids * kEllipsoidBytes + tables * kTableBytes + texels * kTexelBytes;
+  if (!in.ok() || (version == kVersion ? in.left() != rest : in.left() < rest))
     return damaged("its counts do not fit its length");
   for (std::uint64_t i = 0; i < ellipsoids; ++i) data.ellipsoids.push_back(get_ellipsoid(in));
   for (std::uint64_t i = 0; i < tables; ++i) data.relief.push_back(get_table(in));
   for (std::uint64_t i = 0; i < texels; ++i) {
     const auto h = in.get<std::uint8_t>();
     data.texels.push_back({h, in.get<std::uint8_t>()});
+  }
+  if (version == kBoundVersion) {
+    auto binding = std::make_shared<Binding>();
+    if (in.get<std::uint32_t>() != 1 || !get_binding(in, *binding))
+      return damaged("the counts of its binding do not fit its length");
+    data.binding = std::move(binding);
   }
   return BodyProxy::make(std::move(data));
 }
@@ -126,6 +137,10 @@ std::vector<std::byte> to_binary(const BodyProxy& proxy) {
     out.put(texel.h);
     out.put(texel.a);
   }
+  if (proxy.binding()) {
+    out.put(std::uint32_t{1});
+    put_binding(out, *proxy.binding());
+  }
   out.put(checksum(out.written()));
   return out.take();
 }
@@ -136,13 +151,14 @@ engine::Result<BodyProxy> from_binary(std::span<const std::byte> bytes) {
   const std::span<const std::byte> content = bytes.first(bytes.size() - kChecksumBytes);
   ByteReader in(content.subspan(kMagic.size()));
   const auto version = in.get<std::uint32_t>();
-  if (version != kVersion)
+  if (version != kVersion && version != kBoundVersion)
     return engine::Error{engine::ErrorCode::kUnreadable,
                          "Binary proxy: version " + std::to_string(version) + " is not known here.",
-                         "This build reads version " + std::to_string(kVersion) + "."};
+                         "This build reads versions " + std::to_string(kVersion) + " and " +
+                             std::to_string(kBoundVersion) + "."};
   if (ByteReader(bytes.last(kChecksumBytes)).get<std::uint64_t>() != checksum(content))
     return damaged("its checksum does not match");
-  return read_body(in);
+  return read_body(in, version);
 }
 
 }  // namespace bodice::proxy

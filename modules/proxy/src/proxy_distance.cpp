@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
+
+#include <bodice/proxy/posed_proxy.hpp>
 
 namespace bodice::proxy {
 namespace {
@@ -55,7 +58,13 @@ TableValue read(const ReliefTable& table, std::span<const ReliefTexel> texels, c
 struct Candidate {
   geometry::ClosestPoint closest;
   std::uint32_t index = 0;
+  double score = 0.0;  ///< d_k, or d_k + kappa b_k of a posed proxy
 };
+
+/// w of eq. (2).
+Vec3 unit_direction(const geometry::Ellipsoid& e, const geometry::ClosestPoint& closest) {
+  return (e.axes.transpose() * (closest.point - e.center)).cwiseQuotient(e.radii).normalized();
+}
 
 /// An ellipsoid's distance with its table, and its gradient.
 struct Corrected {
@@ -68,7 +77,7 @@ Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const Reli
                     std::span<const ReliefTexel> texels, const ReliefReach& reach) {
   const double d = c.closest.signed_distance;
   if (table.nodes_per_side < 2) return {d, c.closest.normal};
-  const Vec3 w = (e.axes.transpose() * (c.closest.point - e.center)).cwiseQuotient(e.radii).normalized();
+  const Vec3 w = unit_direction(e, c.closest);
   const TableValue value = read(table, texels, w);
   const double clamped = std::clamp(d, -reach.in_m, reach.out_m);
   const bool slopes = d > -reach.in_m && d < reach.out_m;
@@ -96,47 +105,76 @@ double lower_bound(const geometry::Ellipsoid& e, const Vec3& point) {
          kRounding * (length + longest);
 }
 
+/// The ellipsoids and tables of a proxy, at rest or posed.
+struct Surfaces {
+  const geometry::Ellipsoid* first = nullptr;
+  std::size_t stride = 1, count = 0;  ///< stride in bytes
+  std::span<const ReliefTable> relief;
+  std::span<const ReliefTexel> texels;
+  std::span<const std::uint8_t> burial;  ///< empty at rest
+  double burial_step_m = 0.0;
+  ReliefReach reach;
+
+  const geometry::Ellipsoid& shape(std::size_t k) const {
+    return *reinterpret_cast<const geometry::Ellipsoid*>(reinterpret_cast<const std::byte*>(first) +
+                                                         k * stride);
+  }
+  /// kappa b_k of eq. (4') at the closest point.
+  double burial_of(std::size_t k, const geometry::ClosestPoint& closest) const {
+    if (burial.empty() || relief[k].nodes_per_side < 2) return 0.0;
+    const geometry::Ellipsoid& e = shape(k);
+    const TableStencil stencil = table_stencil(unit_direction(e, closest), relief[k].nodes_per_side);
+    double depth = 0.0;
+    for (int i = 0; i < 4; ++i) depth += stencil.weight[i] * burial[relief[k].first_texel + stencil.node[i]];
+    return kBurialWeight * burial_step_m * depth;
+  }
+};
+
 /// The owner of a point, with its plain distance and normal, and the ellipsoids that are blended there.
 struct NearEllipsoids {
   ProxyDistance owner;
+  double least = std::numeric_limits<double>::infinity();  ///< left side of eq. (4') for the owner
   std::vector<Candidate> blended;
 };
 
 /// Finds the owner, and with `blend_m` above zero all ellipsoids at most that much farther than the owner.
 /// Some of the found ellipsoids may be farther; their weight is zero.
-NearEllipsoids find_near(std::span<const ProxyEllipsoid> ellipsoids, const Vec3& point, double blend_m) {
+NearEllipsoids find_near(const Surfaces& surfaces, const Vec3& point, double blend_m) {
   std::vector<double> bound;
-  bound.reserve(ellipsoids.size());
-  for (const ProxyEllipsoid& e : ellipsoids) bound.push_back(lower_bound(e.shape, point));
+  bound.reserve(surfaces.count);
+  for (std::size_t k = 0; k < surfaces.count; ++k) bound.push_back(lower_bound(surfaces.shape(k), point));
   // The ellipsoid of the least bound is evaluated first, because few others then have a bound below it.
   const auto first = static_cast<std::size_t>(std::ranges::min_element(bound) - bound.begin());
-  const geometry::ClosestPoint first_closest = geometry::closest_point(ellipsoids[first].shape, point);
-  double least = first_closest.signed_distance;
+  const auto candidate = [&](std::size_t k) {
+    Candidate c{geometry::closest_point(surfaces.shape(k), point), static_cast<std::uint32_t>(k)};
+    c.score = c.closest.signed_distance + surfaces.burial_of(k, c.closest);
+    return c;
+  };
+  const Candidate first_candidate = candidate(first);
+  double least = first_candidate.score;
   NearEllipsoids near;
-  near.owner.distance = std::numeric_limits<double>::infinity();
-  for (std::uint32_t k = 0; k < ellipsoids.size(); ++k) {
+  for (std::size_t k = 0; k < surfaces.count; ++k) {
     if (k != first && bound[k] > least + blend_m) continue;
-    const geometry::ClosestPoint closest =
-        k == first ? first_closest : geometry::closest_point(ellipsoids[k].shape, point);
-    least = std::min(least, closest.signed_distance);
-    if (closest.signed_distance < near.owner.distance)
-      near.owner = {.distance = closest.signed_distance, .normal = closest.normal, .owner = k};
-    if (blend_m > 0.0) near.blended.push_back({closest, k});
+    const Candidate c = k == first ? first_candidate : candidate(k);
+    least = std::min(least, c.score);
+    if (c.score < near.least) {
+      near.least = c.score;
+      near.owner = {.distance = c.closest.signed_distance, .normal = c.closest.normal, .owner = c.index};
+    }
+    if (blend_m > 0.0) near.blended.push_back(c);
   }
   return near;
 }
 
-/// Eq. (5) with tables, without the margin.
-ProxyDistance blend(const NearEllipsoids& near, std::span<const ProxyEllipsoid> ellipsoids,
-                    std::span<const ReliefTable> relief, std::span<const ReliefTexel> texels,
-                    const ReliefReach& reach) {
+/// Eq. (5) or (5') with tables, without the margin.
+ProxyDistance blend(const NearEllipsoids& near, const Surfaces& surfaces) {
   double weights = 0.0, sum = 0.0;
   Vec3 gradient = Vec3::Zero();
   for (const Candidate& c : near.blended) {
-    const double ramp =
-        std::max(0.0, 1.0 - (c.closest.signed_distance - near.owner.distance) / reach.blend_m);
+    const double ramp = std::max(0.0, 1.0 - (c.score - near.least) / surfaces.reach.blend_m);
     if (ramp == 0.0) continue;
-    const Corrected f = corrected(ellipsoids[c.index].shape, c, relief[c.index], texels, reach);
+    const Corrected f =
+        corrected(surfaces.shape(c.index), c, surfaces.relief[c.index], surfaces.texels, surfaces.reach);
     weights += ramp * ramp;
     sum += ramp * ramp * f.distance;
     gradient += ramp * ramp * f.gradient;
@@ -148,15 +186,26 @@ ProxyDistance blend(const NearEllipsoids& near, std::span<const ProxyEllipsoid> 
   return result;
 }
 
-ProxyDistance evaluate(std::span<const ProxyEllipsoid> ellipsoids, std::span<const ReliefTable> relief,
-                       std::span<const ReliefTexel> texels, double stature_m, double margin_m,
-                       const Vec3& point) {
-  if (ellipsoids.empty()) return {.distance = std::numeric_limits<double>::infinity()};
-  const ReliefReach reach = relief_reach(stature_m);
-  const NearEllipsoids near = find_near(ellipsoids, point, relief.empty() ? 0.0 : reach.blend_m);
-  ProxyDistance result = relief.empty() ? near.owner : blend(near, ellipsoids, relief, texels, reach);
+ProxyDistance evaluate(const Surfaces& surfaces, double margin_m, const Vec3& point) {
+  if (surfaces.count == 0) return {.distance = std::numeric_limits<double>::infinity()};
+  const bool tables = !surfaces.relief.empty();
+  const NearEllipsoids near = find_near(surfaces, point, tables ? surfaces.reach.blend_m : 0.0);
+  ProxyDistance result = tables ? blend(near, surfaces) : near.owner;
   result.distance -= margin_m;
   return result;
+}
+
+ProxyDistance evaluate_at_rest(std::span<const ProxyEllipsoid> ellipsoids,
+                               std::span<const ReliefTable> relief, std::span<const ReliefTexel> texels,
+                               const BodyProxy::Data& sizes, const Vec3& point) {
+  Surfaces surfaces;
+  surfaces.first = ellipsoids.empty() ? nullptr : &ellipsoids[0].shape;
+  surfaces.stride = sizeof(ProxyEllipsoid);
+  surfaces.count = ellipsoids.size();
+  surfaces.relief = relief;
+  surfaces.texels = texels;
+  surfaces.reach = relief_reach(sizes.stature_m);
+  return evaluate(surfaces, sizes.margin_m, point);
 }
 
 }  // namespace
@@ -169,12 +218,24 @@ ReliefReach relief_reach(double stature_m) {
 }
 
 ProxyDistance proxy_distance(const BodyProxy& proxy, const Vec3& point) {
-  return evaluate(proxy.ellipsoids(), proxy.relief(), proxy.texels(), proxy.stature_m(), proxy.margin_m(),
-                  point);
+  return proxy_distance(proxy.data(), point);
 }
 
 ProxyDistance proxy_distance(const BodyProxy::Data& data, const Vec3& point) {
-  return evaluate(data.ellipsoids, data.relief, data.texels, data.stature_m, data.margin_m, point);
+  return evaluate_at_rest(data.ellipsoids, data.relief, data.texels, data, point);
+}
+
+ProxyDistance posed_proxy_distance(const BodyProxy& bound, const PosedProxy& posed, const Vec3& point) {
+  Surfaces surfaces;
+  surfaces.first = posed.shapes.data();
+  surfaces.stride = sizeof(geometry::Ellipsoid);
+  surfaces.count = posed.shapes.size();
+  surfaces.relief = posed.relief;
+  surfaces.texels = posed.texels;
+  surfaces.burial = posed.burial;
+  surfaces.burial_step_m = double{posed.burial_step_m};
+  surfaces.reach = relief_reach(bound.stature_m() * posed.scale);
+  return evaluate(surfaces, bound.margin_m() * posed.scale, point);
 }
 
 }  // namespace bodice::proxy

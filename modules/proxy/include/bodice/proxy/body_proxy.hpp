@@ -12,6 +12,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/geometry/frame.hpp>
+#include <bodice/proxy/binding.hpp>
 
 namespace bodice::proxy {
 
@@ -32,7 +33,8 @@ inline constexpr std::size_t kMaxReliefTexels = std::size_t{1} << 26;
 struct ProxyEllipsoid {
   geometry::Ellipsoid shape;
   body::Part part = body::Part::kHead;
-  std::int16_t bone = kNoBone;  ///< the joint that moves the ellipsoid, if any
+  /// The joint that moves most of its skin, an index into Binding::joint_names; kNoBone without a binding.
+  std::int16_t bone = kNoBone;
 };
 
 /// A table of corrections to one ellipsoid's distance over the octahedral map of the unit sphere.
@@ -63,8 +65,9 @@ class BodyProxy {
     std::vector<ProxyEllipsoid> ellipsoids;
     std::vector<ReliefTable> relief;  ///< empty, or one an ellipsoid
     std::vector<ReliefTexel> texels;
-    std::uint64_t source_hash = 0;  ///< hash of the mesh that the proxy was fitted to
-    geometry::Frame frame;          ///< unit and axes of the file that the body came from
+    std::uint64_t source_hash = 0;           ///< hash of the mesh that the proxy was fitted to
+    geometry::Frame frame;                   ///< unit and axes of the file that the body came from
+    std::shared_ptr<const Binding> binding;  ///< to the joints of a rig; null: the proxy stays as it is
   };
 
   /// Checks every value (finite, radii > 0, axes orthonormal to 1e-6 and right-handed, tables inside texels)
@@ -80,6 +83,10 @@ class BodyProxy {
   std::span<const ReliefTexel> texels() const { return data_->texels; }
   std::uint64_t source_hash() const { return data_->source_hash; }
   const geometry::Frame& frame() const { return data_->frame; }
+  /// Null unless the proxy is bound to the joints of a rig. All else of a bound proxy is the proxy at rest.
+  const Binding* binding() const { return data_->binding.get(); }
+  /// The numbers of the proxy, to make another one of.
+  const Data& data() const { return *data_; }
   /// The identity of the geometry (tier, sizes, ellipsoids, tables), without frame and source. Equal bits
   /// have equal hashes.
   std::uint64_t hash() const { return hash_; }
