@@ -52,6 +52,12 @@ engine::Result<void> check_input(const LabeledSkin& skin, const FitOptions& opti
     return bad(
         "There are " + std::to_string(skin.part.size()) + " labels for " + std::to_string(n) + " vertices.",
         "Give one part a vertex.");
+  if (!options.flexed.empty() && options.flexed.size() != n)
+    return bad("The flexed skin has " + std::to_string(options.flexed.size()) + " vertices for " +
+                   std::to_string(n) + ".",
+               "Give the same skin, posed, or none.");
+  for (const geometry::Vec3& position : options.flexed)
+    if (!position.allFinite()) return bad("The flexed skin is not finite.", "Pose it by finite matrices.");
   if (skin.mesh.triangles.empty())
     return engine::Error{engine::ErrorCode::kUnusableGeometry, "The skin has no triangles.",
                          "Give a closed triangle mesh."};

@@ -8,6 +8,7 @@
 
 #include "relief/relief_fit.hpp"
 #include "relief/relief_holes.hpp"
+#include "tiers/flexed.hpp"
 
 namespace bodice::fitting {
 namespace {
@@ -101,7 +102,8 @@ ReliefRun::ReliefRun(const engine::Context& context, const LabeledSkin& skin, co
       context.clock->now_ns() + static_cast<std::int64_t>(1e9 * std::min(budget_s, kNoTimeLimit_s));
   engine::StageTimer tight(context, stages, "tight");
   source_ = std::make_unique<SkinSource>(make_skin_source(context, skin, options.parts));
-  draft_ = fit_tight(context, *source_, options, plan.count, 0.5 * budget_s);
+  draft_ = options.flexed.empty() ? fit_tight(context, *source_, options, plan.count, 0.5 * budget_s)
+                                  : fit_tight_flexed(context, *source_, options, plan.count, 0.5 * budget_s);
   tight.stop();
   if (draft_.data.ellipsoids.empty()) return;
   engine::StageTimer relief(context, stages, "relief");

@@ -62,6 +62,10 @@ struct FitOptions {
   bool covering = false;
   /// The paper's eq. (8), tier paper only: it gains 0.2 mm of E for two to three times the work.
   bool reclassify_points = false;
+  /// Relief: the same skin with its joints half bent (#V; binding::flexed_skin), for a body that will move.
+  /// Its ellipsoids are found there, so that none spans a joint; tables and promises are those of the skin as
+  /// it is. Empty: the ellipsoids are found on the skin as it is.
+  std::span<const geometry::Vec3> flexed = {};
   /// False: FitResult's accuracy and the parts' gaps stay zero, which saves some 20 ms of work. With a target
   /// error they are measured all the same.
   bool measure_accuracy = true;
