@@ -1,0 +1,21 @@
+// The skin with its limbs half bent: where the ellipsoids of a body that will move are fitted best.
+//
+// A straight leg looks like one cone, and a fit spans its knee. Bent halfway it does not, and ellipsoids that
+// are found there (fitting::FitOptions::flexed) end at the joints and stay right in either direction.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <bodice/binding/bind.hpp>
+#include <bodice/body/part.hpp>
+
+namespace bodice::binding {
+
+/// #V: the skin with hips, knees, elbows and shoulders half bent from where the bind pose has them. `part`
+/// (#V) gives the skin that a joint must carry; names of joints do not matter. Joints that are bent already
+/// stay, and so do limbs whose joint is not found. Empty if none is bent. O(#V #J).
+std::vector<Vec3> flexed_skin(const engine::Context& context, const SkinnedBody& body,
+                              std::span<const body::Part> part);
+
+}  // namespace bodice::binding

@@ -1,0 +1,62 @@
+// Posing: a bound proxy follows the joints, frame by frame.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/types.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+#include <bodice/proxy/posed_proxy.hpp>
+
+namespace bodice::binding {
+
+/// Settings of one pose.
+struct PoseOptions {
+  /// False: ellipsoids are carried, and their tables stay as they are at rest.
+  bool tables = true;
+  /// Only tables of ellipsoids that come into this box (world, meters) follow the skin; all if absent. Tables
+  /// outside keep what they were at rest.
+  std::optional<geometry::Box> within;
+};
+
+/// The joints of one bound proxy, and its current pose. Two poses are kept: while one is written, queries may
+/// read the other. Posers are independent of each other; calls of one must not overlap.
+class Poser {
+ public:
+  /// Fails with kInvalidArgument if the proxy is not bound. Starts in the bind pose.
+  static engine::Result<Poser> make(const proxy::BodyProxy& bound);
+  ~Poser();
+  Poser(Poser&&) noexcept;
+  Poser& operator=(Poser&&) noexcept;
+
+  std::size_t joints() const noexcept;
+
+  /// Moves the joints: joint space to world of each joint, #J, meters. A matrix may be off by rounding, up to
+  /// a thousandth, which is mended, and carry a uniform scale. Fails with kInvalidArgument and names joint
+  /// and reason where a matrix of a joint that moves skin is not finite, shears, mirrors or has no extent;
+  /// then nothing moves. Joints that move no skin are not looked at. Allocates nothing but on failure. The
+  /// same bits for any number of workers. Throws engine::Canceled, and then nothing moves.
+  engine::Result<void> pose(const engine::Context& context, std::span<const proxy::JointMatrix> world,
+                            const PoseOptions& options = {});
+  /// The same for floats: rows of 3 x 4 matrices, `stride` floats from one matrix to the next.
+  engine::Result<void> pose(const engine::Context& context, std::span<const float> world, std::size_t stride,
+                            const PoseOptions& options = {});
+
+  /// The pose of the last call, valid until the second next one.
+  const proxy::PosedProxy& posed() const noexcept;
+  /// The pose before, valid until the next call.
+  const proxy::PosedProxy& previous() const noexcept;
+  const proxy::BodyProxy& bound() const noexcept;
+  std::uint64_t poses() const noexcept;  ///< successful calls of pose()
+
+ private:
+  struct Impl;
+  explicit Poser(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace bodice::binding

@@ -1,0 +1,28 @@
+// One ellipsoid carried to a pose.
+#pragma once
+
+#include <span>
+
+#include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/proxy/binding.hpp>
+
+namespace bodice::binding {
+
+/// An ellipsoid in the pose: the image of the one at rest under its affine map.
+struct CarriedEllipsoid {
+  geometry::Ellipsoid shape;
+  geometry::Mat3 to_table = geometry::Mat3::Identity();  ///< V: a unit direction of the pose to one at rest
+  double scale = 1.0;                                    ///< of its volume, to the third root
+};
+
+/// A = sum_j T_j M_kj of some terms: eq. (1) of bind.hpp.
+proxy::JointMatrix affine_map(std::span<const proxy::CarryTerm> terms,
+                              std::span<const proxy::JointMatrix> skinning);
+
+/// The image: A R diag(r) = U S V^T gives axes U and radii S.
+CarriedEllipsoid carry(const geometry::Ellipsoid& rest, const proxy::JointMatrix& map);
+
+/// The image without its shear, whose table is read as at rest: V is the identity.
+CarriedEllipsoid carry_stiffly(const geometry::Ellipsoid& rest, const proxy::JointMatrix& map);
+
+}  // namespace bodice::binding

@@ -1,0 +1,40 @@
+// A table that follows the skin: resampled where its skin points went, and read in the pose's directions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <bodice/proxy/posed_proxy.hpp>
+
+#include "pose/skin_changes.hpp"
+
+namespace bodice::binding {
+
+/// What a table needs while it is posed: floats for as many texels as the largest table has.
+struct TableScratch {
+  std::vector<Change> changes;
+  std::vector<geometry::Float4> rest;  ///< h and a, meters, and burial, in bytes
+  std::vector<float> h, a;             ///< of the pose, meters
+};
+
+/// One table at rest.
+struct RestTable {
+  const proxy::ReliefTable& table;
+  const proxy::ReliefTexel* texels;
+  const std::uint8_t* burial;
+  const std::uint16_t* followers;  ///< null: nothing changes but the directions
+};
+
+/// The lengths that heights are bounded by.
+struct TableReach {
+  double out_m = 0.0;  ///< of relief at rest
+};
+
+/// Writes texels, burial and scales of the posed table, given the changes of its nodes in scratch.changes.
+/// For texel direction w: u = V w - change(u), in two fixed-point steps; h = s h(u) + growth(u) (1 - a(u) /
+/// out) and a = s a(u), with s the ellipsoid's scale. Allocates nothing.
+void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableReach& reach,
+            TableScratch& scratch, proxy::ReliefTable& table, proxy::ReliefTexel* texels,
+            std::uint8_t* burial);
+
+}  // namespace bodice::binding

@@ -1,0 +1,212 @@
+#include <bodice/binding/poser.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "pose/carried_ellipsoid.hpp"
+#include "pose/followed_table.hpp"
+#include "pose/joint_motion.hpp"
+#include "pose/skin_changes.hpp"
+
+namespace bodice::binding {
+namespace {
+
+using proxy::JointMatrix;
+
+/// Ellipsoids of one task: few, since their tables differ in size.
+constexpr std::size_t kGrain = 4;
+
+bool overlap(const geometry::Box& a, const geometry::Box& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+engine::Error refused(const std::string& joint, std::string_view reason) {
+  return {engine::ErrorCode::kInvalidArgument,
+          "Pose: the matrix of joint '" + joint + "' " + std::string(reason) + ".",
+          "Give each joint a rotation, a translation and one scale."};
+}
+
+}  // namespace
+
+struct Poser::Impl {
+  explicit Impl(proxy::BodyProxy proxy);
+
+  bool follows(std::size_t k) const { return binding.first_bundle[k] < binding.first_bundle[k + 1]; }
+  void pose_ellipsoid(std::size_t k, const PoseOptions& options, TableScratch& scratch,
+                      proxy::PosedProxy& posed);
+  void write_table(std::size_t k, const CarriedEllipsoid& carried, bool skin, TableScratch& scratch,
+                   proxy::PosedProxy& posed);
+  void pose_all(const engine::Context& context, const PoseOptions& options);
+
+  proxy::BodyProxy bound;
+  const proxy::Binding& binding;
+  JointMotion joints;
+  std::array<proxy::PosedProxy, 2> pose;
+  /// Whether a pose's table differs from the one at rest in more than scale, #E each.
+  std::array<std::vector<std::uint8_t>, 2> changed;
+  std::size_t current = 0;
+  std::uint64_t poses = 0;
+  std::vector<float> maps;            ///< 12 for each term
+  std::vector<TableScratch> scratch;  ///< one a task
+  std::vector<JointMatrix> from_floats;
+};
+
+Poser::Impl::Impl(proxy::BodyProxy proxy)
+    : bound(std::move(proxy)), binding(*bound.binding()), joints(binding) {
+  maps.resize(12 * binding.terms.size());
+  from_floats.resize(binding.bind.size());
+  proxy::PosedProxy rest;
+  std::size_t most = 0;
+  for (std::size_t k = 0; k < bound.ellipsoids().size(); ++k) {
+    rest.shapes.push_back(bound.ellipsoids()[k].shape);
+    if (bound.relief().empty()) continue;
+    const std::size_t n = bound.relief()[k].nodes_per_side;
+    most = std::max(most, n * n);
+  }
+  rest.relief.assign(bound.relief().begin(), bound.relief().end());
+  rest.texels.assign(bound.texels().begin(), bound.texels().end());
+  rest.burial = binding.burial;
+  rest.burial_step_m = binding.burial_step_m;
+  pose.fill(rest);
+  for (auto& flags : changed) flags.assign(bound.ellipsoids().size(), 0);
+  // Stencils read a node beyond the last row with weight zero, and vectors of texels end beyond the table.
+  const std::size_t padded = most + proxy::kBundle + proxy::kMostBoundNodes + 1;
+  TableScratch one;
+  one.changes.resize(padded);
+  one.rest.resize(padded);
+  one.h.resize(padded);
+  one.a.resize(padded);
+  scratch.assign((bound.ellipsoids().size() + kGrain - 1) / kGrain, one);
+}
+
+void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, bool skin, TableScratch& room,
+                              proxy::PosedProxy& posed) {
+  const proxy::ReliefTable& table = bound.relief()[k];
+  const RestTable rest{table, bound.texels().data() + table.first_texel,
+                       binding.burial.data() + table.first_texel,
+                       skin ? binding.followers.data() + binding.first_follower[k] : nullptr};
+  const std::size_t count = std::size_t{table.nodes_per_side} * table.nodes_per_side;
+  std::fill_n(room.changes.begin(), count, Change{});
+  if (skin) {
+    const std::span all(binding.terms);
+    const std::size_t first = binding.first_term[k];
+    const auto terms = all.subspan(first, binding.first_term[k + 1] - first);
+    const std::span own = std::span(maps).subspan(12 * first, 12 * terms.size());
+    const double step_m = double{binding.step_m[k]};
+    posed_maps(bound.ellipsoids()[k].shape.center, step_m, terms, joints.skinning(), carried, own);
+    find_changes(binding, binding.first_bundle[k], binding.first_bundle[k + 1], step_m, carried, own.data(),
+                 room.changes.data());
+  }
+  follow(rest, carried, {proxy::relief_reach(bound.stature_m()).out_m}, room, posed.relief[k],
+         posed.texels.data() + table.first_texel, posed.burial.data() + table.first_texel);
+}
+
+void Poser::Impl::pose_ellipsoid(std::size_t k, const PoseOptions& options, TableScratch& room,
+                                 proxy::PosedProxy& posed) {
+  const geometry::Ellipsoid& rest = bound.ellipsoids()[k].shape;
+  const std::span all(binding.terms);
+  const JointMatrix map =
+      affine_map(all.subspan(binding.first_term[k], binding.first_term[k + 1] - binding.first_term[k]),
+                 joints.skinning());
+  const bool tables = options.tables && follows(k);
+  const CarriedEllipsoid carried = tables ? carry(rest, map) : carry_stiffly(rest, map);
+  posed.shapes[k] = carried.shape;
+  if (bound.relief().empty()) return;
+  const proxy::ReliefTable& table = bound.relief()[k];
+  const std::size_t back = 1 - current;
+  if (tables) {
+    const bool skin = !options.within || overlap(geometry::bounding_box(carried.shape), *options.within);
+    write_table(k, carried, skin, room, posed);
+    changed[back][k] = 1;
+    return;
+  }
+  const std::size_t count = std::size_t{table.nodes_per_side} * table.nodes_per_side;
+  if (changed[back][k]) {
+    std::copy_n(bound.texels().begin() + table.first_texel, count, posed.texels.begin() + table.first_texel);
+    std::copy_n(binding.burial.begin() + table.first_texel, count, posed.burial.begin() + table.first_texel);
+    changed[back][k] = 0;
+  }
+  const auto scale = static_cast<float>(carried.scale);
+  posed.relief[k] = table;
+  for (float* length : {&posed.relief[k].h_scale_m, &posed.relief[k].h_offset_m, &posed.relief[k].a_scale,
+                        &posed.relief[k].a_offset})
+    *length *= scale;
+}
+
+void Poser::Impl::pose_all(const engine::Context& context, const PoseOptions& options) {
+  proxy::PosedProxy& posed = pose[1 - current];
+  posed.scale = joints.scale();
+  posed.burial_step_m = static_cast<float>(double{binding.burial_step_m} * posed.scale);
+  engine::parallel_for(context, posed.shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) pose_ellipsoid(k, options, scratch[begin / kGrain], posed);
+  });
+  current = 1 - current;
+  ++poses;
+}
+
+Poser::Poser(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Poser::~Poser() = default;
+Poser::Poser(Poser&&) noexcept = default;
+Poser& Poser::operator=(Poser&&) noexcept = default;
+
+engine::Result<Poser> Poser::make(const proxy::BodyProxy& bound) {
+  if (!bound.binding())
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "Pose: the proxy is not bound to joints.",
+                         "Bind it to a rig, or fit it to a body file that has one."};
+  return Poser(std::make_unique<Impl>(bound));
+}
+
+std::size_t Poser::joints() const noexcept {
+  return impl_->binding.bind.size();
+}
+
+engine::Result<void> Poser::pose(const engine::Context& context, std::span<const JointMatrix> world,
+                                 const PoseOptions& options) {
+  if (world.size() != joints())
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         "Pose: there are " + std::to_string(world.size()) + " matrices for " +
+                             std::to_string(joints()) + " joints.",
+                         "Give one matrix a joint, in the order of the binding."};
+  if (const std::optional<Refusal> refusal = impl_->joints.take(world))
+    return refused(impl_->binding.joint_names[refusal->joint], refusal->reason);
+  impl_->pose_all(context, options);
+  return {};
+}
+
+engine::Result<void> Poser::pose(const engine::Context& context, std::span<const float> world,
+                                 std::size_t stride, const PoseOptions& options) {
+  const std::size_t count = joints();
+  if (stride < 12 || (count > 0 && world.size() < (count - 1) * stride + 12))
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         "Pose: the floats do not hold " + std::to_string(count) + " matrices of 3 x 4.",
+                         "Give 12 floats a joint, and a stride of at least 12."};
+  for (std::size_t j = 0; j < count; ++j)
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column)
+        impl_->from_floats[j](row, column) =
+            double{world[j * stride + static_cast<std::size_t>(4 * row + column)]};
+  return pose(context, impl_->from_floats, options);
+}
+
+const proxy::PosedProxy& Poser::posed() const noexcept {
+  return impl_->pose[impl_->current];
+}
+
+const proxy::PosedProxy& Poser::previous() const noexcept {
+  return impl_->pose[1 - impl_->current];
+}
+
+const proxy::BodyProxy& Poser::bound() const noexcept {
+  return impl_->bound;
+}
+
+std::uint64_t Poser::poses() const noexcept {
+  return impl_->poses;
+}
+
+}  // namespace bodice::binding

@@ -1,0 +1,42 @@
+// The tolerances of the layer, each with its unit and reason. Lengths are those of a body of 1.70 m.
+#pragma once
+
+namespace bodice::binding {
+
+inline constexpr double kReferenceStature_m = 1.70;
+
+/// Skin within this of the ellipsoid nearest to it counts for an ellipsoid's affine map, falling to zero,
+/// meters: wide enough that neighbors agree where they blend.
+inline constexpr double kOwnedBand_m = 0.020;
+
+/// Weight of the blend of its joints in an ellipsoid's affine map, of the weight of its skin, no unit. With
+/// less, flat pieces of skin would leave directions undetermined; with more, bent limbs are followed less.
+inline constexpr double kBlendRidge = 0.05;
+
+/// A texel follows the skin if the skin is within this of the table's surface there, meters: several times
+/// the error of a table.
+inline constexpr double kNearSkin_m = 0.004;
+/// And if its ellipsoid is within this of being the skin point's nearest, meters: poses change owners by
+/// less.
+inline constexpr double kNearOwner_m = 0.012;
+
+/// Mean departure of the skin from an ellipsoid's map, in poses with every joint turned, from which its table
+/// follows the skin, meters: below it the table's own error is larger.
+inline constexpr double kStiff_m = 0.0003;
+
+/// Departure of L^T L from a multiple of the identity that is mended, no unit: entries off by a thousandth,
+/// which chains of float matrices do not reach.
+inline constexpr double kDrift = 4e-3;
+/// Least and largest scale of a joint: beyond them floats in a body's frame lose their digits.
+inline constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
+inline constexpr double kScaleRounding = 1e-3;  // of the limits, so that they themselves are within
+
+/// Least posed radius over the least radius at rest, no unit: a table on a flat disk has no directions.
+inline constexpr double kFlattest = 0.05;
+/// Largest height of a posed table over the reach of relief, no unit: more would only come from skin that has
+/// left the ellipsoid, and cost the others their digits.
+inline constexpr double kHighest = 1.0;
+/// Least slope of the corrected distance along the normal that heights are divided by, no unit.
+inline constexpr double kLeastSlope = 0.2;
+
+}  // namespace bodice::binding
