@@ -76,7 +76,7 @@ struct Bend {
   Part part;
   Vec3 toward;
   double degrees;
-  Part straight_from;  ///< the part whose direction a straight limb goes on with; the same: any direction
+  Part straight_from;  ///< a straight limb goes on with the direction of this part; the same: any direction
 };
 
 /// The turn of a joint's frame, or none.

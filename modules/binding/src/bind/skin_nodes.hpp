@@ -29,14 +29,15 @@ struct NodeSearch {
   double scale = 1.0;                      ///< the body's stature over the reference's
 };
 
-/// The texels of ellipsoid k's table at whose zero the skin is near, if k is nearly the nearest one there.
+/// The texels of ellipsoid k's table that have the skin near their zero, if k is nearly the nearest one
+/// there.
 std::vector<SkinNode> find_nodes(const NodeSearch& search, std::size_t k);
 
 /// For each texel of a table the node's texel that it takes its change from: itself, or the nearest along the
 /// grid. Border texels have the neighbors that the octahedral map gives them. No node: each itself.
 std::vector<std::uint16_t> find_followers(std::span<const SkinNode> nodes, int nodes_per_side);
 
-/// Appends the nodes of the next ellipsoid to the binding, whose terms of it are there already.
+/// Appends the nodes of the next ellipsoid to the binding, which has its terms already.
 void add_nodes(std::vector<SkinNode> nodes, double longest_radius_m, int nodes_per_side,
                proxy::Binding& binding);
 

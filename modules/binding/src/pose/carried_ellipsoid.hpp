@@ -22,7 +22,7 @@ proxy::JointMatrix affine_map(std::span<const proxy::CarryTerm> terms,
 /// The image: A R diag(r) = U S V^T gives axes U and radii S.
 CarriedEllipsoid carry(const geometry::Ellipsoid& rest, const proxy::JointMatrix& map);
 
-/// The image without its shear, whose table is read as at rest: V is the identity.
+/// The image without its shear; its table is read as at rest: V is the identity.
 CarriedEllipsoid carry_stiffly(const geometry::Ellipsoid& rest, const proxy::JointMatrix& map);
 
 }  // namespace bodice::binding

@@ -14,7 +14,7 @@ namespace bodice::binding {
 
 /// #V: the skin with hips, knees, elbows and shoulders half bent from where the bind pose has them. `part`
 /// (#V) gives the skin that a joint must carry; names of joints do not matter. Joints that are bent already
-/// stay, and so do limbs whose joint is not found. Empty if none is bent. O(#V #J).
+/// stay, and so do limbs of which no joint is found. Empty if none is bent. O(#V #J).
 std::vector<Vec3> flexed_skin(const engine::Context& context, const SkinnedBody& body,
                               std::span<const body::Part> part);
 

@@ -3,7 +3,7 @@
 //
 // Equations (1) to (3) of proxy_distance.hpp hold with the pose's ellipsoids and tables. Tables say besides
 // how deep the surface lies under other ellipsoids in the rest pose, the burial b_k(w): what was buried at
-// rest was fitted to nothing, and must give way where a pose brings it to the skin. So
+// rest was fitted to nothing, and must yield where a pose brings it to the skin. So
 //   (4')  owner = argmin_k ( d_k + kappa b_k(w_k) ),  the lowest index on a tie
 //   (5')  F     = sum_k W_k F_k / sum_k W_k - margin
 //         W_k   = max(0, 1 - (d_k + kappa b_k - d_owner - kappa b_owner) / reach.blend)^2
@@ -19,7 +19,7 @@
 
 namespace bodice::proxy {
 
-/// kappa of eq. (4'), no unit. Two to three serve alike; more lets ellipsoids give way that still are right.
+/// kappa of eq. (4'), no unit. Two to three serve alike; with more, ellipsoids yield that still are right.
 inline constexpr double kBurialWeight = 2.0;
 
 /// One pose of a bound proxy: the same number of ellipsoids, tables and texels in the same order.
