@@ -56,7 +56,7 @@ struct Binding {
   std::vector<std::uint32_t> first_entry;   ///< #B + 1
   std::vector<SkinEntry> entries;
   std::vector<std::uint32_t> first_follower;  ///< #E: into followers, of tables with bundles
-  std::vector<std::uint16_t> followers;       ///< for each of their texels, the texel whose change it takes
+  std::vector<std::uint16_t> followers;  ///< for each of their texels, the skin node that it changes with
 
   /// Bytes in memory.
   std::size_t bytes() const;
