@@ -20,7 +20,8 @@ void add_subjects(CLI::App& app, Arguments& a) {
       ->allow_extra_args(false);
   app.add_option("--tier", a.tiers, "a tier (all)")
       ->allow_extra_args(false)
-      ->transform(CLI::CheckedTransformer(kTiers));
+      ->transform(CLI::CheckedTransformer(kTiers))
+      ->option_text("{paper,solid,tight,relief} ...");
   app.add_option("--count", a.counts, "a number of ellipsoids (8 to 400)")->allow_extra_args(false);
   app.add_option("--threads", a.threads, "workers of the fits")->check(CLI::Range(1, 256));
   app.add_option("--seconds", a.seconds, "time budget of each fit");
