@@ -93,6 +93,8 @@ void read_truth(const fs::path& file, Case& c) {
     c.landmarks["armpit_" + side] = point(j["landmarks"][side + "_armpit"]);
     c.landmarks["elbow_" + side] = point(j["joints"][side + "_elbow"]);
     c.landmarks["knee_" + side] = point(j["joints"][side + "_knee"]);
+    c.landmarks["wrist_" + side] = point(j["joints"][side + "_wrist"]);
+    c.landmarks["ankle_" + side] = point(j["joints"][side + "_ankle"]);
   }
 }
 

@@ -1,14 +1,17 @@
-// anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N [--from M]] [--all] [--verbose] [--sheet FILE.png]
+// anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N | --measurements N [--from M]] [--all] [--verbose]
+// [--sheet FILE.png]
 //         [--cost]
 // How well is every body analyzed, and in what time? Rows of the bodies that miss a bar (--all: of every
 // body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
-// bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --sheet: a picture
+// bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --measurements:
+// errors of the 26 measurements of N made bodies that stand. --sheet: a picture
 // of every body by part. Fails if a body of a file misses a bar.
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
 #include "cost.hpp"
+#include "measurements.hpp"
 #include "report.hpp"
 #include "sheet.hpp"
 
@@ -16,7 +19,7 @@ namespace {
 
 struct Arguments {
   std::string data = "../shared/data", only, picture;
-  std::uint64_t seeds = 0, rigs = 0, from = 0;
+  std::uint64_t seeds = 0, rigs = 0, measured = 0, from = 0;
   bool all = false, verbose = false, cost = false;
 };
 
@@ -34,6 +37,8 @@ Arguments parse(int argc, char** argv) {
       a.only = argv[++i];
     else if (is("--seeds"))
       a.seeds = std::stoull(argv[++i]);
+    else if (is("--measurements"))
+      a.measured = std::stoull(argv[++i]);
     else if (is("--rigs"))
       a.rigs = std::stoull(argv[++i]);
     else if (is("--from"))
@@ -55,6 +60,10 @@ void run(const bench::Case& c, bench::Report& report, bench::Sheet& sheet) {
 
 int main(int argc, char** argv) {
   const Arguments arguments = parse(argc, argv);
+  if (arguments.measured > 0) {
+    bench::print_measurement_errors(arguments.from, arguments.measured);
+    return 0;
+  }
   if (arguments.cost) {
     bench::print_cost();
     return 0;

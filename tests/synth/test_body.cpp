@@ -112,7 +112,9 @@ TEST_CASE("landmarks lie on the skin or, for girths, inside it, where anatomy ha
       REQUIRE(landmark.vertex < body.mesh.positions.size());
       const double depth = -skin.signed_distance(landmark.position);
       const std::string_view name = body::name(landmark.id);
-      const bool girth = name == "neck" || name.starts_with("elbow") || name.starts_with("knee");
+      const bool girth = name == "neck" || name == "underbust" || name == "waist" || name == "hip" ||
+                         name.starts_with("elbow") || name.starts_with("knee") || name.starts_with("wrist") ||
+                         name.starts_with("ankle");
       if (girth)
         CHECK(depth > 0.008 * body.stature_m);
       else

@@ -15,6 +15,14 @@ struct CrossCheck {
   const char* warning = nullptr;  ///< what a contradiction means to a user; null: only the confidence falls
 };
 
+/// How the program bench/calibrate makes the coefficients of a landmark.
+enum class Recipe {
+  kNone,        ///< it does not
+  kSignature,   ///< landmarks/skin_signature.hpp
+  kTrunkLevel,  ///< landmarks/level_loop.hpp, find_trunk_level()
+  kLimbLevel,   ///< landmarks/level_loop.hpp, find_limb_level()
+};
+
 /// How one kind of landmark is found. A step that is null is left out. The steps of all kinds run in this
 /// order: `find` of all kinds side by side, `refine` kind by kind in the order of the table, `finish`
 /// likewise, `checks` side by side. A step that takes `marks` computes both sides before either changes.
@@ -32,6 +40,7 @@ struct LandmarkKind {
   bool warn_uncertain = false;  ///< a confidence below kUncertain gives a warning
   int doubt = 0;                ///< how much doubt about it counts as a sign of fused limbs
   bool on_skin = false;         ///< its vertex is the one nearest to where it ends up
+  Recipe recipe = Recipe::kNone;
 };
 
 /// Below this confidence a landmark is named in a warning.

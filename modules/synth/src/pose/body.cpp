@@ -9,6 +9,7 @@
 
 #include "pose/deform.hpp"
 #include "pose/rig.hpp"
+#include "pose/tailor_truth.hpp"
 #include "pose/truth.hpp"
 
 namespace bodice::synth {
@@ -87,6 +88,8 @@ void scale_and_stand(Body& body, double stature_m) {
   for (Vec3& p : body.mesh.positions) p = stature_m * (p - origin);
   for (Joint& joint : body.joints) joint.position = stature_m * (joint.position - origin);
   for (body::Landmark& mark : body.landmarks) mark.position = stature_m * (mark.position - origin);
+  for (int i = 0; i < body::kMeasurementCount; ++i)
+    if (!is_angle(static_cast<body::MeasurementId>(i))) body.measurements.value[i] *= stature_m;
 }
 
 Body make(const engine::Context& context, const BodyOptions& options, const body::Proportions& proportions) {
@@ -119,6 +122,7 @@ Body make(const engine::Context& context, const BodyOptions& options, const body
   const Posed posed{figure, mesh, body.mesh.triangles, rest, weights, body.mesh.positions, bones};
   body.part = true_parts(posed);
   body.landmarks = true_landmarks(posed);
+  body.measurements = true_measurements(posed, body.landmarks);
   body.joints = true_joints(figure, bones);
   scale_and_stand(body, h);
   body.skeleton = true_skeleton(bones, body.joints);

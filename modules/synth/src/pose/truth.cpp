@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "pose/tailor_points.hpp"
+
 namespace bodice::synth {
 namespace {
 
@@ -194,6 +196,7 @@ std::vector<body::Landmark> true_landmarks(const Posed& b) {
         furthest_on_border(b, lead_of(b, {sided(Part::kForearmL, side), sided(Part::kUpperArmL, side)}),
                            to_fold));
   }
+  add_tailor_landmarks(b, landmarks);
   return landmarks;
 }
 

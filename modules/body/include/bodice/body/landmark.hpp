@@ -23,13 +23,30 @@ enum class LandmarkId : std::uint8_t {
   kKneeR,
   kToeL,
   kToeR,
+  kNeckFront,
+  kNeckBack,
+  kNeckSideL,
+  kNeckSideR,
+  kShoulderL,
+  kShoulderR,
+  kBustL,
+  kBustR,
+  kUnderbust,
+  kWaist,
+  kHip,
+  kWristL,
+  kWristR,
+  kAnkleL,
+  kAnkleR,
 };
 
-inline constexpr int kLandmarkCount = 13;
+inline constexpr int kLandmarkCount = 28;
 
 inline constexpr std::array<std::string_view, kLandmarkCount> kLandmarkNames = {
-    "crown",    "neck",     "fingertip_l", "fingertip_r", "elbow_l", "elbow_r", "armpit_l",
-    "armpit_r", "perineum", "knee_l",      "knee_r",      "toe_l",   "toe_r"};
+    "crown",     "neck",        "fingertip_l", "fingertip_r", "elbow_l",    "elbow_r", "armpit_l",
+    "armpit_r",  "perineum",    "knee_l",      "knee_r",      "toe_l",      "toe_r",   "neck_front",
+    "neck_back", "neck_side_l", "neck_side_r", "shoulder_l",  "shoulder_r", "bust_l",  "bust_r",
+    "underbust", "waist",       "hip",         "wrist_l",     "wrist_r",    "ankle_l", "ankle_r"};
 
 constexpr std::string_view name(LandmarkId id) {
   return kLandmarkNames[static_cast<int>(id)];
@@ -40,7 +57,8 @@ constexpr LandmarkId of_side(LandmarkId left, int side) {
   return static_cast<LandmarkId>(static_cast<int>(left) + side);
 }
 
-/// A named point of a body with a confidence. Neck, elbows and knees lie inside, in their joints.
+/// A named point of a body with a confidence. The neck and the joints of limbs lie inside, as do underbust,
+/// waist and hip, which are the centroids of the trunk's girths there.
 struct Landmark {
   LandmarkId id = LandmarkId::kCrown;
   geometry::Vec3 position = geometry::Vec3::Zero();  ///< in the coordinates of the skin, meters

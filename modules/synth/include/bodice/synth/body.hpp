@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <bodice/body/landmark.hpp>
+#include <bodice/body/measurement.hpp>
 #include <bodice/body/part.hpp>
 #include <bodice/body/proportions.hpp>
 #include <bodice/engine/context.hpp>
@@ -58,6 +59,7 @@ struct Body {
   std::vector<body::Part> part;  ///< #V
   std::vector<Joint> joints;
   std::vector<body::Landmark> landmarks;  ///< all of LandmarkId, confidence 1
+  body::Measurements measurements;        ///< of the standing body; arm_pose_angle as it is
   double stature_m = 0.0;                 ///< of the standing body, whatever the pose
   /// The joints of body::JointId but the middle of the spine, and those of fingers and thumbs, in their own
   /// frames (body/joint.hpp). The bind pose is the mesh as it is.

@@ -1,0 +1,24 @@
+// The fits: each makes one file of coefficients from made bodies.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "bodies.hpp"
+#include "landmarks/landmark_kind.hpp"
+
+namespace calibrate {
+
+using Samples = std::vector<std::unique_ptr<Sample>>;
+using nlohmann::ordered_json;
+
+/// Mean and covariance of the coordinates of the true landmark, after what the build explains of them.
+ordered_json fit_signature(const bodice::anatomy::LandmarkKind& kind, const Samples& samples);
+
+/// Least squares of the height above the true level over the trunk's skin near it. `samples`: standing
+/// bodies.
+ordered_json fit_trunk_level(const bodice::anatomy::LandmarkKind& kind, const Samples& samples);
+
+/// Least squares of the distance beyond the joint, along the limb, over the skin near it.
+ordered_json fit_limb_level(const bodice::anatomy::LandmarkKind& kind, const Samples& samples);
+
+}  // namespace calibrate
