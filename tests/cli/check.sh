@@ -159,6 +159,12 @@ expect 0 "a body in feet" "$bodice" fit feet.obj --unit ft --tier paper
 prints "unit ft, 1.6[0-9]* m tall"
 expect 0 "fit it" "$bodice" fit body.obj --tier solid -o p.json --glb p.glb --surface s.obj --labels l.txt --report r.json --picture p.png --trace t.json
 for file in p.json p.glb s.obj l.txt r.json p.png t.json; do exists $file; done
+for file in m.json m.yaml; do
+  expect 0 "measurements in $file" "$bodice" fit body.obj --tier paper --measurements $file
+  exists $file
+  expect 0 "a number in $file" grep -q 'waist_over_bust_line"*: [0-9]' $file
+done
+refused fit body.obj --measurements m.txt
 expect 0 "a budget of time" "$bodice" fit body.obj --budget-us 90 --region-of skirt.obj
 prints "10,000 particles near the skin take"
 for budget in 1e-9 50; do

@@ -2,12 +2,14 @@
 #include <cstdio>
 #include <memory>
 
+#include <bodice/anatomy/measure.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/write_file.hpp>
 #include <bodice/fitting/cost_model.hpp>
 #include <bodice/io/obj.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
+#include <bodice/tryon/measurements.hpp>
 #include <bodice/tryon/reach.hpp>
 
 #include "query_speed.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 struct FitCommand {
   CommonOptions common;
-  std::string output, surface;
+  std::string output, surface, measurements;
   std::optional<double> surface_mm;
   bool exact_region = false;
 };
@@ -87,6 +89,13 @@ engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const
   return proxy::proxy_surface(context, proxy, cell_m);
 }
 
+engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, const std::string& file) {
+  const body::Measurements measurements = anatomy::measure(skin.input.skin, skin.anatomy);
+  const std::string text = extension_of(file) == ".json" ? tryon::measurements_json(measurements)
+                                                         : tryon::measurements_yaml(measurements);
+  return engine::write_file(file, std::string_view(text));
+}
+
 engine::Result<void> write_outputs(const FitCommand& command, const engine::Context& context,
                                    const tryon::PreparedBody& body, std::vector<std::string>& written) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
@@ -111,14 +120,19 @@ engine::Result<void> write_outputs(const FitCommand& command, const engine::Cont
     if (auto saved = io::write_obj(surface->mesh, command.surface, proxy.frame()); !saved) return saved;
     written.push_back(command.surface);
   }
+  if (!command.measurements.empty()) {
+    if (auto saved = write_measurements(body.skin, command.measurements); !saved) return saved;
+    written.push_back(command.measurements);
+  }
   return {};
 }
 
 engine::Result<void> fit(const FitCommand& command) {
   const CommonOptions& o = command.common;
   Run run(o);
-  if (auto ok = run.check_files(
-          {{"-o", command.output, {".json", ".bodice"}}, {"--surface", command.surface, {".obj"}}});
+  if (auto ok = run.check_files({{"-o", command.output, {".json", ".bodice"}},
+                                 {"--surface", command.surface, {".obj"}},
+                                 {"--measurements", command.measurements, {".json", ".yaml", ".yml"}}});
       !ok)
     return ok;
   auto skin = run.segment();
@@ -163,6 +177,11 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
                   "three-hundredth of the stature)")
       ->check(above_zero())
       ->needs("--surface")
+      ->group("Output");
+  sub->add_option("--measurements", command->measurements,
+                  "26 body measurements for garments in millimeters and degrees (.json or .yaml), for a body "
+                  "that stands with its arms away from the trunk")
+      ->check(not_empty())
       ->group("Output");
   add_common_options(*sub, command->common);
   sub->add_flag(
