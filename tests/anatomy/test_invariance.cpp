@@ -9,6 +9,7 @@
 #include "remesh.hpp"
 
 using namespace bodice;
+using body::LandmarkId;
 using geometry::TriMesh;
 using geometry::Vec3;
 
@@ -16,6 +17,13 @@ namespace {
 
 /// What no change of the mesh that leaves the body alone may move a landmark by, of the stature.
 constexpr double kSame = 0.01;
+/// The same for landmarks of tailors, which no correction draws to others: coarse meshes change the distances
+/// that they are found by.
+constexpr double kSameForTailors = 0.015;
+
+double same(LandmarkId id) {
+  return id > LandmarkId::kToeR ? kSameForTailors : kSame;
+}
 
 anatomy::Anatomy analyzed(const TriMesh& mesh) {
   auto found = anatomy::analyze({}, mesh, {*body::find_profile("ansur2")});
@@ -29,7 +37,7 @@ void check_same(const anatomy::Anatomy& reference, const anatomy::Anatomy& found
   for (int i = 0; i < body::kLandmarkCount; ++i) {
     CAPTURE(std::string(body::kLandmarkNames[i]));
     CHECK((reference.landmarks[i].position - back(found.landmarks[i].position)).norm() <
-          kSame * reference.stature_m);
+          same(static_cast<LandmarkId>(i)) * reference.stature_m);
   }
 }
 
@@ -72,13 +80,13 @@ void check_moved(const TriMesh& mesh, std::initializer_list<double> scales) {
 
 void check_remeshed(const TriMesh& mesh) {
   const anatomy::Anatomy reference = analyzed(mesh);
-  const auto same = [](const Vec3& p) { return p; };
+  const auto unmoved = [](const Vec3& p) { return p; };
   const TriMesh fine = remesh::refined(remesh::refined(mesh));
   CHECK(fine.positions.size() > 190000);
-  check_same(reference, analyzed(fine), 1.0, same);
+  check_same(reference, analyzed(fine), 1.0, unmoved);
   const TriMesh coarse = remesh::decimated(mesh, 1500);
   CHECK(coarse.positions.size() <= 1500);
-  check_same(reference, analyzed(coarse), 1.0, same);
+  check_same(reference, analyzed(coarse), 1.0, unmoved);
 }
 
 TriMesh repaired(const std::filesystem::path& file) {
@@ -133,7 +141,7 @@ TEST_CASE("damage that leaves the body whole changes nothing; what welds limbs i
                                    [](const engine::Warning& w) { return w.code == "holes"; });
     for (int i = 0; i < body::kLandmarkCount; ++i)
       CHECK((reference.landmarks[i].position - found.landmarks[i].position).norm() <
-            (holes ? 2.5 : 1.0) * kSame * reference.stature_m);
+            (holes ? 2.5 : 1.0) * same(static_cast<LandmarkId>(i)) * reference.stature_m);
   }
   const auto fused = bodice_test::data_file("awkward/m_avg_armsdown_fused.obj");
   REQUIRE(fused);

@@ -1,6 +1,6 @@
 #include "landmarks/level_loop.hpp"
 
-#include "skin/curve.hpp"
+#include "landmarks/unchecked.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -26,8 +26,22 @@ Field heights(const LandmarkInput& input, const Border& border) {
   return height;
 }
 
-FoundLandmark in_loop(LandmarkId id, const Loop& loop) {
-  return {{id, loop.center, loop.vertex, loop.confidence}, loop};
+FoundLandmark in_loop(const LandmarkInput& input, LandmarkId id, const Loop& loop) {
+  return {{id, loop.center, loop.vertex, unchecked_confidence(input, loop.confidence)}, loop};
+}
+
+/// Holes cut a level into several open lines: the center and the length of all of them together.
+void join_open_lines(const std::vector<Isoline>& lines, Loop& loop) {
+  geometry::Vec3 moment = geometry::Vec3::Zero();
+  double length = 0.0;
+  for (const Isoline& line : lines) {
+    if (line.closed) continue;
+    moment += line.girth_m * line.centroid;
+    length += line.girth_m;
+  }
+  if (!(length > 0.0)) return;
+  loop.center = moment / length;
+  loop.girth_m = length;
 }
 
 }  // namespace
@@ -44,7 +58,7 @@ Border level_border(LevelCoefficients coefficients, const Build& build) {
 FoundLandmark find_limb_level(const LandmarkInput& input, LandmarkId left, int side, Coordinate end,
                               float reach, LevelCoefficients coefficients) {
   const Border border = level_border(coefficients, build_of(input.coordinates));
-  return in_loop(body::of_side(left, side),
+  return in_loop(input, body::of_side(left, side),
                  border_loop(input.skin, input.coordinates, {border, end, reach}, side));
 }
 
@@ -56,8 +70,10 @@ FoundLandmark find_trunk_level(const LandmarkInput& input, LandmarkId id, LevelC
   for (const Isoline& line : lines)
     if (best == nullptr || line.girth_m > best->girth_m) best = &line;
   if (best == nullptr) return {};
-  return in_loop(id, {best->centroid, input.skin.edges.ends[best->edges[0]][0], best->girth_m,
-                      best->closed ? 1.0 : 0.5});
+  Loop loop{best->centroid, input.skin.edges.ends[best->edges[0]][0], best->girth_m,
+            best->closed ? 1.0 : 0.5};
+  if (!best->closed) join_open_lines(lines, loop);
+  return in_loop(input, id, loop);
 }
 
 }  // namespace bodice::anatomy

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "landmarks/unchecked.hpp"
 #include "skin/nearest_signature.hpp"
 #include "skin/soft_position.hpp"
 
@@ -27,9 +28,8 @@ FoundLandmark find_by_signature(const LandmarkInput& input, LandmarkId left, int
   const geometry::Vec3 position =
       soft_position(input.skin, found.vertex, kSoftRadius * input.size_m(),
                     [&](geometry::Index v) { return std::exp(-0.5F * (distance2(v) - least2)); });
-  return {{body::of_side(left, side), position, found.vertex,
-           confidence_of(static_cast<double>(found.mahalanobis), kHopeless)},
-          {}};
+  const double confidence = confidence_of(static_cast<double>(found.mahalanobis), kHopeless);
+  return {{body::of_side(left, side), position, found.vertex, unchecked_confidence(input, confidence)}, {}};
 }
 
 }  // namespace bodice::anatomy
