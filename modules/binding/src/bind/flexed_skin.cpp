@@ -105,8 +105,8 @@ std::vector<Vec3> flexed_skin(const engine::Context& context, const SkinnedBody&
                                       {Part::kThighR, front, 31.0, Part::kThighR},
                                       {Part::kCalfL, -front, 45.0, Part::kThighL},
                                       {Part::kCalfR, -front, 45.0, Part::kThighR},
-                                      {Part::kUpperArmL, up, 20.0, Part::kUpperArmL},
-                                      {Part::kUpperArmR, up, 20.0, Part::kUpperArmR},
+                                      {Part::kUpperArmL, front, 35.0, Part::kUpperArmL},
+                                      {Part::kUpperArmR, front, 35.0, Part::kUpperArmR},
                                       {Part::kForearmL, front, 40.0, Part::kUpperArmL},
                                       {Part::kForearmR, front, 40.0, Part::kUpperArmR}}};
   std::vector<std::optional<Mat3>> turns(joints.size());

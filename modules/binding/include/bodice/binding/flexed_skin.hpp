@@ -12,7 +12,8 @@
 
 namespace bodice::binding {
 
-/// #V: the skin with hips, knees, elbows and shoulders half bent from where the bind pose has them. `part`
+/// #V: the skin with hips, knees, elbows and shoulders half bent from where the bind pose has them: arms to
+/// the front, since raised ones would go on with the clavicles in one line. `part`
 /// (#V) gives the skin that a joint must carry; names of joints do not matter. Joints that are bent already
 /// stay, and so do limbs of which no joint is found. Empty if none is bent. O(#V #J).
 std::vector<Vec3> flexed_skin(const engine::Context& context, const SkinnedBody& body,
