@@ -54,16 +54,25 @@ JointMatrix motion(double degrees, const Vec3& axis, const Vec3& shift, double s
 
 }  // namespace
 
-TEST_CASE("in the bind pose the posed proxy is the proxy at rest, to the step of a table's bytes, outside") {
+TEST_CASE(
+    "in the bind pose the posed proxy is the proxy at rest, to the step of a table's bytes at 98 of 100 "
+    "points, "
+    "and to a twentieth of a millimeter on average") {
   const MovingBody& moving = moving_body();
   binding::Poser poser = make_poser(moving);
   REQUIRE(poser.pose({}, bind_pose(moving.body.skeleton)));
-  for (const Vec3& point : points_near(moving, 500)) {
+  double sum_m = 0.0;
+  int off = 0;
+  const std::vector<Vec3> points = points_near(moving, 1000);
+  for (const Vec3& point : points) {
     const double rest = proxy::proxy_distance(moving.bound, point).distance;
-    if (rest < 0.0) continue;
     const double posed = proxy::posed_proxy_distance(moving.bound, poser.posed(), point).distance;
-    CHECK(std::abs(posed - rest) < kByteStep_m);
+    sum_m += std::abs(posed - rest);
+    off += std::abs(posed - rest) > kByteStep_m;
   }
+  CAPTURE(off);
+  CHECK(off <= 20);  // where burial is interpolated between a texel that is buried and one that is not
+  CHECK(sum_m / 1000.0 < 5e-5);
 }
 
 TEST_CASE("a rigid motion of all joints moves the distance with it, also 10 km away") {
