@@ -161,3 +161,36 @@ TEST_CASE("a frame that does not exist and absurd sizes are refused") {
     CHECK(result.error().code == engine::ErrorCode::kInvalidArgument);
   }
 }
+
+TEST_CASE("a contact sheet has one view for each frame, row by row, and shows the skin of that frame") {
+  SceneFixture fixture;
+  io::Scene scene = fixture.scene;
+  std::vector<std::vector<geometry::Vec3>> skin(3, scene.body->positions);
+  for (geometry::Vec3& p : skin[2]) p *= 0.5;  // at half the size, the ground at 0
+  scene.body_frames = skin;
+  const TempFolder folder;
+  const std::size_t frames[] = {0, 1, 2};
+  const io::PictureOptions options{.width = 80, .height = 120, .show_garments = false};
+  const auto result = io::write_contact_sheet(scene, frames, 2, folder / "sheet.png", options);
+  REQUIRE_MESSAGE(result.ok(), (result.ok() ? std::string() : result.error().sentence()));
+  const Picture sheet = read(folder / "sheet.png");
+  CHECK(sheet.width == 160);
+  CHECK(sheet.height == 240);
+  const int first = count(sheet, 0, 0, 80, 120), second = count(sheet, 80, 0, 160, 120),
+            third = count(sheet, 0, 120, 80, 240);
+  CHECK(first > 100);
+  CHECK(second == first);
+  CHECK(third == doctest::Approx(0.25 * first).epsilon(0.15));
+  CHECK(count(sheet, 80, 120, 160, 240) == 0);
+}
+
+TEST_CASE("a contact sheet without frames, without columns or of a frame that is not there is refused") {
+  SceneFixture fixture;
+  const io::Scene scene = fixture.scene;
+  const TempFolder folder;
+  const std::size_t frames[] = {0, 99};
+  CHECK(!io::write_contact_sheet(scene, {}, 2, folder / "a.png").ok());
+  CHECK(!io::write_contact_sheet(scene, std::span(frames, 1), 0, folder / "a.png").ok());
+  CHECK(!io::write_contact_sheet(scene, frames, 2, folder / "a.png").ok());
+  CHECK(!std::filesystem::exists(folder / "a.png"));
+}

@@ -80,6 +80,9 @@ engine::Result<void> check_scene(const Scene& scene) {
   if (scene.body && !scene.part.empty() && scene.part.size() != scene.body->positions.size())
     return invalid("The body has " + std::to_string(scene.body->positions.size()) + " vertices but " +
                    std::to_string(scene.part.size()) + " parts.");
+  for (const auto& frame : scene.body_frames)
+    if (!scene.body || frame.size() != scene.body->positions.size() || !all_finite(frame))
+      return invalid("The body has a frame that is not finite or not of its vertices.");
   if (scene.surface && !fits(*scene.surface, scene.proxy))
     return invalid("The proxy's surface is not that of the scene's proxy.");
   if (scene.rig)
@@ -93,6 +96,8 @@ geometry::Box scene_box(const Scene& scene) {
   geometry::Box box;
   if (scene.body)
     for (const Vec3& p : scene.body->positions) box.extend(p);
+  for (const auto& frame : scene.body_frames)
+    for (const Vec3& p : frame) box.extend(p);
   if (scene.proxy)
     for (const auto& ellipsoid : scene.proxy->ellipsoids()) {
       const geometry::Box tight = geometry::bounding_box(ellipsoid.shape);

@@ -29,8 +29,11 @@ Actor surface_actor(const proxy::BodyProxy& proxy, const proxy::ProxySurface& su
 
 }  // namespace
 
-Actor body_actor(const Scene& scene, SkinColor color) {
-  Actor actor = make_actor(*scene.body, to_linear(std::span(kSkin)), false);
+Actor body_actor(const Scene& scene, SkinColor color, const std::size_t* frame) {
+  const bool moves = frame && !scene.body_frames.empty();
+  const Vec3f skin = to_linear(std::span(kSkin));
+  Actor actor = moves ? make_actor({scene.body_frames[*frame], scene.body->triangles}, skin, false)
+                      : make_actor(*scene.body, skin, false);
   if (color == SkinColor::kByPart && !scene.part.empty())
     for (std::size_t v = 0; v < actor.colors.size(); ++v)
       actor.colors[v] = to_linear(part_color(scene.part[v]));

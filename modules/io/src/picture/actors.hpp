@@ -9,7 +9,8 @@ namespace bodice::io {
 
 enum class SkinColor { kPlain, kByPart };
 
-Actor body_actor(const Scene& scene, SkinColor color);
+/// The skin as it is in a kept frame; null: as it was at first.
+Actor body_actor(const Scene& scene, SkinColor color, const std::size_t* frame = nullptr);
 
 /// Adds one actor an ellipsoid in its part's color. With `shades`, ellipsoids of a part differ in brightness,
 /// so that each is visible.

@@ -28,6 +28,8 @@ struct GarmentTrack {
 struct Scene {
   const geometry::TriMesh* body = nullptr;
   std::span<const body::Part> part;  ///< #V of the body, or empty
+  /// Skin of a body that moves, #V at each kept frame of the garments; empty: the body stands still.
+  std::span<const std::vector<geometry::Vec3>> body_frames;
   const proxy::BodyProxy* proxy = nullptr;
   const proxy::ProxySurface* surface = nullptr;  ///< the proxy's; pictures show it in place of ellipsoids
   std::span<const geometry::Vec3> landmarks;     ///< points that write_stages_picture() marks
@@ -52,6 +54,7 @@ struct PictureOptions {
   int width = 640, height = 960;  ///< size of one view, pixels
   bool show_proxy = false;        ///< in place of the skin: its surface if there is one, else its ellipsoids
   bool show_garments = true;
+  bool from_left = false;  ///< contact sheets: the left side in place of the front
 };
 
 /// Writes a PNG with a row for each kept frame in `frames` (indices into GarmentTrack::frames; empty: the
@@ -59,6 +62,12 @@ struct PictureOptions {
 /// does.
 engine::Result<void> write_picture(const Scene& scene, std::span<const std::size_t> frames,
                                    const std::filesystem::path& file, const PictureOptions& options = {});
+
+/// One PNG, a grid of one view for each kept frame in `frames`, `columns` in a row, from the front or from
+/// the left side. Fails with kInvalidArgument as write_picture() does.
+engine::Result<void> write_contact_sheet(const Scene& scene, std::span<const std::size_t> frames, int columns,
+                                         const std::filesystem::path& file,
+                                         const PictureOptions& options = {});
 
 /// Writes a PNG with a row of front views of the steps of processing: mesh, landmarks, parts, ellipsoids, and
 /// garments at their last frame. What the scene lacks is left out. `options` gives the size of a view. Fails
