@@ -126,6 +126,24 @@ cmp -s triangle.obj kept.obj && cmp -s p.json kept.obj || { echo "FAILED: an inp
 for file in same.json a.json b.obj g.obj d.glb; do absent $file; done
 rm p.json
 
+# A body that moves under its garment.
+refused drape --motion ""
+refused drape --clip walk
+refused drape --motion walk --ramp -1
+expect 1 "a motion file that does not exist" "$bodice" drape --motion nowhere.bvh --tier solid -o none.glb
+prints "nowhere.bvh"
+absent none.glb
+expect 0 "a skirt on a body that walks" "$bodice" drape --vertices 3000 --tier solid --motion walk --frames 4 --keep 3 \
+  --substeps 4 -o walk.glb --report walk.json --contact-sheet walk_sheet.png -q
+exists walk.glb
+exists walk_sheet.png
+for key in '"ramp_s"' '"kept"' '"proxy_error_mm"' '"over_half_mm_cm2"'; do
+  grep -q "$key" walk.json || { echo "FAILED: no $key in the report"; failures=$((failures + 1)); }
+done
+for word in JOINTS_0 inverseBindMatrices '"cloth"'; do
+  grep -qa -- "$word" walk.glb || { echo "FAILED: no $word in the GLB of the walk"; failures=$((failures + 1)); }
+done
+
 # A rig: any tool's skinned GLB, for a body that has none.
 refused rig -o r.obj
 refused rig --clip fly

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs every `sh` block of the README in an empty folder and an empty home, with this build as build/release and a
-# body.obj and dress.obj made by it: `bodice` is found only where the README's own commands put it. The set-up
+# body.obj, dress.obj, scan.obj and avatar.glb made by it: `bodice` is found only where the README's own commands put it. The set-up
 # commands that call this test are checked for syntax only.
 set -euo pipefail
 source_dir=$1 build_dir=$2 bodice=$3 scratch=$4
@@ -9,6 +9,8 @@ ln -s "$build_dir" build/release
 export HOME=$scratch/home
 
 "$bodice" make -o body.obj --garment tunic --garment-out dress.obj --quiet
+cp body.obj scan.obj
+"$bodice" rig body.obj -o avatar.glb --clip walk --quiet
 ran=0
 while IFS= read -r line; do
   case $line in

@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 
+#include <bodice/tryon/rigged_body.hpp>
 #include <bodice/tryon/wearing.hpp>
 
 #include "garment_kinds.hpp"
@@ -16,9 +20,30 @@ struct DrapeCommand {
   std::string made = "skirt", output = "drape.glb", hold = "auto", fabric = "cotton";
   std::vector<double> wind_m_s;
   std::optional<double> thickness_mm;
+  std::optional<int> frames;
   bool no_picture = false;
+  std::string contact_sheet;
+  int sheet_columns = 8;
+  tryon::MotionChoice motion;
   tryon::DrapeOptions drape;
+
+  bool moves() const { return !motion.motion.empty(); }
 };
+
+/// The skin of the run's body, and what moves it.
+struct DrapedBody {
+  tryon::SegmentedSkin skin;
+  std::optional<tryon::BodyMotion> motion;
+};
+
+engine::Result<DrapedBody> read_body(Run& run, const DrapeCommand& command) {
+  auto skin = command.moves() ? run.segment_rigged() : run.segment();
+  if (!skin) return std::move(skin).error();
+  if (!command.moves()) return DrapedBody{std::move(skin).value(), std::nullopt};
+  auto motion = tryon::find_motion(run.context(), *skin, command.motion, skin->warnings);
+  if (!motion) return std::move(motion).error();
+  return DrapedBody{std::move(skin).value(), std::move(motion).value()};
+}
 
 engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const DrapeCommand& command,
                                                            tryon::SegmentedSkin& skin) {
@@ -52,9 +77,13 @@ engine::Result<std::vector<tryon::WornGarment>> dress(const Run& run, const Drap
 }
 
 engine::Result<void> write_outputs(const DrapeCommand& command, const tryon::PreparedBody& body,
-                                   std::vector<io::GarmentTrack> tracks, std::vector<std::string>& written) {
+                                   const rig::Rig* rig, tryon::DrapeResult draped,
+                                   std::vector<std::string>& written) {
   io::Scene scene = scene_of(body);
-  scene.garments = std::move(tracks);
+  scene.rig = rig;
+  if (rig) scene.proxy = nullptr;  // its ellipsoids would stand still beside the body
+  scene.garments = std::move(draped.garments);
+  scene.body_frames = draped.body_frames;
   if (auto saved = io::write_glb(scene, command.output); !saved) return saved;
   written.push_back(command.output);
   if (const std::string& picture = command.common.picture; !picture.empty()) {
@@ -63,11 +92,29 @@ engine::Result<void> write_outputs(const DrapeCommand& command, const tryon::Pre
     if (auto saved = io::write_picture(scene, frames, picture); !saved) return saved;
     written.push_back(picture);
   }
+  if (!command.contact_sheet.empty()) {
+    std::vector<std::size_t> frames(scene.garments.front().frames.size());
+    std::iota(frames.begin(), frames.end(), std::size_t{0});
+    if (auto saved = io::write_contact_sheet(scene, frames, command.sheet_columns, command.contact_sheet,
+                                             {.width = 240, .height = 320});
+        !saved)
+      return saved;
+    written.push_back(command.contact_sheet);
+  }
   return {};
 }
 
-engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, const geometry::Frame& frame) {
+/// The frames that play a clip once, when the user gives no number.
+int frames_of(const rig::Clip& clip, double dt_s) {
+  return dt_s > 0.0 ? std::max(1, static_cast<int>(std::ceil(clip.duration_s / dt_s - 1e-6))) : 1;
+}
+
+engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, const geometry::Frame& frame,
+                                                  const tryon::BodyMotion* motion) {
   tryon::DrapeOptions options = command.drape;
+  options.motion = motion;
+  if (motion) options.frames = frames_of(motion->clip, options.dt_s);
+  if (command.frames) options.frames = *command.frames;
   auto fabric = cloth::find_fabric(command.fabric);
   if (!fabric) return std::move(fabric).error();
   options.fabric = std::move(fabric).value();
@@ -84,34 +131,62 @@ engine::Result<void> drape(const DrapeCommand& command) {
   Run run(o);
   std::vector<FileOption> garments;
   for (const std::string& file : command.garments) garments.push_back({"GARMENT", file});
-  if (auto ok = run.check_files({{"-o", command.output, {".glb"}}}, std::move(garments)); !ok) return ok;
-  auto skin = run.segment();
-  if (!skin) return std::move(skin).error();
-  auto worn = dress(run, command, *skin);
+  if (auto ok = run.check_files(
+          {{"-o", command.output, {".glb"}}, {"--contact-sheet", command.contact_sheet, {".png"}}},
+          std::move(garments));
+      !ok)
+    return ok;
+  auto draped_body = read_body(run, command);
+  if (!draped_body) return std::move(draped_body).error();
+  auto& [skin, motion] = *draped_body;
+  auto worn = dress(run, command, skin);
   if (!worn) return std::move(worn).error();
-  const auto region = run.region_garments(*skin);
+  const auto region = run.region_garments(skin);
   if (!region) return region.error();
-  auto fit_options = run.fit_options_for(*skin, *region);
+  auto fit_options = run.fit_options_for(skin, *region);
   if (!fit_options) return std::move(fit_options).error();
-  auto options = drape_options(command, skin->input.frame);
+  auto options = drape_options(command, skin.input.frame, motion ? &*motion : nullptr);
   if (!options) return std::move(options).error();
 
-  auto body =
-      tryon::fit_proxy(run.context(), std::move(skin).value(), *fit_options, run.progress().callback());
+  const auto progress = run.progress().callback();
+  auto body = motion ? tryon::fit_bound_proxy(run.context(), std::move(skin), *fit_options, progress)
+                     : tryon::fit_proxy(run.context(), std::move(skin), *fit_options, progress);
   if (!body) return std::move(body).error();
   auto draped = tryon::drape(run.context(), *body, *worn, *options, run.progress().callback());
   if (!draped) return std::move(draped).error();
   std::vector<std::string> written;
-  if (auto done = write_outputs(command, *body, std::move(draped->garments), written); !done) return done;
-  return run.finish(*body, &draped->report, written);
+  const tryon::DrapeReport report = draped->report;
+  if (motion) motion->rig.clips = {motion->clip};
+  if (auto done =
+          write_outputs(command, *body, motion ? &motion->rig : nullptr, std::move(draped).value(), written);
+      !done)
+    return done;
+  return run.finish(*body, &report, written);
 }
 
 void add_motion_options(CLI::App& sub, DrapeCommand& c) {
   const auto group = "Motion";
-  sub.add_option("--frames", c.drape.frames, "frames to simulate")
+  auto* motion =
+      sub.add_option(
+             "--motion", c.motion.motion,
+             "move the body: walk, run, turn, spin, reach, sit, squat, arms-up, dance, or a file with a "
+             "skeleton and clips (GLB, FBX, DAE, BVH)")
+          ->check(not_empty())
+          ->group(group);
+  sub.add_option("--clip", c.motion.clip, "name of the file's clip (default: its first)")
+      ->check(not_empty())
+      ->needs(motion)
+      ->group(group);
+  sub.add_flag("--loop", c.drape.loop, "start the clip over at its end")->needs(motion)->group(group);
+  sub.add_option(
+         "--ramp", c.drape.ramp_s,
+         "seconds from the pose of the file to the clip's first frame (default: by how far the skin moves)")
+      ->check(between(0.0, 60.0))
+      ->needs(motion)
+      ->group(group);
+  sub.add_option("--frames", c.frames, "frames to simulate (default: 120, or the clip once)")
       ->check(whole(1, 100000))
-      ->group(group)
-      ->capture_default_str();
+      ->group(group);
   sub.add_option("--dt", c.drape.dt_s, "seconds a frame")
       ->check(between(0.0, 1.0))
       ->group(group)
@@ -167,6 +242,9 @@ void add_drape_command(CLI::App& app, int& exit_code, const std::vector<std::str
       ->check(not_empty())
       ->group("Output")
       ->capture_default_str();
+  sub->add_option("--contact-sheet", command->contact_sheet, "write a PNG with a view of every kept frame")
+      ->check(not_empty())
+      ->group("Output");
   sub->add_flag("--no-picture", command->no_picture, "write no PNG beside the output")
       ->excludes("--picture")
       ->group("Output");

@@ -24,6 +24,7 @@ struct FitCommand {
   std::string output, surface, measurements;
   std::optional<double> surface_mm;
   bool exact_region = false;
+  bool no_rig = false;
 };
 
 /// Reduces the whole body's proxy to what the garment of --region-of can reach, where distances do not
@@ -142,7 +143,10 @@ engine::Result<void> fit(const FitCommand& command) {
   if (!garments) return garments.error();
   auto options = command.exact_region ? fit_options(o) : run.fit_options_for(*skin, *garments);
   if (!options) return std::move(options).error();
-  auto body = tryon::fit_proxy(run.context(), std::move(skin).value(), *options, run.progress().callback());
+  const auto progress = run.progress().callback();
+  auto body = command.no_rig
+                  ? tryon::fit_proxy(run.context(), std::move(skin).value(), *options, progress)
+                  : tryon::fit_bound_proxy(run.context(), std::move(skin).value(), *options, progress);
   if (!body) return std::move(body).error();
   if (command.exact_region)
     if (auto done = crop(o, run.context(), *garments, *body); !done) return done;
@@ -182,6 +186,10 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
                   "26 body measurements for garments in millimeters and degrees (.json or .yaml), for a body "
                   "that stands with its arms away from the trunk")
       ->check(not_empty())
+      ->group("Output");
+  sub->add_flag(
+         "--no-rig", command->no_rig,
+         "leave the rig of the file alone: by default the proxy is bound to it, and follows its joints")
       ->group("Output");
   add_common_options(*sub, command->common);
   sub->add_flag(

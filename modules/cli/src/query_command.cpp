@@ -4,11 +4,13 @@
 #include <memory>
 #include <sstream>
 
+#include <bodice/binding/poser.hpp>
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/text.hpp>
 #include <bodice/engine/write_file.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
+#include "motion_time.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "terminal.hpp"
@@ -21,6 +23,7 @@ using geometry::Vec3;
 
 struct QueryCommand {
   std::string proxy, points, output;
+  MotionTime motion;
 };
 
 engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
@@ -67,19 +70,53 @@ std::string answer(const collision::Collider& collider, const proxy::BodyProxy& 
   return line + ' ' + std::to_string(c.ellipsoid) + '\n';
 }
 
+std::string posed_answer(const binding::Poser& poser, const Vec3& file_point) {
+  const geometry::Frame& frame = poser.bound().frame();
+  const Vec3 at = frame.to_inside(file_point);
+  const proxy::ProxyDistance found = proxy::posed_proxy_distance(poser.bound(), poser.posed(), at);
+  const Vec3 point = frame.to_file(at - found.distance * found.normal);
+  const Vec3 normal = frame.direction_to_file(found.normal);
+  std::string line;
+  engine::append_number(line, found.distance / frame.meters_per_unit, 7);
+  for (const double v : point) engine::append_number(line += ' ', v, 9);
+  for (const double v : normal) engine::append_number(line += ' ', v, 6);
+  return line + ' ' + std::to_string(found.owner) + '\n';
+}
+
+engine::Result<std::string> posed_answers(const proxy::BodyProxy& proxy, const MotionTime& motion,
+                                          const std::vector<Vec3>& points) {
+  const engine::Context context;
+  auto poser = binding::Poser::make(proxy);
+  if (!poser) return std::move(poser).error();
+  const auto joints = joints_at(context, *proxy.binding(), motion);
+  if (!joints) return joints.error();
+  if (auto posed = poser->pose(context, *joints); !posed) return posed.error();
+  std::string text;
+  for (const Vec3& p : points) text += posed_answer(*poser, p);
+  return text;
+}
+
+std::string answers(const proxy::BodyProxy& proxy, const std::vector<Vec3>& points) {
+  const collision::Collider collider(proxy);
+  std::string text;
+  for (const Vec3& p : points) text += answer(collider, proxy, p);
+  return text;
+}
+
 engine::Result<void> query(const QueryCommand& command) {
   const FileOption output{"-o", command.output};
-  const FileOption inputs[] = {{"PROXY", command.proxy}, {"POINTS", command.points}};
+  const FileOption inputs[] = {
+      {"PROXY", command.proxy}, {"POINTS", command.points}, {"--motion", command.motion.file}};
   if (auto ok = check_outputs({&output, 1}, inputs); !ok) return ok;
   auto proxy = proxy::load(command.proxy);
   if (!proxy) return std::move(proxy).error();
   auto points = read_points(command.points);
   if (!points) return std::move(points).error();
-  const collision::Collider collider(*proxy);
-  std::string text;
-  for (const Vec3& p : *points) text += answer(collider, *proxy, p);
-  if (!command.output.empty()) return engine::write_file(command.output, std::string_view(text));
-  std::fputs(text.c_str(), stdout);
+  const auto text = command.motion.file.empty() ? engine::Result<std::string>(answers(*proxy, *points))
+                                                : posed_answers(*proxy, command.motion, *points);
+  if (!text) return text.error();
+  if (!command.output.empty()) return engine::write_file(command.output, std::string_view(*text));
+  std::fputs(text->c_str(), stdout);
   return {};
 }
 
@@ -94,6 +131,15 @@ void add_query_command(CLI::App& app, int& exit_code) {
       ->required();
   sub->add_option("-o,--output", command->output, "where to write (default: standard output)")
       ->check(not_empty());
+  CLI::Option* const motion =
+      sub->add_option("--motion", command->motion.file,
+                      "pose a proxy that is bound to joints by a clip of this file (GLB, FBX, DAE, BVH)")
+          ->check(not_empty());
+  sub->add_option("--clip", command->motion.clip, "name of the clip (default: the file's first)")
+      ->check(not_empty())
+      ->needs(motion);
+  sub->add_option("--time", command->motion.time_s, "seconds of the clip, from 0 (default: 0)")
+      ->needs(motion);
   sub->footer(
       "A line a point: signed distance (negative inside), closest point x y z, normal x y z, ellipsoid (from "
       "0);\n`inf nan ... none` where single precision does not reach, millions of body lengths away.\n"

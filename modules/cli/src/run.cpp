@@ -37,6 +37,19 @@ engine::Result<tryon::SegmentedSkin> Run::segment() {
   return tryon::segment_builtin(context_, *body, *options, progress_.callback());
 }
 
+engine::Result<tryon::SegmentedSkin> Run::segment_rigged() {
+  auto skin = segment();
+  if (!skin) return skin;
+  tryon::BodySource source = tryon::BodyFile{options_.body};
+  if (options_.body.empty()) {
+    auto body = builtin_body(options_);
+    if (!body) return std::move(body).error();
+    source = std::move(body).value();
+  }
+  if (auto given = tryon::give_rig(context_, source, *skin); !given) return std::move(given).error();
+  return skin;
+}
+
 engine::Result<std::vector<geometry::TriMesh>> Run::region_garments(const tryon::SegmentedSkin& skin) {
   std::vector<geometry::TriMesh> garments;
   if (options_.region_of.empty()) return garments;

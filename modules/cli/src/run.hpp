@@ -12,6 +12,7 @@
 #include <bodice/io/scene.hpp>
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/report.hpp>
+#include <bodice/tryon/rigged_body.hpp>
 
 #include "options.hpp"
 #include "outputs.hpp"
@@ -32,6 +33,8 @@ class Run {
   engine::Result<void> check_files(std::vector<FileOption> outputs,
                                    std::vector<FileOption> inputs = {}) const;
   engine::Result<tryon::SegmentedSkin> segment();
+  /// The same with a rig: that of the file, of the built-in body, or a found one.
+  engine::Result<tryon::SegmentedSkin> segment_rigged();
   /// The garment of --region-of in the skin's frame; empty if none was given.
   engine::Result<std::vector<geometry::TriMesh>> region_garments(const tryon::SegmentedSkin& skin);
   /// The options of the fit, limited to the parts near `garments` if there are any.

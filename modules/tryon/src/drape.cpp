@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +13,7 @@
 #include <bodice/tryon/penetration.hpp>
 
 #include "misplaced_garments.hpp"
+#include "moving_body.hpp"
 #include "recorder.hpp"
 
 namespace bodice::tryon {
@@ -31,7 +32,7 @@ void summarize_times(std::vector<double> frame_ms, DrapeReport& report) {
   report.frame_ms_max = frame_ms.back();
 }
 
-engine::Result<void> check(const DrapeOptions& options) {
+engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body) {
   const auto bad = [](std::string what, std::string remedy) {
     return engine::Error{engine::ErrorCode::kInvalidArgument, "Drape option " + what + ".",
                          std::move(remedy)};
@@ -41,7 +42,16 @@ engine::Result<void> check(const DrapeOptions& options) {
     return bad(engine::message("kept_frames is ", options.kept_frames), "Give 2 or more.");
   if (!(options.dt_s >= 0.0 && std::isfinite(options.dt_s)))
     return bad(engine::message("dt_s is ", options.dt_s), "Give seconds, zero or more.");
+  if (options.ramp_s && !(*options.ramp_s >= 0.0 && std::isfinite(*options.ramp_s)))
+    return bad(engine::message("ramp_s is ", *options.ramp_s), "Give seconds, zero or more.");
+  if (options.motion) return check(*options.motion, body.skin.input.skin.positions.size());
   return {};
+}
+
+double ramp_s(const engine::Context& context, const DrapeOptions& options, const PreparedBody& body) {
+  if (!options.motion) return 0.0;
+  return options.ramp_s ? *options.ramp_s
+                        : suggested_ramp_s(context, *options.motion, body.skin.input.skin.positions);
 }
 
 cloth::SolverOptions solver_options(const engine::Context& context, const DrapeOptions& options,
@@ -84,40 +94,111 @@ void add_cloth(const cloth::FrameReport& last, DrapeReport& report) {
   report.median_speed_m_s = last.median_speed_m_s;
 }
 
-/// The cloth of a drape, what keeps it out of the body, and the skin that it is measured against.
-struct Dressed {
-  cloth::Solver& solver;
-  const collision::Collider& collider;
-  const geometry::MeshDistance& skin;
-};
+/// A drape in progress: cloth, body, and what is recorded of them.
+class Drape {
+ public:
+  Drape(const engine::Context& context, const DrapeOptions& options, const Wardrobe& all,
+        cloth::Solver& solver, MovingBody& body, Recorder& recorder, DrapeResult& result)
+      : context_(context),
+        options_(options),
+        all_(all),
+        solver_(solver),
+        body_(body),
+        recorder_(recorder),
+        result_(result),
+        positions_(all.mesh.positions.size()) {}
 
-/// Runs all frames and leaves the last positions in `positions` (#vertices of all garments).
-void run_frames(const engine::Context& context, const Dressed& dressed, const DrapeOptions& options,
-                std::span<Vec3> positions, const std::function<void(int frame)>& after_frame,
-                DrapeReport& report) {
-  const engine::StageTimer timer(context, report.stages, "drape");
-  std::vector<double> frame_ms;
-  dressed.solver.positions(positions);
-  after_frame(0);
-  for (int frame = 1; frame <= options.frames; ++frame) {
-    context.cancel.check();
-    const std::int64_t begin_ns = context.clock->now_ns();
-    const cloth::FrameReport step = dressed.solver.step(context, dressed.collider, options.dt_s);
-    frame_ms.push_back(static_cast<double>(context.clock->now_ns() - begin_ns) * 1e-6);
-
-    dressed.solver.positions(positions);
-    report.finite = report.finite && step.finite;
-    add_frame(frame, penetration(context, dressed.skin, positions), report);
-    add_cloth(step, report);
-    after_frame(frame);
+  /// Puts pins on the body where it stands, in the bind pose.
+  void hold(double thickness_m, const rig::SkinWeights* skin_weights, const PreparedBody& body) {
+    held_ = held_positions(all_, body_.collider(), thickness_m);
+    if (skin_weights)
+      held_weights_ = attach_to_skin(body.skin.input.skin, *body.skin.distance, *skin_weights, held_);
+    posed_ = held_;
+    solver_.move_pins(posed_);
   }
-  summarize_times(std::move(frame_ms), report);
-}
+
+  /// Brings a body that moves from the bind pose to the clip's first frame.
+  engine::Result<void> ramp() {
+    const int steps = static_cast<int>(std::ceil(-body_.begin_s() / kRampStep_s));
+    for (int step = 1; step <= steps; ++step) {
+      context_.cancel.check();
+      if (auto posed =
+              pose(body_.begin_s() * (1.0 - static_cast<double>(step) / steps), -body_.begin_s() / steps);
+          !posed)
+        return posed;
+      solver_.step(context_, body_.collider(), -body_.begin_s() / steps);
+    }
+    return {};
+  }
+
+  /// Runs all frames and measures each.
+  engine::Result<void> run(const Progress& progress) {
+    DrapeReport& report = result_.report;
+    std::vector<double> frame_ms;
+    solver_.positions(positions_);
+    offer(0);
+    for (int frame = 1; frame <= options_.frames; ++frame) {
+      context_.cancel.check();
+      const std::int64_t begin_ns = context_.clock->now_ns();
+      if (auto posed = pose(frame * options_.dt_s, options_.dt_s); !posed) return posed;
+      const cloth::FrameReport step = solver_.step(context_, body_.collider(), options_.dt_s);
+      frame_ms.push_back(static_cast<double>(context_.clock->now_ns() - begin_ns) * 1e-6);
+
+      solver_.positions(positions_);
+      report.finite = report.finite && step.finite;
+      add_frame(frame, penetration(context_, body_.distance(context_), positions_), report);
+      add_cloth(step, report);
+      offer(frame);
+      if (progress) progress("drape", static_cast<double>(frame) / options_.frames);
+    }
+    summarize_times(std::move(frame_ms), report);
+    return {};
+  }
+
+  std::span<const Vec3> positions() const { return positions_; }
+
+ private:
+  static constexpr double kRampStep_s = 1.0 / 60.0;
+
+  engine::Result<void> pose(double time_s, double dt_s) {
+    if (!body_.moves()) return {};
+    if (auto posed = body_.pose(context_, time_s, dt_s); !posed) return posed;
+    body_.carry(held_, held_weights_, posed_);
+    solver_.move_pins(posed_);
+    return {};
+  }
+
+  void offer(int frame) {
+    const double time_s = frame * options_.dt_s;
+    if (!recorder_.offer(frame, positions_, time_s) || !body_.moves()) return;
+    const geometry::MeshDistance& skin = body_.distance(context_);
+    result_.body_frames.push_back(body_.skin().positions);
+    result_.report.kept.push_back(
+        {.time_s = time_s,
+         .proxy_error = measure_proxy_error(context_, body_.collider(), body_.skin(), skin, kNearSkin_m),
+         .penetration_max_m = penetration(context_, skin, positions_).deepest_m,
+         .over_half_mm_m2 =
+             cloth_area_inside_m2(context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
+  }
+
+  static constexpr double kNearSkin_m = 0.03, kVisibleDepth_m = 0.5e-3;
+
+  const engine::Context& context_;
+  const DrapeOptions& options_;
+  const Wardrobe& all_;
+  cloth::Solver& solver_;
+  MovingBody& body_;
+  Recorder& recorder_;
+  DrapeResult& result_;
+  std::vector<Vec3> positions_;     // #vertices of all garments
+  std::vector<Vec3> held_, posed_;  // pins in the bind pose and in this one
+  rig::SkinWeights held_weights_;
+};
 
 engine::Result<DrapeResult> simulate(const engine::Context& context, const PreparedBody& body,
                                      const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                      const Progress& progress) {
-  if (auto good = check(options); !good) return std::move(good).error();
+  if (auto good = check(options, body); !good) return std::move(good).error();
   const auto all = join(garments);
   if (!all) return all.error();
   const auto fabric = fabric_or_cotton(options.fabric);
@@ -125,25 +206,30 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   const cloth::SolverOptions settings = solver_options(context, options, body, all->mesh);
   auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, settings);
   if (!solver) return std::move(solver).error();
-  const collision::Collider collider(body.fit.proxy);
-  solver->move_pins(held_positions(*all, collider, settings.thickness_m));
 
-  DrapeReport report = describe(garments, options, settings, *fabric);
+  DrapeResult result;
+  DrapeReport& report = result.report;
+  report = describe(garments, options, settings, *fabric);
   report.particles = solver->particles();
+  report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
+  auto moving = MovingBody::make(body, options.motion, report.ramp_s, options.loop);
+  if (!moving) return std::move(moving).error();
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
-  std::vector<Vec3> positions(all->mesh.positions.size());
-  const auto after_frame = [&](int frame) {
-    recorder.offer(frame, positions, frame * options.dt_s);
-    if (progress && frame > 0) progress("drape", static_cast<double>(frame) / options.frames);
-  };
-  run_frames(context, {*solver, collider, *body.skin.distance}, options, positions, after_frame, report);
+  Drape drape(context, options, *all, *solver, *moving, recorder, result);
+  std::optional<engine::StageTimer> timer(std::in_place, context, report.stages, "drape");
+  drape.hold(settings.thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
+  if (auto done = drape.ramp(); !done) return std::move(done).error();
+  if (auto done = drape.run(progress); !done) return std::move(done).error();
+  timer.reset();
 
-  report.pierced_share = pierced_share(context, *body.skin.distance, positions, all->mesh.triangles);
-  report.inside_union = count_inside(context, body.fit.proxy, positions);
+  report.pierced_share =
+      pierced_share(context, moving->distance(context), drape.positions(), all->mesh.triangles);
+  if (!moving->moves()) report.inside_union = count_inside(context, body.fit.proxy, drape.positions());
   report.hash = solver->hash();
   report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
-  return DrapeResult{.garments = recorder.take(), .report = std::move(report)};
+  result.garments = recorder.take();
+  return result;
 }
 
 }  // namespace

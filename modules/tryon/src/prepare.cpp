@@ -2,6 +2,11 @@
 
 #include <utility>
 
+#include <bodice/binding/bind.hpp>
+#include <bodice/binding/flexed_skin.hpp>
+#include <bodice/engine/stage_timer.hpp>
+#include <bodice/io/rig.hpp>
+
 #include "append.hpp"
 #include "load_body.hpp"
 #include "segment_tasks.hpp"
@@ -39,7 +44,14 @@ std::vector<engine::StageTime> PreparedBody::all_stages() const {
 
 engine::Result<SegmentedSkin> segment_file(const engine::Context& context, const std::filesystem::path& file,
                                            const SegmentOptions& options, const Progress& progress) {
-  return segment_source(context, BodyFile{file}, options, progress);
+  report(progress, "load", 0.0);
+  auto input = io::import_rigged_body(context, file, options.import);
+  if (!input) return std::move(input).error();
+  auto skin = segment_mesh(context, std::move(input->body), options, progress);
+  if (skin && input->rig) skin->rig = std::make_shared<const rig::Rig>(std::move(input->rig).value());
+  if (skin && !input->rig && input->rig.error().code != engine::ErrorCode::kNotFound)
+    skin->warnings.push_back({"rig-not-usable", "", input->rig.error().message, input->rig.error().remedy});
+  return skin;
 }
 
 engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, const synth::BodyOptions& body,
@@ -75,6 +87,24 @@ engine::Result<PreparedBody> fit_proxy(const engine::Context& context, Segmented
   auto fit = fitting::fit(context, labeled(skin), options);
   if (!fit) return of_body(std::move(fit).error(), skin.input);
   return PreparedBody{.skin = std::move(skin), .fit = std::move(fit).value()};
+}
+
+engine::Result<PreparedBody> fit_bound_proxy(const engine::Context& context, SegmentedSkin skin,
+                                             fitting::FitOptions options, const Progress& progress) {
+  if (!skin.rig) return fit_proxy(context, std::move(skin), options, progress);
+  const std::shared_ptr<const rig::Rig> rig = skin.rig;
+  std::vector<geometry::Vec3> flexed =
+      binding::flexed_skin(context, {skin.input.skin, rig->skeleton, rig->weights}, skin.anatomy.part);
+  options.flexed = flexed;
+  auto body = fit_proxy(context, std::move(skin), options, progress);
+  if (!body) return body;
+  report(progress, "bind", 0.0);
+  engine::StageTimer timer(context, body->fit.stages, "bind");
+  auto bound = binding::bind(context, body->fit.proxy, {body->skin.input.skin, rig->skeleton, rig->weights});
+  timer.stop();
+  if (!bound) return of_body(std::move(bound).error(), body->skin.input);
+  body->fit.proxy = std::move(bound).value();
+  return body;
 }
 
 }  // namespace bodice::tryon

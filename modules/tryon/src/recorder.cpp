@@ -25,14 +25,15 @@ Recorder::Recorder(const std::vector<WornGarment>& garments, const Wardrobe& all
   }
 }
 
-void Recorder::offer(int frame, std::span<const geometry::Vec3> positions, double time_s) {
-  if (next_ == keep_.size() || keep_[next_] != frame) return;
+bool Recorder::offer(int frame, std::span<const geometry::Vec3> positions, double time_s) {
+  if (next_ == keep_.size() || keep_[next_] != frame) return false;
   ++next_;
   for (std::size_t g = 0; g < tracks_.size(); ++g) {
     const auto own = positions.subspan(first_[g], first_[g + 1] - first_[g]);
     tracks_[g].frames.emplace_back(own.begin(), own.end());
     tracks_[g].time_s.push_back(time_s);
   }
+  return true;
 }
 
 }  // namespace bodice::tryon

@@ -19,8 +19,9 @@ class Recorder {
  public:
   Recorder(const std::vector<WornGarment>& garments, const Wardrobe& all, std::vector<int> keep);
 
-  /// Records the frame if it is one of those to keep. Frames come in order, from 0.
-  void offer(int frame, std::span<const geometry::Vec3> positions, double time_s);
+  /// Records the frame if it is one of those to keep, and returns whether it is. Frames come in order, from
+  /// 0.
+  bool offer(int frame, std::span<const geometry::Vec3> positions, double time_s);
 
   std::vector<io::GarmentTrack> take() { return std::move(tracks_); }
 

@@ -84,6 +84,18 @@ Json garments_json(std::span<const DrapedGarment> garments) {
   return list;
 }
 
+Json kept_json(std::span<const KeptFrame> frames) {
+  Json list = Json::array();
+  for (const KeptFrame& f : frames)
+    list.push_back({{"time_s", f.time_s},
+                    {"proxy_error_mm", spread_mm(f.proxy_error.error_m)},
+                    {"missed_percent", 100.0 * f.proxy_error.missed_share},
+                    {"false_percent", 100.0 * f.proxy_error.false_share},
+                    {"penetration",
+                     {{"max_mm", mm(f.penetration_max_m)}, {"over_half_mm_cm2", 1e4 * f.over_half_mm_m2}}}});
+  return list;
+}
+
 Json drape_json(const DrapeReport& d) {
   return {{"garments", garments_json(d.garments)},
           {"fabric", d.fabric},
@@ -136,6 +148,10 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
                  {"warnings", warnings},
                  {"stages", stages}};
   if (drape) report["drape"] = drape_json(*drape);
+  if (drape && !drape->kept.empty()) {
+    report["drape"]["ramp_s"] = drape->ramp_s;
+    report["drape"]["kept"] = kept_json(drape->kept);
+  }
   // Names of files and meshes need not be UTF-8; invalid bytes are replaced.
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

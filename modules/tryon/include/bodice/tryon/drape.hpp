@@ -7,6 +7,8 @@
 
 #include <bodice/cloth/solver.hpp>
 #include <bodice/io/scene.hpp>
+#include <bodice/tryon/judge_frame.hpp>
+#include <bodice/tryon/motion.hpp>
 #include <bodice/tryon/prepare.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
@@ -22,12 +24,25 @@ struct DrapeOptions {
   /// response, which is the paper's. Two sweeps keep the stretch of cotton under 5 % at 95 %.
   cloth::SolverOptions solver = {.substeps = 16, .iterations = 2};
   std::optional<double> thickness_m;  ///< distance between particles and skin; absent: fitted_thickness_m()
+  /// What moves the body; null: it stands still. Garments are put on in the bind pose; a ramp that is not
+  /// part of the result brings them to the clip's first frame. Frame k then shows second k dt_s of the clip.
+  const BodyMotion* motion = nullptr;
+  std::optional<double> ramp_s;  ///< zero or more; absent: suggested_ramp_s()
+  bool loop = false;             ///< after its end the clip starts over; else its last frame holds
 };
 
 /// What a report lists of each garment.
 struct DrapedGarment {
   std::string name;
   std::size_t vertices = 0, held = 0;
+};
+
+/// One kept frame of a body that moves, judged by the posed skin.
+struct KeptFrame {
+  double time_s = 0.0;             ///< of the clip
+  ProxyError proxy_error;          ///< within 30 mm of the skin
+  double penetration_max_m = 0.0;  ///< deepest particle
+  double over_half_mm_m2 = 0.0;    ///< area of cloth more than half a millimeter inside the skin
 };
 
 /// The numbers of a drape. Penetration is measured by the exact signed distance to the skin, never to the
@@ -47,6 +62,8 @@ struct DrapeReport {
   double median_speed_m_s = 0.0;                ///< at the end
   bool finite = true;                           ///< whether all positions of all frames were finite
   std::uint64_t hash = 0;                       ///< hash of the final state, equal for any number of workers
+  double ramp_s = 0.0;                          ///< from the bind pose to the clip's first frame
+  std::vector<KeptFrame> kept;                  ///< of a body that moves
   std::vector<DrapedGarment> garments;
   std::string fabric;  ///< name of the fabric; dt_s and substeps are those of the run
   double dt_s = 0.0;
@@ -58,6 +75,7 @@ struct DrapeReport {
 /// The draped garments over time, and the numbers of the drape.
 struct DrapeResult {
   std::vector<io::GarmentTrack> garments;
+  std::vector<std::vector<geometry::Vec3>> body_frames;  ///< skin of a body that moves at each kept frame, #V
   DrapeReport report;
 };
 

@@ -15,6 +15,7 @@
 #include <bodice/fitting/fit.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/io/import.hpp>
+#include <bodice/rig/rig.hpp>
 #include <bodice/synth/body.hpp>
 
 namespace bodice::tryon {
@@ -28,6 +29,7 @@ struct SegmentedSkin {
   io::ImportedMesh input;
   anatomy::Anatomy anatomy;
   std::shared_ptr<const geometry::MeshDistance> distance;  ///< exact distance to input.skin
+  std::shared_ptr<const rig::Rig> rig;                     ///< what moves input.skin, if the file has it
   std::vector<engine::StageTime> stages;
   std::vector<engine::Warning> warnings;  ///< warnings of import and anatomy
 };
@@ -67,5 +69,10 @@ fitting::LabeledSkin labeled(const SegmentedSkin& skin);
 /// Fits a proxy to a segmented skin. Fails as fitting::fit() does.
 engine::Result<PreparedBody> fit_proxy(const engine::Context& context, SegmentedSkin skin,
                                        const fitting::FitOptions& options, const Progress& progress = {});
+
+/// The same for a body that will move: the proxy is bound to the skin's rig, and its ellipsoids are found on
+/// the flexed skin, as long as there is a rig. Fails as fit_proxy() and binding::bind() do.
+engine::Result<PreparedBody> fit_bound_proxy(const engine::Context& context, SegmentedSkin skin,
+                                             fitting::FitOptions options, const Progress& progress = {});
 
 }  // namespace bodice::tryon

@@ -1,0 +1,26 @@
+// One time of a motion file, as the joints of a bound proxy.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace bodice::cli {
+
+/// Where a motion is looked at.
+struct MotionTime {
+  std::string file, clip;  ///< an empty clip: the file's first
+  double time_s = 0.0;
+};
+
+/// Joint space to world of each joint of the binding, #J, by the names of joints. What a skeleton's joints do
+/// to its own bind pose, the proxy's joints do to theirs. Fails where the file or the clip cannot be had, or
+/// a joint that moves skin is missing.
+engine::Result<std::vector<proxy::JointMatrix>> joints_at(const engine::Context& context,
+                                                          const proxy::Binding& binding,
+                                                          const MotionTime& motion);
+
+}  // namespace bodice::cli

@@ -1,0 +1,38 @@
+// Judges one frame of a body that moves against its true skin: the proxy's error, and skin that shows
+// through cloth.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/context.hpp>
+#include <bodice/fitting/fit.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::tryon {
+
+/// Distances of a collider beside the exact signed distance to the skin it stands for.
+struct ProxyError {
+  fitting::Spread error_m;    ///< of the distance, meters
+  double missed_share = 0.0;  ///< points more than 1 mm inside the skin that the proxy has outside
+  double false_share = 0.0;   ///< points more than 1 mm outside the skin that the proxy has inside
+  std::size_t samples = 0;
+};
+
+/// Measures a collider at some 4,000 points within `within_m` of the skin, spread evenly over it and its two
+/// sides. Points where the skin overlaps itself have no meaningful distance and are left out. `distance` is
+/// of `skin`, both in the pose of the collider. The points are the same in every frame. Deterministic for any
+/// number of workers. Cost: 20 to 40 milliseconds of one core.
+ProxyError measure_proxy_error(const engine::Context& context, const collision::Collider& collider,
+                               const geometry::TriMesh& skin, const geometry::MeshDistance& distance,
+                               double within_m);
+
+/// Area of the cloth that lies more than `depth_m` inside the skin, square meters: what a viewer sees as
+/// spots of skin. Triangles are sampled every 4 mm. Cost: a signed distance a sample near the skin.
+double cloth_area_inside_m2(const engine::Context& context, const geometry::MeshDistance& skin,
+                            std::span<const geometry::Vec3> positions,
+                            std::span<const geometry::Triangle> triangles, double depth_m);
+
+}  // namespace bodice::tryon

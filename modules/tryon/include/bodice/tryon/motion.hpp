@@ -1,0 +1,56 @@
+// A body that moves: its rig played through a clip, and what is attached to its skin.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/rig/rig.hpp>
+
+namespace bodice::tryon {
+
+/// What moves a body: a rig with weights for each vertex of its skin, and the clip that is played.
+struct BodyMotion {
+  rig::Rig rig;
+  rig::Clip clip;
+};
+
+/// Checks that the rig and its clip are valid and fit a skin of so many vertices. Fails with
+/// kUnusableGeometry or kInvalidArgument and names what does not fit. O(#V + #J + #keys).
+engine::Result<void> check(const BodyMotion& motion, std::size_t vertices);
+
+/// Joints over time: a ramp from the bind pose, in which garments are put on, to the clip's first frame, and
+/// then the clip. Times are seconds of the clip; the ramp ends at 0. After its end the clip starts over if
+/// `playback` loops, else its last frame holds.
+class MotionPlayer {
+ public:
+  /// `ramp_s` is the length of the ramp; zero jumps. Keeps a reference to `motion`. Allocates.
+  MotionPlayer(const BodyMotion& motion, double ramp_s, rig::Playback playback = rig::Playback::kClamp);
+
+  double ramp_s() const noexcept { return ramp_s_; }
+  /// World matrix of each joint (joint space to world, #J) at a time. Allocates nothing.
+  void joints(double time_s, std::span<rig::Affine> world);
+
+ private:
+  const BodyMotion* motion_;
+  double ramp_s_;
+  rig::Playback playback_;
+  std::vector<rig::LocalTransform> bind_, local_;  // #J
+};
+
+/// The ramp that brings a skin to the clip's first frame with no vertex faster than a walking hand, between a
+/// quarter of a second and two; zero if the clip begins in the bind pose. O(#V).
+double suggested_ramp_s(const engine::Context& context, const BodyMotion& motion,
+                        std::span<const geometry::Vec3> skin);
+
+/// Skin weights of points that move with the skin: those of the closest point of the skin, interpolated in
+/// its triangle. Points and skin (`distance` is of `mesh`) are in the bind pose. Cost: a closest point each.
+rig::SkinWeights attach_to_skin(const geometry::TriMesh& mesh, const geometry::MeshDistance& distance,
+                                const rig::SkinWeights& skin_weights, std::span<const geometry::Vec3> points);
+
+}  // namespace bodice::tryon

@@ -1,0 +1,31 @@
+// A rig for every body, and the motions that it plays.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/tryon/motion.hpp>
+#include <bodice/tryon/preparation.hpp>
+#include <bodice/tryon/prepare.hpp>
+
+namespace bodice::tryon {
+
+/// Gives a skin without a rig one: the built-in body's own, where `source` is one, else a found one
+/// (rigging::make_rig). A skin that has a rig keeps it. Errors name the body and the remedy.
+engine::Result<void> give_rig(const engine::Context& context, const BodySource& source, SegmentedSkin& skin);
+
+/// The clip that is named: a made motion (rigging::kMotionNames), or one of a file with a skeleton and clips.
+struct MotionChoice {
+  std::string motion;
+  std::string clip;  ///< name of a clip of the file; empty: its first
+};
+
+/// Finds the clip and carries it over to the skin's skeleton where it is of another one; `warnings` gets what
+/// did not fit. Precondition: the skin has a rig. Fails with kInvalidArgument where a clip is not there (the
+/// sentence lists those that are), and as rigging::make_clip(), rig::retarget() and io::import_motion() do.
+engine::Result<BodyMotion> find_motion(const engine::Context& context, const SegmentedSkin& skin,
+                                       const MotionChoice& choice, std::vector<engine::Warning>& warnings);
+
+}  // namespace bodice::tryon

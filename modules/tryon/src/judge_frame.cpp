@@ -1,0 +1,130 @@
+#include <bodice/tryon/judge_frame.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <bodice/engine/parallel.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+using geometry::Vec3;
+
+constexpr std::size_t kSamples = 4000;
+constexpr std::size_t kGrain = 64;
+constexpr double kDeep_m = 1e-3;                     // what counts as missed or false
+constexpr double kOverlap = 1.5;                     // a winding number above it: two layers of the body
+constexpr double kSpacing_m = 4e-3;                  // of samples on the cloth
+constexpr double kGoldenRatio = 0.6180339887498949;  // spreads consecutive offsets evenly
+
+struct Sample {
+  double truth_m = std::numeric_limits<double>::quiet_NaN();
+  double proxy_m = 0.0;
+};
+
+/// Offsets from -1 to 1 that are spread evenly over any run of consecutive samples.
+double offset_of(std::size_t sample) {
+  const double turns = kGoldenRatio * static_cast<double>(sample + 1);
+  return 2.0 * (turns - std::floor(turns)) - 1.0;
+}
+
+double collider_distance_m(const collision::Collider& collider, const Vec3& world) {
+  const Eigen::Vector3f p = (world - collider.origin()).cast<float>();
+  return double{collider.query({p.x(), p.y(), p.z()}).signed_distance};
+}
+
+ProxyError summarize(const std::vector<Sample>& samples) {
+  ProxyError result;
+  std::vector<double> errors;
+  std::size_t missed = 0, false_hits = 0;
+  for (const Sample& s : samples) {
+    if (!std::isfinite(s.truth_m)) continue;
+    errors.push_back(std::abs(s.proxy_m - s.truth_m));
+    missed += s.truth_m < -kDeep_m && s.proxy_m > 0.0;
+    false_hits += s.truth_m > kDeep_m && s.proxy_m < 0.0;
+  }
+  if (errors.empty()) return result;
+  std::ranges::sort(errors);
+  const auto count = static_cast<double>(errors.size());
+  for (const double e : errors) result.error_m.mean += e / count;
+  result.error_m.p95 = errors[static_cast<std::size_t>(0.95 * (count - 1.0))];
+  result.error_m.max = errors.back();
+  result.missed_share = static_cast<double>(missed) / count;
+  result.false_share = static_cast<double>(false_hits) / count;
+  result.samples = errors.size();
+  return result;
+}
+
+/// The corners of a triangle of cloth, and how often its edges are split so that samples lie near enough.
+struct Patch {
+  Vec3 a, b, c;
+  double area_m2 = 0.0, longest_m = 0.0;
+
+  int splits() const { return std::max(1, static_cast<int>(std::ceil(longest_m / kSpacing_m))); }
+};
+
+Patch patch_of(std::span<const Vec3> positions, const geometry::Triangle& t) {
+  Patch patch{positions[t[0]], positions[t[1]], positions[t[2]]};
+  patch.area_m2 = 0.5 * (patch.b - patch.a).cross(patch.c - patch.a).norm();
+  patch.longest_m =
+      std::max({(patch.b - patch.a).norm(), (patch.c - patch.b).norm(), (patch.a - patch.c).norm()});
+  return patch;
+}
+
+/// Share of the middles of a triangle's n x n smaller ones that are deeper than `depth_m`.
+double share_inside(const geometry::MeshDistance& skin, const Patch& patch, double depth_m) {
+  const int n = patch.splits();
+  int inside = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n - i; ++j)
+      for (int down = 0; down < (j < n - i - 1 ? 2 : 1); ++down) {
+        const double u = (i + (1.0 + down) / 3.0) / n, v = (j + (1.0 + down) / 3.0) / n;
+        inside += skin.signed_distance((1.0 - u - v) * patch.a + u * patch.b + v * patch.c) < -depth_m;
+      }
+  return static_cast<double>(inside) / (static_cast<double>(n) * n);
+}
+
+}  // namespace
+
+ProxyError measure_proxy_error(const engine::Context& context, const collision::Collider& collider,
+                               const geometry::TriMesh& skin, const geometry::MeshDistance& distance,
+                               double within_m) {
+  const std::size_t vertices = skin.positions.size();
+  const std::size_t step = std::max<std::size_t>(1, vertices / kSamples);
+  const std::vector<Vec3> normals = geometry::vertex_normals(skin);
+  std::vector<Sample> samples(vertices / step);
+  engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t v = i * step;
+      const Vec3 point = skin.positions[v] + within_m * offset_of(i) * normals[v];
+      const double truth_m = distance.signed_distance(point);
+      if (!(std::abs(truth_m) <= within_m) || distance.winding_number(point) > kOverlap) continue;
+      samples[i] = {truth_m, collider_distance_m(collider, point)};
+    }
+  });
+  return summarize(samples);
+}
+
+double cloth_area_inside_m2(const engine::Context& context, const geometry::MeshDistance& skin,
+                            std::span<const Vec3> positions, std::span<const geometry::Triangle> triangles,
+                            double depth_m) {
+  return engine::ordered_reduce(
+      context, triangles.size(), kGrain, 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double inside_m2 = 0.0;
+        for (std::size_t t = begin; t < end; ++t) {
+          const Patch patch = patch_of(positions, triangles[t]);
+          if (!(patch.area_m2 > 0.0) || !std::isfinite(patch.area_m2)) continue;
+          // A distance changes by no more than the point moves, so that most triangles need one.
+          if (skin.signed_distance((patch.a + patch.b + patch.c) / 3.0) > patch.longest_m) continue;
+          inside_m2 += patch.area_m2 * share_inside(skin, patch, depth_m);
+        }
+        return inside_m2;
+      },
+      [](double a, double b) { return a + b; });
+}
+
+}  // namespace bodice::tryon

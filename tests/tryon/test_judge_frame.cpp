@@ -1,0 +1,56 @@
+// What judges the frames of a body that moves, on shapes with known distances.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include <bodice/tryon/judge_frame.hpp>
+#include <bodice_test/shapes.hpp>
+
+using namespace bodice;
+using geometry::Vec3;
+
+namespace {
+
+/// One ellipsoid as a collider.
+collision::Collider ball_collider(const Vec3& center, double radius_m) {
+  proxy::BodyProxy::Data data;
+  data.stature_m = 1.7;
+  data.ellipsoids = {{.shape = {.center = center, .radii = Vec3::Constant(radius_m)}}};
+  auto made = proxy::BodyProxy::make(data);
+  REQUIRE(made.ok());
+  return collision::Collider(*made);
+}
+
+}  // namespace
+
+TEST_CASE("the error of a ball that is too large is the difference of the radii, all of it false") {
+  const geometry::TriMesh skin = bodice_test::icosphere(0.2, 5, Vec3(0.1, 1.0, 0.0));
+  const geometry::MeshDistance distance({}, skin);
+  const auto exact =
+      tryon::measure_proxy_error({}, ball_collider({0.1, 1.0, 0.0}, 0.2), skin, distance, 0.03);
+  CHECK(exact.error_m.max < 1e-3);  // of the sphere's facets
+  CHECK(exact.missed_share == 0.0);
+  const auto large =
+      tryon::measure_proxy_error({}, ball_collider({0.1, 1.0, 0.0}, 0.21), skin, distance, 0.03);
+  CHECK(large.error_m.mean == doctest::Approx(0.01).epsilon(0.05));
+  CHECK(large.missed_share == 0.0);
+  CHECK(large.false_share == doctest::Approx(0.15).epsilon(0.15));  // 1 to 10 mm of the 60 that samples cover
+  const auto small =
+      tryon::measure_proxy_error({}, ball_collider({0.1, 1.0, 0.0}, 0.19), skin, distance, 0.03);
+  CHECK(small.false_share == 0.0);
+  CHECK(small.missed_share == doctest::Approx(0.15).epsilon(0.15));
+}
+
+TEST_CASE("the area of cloth inside the skin is that of the disc where a sheet cuts a ball") {
+  const geometry::TriMesh skin = bodice_test::icosphere(0.2, 5);
+  const geometry::MeshDistance distance({}, skin);
+  const std::vector<Vec3> corners = {
+      {-0.3, -0.3, 0.19}, {0.3, -0.3, 0.19}, {0.3, 0.3, 0.19}, {-0.3, 0.3, 0.19}};
+  const std::vector<geometry::Triangle> sheet = {{0, 1, 2}, {0, 2, 3}};
+  // Deeper than 0.5 mm: inside the ball of 0.1995 m.
+  const double radius2 = 0.1995 * 0.1995 - 0.19 * 0.19;
+  CHECK(tryon::cloth_area_inside_m2({}, distance, corners, sheet, 0.5e-3) ==
+        doctest::Approx(3.14159265 * radius2).epsilon(0.05));
+  CHECK(tryon::cloth_area_inside_m2({}, distance, corners, sheet, 0.02) == 0.0);
+}
