@@ -157,6 +157,16 @@ bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s)
   return true;
 }
 
+bool Collider::pose(const proxy::PosedProxy& posed, double dt_s) noexcept {
+  const std::optional<ReliefTables>& tables = impl_->model.relief;
+  const std::size_t texels = tables ? impl_->texels : 0;
+  if (tables && (posed.relief.size() != size() || posed.texels.size() != texels)) return false;
+  if (!(posed.scale > 0.0) || !move_to(posed.shapes, dt_s)) return false;
+  impl_->margin_m = impl_->rest_margin_m * posed.scale;
+  if (tables) impl_->model.relief->update(posed, impl_->stature_m, impl_->proxy_index);
+  return true;
+}
+
 Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point) const noexcept {
   if (!impl_->moving || ellipsoid >= impl_->motion.size()) return Vec3::Zero();
   return impl_->motion[impl_->internal_index[ellipsoid]].at(local_point);

@@ -141,6 +141,9 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
       origin(middle_of(proxy)),
       proxy_index(spatial_order(proxy)),
       margin_m(proxy.margin_m()),
+      rest_margin_m(proxy.margin_m()),
+      stature_m(proxy.stature_m()),
+      texels(proxy.texels().size()),
       shapes(local_shapes(origin, proxy, proxy_index)),
       field(shapes),
       model{Baked(shapes, proxy_index), std::nullopt} {

@@ -65,7 +65,8 @@ struct Collider::Impl {
   /// The ellipsoids are in a spatial order, which all members below and all internal indices follow.
   /// proxy_index[k] is the index of ellipsoid k in the proxy; internal_index is the inverse.
   std::vector<std::uint32_t> proxy_index, internal_index;
-  double margin_m;
+  double margin_m, rest_margin_m, stature_m;
+  std::size_t texels;                       ///< number of texels of the proxy's tables
   std::vector<geometry::Ellipsoid> shapes;  ///< current pose, local frame
   UnionField field;
   ProxyModel model;

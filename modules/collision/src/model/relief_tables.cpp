@@ -108,6 +108,30 @@ OctantReach farthest_of(const std::vector<OctantReach>& reaches) {
   return result;
 }
 
+/// Bounds of a posed table, the same for all octants. The values of each texel are looked at once, in float.
+OctantReach reach_in_pose(const BakedTable& table, const std::uint8_t* texels, float in_m, float out_m) {
+  constexpr float kSteepest = 0.9f;  // as in Heights
+  constexpr float kRounding_m = 1e-6f;
+  float zero_m = -std::numeric_limits<float>::max(), rising = 0.0f, any = 0.0f;
+  const int count = table.nodes * table.nodes;
+  for (int i = 0; i < count; ++i) {
+    const float h = table.h_offset_m + table.h_scale_m * static_cast<float>(texels[2 * i]);
+    const float a = table.a_offset + table.a_scale * static_cast<float>(texels[2 * i + 1]);
+    const float between = h / (1.0f - std::min(a, kSteepest));
+    const float steep = h + a * std::max(in_m, out_m);
+    const float outside = h + a * out_m, inside = h - a * in_m;
+    const float gentle = between > out_m ? outside : between < -in_m ? inside : between;
+    zero_m = std::max(zero_m, a >= kSteepest ? steep : gentle);
+    rising = std::max(rising, a < kSteepest ? a : 0.0f);
+    any = std::max(any, std::abs(a));
+  }
+  OctantReach reach;
+  std::fill(std::begin(reach.at_zero_m), std::end(reach.at_zero_m), zero_m + kRounding_m * (1.0f + out_m));
+  reach.rise = 1.0f / (1.0f - rising);
+  reach.fall = 1.0f / (1.0f + any);
+  return reach;
+}
+
 }  // namespace
 
 ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order) {
@@ -141,6 +165,36 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
     const float h = std::max(from.h_offset_m, from.h_offset_m + from.h_scale_m);
     const float a = std::max(std::abs(from.a_offset), std::abs(from.a_offset + from.a_scale));
     reaches.push_back(reach_of(Heights(proxy, from, reach), from.nodes_per_side));
+    highest_m = std::max(highest_m, h + a * std::max(in_m, out_m) / out_m);
+  }
+  farthest = farthest_of(reaches);
+}
+
+void ReliefTables::update(const proxy::PosedProxy& posed, double stature_m,
+                          std::span<const std::uint32_t> order) {
+  const proxy::ReliefReach reach = proxy::relief_reach(stature_m * posed.scale);
+  in_m = static_cast<float>(reach.in_m);
+  out_m = static_cast<float>(reach.out_m);
+  blend_m = static_cast<float>(reach.blend_m);
+  highest_m = 0.0f;
+  sorted_axes = true;
+  for (std::size_t i = 0; i < posed.texels.size(); ++i) {
+    texels[2 * i] = posed.texels[i].h;
+    texels[2 * i + 1] = posed.texels[i].a;
+  }
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const proxy::ReliefTable& from = posed.relief[order[k]];
+    BakedTable& table = tables[k];
+    find_sorted_axes(posed.shapes[order[k]].radii, table.sorted_axis);
+    if (from.nodes_per_side == 0) continue;
+    for (int axis = 0; axis < 3; ++axis) sorted_axes = sorted_axes && table.sorted_axis[axis] == axis;
+    table.h_scale_m = from.h_scale_m / 255.0f;
+    table.h_offset_m = from.h_offset_m;
+    table.a_scale = from.a_scale / 255.0f / out_m;
+    table.a_offset = from.a_offset / out_m;
+    const float h = std::max(from.h_offset_m, from.h_offset_m + from.h_scale_m);
+    const float a = std::max(std::abs(from.a_offset), std::abs(from.a_offset + from.a_scale));
+    reaches[k] = reach_in_pose(table, texels.data() + table.first_byte, in_m, out_m);
     highest_m = std::max(highest_m, h + a * std::max(in_m, out_m) / out_m);
   }
   farthest = farthest_of(reaches);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <bodice/proxy/body_proxy.hpp>
+#include <bodice/proxy/posed_proxy.hpp>
 
 #include "model/baked.hpp"
 
@@ -41,6 +42,9 @@ struct alignas(64) OctantReach {
 struct ReliefTables {
   /// `proxy` must have one table an ellipsoid; tables[k] becomes that of ellipsoid order[k].
   ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::uint32_t> order);
+  /// Replaces the tables by those of a pose of the proxy, of which `stature_m` is that at rest. Reaches are
+  /// the same for all octants then. Allocates nothing.
+  void update(const proxy::PosedProxy& posed, double stature_m, std::span<const std::uint32_t> order);
 
   std::vector<BakedTable> tables;
   std::vector<std::uint8_t> texels;  ///< pairs (h, a); padded, since kernels read two texels at once

@@ -9,6 +9,7 @@
 
 #include <bodice/engine/context.hpp>
 #include <bodice/proxy/body_proxy.hpp>
+#include <bodice/proxy/posed_proxy.hpp>
 
 namespace bodice::collision {
 
@@ -143,6 +144,13 @@ class Collider {
   /// belongs to the radii.) Allocates nothing and must not overlap another call. Cost: about 0.1 microseconds
   /// an ellipsoid.
   bool move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
+  /// Moves the proxy to a pose of a bound proxy (binding::Poser), tables included: `posed` has the ellipsoids
+  /// and texels of the proxy that the collider was made from, and lengths of its body's size. Velocities and
+  /// safe positions are as for move_to(). Owners are those of eq. (4) in proxy_distance.hpp; burial, eq. (4')
+  /// of posed_proxy.hpp, is not applied here yet. Returns false and moves nothing if the numbers differ or an
+  /// ellipsoid is unfit. Allocates nothing and must not overlap another call. Cost: as move_to(), and some
+  /// nanoseconds a texel.
+  bool pose(const proxy::PosedProxy& posed, double dt_s) noexcept;
   /// Velocity of the body's material at a point that moves with an ellipsoid; meters a second, local frame.
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;
 

@@ -1,0 +1,94 @@
+// The collider on a posed proxy, against the scalar double reference.
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/random.hpp>
+#include <bodice_test/allocations.hpp>
+
+#include "moving_body.hpp"
+
+using namespace bodice;
+using namespace binding_test;
+using geometry::Vec3;
+
+namespace {
+
+/// The pose as a proxy at rest: proxy_distance() defines its distance, with owners by eq. (4).
+proxy::BodyProxy::Data as_proxy(const proxy::BodyProxy& bound, const proxy::PosedProxy& posed) {
+  proxy::BodyProxy::Data data = bound.data();
+  data.binding = nullptr;
+  for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) data.ellipsoids[k].shape = posed.shapes[k];
+  data.relief = posed.relief;
+  data.texels = posed.texels;
+  data.stature_m *= posed.scale;
+  data.margin_m *= posed.scale;
+  return data;
+}
+
+std::vector<Vec3> points_near(const geometry::TriMesh& skin, int count) {
+  const engine::Random random(11);
+  std::vector<Vec3> points;
+  for (std::uint64_t i = 0; points.size() < static_cast<std::size_t>(count); i += 4) {
+    const auto v =
+        static_cast<std::size_t>(random.uniform_at(i) * static_cast<double>(skin.positions.size()));
+    const Vec3 shift(random.uniform_at(i + 1), random.uniform_at(i + 2), random.uniform_at(i + 3));
+    points.push_back(skin.positions[v] + 0.06 * (shift - Vec3::Constant(0.5)));
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a collider in a pose has the distances and normals of the pose's tables, with and without a limit") {
+  const MovingBody& moving = moving_body();
+  binding::Poser poser = make_poser(moving);
+  collision::Collider collider(moving.bound);
+  for (const Pose& pose : {march(moving.body.skeleton), seat(moving.body.skeleton)}) {
+    REQUIRE(poser.pose({}, pose));
+    REQUIRE(collider.pose(poser.posed(), 1.0 / 60.0));
+    const proxy::BodyProxy::Data data = as_proxy(moving.bound, poser.posed());
+    for (const Vec3& point : points_near(posed_skin(moving, pose), 300)) {
+      const proxy::ProxyDistance truth = proxy::proxy_distance(data, point);
+      const Eigen::Vector3f local = (point - collider.origin()).cast<float>();
+      const auto contact = collider.query({local.x(), local.y(), local.z()});
+      CHECK(std::abs(double{contact.signed_distance} - truth.distance) < 2e-5);
+      const auto within = collider.query({local.x(), local.y(), local.z()}, {.within_m = 0.005f});
+      if (truth.distance < 0.0049) CHECK(within.signed_distance == contact.signed_distance);
+      if (truth.distance > 0.0051) CHECK(within.ellipsoid == collision::kNoEllipsoid);
+    }
+  }
+}
+
+TEST_CASE("contacts in a pose know the velocity of the limb that moved") {
+  const MovingBody& moving = moving_body();
+  binding::Poser poser = make_poser(moving);
+  collision::Collider collider(moving.bound);
+  const Pose pose = bind_pose(moving.body.skeleton);
+  REQUIRE(poser.pose({}, pose));
+  REQUIRE(collider.pose(poser.posed(), 0.0));
+  const JointMatrix step = rig::affine(geometry::Mat3::Identity(), Vec3(0.01, 0.0, 0.0));
+  REQUIRE(poser.pose({}, moved(step, pose)));
+  REQUIRE(collider.pose(poser.posed(), 0.01));
+  for (std::uint32_t k = 0; k < collider.size(); ++k) {
+    const Vec3 at = poser.posed().shapes[k].center - collider.origin();
+    CHECK((collider.surface_velocity(k, at) - Vec3(1.0, 0.0, 0.0)).norm() < 1e-3);
+  }
+}
+
+TEST_CASE("a pose of another proxy is refused, and a warm pose allocates nothing") {
+  const MovingBody& moving = moving_body();
+  binding::Poser poser = make_poser(moving);
+  collision::Collider collider(moving.bound);
+  REQUIRE(poser.pose({}, march(moving.body.skeleton)));
+  proxy::PosedProxy fewer = poser.posed();
+  fewer.texels.pop_back();
+  CHECK_FALSE(collider.pose(fewer, 0.01));
+  fewer = poser.posed();
+  fewer.shapes.pop_back();
+  CHECK_FALSE(collider.pose(fewer, 0.01));
+  if (!bodice_test::counts_allocations()) return;
+  CHECK(bodice_test::allocations_when_warm(4, [&] { (void)collider.pose(poser.posed(), 0.01); }) == 0);
+}
