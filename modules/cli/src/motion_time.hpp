@@ -1,18 +1,18 @@
 // One time of a motion file, as the joints of a bound proxy.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
 #include <bodice/proxy/body_proxy.hpp>
+#include <bodice/tryon/rigged_body.hpp>
 
 namespace bodice::cli {
 
-/// Where a motion is looked at.
+/// A time of a file's clip.
 struct MotionTime {
-  std::string file, clip;  ///< an empty clip: the file's first
+  tryon::MotionChoice choice;  ///< the name of a file
   double time_s = 0.0;
 };
 

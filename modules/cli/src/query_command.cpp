@@ -106,14 +106,15 @@ std::string answers(const proxy::BodyProxy& proxy, const std::vector<Vec3>& poin
 engine::Result<void> query(const QueryCommand& command) {
   const FileOption output{"-o", command.output};
   const FileOption inputs[] = {
-      {"PROXY", command.proxy}, {"POINTS", command.points}, {"--motion", command.motion.file}};
+      {"PROXY", command.proxy}, {"POINTS", command.points}, {"--motion", command.motion.choice.motion}};
   if (auto ok = check_outputs({&output, 1}, inputs); !ok) return ok;
   auto proxy = proxy::load(command.proxy);
   if (!proxy) return std::move(proxy).error();
   auto points = read_points(command.points);
   if (!points) return std::move(points).error();
-  const auto text = command.motion.file.empty() ? engine::Result<std::string>(answers(*proxy, *points))
-                                                : posed_answers(*proxy, command.motion, *points);
+  const auto text = command.motion.choice.motion.empty()
+                        ? engine::Result<std::string>(answers(*proxy, *points))
+                        : posed_answers(*proxy, command.motion, *points);
   if (!text) return text.error();
   if (!command.output.empty()) return engine::write_file(command.output, std::string_view(*text));
   std::fputs(text->c_str(), stdout);
@@ -132,10 +133,10 @@ void add_query_command(CLI::App& app, int& exit_code) {
   sub->add_option("-o,--output", command->output, "where to write (default: standard output)")
       ->check(not_empty());
   CLI::Option* const motion =
-      sub->add_option("--motion", command->motion.file,
+      sub->add_option("--motion", command->motion.choice.motion,
                       "pose a proxy that is bound to joints by a clip of this file (GLB, FBX, DAE, BVH)")
           ->check(not_empty());
-  sub->add_option("--clip", command->motion.clip, "name of the clip (default: the file's first)")
+  sub->add_option("--clip", command->motion.choice.clip, "name of the clip (default: the file's first)")
       ->check(not_empty())
       ->needs(motion);
   sub->add_option("--time", command->motion.time_s, "seconds of the clip, from 0 (default: 0)")

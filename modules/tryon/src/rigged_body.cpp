@@ -13,7 +13,6 @@
 #include <bodice/rigging/motion.hpp>
 
 #include "append.hpp"
-#include "choose_clip.hpp"
 #include "load_body.hpp"
 
 namespace bodice::tryon {
@@ -95,6 +94,18 @@ engine::Result<void> give_rig(const engine::Context& context, const BodySource& 
   if (!found) return of_body(std::move(found).error(), skin.input);
   skin.rig = std::make_shared<const rig::Rig>(std::move(found->rig));
   return {};
+}
+
+engine::Result<rig::Clip> choose_clip(const MotionChoice& choice, const std::vector<rig::Clip>& clips) {
+  if (choice.clip.empty() && !clips.empty()) return clips.front();
+  std::string names;
+  for (const rig::Clip& clip : clips) {
+    if (clip.name == choice.clip) return clip;
+    names += (names.empty() ? "'" : ", '") + clip.name + "'";
+  }
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       engine::message(choice.motion, ": there is no clip '", choice.clip, "'."),
+                       clips.empty() ? "The file has no clips." : "Its clips are " + names + "."};
 }
 
 engine::Result<BodyMotion> find_motion(const engine::Context& context, const SegmentedSkin& skin,

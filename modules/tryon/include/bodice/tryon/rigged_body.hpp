@@ -22,6 +22,10 @@ struct MotionChoice {
   std::string clip;  ///< name of a clip of the file; empty: its first
 };
 
+/// The clip of a file that is named, or its first for an empty name. Fails with kInvalidArgument where there
+/// is none, and lists the names there are.
+engine::Result<rig::Clip> choose_clip(const MotionChoice& choice, const std::vector<rig::Clip>& clips);
+
 /// Finds the clip and carries it over to the skin's skeleton where it is of another one; `warnings` gets what
 /// did not fit. Precondition: the skin has a rig. Fails with kInvalidArgument where a clip is not there (the
 /// sentence lists those that are), and as rigging::make_clip(), rig::retarget() and io::import_motion() do.
