@@ -1,4 +1,5 @@
 // The collider on a posed proxy, against the scalar double reference.
+#include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
@@ -91,4 +92,38 @@ TEST_CASE("a pose of another proxy is refused, and a warm pose allocates nothing
   CHECK_FALSE(collider.pose(fewer, 0.01));
   if (!bodice_test::counts_allocations()) return;
   CHECK(bodice_test::allocations_when_warm(4, [&] { (void)collider.pose(poser.posed(), 0.01); }) == 0);
+}
+
+TEST_CASE("the surface of a posed collider moves as the skin does, also where axes swap") {
+  const MovingBody& moving = moving_body();
+  binding::Poser poser = make_poser(moving);
+  collision::Collider collider(moving.bound);
+  const double dt_s = 1.0 / 60.0;
+  geometry::TriMesh before;
+  double error_m_s = 0.0, speed_m_s = 0.0, worst_m_s = 0.0, fastest_m_s = 0.0;
+  for (int frame = 0; frame <= 12; ++frame) {
+    const double degrees = 5.0 * frame;
+    const Pose pose = turned(moving.body.skeleton, {{"thigh_l", {Vec3::UnitX(), -degrees}},
+                                                    {"calf_l", {Vec3::UnitX(), 1.4 * degrees}},
+                                                    {"upper_arm_r", {Vec3::UnitZ(), -degrees}}});
+    REQUIRE(poser.pose({}, pose));
+    REQUIRE(collider.pose(poser.posed(), dt_s));
+    const geometry::TriMesh skin = posed_skin(moving, pose);
+    for (std::size_t v = 0; frame > 0 && v < skin.positions.size(); v += 7) {
+      const Vec3 truth = (skin.positions[v] - before.positions[v]) / dt_s;
+      const Vec3 local = skin.positions[v] - collider.origin();
+      const Eigen::Vector3f p = local.cast<float>();
+      const collision::Contact contact = collider.query({p.x(), p.y(), p.z()});
+      const Vec3 found = collider.surface_velocity(contact.ellipsoid, local);
+      error_m_s += (found - truth).norm();
+      speed_m_s += truth.norm();
+      worst_m_s = std::max(worst_m_s, (found - truth).norm());
+      fastest_m_s = std::max(fastest_m_s, truth.norm());
+    }
+    before = skin;
+  }
+  CAPTURE(worst_m_s);
+  CAPTURE(fastest_m_s);
+  CHECK(error_m_s < 0.15 * speed_m_s);
+  CHECK(worst_m_s < fastest_m_s);
 }

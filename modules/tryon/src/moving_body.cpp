@@ -1,5 +1,7 @@
 #include "moving_body.hpp"
 
+#include <bodice/engine/message.hpp>
+
 namespace bodice::tryon {
 
 using geometry::Vec3;
@@ -22,9 +24,12 @@ engine::Result<MovingBody> MovingBody::make(const PreparedBody& body, const Body
 engine::Result<void> MovingBody::pose(const engine::Context& context, double time_s, double dt_s) {
   if (!moves()) return {};
   player_->joints(time_s, joints_);
-  if (auto posed = poser_->pose(context, joints_, {.tables = false}); !posed) return posed;
-  if (!collider_.move_to(poser_->posed().shapes, dt_s))
-    return engine::Error{engine::ErrorCode::kUnusableGeometry, "A pose was refused.", "Check the clip."};
+  if (auto posed = poser_->pose(context, joints_); !posed) return posed;
+  if (!collider_.pose(poser_->posed(), dt_s))
+    return engine::Error{engine::ErrorCode::kUnusableGeometry,
+                         engine::message("At second ", time_s, " of the clip '", motion_->clip.name,
+                                         "' the body has no shape that a collider takes."),
+                         "Check the scales of the clip."};
   rig::skinning_matrices(motion_->rig.skeleton, joints_, skinning_);
   rig::skin_linear(context, body_->skin.input.skin.positions, motion_->rig.weights, skinning_,
                    posed_.positions);

@@ -64,6 +64,7 @@ Poser::Impl::Impl(proxy::BodyProxy proxy)
   std::size_t most = 0;
   for (std::size_t k = 0; k < bound.ellipsoids().size(); ++k) {
     rest.shapes.push_back(bound.ellipsoids()[k].shape);
+    rest.material.push_back(rest.shapes[k].axes * rest.shapes[k].radii.asDiagonal());
     if (bound.relief().empty()) continue;
     const std::size_t n = bound.relief()[k].nodes_per_side;
     most = std::max(most, n * n);
@@ -116,6 +117,7 @@ void Poser::Impl::pose_ellipsoid(std::size_t k, const PoseOptions& options, Tabl
   const bool tables = options.tables && follows(k);
   const CarriedEllipsoid carried = tables ? carry(rest, map) : carry_stiffly(rest, map);
   posed.shapes[k] = carried.shape;
+  posed.material[k] = carried.shape.axes * carried.shape.radii.asDiagonal() * carried.to_table.transpose();
   if (bound.relief().empty()) return;
   const proxy::ReliefTable& table = bound.relief()[k];
   const std::size_t back = 1 - current;

@@ -136,24 +136,31 @@ std::uint64_t Collider::poses() const noexcept {
   return impl_->poses;
 }
 
-bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
-  if (shapes.size() != impl_->shapes.size() || !std::ranges::all_of(shapes, is_ellipsoid)) return false;
-  double travel_m = 0.0;
-  for (std::size_t k = 0; k < shapes.size(); ++k) {
-    const std::uint32_t at = impl_->internal_index[k];
-    geometry::Ellipsoid now = shapes[k];
-    now.center -= impl_->origin;
-    impl_->motion[at] = motion_between(impl_->shapes[at], now, dt_s);
-    impl_->affine_motions[at] = affine_motion_between(impl_->shapes[at], now);
-    travel_m = std::max(travel_m, travel_between(impl_->shapes[at], now));
-    impl_->shapes[at] = now;
+void Collider::Impl::move(std::span<const geometry::Ellipsoid> now,
+                          std::span<const geometry::Mat3> axes_of_material, double dt_s) noexcept {
+  double farthest_m = 0.0;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const std::uint32_t at = internal_index[k];
+    shapes[at] = now[k];
+    shapes[at].center -= origin;
+    Material moved = material_of(shapes[at]);
+    if (!axes_of_material.empty()) moved.axes = axes_of_material[k];
+    motion[at] = motion_between(material[at], moved, dt_s);
+    affine_motions[at] = affine_motion_between(material[at], moved);
+    farthest_m = std::max(farthest_m, travel_between(material[at], moved));
+    material[at] = moved;
   }
-  impl_->poses += travel_m > 0.0;
-  impl_->moving = dt_s > 0.0;
-  impl_->moved_dt_s = dt_s;
-  impl_->travel_m = static_cast<float>(1.001 * travel_m);
-  impl_->field.update(impl_->shapes);
-  impl_->model.baked.update(impl_->shapes);
+  poses += farthest_m > 0.0;
+  moving = dt_s > 0.0;
+  moved_dt_s = dt_s;
+  travel_m = static_cast<float>(1.001 * farthest_m);
+  field.update(shapes);
+  model.baked.update(shapes);
+}
+
+bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
+  if (shapes.size() != size() || !std::ranges::all_of(shapes, is_ellipsoid)) return false;
+  impl_->move(shapes, {}, dt_s);
   return true;
 }
 
@@ -161,7 +168,9 @@ bool Collider::pose(const proxy::PosedProxy& posed, double dt_s) noexcept {
   const std::optional<ReliefTables>& tables = impl_->model.relief;
   const std::size_t texels = tables ? impl_->texels : 0;
   if (tables && (posed.relief.size() != size() || posed.texels.size() != texels)) return false;
-  if (!(posed.scale > 0.0) || !move_to(posed.shapes, dt_s)) return false;
+  if (posed.shapes.size() != size() || !std::ranges::all_of(posed.shapes, is_ellipsoid)) return false;
+  if (!(posed.scale > 0.0) || posed.material.size() != size()) return false;
+  impl_->move(posed.shapes, posed.material, dt_s);
   impl_->margin_m = impl_->rest_margin_m * posed.scale;
   if (tables) impl_->model.relief->update(posed, impl_->stature_m, impl_->proxy_index);
   return true;

@@ -151,6 +151,7 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
   internal_index.resize(proxy_index.size());
   for (std::uint32_t k = 0; k < proxy_index.size(); ++k) internal_index[proxy_index[k]] = k;
   for (const std::uint32_t k : proxy_index) part.push_back(proxy.ellipsoids()[k].part);
+  for (const geometry::Ellipsoid& shape : shapes) material.push_back(material_of(shape));
   motion.resize(shapes.size());
   affine_motions.resize(shapes.size());
 }

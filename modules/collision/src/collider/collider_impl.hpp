@@ -59,6 +59,11 @@ struct Collider::Impl {
   Contact make_contact(const geometry::Vec3& p, double distance_m, const geometry::Vec3& normal,
                        std::uint32_t ellipsoid) const;
 
+  /// Moves ellipsoids (world, valid) and their material; `axes_of_material` empty: it keeps its coordinates
+  /// in the ellipsoids' frames.
+  void move(std::span<const geometry::Ellipsoid> now, std::span<const geometry::Mat3> axes_of_material,
+            double dt_s) noexcept;
+
   std::uint64_t proxy_hash;
   std::uint64_t poses = 0;
   geometry::Vec3 origin;
@@ -71,6 +76,7 @@ struct Collider::Impl {
   UnionField field;
   ProxyModel model;
   std::vector<body::Part> part;
+  std::vector<Material> material;  ///< one an ellipsoid, in the current pose
   std::vector<SurfaceMotion> motion;
   std::vector<AffineMotion> affine_motions;  ///< those of the last move
   bool moving = false;

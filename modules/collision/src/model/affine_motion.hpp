@@ -2,7 +2,9 @@
 // inverse in floats for the kernels; the exact side needs this direction, for all ellipsoids.
 #pragma once
 
-#include <bodice/geometry/ellipsoid.hpp>
+#include <Eigen/LU>
+
+#include "model/surface_motion.hpp"
 
 namespace bodice::collision {
 
@@ -14,10 +16,9 @@ struct AffineMotion {
   geometry::Vec3 apply(const geometry::Vec3& before) const { return linear * before + translation; }
 };
 
-/// A material point keeps its coordinates in the ellipsoid's frame, in units of the radii.
-inline AffineMotion affine_motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now) {
-  const geometry::Mat3 linear =
-      now.axes * now.radii.cwiseQuotient(before.radii).asDiagonal() * before.axes.transpose();
+/// The motion of material from one pose to the next.
+inline AffineMotion affine_motion_between(const Material& before, const Material& now) {
+  const geometry::Mat3 linear = now.axes * before.axes.inverse();
   return {linear, now.center - linear * before.center};
 }
 

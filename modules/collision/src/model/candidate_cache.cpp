@@ -19,7 +19,8 @@ constexpr double kWidened = 1.001;  // covers the rounding of one step
 
 double farthest_travel(std::span<const Ellipsoid> before, std::span<const Ellipsoid> now) {
   double most_m = 0.0;
-  for (std::size_t k = 0; k < now.size(); ++k) most_m = std::max(most_m, travel_between(before[k], now[k]));
+  for (std::size_t k = 0; k < now.size(); ++k)
+    most_m = std::max(most_m, travel_between(material_of(before[k]), material_of(now[k])));
   return most_m;
 }
 

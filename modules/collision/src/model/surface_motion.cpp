@@ -1,5 +1,7 @@
 #include "model/surface_motion.hpp"
 
+#include <Eigen/LU>
+
 namespace bodice::collision {
 
 using geometry::Mat3;
@@ -13,16 +15,15 @@ Vec3 SurfaceMotion::at(const Vec3& x) const {
   return velocity;
 }
 
-double travel_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now) {
-  const Mat3 change = now.axes * now.radii.asDiagonal() - before.axes * before.radii.asDiagonal();
-  return (now.center - before.center).norm() + change.norm();
+double travel_between(const Material& before, const Material& now) {
+  return (now.center - before.center).norm() + (now.axes - before.axes).norm();
 }
 
-SurfaceMotion motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now, double dt_s) {
+SurfaceMotion motion_between(const Material& before, const Material& now, double dt_s) {
   SurfaceMotion motion;
   if (!(dt_s > 0.0)) return motion;
-  // x_before = c' + R' diag(r' / r) R^T (x - c);  velocity = (x - x_before) / dt
-  const Mat3 back = before.axes * before.radii.cwiseQuotient(now.radii).asDiagonal() * now.axes.transpose();
+  // x_before = c' + M' M^-1 (x - c);  velocity = (x - x_before) / dt
+  const Mat3 back = before.axes * now.axes.inverse();
   const Mat3 linear = (Mat3::Identity() - back) / dt_s;
   const Vec3 translation = (back * now.center - before.center) / dt_s;
   for (int row = 0; row < 3; ++row) {

@@ -15,11 +15,21 @@ struct SurfaceMotion {
   geometry::Vec3 at(const geometry::Vec3& x) const;
 };
 
-/// The motion for which a material point keeps its coordinates in the ellipsoid's frame, in units of the
-/// radii.
-SurfaceMotion motion_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now, double dt_s);
+/// The material of an ellipsoid in a pose: its points are center + axes u, |u| <= 1, and each keeps its u.
+struct Material {
+  geometry::Vec3 center = geometry::Vec3::Zero();
+  geometry::Mat3 axes = geometry::Mat3::Identity();  ///< meters, not orthonormal
+};
 
-/// Upper bound on the displacement of the ellipsoid's material between the poses, meters.
-double travel_between(const geometry::Ellipsoid& before, const geometry::Ellipsoid& now);
+/// The material that keeps its coordinates in the ellipsoid's frame, in units of the radii.
+inline Material material_of(const geometry::Ellipsoid& shape) {
+  return {shape.center, shape.axes * shape.radii.asDiagonal()};
+}
+
+/// The motion of material from one pose to the next. Zero if dt_s is not positive.
+SurfaceMotion motion_between(const Material& before, const Material& now, double dt_s);
+
+/// Upper bound on the displacement of any material point between the poses, meters.
+double travel_between(const Material& before, const Material& now);
 
 }  // namespace bodice::collision

@@ -18,7 +18,7 @@ bool may_be_absent(JointId id) {
 }
 
 std::string named(JointId id) {
-  return "\"" + std::string(body::name(id)) + "\"";
+  return engine::message('"', body::name(id), '"');
 }
 
 engine::Error wrong(std::string message) {

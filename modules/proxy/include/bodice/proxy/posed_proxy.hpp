@@ -26,9 +26,12 @@ inline constexpr double kBurialWeight = 2.0;
 /// One pose of a bound proxy: the same number of ellipsoids, tables and texels in the same order.
 struct PosedProxy {
   std::vector<geometry::Ellipsoid> shapes;  ///< #E, world, meters
-  std::vector<ReliefTable> relief;          ///< #E
-  std::vector<ReliefTexel> texels;          ///< #X
-  std::vector<std::uint8_t> burial;         ///< #X, in units of burial_step_m
+  /// #E: the material point that was at center + axes diag(radii) u at rest is at center + material u now.
+  /// The axes of an ellipsoid alone do not show it, since they may swap from pose to pose.
+  std::vector<geometry::Mat3> material;
+  std::vector<ReliefTable> relief;   ///< #E
+  std::vector<ReliefTexel> texels;   ///< #X
+  std::vector<std::uint8_t> burial;  ///< #X, in units of burial_step_m
   float burial_step_m = 0.0f;
   double scale = 1.0;  ///< size of the body over its size at rest
 };
