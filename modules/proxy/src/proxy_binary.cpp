@@ -18,7 +18,7 @@
 #include <bodice/proxy/proxy_file.hpp>
 
 #include "binding/binding_bytes.hpp"
-#include "bytes.hpp"
+#include "binding/bytes.hpp"
 
 namespace bodice::proxy {
 namespace {

@@ -4,7 +4,7 @@
 #include <bodice/engine/hash.hpp>
 #include <bodice/proxy/binding.hpp>
 
-#include "bytes.hpp"
+#include "binding/bytes.hpp"
 
 namespace bodice::proxy {
 
