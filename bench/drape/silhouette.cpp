@@ -12,7 +12,7 @@ using bodice::geometry::TriMesh;
 using bodice::geometry::Vec3;
 
 constexpr double kRow_m = 0.01;
-constexpr int kSamples = 8;  // of each side, so that the outline of a coarse mesh has no gaps
+constexpr int kSamples = 8;  // samples of each side, so that a coarse mesh has no gaps
 
 /// The extent of a row of an outline.
 struct Interval {

@@ -15,7 +15,7 @@ struct Arguments {
   std::vector<bodice::proxy::Tier> tiers;                   ///< never empty
   std::vector<int> counts = {8, 16, 32, 55, 89, 200, 400};  ///< numbers of ellipsoids
   std::vector<std::string> bodies;                          ///< names of bodies in `data`
-  std::vector<int> seeds;                                   ///< of made bodies
+  std::vector<int> seeds;                                   ///< seeds of made bodies
   std::vector<double> targets_mm, budgets_us;
   std::filesystem::path svg;
   int threads = 2;

@@ -13,7 +13,7 @@ using bodice::geometry::Vec3;
 
 namespace {
 
-constexpr double kVolumeTolerance = 1e-4;  // of enclosing ellipsoids, as in bodice::fitting
+constexpr double kVolumeTolerance = 1e-4;  // tolerance of enclosing ellipsoids, as in bodice::fitting
 constexpr std::size_t kLeastPoints = 8;    // a cluster with fewer is not split, as in bodice::fitting
 
 /// A clustering with the ellipsoids and the errors of its clusters.

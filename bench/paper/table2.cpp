@@ -14,7 +14,7 @@ namespace {
 
 using namespace bodice;
 
-constexpr double kLeastRadius = 3e-4;  // of an ellipsoid, a share of stature, as in bodice::fitting
+constexpr double kLeastRadius = 3e-4;  // least radius as a share of stature, as in bodice::fitting
 
 std::vector<geometry::Ellipsoid> shapes_of(const proxy::BodyProxy& proxy) {
   std::vector<geometry::Ellipsoid> shapes;

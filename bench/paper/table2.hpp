@@ -33,7 +33,7 @@ struct Table2Row {
 /// How often a method is timed, and how finely its result is measured.
 struct Effort {
   int repeats = 3;
-  std::size_t samples = 20000;  ///< of the Judge
+  std::size_t samples = 20000;  ///< number of samples of the Judge
 };
 
 /// Runs every method with as many ellipsoids as the paper has, on one thread.

@@ -120,6 +120,7 @@ class Drape {
   /// Brings a body that moves from the bind pose to the clip's first frame.
   engine::Result<void> ramp() {
     const int steps = static_cast<int>(std::ceil(-body_.begin_s() / kRampStep_s));
+    if (steps == 0) return pose(0.0, 0.0);  // without a ramp the body jumps to the first frame
     for (int step = 1; step <= steps; ++step) {
       context_.cancel.check();
       if (auto posed =
