@@ -190,3 +190,25 @@ TEST_CASE("a drape on a moving body has the same bits for 1, 2, 3 and 7 workers"
     CHECK(draped->report.hash == first);
   }
 }
+
+TEST_CASE("without a ramp the first kept frame shows the clip's first pose, not the bind pose") {
+  const Walker w = walker({}, "walk");
+  tryon::DrapeOptions options{.frames = 1, .kept_frames = 2, .motion = &w.motion, .ramp_s = 0.0};
+  options.solver.substeps = 2;
+  const auto draped = tryon::drape({}, w.body, w.worn, options);
+  REQUIRE_MESSAGE(draped.ok(), draped.error().sentence());
+  REQUIRE(draped->body_frames.size() == 2);
+  std::vector<rig::Affine> world(w.motion.rig.skeleton.joints.size()), skinning(world.size());
+  rig::joint_matrices(w.motion.rig.skeleton, w.motion.clip, 0.0, world);
+  rig::skinning_matrices(w.motion.rig.skeleton, world, skinning);
+  const std::vector<Vec3>& rest = w.body.skin.input.skin.positions;
+  std::vector<Vec3> posed(rest.size());
+  rig::skin_linear(rest, w.motion.rig.weights, skinning, posed);
+  double from_clip_m = 0.0, from_bind_m = 0.0;
+  for (std::size_t v = 0; v < rest.size(); ++v) {
+    from_clip_m = std::max(from_clip_m, (draped->body_frames[0][v] - posed[v]).norm());
+    from_bind_m = std::max(from_bind_m, (draped->body_frames[0][v] - rest[v]).norm());
+  }
+  CHECK(from_clip_m < 1e-9);
+  CHECK(from_bind_m > 0.05);
+}
