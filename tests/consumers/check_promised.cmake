@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 # The headers that are installed are those that modules/README.md promises, and those that they include.
 #   -DREADME=... -DPROMISED=<list> -DPREFIX=<where bodice is installed>
-file(STRINGS "${README}" rows REGEX "^\\| `bodice/[a-z_]+/[a-z_]+\\.hpp` \\| .+ \\|$")
+file(STRINGS "${README}" rows REGEX "^\\| `bodice(/[a-z_]+/[a-z_]+)?\\.h(pp)?` \\| .+ \\|$")
 list(TRANSFORM rows REPLACE "^\\| `([^`]+)`.*" "\\1")
 if(NOT rows)
   message(FATAL_ERROR "${README} lists no promised header: nothing was checked")
@@ -17,7 +17,7 @@ foreach(header IN LISTS PROMISED)
   endif()
 endforeach()
 
-file(GLOB_RECURSE installed RELATIVE "${PREFIX}/include" "${PREFIX}/include/bodice/*")
+file(GLOB_RECURSE installed RELATIVE "${PREFIX}/include" "${PREFIX}/include/*")
 set(included "")
 foreach(header IN LISTS installed)
   file(STRINGS "${PREFIX}/include/${header}" includes REGEX "^#include <bodice/")

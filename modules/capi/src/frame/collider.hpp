@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <bodice/binding/poser.hpp>
+#include <bodice/collision/collider.hpp>
+
+#include "base/context.hpp"
+
+struct bodice_collider {
+  bodice_collider(bodice::capi::SharedContext shared, const bodice::proxy::BodyProxy& made_from)
+      : context(std::move(shared)), proxy(made_from), collider(made_from) {}
+
+  bodice::capi::SharedContext context;
+  bodice::proxy::BodyProxy proxy;
+  bodice::collision::Collider collider;
+  std::optional<bodice::binding::Poser> poser;            ///< of a bound proxy
+  std::vector<bodice::proxy::JointMatrix> matrices;       ///< of the pose that is read
+  std::vector<bodice::geometry::Ellipsoid> moved_shapes;  ///< of the move that is made
+};

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <bodice/collision/collider.hpp>
+
+#include "base/context.hpp"
+
+struct bodice_workspace {
+  explicit bodice_workspace(bodice::capi::SharedContext shared)
+      : context(shared), numbers(shared), element(shared), contacts(shared) {}
+
+  bodice::capi::SharedContext context;
+  bodice::collision::Workspace engine;
+  bodice::capi::HostArray<float> numbers;          ///< copies of the particles, one array after another
+  bodice::capi::HostArray<std::uint32_t> element;  ///< of each particle that is not pinned
+  bodice::capi::HostArray<bodice::collision::Contact> contacts;
+};
