@@ -1,0 +1,25 @@
+# Debian packages of what is installed: `cpack -G DEB` in the build folder.
+#   libbodice      the shared library of the C interface, for programs that use it
+#   libbodice-dev  headers, the layers as static libraries, files for CMake and pkg-config
+#   bodice         the program
+set(CPACK_PACKAGE_NAME bodice)
+set(CPACK_PACKAGE_CONTACT "the authors of bodice <bodice@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL runtime dev)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME libbodice)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libbodice-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libbodice (= ${PROJECT_VERSION})")
+# What the static libraries of the layers need besides; the C interface needs none of it.
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libeigen3-dev, libtbb-dev, libspdlog-dev, libhwy-dev, libassimp-dev, libpng-dev")
+if(TARGET bodice_cli)
+  list(APPEND CPACK_COMPONENTS_ALL program)
+  set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME bodice)
+endif()
+include(CPack)
