@@ -26,6 +26,7 @@ function(bodice_layer name)
   if(NOT BODICE_INSTALL)  # compiled where something links it
     set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
+  bodice_unite(${target} "${arg_DIR}/src" ${sources})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${arg_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

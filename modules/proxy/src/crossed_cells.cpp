@@ -8,7 +8,7 @@ namespace bodice::proxy {
 namespace {
 
 constexpr std::size_t kMostCells = std::size_t{1} << 23;
-constexpr std::size_t kGrain = 64;
+constexpr std::size_t kCellGrain = 64;
 constexpr std::uint32_t kNotCrossed = ~std::uint32_t{0};
 
 std::uint64_t key_of(const LatticePoint& p) {
@@ -58,7 +58,7 @@ void CrossedCells::evaluate(const engine::Context& context,
                             const std::function<double(const Vec3&)>& distance) {
   const std::size_t first = value_.size();
   value_.resize(corner_.size());
-  engine::parallel_for(context, corner_.size() - first, kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, corner_.size() - first, kCellGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = first + begin; i < first + end; ++i) value_[i] = distance(position(corner_[i]));
   });
 }

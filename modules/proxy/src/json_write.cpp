@@ -21,22 +21,22 @@ Json array(const Vec3& v) {
 }
 
 std::string ellipsoid_line(const ProxyEllipsoid& e, const Frame& frame) {
-  Json json;
-  json["part"] = body::name(e.part);
-  if (e.bone != kNoBone) json["bone"] = e.bone;
-  json["center"] = array(frame.to_file(e.shape.center));
-  json["radii"] = array(e.shape.radii / frame.meters_per_unit);
-  json["axes"] = Json::array();
-  for (int k = 0; k < 3; ++k) json["axes"].push_back(array(frame.direction_to_file(e.shape.axes.col(k))));
-  return json.dump();
+  Json object;
+  object["part"] = body::name(e.part);
+  if (e.bone != kNoBone) object["bone"] = e.bone;
+  object["center"] = array(frame.to_file(e.shape.center));
+  object["radii"] = array(e.shape.radii / frame.meters_per_unit);
+  object["axes"] = Json::array();
+  for (int k = 0; k < 3; ++k) object["axes"].push_back(array(frame.direction_to_file(e.shape.axes.col(k))));
+  return object.dump();
 }
 
 std::string table_line(const ReliefTable& t, const Frame& frame) {
   auto length = [&](float meters) { return static_cast<double>(meters) / frame.meters_per_unit; };
-  const Json json = {{"nodes", t.nodes_per_side},      {"first_texel", t.first_texel},
-                     {"h_scale", length(t.h_scale_m)}, {"h_offset", length(t.h_offset_m)},
-                     {"a_scale", length(t.a_scale)},   {"a_offset", length(t.a_offset)}};
-  return json.dump();
+  const Json object = {{"nodes", t.nodes_per_side},      {"first_texel", t.first_texel},
+                       {"h_scale", length(t.h_scale_m)}, {"h_offset", length(t.h_offset_m)},
+                       {"a_scale", length(t.a_scale)},   {"a_offset", length(t.a_offset)}};
+  return object.dump();
 }
 
 /// Writes [ line, line, ... ] with each item on a line of its own.
@@ -71,10 +71,10 @@ std::string binding_line(const Binding& binding) {
     hex += kHexDigits[std::to_integer<unsigned>(byte) >> 4];
     hex += kHexDigits[std::to_integer<unsigned>(byte) & 15];
   }
-  Json json;
-  json["joints"] = binding.joint_names;
-  json["bytes"] = std::move(hex);
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  Json object;
+  object["joints"] = binding.joint_names;
+  object["bytes"] = std::move(hex);
+  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 using geometry::Vec3;
 
 constexpr std::size_t kSamples = 4000;
-constexpr std::size_t kGrain = 64;
+constexpr std::size_t kJudgeGrain = 64;
 constexpr double kDeep_m = 1e-3;                     // what counts as missed or false
 constexpr double kOverlap = 1.5;                     // a winding number above it: two layers of the body
 constexpr double kSpacing_m = 4e-3;                  // of samples on the cloth
@@ -96,7 +96,7 @@ ProxyError measure_proxy_error(const engine::Context& context, const collision::
   const std::size_t step = std::max<std::size_t>(1, vertices / kSamples);
   const std::vector<Vec3> normals = geometry::vertex_normals(skin);
   std::vector<Sample> samples(vertices / step);
-  engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, samples.size(), kJudgeGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t v = i * step;
       const Vec3 point = skin.positions[v] + within_m * offset_of(i) * normals[v];
@@ -112,7 +112,7 @@ double cloth_area_inside_m2(const engine::Context& context, const geometry::Mesh
                             std::span<const Vec3> positions, std::span<const geometry::Triangle> triangles,
                             double depth_m) {
   return engine::ordered_reduce(
-      context, triangles.size(), kGrain, 0.0,
+      context, triangles.size(), kJudgeGrain, 0.0,
       [&](std::size_t begin, std::size_t end) {
         double inside_m2 = 0.0;
         for (std::size_t t = begin; t < end; ++t) {

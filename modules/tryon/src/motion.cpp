@@ -16,7 +16,7 @@ using geometry::Vec3;
 constexpr double kRampSpeed_m_s = 1.0;  // the speed of a hand in a walk
 constexpr double kShortestRamp_s = 0.25, kLongestRamp_s = 2.0;
 constexpr double kAtRest_m = 1e-4;  // a skin that is this near the bind pose needs no ramp
-constexpr std::size_t kGrain = 1024;
+constexpr std::size_t kPointGrain = 1024;
 
 /// Local transforms that give the bind pose as world matrices.
 std::vector<rig::LocalTransform> bind_pose(const rig::Skeleton& skeleton) {
@@ -47,7 +47,7 @@ rig::LocalTransform between(const rig::LocalTransform& a, const rig::LocalTransf
 
 double farthest_m(const engine::Context& context, std::span<const Vec3> a, std::span<const Vec3> b) {
   return engine::ordered_reduce(
-      context, a.size(), kGrain, 0.0,
+      context, a.size(), kPointGrain, 0.0,
       [&](std::size_t begin, std::size_t end) {
         double most = 0.0;
         for (std::size_t i = begin; i < end; ++i) most = std::max(most, (a[i] - b[i]).norm());

@@ -13,7 +13,7 @@ namespace {
 
 using geometry::Vec3;
 
-constexpr std::size_t kGrain = 256;  // particles a block: about a millisecond of signed distances
+constexpr std::size_t kParticleGrain = 256;  // particles a block: about a millisecond of signed distances
 // Depths, in statures, below which a particle counts as outside the proxy: the rounding of float positions,
 // and with relief the error that the collider certifies (0.05 mm at 1.7 m).
 constexpr double kInsideTolerance = 1e-6;
@@ -28,7 +28,7 @@ struct Area {
 Penetration penetration(const engine::Context& context, const geometry::MeshDistance& skin,
                         std::span<const Vec3> positions) {
   return engine::ordered_reduce(
-      context, positions.size(), kGrain, Penetration{},
+      context, positions.size(), kParticleGrain, Penetration{},
       [&](std::size_t begin, std::size_t end) {
         Penetration found;
         for (std::size_t i = begin; i < end; ++i) {
@@ -49,7 +49,7 @@ std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy&
   const double tolerance_m =
       (proxy.relief().empty() ? kInsideTolerance : kReliefTolerance) * proxy.stature_m();
   return engine::ordered_reduce(
-      context, positions.size(), kGrain, std::size_t{0},
+      context, positions.size(), kParticleGrain, std::size_t{0},
       [&](std::size_t begin, std::size_t end) {
         std::size_t inside = 0;
         for (const Vec3& p : positions.subspan(begin, end - begin))
@@ -62,7 +62,7 @@ std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy&
 double pierced_share(const engine::Context& context, const geometry::MeshDistance& skin,
                      std::span<const Vec3> positions, std::span<const geometry::Triangle> triangles) {
   const Area area = engine::ordered_reduce(
-      context, triangles.size(), kGrain, Area{},
+      context, triangles.size(), kParticleGrain, Area{},
       [&](std::size_t begin, std::size_t end) {
         Area found;
         for (std::size_t t = begin; t < end; ++t) {

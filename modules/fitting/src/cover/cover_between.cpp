@@ -14,7 +14,7 @@ namespace {
 using Stretch = InteriorColumns::Stretch;
 using Near = std::vector<std::uint32_t>;  // indices of ellipsoids
 
-constexpr int kCuts = 3;            // squares are cut in four so many times
+constexpr int kSquareCuts = 3;      // squares are cut in four so many times
 constexpr double kShortest = 1e-2;  // fraction of the spacing: a shorter stretch is the rounding of two ends
 
 /// A square between four columns, or a piece of one.
@@ -96,9 +96,9 @@ Near all_of(const std::array<std::span<const RowCover::Part>, 4>& corners) {
 }
 
 /// Cuts squares in four until ellipsoids hold what is left of every piece, or the pieces are small.
-class Cutter {
+class SquareCutter {
  public:
-  Cutter(std::span<const ColumnLine> lines, double shortest, std::vector<geometry::Box>& unsure)
+  SquareCutter(std::span<const ColumnLine> lines, double shortest, std::vector<geometry::Box>& unsure)
       : lines_(lines), shortest_(shortest), unsure_(unsure) {}
 
   void check(const Square& square, int cuts, const Near& near, std::vector<Stretch> left) {
@@ -142,7 +142,7 @@ std::vector<geometry::Box> unsure_between(const engine::Context& context, const 
   engine::parallel_for(context, rows, kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       const int k = static_cast<int>(row);
-      Cutter cutter(lines, shortest, of_row[row]);
+      SquareCutter cutter(lines, shortest, of_row[row]);
       std::vector<Stretch> left, scratch;
       for (int i = 0; i + 1 < columns.nx; ++i) {
         find_wanted(columns, i, k, left, scratch);
@@ -151,7 +151,7 @@ std::vector<geometry::Box> unsure_between(const engine::Context& context, const 
                                  cover[row + 1].at(i + 1)};
         take_held(corners, shortest, left);
         if (!left.empty())
-          cutter.cut({columns.x(i), columns.z(k), columns.spacing_m}, kCuts, all_of(corners), left);
+          cutter.cut({columns.x(i), columns.z(k), columns.spacing_m}, kSquareCuts, all_of(corners), left);
       }
     }
   });

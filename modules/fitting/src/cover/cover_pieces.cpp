@@ -15,7 +15,7 @@ namespace {
 using geometry::Index;
 using geometry::Triangle;
 
-constexpr int kCuts = 3;          // a triangle is cut at most so many times
+constexpr int kTriangleCuts = 3;  // a triangle is cut at most so many times
 constexpr double kFine_mm = 2.0;  // triangles with shorter edges are not cut, so that fine meshes keep theirs
 
 /// Appends the nearest ellipsoid of each position beyond those already in `nearest`.
@@ -42,9 +42,9 @@ double longest_edge(std::span<const geometry::Vec3> positions, const Triangle& t
 }
 
 /// Cuts triangles in four at the middles of their edges; neighboring triangles share these middles.
-class Cutter {
+class TriangleCutter {
  public:
-  explicit Cutter(std::vector<geometry::Vec3>& positions) : positions_(positions) {}
+  explicit TriangleCutter(std::vector<geometry::Vec3>& positions) : positions_(positions) {}
 
   void cut(const Triangle& t, std::vector<Triangle>& pieces) {
     const Index ab = middle(t[0], t[1]), bc = middle(t[1], t[2]), ca = middle(t[2], t[0]);
@@ -70,9 +70,9 @@ CoverPieces cut_at_creases(const LabeledSkin& skin, std::span<const Index> trian
   for (const Index t : triangles) pieces.mesh.triangles.push_back(skin.mesh.triangles[t]);
   auto& [positions, rest] = pieces.mesh;
   const Scaling scaling(skin);
-  Cutter cutter(positions);
+  TriangleCutter cutter(positions);
   std::vector<std::uint32_t> nearest;
-  for (int cut = 0; cut < kCuts; ++cut) {
+  for (int cut = 0; cut < kTriangleCuts; ++cut) {
     add_nearest(scaling, positions, ellipsoids, nearest);
     std::vector<Triangle> next;
     for (const Triangle& t : rest) {

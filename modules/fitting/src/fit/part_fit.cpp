@@ -12,7 +12,7 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kGrain = 512;
+constexpr std::size_t kPartGrain = 512;
 
 /// The ellipsoid of a vertex's part that is nearest along the vertex's ray.
 struct Nearest {
@@ -25,7 +25,7 @@ using OfParts = std::array<std::vector<std::size_t>, body::kPartCount>;
 std::vector<Nearest> find_nearest(const engine::Context& context, const LabeledSkin& skin,
                                   std::span<const proxy::ProxyEllipsoid> ellipsoids, const OfParts& of_part) {
   std::vector<Nearest> nearest(skin.part.size());
-  engine::parallel_for(context, nearest.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, nearest.size(), kPartGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
       for (const std::size_t k : of_part[static_cast<int>(skin.part[v])]) {
         const double d = radial_distance(ellipsoids[k].shape, skin.mesh.positions[v]);

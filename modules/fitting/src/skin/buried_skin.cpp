@@ -7,8 +7,6 @@ namespace {
 
 using geometry::Index;
 
-constexpr double kStep =
-    2e-4;  // fraction of stature, about 0.3 mm: beyond rounding, within any fold that matters
 constexpr int kSeedEvery = 8;  // one vertex in so many is evaluated at first
 constexpr int kMaxPasses = 64;
 
@@ -89,7 +87,7 @@ std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const
                 mesh,
                 distance,
                 geometry::vertex_normals(mesh),
-                kStep * stature_m,
+                kStepOffSkin * stature_m,
                 std::vector<State>(n, State::kUnknown),
                 std::vector<std::uint8_t>(n, 0)};
   std::vector<Index> seeds;

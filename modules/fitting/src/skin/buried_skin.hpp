@@ -11,6 +11,10 @@
 
 namespace bodice::fitting {
 
+/// Fraction of stature, about 0.3 mm: a point this far off the skin is beyond rounding, and within any fold
+/// that matters.
+inline constexpr double kStepOffSkin = 2e-4;
+
 /// One flag a triangle: whether a corner lies inside another limb. Winding numbers are evaluated at every
 /// eighth vertex, spread along the skin, and evaluated again where neighbors differ and where a normal points
 /// at the back of other skin.

@@ -4,10 +4,10 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "skin/buried_skin.hpp"
+
 namespace bodice::fitting {
 namespace {
-
-constexpr double kStep = 2e-4;  // fraction of stature: the step off the skin, as in buried_skin.cpp
 
 /// One flag a triangle: whether its middle is buried. SkinSource::buried flags every triangle with a buried
 /// corner, but one with its middle in the open bounds the body all the same.
@@ -19,7 +19,7 @@ std::vector<std::uint8_t> buried_to_the_middle(const engine::Context& context, c
       if (!buried[t]) continue;
       const Vec3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
       const Vec3 normal = geometry::area_vector(mesh, t).stableNormalized();
-      buried[t] = source.skin.distance->inside(middle + kStep * source.skin.stature_m * normal);
+      buried[t] = source.skin.distance->inside(middle + kStepOffSkin * source.skin.stature_m * normal);
     }
   });
   return buried;

@@ -18,7 +18,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr double kOverStepOfFew = 1.3;  // over-relaxation of the steps, of which there are few
-constexpr int kIterations = 9;          // steps of the descent: too few for split-and-merge moves to pay
+constexpr int kSolidIterations = 9;     // steps of the descent: too few for split-and-merge moves to pay
 /// Motion in the scaled body up to which candidates stay valid. With so few samples and ellipsoids a region,
 /// choosing candidates again costs more than keeping all that may ever be near.
 constexpr double kMostMotion = 0.3;
@@ -27,7 +27,7 @@ constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
 constexpr double kColumnSpacing = 4e-3;   // fraction of stature: 7 mm, finer than any cavity worth a particle
 constexpr float kUncoveredWeight =
     3.0f;  // skin outside weighs more, because growth costs more than some overlap
-constexpr double kGrowFirst_mm = 2.0;  // growth of all ellipsoids before any grows for its triangles
+constexpr double kGrowSolidFirst_mm = 2.0;  // growth of all ellipsoids before any grows for its triangles
 /// With up to so many ellipsoids in a region, enclosing clusters of triangles may take less volume than
 /// growing.
 constexpr int kFewEllipsoids = 2;
@@ -59,7 +59,7 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;
   descend(context, problem, shapes,
-          {.iterations = kIterations, .split_and_merge = false, .over_step = kOverStepOfFew});
+          {.iterations = kSolidIterations, .split_and_merge = false, .over_step = kOverStepOfFew});
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = scaling.out(shapes[k]);
   take_parts(problem, ellipsoids);
   return ellipsoids;
@@ -80,7 +80,7 @@ FittedRegion cover_region(const engine::Context& context, const LabeledSkin& ski
                           const Region& region, std::vector<proxy::ProxyEllipsoid> ellipsoids) {
   if (ellipsoids.empty()) ellipsoids.push_back(speck(items, region, skin.stature_m));
   std::vector<geometry::Ellipsoid> shapes;
-  const double first = kGrowFirst_mm * Scaling(skin).mm();
+  const double first = kGrowSolidFirst_mm * Scaling(skin).mm();
   for (const auto& e : ellipsoids)
     shapes.push_back({e.shape.center, e.shape.axes, e.shape.radii.array() + first});
   std::vector<Index> triangles;

@@ -18,7 +18,7 @@ namespace {
 /// The first steps use one sample in so many and may be long: few samples suffice to find where ellipsoids
 /// are needed.
 constexpr std::size_t kCoarse = 3;
-constexpr int kCoarseIterations = 64, kIterations = 48;
+constexpr int kCoarseIterations = 64, kTightIterations = 48;
 constexpr double kCoarseMotion = 0.03,
                  kMotion = 0.012;  // longest motions between refreshes, in the scaled body
 /// The last steps use so many times the samples, without split-and-merge moves: a fit to fewer samples is
@@ -34,7 +34,7 @@ constexpr float kCoveringWeight = 4.0f;  // weight of uncovered skin, before gro
 
 /// All ellipsoids grow by the first before any grows for its triangles, and none shrinks below the second
 /// times its fitted size; with less of either, a few ellipsoids have to grow much.
-constexpr double kGrowFirst_mm = 3.0, kLeastGrown = 1.03;
+constexpr double kGrowTightFirst_mm = 3.0, kLeastGrown = 1.03;
 
 /// The wanted triangles with a corner outside all other limbs. A triangle that dips into another limb is
 /// flagged as buried, but the rest of it bounds the body.
@@ -61,7 +61,7 @@ void cover_skin(const engine::Context& context, const SkinSource& source,
   for (const auto& e : ellipsoids) {
     const auto& [center, axes, radii] = e.shape;
     anchors.push_back({center, axes, kLeastGrown * radii});
-    shapes.push_back({center, axes, radii.array() + kGrowFirst_mm * Scaling(skin).mm()});
+    shapes.push_back({center, axes, radii.array() + kGrowTightFirst_mm * Scaling(skin).mm()});
   }
   const CoverPieces pieces = cut_at_creases(skin, open_triangles(source), shapes);
   std::vector<Index> all(pieces.mesh.triangles.size());
@@ -90,7 +90,7 @@ class TightRun {
     air_probes_ = samples.size() / kAirProbes;
     for (std::size_t i = 0; i < samples.size(); i += kCoarse) few.push_back(samples[i]);
     descend_on(few, kCoarseMotion, kCoarseIterations, state);
-    std::vector<std::size_t> idle = descend_on(samples, kMotion, kIterations, state);
+    std::vector<std::size_t> idle = descend_on(samples, kMotion, kTightIterations, state);
     if (!descent_.out_of_time()) {
       const std::vector<DistanceSample> more = drawn((kFine - 1) * count, 12);
       samples.insert(samples.end(), more.begin(), more.end());

@@ -15,8 +15,8 @@ using geometry::Ellipsoid;
 
 /// Two samples an unknown: an ellipsoid with fewer of them is not moved, because it might go anywhere.
 constexpr std::size_t kLeastSamples = 18;
-constexpr double kMostMotion = 0.03;  // longest step, in the scaled body
-constexpr std::size_t kLanes = 16;    // each lane has its own sum, so that vector code adds in a fixed order
+constexpr double kMostMotion = 0.03;   // longest step, in the scaled body
+constexpr std::size_t kFitLanes = 16;  // each lane has its own sum, so that vector code adds in a fixed order
 
 }  // namespace
 
@@ -29,8 +29,9 @@ BODICE_CLONES static void lower(std::size_t n, std::uint32_t ellipsoid, const fl
 }
 
 BODICE_CLONES static void add_up(std::size_t n, const float* __restrict cost, double* __restrict lanes) {
-  for (std::size_t first = 0; first + kLanes <= n; first += kLanes)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) lanes[lane] += static_cast<double>(cost[first + lane]);
+  for (std::size_t first = 0; first + kFitLanes <= n; first += kFitLanes)
+    for (std::size_t lane = 0; lane < kFitLanes; ++lane)
+      lanes[lane] += static_cast<double>(cost[first + lane]);
 }
 
 void Neighborhood::resize(std::size_t count) {
@@ -59,10 +60,10 @@ double LocalFit::evaluate(const std::vector<Ellipsoid>& ellipsoids) {
   }
   count_costs(loss_, n, samples_.target.data(), samples_.one_sided.data(), now_.least.data(),
               now_.cost.data());
-  double lanes[kLanes] = {};
+  double lanes[kFitLanes] = {};
   add_up(n, now_.cost.data(), lanes);
   double cost = std::accumulate(std::begin(lanes), std::end(lanes), 0.0);
-  for (std::size_t i = n - n % kLanes; i < n; ++i) cost += static_cast<double>(now_.cost[i]);
+  for (std::size_t i = n - n % kFitLanes; i < n; ++i) cost += static_cast<double>(now_.cost[i]);
   return cost;
 }
 

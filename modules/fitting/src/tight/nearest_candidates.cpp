@@ -9,19 +9,19 @@
 namespace bodice::fitting {
 namespace {
 
-constexpr std::size_t kLanes = kSampleBlock;
+constexpr std::size_t kSampleLanes = kSampleBlock;
 constexpr float kRounding = 1e-5f;  // bound on the rounding of distances, in scaled units
 
-constexpr std::array<std::uint32_t, kLanes> kBit = [] {
-  std::array<std::uint32_t, kLanes> bit{};
-  for (std::size_t i = 0; i < kLanes; ++i) bit[i] = 1u << i;
+constexpr std::array<std::uint32_t, kSampleLanes> kBit = [] {
+  std::array<std::uint32_t, kSampleLanes> bit{};
+  for (std::size_t i = 0; i < kSampleLanes; ++i) bit[i] = 1u << i;
   return bit;
 }();
 
 }  // namespace
 
 BODICE_CLONES static void lower(const float* __restrict d, float* __restrict least) {
-  for (std::size_t i = 0; i < kLanes; ++i) least[i] = d[i] < least[i] ? d[i] : least[i];
+  for (std::size_t i = 0; i < kSampleLanes; ++i) least[i] = d[i] < least[i] ? d[i] : least[i];
 }
 
 /// A linear function: its value at the origin and its slopes.
@@ -36,7 +36,7 @@ BODICE_CLONES static bool tangent_reaches(const Tangent& tangent, const float* _
                                           const float* __restrict most) {
   const float height = tangent.at_origin, sx = tangent.slope[0], sy = tangent.slope[1], sz = tangent.slope[2];
   unsigned below = 0;
-  for (std::size_t i = 0; i < kLanes; ++i)
+  for (std::size_t i = 0; i < kSampleLanes; ++i)
     below |= height + sx * x[i] + sy * y[i] + sz * z[i] <= most[i] ? 1u : 0u;
   return below != 0;
 }
@@ -45,7 +45,7 @@ BODICE_CLONES static bool tangent_reaches(const Tangent& tangent, const float* _
 BODICE_CLONES static std::uint32_t at_most(const float* __restrict d, const float* __restrict most,
                                            const std::uint32_t* __restrict bit) {
   std::uint32_t mask = 0;
-  for (std::size_t i = 0; i < kLanes; ++i) mask |= d[i] <= most[i] ? bit[i] : 0u;
+  for (std::size_t i = 0; i < kSampleLanes; ++i) mask |= d[i] <= most[i] ? bit[i] : 0u;
   return mask;
 }
 
@@ -72,7 +72,7 @@ void NearestCandidates::sort_by_ball(std::size_t ellipsoids, const SampleBlock& 
 /// Loads the samples' offsets from the ball's center; lanes beyond the samples repeat the last sample.
 void NearestCandidates::load(const SampleBlock& block) {
   for (std::size_t j = 0; j < 3; ++j)
-    for (std::size_t i = 0; i < kLanes; ++i)
+    for (std::size_t i = 0; i < kSampleLanes; ++i)
       from_[j][i] = block.at[j][std::min(i, block.count - 1)] - block.center[j];
 }
 
@@ -112,7 +112,7 @@ void NearestCandidates::find(std::span<const FloatEllipsoid> ellipsoids, const S
   Lanes limit = measure(ellipsoids, block, reach);
   for (float& l : limit) l += reach;
   count_.fill(0);
-  const std::uint32_t samples = ~0u >> (kLanes - block.count);
+  const std::uint32_t samples = ~0u >> (kSampleLanes - block.count);
   for (std::size_t c = 0; c < ellipsoid_.size(); ++c) {
     std::uint32_t mask = samples & at_most(distance_[c].data(), limit.data(), kBit.data());
     for (; mask != 0; mask &= mask - 1) {

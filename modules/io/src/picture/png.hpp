@@ -9,6 +9,9 @@
 
 namespace bodice::io {
 
+/// Most pixels that a picture may have along one side.
+inline constexpr int kLargestSide = 16384;
+
 /// An image in 8-bit sRGB, row-major from the top.
 struct Image {
   int width = 0, height = 0;

@@ -3,12 +3,11 @@
 #include "../scene_check.hpp"
 #include "actors.hpp"
 #include "panel.hpp"
+#include "png.hpp"
 
 namespace bodice::io {
 
 namespace {
-
-constexpr int kLargestSide = 16384;
 
 engine::Error invalid(std::string message, std::string remedy) {
   return {engine::ErrorCode::kInvalidArgument, std::move(message), std::move(remedy)};

@@ -5,12 +5,12 @@
 #include "../unit_sphere.hpp"
 #include "actors.hpp"
 #include "panel.hpp"
+#include "png.hpp"
 
 namespace bodice::io {
 
 namespace {
 
-constexpr int kLargestSide = 16384;
 constexpr double kMarkRadius = 0.014;  // fraction of the body's height
 constexpr std::array<float, 3> kMarkColor = {0.85f, 0.12f, 0.15f};
 

@@ -10,18 +10,13 @@ using body::LandmarkId;
 using body::of_side;
 using body::Part;
 
-template <class Id>
-Id sided(Id left, int side) {
-  return static_cast<Id>(static_cast<int>(left) + side);
-}
-
 /// Around the wrist; where no curve closes there (a fist, fused fingers), a point between elbow and
 /// fingertip.
 Vec3 find_wrist(const SkinCurves& skin, int side, const Vec3& elbow) {
-  const body::Landmark& tip = skin.landmark(sided(LandmarkId::kFingertipL, side));
+  const body::Landmark& tip = skin.landmark(of_side(LandmarkId::kFingertipL, side));
   const double h = skin.anatomy().stature_m;
   const geodesic::Field from_tip = skin.distances_from(tip.vertex);
-  const auto ring = skin.ring(from_tip, offsets::kHand * h, parts({sided(Part::kForearmL, side)}));
+  const auto ring = skin.ring(from_tip, offsets::kHand * h, parts({part_of_side(Part::kForearmL, side)}));
   const Vec3 wrist = ring ? ring->center : Vec3(tip.position + 0.42 * (elbow - tip.position));
   return wrist + offsets::kWristUp * h * (elbow - wrist).normalized();
 }
@@ -31,13 +26,13 @@ Vec3 find_wrist(const SkinCurves& skin, int side, const Vec3& elbow) {
 void find_arm(const SkinCurves& skin, const BorderRings& rings, int side, FoundJoints& joints) {
   const double h = skin.anatomy().stature_m, sign = side == 0 ? 1.0 : -1.0;
   const Mat3& chest = joints.axes(JointId::kSpineUpper);
-  const Vec3 elbow = skin.landmark(sided(LandmarkId::kElbowL, side)).position;
+  const Vec3 elbow = skin.landmark(of_side(LandmarkId::kElbowL, side)).position;
   const Vec3 border = rings.shoulder[side].center, along = (elbow - border).normalized();
   const Vec3 shoulder =
       border + h * (offsets::kShoulder.along * along + offsets::kShoulder.side * sign * chest.col(0) +
                     offsets::kShoulder.up * chest.col(1) + offsets::kShoulder.front * chest.col(2));
   const Vec3 wrist = find_wrist(skin, side, elbow);
-  const Vec3 tip = skin.landmark(sided(LandmarkId::kFingertipL, side)).position;
+  const Vec3 tip = skin.landmark(of_side(LandmarkId::kFingertipL, side)).position;
   const Vec3 neck = joints.at(JointId::kNeck);
   joints.at(of_side(JointId::kClavicleL, side)) =
       neck + offsets::kClavicleShare * (shoulder - neck) +

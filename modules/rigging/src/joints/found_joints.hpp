@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <bodice/body/joint.hpp>
+#include <bodice/body/part.hpp>
 #include <bodice/engine/result.hpp>
 
 #include "joints/frames.hpp"
@@ -24,6 +25,11 @@ struct FoundJoints {
   Vec3& tip(body::JointId id) { return end[static_cast<std::size_t>(id)]; }
   const Vec3& tip(body::JointId id) const { return end[static_cast<std::size_t>(id)]; }
 };
+
+/// The part that is meant on a side: side 0 gives `left` itself, side 1 its right counterpart.
+constexpr body::Part part_of_side(body::Part left, int side) {
+  return static_cast<body::Part>(static_cast<int>(left) + side);
+}
 
 /// The curves that joints are found from.
 struct BorderRings {

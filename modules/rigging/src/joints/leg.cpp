@@ -14,14 +14,9 @@ using body::LandmarkId;
 using body::of_side;
 using body::Part;
 
-template <class Id>
-Id sided(Id left, int side) {
-  return static_cast<Id>(static_cast<int>(left) + side);
-}
-
 std::vector<Vec3> foot_points(const SkinCurves& skin, int side) {
-  const PartSet calf = parts({sided(Part::kCalfL, side)});
-  const auto from_toe = skin.distances_from(skin.landmark(sided(LandmarkId::kToeL, side)).vertex);
+  const PartSet calf = parts({part_of_side(Part::kCalfL, side)});
+  const auto from_toe = skin.distances_from(skin.landmark(of_side(LandmarkId::kToeL, side)).vertex);
   const auto reach = static_cast<float>(offsets::kFootReach * skin.anatomy().stature_m);
   std::vector<Vec3> points;
   for (geometry::Index v = 0; v < from_toe.size(); ++v)
@@ -55,8 +50,8 @@ Vec3 ankle_section(std::span<const Vec3> foot, const Sole& sole, double height) 
 void find_leg(const SkinCurves& skin, const BorderRings& rings, int side, FoundJoints& joints) {
   const double h = skin.anatomy().stature_m, sign = side == 0 ? 1.0 : -1.0;
   const Mat3& pelvis = joints.axes(JointId::kPelvis);
-  const Vec3 knee = skin.landmark(sided(LandmarkId::kKneeL, side)).position;
-  const Vec3 toe = skin.landmark(sided(LandmarkId::kToeL, side)).position;
+  const Vec3 knee = skin.landmark(of_side(LandmarkId::kKneeL, side)).position;
+  const Vec3 toe = skin.landmark(of_side(LandmarkId::kToeL, side)).position;
   const Vec3 border = rings.hip[side].center, along = (knee - border).normalized();
   const Vec3 hip = border + h * (offsets::kHip.along * along + offsets::kHip.side * sign * pelvis.col(0) +
                                  offsets::kHip.up * pelvis.col(1) + offsets::kHip.front * pelvis.col(2));

@@ -13,7 +13,7 @@ using body::Part;
 constexpr double kSkirtLength = 0.33;  // from the waist to the knees of a standing body
 constexpr double kBandWidth = 0.012;   // width of the pinned waistband
 
-engine::Error unusable(std::string message) {
+engine::Error no_torso(std::string message) {
   return {engine::ErrorCode::kUnusableGeometry, std::move(message),
           "Check that the body's torso and thighs are labeled."};
 }
@@ -85,13 +85,13 @@ engine::Result<Cut> cut_skirt(const Fitting& f) {
   const PartFilter lower = [](Part part) { return body::is_torso(part) || is_leg(part); };
   if (f.skin.slab(1, -0.3 * f.body.stature_m, 0.0, is_leg).empty() &&
       f.skin.slab(1, 0.0, levels.waist, is_leg).empty())
-    return unusable("The body has no thighs below its trunk to wear a skirt.");
+    return no_torso("The body has no thighs below its trunk to wear a skirt.");
   const double edge = f.options.edge_length_m, length = kSkirtLength * f.body.stature_m;
   const Point2 center = slice_center(f, levels.waist, [](Part part) { return body::is_torso(part); });
   const Funnel funnel = funnel_of(f, levels.waist, length, lower, center);
   const Outline& waist = funnel.outlines.front();
   if (*std::min_element(waist.radius.begin(), waist.radius.end()) <= 0.0)
-    return unusable("The body has no closed waist to hang a skirt from.");
+    return no_torso("The body has no closed waist to hang a skirt from.");
   const Outline& widest = funnel.outlines.back();
   const std::vector<double> angles = even_angles(widest, columns_for(widest, edge), 0.0);
   double mean = 0.0;
@@ -118,7 +118,7 @@ engine::Result<Cut> cut_tube(const Fitting& f) {
     const double y = top - (top - bottom) * r / (rings - 1);
     const Outline outline = ring_outline(f, y - 0.5 * edge, y + 0.5 * edge, torso, slice_center(f, y, torso));
     if (*std::min_element(outline.radius.begin(), outline.radius.end()) <= 0.0)
-      return unusable("The body's torso is not closed between waist and armpits.");
+      return no_torso("The body's torso is not closed between waist and armpits.");
     if (r == 0) angles = even_angles(outline, columns_for(outline, edge), 0.0);
     add_ring(cut, outline, y, angles);
   }

@@ -15,9 +15,8 @@ constexpr double kPonchoReach = 0.3;  // statures from the middle of the neck to
 /// In statures. Skin farther from the neck's middle than the radius, and not much higher, is shoulder,
 /// whatever its part.
 constexpr double kNeckRadius = 0.05, kShoulderHeight = 0.03;
-constexpr double kPi = std::numbers::pi;
 
-engine::Error unusable(std::string message) {
+engine::Error arms_too_high(std::string message) {
   return {engine::ErrorCode::kUnusableGeometry, std::move(message),
           "Choose a pose with the arms below the shoulders, or another garment."};
 }
@@ -38,14 +37,15 @@ engine::Result<Cut> cut_poncho(const Fitting& f) {
   for (const Vec3& p : f.skin.slab(1, neck.y() - h, neck.y() + kShoulderHeight * h, head))
     if (away(p) > kNeckRadius * h && away(p) < reach + 2.0 * edge) highest = std::max(highest, p.y());
   const double y = highest + 1.1 * ease;
-  if (!(y < neck.y() + 0.1 * h)) return unusable("The arms are raised through where a poncho lies.");
+  if (!(y < neck.y() + 0.1 * h)) return arms_too_high("The arms are raised through where a poncho lies.");
   const Point2 center = slice_center(f, y, head);
   const Outline hole = ring_outline(f, y - 1.5 * ease, y + 1.5 * ease, head, center);
   if (*std::min_element(hole.radius.begin(), hole.radius.end()) <= 0.0)
-    return unusable("The body has no neck above its shoulders.");
-  const double inner = perimeter(hole) / (2.0 * kPi);
+    return arms_too_high("The body has no neck above its shoulders.");
+  const double inner = perimeter(hole) / (2.0 * std::numbers::pi);
   const int rings = std::max(3, static_cast<int>(std::lround((reach - inner) / edge)) + 1);
-  const int columns = std::max(12, 2 * static_cast<int>(std::lround(kPi * std::sqrt(inner * reach) / edge)));
+  const int columns =
+      std::max(12, 2 * static_cast<int>(std::lround(std::numbers::pi * std::sqrt(inner * reach) / edge)));
   const std::vector<double> angles = even_angles(hole, columns, 0.0);
   Cut cut;
   for (int r = 0; r < rings; ++r) {

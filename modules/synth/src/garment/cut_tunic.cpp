@@ -17,7 +17,7 @@ namespace {
 using body::Part;
 using geometry::Index;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kPanelShare = 0.8;      // width of the panels, in distances of the armpits
 constexpr double kFrontNeckline = 0.55;  // from the armpits' height (0) over the front to the shoulder (1)
 constexpr double kBackNeckline = 0.7;
@@ -57,16 +57,16 @@ double angle_at(const Outline& outline, double x, double from, double to) {
 
 std::vector<double> ring_angles(const Plan& plan, const Outline& top) {
   std::vector<double> angles;
-  const double front_right = angle_at(top, -plan.half_width, 0.0, kPi);
-  const double back_right = angle_at(top, -plan.half_width, kPi, 2.0 * kPi);
-  const double back_left = angle_at(top, plan.half_width, kPi, 2.0 * kPi);
-  const double front_left = angle_at(top, plan.half_width, 0.0, kPi);
-  for (int i = 0; i < plan.front; ++i) angles.push_back(angle_at(top, plan.x(i), 0.0, kPi));
+  const double front_right = angle_at(top, -plan.half_width, 0.0, pi);
+  const double back_right = angle_at(top, -plan.half_width, pi, 2.0 * pi);
+  const double back_left = angle_at(top, plan.half_width, pi, 2.0 * pi);
+  const double front_left = angle_at(top, plan.half_width, 0.0, pi);
+  for (int i = 0; i < plan.front; ++i) angles.push_back(angle_at(top, plan.x(i), 0.0, pi));
   for (int k = 0; k < plan.side; ++k)
     angles.push_back(front_right + (back_right - front_right) * k / plan.side);
-  for (int i = plan.front; i > 0; --i) angles.push_back(angle_at(top, plan.x(i), kPi, 2.0 * kPi));
+  for (int i = plan.front; i > 0; --i) angles.push_back(angle_at(top, plan.x(i), pi, 2.0 * pi));
   for (int k = 0; k < plan.side; ++k)
-    angles.push_back(back_left + (front_left + 2.0 * kPi - back_left) * k / plan.side);
+    angles.push_back(back_left + (front_left + 2.0 * pi - back_left) * k / plan.side);
   return angles;
 }
 

@@ -44,13 +44,6 @@ bool on_trunk_or_leg(const Posed& b, const geometry::Triangle& t) {
   return all_in(b, t, {Region::kTrunk, Region::kCrotch, Region::kLegL, Region::kLegR});
 }
 
-Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p) {
-  Index best = 0;
-  for (Index v = 1; v < positions.size(); ++v)
-    if ((positions[v] - p).squaredNorm() < (positions[best] - p).squaredNorm()) best = v;
-  return best;
-}
-
 /// The centroid of the curve in which a level of the rest pose cuts the trunk, as the pose moves it.
 Vec3 level_center(const Posed& b, double height) {
   Vec3 moment = Vec3::Zero();

@@ -138,13 +138,6 @@ Vec3 tip_of_foot(const Posed& b, int side) {
   return all > 0.0 ? Vec3(moment / all) : b.posed[farthest];
 }
 
-Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p) {
-  Index best = 0;
-  for (Index v = 1; v < positions.size(); ++v)
-    if ((positions[v] - p).squaredNorm() < (positions[best] - p).squaredNorm()) best = v;
-  return best;
-}
-
 /// In statures: the border of upper and lower trunk in rigged scans lies this much above the survey's waist.
 constexpr double kWaistAboveNavel = 0.016;
 
@@ -156,6 +149,13 @@ Part trunk_part(const Figure& f, const Vec3& rest) {
 }
 
 }  // namespace
+
+Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p) {
+  Index best = 0;
+  for (Index v = 1; v < positions.size(); ++v)
+    if ((positions[v] - p).squaredNorm() < (positions[best] - p).squaredNorm()) best = v;
+  return best;
+}
 
 std::vector<Part> true_parts(const Posed& b) {
   std::vector<Part> parts(b.rest.size());

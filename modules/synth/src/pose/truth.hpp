@@ -18,6 +18,9 @@ struct Posed {
   const BoneTransforms& bones;
 };
 
+/// The vertex of a mesh that is nearest to a point; of equal ones the first.
+geometry::Index nearest_vertex(const std::vector<Vec3>& positions, const Vec3& p);
+
 /// The part with the greatest weight at each vertex; the trunk is cut at chest, waist and middle.
 std::vector<body::Part> true_parts(const Posed& body);
 
