@@ -1,0 +1,114 @@
+// What does the C interface cost beside the C++ call, with particles as hosts have them? One thread, a made
+// body, 10,000 particles within 30 mm of the skin. The two are measured in turns; the fastest of many calls
+// counts.
+//   embedding [PARTICLES] [ROUNDS]
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include <bodice.hpp>
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/random.hpp>
+#include <bodice/fitting/fit.hpp>
+#include <bodice/proxy/proxy_file.hpp>
+#include <bodice/synth/body.hpp>
+
+using namespace bodice;
+
+namespace {
+
+/// Particles in the forms that are compared; every call begins from the same positions.
+struct Particles {
+  std::vector<float> x, y, z;  ///< local frame
+  std::vector<float> xyz;      ///< world
+};
+
+Particles near_skin(const synth::Body& body, const geometry::Vec3& origin, std::size_t count) {
+  engine::Random random(1);
+  Particles all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto v = i * body.mesh.positions.size() / count;
+    geometry::Vec3 p = body.mesh.positions[v];
+    for (int axis = 0; axis < 3; ++axis) p[axis] += random.uniform(-0.017, 0.017);
+    const Eigen::Vector3f local = (p - origin).cast<float>();
+    all.x.push_back(local.x()), all.y.push_back(local.y()), all.z.push_back(local.z());
+    for (int axis = 0; axis < 3; ++axis) all.xyz.push_back(static_cast<float>(p[axis]));
+  }
+  return all;
+}
+
+template <class Call>
+double microseconds(Call&& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The fastest of many calls of each, in turns; each begins with `reset`, which is not measured.
+struct Fastest {
+  double cpp_us = 1e300, soa_us = 1e300, aos_us = 1e300;
+};
+
+void print(const char* what, const Fastest& t) {
+  std::printf("| %s | %.1f | %.1f (%+.1f %%) | %.1f (%+.1f %%) |\n", what, t.cpp_us, t.soa_us,
+              100.0 * (t.soa_us / t.cpp_us - 1.0), t.aos_us, 100.0 * (t.aos_us / t.cpp_us - 1.0));
+}
+
+void measure(const char* name, const synth::Body& body, proxy::Tier tier, std::size_t count, int rounds) {
+  const engine::Context engine_context;
+  const auto fit = fitting::fit(engine_context, {body.mesh, body.part, body.stature_m}, {.tier = tier});
+  if (!fit) std::exit((std::puts(fit.error().sentence().c_str()), 1));
+  const collision::Collider engine(fit->proxy);
+  const std::vector<std::byte> bytes = proxy::to_binary(fit->proxy);
+  auto context = Context::create();
+  auto handle = Proxy::from_bytes(*context, bytes.data(), bytes.size());
+  auto collider = Collider::create(*context, *handle);
+  auto c_soa = Workspace::create(*context), c_aos = Workspace::create(*context);
+  collision::Workspace workspace;
+
+  const Particles start = near_skin(body, engine.origin(), count);
+  Particles now = start;
+  const collision::Particles particles{count, now.x.data(), now.y.data(), now.z.data()};
+  ::bodice::Particles soa(count), aos(count);
+  soa.space = BODICE_LOCAL;
+  soa.bodice_particles::position = {now.x.data(), now.y.data(), now.z.data(), 0, BODICE_FLOAT, 0};
+  aos.position(now.xyz.data());
+  std::vector<collision::Contact> contacts(count);
+  bodice_contacts out = bodice_default_contacts();
+  out.contact = reinterpret_cast<bodice_contact*>(contacts.data());
+
+  Fastest query, resolve;
+  for (int round = 0; round < rounds; ++round) {
+    query.cpp_us = std::min(
+        query.cpp_us, microseconds([&] { engine.query(engine_context, particles, contacts, workspace); }));
+    query.soa_us = std::min(query.soa_us, microseconds([&] { collider->query(soa, *c_soa, out); }));
+    query.aos_us = std::min(query.aos_us, microseconds([&] { collider->query(aos, *c_aos, out); }));
+  }
+  for (int round = 0; round < rounds; ++round) {
+    now = start;
+    resolve.cpp_us = std::min(
+        resolve.cpp_us, microseconds([&] { engine.resolve(engine_context, particles, {}, workspace); }));
+    now = start;
+    resolve.soa_us = std::min(resolve.soa_us, microseconds([&] { collider->resolve(soa, *c_soa); }));
+    now = start;
+    resolve.aos_us = std::min(resolve.aos_us, microseconds([&] { collider->resolve(aos, *c_aos); }));
+  }
+  print((std::string(name) + ", query").c_str(), query);
+  print((std::string(name) + ", resolve").c_str(), resolve);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000;
+  const int rounds = argc > 2 ? std::atoi(argv[2]) : 300;
+  const auto body = synth::make_body(engine::Context{}, {});
+  if (!body) return std::puts(body.error().sentence().c_str()), 1;
+  std::printf("%s; %zu particles, microseconds a call\n\n", bodice_build(), count);
+  std::puts(
+      "| proxy, call | C++, packed | C, the same arrays | C, structures in the world |\n|---|---|---|---|");
+  measure("tight", *body, proxy::Tier::kTight, count, rounds);
+  measure("relief", *body, proxy::Tier::kRelief, count, rounds);
+}
