@@ -30,6 +30,7 @@
 
 #include <bodice/c/base.h>
 #include <bodice/c/collider.h>
+#include <bodice/c/exact.h>
 #include <bodice/c/particles.h>
 #include <bodice/c/proxy.h>
 

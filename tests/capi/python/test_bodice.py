@@ -104,6 +104,23 @@ class Distances(unittest.TestCase):
         self.assertEqual(len(again), 3)
         self.assertTrue(np.allclose(again.ellipsoids()["center"], CENTERS))
 
+    def test_the_exact_distance_is_that_of_the_mesh(self):
+        corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+        faces = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6],
+                          [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+        points = np.random.default_rng(2).uniform(-2, 2, (400, 3))
+        outside = np.abs(points) - 1
+        expected = np.linalg.norm(np.maximum(outside, 0), axis=1) + np.minimum(outside.max(axis=1), 0)
+        for kind in (np.int64, np.uint8, np.uint16):
+            cube = bodice.Exact(corners, faces.astype(kind))
+            self.assertLess(np.abs(cube.signed_distance(points) - expected).max(), 1e-12)
+        contacts = cube.contacts(points)
+        self.assertTrue(np.allclose(np.linalg.norm(points - contacts.point, axis=1), np.abs(expected)))
+        with self.assertRaisesRegex(bodice.Error, "Triangle 3 refers to vertex 8"):
+            bodice.Exact(corners, np.where(np.arange(36).reshape(12, 3) == 10, 8, faces))
+        with self.assertRaisesRegex(bodice.Error, "zero or more"):
+            bodice.Exact(corners, -faces)
+
     def test_the_example_of_a_loss_takes_points_out_of_the_body(self):
         sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "examples"))
         import collision_loss

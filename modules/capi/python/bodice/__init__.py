@@ -4,6 +4,7 @@
     body = bodice.load("body.bodice")                # made by `bodice fit body.obj -o body.bodice`
     distance = body.signed_distance(points)          # (n, 3) -> (n,), meters, negative inside
     contacts = body.contacts(points)                 # distance, point, normal (the gradient), ellipsoid, part
+    error = distance - bodice.Exact(vertices, faces).signed_distance(points)  # against the mesh itself
     body.pose(matrices)                              # (joints, 3, 4) or (joints, 4, 4), of a bound proxy
 
 Arrays of numpy are read and written where they are, float32 and float64, with any strides; the interpreter's lock is
@@ -22,7 +23,7 @@ import numpy as np
 
 from . import _library as _c
 
-__all__ = ["Body", "Contacts", "Error", "build", "load", "loads"]
+__all__ = ["Body", "Contacts", "Error", "Exact", "build", "load", "loads"]
 
 Error = _c.Error
 
@@ -169,6 +170,45 @@ class Body:
 
     def _workspace(self) -> "_Borrowed":
         return _Borrowed(self)
+
+
+class Exact:
+    """The exact signed distance to a triangle mesh: slow, in double precision, the reference for a proxy.
+
+    `vertices` (n, 3), meters; `faces` (m, 3), wound counter-clockwise seen from outside. The mesh should be closed.
+    Calls may overlap on several threads."""
+
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray, workers: int = 0):
+        vertices, faces = _c.as_points(vertices), np.asarray(faces)
+        if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu" or (faces.size and faces.min() < 0):
+            raise Error(f"The faces are {faces.dtype} of shape {faces.shape}. Pass (m, 3) integers, zero or more.")
+        faces = np.ascontiguousarray(faces if faces.itemsize in (2, 4, 8) else faces.astype(np.uint32))
+        options, mesh = _c.defaults(_c.ContextOptions), _c.defaults(_c.Mesh)
+        options.workers = workers
+        self._context = _c.Handle("bodice_context", _c.library.bodice_context_create, ctypes.byref(options))
+        if len(vertices):
+            mesh.position = _c.vectors(vertices)
+        mesh.vertices, mesh.triangles = len(vertices), len(faces)
+        mesh.index, mesh.index_bytes = faces.ctypes.data, faces.itemsize
+        self._exact = _c.Handle("bodice_exact", _c.library.bodice_exact_create, self._context, ctypes.byref(mesh))
+
+    def signed_distance(self, points: np.ndarray) -> np.ndarray:
+        """(n, 3) -> (n,): meters to the mesh, negative inside."""
+        return self.contacts(points).distance
+
+    def contacts(self, points: np.ndarray) -> Contacts:
+        """The closest point of the mesh to each of (n, 3) points; `ellipsoid` is the triangle, `part` is 255."""
+        points = _c.as_points(points)
+        n, kind = len(points), points.dtype
+        found = Contacts(np.empty(n, kind), np.empty((n, 3), kind), np.empty((n, 3), kind), np.empty(n, np.uint32),
+                         np.full(n, 255, np.uint8))
+        arrays = _c.defaults(_c.ContactArrays)
+        arrays.distance, arrays.point = _c.scalars(found.distance), _c.vectors(found.point)
+        arrays.normal, arrays.ellipsoid = _c.vectors(found.normal), found.ellipsoid.ctypes.data
+        particles = _c.particles(points)
+        _c.check(_c.library.bodice_exact_query(self._exact, ctypes.byref(particles), ctypes.byref(arrays)))
+        found.ellipsoid = np.where(found.ellipsoid == _c.NO_ELLIPSOID, -1, found.ellipsoid.astype(np.int64))
+        return found
 
 
 class _Borrowed:

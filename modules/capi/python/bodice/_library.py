@@ -93,6 +93,12 @@ class ContactReport(ctypes.Structure):
                 ("pinned", c_uint64), ("deepest_m", c_float), ("reserved", c_int32)]
 
 
+class Mesh(ctypes.Structure):
+    kind = 9
+    _fields_ = [("head", Head), ("position", Vectors), ("vertices", c_size_t), ("index", c_void_p),
+                ("triangles", c_size_t), ("index_bytes", c_int32), ("reserved", c_int32)]
+
+
 #: bodice_ellipsoid as numpy has it.
 ELLIPSOID = np.dtype([("center", np.float64, 3), ("axes", np.float64, (3, 3)), ("radii", np.float64, 3),
                       ("part", np.int32), ("bone", np.int32)])
@@ -119,10 +125,12 @@ def _declare() -> None:
         "bodice_workspace_create": [c_void_p, c_void_p],
         "bodice_query": [c_void_p] * 5,
         "bodice_resolve": [c_void_p] * 5,
+        "bodice_exact_create": [c_void_p] * 3,
+        "bodice_exact_query": [c_void_p] * 3,
     }
     for name, types in arguments.items():
         getattr(library, name).argtypes = types
-    for handle in ("context", "proxy", "collider", "workspace"):
+    for handle in ("context", "proxy", "collider", "workspace", "exact"):
         destroy = getattr(library, f"bodice_{handle}_destroy")
         destroy.argtypes, destroy.restype = [c_void_p], None
 

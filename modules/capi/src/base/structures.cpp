@@ -24,6 +24,9 @@ void set_defaults(bodice_resolve_options& options) {
   options.friction = 0.3f;
   options.max_push_m = std::numeric_limits<float>::infinity();
 }
+void set_defaults(bodice_mesh& mesh) {
+  mesh.index_bytes = 4;
+}
 template <class T>
 void set_defaults(T&) {}
 
@@ -84,7 +87,7 @@ bodice_status bodice_fill_defaults(int32_t kind, void* structure, size_t size) {
   return guarded([&]() -> Outcome {
     if (!structure) return invalid("The structure is null.", "Pass one.");
     return fill_one_of<bodice_context_options, bodice_proxy_info, bodice_pose, bodice_particles,
-                       bodice_contacts, bodice_query_options, bodice_resolve_options, bodice_contact_report>(
-        kind, structure, size);
+                       bodice_contacts, bodice_query_options, bodice_resolve_options, bodice_contact_report,
+                       bodice_mesh>(kind, structure, size);
   });
 }

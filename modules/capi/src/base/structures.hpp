@@ -35,6 +35,7 @@ BODICE_STRUCTURE(bodice_contacts, BODICE_CONTACTS, 144);
 BODICE_STRUCTURE(bodice_query_options, BODICE_QUERY_OPTIONS, 16);
 BODICE_STRUCTURE(bodice_resolve_options, BODICE_RESOLVE_OPTIONS, 32);
 BODICE_STRUCTURE(bodice_contact_report, BODICE_CONTACT_REPORT, 184);
+BODICE_STRUCTURE(bodice_mesh, BODICE_MESH, 80);
 #undef BODICE_STRUCTURE
 
 /// A structure with its defaults, as bodice_fill_defaults() makes it.

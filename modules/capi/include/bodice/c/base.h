@@ -84,7 +84,8 @@ enum {
   BODICE_CONTACTS = 5,
   BODICE_QUERY_OPTIONS = 6,
   BODICE_RESOLVE_OPTIONS = 7,
-  BODICE_CONTACT_REPORT = 8
+  BODICE_CONTACT_REPORT = 8,
+  BODICE_MESH = 9
 };
 
 /** Fills a structure of `size` bytes with its defaults and its head. The functions bodice_default_...() below
