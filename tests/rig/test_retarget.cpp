@@ -137,14 +137,18 @@ TEST_CASE("retargeting: a skeleton without names in common is refused, one with 
 
 TEST_CASE("retargeting: a rest pose with the hips at the origin, as BVH files have, stands on the ground") {
   Skeleton source = figure(1.0, 0.0, kMixamo);
-  Clip clip = random_clip(source, 4);
-  clip.tracks[0].translation.value = {Vec3(0, 0.9, 0), Vec3(0, 0.9, 0)};
+  const Skeleton target = figure(2.0, 0.0, plain_names());
+  Clip clip{"stand and hop", 1.0, {Track{}}};
+  clip.tracks[0].translation = {Interpolation::kLinear, {0.0, 1.0}, {Vec3(0, 0.9, 0), Vec3(0, 1.2, 0)}};
   source.joints[0].local.translation.setZero();
-  const auto carried = retarget(source, clip, figure(2.0, 0.0, plain_names()));
+  const auto carried = retarget(source, clip, target);
   REQUIRE(carried.ok());
   std::vector<Affine> world(17);
-  joint_matrices(figure(2.0, 0.0, plain_names()), carried->clip, 0.0, world);
-  CHECK(world[0](1, 3) == doctest::Approx(1.8 + 2.0 * (0.9 - 0.85)));  // the ankles of this figure are at .05
+  // Standing, the ankles of the source are at .05. Those of the target belong where its rest pose has them.
+  joint_matrices(target, carried->clip, 0.0, world);
+  CHECK(world[0](1, 3) == doctest::Approx(1.8));
+  joint_matrices(target, carried->clip, 1.0, world);
+  CHECK(world[0](1, 3) == doctest::Approx(1.8 + 2.0 * 0.3));
 }
 
 TEST_CASE("joint names of common conventions become one name") {

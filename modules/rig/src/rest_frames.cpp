@@ -119,7 +119,8 @@ Alignment plan_alignment(const RestFrames& source_rest, const Skeleton& target, 
   const double source_height = plan.source_hips_at_rest.y() - source_low;
   const double target_height = target_rest.position[match.target_hips].y() - target_low;
   if (source_height > 0.0 && target_height > 0.0) plan.root_scale = target_height / source_height;
-  if (std::abs(source_low) > kOffGround * source_height) plan.source_hips_at_rest.y() = source_height;
+  plan.ground_unknown = std::abs(source_low) > kOffGround * source_height;
+  if (plan.ground_unknown) plan.source_hips_at_rest.y() = source_height;
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <bodice/rig/retarget.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "match_joints.hpp"
@@ -53,7 +54,9 @@ class Retargeter {
     plan_ = plan_alignment(source_rest_, target_, target_rest_, match_);
     out_.clip.name = clip_.name;
     out_.clip.duration_s = clip_.duration_s;
-    for (const double time : key_times(clip_)) add_pose(time);
+    const std::vector<double> times = key_times(clip_);
+    if (plan_.ground_unknown) plan_.source_hips_at_rest.y() += lowest_joint_of_clip(times);
+    for (const double time : times) add_pose(time);
     for (Track& track : track_of_)
       if (!track.rotation.empty()) out_.clip.tracks.push_back(std::move(track));
     report();
@@ -61,6 +64,18 @@ class Retargeter {
   }
 
  private:
+  /// The height of the lowest joint of any key. Where the rest pose does not show the ground, the clip does:
+  /// a foot that stands has its joint as far above the floor as the target has its own.
+  double lowest_joint_of_clip(const std::vector<double>& times) const {
+    std::vector<Affine> world(source_.joints.size());
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const double time : times) {
+      joint_matrices(source_, clip_, time, world);
+      for (const Affine& map : world) lowest = std::min(lowest, map(1, 3));
+    }
+    return lowest;
+  }
+
   void add_pose(double time) {
     source_local_.resize(source_.joints.size());
     sample(source_, clip_, time, source_local_);
