@@ -1,11 +1,14 @@
 // How does every garment of the data folder drape on its body? Each one hangs for 300 frames of gusty wind
 // and 300 calm ones; the bars are printed over the columns. --substeps 2,4,8,16,32 shows how the result
 // improves with substeps, --halve compares outlines of two resolutions, --turn 90 turns the bodies.
+// --motion walk,run,dance instead lets two bodies each move in a skirt, a T-shirt and a bodysuit, and then
+// stand.
 #include <cstdio>
 #include <map>
 
 #include <CLI/CLI.hpp>
 
+#include "moving.hpp"
 #include "sheet.hpp"
 #include "silhouette.hpp"
 #include "wear.hpp"
@@ -79,11 +82,16 @@ struct Arguments {
   int workers = 2;
   double turn_deg_s = 0.0;
   bool also_halved = false;
+  std::vector<std::string> motions;
+  double seconds = 10.0;
+  std::string out;
+  bool repeat = false;
   bench::WearOptions wear = {.solver = bodice::tryon::DrapeOptions{}.solver};
 };
 
 void add_options(CLI::App& app, Arguments& a) {
-  app.add_option("--data", a.data, "folder with garments/ and bodies/");
+  app.add_option("--data", a.data,
+                 "folder with garments/ and bodies/ (with --motion: absent, bodies are made)");
   app.add_option("--only", a.only, "only garments with this text in their names");
   app.add_option("--cache", a.cache, "folder that keeps the proxies from run to run");
   app.add_option("--sheet", a.picture, "write a contact sheet, a PNG");
@@ -98,6 +106,13 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--threads", a.workers, "workers");
   app.add_option("--turn", a.turn_deg_s, "turns the body, degrees a second");
   app.add_flag("--halve", a.also_halved, "each garment again with its edges halved");
+  auto* motion = app.add_option("--motion", a.motions, "bodies move: walk, run, dance, ...")->delimiter(',');
+  app.add_option("--seconds", a.seconds, "time in motion, before two seconds at rest")
+      ->check(CLI::Range(0.1, 600.0))
+      ->needs(motion);
+  app.add_option("--out", a.out, "folder for contact sheets of every tenth frame, and the depths of all")
+      ->needs(motion);
+  app.add_flag("--repeat", a.repeat, "again with 1 and with 3 workers, to compare hashes")->needs(motion);
   app.add_flag("--trace", a.wear.trace, "a line every thirty frames");
 }
 
@@ -130,6 +145,23 @@ bool drape_all(Arguments a) {
   return a.picture.empty() || sheet.write(a.picture);
 }
 
+/// The bodies move. Without --data they are made.
+bool drape_in_motion(const Arguments& a, bool has_data) {
+  const auto executor = bodice::engine::make_tbb_executor(a.workers);
+  bench::MovingOptions options;
+  if (has_data) options.data = a.data;
+  options.only = a.only;
+  options.motions = a.motions;
+  options.out = a.out;
+  options.run.moving_s = a.seconds;
+  options.run.repeat = a.repeat;
+  options.run.drape.solver = a.wear.solver;
+  options.run.drape.solver.environment = {};
+  options.run.drape.solver.substeps = a.substeps.front();
+  options.run.drape.fabric = bodice::cloth::find_fabric(a.fabric).value();
+  return bench::drape_moving({.executor = executor.get()}, options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -138,7 +170,10 @@ int main(int argc, char** argv) {
   CLI::App app("Every garment of the data folder on its body");
   add_options(app, arguments);
   CLI11_PARSE(app, argc, argv);
-  if (drape_all(arguments)) return 0;
-  std::fprintf(stderr, "could not write %s\n", arguments.picture.c_str());
+  const bool done =
+      arguments.motions.empty() ? drape_all(arguments) : drape_in_motion(arguments, app.count("--data") > 0);
+  if (done) return 0;
+  std::fprintf(stderr, "could not write %s\n",
+               (arguments.motions.empty() ? arguments.picture : arguments.out).c_str());
   return 1;
 }

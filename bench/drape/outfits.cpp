@@ -1,7 +1,6 @@
 #include "outfits.hpp"
 
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <map>
 
@@ -10,18 +9,13 @@
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice/tryon/wearing.hpp>
 
+#include "or_exit.hpp"
+
 namespace bench {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace bodice;
-
-template <class T>
-T or_exit(engine::Result<T> result) {
-  if (result) return std::move(result).value();
-  std::fprintf(stderr, "%s\n", result.error().sentence().c_str());
-  std::exit(1);
-}
 
 /// The mesh with each triangle cut in four at the middles of its edges.
 geometry::TriMesh halve_edges(const geometry::TriMesh& mesh) {

@@ -84,6 +84,7 @@ void add_frame(int frame, const Penetration& depth, DrapeReport& report) {
     report.penetration_max_m = depth.deepest_m;
     report.worst_frame = frame;
   }
+  report.penetration_of_frame_m.push_back(depth.deepest_m);
   report.penetration_over_1mm = depth.over_1mm;
   report.penetration_end_m = depth.deepest_m;
 }

@@ -56,6 +56,7 @@ struct DrapeReport {
   double penetration_end_m = 0.0;        ///< deepest particle at the last frame
   double thickness_m = 0.0;              ///< distance that particles kept from the proxy
   int worst_frame = 0;
+  std::vector<double> penetration_of_frame_m;   ///< deepest particle of each frame, #frames
   double pierced_share = 0.0;                   ///< share of the cloth's area inside the skin at the end
   std::size_t inside_union = 0;                 ///< particles inside the proxy at the end: count_inside()
   double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain at the end

@@ -1,0 +1,34 @@
+// A skirt, a T-shirt and a bodysuit, on two bodies each that can move.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/rigged_body.hpp>
+
+namespace bench {
+
+/// A body with a rig and a bound proxy.
+struct MovingBody {
+  std::string name;
+  bodice::tryon::PreparedBody prepared;
+};
+
+/// A garment on a body that moves.
+struct MovingOutfit {
+  std::string name;
+  std::shared_ptr<const MovingBody> body;
+  bodice::tryon::WornGarment garment;
+};
+
+/// With `data` (a folder of bodies and garments) real bodies, and its garments where it has them; without (an
+/// empty path) two made bodies. What no file has is made: a skirt, or a shirt and a suit cut from the skin at
+/// a distance. Only outfits with `only` in their names; each body is fitted once. Ends the program with a
+/// sentence where a file is unusable.
+std::vector<MovingOutfit> moving_outfits(const bodice::engine::Context& context,
+                                         const std::filesystem::path& data, const std::string& only);
+
+}  // namespace bench
