@@ -1,6 +1,7 @@
 #include "cases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
@@ -128,6 +129,11 @@ Case load(const fs::path& data, const fs::path& file, const std::vector<int>& co
 }
 
 }  // namespace
+
+int coarse_class(bodice::body::Part part) {
+  constexpr std::array<int, bodice::body::kPartCount> table = {0, 1, 1, 1, 1, 2, 2, 3, 7, 4, 8, 5, 9, 6, 10};
+  return table[static_cast<std::size_t>(part)];
+}
 
 std::vector<int> body_labels(const fs::path& data) {
   const std::vector<int> coarse = coarse_of_fine(data);

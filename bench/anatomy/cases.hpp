@@ -6,12 +6,16 @@
 #include <string>
 #include <vector>
 
+#include <bodice/body/part.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bench {
 
 /// The 11 coarse classes of the data's labels; -1: unknown.
 inline constexpr int kCoarseCount = 11;
+
+/// The class that the data's labels would give a part.
+int coarse_class(bodice::body::Part part);
 
 struct Case {
   std::string name;
@@ -23,7 +27,7 @@ struct Case {
   std::string kind = {};                                    ///< the row of the report's table
 };
 
-/// Every body of the data folder that has labels. Sorted by name.
+/// Every body of the data folder with `only` in its path. Sorted by name.
 std::vector<Case> file_cases(const std::filesystem::path& data, const std::string& only);
 
 /// The real bodies at rest, skinned to the skeletons of data/rigs and each brought into a random pose, with

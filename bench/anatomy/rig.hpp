@@ -1,7 +1,6 @@
-// Bodies that are skinned to a skeleton, read from GLB.
+// Bodies that are skinned to a skeleton, read from files.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/rig/skinning.hpp>
 
 namespace bench {
 
@@ -18,21 +18,15 @@ struct Bone {
   bodice::geometry::Vec3 head;  ///< in the rest pose, meters
 };
 
-/// Four bones a vertex and what each counts.
-struct Influence {
-  std::array<std::size_t, 4> bone;
-  std::array<double, 4> weight;
-};
-
 struct Rig {
-  bodice::geometry::TriMesh rest;
-  std::vector<Bone> bones;
-  std::vector<Influence> influences;  ///< #V
+  bodice::geometry::TriMesh rest;    ///< vertices in the order of the file, to which labels refer
+  std::vector<Bone> bones;           ///< one a joint of the weights
+  bodice::rig::SkinWeights weights;  ///< #V
 };
 
-/// A minimal reader: the mesh `body` with a skin that turns no bone in the rest pose. Throws what the
-/// JSON reader does on another file.
-Rig read_rig(const std::filesystem::path& glb);
+/// The mesh `body` of a file with its skeleton, in its bind pose. Throws std::runtime_error, with the
+/// importer's sentence or where welding joined vertices of the file.
+Rig read_rig(const std::filesystem::path& file);
 
 /// The same skeleton in another body of the same topology: a joint keeps its position among the skin that its
 /// two bones share.

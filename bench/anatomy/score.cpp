@@ -1,12 +1,10 @@
 #include "score.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace bench {
 namespace {
 
-using bodice::body::Part;
 using bodice::geometry::Vec3;
 
 /// Labels follow skin weights, so a band at each border is a convention, not a fact.
@@ -58,11 +56,6 @@ void score_labels(const Case& c, const bodice::anatomy::Anatomy& anatomy, Score&
 }
 
 }  // namespace
-
-int coarse_class(Part part) {
-  constexpr std::array<int, bodice::body::kPartCount> table = {0, 1, 1, 1, 1, 2, 2, 3, 7, 4, 8, 5, 9, 6, 10};
-  return table[static_cast<int>(part)];
-}
 
 Score score(const Case& c, const bodice::anatomy::Anatomy& anatomy) {
   Score s;

@@ -20,7 +20,4 @@ struct Score {
 
 Score score(const Case& c, const bodice::anatomy::Anatomy& anatomy);
 
-/// The coarse class of a part.
-int coarse_class(bodice::body::Part part);
-
 }  // namespace bench

@@ -13,12 +13,6 @@ namespace {
 using bodice::body::Part;
 using bodice::geometry::Vec3;
 
-/// The class that the data's labels would give a true part.
-int coarse_of(Part part) {
-  constexpr int table[bodice::body::kPartCount] = {0, 1, 1, 1, 1, 2, 2, 3, 7, 4, 8, 5, 9, 6, 10};
-  return table[static_cast<int>(part)];
-}
-
 /// From two years to some twelve.
 void make_child(bodice::engine::Random& random, bodice::synth::BodyOptions& o) {
   o.childhood = random.uniform(0.2, 1.0);
@@ -78,7 +72,7 @@ Case synth_case(std::uint64_t seed) {
   c.kind = kind_of(options);
   c.rest = options.pose == bodice::synth::Pose::kA || options.pose == bodice::synth::Pose::kT;
   c.mesh = body->mesh;
-  for (const Part part : body->part) c.truth.push_back(coarse_of(part));
+  for (const Part part : body->part) c.truth.push_back(coarse_class(part));
   for (const auto& mark : body->landmarks)
     c.landmarks[std::string(bodice::body::name(mark.id))] = mark.position;
   c.stature = body->stature_m;
