@@ -1,10 +1,12 @@
-// Differs from anatomy's measurements: read on the rest pose, in which the trunk is upright, from the numbers
-// that the body was made from; anatomy's are read on any mesh from what was found on it.
+// Differs from anatomy's measurements: read on the rest pose, in which the trunk is upright (thighs: with the
+// legs of the A pose), from the numbers that the body was made from; anatomy's are read on any mesh from what
+// was found on it.
 #include "pose/tailor_truth.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "pose/deform.hpp"
 #include "pose/tailor_points.hpp"
 
 namespace bodice::synth {
@@ -78,17 +80,28 @@ Tape trunk_tape(const Posed& rest, double height) {
   return tape(std::move(points));
 }
 
-/// Around a thigh, just below the crotch.
-double thigh_girth(const Posed& rest, const Vec3& perineum, int side) {
+/// Around a thigh, just below the crotch, on a body that stands with its legs as in the A pose: they are
+/// closer together than those of the rest pose, so that a plane across a thigh meets it lower.
+double thigh_girth(const Posed& b, int side) {
   constexpr double kBelow =
       0.012;  // a fraction of the stature: as little as keeps the plane below the crotch
-  const LimbAxes& axes = rest.figure.leg[side];
+  const BoneTransforms bones = pose_figure(b.figure, Pose::kA, 0);
+  const std::vector<Vec3> standing = deform({}, b.rest, b.weights, bones);
+  const Vec3 perineum = true_landmarks({b.figure, b.mesh, b.triangles, b.rest, b.weights, standing,
+                                        bones})[static_cast<std::size_t>(LandmarkId::kPerineum)]
+                            .position;
+  const LimbAxes& axes = b.figure.leg[side];
+  const auto turned = [&](const Vec3& v) {
+    return Vec3(bones[index(of_side(Bone::kThighL, side))].linear() * v);
+  };
+  const Vec3 along = turned(axes.along), out = turned(axes.out), front = turned(axes.front);
   const double sign = side == 0 ? 1.0 : -1.0;
   std::vector<Vec2> points;
-  walk_section(rest, perineum + kBelow * axes.along, axes.along, [&](const Vec3& one, const Vec3& other) {
-    for (const Vec3* p : {&one, &other})
-      if (sign * p->x() > 0.0) points.emplace_back(p->dot(axes.out), p->dot(axes.front));
-  });
+  walk_section({b.figure, b.mesh, b.triangles, standing, b.weights, standing, bones},
+               perineum + kBelow * along, along, [&](const Vec3& one, const Vec3& other) {
+                 for (const Vec3* p : {&one, &other})
+                   if (sign * (*p - perineum).x() > 0.0) points.emplace_back(p->dot(out), p->dot(front));
+               });
   return tape(std::move(points)).girth;
 }
 
@@ -185,7 +198,7 @@ body::Measurements true_measurements(const Posed& b, const std::vector<body::Lan
   const Vec3 below(bust.x(), levels.waist, front_at(trunk_tape(rest, levels.waist), bust.x()));
   m[MeasurementId::kWaistOverBustLine] = (side - bust).norm() + (bust - below).norm();
   m[MeasurementId::kCrotchHipDifference] = levels.hip - perineum.y();
-  m[MeasurementId::kLegCircumference] = thigh_girth(rest, perineum, 0);
+  m[MeasurementId::kLegCircumference] = thigh_girth(b, 0);
   double angle = 0.0;
   for (int s = 0; s < 2; ++s) {
     const auto posed = [&](LandmarkId left) {

@@ -1,4 +1,4 @@
-// The measurements of a made body, taken on its rest pose.
+// The measurements of a made body, taken on its rest pose; those of thighs with the legs of the A pose.
 #pragma once
 
 #include <bodice/body/measurement.hpp>
