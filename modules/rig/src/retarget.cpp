@@ -68,12 +68,12 @@ class Retargeter {
   /// a foot that stands has its joint as far above the floor as the target has its own.
   double lowest_joint_of_clip(const std::vector<double>& times) const {
     std::vector<Affine> world(source_.joints.size());
-    double lowest = std::numeric_limits<double>::infinity();
+    double low_m = std::numeric_limits<double>::infinity();
     for (const double time : times) {
       joint_matrices(source_, clip_, time, world);
-      for (const Affine& map : world) lowest = std::min(lowest, map(1, 3));
+      for (const Affine& map : world) low_m = std::min(low_m, map(1, 3));
     }
-    return lowest;
+    return low_m;
   }
 
   void add_pose(double time) {
