@@ -6,7 +6,6 @@
 
 #include <doctest/doctest.h>
 #include <bodice/body/joint.hpp>
-
 #include "posed.hpp"
 
 namespace {
@@ -120,6 +119,18 @@ TEST_CASE("soles rest on the floor and do not sink, on any build") {
         CHECK(lowest > -kSink * body.stature_m);
         CHECK(lowest < kFloat * body.stature_m);
       }
+    }
+  }
+}
+
+TEST_CASE("a floor that is given is where soles rest, wherever the bind pose has them") {
+  const synth::Body body = posed::made_body({.pose = Pose::kSit});
+  for (const double floor_m : {-0.4, 0.7}) {
+    const rig::Clip clip = posed::made_clip(body.skeleton, Motion::kWalk, {.floor_m = floor_m});
+    for (const double t : times(clip, 10)) {
+      double lowest = 1e9;
+      for (const Vec3& p : posed::skin_at(body, clip, t)) lowest = std::min(lowest, p.y());
+      CHECK(std::abs(lowest - floor_m) < 0.008 * body.stature_m);
     }
   }
 }

@@ -92,8 +92,9 @@ rig::Track track_of(const Figure& figure, body::JointId id, const std::vector<do
 
 engine::Result<rig::Clip> make_clip(const rig::Skeleton& skeleton, Motion motion,
                                     const MotionOptions& options) {
-  const auto figure = measure(skeleton);
+  auto figure = measure(skeleton);
   if (!figure) return figure.error();
+  if (options.floor_m) figure->origin.y() = *options.floor_m;
   const Entry wanted = entry(motion);
   const int intervals = static_cast<int>(std::lround(wanted.duration_s * kKeysPerSecond));
   std::vector<JointPose> poses = solve(*figure, postures(wanted, *figure, intervals, options));

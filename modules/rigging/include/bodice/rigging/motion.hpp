@@ -51,11 +51,14 @@ struct MotionOptions {
   /// where it is, as on a treadmill, so that the clip loops: soles then travel backward with one speed.
   bool travel = false;
   double arms_out_deg = 0.0;  ///< added to how far arms are held from the trunk; see clear_arms_deg()
+  /// Height of the floor, meters. Absent: it lies under the lower sole as bound, which is too high where a
+  /// scan sits on the floor with its heels or toes up. The lowest vertex of the skin is right for most scans.
+  std::optional<double> floor_m;
 };
 
 /// The motion as a clip of a skeleton. Legs are solved for the skeleton's lengths, so that soles stay on the
 /// floor and where they were set down; everything else is a rotation of joints. The body begins where the
-/// bind pose has it and faces as it does there, whatever that pose is; the floor lies under its lower sole.
+/// bind pose has it and faces as it does there, whatever that pose is.
 /// Up is +y. Fails with kInvalidArgument when a joint of body::JointId is missing (a middle spine joint,
 /// clavicles and toes may be) or carried by another one than there; the sentence names it. Deterministic.
 /// O(#keys), below a millisecond.
