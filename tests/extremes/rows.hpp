@@ -21,6 +21,8 @@ std::vector<Row> scene_rows();      ///< unions of ellipsoids that no fit makes,
 std::vector<Row> mesh_rows();       ///< everything that takes a mesh
 std::vector<Row> body_rows();       ///< a body at any scale and offset is the same body
 std::vector<Row> number_rows();     ///< options and steps that are absurd numbers
+std::vector<Row> rig_rows();        ///< skeletons, weights, clips and skinning
+std::vector<Row> pose_rows();       ///< binding and posing of proxies
 
 /// Returns "" if it holds, else the description of what came.
 inline std::string expect(bool holds, std::string_view otherwise) {

@@ -32,3 +32,9 @@ TEST_CASE("extremes: a body at any scale and offset gives the same landmarks and
 TEST_CASE("extremes: absurd numbers in options are refused or harmless") {
   run(extremes::number_rows(), 80);
 }
+TEST_CASE("extremes: rigs, clips and skinning matrices of any kind are finite or refused in a sentence") {
+  run(extremes::rig_rows(), 70);
+}
+TEST_CASE("extremes: joint matrices of any kind pose a proxy within bounds, or are refused by name") {
+  run(extremes::pose_rows(), 45);
+}
