@@ -1,0 +1,46 @@
+// A closed surface around the region where a field is negative, on a grid of cubic cells.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::geometry {
+
+/// A field over space, negative inside. It changes by no more than the distance between two points: signed
+/// distances, and their minima and maxima, do so.
+using DistanceField = std::function<double(const Vec3&)>;
+
+/// Values of a field at the nodes of a grid, x fastest.
+struct FieldGrid {
+  Vec3 low = Vec3::Zero();
+  double cell_m = 0.0;
+  std::array<std::size_t, 3> nodes{};  ///< along x, y and z
+  std::vector<float> value;            ///< #nodes
+
+  std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
+    return (z * nodes[1] + y) * nodes[0] + x;
+  }
+};
+
+/// Samples a field over a box, widened by two cells. Far from the surface a value has the right sign alone.
+/// `field` is called from several threads. Cost: about one call for each 2 cells of the surface's area, times
+/// the 8 cells of a block's depth.
+FieldGrid sample_field(const engine::Context& context, const DistanceField& field, const Box& box,
+                       double cell_m);
+
+/// The same of an incomplete surface: values are signed distances, and the sign is that of the winding
+/// number. It may change across a hole, far from any triangle, so that more of space is sampled.
+FieldGrid sample_inside(const engine::Context& context, const MeshDistance& surface, const Box& box,
+                        double cell_m);
+
+/// The surface between negative and other values, wound outward and closed where the grid's border is not
+/// negative: one vertex for each sheet of surface in a cell. Regions that touch along a cell's diagonal stay
+/// apart. The order of vertices is that of the cells. O(#nodes).
+TriMesh contour(const engine::Context& context, const FieldGrid& grid);
+
+}  // namespace bodice::geometry

@@ -1,0 +1,106 @@
+// Based on: Alec Jacobson, Ladislav Kavan, Olga Sorkine-Hornung. Robust inside-outside segmentation using
+// generalized winding numbers. 2013. Differs: the surface is contoured on a grid and moved onto the data.
+#include <bodice/geometry/rebuild.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/contour.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+
+namespace bodice::geometry {
+namespace {
+
+/// A vertex within so many cells of the data is measured.
+constexpr double kMeasuredCells = 1.0;
+/// Cosine between normal and offset above which a vertex lies above the data and not beside its rim, and the
+/// share of the reach within which it counts as measured all the same.
+constexpr double kAlongNormal = 0.9, kBesideRim = 0.3;
+/// Components below this share of the largest one's area are bubbles and debris.
+constexpr double kSmallest = 0.01;
+/// Passes that even out what closes a hole, and the share of each step.
+constexpr int kSmoothings = 20;
+constexpr double kSmoothing = 0.5;
+
+TriMesh without_small_components(const TriMesh& mesh) {
+  const Components components = connected_components(mesh);
+  TriMesh kept;
+  std::vector<Index> number(mesh.positions.size(), kNoIndex);
+  for (const Triangle& t : mesh.triangles) {
+    if (components.area[components.of_vertex[t[0]]] < kSmallest * components.area.front()) continue;
+    Triangle& out = kept.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& n = number[t[k]];
+      if (n == kNoIndex) {
+        n = static_cast<Index>(kept.positions.size());
+        kept.positions.push_back(mesh.positions[t[k]]);
+      }
+      out[k] = n;
+    }
+  }
+  return kept;
+}
+
+/// Moves vertices onto the data where it is near, along its normal: at a rim they would all meet in one line.
+void snap(const engine::Context& context, const MeshDistance& data, double within_m, RebuiltSurface& out) {
+  std::vector<char> near(out.mesh.positions.size());
+  engine::parallel_for(context, near.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      const auto hit = data.closest_point_within(out.mesh.positions[v], within_m);
+      if (!hit) continue;
+      const Vec3 offset = hit->point - out.mesh.positions[v];
+      const bool above = std::abs(offset.dot(hit->normal)) >= kAlongNormal * offset.norm();
+      near[v] = above || offset.norm() < kBesideRim * within_m;
+      if (above) out.mesh.positions[v] = hit->point;
+    }
+  });
+  out.measured.assign(near.begin(), near.end());
+}
+
+/// Each vertex that is not measured goes toward the mean of its neighbors: the steps of the grid vanish.
+void smooth_made_up(RebuiltSurface& out) {
+  std::vector<Vec3>& positions = out.mesh.positions;
+  std::vector<Vec3> sum(positions.size());
+  std::vector<int> count(positions.size());
+  for (int pass = 0; pass < kSmoothings; ++pass) {
+    std::fill(sum.begin(), sum.end(), Vec3(Vec3::Zero()));
+    std::fill(count.begin(), count.end(), 0);
+    for (const Triangle& t : out.mesh.triangles)
+      for (int k = 0; k < 3; ++k) {
+        if (out.measured[t[k]]) continue;
+        sum[t[k]] += positions[t[(k + 1) % 3]] + positions[t[(k + 2) % 3]];
+        count[t[k]] += 2;
+      }
+    for (std::size_t v = 0; v < positions.size(); ++v)
+      if (count[v] > 0) positions[v] += kSmoothing * (sum[v] / count[v] - positions[v]);
+  }
+}
+
+double measured_share(const RebuiltSurface& surface) {
+  double all = 0.0, measured = 0.0;
+  for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
+    const double area = area_vector(surface.mesh, t).norm();
+    all += area;
+    for (const Index v : surface.mesh.triangles[t]) measured += surface.measured[v] ? area / 3.0 : 0.0;
+  }
+  return all > 0.0 ? measured / all : 0.0;
+}
+
+}  // namespace
+
+RebuiltSurface rebuild(const engine::Context& context, const TriMesh& surface, double cell_m) {
+  const MeshDistance data(context, surface);
+  RebuiltSurface out;
+  const FieldGrid grid = sample_inside(context, data, bounding_box(surface.positions), cell_m);
+  const TriMesh all = contour(context, grid);
+  if (all.empty()) return out;
+  out.mesh = without_small_components(all);
+  snap(context, data, kMeasuredCells * cell_m, out);
+  smooth_made_up(out);
+  out.measured_share = measured_share(out);
+  return out;
+}
+
+}  // namespace bodice::geometry

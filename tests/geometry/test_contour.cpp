@@ -1,0 +1,125 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include <bodice/engine/random.hpp>
+#include <bodice/geometry/contour.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+#include <bodice/geometry/rebuild.hpp>
+#include <bodice_test/executors.hpp>
+#include <bodice_test/shapes.hpp>
+
+using namespace bodice;
+using geometry::Box;
+using geometry::TriMesh;
+using geometry::Vec3;
+
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+
+Box unit_box() {
+  return {Vec3::Constant(-1.0), Vec3::Constant(1.0)};
+}
+
+void check_closed(const TriMesh& mesh, int components) {
+  const geometry::MeshEdges edges = geometry::mesh_edges(mesh);
+  CHECK(edges.boundary == 0);
+  CHECK(edges.non_manifold == 0);
+  CHECK(geometry::euler_characteristic(mesh, edges) == 2 * components);
+}
+
+/// The triangles of a mesh with a middle that a predicate accepts.
+template <class Keep>
+TriMesh kept(TriMesh mesh, Keep&& keep) {
+  std::erase_if(mesh.triangles, [&](const geometry::Triangle& t) {
+    return !keep(Vec3((mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3.0));
+  });
+  return mesh;
+}
+
+double worst_radius_error(const TriMesh& mesh, double radius) {
+  double worst = 0.0;
+  for (const Vec3& p : mesh.positions) worst = std::max(worst, std::abs(p.norm() - radius));
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("the contour of a ball is closed, wound outward and as large as the ball") {
+  const auto ball = [](const Vec3& p) { return p.norm() - 0.8; };
+  const auto grid = geometry::sample_field({}, ball, unit_box(), 0.05);
+  const TriMesh mesh = geometry::contour({}, grid);
+  check_closed(mesh, 1);
+  CHECK(worst_radius_error(mesh, 0.8) < 0.002);
+  CHECK(signed_volume(mesh) == doctest::Approx(4.0 / 3.0 * kPi * 0.512).epsilon(0.01));
+}
+
+TEST_CASE("regions that touch along the diagonal of a cell stay apart, and the surface stays manifold") {
+  geometry::FieldGrid grid{Vec3::Zero(), 1.0, {5, 5, 5}, std::vector<float>(125, 1.0f)};
+  SUBCASE("two nodes across a face") {
+    grid.value[grid.index(1, 1, 2)] = grid.value[grid.index(2, 2, 2)] = -1.0f;
+  }
+  SUBCASE("two nodes across a cell") {
+    grid.value[grid.index(1, 1, 1)] = grid.value[grid.index(2, 2, 2)] = -1.0f;
+  }
+  const TriMesh mesh = geometry::contour({}, grid);
+  check_closed(mesh, 2);
+  CHECK(geometry::connected_components(mesh).area.size() == 2);
+}
+
+TEST_CASE("a contour encloses the nodes that are inside, for random grids") {
+  engine::Random random(3);
+  for (int round = 0; round < 20; ++round) {
+    geometry::FieldGrid grid{Vec3::Zero(), 1.0, {7, 7, 7}, std::vector<float>(343, 1.0f)};
+    int inside = 0;
+    for (std::size_t z = 1; z < 6; ++z)
+      for (std::size_t y = 1; y < 6; ++y)
+        for (std::size_t x = 1; x < 6; ++x)
+          if (random.below(3) == 0) grid.value[grid.index(x, y, z)] = -1.0f, ++inside;
+    const TriMesh mesh = geometry::contour({}, grid);
+    const geometry::MeshDistance distance({}, mesh);
+    CHECK(geometry::mesh_edges(mesh).boundary == 0);
+    int found = 0;
+    for (std::size_t z = 0; z < 7; ++z)
+      for (std::size_t y = 0; y < 7; ++y)
+        for (std::size_t x = 0; x < 7; ++x) {
+          const Vec3 node(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+          const bool is_inside = distance.winding_number(node) > 0.5;
+          CHECK(is_inside == (grid.value[grid.index(x, y, z)] < 0.0f));
+          found += is_inside;
+        }
+    CHECK(found == inside);
+  }
+}
+
+TEST_CASE(
+    "a ball of loose patches with gaps and a hole is rebuilt closed, on the ball where it was measured") {
+  const TriMesh ball = bodice_test::icosphere(1.0, 5);
+  TriMesh patches = kept(ball, [](const Vec3& p) { return p.x() > 0.03 && p.y() < 0.9; });
+  patches =
+      bodice_test::joined(patches, kept(ball, [](const Vec3& p) { return p.x() < -0.03 && p.y() < 0.9; }));
+  const auto rebuilt = geometry::rebuild({}, patches, 0.04);
+  check_closed(rebuilt.mesh, 1);
+  double worst = 0.0;
+  for (std::size_t v = 0; v < rebuilt.measured.size(); ++v)
+    if (rebuilt.measured[v])
+      worst = std::max(worst, std::abs(rebuilt.mesh.positions[v].norm() - 1.0));
+    else
+      CHECK((rebuilt.mesh.positions[v].y() > 0.85 || std::abs(rebuilt.mesh.positions[v].x()) < 0.1));
+  CHECK(worst < 0.002);
+  CHECK(rebuilt.measured_share > 0.9);
+  CHECK(rebuilt.measured_share < 1.0);
+  CHECK(signed_volume(rebuilt.mesh) == doctest::Approx(4.0 / 3.0 * kPi).epsilon(0.03));
+}
+
+TEST_CASE("a rebuilt surface has the same bits for any number of workers") {
+  const TriMesh half = kept(bodice_test::icosphere(1.0, 4), [](const Vec3& p) { return p.y() < 0.6; });
+  const auto one = geometry::rebuild({}, half, 0.06);
+  const auto workers = engine::make_tbb_executor(3);
+  const auto three = geometry::rebuild({.executor = workers.get()}, half, 0.06);
+  REQUIRE(one.mesh.triangles == three.mesh.triangles);
+  for (std::size_t v = 0; v < one.mesh.positions.size(); ++v)
+    CHECK(one.mesh.positions[v] == three.mesh.positions[v]);
+}
