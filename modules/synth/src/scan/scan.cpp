@@ -1,0 +1,291 @@
+#include <bodice/synth/scan.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <bodice/engine/catch_canceled.hpp>
+#include <bodice/geometry/contour.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/synth/body.hpp>
+
+#include "scan/camera.hpp"
+#include "scan/flaws.hpp"
+#include "scan/pieces.hpp"
+#include "scan/props.hpp"
+
+namespace bodice::synth {
+namespace {
+
+using geometry::Box;
+using geometry::DistanceField;
+using geometry::MeshDistance;
+using geometry::TriMesh;
+using geometry::Vec3;
+
+constexpr double kCameraRadius_m = 2.2;
+
+bool sits(ScanKind kind) {
+  return kind >= ScanKind::kSeated && kind <= ScanKind::kChairFused;
+}
+
+Pose pose_of(ScanKind kind, engine::Random& random) {
+  if (sits(kind)) return Pose::kSit;
+  constexpr std::array kStanding = {Pose::kA, Pose::kArmsDown, Pose::kT, Pose::kStride};
+  if (kind == ScanKind::kWebbed || kind == ScanKind::kTwoClose || kind == ScanKind::kTwoFused)
+    return Pose::kArmsDown;
+  const bool game = kind >= ScanKind::kPieces && kind <= ScanKind::kClothes;
+  return kStanding[random.below(game ? 1 : kStanding.size())];
+}
+
+/// An adult of random build, standing as people do in scanners.
+BodyOptions person(ScanKind kind, std::uint64_t seed, std::uint64_t number) {
+  engine::Random random(seed, 0x5CA4 + 2 * static_cast<std::uint64_t>(kind) + 101 * number);
+  BodyOptions o;
+  o.sex = random.below(2) == 0 ? body::Sex::kFemale : body::Sex::kMale;
+  o.stature_m = random.uniform(1.5, 1.95);
+  o.mass_kg = random.uniform(18.5, 36.0) * o.stature_m * o.stature_m;
+  o.pose = pose_of(kind, random);
+  o.vertices = kind == ScanKind::kLow ? static_cast<int>(random.uniform(1350.0, 1700.0)) : 14000;
+  o.seed = random.bits() >> 1;
+  return o;
+}
+
+/// Makes one scan, in the body's own coordinates until the end.
+class Scanner {
+ public:
+  Scanner(const engine::Context& context, ScanKind kind, std::uint64_t seed, Body body)
+      : context_(context),
+        kind_(kind),
+        seed_(seed),
+        random_(seed, 0xF1A5 + static_cast<std::uint64_t>(kind)),
+        body_(std::move(body)) {
+    scan_.body = body_.mesh;
+    scan_.landmarks = body_.landmarks;
+    scan_.stature_m = body_.stature_m;
+  }
+
+  engine::Result<Scan> run() {
+    switch (kind_) {
+      case ScanKind::kBooth:
+      case ScanKind::kFewCameras:
+      case ScanKind::kPatches:
+      case ScanKind::kFloorLoose:
+        photograph();
+        break;
+      case ScanKind::kPieces:
+      case ScanKind::kTucked:
+      case ScanKind::kClothes:
+        for (auto& piece : cut_to_pieces(kind_, body_)) scan_.meshes.push_back(std::move(piece));
+        break;
+      case ScanKind::kSeated:
+      case ScanKind::kLow:
+        add("body", body_.mesh);
+        break;
+      case ScanKind::kChairBeside:
+      case ScanKind::kChairInMesh:
+        sit_on_chair();
+        break;
+      case ScanKind::kTwoApart:
+      case ScanKind::kTwoClose:
+        if (auto second = second_person(); !second)
+          return second.error();
+        else
+          append(second->mesh, merged());
+        break;
+      default:
+        if (auto fused = fuse(); !fused) return fused.error();
+    }
+    to_file();
+    return std::move(scan_);
+  }
+
+ private:
+  void add(std::string name, TriMesh mesh) { scan_.meshes.push_back({std::move(name), std::move(mesh)}); }
+
+  /// The one mesh of the scan, with the body in it.
+  TriMesh& merged() {
+    if (scan_.meshes.empty()) add("scan", body_.mesh);
+    return scan_.meshes.front().shape;
+  }
+
+  void photograph() {
+    TriMesh noisy = body_.mesh;
+    add_noise(0.0015, random_, noisy);
+    const bool patches = kind_ == ScanKind::kPatches;
+    const int count = kind_ == ScanKind::kFewCameras ? 3 : patches ? 6 : 8;
+    const auto cameras =
+        ring_of_cameras(count, kCameraRadius_m, random_.uniform(0.0, 6.0), 0.5 * body_.stature_m);
+    const std::vector<int> seen = best_cameras(context_, noisy, cameras);
+    TriMesh scan;
+    if (!patches) scan = take_others(noisy, seen, -1);
+    for (int c = 0; patches && c < count; ++c) {
+      TriMesh patch = take(noisy, seen, c);
+      shift(0.002 * Vec3(random_.normal(), random_.normal(), random_.normal()), patch);
+      append(patch, scan);
+    }
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 around(random_.uniform(-0.6, 0.6), random_.uniform(0.0, 2.0), random_.uniform(-0.6, 0.6));
+      append(debris(around, 0.01, random_), scan);
+    }
+    if (kind_ == ScanKind::kFloorLoose) {
+      TriMesh sheet = floor_sheet(1.6, 0.03, 0.003, random_);
+      shift({0.0, -0.004, 0.0}, sheet);
+      append(sheet, scan);
+    }
+    add("scan", std::move(scan));
+  }
+
+  /// The point under the seat of a sitting body.
+  Vec3 seat() const {
+    double low = 1e9;
+    Vec3 pelvis = Vec3::Zero();
+    for (const Joint& joint : body_.joints)
+      if (joint.name == "pelvis") pelvis = joint.position;
+    for (const Vec3& p : body_.mesh.positions)
+      if (std::hypot(p.x() - pelvis.x(), p.z() - pelvis.z()) < 0.15) low = std::min(low, p.y());
+    return {pelvis.x(), low, pelvis.z() + 0.08};
+  }
+
+  void sit_on_chair() {
+    TriMesh boards;
+    for (const Box& part : chair(seat() - Vec3(0.0, 0.003, 0.0))) append(box_mesh(part, 0.04), boards);
+    if (kind_ == ScanKind::kChairBeside) {
+      add("body", body_.mesh);
+      add("chair", std::move(boards));
+    } else {
+      append(boards, merged());
+    }
+  }
+
+  engine::Result<Body> second_person() {
+    auto second = make_body(context_, person(kind_, seed_, 1));
+    if (!second) return second;
+    const Vec3 mine = geometry::bounding_box(body_.mesh.positions).high;
+    const double reach = mine.x() - geometry::bounding_box(second->mesh.positions).low.x();
+    const double gap = kind_ == ScanKind::kTwoApart   ? random_.uniform(0.3, 0.8)
+                       : kind_ == ScanKind::kTwoClose ? random_.uniform(0.01, 0.04)
+                                                      : -random_.uniform(0.02, 0.05);
+    shift({reach + gap, 0.0, 0.0}, second->mesh);
+    scan_.persons = 2;
+    return second;
+  }
+
+  /// The kinds that are one surface around a field.
+  engine::Result<void> fuse() {
+    const MeshDistance body(context_, body_.mesh);
+    DistanceField field = [&](const Vec3& p) { return body.signed_distance(p); };
+    Box box = geometry::bounding_box(body_.mesh.positions);
+    double cell_m = 0.01;
+    std::optional<MeshDistance> second;
+    std::vector<Box> boxes;
+    Vec3 crown = body_.mesh.positions.front(), neck = crown;
+    for (const auto& mark : body_.landmarks) {
+      if (mark.id == body::LandmarkId::kCrown) crown = mark.position;
+      if (mark.id == body::LandmarkId::kNeck) neck = mark.position;
+    }
+    const DistanceField alone = field;
+    const auto with = [&](auto other) {
+      field = [alone, other](const Vec3& p) { return std::min(alone(p), other(p)); };
+    };
+    if (kind_ == ScanKind::kWebbed) {  // what lies within 9 mm of itself grows together
+      cell_m = 0.018;
+      field = [alone](const Vec3& p) { return alone(p) - 0.004; };
+    } else if (kind_ == ScanKind::kFloorJoined) {
+      boxes = {{{-0.8, -0.03, -0.8}, {0.8, 0.006, 0.8}}};
+    } else if (kind_ == ScanKind::kChairFused) {
+      boxes = chair(seat() + Vec3(0.0, 0.01, 0.0));
+    } else if (kind_ == ScanKind::kBunAndHem) {
+      const Vec3 bun = crown - Vec3(0.0, 0.02, 0.07), hem(0.0, 0.52 * body_.stature_m, 0.0);
+      with([bun, hem, alone](const Vec3& p) {
+        const double band = std::max(alone(p) - 0.025, std::abs(p.y() - hem.y()) - 0.012);
+        const double trunk = std::hypot(p.x(), p.z()) - 0.24;
+        return std::min((p - bun).norm() - 0.06, std::max(band, trunk));
+      });
+      box.extend(bun + Vec3(0.0, 0.06, -0.06));
+    } else if (kind_ == ScanKind::kLongHair) {
+      const Box hair{{neck.x() - 0.11, neck.y() - 0.35, neck.z() - 0.2},
+                     {neck.x() + 0.11, crown.y() - 0.02, neck.z() - 0.04}};
+      boxes = {hair};
+    } else if (kind_ == ScanKind::kTwoFused) {
+      auto other = second_person();
+      if (!other) return other.error();
+      second.emplace(context_, other->mesh);
+      with([&](const Vec3& p) { return second->signed_distance(p); });
+      for (const Vec3& p : other->mesh.positions) box.extend(p);
+    } else if (kind_ == ScanKind::kPhotogrammetry) {
+      cell_m = 0.006;
+    } else if (kind_ == ScanKind::kClosed) {
+      cell_m = 0.008;
+    }
+    if (!boxes.empty())
+      with([&](const Vec3& p) {
+        double least = 1e9;
+        for (const Box& b : boxes) least = std::min(least, distance_to_box(b, p));
+        return least;
+      });
+    for (const Box& b : boxes) box.extend(b.low), box.extend(b.high);
+    TriMesh mesh = geometry::contour(context_, geometry::sample_field(context_, field, box, cell_m));
+    finish(mesh);
+    add("scan", std::move(mesh));
+    return {};
+  }
+
+  void finish(TriMesh& mesh) {
+    if (kind_ == ScanKind::kClosed) add_waves(0.003, random_, mesh);
+    if (kind_ == ScanKind::kPhotogrammetry) {
+      jitter(0.45, random_, mesh);
+      add_noise(0.001, random_, mesh);
+    }
+    if (kind_ != ScanKind::kFloorJoined) return;
+    std::vector<int> under(mesh.triangles.size());  // a phone sees a floor from above alone
+    for (std::size_t t = 0; t < under.size(); ++t)
+      under[t] = std::min({mesh.corner(t, 0).y(), mesh.corner(t, 1).y(), mesh.corner(t, 2).y()}) < 0.0;
+    mesh = take(mesh, under, 0);
+  }
+
+  /// Turns and moves the body, and everything to the unit and axes of the file.
+  void to_file() {
+    const bool millimeters = kind_ == ScanKind::kPhotogrammetry;
+    constexpr std::array kUnits_m = {1.0, 0.01, 0.001};
+    scan_.frame.meters_per_unit = millimeters ? 0.001 : kUnits_m[random_.below(3)];
+    scan_.frame.up = millimeters || random_.below(2) == 0 ? geometry::Axis::kZ : geometry::Axis::kY;
+    const double heading = random_.uniform(0.0, 2.0 * std::numbers::pi);
+    const Eigen::AngleAxisd turn(heading, Vec3::UnitY());
+    const Vec3 by(random_.uniform(-0.5, 0.5), 0.0, random_.uniform(-0.5, 0.5));
+    const auto moved = [&](const Vec3& p) { return Vec3(turn * p + by); };
+    for (Vec3& p : scan_.body.positions) p = moved(p);
+    for (auto& mark : scan_.landmarks) mark.position = moved(mark.position);
+    for (ScanMesh& mesh : scan_.meshes)
+      for (Vec3& p : mesh.shape.positions) p = scan_.frame.to_file(moved(p));
+  }
+
+  const engine::Context& context_;
+  ScanKind kind_;
+  std::uint64_t seed_;
+  engine::Random random_;
+  Body body_;
+  Scan scan_;
+};
+
+}  // namespace
+
+std::string_view name(ScanKind kind) {
+  constexpr std::array<std::string_view, kScanKindCount> kNames = {
+      "booth",        "few cameras", "patches",     "closed",       "fused",          "webbed",
+      "floor joined", "floor loose", "bun and hem", "long hair",    "photogrammetry", "pieces",
+      "tucked",       "clothes",     "seated",      "chair beside", "chair in mesh",  "chair fused",
+      "two apart",    "two close",   "two fused",   "low"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+engine::Result<Scan> make_scan(const engine::Context& context, ScanKind kind, std::uint64_t seed) {
+  auto body = make_body(context, person(kind, seed, 0));
+  if (!body) return body.error();
+  return engine::catch_canceled("The making of the scan", [&]() -> engine::Result<Scan> {
+    return Scanner(context, kind, seed, std::move(*body)).run();
+  });
+}
+
+}  // namespace bodice::synth

@@ -1,0 +1,96 @@
+// Made scans: what each kind promises, counted from its triangles and compared with the clean body.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+#include <bodice/synth/scan.hpp>
+
+using namespace bodice;
+using geometry::TriMesh;
+using geometry::Vec3;
+using synth::ScanKind;
+
+namespace {
+
+/// All meshes of a scan as one, in meters, y up.
+TriMesh inside(const synth::Scan& scan) {
+  TriMesh all;
+  for (const synth::ScanMesh& mesh : scan.meshes) {
+    const auto first = static_cast<geometry::Index>(all.positions.size());
+    for (const Vec3& p : mesh.shape.positions) all.positions.push_back(scan.frame.to_inside(p));
+    for (const auto& t : mesh.shape.triangles)
+      all.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  }
+  return all;
+}
+
+/// Shares of area: of the scan within a distance of the clean body, and of the body within it of the scan.
+struct Match {
+  double scan_on_body = 0.0, body_in_scan = 0.0;
+};
+
+double share_near(const TriMesh& mesh, const TriMesh& other, double within_m) {
+  const geometry::MeshDistance distance({}, other);
+  double all = 0.0, near = 0.0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double area = area_vector(mesh, t).norm();
+    const Vec3 middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+    all += area;
+    near += distance.closest_point_within(middle, within_m) ? area : 0.0;
+  }
+  return near / all;
+}
+
+Match match(const synth::Scan& scan, double within_m) {
+  const TriMesh all = inside(scan);
+  return {share_near(all, scan.body, within_m), share_near(scan.body, all, within_m)};
+}
+
+synth::Scan made(ScanKind kind, std::uint64_t seed = 1) {
+  auto scan = synth::make_scan({}, kind, seed);
+  REQUIRE(scan.ok());
+  return std::move(*scan);
+}
+
+}  // namespace
+
+TEST_CASE("a booth misses a part of the skin and lies within its noise elsewhere, few cameras miss more") {
+  const Match booth = match(made(ScanKind::kBooth), 0.01), few = match(made(ScanKind::kFewCameras), 0.01);
+  CHECK(booth.scan_on_body > 0.97);
+  CHECK(booth.body_in_scan > 0.85);
+  CHECK(booth.body_in_scan < 1.0);
+  CHECK(few.body_in_scan < booth.body_in_scan);
+}
+
+TEST_CASE("fused kinds are closed surfaces around the body, and what is added lies elsewhere") {
+  const synth::Scan fused = made(ScanKind::kFused);
+  const TriMesh skin = inside(fused);
+  CHECK(geometry::mesh_edges(skin).boundary == 0);
+  CHECK(signed_volume(skin) > 0.0);
+  CHECK(match(fused, 0.012).scan_on_body > 0.99);
+  CHECK(match(made(ScanKind::kChairFused), 0.02).scan_on_body < 0.9);
+  CHECK(match(made(ScanKind::kFloorJoined), 0.02).scan_on_body < 0.7);
+}
+
+TEST_CASE("two people are two pieces apart, and one piece where they are fused") {
+  for (const ScanKind kind : {ScanKind::kTwoApart, ScanKind::kTwoFused}) {
+    const synth::Scan scan = made(kind);
+    CHECK(scan.persons == 2);
+    auto pieces = geometry::connected_components(inside(scan)).area;
+    const auto large =
+        std::count_if(pieces.begin(), pieces.end(), [&](double area) { return area > 0.1 * pieces.front(); });
+    CHECK(large == (kind == ScanKind::kTwoApart ? 2 : 1));
+  }
+}
+
+TEST_CASE("a scan repeats to the bit, and another seed gives another body, unit or position") {
+  const synth::Scan one = made(ScanKind::kPieces, 3), same = made(ScanKind::kPieces, 3),
+                    other = made(ScanKind::kPieces, 4);
+  REQUIRE(one.meshes.size() == same.meshes.size());
+  for (std::size_t m = 0; m < one.meshes.size(); ++m)
+    CHECK(one.meshes[m].shape.positions == same.meshes[m].shape.positions);
+  CHECK(one.meshes[0].shape.positions != other.meshes[0].shape.positions);
+}
