@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/io/import.hpp>
 #include <bodice_test/shapes.hpp>
 #include <bodice_test/temp_folder.hpp>
@@ -103,6 +104,54 @@ TEST_CASE("limbs that are closed pieces of their own belong to the body") {
   REQUIRE(result.ok());
   CHECK(result->repair.components == 3);
   CHECK(geometry::bounding_box(result->skin.positions).size().x() == doctest::Approx(1.7).epsilon(0.01));
+}
+
+TEST_CASE("of two people beside each other the larger is taken, and the other by its number") {
+  const TriMesh second =
+      moved(mapped(figure(), [](const Vec3& p) { return Vec3(0.9 * p); }), {0.9, 0.0, 0.0});
+  const TempFolder folder;
+  const auto file = folder.write("two.obj", to_obj({{"", bodice_test::joined(figure(), second)}}));
+  const auto first = io::import_body(kContext, file), other = io::import_body(kContext, file, {.person = 2});
+  REQUIRE(first.ok());
+  REQUIRE(other.ok());
+  CHECK(vertex_distance(first->skin, figure()) < 1e-6);
+  CHECK(vertex_distance(other->skin, second) < 1e-6);
+  CHECK(find(*first, "several-people"));
+  const auto third = io::import_body(kContext, file, {.person = 3});
+  REQUIRE(!third.ok());
+  CHECK(third.error().code == engine::ErrorCode::kNotFound);
+  CHECK(third.error().remedy.find("1 to 2") != std::string::npos);
+}
+
+TEST_CASE("a chair in the mesh of the body is left out") {
+  TriMesh all = figure();
+  all = bodice_test::joined(all, box({0.22, 0.02, 0.22}, 4, {0.0, 0.45, 0.1}));
+  all = bodice_test::joined(all, box({0.22, 0.25, 0.02}, 4, {0.0, 0.7, -0.15}));
+  all = bodice_test::joined(all, box({0.02, 0.22, 0.02}, 4, {0.2, 0.2, 0.3}));
+  const auto result = import_groups({{"", all}});
+  REQUIRE(result.ok());
+  CHECK(vertex_distance(result->skin, figure()) < 1e-6);
+  CHECK(find(*result, "pieces-left-out"));
+}
+
+TEST_CASE("a body of loose patches is assembled and closed, with debris around it left out") {
+  const TriMesh whole = figure();
+  std::vector<TriMesh> patches(4);
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    patches[k] = part_of_figure([&](double y) { return static_cast<std::size_t>(y / 0.43) == k; });
+    patches[k] = moved(patches[k], {0.002 * static_cast<double>(k % 2), 0.0, 0.0});
+  }
+  TriMesh all = icosphere(0.01, 0, {1.5, 1.0, 0.0});
+  for (const TriMesh& patch : patches) all = bodice_test::joined(all, patch);
+  const auto result = import_groups({{"", all}});
+  REQUIRE(result.ok());
+  CHECK(result->repair.boundary_edges == 0);
+  CHECK(result->repair.components == 1);
+  CHECK(signed_volume(result->skin) == doctest::Approx(signed_volume(whole)).epsilon(0.02));
+  CHECK(find(*result, "skin-rebuilt"));
+  CHECK(find(*result, "pieces-left-out"));
+  const geometry::MeshDistance truth(kContext, whole);
+  for (const Vec3& p : result->skin.positions) CHECK(std::abs(truth.signed_distance(p)) < 0.02);
 }
 
 TEST_CASE("a mesh is taken by its name, and a wrong name is an error that lists the names") {

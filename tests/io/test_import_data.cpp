@@ -35,7 +35,6 @@ constexpr Known kBodies[] = {
     {"rigs/f_avg_walk.glb", "body", "m", geometry::Axis::kY, 13380, 49.6},
     {"rigs/thirdparty/CesiumMan.glb", "Cesium_Man", "m", geometry::Axis::kY, 2338, 0},
     {"rigs/thirdparty/posed_Female_Walking.fbx", "Cylinder.010", "unknown", geometry::Axis::kY, 680, 0},
-    {"rigs/thirdparty/guy.iqm", "guy", nullptr, geometry::Axis::kY, 0, 0},
 };
 
 }  // namespace
@@ -54,14 +53,6 @@ TEST_CASE("real bodies are imported with their known unit, size and volume") {
     if (known.volume_l > 0.0)
       CHECK(1e3 * signed_volume(result->skin) == doctest::Approx(known.volume_l).epsilon(0.01));
   }
-}
-
-TEST_CASE("a block figure of loose limbs is taken whole") {
-  const auto file = bodice_test::data_file("rigs/thirdparty/guy.iqm");
-  if (!file) return;
-  const auto result = io::import_body({}, *file);
-  REQUIRE(result.ok());
-  CHECK(result->repair.components == 6);
 }
 
 TEST_CASE("Debian's human is found between its eyes and its body") {

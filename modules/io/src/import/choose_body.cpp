@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <set>
 #include <string_view>
 
-#include <bodice/geometry/mesh_distance.hpp>
-
-#include "piece.hpp"
+#include "join_pieces.hpp"
 
 namespace bodice::io {
 
@@ -17,19 +14,11 @@ namespace {
 
 using geometry::Index;
 using geometry::kNoIndex;
-using geometry::Vec3;
 
-// Ratios that distinguish a body from what lies in, on and around it.
-constexpr double kFlat = 0.05;    ///< thickness to length: floors and cards are flatter, bodies never
-constexpr double kCompact = 1.5;  ///< area to squared diagonal: a crouching body .8, a sphere 1.05, a room 2
-constexpr double kEnoughTriangles = 100;  ///< the shape of fewer triangles is uncertain
-constexpr double kLargestLimb = 1.5;      ///< of the best piece's area: larger is a room or a stage
-constexpr double kTinyPiece = 0.002;      ///< of the body's area: a smaller piece is ignored
-constexpr double kNear = 0.04;            ///< of the body's length: a piece this close follows its skin
-constexpr double kTouching = 0.08;        ///< of the body's length: a piece this close may continue it
-constexpr double kContinues = 0.03;       ///< of the body's length: a piece that adds this much does
-constexpr double kClosedLimb = 1.4;       ///< openness of an arm open at its shoulder: 1.2
-constexpr std::size_t kSamples = 400;     ///< vertices measured on each piece
+/// The shape of fewer triangles is uncertain.
+constexpr double kEnoughTriangles = 100;
+/// A closed piece with a smaller share of the area that may be skin is debris among patches.
+constexpr double kMainPiece = 0.2;
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -47,90 +36,20 @@ bool contains_any(std::string_view text, std::initializer_list<std::string_view>
 /// A factor from the names. Shape can overrule it, since names are often missing, foreign or wrong.
 double name_hint(const FileMesh& mesh) {
   const std::string name = mesh.name + ' ' + mesh.material;
-  if (contains_any(name,
-                   {"helper", "joint", "eye", "teeth", "tongue", "hair", "lash", "brow", "cloth", "shirt",
-                    "jeans", "pants", "dress", "skirt", "shoe", "suit", "tights", "floor", "ground"}))
+  if (contains_any(name, {"helper", "joint", "eye",    "teeth", "tongue", "hair",  "lash", "brow",
+                          "cloth",  "shirt", "jeans",  "pants", "dress",  "skirt", "shoe", "suit",
+                          "tights", "floor", "ground", "chair", "stool",  "sofa"}))
     return 0.4;
   return contains_any(name, {"body", "skin", "human"}) ? 2.0 : 1.0;
 }
 
 double body_score(const Piece& piece, const FileScene& scene) {
-  const Vec3 size = piece.box.size();
-  const double diagonal_squared = size.squaredNorm();
-  if (!(diagonal_squared > 0.0)) return 0.0;
-  const double flat = size.minCoeff() < kFlat * size.maxCoeff() ? 1e-3 : 1.0;
-  const double compact = piece.area > kCompact * diagonal_squared ? 1e-3 : 1.0;
+  if (!(piece.box.size().squaredNorm() > 0.0)) return 0.0;
+  const double flat = is_flat(piece) ? 1e-3 : 1.0;
+  const double compact = is_room(piece) ? 1e-3 : 1.0;
   const double detail = std::min(1.0, static_cast<double>(piece.triangles.size()) / kEnoughTriangles);
   return piece.area * std::exp(-piece.openness()) * flat * compact * detail *
          name_hint(scene.meshes[piece.main_source()]);
-}
-
-geometry::TriMesh mesh_of(const JoinedScene& joined, const std::vector<const Piece*>& pieces) {
-  geometry::TriMesh mesh;
-  mesh.positions = joined.mesh.positions;
-  for (const Piece* piece : pieces)
-    for (const Index t : piece->triangles) mesh.triangles.push_back(joined.mesh.triangles[t]);
-  return mesh;
-}
-
-/// How a piece lies in relation to the body found so far.
-struct Relation {
-  double near_fraction = 0.0;  ///< share of its vertices inside the body or close to its skin
-  double gap = 0.0;            ///< distance between them, file units; 0 if any vertex is inside
-};
-
-Relation relate(const JoinedScene& joined, const Piece& piece, const geometry::MeshDistance& body,
-                double near_distance) {
-  const std::size_t step = std::max<std::size_t>(1, piece.triangles.size() / kSamples);
-  std::size_t measured = 0, near = 0;
-  double gap = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < piece.triangles.size(); i += step, ++measured) {
-    const double distance = body.signed_distance(joined.mesh.corner(piece.triangles[i], 0));
-    near += distance < near_distance;
-    gap = std::min(gap, std::max(0.0, distance));
-  }
-  return {static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(measured, 1)), gap};
-}
-
-/// By how much the piece would extend the body along its longest side, as a fraction of that side.
-double growth(const geometry::Box& body, const geometry::Box& piece) {
-  Eigen::Index longest = 0;
-  const double length = body.size().maxCoeff(&longest);
-  const double low = std::min(body.low[longest], piece.low[longest]);
-  const double high = std::max(body.high[longest], piece.high[longest]);
-  return (high - low) / length - 1.0;
-}
-
-bool continues_body(const JoinedScene& joined, const Piece& piece, const geometry::Box& box,
-                    const geometry::MeshDistance& body) {
-  const double length = box.size().maxCoeff();
-  const Relation relation = relate(joined, piece, body, kNear * length);
-  if (relation.near_fraction >= 0.5 || relation.gap > kTouching * length) return false;
-  return piece.openness() < kClosedLimb || growth(box, piece.box) >= kContinues;
-}
-
-/// Extends the body from its best piece by the pieces that continue it: limbs, or legs that exist only as
-/// trousers.
-std::vector<const Piece*> grow(const engine::Context& context, const JoinedScene& joined,
-                               const std::vector<Piece>& pieces, std::size_t best) {
-  std::vector<const Piece*> body = {&pieces[best]};
-  std::vector<bool> taken(pieces.size());
-  taken[best] = true;
-  geometry::Box box = pieces[best].box;
-  for (bool grown = true; grown;) {  // ends, because every round takes a piece
-    grown = false;
-    const geometry::MeshDistance distance(context, mesh_of(joined, body));
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (taken[i] || pieces[i].area < kTinyPiece * pieces[best].area ||
-          pieces[i].area > kLargestLimb * pieces[best].area)
-        continue;
-      if (!continues_body(joined, pieces[i], box, distance)) continue;
-      body.push_back(&pieces[i]);
-      taken[i] = grown = true;
-    }
-    for (const Piece* piece : body) box.extend(piece->box.low), box.extend(piece->box.high);
-  }
-  return body;
 }
 
 std::string label(const FileMesh& mesh) {
@@ -156,13 +75,14 @@ std::string list_names(const FileScene& scene, const std::set<std::size_t>& sour
   return text;
 }
 
-void report(const FileScene& scene, const std::vector<Piece>& pieces, const std::vector<const Piece*>& body,
+void report(const FileScene& scene, const std::vector<Piece>& pieces, const std::vector<std::size_t>& body,
             ChosenBody& chosen) {
   std::set<std::size_t> taken, left;
   double total_area = 0.0, left_area = 0.0;
   std::size_t left_count = 0;
-  for (const Piece& piece : pieces) {
-    const bool in = std::find(body.begin(), body.end(), &piece) != body.end();
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Piece& piece = pieces[i];
+    const bool in = std::find(body.begin(), body.end(), i) != body.end();
     for (const auto& [source, area] : piece.area_of_source) (in ? taken : left).insert(source);
     total_area += piece.area;
     left_area += in ? 0.0 : piece.area;
@@ -209,10 +129,11 @@ void gather(const FileScene& scene, const JoinedScene& joined, const std::vector
   }
 }
 
-std::vector<bool> vertices_of(const JoinedScene& joined, const std::vector<const Piece*>& pieces) {
+std::vector<bool> vertices_of(const JoinedScene& joined, const std::vector<Piece>& pieces,
+                              const std::vector<std::size_t>& body) {
   std::vector<bool> in(joined.mesh.positions.size());
-  for (const Piece* piece : pieces)
-    for (const Index t : piece->triangles)
+  for (const std::size_t i : body)
+    for (const Index t : pieces[i].triangles)
       for (const Index v : joined.mesh.triangles[t]) in[v] = true;
   return in;
 }
@@ -242,10 +163,48 @@ ChosenBody take_all(const FileScene& scene) {
   return chosen;
 }
 
+/// The piece to begin with: the one with the most closed skin; where that is a crumb of what may be skin, the
+/// largest.
+std::size_t seed_of(const FileScene& scene, const std::vector<Piece>& pieces) {
+  std::vector<double> score;
+  double area = 0.0;
+  std::size_t largest = pieces.size();  // they are sorted by area
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    score.push_back(body_score(pieces[i], scene));
+    if (is_flat(pieces[i]) || is_room(pieces[i])) continue;
+    area += pieces[i].area;
+    largest = std::min(largest, i);
+  }
+  const auto best =
+      static_cast<std::size_t>(std::distance(score.begin(), std::max_element(score.begin(), score.end())));
+  return pieces[best].area < kMainPiece * area ? largest : best;
+}
+
+/// Body number `person` of the file, the first being the one that shape and names point to.
+engine::Result<std::vector<std::size_t>> pieces_of_person(const engine::Context& context,
+                                                          const FileScene& scene, const JoinedScene& joined,
+                                                          const std::vector<Piece>& pieces, int person,
+                                                          ChosenBody& chosen) {
+  std::vector<std::size_t> body = join_pieces(context, joined, pieces, seed_of(scene, pieces));
+  const std::vector<std::size_t> people = other_people(context, joined, pieces, body);
+  const auto count = static_cast<int>(people.size()) + 1;
+  if (person > count || person < 1)
+    return engine::Error{engine::ErrorCode::kNotFound,
+                         "There is no person " + std::to_string(person) + " in the file.",
+                         "Give a number from 1 to " + std::to_string(count) + "."};
+  if (count > 1)
+    chosen.warnings.push_back({"several-people", "",
+                               "The file holds " + std::to_string(count) + " bodies; number " +
+                                   std::to_string(person) + " was taken.",
+                               "Give a file with one person where that is the wrong one."});
+  if (person == 1) return body;
+  return join_pieces(context, joined, pieces, people[static_cast<std::size_t>(person - 2)]);
+}
+
 }  // namespace
 
 engine::Result<ChosenBody> choose_body(const engine::Context& context, const FileScene& scene,
-                                       const std::optional<std::string>& wanted) {
+                                       const std::optional<std::string>& wanted, int person) {
   if (wanted) {
     const auto meshes = named(scene, *wanted);
     if (!meshes) return meshes.error();
@@ -254,17 +213,14 @@ engine::Result<ChosenBody> choose_body(const engine::Context& context, const Fil
   auto joined = join(context, scene);
   if (!joined) return joined.error();
   const std::vector<Piece> pieces = split(*joined);
-  if (pieces.size() == 1 && scene.meshes.size() == 1) return take_all(scene);
+  if (pieces.size() == 1 && scene.meshes.size() == 1 && person == 1) return take_all(scene);
 
-  std::vector<double> score;
-  for (const Piece& piece : pieces) score.push_back(body_score(piece, scene));
-  const auto best = std::max_element(score.begin(), score.end());
-  const std::vector<const Piece*> body =
-      grow(context, *joined, pieces, static_cast<std::size_t>(std::distance(score.begin(), best)));
   ChosenBody chosen;
-  chosen.name = label(scene.meshes[body.front()->main_source()]);
-  gather(scene, *joined, vertices_of(*joined, body), chosen);
-  report(scene, pieces, body, chosen);
+  const auto body = pieces_of_person(context, scene, *joined, pieces, person, chosen);
+  if (!body) return body.error();
+  chosen.name = label(scene.meshes[pieces[body->front()].main_source()]);
+  gather(scene, *joined, vertices_of(*joined, pieces, *body), chosen);
+  report(scene, pieces, *body, chosen);
   return chosen;
 }
 

@@ -20,8 +20,9 @@ struct ChosenBody {
 };
 
 /// Chooses by shape: the piece with the most closed skin, and what continues it. Names are a hint only. If
-/// `wanted` is given, the meshes of that name are taken instead. Fails with kNotFound or kUnusableGeometry.
+/// `wanted` is given, the meshes of that name are taken instead. `person` counts the bodies of a file from 1.
+/// Fails with kNotFound or kUnusableGeometry.
 engine::Result<ChosenBody> choose_body(const engine::Context& context, const FileScene& scene,
-                                       const std::optional<std::string>& wanted);
+                                       const std::optional<std::string>& wanted, int person);
 
 }  // namespace bodice::io

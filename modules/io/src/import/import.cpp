@@ -8,6 +8,7 @@
 #include "body_frame.hpp"
 #include "build_rig.hpp"
 #include "choose_body.hpp"
+#include "close_skin.hpp"
 #include "file_scene.hpp"
 
 namespace bodice::io {
@@ -64,7 +65,7 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   load.stop();
 
   engine::StageTimer check(context, out.stages, "check");
-  auto chosen = choose_body(context, *scene, options.mesh);
+  auto chosen = choose_body(context, *scene, options.mesh, options.person);
   if (!chosen) return in_file(chosen.error(), file);
   out.mesh = chosen->name;
   out.warnings = std::move(chosen->warnings);
@@ -73,6 +74,9 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
 
   auto repaired = geometry::repair(context, chosen->shape);
   if (!repaired) return in_file(repaired.error(), file);
+  // A skin with weights stays as it is: they are those of its vertices.
+  if (!scene->rig.has_bones)
+    if (auto closed = close_skin(context, chosen->shape, *repaired)) *repaired = std::move(*closed);
   DetectedFrame detected = detect_frame(repaired->mesh, options, scene->meters_per_unit, scene->up);
   out.frame = detected.frame;
   out.unit = std::move(detected.unit);

@@ -7,19 +7,14 @@
 
 #include <bodice/engine/text.hpp>
 
+#include "file_format.hpp"
+
 namespace bodice::io {
 
 namespace {
 
 /// In units of the diagonal: farther from the origin, floats lose over 1e-5 of it.
 constexpr double kFarDiagonals = 16.0;
-
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
-}
 
 std::string_view skip_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t");
@@ -83,17 +78,6 @@ std::optional<std::string_view> between(std::string_view document, std::string_v
 
 }  // namespace
 
-Format format_of(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
-  if (extension == ".obj") return Format::kObj;
-  if (extension == ".dae") return Format::kCollada;
-  if (extension == ".zae") return Format::kColladaArchive;
-  if (extension == ".gltf" || extension == ".glb") return Format::kGltf;
-  if (extension == ".fbx") return Format::kFbx;
-  if (extension == ".bvh") return Format::kBvh;
-  return Format::kOther;
-}
-
 engine::Result<void> check_readable(const std::filesystem::path& file) {
   const std::string name = "'" + file.string() + "'";
   std::error_code error;
@@ -103,16 +87,16 @@ engine::Result<void> check_readable(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, error))
     return engine::Error{engine::ErrorCode::kUnreadable, name + " is a directory, not a mesh file.",
                          "Name the mesh file inside it."};
+  if (!std::filesystem::is_regular_file(file, error))  // a device or a pipe has no end and cannot be reread
+    return engine::Error{engine::ErrorCode::kUnreadable, name + " is a device or a pipe, not a file.",
+                         "Write the mesh to a file first."};
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     return engine::Error{engine::ErrorCode::kUnreadable, name + " cannot be opened.",
                          "Check that you may read it."};
   if (stream.peek() == std::ifstream::traits_type::eof())
     return engine::Error{engine::ErrorCode::kUnreadable, name + " is empty.", "Export the mesh again."};
-  if (lower_extension(file) == ".off")  // assimp's reader crashes on a cut list of faces
-    return engine::Error{engine::ErrorCode::kUnreadable, name + " is an OFF file, which is not read.",
-                         "Export the mesh as OBJ, PLY, STL, glTF, FBX or Collada."};
-  if (lower_extension(file) == ".ply" && !has_ply_header(stream))
+  if (format_of(file) == Format::kPly && !has_ply_header(stream))
     return engine::Error{engine::ErrorCode::kUnreadable, name + " has no whole PLY header.",
                          "It may be cut off: export the mesh again."};
   return {};

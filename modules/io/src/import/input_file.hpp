@@ -11,12 +11,8 @@
 
 namespace bodice::io {
 
-/// Formats, by file extension, that need special treatment.
-enum class Format { kOther, kObj, kCollada, kColladaArchive, kGltf, kFbx, kBvh };
-Format format_of(const std::filesystem::path& file);
-
-/// Fails with one sentence if the file is missing, a directory, empty, inaccessible, or of a format without a
-/// safe reader.
+/// Fails with one sentence if the file is missing, no regular file, empty or inaccessible, or has no whole
+/// PLY header where it is PLY.
 engine::Result<void> check_readable(const std::filesystem::path& file);
 
 /// The whole file. Empty on failure.

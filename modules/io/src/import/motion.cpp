@@ -9,8 +9,8 @@
 #include "body_frame.hpp"
 #include "build_skeleton.hpp"
 #include "bvh.hpp"
+#include "file_format.hpp"
 #include "file_scene.hpp"
-#include "input_file.hpp"
 
 namespace bodice::io {
 

@@ -5,8 +5,8 @@
 #include <assimp/config.h>
 #include <assimp/scene.h>
 #include <Eigen/Geometry>
-#include <assimp/Importer.hpp>
 
+#include "assimp_reader.hpp"
 #include "bind_pose.hpp"
 #include "check_gltf.hpp"
 #include "file_scene.hpp"
@@ -113,19 +113,19 @@ void read_fbx_metadata(const aiScene& scene, FileScene& out) {
 }
 
 /// Parses the file. `offset` receives the vector to add to every position.
-const aiScene* parse(Assimp::Importer& importer, const std::filesystem::path& file, Vec3& offset) {
+const aiScene* parse(AssimpReader& reader, const std::filesystem::path& file, Vec3& offset) {
+  Assimp::Importer& importer = reader.importer();
   // The document inside an archive is not read here, so that assimp turns it to meters, y up.
-  const bool as_stored = format_of(file) != Format::kColladaArchive;
+  const bool as_stored = reader.format() != Format::kColladaArchive;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, as_stored);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  constexpr unsigned steps = 0;  // assimp's post-processing asserts, and so aborts, on damaged meshes
-  if (format_of(file) == Format::kObj) {
+  if (reader.format() == Format::kObj) {
     if (const auto moved = move_to_origin(read_text(file))) {
       offset = moved->offset;
-      return importer.ReadFileFromMemory(moved->text.data(), moved->text.size(), steps, "obj");
+      return reader.read_text(moved->text);
     }
   }
-  return importer.ReadFile(file.string(), steps);
+  return reader.read(file);
 }
 
 /// Whether assimp's readers made the name up because the file gives none.
@@ -140,6 +140,8 @@ bool splits_vertices(Format format) {
          format == Format::kFbx;
 }
 
+constexpr const char* kRemedy = "Export it again as OBJ, PLY, STL, glTF, FBX or Collada.";
+
 engine::Error unreadable(const std::filesystem::path& file, std::string_view why) {
   std::string reason(why.substr(0, why.find('\n')));
   if (reason.size() > 200) reason.resize(200);
@@ -148,37 +150,61 @@ engine::Error unreadable(const std::filesystem::path& file, std::string_view why
     if (static_cast<unsigned char>(c) < 32 || static_cast<unsigned char>(c) > 126) c = '?';
   return {engine::ErrorCode::kUnreadable,
           "'" + file.string() + "' cannot be read as a mesh" + (reason.empty() ? "." : " (" + reason + ")."),
-          "Export it again as OBJ, PLY, STL, glTF, FBX or Collada, with the matching file extension."};
+          kRemedy};
+}
+
+/// What has none of the formats never reaches a reader.
+engine::Result<Format> known_format(const std::filesystem::path& file) {
+  const Format format = format_of(file);
+  if (format != Format::kUnknown && format != Format::kBvh) return format;
+  return engine::Error{engine::ErrorCode::kUnreadable,
+                       "'" + file.string() +
+                           (format == Format::kBvh ? "' is a BVH file, which holds a motion and no mesh."
+                                                   : "' holds no OBJ, PLY, STL, glTF 2, FBX or Collada."),
+                       kRemedy};
+}
+
+bool is_gltf(Format format) {
+  return format == Format::kGltf || format == Format::kGlb;
+}
+
+/// The document of a glTF file, checked; empty for other formats.
+engine::Result<std::optional<GltfDocument>> open_document(const std::filesystem::path& file, Format format) {
+  if (!is_gltf(format)) return std::optional<GltfDocument>{};
+  auto document = GltfDocument::open(file);
+  if (!document) return unreadable(file, "it is no glTF 2 document");
+  if (auto checked = check_gltf(*document, file); !checked) return checked.error();
+  return document;
 }
 
 }  // namespace
 
 engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file) {
   if (auto checked = check_readable(file); !checked) return checked.error();
-  std::optional<GltfDocument> document;
-  if (format_of(file) == Format::kGltf) document = GltfDocument::open(file);
-  if (document)
-    if (auto checked = check_gltf(*document, file); !checked) return checked.error();
-  Assimp::Importer importer;
+  const auto format = known_format(file);
+  if (!format) return format.error();
+  auto document = open_document(file, *format);
+  if (!document) return document.error();
+  AssimpReader reader(*format);
   Vec3 offset = Vec3::Zero();
-  const aiScene* scene = parse(importer, file, offset);
-  if (!scene || !scene->mRootNode) return unreadable(file, importer.GetErrorString());
+  const aiScene* scene = parse(reader, file, offset);
+  if (!scene || !scene->mRootNode) return unreadable(file, reader.importer().GetErrorString());
 
   FileScene result;
   result.kept_digits = !offset.isZero();
   Eigen::Matrix4d world_to_file = Eigen::Matrix4d::Identity();
-  if (format_of(file) == Format::kCollada)
+  if (*format == Format::kCollada)
     world_to_file = undo_collada_unit(parse_collada_asset(read_text(file)), result);
-  if (format_of(file) == Format::kGltf || format_of(file) == Format::kColladaArchive) {
+  if (is_gltf(*format) || *format == Format::kColladaArchive) {
     result.meters_per_unit = 1.0;
     result.up = geometry::Axis::kY;
   }
   read_fbx_metadata(*scene, result);
   result.rig.world_to_file = world_to_file;
-  Collector(*scene, std::move(document), offset, result).collect();
+  Collector(*scene, std::move(*document), offset, result).collect();
   for (FileMesh& mesh : result.meshes)
     if (is_made_up(mesh.name)) mesh.name = file.stem().string();
-  if (splits_vertices(format_of(file)))
+  if (splits_vertices(*format))
     for (FileMesh& mesh : result.meshes) share_vertices(mesh);
   return result;
 }

@@ -1,5 +1,5 @@
-// Reading mesh files: any format that assimp reads. The body is chosen among the meshes, its unit and axes
-// are found, and its vertices are welded.
+// Reading mesh files: OBJ, PLY, STL, glTF 2, FBX and Collada, by their content. The body is chosen among the
+// meshes, its unit and axes are found, and its vertices are welded.
 #pragma once
 
 #include <filesystem>
@@ -22,6 +22,7 @@ struct ImportOptions {
   Unit unit = Unit::kAuto;  ///< a given unit is kept, with a warning where the body has no person's size
   std::optional<geometry::Axis> up;  ///< absent: as the file states, else by shape
   std::optional<std::string> mesh;   ///< name of the body's mesh; absent: chosen by shape
+  int person = 1;                    ///< which body of a file with several people, from 1
 };
 
 /// A repaired mesh in meters, y up, and its relation to the file.
