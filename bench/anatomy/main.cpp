@@ -1,11 +1,12 @@
 // anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N | --measurements N [--from M]] [--all] [--verbose]
 // [--sheet FILE.png]
-//         [--cost]
+//         [--cost] [--scans N [--from M] [--only KIND] [--keep FOLDER]]
 // How well is every body analyzed, and in what time? Rows of the bodies that miss a bar (--all: of every
 // body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
 // bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --measurements:
 // errors of the 26 measurements of N made bodies that stand. --sheet: a picture
-// of every body by part. Fails if a body of a file misses a bar.
+// of every body by part. --scans: outcomes of N made scans of each kind. Fails if a body of a file misses a
+// bar.
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -13,13 +14,14 @@
 #include "cost.hpp"
 #include "measurements.hpp"
 #include "report.hpp"
+#include "scans.hpp"
 #include "sheet.hpp"
 
 namespace {
 
 struct Arguments {
-  std::string data = "../shared/data", only, picture;
-  std::uint64_t seeds = 0, rigs = 0, measured = 0, from = 0;
+  std::string data = "../shared/data", only, picture, keep;
+  std::uint64_t seeds = 0, rigs = 0, measured = 0, scans = 0, from = 0;
   bool all = false, verbose = false, cost = false;
 };
 
@@ -39,6 +41,10 @@ Arguments parse(int argc, char** argv) {
       a.seeds = std::stoull(argv[++i]);
     else if (is("--measurements"))
       a.measured = std::stoull(argv[++i]);
+    else if (is("--scans"))
+      a.scans = std::stoull(argv[++i]);
+    else if (is("--keep"))
+      a.keep = argv[++i];
     else if (is("--rigs"))
       a.rigs = std::stoull(argv[++i]);
     else if (is("--from"))
@@ -62,6 +68,14 @@ int main(int argc, char** argv) {
   const Arguments arguments = parse(argc, argv);
   if (arguments.measured > 0) {
     bench::print_measurement_errors(arguments.from, arguments.measured);
+    return 0;
+  }
+  if (arguments.scans > 0) {
+    bench::print_scans({.count = arguments.scans,
+                        .from = arguments.from,
+                        .only = arguments.only,
+                        .folder = arguments.keep,
+                        .verbose = arguments.verbose});
     return 0;
   }
   if (arguments.cost) {
