@@ -1,4 +1,5 @@
 #include <bodice/anatomy/anatomy.hpp>
+#include <bodice/anatomy/plausible.hpp>
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/fins.hpp>
@@ -25,7 +26,7 @@ constexpr double kWorstDistance = 3.0;
 
 Error no_body(const std::string& why) {
   return {ErrorCode::kUnusableGeometry, "No human body can be made out: " + why,
-          "Give one closed skin with a head, two arms and two legs."};
+          "Give one closed skin with a head, two arms and two legs, apart from floor, furniture and others."};
 }
 
 Vec3 upwards(const Skin& skin, const Landmarks& marks, geometry::Index perineum) {
@@ -117,6 +118,19 @@ geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
   return kept;
 }
 
+/// The last gate: what the analysis found may fit no human body.
+engine::Result<Anatomy> checked(const geometry::TriMesh& mesh, engine::Result<Anatomy> found, bool force) {
+  if (!found) return found;
+  const std::vector<std::string> clauses = contradictions(mesh, *found);
+  if (clauses.empty()) return found;
+  std::string why;
+  for (const std::string& clause : clauses) why += (why.empty() ? "" : ", ") + clause;
+  if (!force) return no_body(why + ".");
+  found->warnings.push_back(
+      {"not-human", "", "The analysis went on although " + why + ".", "Check the landmarks and the parts."});
+  return found;
+}
+
 engine::Result<Anatomy> analyze_mesh(const engine::Context& context, const geometry::TriMesh& mesh,
                                      const Options& options) {
   Anatomy anatomy;
@@ -133,8 +147,9 @@ engine::Result<Anatomy> analyze_mesh(const engine::Context& context, const geome
 engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& mesh,
                                 const Options& options) {
   if (mesh.empty()) return no_body("the mesh has no triangles.");
-  return engine::catch_canceled("The analysis of the body",
-                                [&] { return analyze_mesh(context, mesh, options); });
+  return engine::catch_canceled("The analysis of the body", [&] {
+    return checked(mesh, analyze_mesh(context, mesh, options), options.force);
+  });
 }
 
 }  // namespace bodice::anatomy

@@ -15,6 +15,7 @@ namespace bodice::anatomy {
 /// What the analysis compares the body with.
 struct Options {
   body::ProportionProfile profile;  ///< from body::find_profile("ansur2") or a file
+  bool force = false;               ///< what contradicts a human body is a warning, not an error
 };
 
 /// What is known of a body after its analysis.
@@ -28,7 +29,8 @@ struct Anatomy {
 };
 
 /// Finds the landmarks and segments. Pose, position, rotation and scale of the mesh do not matter.
-/// Fails with kUnusableGeometry when no body can be made out; the sentence names what is missing.
+/// Fails with kUnusableGeometry when no body can be made out, or when what was found contradicts a human body
+/// (plausible.hpp in src); the sentence names what was seen.
 /// Precondition: a repaired mesh (geometry::repair). Deterministic for any worker count.
 engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& skin,
                                 const Options& options);

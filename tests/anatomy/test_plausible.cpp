@@ -1,0 +1,64 @@
+// The last gate: bodies of any build and pose pass, what is analyzed without being a body does not.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include <bodice/anatomy/plausible.hpp>
+#include <bodice/synth/body.hpp>
+#include <bodice_test/shapes.hpp>
+
+using namespace bodice;
+using geometry::TriMesh;
+using geometry::Vec3;
+
+namespace {
+
+anatomy::Options options(bool force) {
+  return {.profile = body::find_profile("ansur2").value(), .force = force};
+}
+
+/// What contradicts a human body; empty if the analysis took it for one.
+std::string judged(const TriMesh& skin) {
+  const auto anatomy = anatomy::analyze({}, skin, options(false));
+  return anatomy ? std::string() : anatomy.error().message;
+}
+
+}  // namespace
+
+TEST_CASE("made bodies of any build, age and pose are human") {
+  using synth::Pose;
+  for (const Pose pose : {Pose::kA, Pose::kArmsUp, Pose::kSit, Pose::kSquat, Pose::kRandom})
+    for (const double bmi : {17.0, 24.0, 42.0})
+      for (const double childhood : {0.0, 1.0}) {
+        if (childhood > 0.0 && bmi > 20.0) continue;
+        synth::BodyOptions made{.pose = pose, .vertices = 3000, .seed = 5, .childhood = childhood};
+        made.stature_m = childhood > 0.0 ? 0.86 : 1.7;
+        made.mass_kg = bmi * made.stature_m * made.stature_m;
+        const auto body = synth::make_body({}, made);
+        REQUIRE(body.ok());
+        CAPTURE(static_cast<int>(pose));
+        CAPTURE(bmi);
+        CAPTURE(childhood);
+        CHECK(judged(body->mesh) == "");
+      }
+}
+
+TEST_CASE("boxes, balls and a body stretched to a pole are not human") {
+  CHECK(!judged(bodice_test::box(Vec3::Constant(0.5), 12)).empty());
+  CHECK(!judged(bodice_test::box({0.2, 0.9, 0.1}, 12)).empty());
+  CHECK(!judged(bodice_test::icosphere(0.5, 4)).empty());
+  auto body = synth::make_body({}, {.vertices = 3000});
+  REQUIRE(body.ok());
+  for (Vec3& p : body->mesh.positions) p.y() *= 3.0;
+  CHECK(!judged(body->mesh).empty());
+}
+
+TEST_CASE("with force, what is analyzed but not human gives a warning with the reason") {
+  const TriMesh box = bodice_test::box(Vec3::Constant(0.5), 12);
+  const std::string why = judged(box);
+  REQUIRE(why.find("times that of a body of its height") != std::string::npos);
+  const auto forced = anatomy::analyze({}, box, options(true));
+  REQUIRE(forced.ok());
+  CHECK(std::any_of(forced->warnings.begin(), forced->warnings.end(),
+                    [](const engine::Warning& w) { return w.code == "not-human"; }));
+}
