@@ -27,7 +27,7 @@ constexpr double kLargeArea = 0.75;
 constexpr int kDoubts = 4;
 constexpr double kTypicalArea = 0.63;
 // Shares of the skin's area: head .08 to .2, trunk .3 to .5, an arm .07 to .12, a leg .13 to .22.
-constexpr Range kHead{0.03, 0.42}, kTrunk{0.14, 0.65}, kArm{0.025, 0.2}, kLeg{0.06, 0.3};
+constexpr Range kHeadShare{0.03, 0.42}, kTrunkShare{0.14, 0.65}, kArmShare{0.025, 0.2}, kLegShare{0.06, 0.3};
 /// A limb to its counterpart.
 constexpr double kLimbRatio = 2.2;
 // Straight lengths over the stature, joint to joint: upper arm .15 to .2, forearm .2 to .27, thigh and calf
@@ -72,8 +72,8 @@ void check_limbs(const Shares& shares, std::vector<std::string>& found) {
       found.push_back(engine::message("what would be the ", what, " has ", std::round(100.0 * limbs[0]),
                                       " and ", std::round(100.0 * limbs[1]), " % of the skin"));
   };
-  check(arms, kArm, "arms");
-  check(legs, kLeg, "legs");
+  check(arms, kArmShare, "arms");
+  check(legs, kLegShare, "legs");
 }
 
 void check_lengths(const Anatomy& anatomy, std::vector<std::string>& found) {
@@ -109,13 +109,13 @@ std::vector<std::string> contradictions(const geometry::TriMesh& skin, const Ana
   if (!kArea.holds(area) || (area > kLargeArea && doubts(anatomy) >= kDoubts))
     found.push_back(
         engine::message("its surface is ", area / kTypicalArea, " times that of a body of its height"));
-  if (!kHead.holds(shares.part(Part::kHead)))
+  if (!kHeadShare.holds(shares.part(Part::kHead)))
     found.push_back(engine::message("what would be the head has ",
                                     std::round(100.0 * shares.part(Part::kHead)), " % of the skin"));
   double trunk = 0.0;
   for (int p = 0; p < body::kPartCount; ++p)
     if (body::is_torso(static_cast<Part>(p))) trunk += shares.of[static_cast<std::size_t>(p)];
-  if (!kTrunk.holds(trunk))
+  if (!kTrunkShare.holds(trunk))
     found.push_back(
         engine::message("what would be the trunk has ", std::round(100.0 * trunk), " % of the skin"));
   check_limbs(shares, found);

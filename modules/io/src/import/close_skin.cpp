@@ -20,8 +20,9 @@ using geometry::RepairedMesh;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-/// Length of the rims over the square root of the area. It is up to .3 for skins with open eyes and mouth.
-constexpr double kNearlyClosed = 0.5;
+/// Length of the rims over the square root of the area. It is up to .3 for skins with open eyes and
+/// mouth, 1.5 with some lost vertices, and 4 and more for scans.
+constexpr double kNearlyClosed = 2.0;
 /// Cells of a rebuilt skin along the body's longest side: 8 mm for a person that stands.
 constexpr double kCells = 215.0;
 /// Nodes of the grid: bodies have 2 million in a T pose; what would need more is no body, and gets larger
@@ -88,6 +89,15 @@ std::vector<Index> map_vertices(const engine::Context& context, const TriMesh& i
   return map;
 }
 
+/// What the repair warned of, but for the state of a surface that is no more.
+std::vector<engine::Warning> kept_warnings(const geometry::RepairReport& report) {
+  std::vector<engine::Warning> kept = report.warnings;
+  std::erase_if(kept, [](const engine::Warning& w) {
+    return w.code == "open-edges" || w.code == "non-manifold-edges" || w.code == "not-orientable";
+  });
+  return kept;
+}
+
 engine::Warning rebuilt_warning(std::size_t pieces, std::size_t open_edges, double measured) {
   const long made_up = std::lround(100.0 * (1.0 - measured));
   return {
@@ -117,6 +127,7 @@ std::optional<RepairedMesh> close_skin(const engine::Context& context, const Tri
   out.report.welded = repaired.report.welded;
   out.report.dropped_vertices = repaired.report.dropped_vertices;
   out.report.dropped_triangles = repaired.report.dropped_triangles;
+  out.report.warnings = kept_warnings(repaired.report);
   out.report.warnings.push_back(
       rebuilt_warning(repaired.report.components, repaired.report.boundary_edges, rebuilt.measured_share));
   return out;

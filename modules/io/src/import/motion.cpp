@@ -83,7 +83,10 @@ geometry::Frame frame_of(const FileScene& scene, const rig::Skeleton& skeleton, 
 }
 
 engine::Result<FileScene> read_any(const std::filesystem::path& file) {
-  if (format_of(file) != Format::kBvh) return read_motion_scene(file);
+  const Format format = format_of(file);
+  const bool named_bvh =
+      format == Format::kUnknown && file.extension() == ".bvh";  // its reader states the line
+  if (format != Format::kBvh && !named_bvh) return read_motion_scene(file);
   auto rig = read_bvh(file);
   if (!rig) return rig.error();
   FileScene scene;

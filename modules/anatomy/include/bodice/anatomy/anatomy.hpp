@@ -30,7 +30,7 @@ struct Anatomy {
 
 /// Finds the landmarks and segments. Pose, position, rotation and scale of the mesh do not matter.
 /// Fails with kUnusableGeometry when no body can be made out, or when what was found contradicts a human body
-/// (plausible.hpp in src); the sentence names what was seen.
+/// (plausible.hpp); the sentence names what was seen.
 /// Precondition: a repaired mesh (geometry::repair). Deterministic for any worker count.
 engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& skin,
                                 const Options& options);
