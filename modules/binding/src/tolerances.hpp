@@ -24,13 +24,6 @@ inline constexpr double kNearOwner_m = 0.012;
 /// follows the skin, meters: below it the table's own error is larger.
 inline constexpr double kStiff_m = 0.0003;
 
-/// Departure of L^T L from a multiple of the identity that is mended, no unit: entries off by a thousandth,
-/// which chains of float matrices do not reach.
-inline constexpr double kDrift = 4e-3;
-/// Least and largest scale of a joint: beyond them floats in a body's frame lose their digits.
-inline constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
-inline constexpr double kScaleRounding = 1e-3;  // of the limits, so that they themselves are within
-
 /// Least posed radius over the least radius at rest, no unit: a table on a flat disk has no directions.
 inline constexpr double kFlattest = 0.05;
 /// Largest height of a posed table over the reach of relief, no unit: more would only come from skin that has

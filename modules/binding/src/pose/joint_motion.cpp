@@ -4,39 +4,12 @@
 
 #include <Eigen/LU>
 
-#include "pose/svd3.hpp"
-#include "tolerances.hpp"
+#include <bodice/geometry/similarity.hpp>
 
 namespace bodice::binding {
 namespace {
 
 using proxy::JointMatrix;
-
-/// A rotation times a scale, nearest to a matrix that is nearly one.
-struct Similarity {
-  Eigen::Matrix3d rotation;
-  double scale = 1.0;
-  std::string_view reason;  ///< why there is none; empty: there is one
-};
-
-Similarity similarity_of(const JointMatrix& map) {
-  Similarity found;
-  if (!map.allFinite()) return {{}, 0.0, "is not finite"};
-  const Eigen::Matrix3d linear = map.leftCols<3>();
-  const double volume = linear.determinant();
-  const double size = linear.cwiseAbs().maxCoeff();
-  if (!(size > 0.0)) return {{}, 0.0, "has no extent"};
-  if (volume < 0.0) return {{}, 0.0, "mirrors"};
-  found.scale = std::cbrt(volume);
-  if (!(found.scale >= kLeastScale * (1.0 - kScaleRounding)))
-    return {{}, 0.0, size < kLeastScale ? "has nearly no extent" : "is flat"};
-  if (!(found.scale <= kMostScale * (1.0 + kScaleRounding))) return {{}, 0.0, "is larger than a million"};
-  const Eigen::Matrix3d unit = linear / found.scale;
-  const double drift = (unit.transpose() * unit - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(drift <= kDrift)) return {{}, 0.0, "shears, or scales its axes unlike"};
-  found.rotation = polar_rotation(unit);
-  return found;
-}
 
 }  // namespace
 
@@ -61,8 +34,9 @@ std::optional<Refusal> JointMotion::take(std::span<const JointMatrix> world) {
     JointMatrix map;
     map.leftCols<3>() = world[j].leftCols<3>() * to_joint_[j].leftCols<3>();
     map.col(3) = world[j].col(3);
-    const Similarity found = similarity_of(map);
-    if (!found.reason.empty()) return Refusal{j, found.reason};
+    if (!map.col(3).allFinite()) return Refusal{j, "is not finite"};
+    const geometry::Similarity found = geometry::similarity_of(map.leftCols<3>());
+    if (!found.refusal.empty()) return Refusal{j, found.refusal};
     // The joint's own origin is where the matrix has it; what was mended turns about it.
     trial_[j].leftCols<3>() = found.scale * found.rotation;
     trial_[j].col(3) = world[j].col(3) - trial_[j].leftCols<3>() * head_[j];

@@ -1,13 +1,11 @@
 // Based on: C. G. J. Jacobi. Über ein leichtes Verfahren, die in der Theorie der Säcularstörungen
-// vorkommenden Gleichungen numerisch aufzulösen. 1846 (rotations that diagonalize a symmetric matrix);
-// Nicholas J. Higham. Computing the Polar Decomposition - with Applications. 1986.
+// vorkommenden Gleichungen numerisch aufzulösen. 1846 (rotations that diagonalize a symmetric matrix).
 #include "pose/svd3.hpp"
 
 #include <cmath>
 #include <utility>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 namespace bodice::binding {
 namespace {
@@ -17,8 +15,6 @@ using Eigen::Vector3d;
 
 constexpr int kSweeps = 12;
 constexpr double kDiagonal = 1e-30;  // square of an off-diagonal entry over the product of its diagonals
-constexpr int kPolarSteps = 12;
-constexpr double kSettled = 1e-14;
 
 /// Turns axes p and q so that s(p, q) vanishes.
 void turn(Matrix3d& s, Matrix3d& v, int p, int q) {
@@ -82,17 +78,6 @@ Svd3 svd3(const Matrix3d& m) {
   if (svd.left.col(2).dot(image.col(2)) < 0.0) svd.right.col(2) = -svd.right.col(2);
   svd.values *= size;
   return svd;
-}
-
-Matrix3d polar_rotation(const Matrix3d& m) {
-  Matrix3d r = m;
-  for (int step = 0; step < kPolarSteps; ++step) {
-    const Matrix3d next = 0.5 * (r + r.inverse().transpose());
-    const double change = (next - r).cwiseAbs().maxCoeff();
-    r = next;
-    if (change <= kSettled) break;
-  }
-  return r;
 }
 
 }  // namespace bodice::binding

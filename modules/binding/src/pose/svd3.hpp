@@ -15,7 +15,4 @@ struct Svd3 {
 /// Any finite m. The values are right to 1e-8 of the largest.
 Svd3 svd3(const Eigen::Matrix3d& m);
 
-/// The rotation nearest to m in the mean square. m must not be singular.
-Eigen::Matrix3d polar_rotation(const Eigen::Matrix3d& m);
-
 }  // namespace bodice::binding
