@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include <bodice_test/executors.hpp>
+#include <bodice_test/targets.hpp>
 #include "scenes.hpp"
-#include "targets.hpp"
 
 using namespace bodice;
 using namespace bodice::collision;

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include <bodice_test/executors.hpp>
+#include <bodice_test/targets.hpp>
 #include "scenes.hpp"
-#include "targets.hpp"
 
 using namespace bodice;
 using namespace bodice::collision;

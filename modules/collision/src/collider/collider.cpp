@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include <Eigen/LU>
-
 #include <bodice/engine/parallel.hpp>
 
 #include "collider/collider_impl.hpp"
@@ -88,13 +86,6 @@ ResolveOptions sanitized(ResolveOptions options) {
   return options;
 }
 
-bool is_ellipsoid(const geometry::Ellipsoid& e) {
-  constexpr double kAxesTolerance = 1e-6;  // accuracy of a chain of bones in float
-  if (!e.center.allFinite() || !e.axes.allFinite() || !e.radii.allFinite()) return false;
-  const double skew = (e.axes.transpose() * e.axes - geometry::Mat3::Identity()).cwiseAbs().maxCoeff();
-  return e.radii.minCoeff() > 0.0 && skew <= kAxesTolerance && e.axes.determinant() > 0.0;
-}
-
 }  // namespace
 
 void ContactReport::add(const ContactReport& other) {
@@ -134,46 +125,6 @@ std::uint64_t Collider::proxy_hash() const noexcept {
 
 std::uint64_t Collider::poses() const noexcept {
   return impl_->poses;
-}
-
-void Collider::Impl::move(std::span<const geometry::Ellipsoid> now,
-                          std::span<const geometry::Mat3> axes_of_material, double dt_s) noexcept {
-  double farthest_m = 0.0;
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    const std::uint32_t at = internal_index[k];
-    shapes[at] = now[k];
-    shapes[at].center -= origin;
-    Material moved = material_of(shapes[at]);
-    if (!axes_of_material.empty()) moved.axes = axes_of_material[k];
-    motion[at] = motion_between(material[at], moved, dt_s);
-    affine_motions[at] = affine_motion_between(material[at], moved);
-    farthest_m = std::max(farthest_m, travel_between(material[at], moved));
-    material[at] = moved;
-  }
-  poses += farthest_m > 0.0;
-  moving = dt_s > 0.0;
-  moved_dt_s = dt_s;
-  travel_m = static_cast<float>(1.001 * farthest_m);
-  field.update(shapes);
-  model.baked.update(shapes);
-}
-
-bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
-  if (shapes.size() != size() || !std::ranges::all_of(shapes, is_ellipsoid)) return false;
-  impl_->move(shapes, {}, dt_s);
-  return true;
-}
-
-bool Collider::pose(const proxy::PosedProxy& posed, double dt_s) noexcept {
-  const std::optional<ReliefTables>& tables = impl_->model.relief;
-  const std::size_t texels = tables ? impl_->texels : 0;
-  if (tables && (posed.relief.size() != size() || posed.texels.size() != texels)) return false;
-  if (posed.shapes.size() != size() || !std::ranges::all_of(posed.shapes, is_ellipsoid)) return false;
-  if (!(posed.scale > 0.0) || posed.material.size() != size()) return false;
-  impl_->move(posed.shapes, posed.material, dt_s);
-  impl_->margin_m = impl_->rest_margin_m * posed.scale;
-  if (tables) impl_->model.relief->update(posed, impl_->stature_m, impl_->proxy_index);
-  return true;
 }
 
 Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point) const noexcept {

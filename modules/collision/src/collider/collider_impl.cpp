@@ -152,6 +152,7 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
   for (std::uint32_t k = 0; k < proxy_index.size(); ++k) internal_index[proxy_index[k]] = k;
   for (const std::uint32_t k : proxy_index) part.push_back(proxy.ellipsoids()[k].part);
   for (const geometry::Ellipsoid& shape : shapes) material.push_back(material_of(shape));
+  trial.resize(shapes.size());
   motion.resize(shapes.size());
   affine_motions.resize(shapes.size());
 }
@@ -180,6 +181,11 @@ Contact Collider::Impl::exact_contact(const Vec3& p) const {
   return make_contact(p, owner.at.signed_distance, owner.at.normal, owner.ellipsoid);
 }
 
+std::uint32_t Collider::Impl::owner_of(const Vec3& p) const {
+  if (model.buries()) return relief_sample(field, *model.relief, p).owner;
+  return field.owner(p, std::numeric_limits<double>::infinity()).ellipsoid;
+}
+
 void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i,
                                      const ResolveOptions& options, ContactReport& report) const {
   ++report.judged_exactly;
@@ -187,12 +193,12 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
   const double clearance_m = margin_m + double{options.thickness_m};
   const ReliefTables* const relief = model.relief ? &*model.relief : nullptr;
   if (moving) {
-    const Owner owner = field.owner(state.position, std::numeric_limits<double>::infinity());
-    state.surface_velocity = motion[owner.ellipsoid].at(state.position);
-    // The safe position moves with the ellipsoid that the particle is nearest to.
+    const std::uint32_t owner = owner_of(state.position);
+    state.surface_velocity = motion[owner].at(state.position);
+    // The safe position moves with the ellipsoid that owns the particle.
     state.affine_motions = affine_motions;
     state.safe_before = state.safe;
-    state.safe = state.path_start(owner.ellipsoid);
+    state.safe = state.path_start(owner);
   }
   ParticleReport one;
   if (options.response == Response::kPaper)

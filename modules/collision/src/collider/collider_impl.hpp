@@ -56,9 +56,13 @@ struct Collider::Impl {
   void resolve_exactly(const Particles& particles, std::uint32_t i, const ResolveOptions& options,
                        ContactReport& report) const;
   Contact exact_contact(const geometry::Vec3& p) const;
+  /// Internal index of the ellipsoid that owns a point.
+  std::uint32_t owner_of(const geometry::Vec3& p) const;
   Contact make_contact(const geometry::Vec3& p, double distance_m, const geometry::Vec3& normal,
                        std::uint32_t ellipsoid) const;
 
+  /// Checks and mends the ellipsoids of a pose (world), and keeps them in `trial`. False if one is unfit.
+  bool take(std::span<const geometry::Ellipsoid> now) noexcept;
   /// Moves ellipsoids (world, valid) and their material; `axes_of_material` empty: it keeps its coordinates
   /// in the ellipsoids' frames.
   void move(std::span<const geometry::Ellipsoid> now, std::span<const geometry::Mat3> axes_of_material,
@@ -73,6 +77,7 @@ struct Collider::Impl {
   double margin_m, rest_margin_m, stature_m;
   std::size_t texels;                       ///< number of texels of the proxy's tables
   std::vector<geometry::Ellipsoid> shapes;  ///< current pose, local frame
+  std::vector<geometry::Ellipsoid> trial;   ///< the next pose, world, in the proxy's order
   UnionField field;
   ProxyModel model;
   std::vector<body::Part> part;

@@ -10,9 +10,9 @@ using geometry::ClosestPoint;
 using geometry::Vec3;
 
 /// An ellipsoid farther than this from a point neither owns it at a distance below below_m_ nor blends with
-/// its owner.
+/// its owner. With burial an owner's score may be farther above its distance.
 double NearField::window_m() const {
-  return below_m_ + bulge_m_ + blend_m_;
+  return below_m_ + bulge_m_ + blend_m_ + buried_m_;
 }
 
 void NearField::prepare(const Vec3& center, double radius_m) {
@@ -34,17 +34,18 @@ void NearField::prepare(const Vec3& center, double radius_m) {
 
 void NearField::evaluate(std::uint32_t k, const Vec3& x) {
   const ClosestPoint at = geometry::closest_point(field_.shape(k), x);
-  least_m_ = std::min(least_m_, at.signed_distance);
+  const double score_m = relief_ ? score_of(field_, *relief_, k, at) : at.signed_distance;
+  least_m_ = std::min(least_m_, score_m);
   // A full list drops what lies beyond the blend radius of the least distance so far; that distance only
   // falls, so nothing is lost.
   if (evaluated_count_ == kCapacity) {
     const double last_m = least_m_ + blend_m_;
     const auto kept = std::remove_if(evaluated_, evaluated_ + evaluated_count_,
-                                     [&](const Evaluated& f) { return f.distance_m > last_m; });
+                                     [&](const Evaluated& f) { return f.score_m > last_m; });
     evaluated_count_ = static_cast<int>(kept - evaluated_);
   }
   if (evaluated_count_ < kCapacity)
-    evaluated_[evaluated_count_++] = {k, at.signed_distance, at.point, at.normal};
+    evaluated_[evaluated_count_++] = {k, at.signed_distance, score_m, at.point, at.normal};
 }
 
 void NearField::evaluate_candidates(const Vec3& x) {
@@ -84,9 +85,9 @@ double NearField::smooth_root_m() const {
 }
 
 /// Square root of an ellipsoid's blending weight; zero if it takes no part.
-double NearField::weight_root(double distance_m, double root_m) const {
-  if (blend_m_ > 0.0) return std::max(0.0, 1.0 - (distance_m - root_m) / blend_m_);
-  return distance_m <= least_m_ ? 1.0 : 0.0;
+double NearField::weight_root(double score_m, double root_m) const {
+  if (blend_m_ > 0.0) return std::max(0.0, 1.0 - (score_m - root_m) / blend_m_);
+  return score_m <= least_m_ ? 1.0 : 0.0;
 }
 
 ReliefSample NearField::corrected_sample(const Evaluated& evaluated) const {
@@ -104,9 +105,9 @@ ReliefSample NearField::blend() {
   double weights = 0.0, distance = 0.0;
   for (int i = 0; i < evaluated_count_; ++i) {
     const Evaluated& evaluated = evaluated_[i];
-    const double root = weight_root(evaluated.distance_m, root_m);
+    const double root = weight_root(evaluated.score_m, root_m);
     if (!(root > 0.0)) continue;
-    const bool owns = evaluated.distance_m == least_m_ && result.owner == kNoEllipsoid;
+    const bool owns = evaluated.score_m == least_m_ && result.owner == kNoEllipsoid;
     if (!nonconvex() && !owns) continue;
     const double weight = smooth ? root : root * root;
     const ReliefSample one = corrected_sample(evaluated);
@@ -136,7 +137,7 @@ ReliefSample NearField::at(const Vec3& x) {
     evaluate_all(x);
     if (evaluated_count_ == 0) return {below_m_, Vec3::Zero(), kNoEllipsoid};
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < evaluated_count_; ++i) least = std::min(least, evaluated_[i].distance_m);
+    for (int i = 0; i < evaluated_count_; ++i) least = std::min(least, evaluated_[i].score_m);
     least_m_ = least;
   } else {
     evaluate_candidates(x);

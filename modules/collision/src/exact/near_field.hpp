@@ -25,6 +25,7 @@ class NearField {
         relief_(relief),
         blend_m_(relief ? double{relief->blend_m} : fillet_m),
         bulge_m_(relief ? double{relief->highest_m} : fillet_m),
+        buried_m_(relief ? double{relief->deepest_m} : 0.0),
         below_m_(below_m) {}
 
   /// How far the surface may lie outside of the plain ellipsoids, meters. Zero: it consists of their convex
@@ -63,7 +64,7 @@ class NearField {
   };
   struct Evaluated {  // has no initializers, since most of the array is never used
     std::uint32_t ellipsoid;
-    double distance_m;
+    double distance_m, score_m;
     geometry::Vec3 point, normal;
   };
 
@@ -73,12 +74,12 @@ class NearField {
   void evaluate(std::uint32_t k, const geometry::Vec3& x);
   ReliefSample blend();
   double smooth_root_m() const;
-  double weight_root(double distance_m, double root_m) const;
+  double weight_root(double score_m, double root_m) const;
   ReliefSample corrected_sample(const Evaluated& evaluated) const;
 
   const UnionField& field_;
   const ReliefTables* relief_;
-  double blend_m_, bulge_m_, below_m_;
+  double blend_m_, bulge_m_, buried_m_, below_m_;
   geometry::Vec3 center_ = geometry::Vec3::Zero();
   double radius_m_ = -1.0;
   double shortest_m_ = 0.0;
@@ -87,7 +88,7 @@ class NearField {
   bool overflow_ = false;  ///< more than kCapacity candidates: every evaluation visits the whole union
   Evaluated evaluated_[kCapacity];
   int evaluated_count_ = 0;
-  double least_m_ = 0.0;
+  double least_m_ = 0.0;  ///< least score so far
   Term terms_[kMaxTerms];
   int term_count_ = 0;
   int evaluations_ = 0;

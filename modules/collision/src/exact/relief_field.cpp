@@ -31,9 +31,14 @@ Vec3 from_square(const Vec3& w, double gx, double gy) {
   return (Vec3(gx, gy, 0.0) - radial * sign) / s;
 }
 
-}  // namespace
+/// A direction on the grid of a table: its cell, and the position there.
+struct Cell {
+  int texel;    ///< the cell's first node
+  double u, v;  ///< in [0, 1]
+  double half;  ///< cells a unit of the square
+};
 
-TableValue read_table(const ReliefTables& relief, const BakedTable& table, const Vec3& w) {
+Cell cell_of(const BakedTable& table, const Vec3& w) {
   const double s = w.cwiseAbs().sum();
   double px = w.x() / s, py = w.y() / s;
   if (w.z() < 0.0) {
@@ -45,8 +50,19 @@ TableValue read_table(const ReliefTables& relief, const BakedTable& table, const
   const double column = (px + 1.0) * half, row = (py + 1.0) * half;
   const int i = std::clamp(static_cast<int>(column), 0, table.nodes - 2);
   const int j = std::clamp(static_cast<int>(row), 0, table.nodes - 2);
-  const double u = column - i, v = row - j;
-  const std::uint8_t* upper = relief.texels.data() + table.first_byte + 2 * (j * table.nodes + i);
+  return {j * table.nodes + i, column - i, row - j, half};
+}
+
+/// w of eq. (2) in proxy_distance.hpp.
+Vec3 unit_direction(const geometry::Ellipsoid& shape, const geometry::ClosestPoint& at) {
+  return (shape.axes.transpose() * (at.point - shape.center)).cwiseQuotient(shape.radii).normalized();
+}
+
+}  // namespace
+
+TableValue read_table(const ReliefTables& relief, const BakedTable& table, const Vec3& w) {
+  const auto [texel, u, v, half] = cell_of(table, w);
+  const std::uint8_t* upper = relief.texels.data() + table.first_byte + 2 * texel;
   const std::uint8_t* lower = upper + 2 * table.nodes;
   auto read = [&](int byte, double& value, double& gx, double& gy) {
     const double p00 = upper[byte], p10 = upper[byte + 2], p01 = lower[byte], p11 = lower[byte + 2];
@@ -72,8 +88,7 @@ ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::u
   ReliefSample sample{at.signed_distance, at.normal, k};
   if (table.nodes < 2) return sample;
   const geometry::Ellipsoid& shape = field.shape(k);
-  const Vec3 on_surface = shape.axes.transpose() * (at.point - shape.center);
-  const Vec3 w = on_surface.cwiseQuotient(shape.radii).normalized();
+  const Vec3 w = unit_direction(shape, at);
   const TableValue value = read_table(relief, table, w);
   const double clamped = std::clamp(at.signed_distance, -double{relief.in_m}, double{relief.out_m});
   sample.distance_m -= value.h_m + value.a_per_m * clamped;
@@ -90,21 +105,57 @@ ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::u
   return sample;
 }
 
+double score_of(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
+                const geometry::ClosestPoint& at) {
+  const BakedTable& table = relief.tables[k];
+  if (!relief.buries() || table.nodes < 2) return at.signed_distance;
+  const auto [texel, u, v, half] = cell_of(table, unit_direction(field.shape(k), at));
+  const std::uint8_t* const upper = relief.burial.data() + table.first_byte / 2 + texel;
+  const std::uint8_t* const lower = upper + table.nodes;
+  const double depth =
+      (1 - v) * ((1 - u) * upper[0] + u * upper[1]) + v * ((1 - u) * lower[0] + u * lower[1]);
+  return at.signed_distance + double{relief.burial_m} * depth;
+}
+
+namespace {
+
+/// The ellipsoid of least score; the nearest one where burial does not count.
+struct ScoredOwner {
+  std::uint32_t ellipsoid = kNoEllipsoid;
+  double score_m = std::numeric_limits<double>::infinity();
+};
+
+ScoredOwner owner_of(const UnionField& field, const ReliefTables& relief, const Vec3& p) {
+  const Owner nearest = field.owner(p, std::numeric_limits<double>::infinity());
+  if (nearest.ellipsoid == kNoEllipsoid || !relief.buries())
+    return {nearest.ellipsoid, nearest.at.signed_distance};
+  ScoredOwner owner = {nearest.ellipsoid, score_of(field, relief, nearest.ellipsoid, nearest.at)};
+  if (!(owner.score_m > nearest.at.signed_distance)) return owner;
+  field.visit_near(
+      p, [&] { return owner.score_m; },
+      [&](std::size_t index, const UnionField::Plane&) {
+        const auto k = static_cast<std::uint32_t>(index);
+        const double score_m = score_of(field, relief, k, geometry::closest_point(field.shape(index), p));
+        if (score_m < owner.score_m) owner = {k, score_m};
+      });
+  return owner;
+}
+
+}  // namespace
+
 ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, const Vec3& p) {
-  const Owner owner = field.owner(p, std::numeric_limits<double>::infinity());
-  ReliefSample result{owner.at.signed_distance, owner.at.normal, owner.ellipsoid};
-  if (owner.ellipsoid == kNoEllipsoid) {
-    result.distance_m = std::numeric_limits<double>::infinity();
-    return result;
-  }
-  const double least = owner.at.signed_distance, blend = double{relief.blend_m};
+  const ScoredOwner owner = owner_of(field, relief, p);
+  ReliefSample result{owner.score_m, Vec3::UnitX(), owner.ellipsoid};
+  if (owner.ellipsoid == kNoEllipsoid) return result;
+  const double least = owner.score_m, blend = double{relief.blend_m};
   double weights = 0.0, distance = 0.0;
   Vec3 gradient = Vec3::Zero();
   const auto add = [&](std::size_t k, const UnionField::Plane&) {
+    const auto index = static_cast<std::uint32_t>(k);
     const geometry::ClosestPoint at = geometry::closest_point(field.shape(k), p);
-    const double root = 1.0 - (at.signed_distance - least) / blend;
+    const double root = 1.0 - (score_of(field, relief, index, at) - least) / blend;
     if (!(root > 0.0)) return;
-    const ReliefSample one = correct(field, relief, static_cast<std::uint32_t>(k), at);
+    const ReliefSample one = correct(field, relief, index, at);
     weights += root * root;
     distance += root * root * one.distance_m;
     gradient += root * root * one.gradient;

@@ -25,6 +25,11 @@ struct ReliefSample {
 ReliefSample correct(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
                      const geometry::ClosestPoint& at);
 
+/// The score of one ellipsoid at a point, given the ellipsoid's closest point to it: d_k + kappa b_k where
+/// burial counts, else d_k.
+double score_of(const UnionField& field, const ReliefTables& relief, std::uint32_t k,
+                const geometry::ClosestPoint& at);
+
 /// Corrected distance F at p. For a proxy without ellipsoids there is no owner and the distance is +infinity.
 /// Cost: O(#ellipsoids).
 ReliefSample relief_sample(const UnionField& field, const ReliefTables& relief, const geometry::Vec3& p);

@@ -145,6 +145,8 @@ ReliefTables::ReliefTables(const proxy::BodyProxy& proxy, std::span<const std::u
     texels.push_back(t.a);
   }
   texels.resize(texels.size() + 16);
+  if (const proxy::Binding* const binding = proxy.binding(); binding && !binding->burial.empty())
+    burial.resize(binding->burial.size() + 16);
   for (const std::uint32_t k : order) {
     const proxy::ReliefTable& from = proxy.relief()[k];
     BakedTable table;
@@ -178,6 +180,13 @@ void ReliefTables::update(const proxy::PosedProxy& posed, double stature_m,
   blend_m = static_cast<float>(reach.blend_m);
   highest_m = 0.0f;
   sorted_axes = true;
+  const bool buried = !burial.empty() && posed.burial.size() == posed.texels.size();
+  burial_m = buried ? static_cast<float>(proxy::kBurialWeight) * posed.burial_step_m : 0.0f;
+  deepest_m = 0.0f;
+  if (buried) {
+    std::ranges::copy(posed.burial, burial.begin());
+    deepest_m = burial_m * static_cast<float>(std::ranges::max(burial));
+  }
   for (std::size_t i = 0; i < posed.texels.size(); ++i) {
     texels[2 * i] = posed.texels[i].h;
     texels[2 * i + 1] = posed.texels[i].a;

@@ -4,7 +4,8 @@
 //   F_k = d_k - h_k(w) - a_k(w) clamp(d_k, -in, out) / out,   w the unit direction of the closest point
 //   F   = sum_k W_k F_k / sum_k W_k,   W_k = max(0, 1 - (d_k - min d) / blend)^2
 //
-// h and a are interpolated bilinearly on the octahedral map of w (Cigolle et al. 2014).
+// h and a are interpolated bilinearly on the octahedral map of w (Cigolle et al. 2014). In the poses of a
+// bound proxy weights are of the score d_k + kappa b_k in place of d_k (bodice/proxy/posed_proxy.hpp).
 #pragma once
 
 #include <cstdint>
@@ -47,7 +48,13 @@ struct ReliefTables {
   void update(const proxy::PosedProxy& posed, double stature_m, std::span<const std::uint32_t> order);
 
   std::vector<BakedTable> tables;
+  /// Whether the tables are those of a pose, with burial.
+  bool buries() const { return burial_m > 0.0f; }
+
   std::vector<std::uint8_t> texels;  ///< pairs (h, a); padded, since kernels read two texels at once
+  std::vector<std::uint8_t> burial;  ///< one byte a texel, padded likewise; empty: the proxy is not bound
+  float burial_m = 0.0f;             ///< kappa times the step of burial; zero: burial does not count
+  float deepest_m = 0.0f;            ///< the largest kappa b_k: no score is farther above its distance
   bool sorted_axes = true;           ///< all tables have their axes by falling radius, as BakedEllipsoid has
   float in_m = 0.0f, out_m = 0.0f, blend_m = 0.0f;
   float highest_m = 0.0f;            ///< F_k >= d_k - highest_m for all k

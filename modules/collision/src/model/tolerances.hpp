@@ -105,6 +105,11 @@ inline constexpr double kStoredWell = 1.2;
 /// Beyond the reach candidates are found anew; each millimeter of it brings more candidates.
 inline constexpr double kLeastReach = 1e-3, kMostReach = 12e-3;
 
+/// Score above the distance of the nearest ellipsoid up to which the candidates of a particle certainly hold
+/// its owner, as a fraction of the blend radius. More leaves fewer particles to be searched again, and brings
+/// more candidates to all.
+inline constexpr float kCertainScore = 0.5f;
+
 /// Growth of the blocks' summed radii at which a new spatial sort pays its 10 ns a particle.
 inline constexpr double kSortAgain = 1.3;
 

@@ -139,17 +139,17 @@ class Collider {
   /// relief tables move along. The origin stays.
   /// Contacts then know the surface's velocity, (new - old position) / dt_s, which is zero if dt_s is not
   /// positive. Safe positions move along with the ellipsoid that they are nearest to.
-  /// Returns false and moves nothing if the number of shapes differs, or if a shape is not finite, has no
-  /// extent, or has axes that are not orthonormal and right-handed. (A rig's matrix may carry a scale, which
-  /// belongs to the radii.) Allocates nothing and must not overlap another call. Cost: about 0.1 microseconds
-  /// an ellipsoid.
+  /// Axes may be off by a thousandth, which is mended, and carry one scale, which the radii take. Returns
+  /// false and moves nothing if the number of shapes differs, or if a shape is not finite, flat, mirrored or
+  /// sheared: why_refused() of pose_refusal.hpp names it. Allocates nothing and must not overlap another
+  /// call. Cost: about 0.1 microseconds an ellipsoid, 0.3 if its axes are mended.
   bool move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
   /// Moves the proxy to a pose of a bound proxy (binding::Poser), tables included: `posed` has the ellipsoids
   /// and texels of the proxy that the collider was made from, and lengths of its body's size. Velocities and
-  /// safe positions are as for move_to(). Owners are those of eq. (4) in proxy_distance.hpp; burial, eq. (4')
-  /// of posed_proxy.hpp, is not applied here yet. Returns false and moves nothing if the numbers differ or an
-  /// ellipsoid is unfit. Allocates nothing and must not overlap another call. Cost: as move_to(), and some
-  /// nanoseconds a texel.
+  /// safe positions are as for move_to(). From then on owners are those of eq. (4') in posed_proxy.hpp: what
+  /// was buried at rest yields. Returns false and moves nothing if the numbers differ or an ellipsoid is
+  /// unfit, as for move_to(). Allocates nothing and must not overlap another call. Cost: as move_to(), and
+  /// some nanoseconds a texel.
   bool pose(const proxy::PosedProxy& posed, double dt_s) noexcept;
   /// Velocity of the body's material at a point that moves with an ellipsoid; meters a second, local frame.
   geometry::Vec3 surface_velocity(std::uint32_t ellipsoid, const geometry::Vec3& local_point) const noexcept;

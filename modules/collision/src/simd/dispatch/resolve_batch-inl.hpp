@@ -75,7 +75,8 @@ HWY_INLINE Status resolve_filleted(const ProxyModel& model, const ResponseParame
 /// Resolves the batch, with fillets if they are requested and there is no relief.
 HWY_INLINE Status resolve_on_surface(const ProxyModel& model, const ResponseParameters& parameters,
                                      const ParticleBatch& batch, BatchResponse& out) {
-  if (model.relief) return resolve_sharp<ReliefSurface>(model, parameters, batch, out);
+  if (model.buries()) return resolve_sharp<ReliefSurface<PosedUnion>>(model, parameters, batch, out);
+  if (model.relief) return resolve_sharp<ReliefSurface<ReliefUnion>>(model, parameters, batch, out);
   if (parameters.blend_m > 0.0f) return resolve_filleted(model, parameters, batch, out);
   return resolve_sharp<PlainSurface>(model, parameters, batch, out);
 }

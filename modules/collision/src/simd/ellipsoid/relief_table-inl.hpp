@@ -135,9 +135,23 @@ struct Correction {
   V value;         ///< h + a d, meters
   V3 slope;        ///< slope of the value over the direction in the first octant, meters
   V along_normal;  ///< 1 minus the slope of the value over the distance
+  V burial;        ///< kappa b, meters; only where burial counts
 };
 
+/// kappa b in a cell that begins `first` bytes after the first pair (h, a).
+HWY_INLINE V burial_in(const ReliefTables& relief, VI first, VI nodes, V u, V v) {
+  const auto* base = reinterpret_cast<const std::int32_t*>(relief.burial.data());
+  const VI texel = hn::ShiftRight<1>(first);
+  const VI upper = hn::GatherOffset(I(), base, texel);
+  const VI lower = hn::GatherOffset(I(), base, hn::Add(texel, nodes));
+  const V p00 = byte_of<0>(upper), p10 = byte_of<1>(upper);
+  const V p01 = byte_of<0>(lower), p11 = byte_of<1>(lower);
+  const V row0 = hn::MulAdd(u, hn::Sub(p10, p00), p00), row1 = hn::MulAdd(u, hn::Sub(p11, p01), p01);
+  return hn::Mul(all(relief.burial_m), hn::MulAdd(v, hn::Sub(row1, row0), row0));
+}
+
 /// The correction at a direction, given in the proxy's axes.
+template <bool kBuries>
 HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& table, const Direction& at,
                                  V distance) {
   const Octahedral o = to_square(at);
@@ -158,15 +172,18 @@ HWY_INLINE Correction correction(const ReliefTables& relief, const TableLanes& t
   const M moving = hn::Eq(clamped, distance);
   const V gx = hn::Mul(half, hn::MulAdd(a.gx, clamped, h.gx));
   const V gy = hn::Mul(half, hn::MulAdd(a.gy, clamped, h.gy));
-  return {hn::MulAdd(a.value, clamped, h.value),
-          from_square(o, at.sign.z, hn::Xor(gx, at.sign.x), hn::Xor(gy, at.sign.y)),
-          hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f))};
+  Correction by = {hn::MulAdd(a.value, clamped, h.value),
+                   from_square(o, at.sign.z, hn::Xor(gx, at.sign.x), hn::Xor(gy, at.sign.y)),
+                   hn::IfThenElse(moving, hn::Sub(all(1.0f), a.value), all(1.0f)), hn::Zero(f)};
+  if constexpr (kBuries) by.burial = burial_in(relief, first, table.nodes, u, v);
+  return by;
 }
 
 /// The corrected distance of one ellipsoid and its gradient.
 struct Corrected {
   V value;      ///< F_k, meters
   V3 gradient;  ///< gradient of F_k, local frame of the collider
+  V burial;     ///< as in Correction
 };
 
 /// The part of grad F_k that comes from h and a varying over the sphere, in the first octant. `slope` is d(h
@@ -194,25 +211,25 @@ HWY_INLINE AxisOrder axes_from(const Column& column) {
 
 /// Corrected distance F_k and its gradient. `read_axes` returns the order of the axes; it is called only if
 /// they are not sorted.
-template <class ReadAxes>
+template <bool kBuries, class ReadAxes>
 HWY_INLINE Corrected corrected(const ReliefTables& relief, const TableLanes& table, const Shape& s,
                                const ClosestPointLanes& closest, ReadAxes&& read_axes) {
   const Direction at = {closest.w, signs_of(closest.y)};
   Correction by;
   if (relief.sorted_axes) {
-    by = correction(relief, table, at, closest.distance);
+    by = correction<kBuries>(relief, table, at, closest.distance);
   } else {
     const AxisOrder axes = read_axes();
-    by = correction(relief, table, {axes.to_proxy(at.w), axes.to_proxy(at.sign)}, closest.distance);
+    by = correction<kBuries>(relief, table, {axes.to_proxy(at.w), axes.to_proxy(at.sign)}, closest.distance);
     by.slope = axes.to_sorted(by.slope);
   }
   // out_of() divides by r0: that cancels the factor r0 of the normal, and the chain rule needs it in the
   // other term.
   const V3 gradient = scaled(closest.n, by.along_normal) - tangential(s, closest, by.slope);
-  return {hn::Sub(closest.distance, by.value), out_of(s, with_signs(gradient, at.sign))};
+  return {hn::Sub(closest.distance, by.value), out_of(s, with_signs(gradient, at.sign)), by.burial};
 }
 
-/// Weight of an ellipsoid where several blend: (max(0, 1 - (d - least) / blend))^2
+/// Weight of an ellipsoid where several blend: (max(0, 1 - (score - least) / blend))^2
 HWY_INLINE V blend_weight(V distance, V least, V per_blend) {
   const V root = hn::Max(hn::Zero(f), hn::NegMulAdd(hn::Sub(distance, least), per_blend, all(1.0f)));
   return hn::Mul(root, root);

@@ -6,6 +6,7 @@
 #define BODICE_COLLISION_COMBINE_INL_
 #endif
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -50,6 +51,24 @@ HWY_INLINE void find_nearer(const Pairs& pairs, float* least, BatchResults& out)
   }
 }
 
+/// Sets the least distance of each lane, in place of that of its first result.
+HWY_INLINE void find_least_unburied(const Pairs& pairs, BatchResults& out) {
+  for (int i = 0; i < pairs.count; ++i) {
+    float& least = out.unburied[pairs.lane[i]];
+    least = std::min(least, pairs.results.unburied[i]);
+  }
+}
+
+/// For some lanes with their least scores: replaces the least distance by the least score where that is
+/// higher by more than `certain_m`, and by kCertain elsewhere.
+HWY_INLINE void mark_uncertain(LaneSpan lanes, const float* least, float certain_m, BatchResults& out) {
+  for (int i = lanes.begin; i < lanes.end; i += kWidth) {
+    const V score = hn::Load(f, least + i), excess = hn::Sub(score, hn::Load(f, out.unburied + i));
+    const M certain = hn::Le(excess, all(certain_m));
+    hn::Store(hn::IfThenElse(certain, all(kCertain), score), f, out.unburied + i);
+  }
+}
+
 /// Weighted sums. The four numbers of a lane are consecutive, so that adding those of a pair takes one
 /// instruction.
 struct alignas(64) WeightedRows {
@@ -78,14 +97,21 @@ struct alignas(64) WeightedRows {
 };
 
 /// Relief, for some lanes: blends all results within the blend radius of the nearest. Sets
-/// distance and unit gradient of the blend and the owner; `value` becomes the length of the gradient.
-HWY_INLINE void combine_blended(float blend_m, LaneSpan lanes, const Pairs& pairs, BatchResults& out) {
+/// distance and unit gradient of the blend and the owner; `value` becomes the length of the gradient. In a
+/// pose it marks the lanes that are uncertain.
+template <bool kBuries>
+HWY_INLINE void combine_blended(const ProxyModel& model, LaneSpan lanes, const Pairs& pairs,
+                                BatchResults& out) {
   const auto [begin, end] = lanes;
   alignas(64) float least[kBatch];
   WeightedRows sums, of_pairs;
-  const V per_blend = all(1.0f / blend_m);
+  const V per_blend = all(1.0f / model.blend_m());
   std::memcpy(least + begin, out.distance + begin, static_cast<std::size_t>(end - begin) * sizeof(float));
   find_nearer(pairs, least, out);
+  if constexpr (kBuries) {
+    find_least_unburied(pairs, out);
+    mark_uncertain(lanes, least, model.certain_m(), out);
+  }
   for (int i = begin; i < end; i += kWidth)
     sums.put(out, blend_weight(hn::Load(f, out.distance + i), hn::Load(f, least + i), per_blend), i);
   for (int i = 0; i < pairs.count; i += kWidth) {

@@ -11,10 +11,13 @@
 #define BODICE_COLLISION_FIRST_ORDER_INL_
 #endif
 
+#include <algorithm>
+#include <bit>
+
 #include "simd/broad/cache-inl.hpp"
 #include "simd/broad/domination-inl.hpp"
 #include "simd/ellipsoid/relief_table-inl.hpp"
-#include "simd/narrow/contacts-inl.hpp"
+#include "simd/narrow/query-inl.hpp"
 #include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -92,12 +95,12 @@ HWY_INLINE void tangents_of(const BallLanes (&e)[kCount], const V3 (&p)[kCount],
 }
 
 /// Corrects a tangent plane by the ellipsoid's own relief table, without blending: as corrected(), with t and
-/// the quotients of the tangent.
-HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, const BallLanes& e,
-                        Tangent& at) {
+/// the quotients of the tangent. Returns the burial there, where it counts.
+template <bool kBuries>
+HWY_INLINE V correct(const ReliefTables& relief, const TableLanes& table, const BallLanes& e, Tangent& at) {
   constexpr float kMostShrink = 1e6f;  // limits the quotients near the center
   const V3 i = e.inverse_radius, w = absolute(at.w), signs = signs_of(at.w);
-  const Correction by = correction(relief, table, {w, signs}, at.distance);
+  const Correction by = correction<kBuries>(relief, table, {w, signs}, at.distance);
   const auto limited = [](V shrink) { return hn::Min(shrink, all(kMostShrink)); };
   const V3 shrink = {limited(at.shrink.x), limited(at.shrink.y), limited(at.shrink.z)};
   const V3 we = {hn::Mul(w.x, hn::Mul(hn::Mul(i.x, i.x), shrink.x)),
@@ -112,6 +115,7 @@ HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, con
                       add_scaled(add_scaled(scaled(e.a0, side.x), side.y, e.a1), side.z, e.a2);
   at.distance = hn::Sub(at.distance, by.value);
   at.normal = scaled(gradient, inverse_sqrt(within_range(dot(gradient, gradient))));
+  return by.burial;
 }
 
 /// Vectors that are computed side by side. One needs little besides its ellipsoid, so that narrow vectors
@@ -119,12 +123,14 @@ HWY_INLINE void correct(const ReliefTables& relief, const TableLanes& table, con
 constexpr int kVectorsAtOnce = kWidth < 16 ? 4 : 2;
 static_assert(CachedBatch::kSpan % (kVectorsAtOnce * kWidth) == 0);
 
-/// Writes first-order contacts of ranges of lanes with their candidates.
+/// Writes first-order contacts of ranges of lanes with their candidates. In a pose it notes the lanes of
+/// which the nearest ellipsoid is buried: another one owns them.
 template <class Union>
 struct FirstOrderEvaluation {
   const Union& proxy;
   const Batch& batch;
   const ContactOutput& out;
+  LaneBits& buried;
 
   template <class Tables>
   HWY_INLINE Status operator()(Tables tables, const Candidates& among) const {
@@ -154,7 +160,8 @@ struct FirstOrderEvaluation {
   /// The tangent planes of the ellipsoids in some columns, corrected by their tables if there are any.
   template <int kTables>
   HWY_INLINE void find_tangents(const Columns& columns, const VI (&column)[kVectorsAtOnce],
-                                const V3 (&p)[kVectorsAtOnce], Tangent (&at)[kVectorsAtOnce]) const {
+                                const V3 (&p)[kVectorsAtOnce], int from,
+                                Tangent (&at)[kVectorsAtOnce]) const {
     BallLanes e[kVectorsAtOnce];
 #pragma GCC unroll 4
     for (int v = 0; v < kVectorsAtOnce; ++v)
@@ -164,7 +171,8 @@ struct FirstOrderEvaluation {
     for (int v = 0; v < kVectorsAtOnce; ++v)
       if constexpr (Union::kBlends) {
         const ColumnLanes<kTables> of_table(columns, column[v], Columns::kTable);
-        correct(proxy.relief(), table_from(of_table), e[v], at[v]);
+        const V burial = correct<Union::kBuries>(proxy.relief(), table_from(of_table), e[v], at[v]);
+        if constexpr (Union::kBuries) buried.add(bits(hn::Gt(burial, hn::Zero(f))), from + v * kWidth);
       }
   }
   template <int kTables>
@@ -178,7 +186,7 @@ struct FirstOrderEvaluation {
       Tangent at[kVectorsAtOnce];
       load_step(batch, from, p);
       find_owners(candidates, columns, p, column);
-      find_tangents<kTables>(columns, column, p, at);
+      find_tangents<kTables>(columns, column, p, from, at);
       for (int v = 0; v < kVectorsAtOnce; ++v) {
         const V d = hn::Sub(at[v].distance, margin);
         const ColumnLanes<kTables> of_owner(columns, column[v]);
@@ -191,14 +199,41 @@ struct FirstOrderEvaluation {
   }
 };
 
-/// First-order query of a batch; unless it is done, contacts are unchanged or complete.
+/// Writes exact contacts of the lanes that are buried to first order.
+inline Status query_buried(const PosedUnion& proxy, const Batch& batch, const LaneBits& buried,
+                           const ContactOutput& out) {
+  InRange lanes;
+  for (int begin = 0; begin < batch.at.count; begin += kBlock)
+    for (std::uint64_t left = buried.from(begin); left != 0; left &= left - 1) {
+      const int lane = begin + std::countr_zero(left);
+      if (lane >= batch.at.count) break;
+      lanes.x[lanes.count] = batch.at.x[lane];
+      lanes.y[lanes.count] = batch.at.y[lane];
+      lanes.z[lanes.count] = batch.at.z[lane];
+      lanes.lane[lanes.count++] = lane;
+    }
+  if (lanes.count == 0) return Status::kDone;
+  const int end = (lanes.count + kBlock - 1) / kBlock * kBlock;
+  for (float* values : {lanes.x, lanes.y, lanes.z})
+    std::fill(values + lanes.count, values + end, values[lanes.count - 1]);
+  std::fill(lanes.lane + lanes.count, lanes.lane + end, -1);
+  Kernel<PosedUnion> kernel(proxy);
+  Batch some{.at = {lanes.x, lanes.y, lanes.z, lanes.count}};
+  BatchResults found;
+  const Status status = nearest(kernel, some, found);
+  if (status == Status::kDone) write_in_range(lanes, found, out);
+  return status;
+}
+
+/// First-order query of a batch among its candidates by distance.
 template <class Union>
-Status query_first_order(const Union& proxy, Batch& batch, const ContactOutput& out) {
+Status query_nearest_to_first_order(const Union& proxy, Batch& batch, const ContactOutput& out,
+                                    LaneBits& buried) {
   const ProxyModel& model = proxy.model;
   BroadPhase broad(model);
   const QueryLimits limits(model, std::min(out.within_m + out.margin_m, kNoLimit_m));
   const float rounding_m = 4.0f * model.baked.rounding_m;
-  const FirstOrderEvaluation<Union> evaluate{proxy, batch, out};
+  const FirstOrderEvaluation<Union> evaluate{proxy, batch, out, buried};
   // The cache also serves exact queries, which blend.
   if (refresh_if_stale<NotDominated<false>>(model.beyond_m() + rounding_m, batch, broad))
     return broad.take_cached(batch, rounding_m, limits.of_bounds(model.baked), Columns::Rows::kBalls,
@@ -210,6 +245,16 @@ Status query_first_order(const Union& proxy, Batch& batch, const ContactOutput& 
   blocks.note_radii(batch.radius_m);
   const NotBeyondNorDominated rule(limits.plain_m, rounding_m, blocks.ranges[0].box);
   return broad.search(blocks.ranges, blocks.count, rule, evaluate);
+}
+
+/// First-order query of a batch; unless it is done, contacts are unchanged or complete.
+template <class Union>
+HWY_INLINE Status query_first_order(const Union& proxy, Batch& batch, const ContactOutput& out) {
+  LaneBits buried;
+  const Status status = query_nearest_to_first_order(proxy, batch, out, buried);
+  if constexpr (Union::kBuries)
+    if (status == Status::kDone) return query_buried(proxy, batch, buried, out);
+  return status;
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -11,6 +11,7 @@
 #include "simd/broad/cache-inl.hpp"
 #include "simd/broad/domination-inl.hpp"
 #include "simd/narrow/narrow_phase-inl.hpp"
+#include "simd/narrow/uncertain-inl.hpp"
 #include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -132,12 +133,17 @@ struct EvaluationInRange {
     HWY_INLINE M lanes(int v) const {
       return hn::RebindMask(f, hn::Gt(hn::Load(I(), in_range.lane + from + v * kWidth), hn::Set(I(), -1)));
     }
-    HWY_INLINE V least(V distance) const { return hn::Min(distance, all(limit_m)); }
+    HWY_INLINE V least(int, V distance) const {
+      // A score may exceed the limit where the surface is within it.
+      if constexpr (Union::kBuries) return distance;
+      return hn::Min(distance, all(limit_m));
+    }
   };
 
   /// Adds the particles that may be within the limits.
   HWY_INLINE void collect(const Candidates& among) const {
-    if constexpr (Union::kBlends) {
+    // Where an ellipsoid is buried another one, which need not be a candidate, may be within the limit.
+    if constexpr (Union::kBlends && !Union::kBuries) {
       const OctantLimits octant_limits(kernel.model(), limits.surface_m, among.columns);
       collect_each(among, [&](const CandidateList& list, InRangeStep<kLowest>& step) {
         bound_by_octant(kernel.model().baked, among.columns, list, octant_limits, step);
@@ -187,11 +193,10 @@ struct EvaluationInRange {
   }
 };
 
-/// Distance, unit gradient and owner of every particle of `in_range`, as numbered there: all particles within
-/// limit_m of the surface, and some others.
+/// Results of the particles of nearest_in_range() among their candidates.
 template <class Union>
-Status nearest_in_range(Kernel<Union>& kernel, Batch& batch, float limit_m, InRange& in_range,
-                        BatchResults& out) {
+Status nearest_candidates_in_range(Kernel<Union>& kernel, Batch& batch, float limit_m, InRange& in_range,
+                                   BatchResults& out) {
   const QueryLimits limits(kernel.model(), limit_m);
   const float beyond_m = kernel.beyond_m();
   const EvaluationInRange<Union> evaluate{kernel, batch, limits, in_range, out};
@@ -207,6 +212,18 @@ Status nearest_in_range(Kernel<Union>& kernel, Batch& batch, float limit_m, InRa
   blocks.note_radii(batch.radius_m);
   const NotBeyondNorDominated rule(limits.plain_m, beyond_m, blocks.ranges[0].box);
   return kernel.broad.search(blocks.ranges, blocks.count, rule, evaluate);
+}
+
+/// Distance, unit gradient and owner of every particle of `in_range`, as numbered there: all particles within
+/// limit_m of the surface, and some others.
+template <class Union>
+HWY_INLINE Status nearest_in_range(Kernel<Union>& kernel, Batch& batch, float limit_m, InRange& in_range,
+                                   BatchResults& out) {
+  const Status status = nearest_candidates_in_range(kernel, batch, limit_m, in_range, out);
+  if constexpr (Union::kBuries)
+    if (status == Status::kDone)
+      return settle_uncertain(kernel, {in_range.x, in_range.y, in_range.z, in_range.count}, out);
+  return status;
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

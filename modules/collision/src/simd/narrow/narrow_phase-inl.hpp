@@ -62,7 +62,8 @@ class NarrowPhase {
   HWY_INLINE void bound_step(const Columns& columns, const CandidateList& candidates,
                              const V3 (&p)[kVectorsInStep], Lowest (&out)[kVectorsInStep]) const;
   /// Evaluates the probable owners of one step of particles; results begin at lane `from`. `step` has
-  /// the bounds of vector v, its lanes, and the least of their distance and the limit. False on overflow.
+  /// the bounds of vector v, its lanes, and the least of a distance and the vector's limit. False on
+  /// overflow.
   template <int kTables, class Step>
   HWY_INLINE bool evaluate_owners(const Columns& columns, int from, const V3 (&p)[kVectorsInStep],
                                   const Step& step);
@@ -157,8 +158,7 @@ HWY_INLINE void NarrowPhase<Union>::evaluate_pairs(const Columns& columns) {
       p[v] = gather3(batch_.at.x, batch_.at.y, batch_.at.z, lane);
     }
     evaluate_each<kTables>(columns, column, p, results);
-    for (int v = 0; v < kVectorsInStep; ++v)
-      put<Union::kBlends>(results[v], pairs.results, from + v * kWidth);
+    for (int v = 0; v < kVectorsInStep; ++v) put<Union>(results[v], pairs.results, from + v * kWidth);
   }
 }
 
@@ -243,8 +243,8 @@ HWY_INLINE bool NarrowPhase<Union>::evaluate_owners(const Columns& columns, int 
   if (!make_room<kTables>(columns, (kLowest - 1) * kVectorsInStep)) return false;
   for (int v = 0; v < kVectorsInStep; ++v) {
     const int i = from + v * kWidth;
-    put<Union::kBlends>(results[v], out_, i);
-    const V limit = bound_limit(baked(), step.least(results[v].distance), proxy_.model.beyond_m());
+    put<Union>(results[v], out_, i);
+    const V limit = bound_limit(baked(), step.least(v, results[v].distance), proxy_.model.blend_m());
     open_.add<kLowest, 1>(step.lanes(v), step.lowest(v), limit, lanes_from(i));
   }
   return true;
@@ -260,7 +260,7 @@ void NarrowPhase<Union>::evaluate_single(const LaneRange& range, std::size_t ell
     load_step(batch_, from, p);
     closest_points(shapes, p, closest);
     for (int v = 0; v < kVectorsInStep; ++v)
-      put<Union::kBlends>(proxy_.result_of_one(ellipsoid, shapes[v], closest[v]), out_, from + v * kWidth);
+      put<Union>(proxy_.result_of_one(ellipsoid, shapes[v], closest[v]), out_, from + v * kWidth);
   }
 }
 
@@ -269,7 +269,7 @@ template <int kTables>
 HWY_INLINE Status NarrowPhase<Union>::finish(const Columns& columns, LaneSpan lanes) {
   if (!collect_rest<kTables>(columns)) return Status::kTooMany;
   flush<kTables>(columns);
-  if constexpr (Union::kBlends) combine_blended(proxy_.model.beyond_m(), lanes, open_.pairs, out_);
+  if constexpr (Union::kBlends) combine_blended<Union::kBuries>(proxy_.model, lanes, open_.pairs, out_);
   return Status::kDone;
 }
 

@@ -13,6 +13,7 @@
 #include "simd/broad/cache-inl.hpp"
 #include "simd/broad/domination-inl.hpp"
 #include "simd/narrow/narrow_phase-inl.hpp"
+#include "simd/narrow/uncertain-inl.hpp"
 #include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -28,7 +29,7 @@ struct RangeStep {
 
   HWY_INLINE const LowestBounds<kLowest>& lowest(int v) const { return bounds[v]; }
   HWY_INLINE M lanes(int v) const { return lanes_below(from + v * kWidth, end); }
-  HWY_INLINE V least(V distance) const { return distance; }
+  HWY_INLINE V least(int, V distance) const { return distance; }
 };
 
 /// Evaluates ranges of lanes of a batch among their candidates.
@@ -104,19 +105,10 @@ inline Status nearest_in_parts(Kernel<PlainUnion>& kernel, const Batch& batch, L
   return Status::kDone;
 }
 
-/// Copies the first result to a lane.
-HWY_INLINE void copy_first(const BatchResults& from, BatchResults& to, int lane) {
-  to.distance[lane] = from.distance[0];
-  to.value[lane] = from.value[0];
-  to.gx[lane] = from.gx[0];
-  to.gy[lane] = from.gy[0];
-  to.gz[lane] = from.gz[0];
-  to.proxy_index[lane] = from.proxy_index[0];
-}
-
 /// With relief, evaluates each particle of some lanes by itself; kTooMany on overflow even then.
-inline Status nearest_one_by_one(Kernel<ReliefUnion>& kernel, const Batch& batch, LaneSpan lanes,
-                                 const NotDominated<false>& rule, BatchResults& out) {
+template <class Union>
+Status nearest_one_by_one(Kernel<Union>& kernel, const Batch& batch, LaneSpan lanes,
+                          const NotDominated<false>& rule, BatchResults& out) {
   alignas(64) float x[kStep], y[kStep], z[kStep];
   BatchResults alone;
   for (int i = lanes.begin; i < lanes.end; ++i) {
@@ -125,10 +117,10 @@ inline Status nearest_one_by_one(Kernel<ReliefUnion>& kernel, const Batch& batch
     std::fill(z, z + kStep, batch.at.z[i]);
     const Batch one{.at = {x, y, z, 1}};
     const Blocks block(one.at, {0, 1});
-    const Status status =
-        kernel.broad.search(block.ranges, 1, rule, Evaluation<ReliefUnion>{kernel, one, alone});
+    const Status status = kernel.broad.search(block.ranges, 1, rule, Evaluation<Union>{kernel, one, alone});
     if (status != Status::kDone) return status;
-    copy_first(alone, out, i);
+    copy_result(alone, 0, out, i);
+    if constexpr (Union::kBuries) out.unburied[i] = alone.unburied[0];
   }
   return Status::kDone;
 }
@@ -137,15 +129,15 @@ inline Status nearest_at_last(Kernel<PlainUnion>& kernel, const Batch& batch, La
                               const NotDominated<false>& rule, BatchResults& out) {
   return nearest_in_parts(kernel, batch, lanes, rule, out);
 }
-inline Status nearest_at_last(Kernel<ReliefUnion>& kernel, const Batch& batch, LaneSpan lanes,
-                              const NotDominated<false>& rule, BatchResults& out) {
+template <bool kPosed>
+Status nearest_at_last(Kernel<TableUnion<kPosed>>& kernel, const Batch& batch, LaneSpan lanes,
+                       const NotDominated<false>& rule, BatchResults& out) {
   return nearest_one_by_one(kernel, batch, lanes, rule, out);
 }
 
-/// Distance, unit gradient and owner of every particle. kTooMany if more ellipsoids with relief are near one
-/// than the lists hold.
+/// Results of every particle among its candidates.
 template <class Union>
-Status nearest(Kernel<Union>& kernel, Batch& batch, BatchResults& out) {
+Status nearest_candidates(Kernel<Union>& kernel, Batch& batch, BatchResults& out) {
   const float beyond_m = kernel.beyond_m();
   const NotDominated<false> rule{beyond_m};
   const Evaluation<Union> evaluate{kernel, batch, out};
@@ -166,6 +158,16 @@ Status nearest(Kernel<Union>& kernel, Batch& batch, BatchResults& out) {
         return kernel.broad.search(blocks.ranges, blocks.count, rule, evaluate);
       },
       [&](LaneSpan lanes) { return nearest_at_last(kernel, batch, lanes, rule, out); });
+}
+
+/// Distance, unit gradient and owner of every particle. kTooMany if more ellipsoids with relief are near one
+/// than the lists hold.
+template <class Union>
+HWY_INLINE Status nearest(Kernel<Union>& kernel, Batch& batch, BatchResults& out) {
+  const Status status = nearest_candidates(kernel, batch, out);
+  if constexpr (Union::kBuries)
+    if (status == Status::kDone) return settle_uncertain(kernel, batch.at, out);
+  return status;
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

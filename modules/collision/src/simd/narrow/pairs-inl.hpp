@@ -19,27 +19,35 @@ namespace bodice::collision::HWY_NAMESPACE {
 /// The distances of kSize particles to one ellipsoid each, as arrays.
 template <int kSize>
 struct alignas(64) ResultRows {
-  float distance[kSize];  ///< to the ellipsoid, meters
+  float distance[kSize];  ///< to the ellipsoid, meters; in a pose its score
   float value[kSize];     ///< relief only: corrected distance, meters
   float gx[kSize], gy[kSize],
       gz[kSize];                    ///< gradient of the value; the unit normal without relief
   std::int32_t proxy_index[kSize];  ///< index of the ellipsoid in the proxy
+  /// Poses only: distance to the ellipsoid, meters. Results of lanes: kCertain, or the least score among the
+  /// candidates of an uncertain particle, which another ellipsoid may own.
+  float unburied[kSize];
 };
 
-/// The distances of one vector of particles, each to the ellipsoid of its column.
+/// Marks particles that are not uncertain: one of their candidates owns them. Below any score.
+constexpr float kCertain = -1e30f;
+
+/// The distances of one vector of particles, each to the ellipsoid of its column; see ResultRows.
 struct Result {
   V distance, value;
   V3 gradient;
   VI proxy_index;
+  V unburied;
 };
 
 using BatchResults = ResultRows<kBatch>;
 
-/// Stores a vector of results; `value` only where results are blended.
-template <bool kBlends, int kSize>
+/// Stores a vector of results; `value` only where results are blended, `unburied` only in poses.
+template <class Union, int kSize>
 HWY_INLINE void put(const Result& a, ResultRows<kSize>& to, int i) {
   hn::Store(a.distance, f, to.distance + i);
-  if constexpr (kBlends) hn::Store(a.value, f, to.value + i);
+  if constexpr (Union::kBlends) hn::Store(a.value, f, to.value + i);
+  if constexpr (Union::kBuries) hn::Store(a.unburied, f, to.unburied + i);
   store3(a.gradient, to.gx + i, to.gy + i, to.gz + i);
   hn::Store(a.proxy_index, I(), to.proxy_index + i);
 }

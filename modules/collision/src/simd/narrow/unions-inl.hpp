@@ -1,5 +1,6 @@
 // What a result is: the policies of the narrow phase. A policy turns the closest point of one ellipsoid into
-// a Result. Result::distance decides which ellipsoid owns a particle.
+// a Result. Result::distance decides which ellipsoid owns a particle: in a pose it is the score, the distance
+// plus kappa times the burial.
 #if defined(BODICE_COLLISION_UNIONS_INL_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BODICE_COLLISION_UNIONS_INL_
 #undef BODICE_COLLISION_UNIONS_INL_
@@ -21,7 +22,7 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 /// The proxy as the union of plain ellipsoids: its distance is that of the nearest ellipsoid.
 struct PlainUnion {
-  static constexpr bool kBlends = false;
+  static constexpr bool kBlends = false, kBuries = false;
   static constexpr int kLowest = 2;  ///< candidates of a particle that are found in one pass
   const ProxyModel& model;
 
@@ -30,20 +31,22 @@ struct PlainUnion {
   HWY_INLINE Result result(const Columns& columns, VI column, const Shape& shape,
                            const ClosestPointLanes& closest) const {
     const ColumnLanes<kTables> at(columns, column);
-    return {closest.distance, closest.distance, normal_of(shape, closest), at.integer(Columns::kProxyIndex)};
+    return {closest.distance, closest.distance, normal_of(shape, closest), at.integer(Columns::kProxyIndex),
+            closest.distance};
   }
   /// The result of one ellipsoid in all lanes.
   HWY_INLINE Result result_of_one(std::size_t ellipsoid, const Shape& shape,
                                   const ClosestPointLanes& closest) const {
     return {closest.distance, closest.distance, normal_of(shape, closest),
-            hn::Set(I(), model.baked.proxy_index[ellipsoid])};
+            hn::Set(I(), model.baked.proxy_index[ellipsoid]), closest.distance};
   }
 };
 
 /// The proxy with relief: each ellipsoid's distance is corrected by its table, and those within the blend
-/// radius of the nearest are blended.
-struct ReliefUnion {
-  static constexpr bool kBlends = true;
+/// radius of the nearest are blended. In a pose of a bound proxy (kPosed) burial counts.
+template <bool kPosed>
+struct TableUnion {
+  static constexpr bool kBlends = true, kBuries = kPosed;
   static constexpr int kLowest = 3;
   const ProxyModel& model;
 
@@ -53,22 +56,35 @@ struct ReliefUnion {
                            const ClosestPointLanes& closest) const {
     const ColumnLanes<kTables> at(columns, column), of_table(columns, column, Columns::kTable);
     const VI proxy_index = at.integer(Columns::kProxyIndex);
-    const Corrected one =
-        corrected(relief(), table_from(of_table), shape, closest, [&] { return axes_from(of_table); });
-    return {closest.distance, one.value, one.gradient, proxy_index};
+    return scored(closest.distance,
+                  corrected<kPosed>(relief(), table_from(of_table), shape, closest,
+                                    [&] { return axes_from(of_table); }),
+                  proxy_index);
   }
   HWY_INLINE Result result_of_one(std::size_t ellipsoid, const Shape& shape,
                                   const ClosestPointLanes& closest) const {
     const BakedTable& table = relief().tables[ellipsoid];
-    const Corrected one =
-        corrected(relief(), broadcast(table), shape, closest, [&] { return axes_of(table); });
-    return {closest.distance, one.value, one.gradient, hn::Set(I(), model.baked.proxy_index[ellipsoid])};
+    return scored(
+        closest.distance,
+        corrected<kPosed>(relief(), broadcast(table), shape, closest, [&] { return axes_of(table); }),
+        hn::Set(I(), model.baked.proxy_index[ellipsoid]));
+  }
+
+ private:
+  static HWY_INLINE Result scored(V distance, const Corrected& one, VI proxy_index) {
+    if constexpr (kPosed)
+      return {hn::Add(distance, one.burial), one.value, one.gradient, proxy_index, distance};
+    else
+      return {distance, one.value, one.gradient, proxy_index, distance};
   }
 };
+using ReliefUnion = TableUnion<false>;
+using PosedUnion = TableUnion<true>;
 
-/// Calls work with the policy of the proxy, PlainUnion or ReliefUnion.
+/// Calls work with the policy of the proxy: PlainUnion, ReliefUnion or PosedUnion.
 template <class Work>
 HWY_INLINE Status with_union(const ProxyModel& model, Work&& work) {
+  if (model.buries()) return work(PosedUnion{model});
   if (model.relief) return work(ReliefUnion{model});
   return work(PlainUnion{model});
 }

@@ -79,19 +79,20 @@ struct PlainSurface {
 
 /// The surface with relief. Its normal turns between steps, and a fraction of the blend radius more lets
 /// Newton arrive from below.
+template <class Union>
 struct ReliefSurface {
   static constexpr bool kConvex = false;
   static constexpr float kFirstOvershoot = static_cast<float>(kStepOvershoot);
   const ResponseParameters& parameters;
-  Kernel<ReliefUnion> kernel;
+  Kernel<Union> kernel;
 
   HWY_INLINE ReliefSurface(const ProxyModel& model, const ResponseParameters& p)
-      : parameters(p), kernel(ReliefUnion{model}) {}
+      : parameters(p), kernel(Union{model}) {}
 
   const Baked& baked() const { return kernel.model().baked; }
   HWY_INLINE V target(VI) const {
     const float least_m = parameters.clearance_m + parameters.slack_m;
-    return all(least_m + kOvershoot * kernel.model().beyond_m());
+    return all(least_m + kOvershoot * kernel.model().blend_m());
   }
   HWY_INLINE Status measure_first(Batch& batch, InRange& in_range, BatchResults& out) {
     const Status status = nearest_in_range(kernel, batch, parameters.clearance_m, in_range, out);
@@ -101,7 +102,7 @@ struct ReliefSurface {
   }
   HWY_INLINE Status measure_again(const PushedLanes& pushed, BatchResults& out) {
     // The first push reaches the surface, and the later ones only correct it.
-    kernel.broad.reuse_within(kernel.model().beyond_m());
+    kernel.broad.reuse_within(kernel.model().blend_m());
     Batch batch = batch_of(pushed);
     return nearest(kernel, batch, out);
   }

@@ -1,0 +1,60 @@
+// Poses of a collider: checked, mended, and taken.
+#include <algorithm>
+#include <optional>
+
+#include <Eigen/LU>
+
+#include "collider/collider_impl.hpp"
+#include "collider/mended_ellipsoid.hpp"
+
+namespace bodice::collision {
+
+void Collider::Impl::move(std::span<const geometry::Ellipsoid> now,
+                          std::span<const geometry::Mat3> axes_of_material, double dt_s) noexcept {
+  double farthest_m = 0.0;
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const std::uint32_t at = internal_index[k];
+    shapes[at] = now[k];
+    shapes[at].center -= origin;
+    Material moved = material_of(shapes[at]);
+    if (!axes_of_material.empty()) moved.axes = axes_of_material[k];
+    motion[at] = motion_between(material[at], moved, dt_s);
+    affine_motions[at] = affine_motion_between(material[at], moved);
+    farthest_m = std::max(farthest_m, travel_between(material[at], moved));
+    material[at] = moved;
+  }
+  poses += farthest_m > 0.0;
+  moving = dt_s > 0.0;
+  moved_dt_s = dt_s;
+  travel_m = static_cast<float>(1.001 * farthest_m);
+  field.update(shapes);
+  model.baked.update(shapes);
+}
+
+bool Collider::Impl::take(std::span<const geometry::Ellipsoid> now) noexcept {
+  if (now.size() != trial.size()) return false;
+  for (std::size_t k = 0; k < trial.size(); ++k) {
+    trial[k] = now[k];
+    if (!mend(trial[k]).empty()) return false;
+  }
+  return true;
+}
+
+bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {
+  if (!impl_->take(shapes)) return false;
+  impl_->move(impl_->trial, {}, dt_s);
+  return true;
+}
+
+bool Collider::pose(const proxy::PosedProxy& posed, double dt_s) noexcept {
+  const std::optional<ReliefTables>& tables = impl_->model.relief;
+  const std::size_t texels = tables ? impl_->texels : 0;
+  if (tables && (posed.relief.size() != size() || posed.texels.size() != texels)) return false;
+  if (!(posed.scale > 0.0) || posed.material.size() != size() || !impl_->take(posed.shapes)) return false;
+  impl_->move(impl_->trial, posed.material, dt_s);
+  impl_->margin_m = impl_->rest_margin_m * posed.scale;
+  if (tables) impl_->model.relief->update(posed, impl_->stature_m, impl_->proxy_index);
+  return true;
+}
+
+}  // namespace bodice::collision
