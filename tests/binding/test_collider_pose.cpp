@@ -16,18 +16,6 @@ using geometry::Vec3;
 
 namespace {
 
-/// The pose as a proxy at rest: proxy_distance() defines its distance, with owners by eq. (4).
-proxy::BodyProxy::Data as_proxy(const proxy::BodyProxy& bound, const proxy::PosedProxy& posed) {
-  proxy::BodyProxy::Data data = bound.data();
-  data.binding = nullptr;
-  for (std::size_t k = 0; k < data.ellipsoids.size(); ++k) data.ellipsoids[k].shape = posed.shapes[k];
-  data.relief = posed.relief;
-  data.texels = posed.texels;
-  data.stature_m *= posed.scale;
-  data.margin_m *= posed.scale;
-  return data;
-}
-
 std::vector<Vec3> points_near(const geometry::TriMesh& skin, int count) {
   const engine::Random random(11);
   std::vector<Vec3> points;
@@ -42,17 +30,15 @@ std::vector<Vec3> points_near(const geometry::TriMesh& skin, int count) {
 
 }  // namespace
 
-TEST_CASE(
-    "a collider in a pose has the distances and normals of the pose's tables, with and without a limit") {
+TEST_CASE("a collider in a pose has the distances of the scalar reference, with and without a limit") {
   const MovingBody& moving = moving_body();
   binding::Poser poser = make_poser(moving);
   collision::Collider collider(moving.bound);
   for (const Pose& pose : {march(moving.body.skeleton), seat(moving.body.skeleton)}) {
     REQUIRE(poser.pose({}, pose));
     REQUIRE(collider.pose(poser.posed(), 1.0 / 60.0));
-    const proxy::BodyProxy::Data data = as_proxy(moving.bound, poser.posed());
     for (const Vec3& point : points_near(posed_skin(moving, pose), 300)) {
-      const proxy::ProxyDistance truth = proxy::proxy_distance(data, point);
+      const proxy::ProxyDistance truth = proxy::posed_proxy_distance(moving.bound, poser.posed(), point);
       const Eigen::Vector3f local = (point - collider.origin()).cast<float>();
       const auto contact = collider.query({local.x(), local.y(), local.z()});
       CHECK(std::abs(double{contact.signed_distance} - truth.distance) < 2e-5);
