@@ -95,7 +95,7 @@ TEST_CASE("extremes: small, large and far scenes drape without unresolved contac
       const collision::Collider body = ellipsoid_body(center, Vec3::Constant(0.2 * scale));
       const TriMesh mesh = sheet(10, 10, 0.6 * scale, 0.6 * scale, center + scale * Vec3(-0.3, 0.21, -0.3));
       const Outcome out = run(mesh, options, body, 1.0 / 60.0, 30);
-      CHECK(out.report.contacts.contacts > 0);
+      CHECK(out.report.contacts.contacts + out.report.faces.contacts > 0);  // coarse faces may carry it alone
       CHECK(out.report.contacts.unresolved == 0);
       CHECK(out.reach < 3.0 * scale);
     }

@@ -18,7 +18,7 @@ namespace {
 
 // The speed at which a particle that was inside before its last step is moved out. A garment that begins two
 // centimeters inside is out after a frame, without a jerk for neighboring particles.
-constexpr float kRecovery_m_s = 1.0f;
+constexpr float kFromBody_m_s = 1.0f;
 
 collision::Particles view(Particles& p, std::size_t begin, std::size_t end, bool with_velocities) {
   collision::Particles v;
@@ -37,15 +37,18 @@ void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end,
 
 // Applies friction to a pushed particle and sets its velocity. The push has the length `depth` along n.
 // Friction removes up to mu times that of the displacement along the surface, relative to the body's
-// material, which moved by `carried`. The velocity along n becomes that of the material.
-void friction_and_velocity(Particles& p, std::size_t i, Float4 carried, float mu, float inverse_h) {
+// material, which moved by `carried`. The velocity along n becomes that of the material, of which `ahead` is
+// the part along the surface's normal: the push of a face need not be along the normal at its corners.
+void friction_and_velocity(Particles& p, std::size_t i, Float4 carried, Float4 ahead, float mu,
+                           float inverse_h) {
   const Point& before = p.point[i];
   const float px = p.x[i] - before.x, py = p.y[i] - before.y, pz = p.z[i] - before.z;
   const float depth = std::sqrt(px * px + py * py + pz * pz);
   const float nx = px / depth, ny = py / depth, nz = pz / depth;
   const float dx = p.x[i] - p.old_x[i] - carried[0], dy = p.y[i] - p.old_y[i] - carried[1],
               dz = p.z[i] - p.old_z[i] - carried[2];
-  const float along_n = dx * nx + dy * ny + dz * nz;
+  const float along_n = (dx + carried[0] - ahead[0]) * nx + (dy + carried[1] - ahead[1]) * ny +
+                        (dz + carried[2] - ahead[2]) * nz;
   const float tx = dx - along_n * nx, ty = dy - along_n * ny, tz = dz - along_n * nz;
   const float slip = std::sqrt(tx * tx + ty * ty + tz * tz);
   const float kept = slip > mu * depth ? 1.0f - mu * depth / slip : 0.0f;
@@ -81,12 +84,13 @@ void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& co
   if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.inverse_h);
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
   if (!s.touching[i] || contact.paper()) return;
-  const Float4 carried = (contact.share.end - contact.share.begin) * load(s.motion.by[i]);
-  friction_and_velocity(p, i, carried, contact.friction, contact.inverse_h);
+  const float share = contact.share.end - contact.share.begin;
+  friction_and_velocity(p, i, share * load(s.motion.by[i]), share * load(s.motion.ahead[i]), contact.friction,
+                        contact.inverse_h);
 }
 
-// Resolves the contacts of a patch. Only clusters that may touch the body go to the collider, in runs of
-// consecutive ones.
+// Resolves the contacts of the particles of a patch. Only clusters that may touch the body go to the
+// collider, in runs of consecutive ones.
 void resolve_patch(const engine::Context& alone, const BodyContact& contact, std::size_t begin,
                    std::size_t end, ContactState& s, Particles& p) {
   ContactPatch& patch = s.patch[begin / kPatch];
@@ -99,15 +103,11 @@ void resolve_patch(const engine::Context& alone, const BodyContact& contact, std
             ? resolve_moving(alone, *contact.collider, contact.how, s.motion, contact.share, first, last, p)
             : contact.collider->resolve(alone, view(p, first, last, contact.paper()), contact.how));
     patch.spent_ns += alone.clock->now_ns() - begin_ns;
-    if (!contact.paper()) velocities_from_positions(p, first, last, contact.inverse_h);
-    for (std::size_t i = first; i < last; ++i) respond(p, s, i, contact);
   };
   for (std::size_t from = begin; from < end; from += kCluster) {
     const std::size_t to = std::min(from + kCluster, end);
     if (may_touch(p, from, to, s.clearance)) continue;
     resolve_run(from);
-    if (!contact.paper()) velocities_from_positions(p, from, to, contact.inverse_h);
-    std::fill_n(&s.touching[from], to - from, std::uint8_t{0});
     first = to;
   }
   resolve_run(end);
@@ -143,12 +143,13 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 
 }  // namespace
 
-ContactState make_contacts(std::size_t particles) {
+ContactState make_contacts(std::size_t particles, FaceContact faces) {
   ContactState s;
   s.touching.assign(particles, 0);
   s.clearance = make_clearance_cache(particles);
   s.motion.by.resize(particles), s.motion.ahead.resize(particles);
   s.patch.resize(engine::block_count(particles, kPatch));
+  s.faces = std::move(faces);
   return s;
 }
 
@@ -158,9 +159,15 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
   const std::int64_t begin_ns = context.clock->now_ns();
   // The paper's response has distances of its own and uses surface velocities by itself.
   const collision::Collider* body = options.response == collision::Response::kPaper ? nullptr : collider;
-  begin_motion_frame(context, moved ? body : nullptr, frame_s, particles, s.motion);
+  begin_motion_frame(context, moved ? body : nullptr, frame_s, particles, s.motion, s.faces.nearest);
   begin_clearance_frame(context, s.motion.moving ? nullptr : body, options.thickness_m, travel_m, s.touching,
                         particles, s.clearance);
+  s.faces.on = false;
+  if (body != nullptr && options.face_contact) {
+    if (!s.motion.moving) query_particles(context, *body, s.faces, particles);
+    begin_face_frame(context, *body, frame_s, options.environment, {s.motion.by, s.motion.ahead}, particles,
+                     s.faces);
+  }
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
 }
@@ -173,7 +180,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
                                {.response = options.response,
                                 .thickness_m = static_cast<float>(options.thickness_m),
                                 .friction = paper ? friction : 0.0f,
-                                .max_push_m = kRecovery_m_s * substep.length_s},
+                                .max_push_m = kFromBody_m_s * substep.length_s},
                                friction,
                                1.0f / substep.length_s,
                                substep.share};
@@ -184,12 +191,24 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
     if (const std::uint32_t reset = take_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
     if (paper || collider == nullptr) velocities_from_positions(p, begin, end, contact.inverse_h);
-    if (collider != nullptr) resolve_patch(alone, contact, begin, end, s, p);
+  });
+  if (collider == nullptr) return limits.load();
+  if (s.faces.on) {
+    const std::int64_t begin_ns = context.clock->now_ns();
+    push_faces_out(context, *collider, {substep.length_s, 1.0f - substep.share.end}, p, s.faces);
+    s.patch.front().spent_ns += context.clock->now_ns() - begin_ns;
+  }
+  // Particles come last, because their paths show on which side of the body they belong.
+  engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
+    resolve_patch(alone, contact, begin, end, s, p);
+    if (!paper) velocities_from_positions(p, begin, end, contact.inverse_h);
+    for (std::size_t i = begin; i < end; ++i) respond(p, s, i, contact);
   });
   return limits.load();
 }
 
 void report_contacts(const ContactState& s, FrameReport& report) {
+  if (s.faces.on) report.faces = report_faces(s.faces);
   for (const ContactPatch& patch : s.patch) {
     report.contacts.add(patch.report);
     report.collision_us += 1e-3 * static_cast<double>(patch.spent_ns);

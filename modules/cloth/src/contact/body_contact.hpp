@@ -10,6 +10,7 @@
 #include "base/particles.hpp"
 #include "contact/clearance_cache.hpp"
 #include "contact/continuous_contact.hpp"
+#include "faces/face_contact.hpp"
 
 namespace bodice::cloth {
 
@@ -27,6 +28,7 @@ struct ContactState {
   std::vector<ContactPatch> patch;     ///< #P / kPatch
   ClearanceCache clearance;
   BodyMotion motion;
+  FaceContact faces;
 };
 
 /// One of a frame's substeps.
@@ -35,8 +37,8 @@ struct Substep {
   FrameShare share;
 };
 
-/// The state for so many particles.
-ContactState make_contacts(std::size_t particles);
+/// The state for so many particles; `faces` are those of make_face_contact().
+ContactState make_contacts(std::size_t particles, FaceContact faces);
 
 /// Begins a frame. `collider` may be null: there is no body. `moved` is the result of is_moving(*collider);
 /// `travel_m` is as in begin_clearance_frame().
@@ -44,9 +46,10 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
                          const SolverOptions& options, double frame_s, double travel_m, Particles& particles,
                          ContactState& state);
 
-/// Copies the points, which constraints moved, to the positions, moves these out of the body, and sets the
-/// velocities of all particles; old_* are the positions at the start of the substep. `collider` may be null:
-/// there is no body. A particle that is not finite returns to its old position. Returns FrameLimit bits.
+/// Copies the points, which constraints moved, to the positions, moves these and the faces between them out
+/// of the body, and sets the velocities of all particles; old_* are the positions at the start of the
+/// substep. `collider` may be null: there is no body. A particle that is not finite returns to its old
+/// position. Returns FrameLimit bits.
 std::uint32_t resolve_body_contacts(const engine::Context& context, const collision::Collider* collider,
                                     const SolverOptions& options, float friction, const Substep& substep,
                                     ContactState& state, Particles& particles);

@@ -32,7 +32,7 @@ struct Moved {
 // end of the frame. So a first query gives an approximate displacement, and a second one takes each particle
 // relative to the body as both were when the frame began.
 void find_motion(const collision::Collider& body, double frame_s, std::size_t begin, std::size_t end,
-                 const Particles& p, BodyMotion& motion) {
+                 const Particles& p, BodyMotion& motion, std::span<collision::Contact> kept) {
   collision::Contact nearest[kPatch];
   Moved points;
   for (std::size_t i = begin; i < end; ++i) points.put(i - begin, p.x[i], p.y[i], p.z[i], splat(0.0f));
@@ -42,6 +42,7 @@ void find_motion(const collision::Collider& body, double frame_s, std::size_t be
     points.put(k, points.x[k], points.y[k], points.z[k], load(point(by)));
   }
   points.query(body, end - begin, nearest);
+  if (!kept.empty()) std::copy_n(nearest, end - begin, &kept[begin]);
   for (std::size_t i = begin; i < end; ++i) {
     const collision::Contact& at = nearest[i - begin];
     const Vec3 by = frame_s * body.surface_velocity(at.ellipsoid, points.at(i - begin));
@@ -83,15 +84,16 @@ bool is_moving(const collision::Collider& body) {
 }
 
 void begin_motion_frame(const engine::Context& context, const collision::Collider* moving_body,
-                        double frame_s, const Particles& p, BodyMotion& motion) {
+                        double frame_s, const Particles& p, BodyMotion& motion,
+                        std::span<collision::Contact> nearest) {
   const bool moved = motion.moving;
   motion.moving = moving_body != nullptr;
   if (!motion.moving) {
-    if (moved) std::ranges::fill(motion.by, Point{});
+    if (moved) std::ranges::fill(motion.by, Point{}), std::ranges::fill(motion.ahead, Point{});
     return;
   }
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
-    find_motion(*moving_body, frame_s, begin, end, p, motion);
+    find_motion(*moving_body, frame_s, begin, end, p, motion, nearest);
   });
 }
 

@@ -3,6 +3,7 @@
 // friction acts relative to the body's material.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <bodice/collision/collider.hpp>
@@ -33,9 +34,11 @@ struct FrameShare {
 bool is_moving(const collision::Collider& body);
 
 /// Begins a frame of `frame_s` at the end of which the body has its current pose; null: no body moves. It
-/// costs two queries a particle if the body moves, and nothing otherwise.
+/// costs two queries a particle if the body moves, and nothing otherwise. `nearest` takes the contacts of the
+/// particles (#P, or empty), displaced by `by`.
 void begin_motion_frame(const engine::Context& context, const collision::Collider* moving_body,
-                        double frame_s, const Particles& particles, BodyMotion& motion);
+                        double frame_s, const Particles& particles, BodyMotion& motion,
+                        std::span<collision::Contact> nearest);
 
 /// Moves the particles [begin, end) out of a moving body in its pose at the end of a substep; old_* are their
 /// positions at the start of the substep.

@@ -95,7 +95,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.ring = make_ring(mesh, topology);
   s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
   s.sleep = make_sleep(s.particles.count());
-  s.contacts = make_contacts(s.particles.count());
+  s.contacts = make_contacts(s.particles.count(),
+                             make_face_contact(mesh, topology, options, welded->median_edge_m, s.particles));
   s.scratch.resize(s.stretch.slots());
   s.selection = make_selection(std::max(s.stretch.slots(), s.particles.count()));
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());

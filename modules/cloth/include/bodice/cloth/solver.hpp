@@ -26,7 +26,9 @@ struct Environment {
 struct SolverOptions {
   int substeps = 8;            ///< substeps a frame; more of them make cloth stiffer
   int iterations = 1;          ///< sweeps over the constraints a substep
-  double thickness_m = 0.001;  ///< distance that particles keep from the proxy
+  double thickness_m = 0.001;  ///< distance that particles, edges and triangles keep from the proxy
+  /// Whether edges and triangles keep the thickness between their particles as well. Not with kPaper.
+  bool face_contact = true;
   bool self_collision = true;  ///< whether layers of cloth keep apart
   collision::Response response = collision::Response::kClosestPoint;
   Environment environment;
@@ -57,9 +59,17 @@ inline constexpr int kMaxSubsteps = 128;
 /// How far a particle may move in a substep, as a fraction of the diagonal of the garment at rest.
 inline constexpr double kMaxTravel = 0.05;
 
+/// Contact of edges and triangles with the body in a frame.
+struct FaceReport {
+  std::size_t samples = 0;     ///< points between particles that were near the body
+  std::uint64_t contacts = 0;  ///< those that were pushed, summed over the substeps
+  float deepest_m = 0.0f;  ///< depth in the proxy of the deepest one at the end of the frame, to first order
+};
+
 /// The state of a garment after a frame, and what the frame took.
 struct FrameReport {
-  collision::ContactReport contacts;            ///< summed over the substeps
+  collision::ContactReport contacts;  ///< of particles, summed over the substeps
+  FaceReport faces;
   double stretch_p95 = 0.0, stretch_max = 0.0;  ///< strain of edges, elongation only
   double median_speed_m_s = 0.0;  ///< median over particles of the distance moved in the frame, a second
   double kinetic_energy_j = 0.0;

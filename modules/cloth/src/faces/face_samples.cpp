@@ -1,0 +1,227 @@
+#include "faces/face_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+constexpr std::size_t kElementGrain = 1024;
+constexpr std::size_t kQueriedChunks = 8;  // chunks a task of queries
+// Samples are placed where the cloth may come within the frame if it moves this many times as far as its
+// speed leads: constraints pull some of it faster.
+constexpr float kSpare = 2.0f;
+
+Float4 at(const Particles& p, Index i) {
+  return Float4{p.x[i], p.y[i], p.z[i], 0.0f};
+}
+Float4 to_float4(const Vec3& v) {
+  return Float4{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 0.0f};
+}
+float length(Float4 v) {
+  return std::sqrt(dot3(v, v));
+}
+
+// What the choice of the samples of one frame depends on.
+struct Placement {
+  const SampleRules& rules;
+  const Particles& p;
+  std::span<const collision::Contact> nearest;
+  const MotionNearParticles& motion;
+  float widening = 1.0f;  // above 1 if there is no room for all samples
+
+  float distance(Index i) const {
+    return std::min(nearest[i].signed_distance, 1e6f);  // infinite beyond the band
+  }
+  // How far particle i may come, relative to the body, within the frame.
+  float reach(Index i) const {
+    const Float4 path = Float4{p.vx[i], p.vy[i], p.vz[i], 0.0f} * rules.frame_s - xyz(load(motion.by[i]));
+    return kSpare * (length(path) + rules.fall_m);
+  }
+  // Parts that the edge from i to j needs.
+  float parts(Index i, Index j) const {
+    const Float4 edge = at(p, j) - at(p, i);
+    const float by_length = length(edge) / (rules.spacing_m * widening);
+    const collision::Contact &a = nearest[i], &b = nearest[j];
+    if (a.ellipsoid == collision::kNoEllipsoid || b.ellipsoid == collision::kNoEllipsoid) return by_length;
+    const float sag = dot3(vector_of(b.normal) - vector_of(a.normal), edge) / 8.0f;
+    return std::max(by_length, std::sqrt(std::max(0.0f, sag) / rules.sag_m) / widening);
+  }
+};
+
+// Whether a point of the element may come to the body within the frame. A distance changes by no more than
+// the point moves, and a point's distances from the corners sum to at most the two longest sides.
+bool is_near(const Placement& how, const Element& e) {
+  const auto [a, b, c] = e.particle;
+  const float reach =
+      std::max({how.reach(a), how.reach(b), how.reach(c)}) + how.rules.keep_m + how.rules.rise_m;
+  const float ab = length(at(how.p, a) - at(how.p, b));
+  if (e.is_edge()) return how.distance(a) + how.distance(b) - ab < 2.0f * reach;
+  const float bc = length(at(how.p, b) - at(how.p, c)), ca = length(at(how.p, c) - at(how.p, a));
+  const float two_longest = ab + bc + ca - std::min({ab, bc, ca});
+  return how.distance(a) + how.distance(b) + how.distance(c) - two_longest < 3.0f * reach;
+}
+
+int parts_of(const Placement& how, const Element& e, int wanted) {
+  const auto [a, b, c] = e.particle;
+  if (!is_near(how, e)) return 0;
+  float parts = how.parts(a, b);
+  if (!e.is_edge()) parts = std::max({parts, how.parts(b, c), how.parts(c, a)});
+  parts = std::max(parts, static_cast<float>(wanted) / how.widening);
+  return std::clamp(static_cast<int>(std::ceil(std::min(parts, 1e3f))), 1, kFinest);
+}
+
+// Sets the parts of all elements and the first sample of each; returns the number of samples.
+std::size_t count_samples(const engine::Context& context, const Placement& how, const Elements& elements,
+                          FaceSamples& s) {
+  engine::parallel_for(context, elements.all.size(), kElementGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e)
+      s.parts[e] = static_cast<std::uint8_t>(parts_of(how, elements.all[e], s.wanted[e]));
+  });
+  std::size_t total = 0;
+  for (std::size_t e = 0; e < elements.all.size(); ++e) {
+    s.begin[e] = static_cast<std::uint32_t>(std::min(total, s.most + 1));
+    if (s.parts[e] > 1) total += lattice_points(elements.all[e].is_edge(), s.parts[e]);
+  }
+  s.begin[elements.all.size()] = static_cast<std::uint32_t>(std::min(total, s.most + 1));
+  return total;
+}
+
+void make_chunks(const Elements& elements, FaceSamples& s) {
+  s.chunk.clear();
+  for (std::size_t group = 0; group < elements.groups(); ++group) {
+    s.group_chunk[group] = static_cast<std::uint32_t>(s.chunk.size());
+    const std::uint32_t end = s.begin[elements.group_begin[group + 1]];
+    for (std::uint32_t at = s.begin[elements.group_begin[group]]; at < end;) {
+      const std::uint32_t next = std::min(end, at + static_cast<std::uint32_t>(kChunk));
+      s.chunk.push_back({at, next});
+      at = next;
+    }
+  }
+  s.group_chunk[elements.groups()] = static_cast<std::uint32_t>(s.chunk.size());
+}
+
+void write_samples(const Element& element, int parts, FaceSample* out) {
+  if (parts < 2) return;
+  for_each_lattice_point(element.is_edge(), parts, [&](float b1, float b2) {
+    FaceSample& sample = *out++;
+    std::ranges::copy(element.particle, sample.particle);
+    // The weights of an edge are those of its first and second particle; of a triangle, of its last two.
+    sample.weight[0] = element.is_edge() ? b1 : 1.0f - b1 - b2;
+    sample.weight[1] = element.is_edge() ? b2 : b1;
+  });
+}
+
+// How much less than the thickness samples beside particle i keep: nothing, unless it is a pin that the host
+// holds nearer to the body.
+float deficit(const Placement& how, Index i) {
+  return how.p.inverse_mass[i] > 0.0f ? 0.0f : std::max(0.0f, how.rules.keep_m - how.distance(i));
+}
+
+void query_chunk(const collision::Collider& body, const Placement& how, const SampleChunk& chunk,
+                 std::span<FaceSample> samples) {
+  SampleQuery query;
+  for (std::uint32_t k = chunk.begin; k < chunk.end; ++k) {
+    FaceSample& s = samples[k];
+    const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+    Float4 where = splat(0.0f), ahead = splat(0.0f);
+    s.keep_m = how.rules.keep_m;
+    for (int c = 0; c < 3; ++c) {
+      const Index i = s.particle[c];
+      where += weight[c] * at(how.p, i), ahead += weight[c] * xyz(load(how.motion.ahead[i]));
+      s.keep_m -= weight[c] * deficit(how, i);
+    }
+    for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = ahead[axis];
+    query.add(k, where + ahead);
+  }
+  query.run(body, band_of(how.rules), how.rules.frame_s, samples);
+}
+
+// The turn of normals between neighboring samples of an element shows which parts it needs next time.
+int wanted_parts(const SampleRules& rules, const FaceSamples& s, std::size_t e) {
+  float worst = 0.0f;
+  for (std::uint32_t k = s.begin[e]; k + 1 < s.begin[e + 1]; ++k) {
+    const FaceSample &a = s.all[k], &b = s.all[k + 1];
+    const Float4 path = vector_of(b.at) - vector_of(a.at);
+    worst = std::max(worst, dot3(vector_of(b.normal) - vector_of(a.normal), path) / 8.0f);
+  }
+  const float wanted = static_cast<float>(s.parts[e]) * std::sqrt(worst / rules.sag_m);
+  // A need that is over is forgotten slowly, or samples would come and go.
+  return std::clamp(static_cast<int>(std::ceil(wanted)), std::max(0, s.wanted[e] - 1), kFinest);
+}
+
+}  // namespace
+
+FaceSamples make_face_samples(const Elements& elements, std::size_t most) {
+  FaceSamples s;
+  s.most = most;
+  s.all.reserve(most);
+  s.chunk.reserve(most / kChunk + elements.groups() + 1);
+  s.group_chunk.assign(elements.groups() + 1, 0);
+  s.begin.assign(elements.all.size() + 1, 0);
+  s.parts.assign(elements.all.size(), 0), s.wanted.assign(elements.all.size(), 0);
+  return s;
+}
+
+std::size_t count_at_rest(const Elements& elements, const Particles& p, float spacing_m) {
+  std::size_t total = 0;
+  for (const Element& e : elements.all) {
+    const auto [a, b, c] = e.particle;
+    const float longest =
+        std::max({length(at(p, a) - at(p, b)), length(at(p, b) - at(p, c)), length(at(p, c) - at(p, a))});
+    const float parts = std::clamp(std::ceil(longest / spacing_m), 1.0f, static_cast<float>(kFinest));
+    total += lattice_points(e.is_edge(), static_cast<int>(parts));
+  }
+  return total;
+}
+
+void SampleQuery::run(const collision::Collider& body, float band_m, float frame_s,
+                      std::span<FaceSample> samples) {
+  if (count == 0) return;
+  const engine::Context alone{.executor = &engine::inline_executor()};
+  body.query(alone, {.count = count, .x = x, .y = y, .z = z}, {contact, count}, {.within_m = band_m});
+  for (std::size_t k = 0; k < count; ++k) {
+    FaceSample& s = samples[sample[k]];
+    const collision::Contact& c = contact[k];
+    s.at[0] = x[k], s.at[1] = y[k], s.at[2] = z[k];
+    const bool near = c.ellipsoid != collision::kNoEllipsoid;
+    s.distance_m = near ? c.signed_distance : band_m;
+    for (int axis = 0; axis < 3; ++axis) s.normal[axis] = near ? c.normal[axis] : 0.0f;
+    if (!near) continue;
+    const Vec3 velocity =
+        body.surface_velocity(c.ellipsoid, Eigen::Map<const Eigen::Vector3f>(s.at).cast<double>());
+    const float along = frame_s * dot3(vector_of(s.normal), to_float4(velocity));
+    for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = along * s.normal[axis];
+  }
+}
+
+void place_samples(const engine::Context& context, const collision::Collider& body, const SampleRules& rules,
+                   const Elements& elements, std::span<const collision::Contact> nearest,
+                   const MotionNearParticles& motion, const Particles& p, FaceSamples& s) {
+  Placement how{rules, p, nearest, motion};
+  std::size_t count = count_samples(context, how, elements, s);
+  while (count > s.most && how.widening < static_cast<float>(kFinest)) {
+    how.widening *= 1.5f;
+    count = count_samples(context, how, elements, s);
+  }
+  s.all.resize(std::min(count, s.most));
+  if (count > s.most) std::ranges::fill(s.begin, 0u), s.all.clear();
+  make_chunks(elements, s);
+  engine::parallel_for(context, elements.all.size(), kElementGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e)
+      if (s.begin[e + 1] > s.begin[e]) write_samples(elements.all[e], s.parts[e], &s.all[s.begin[e]]);
+  });
+  engine::parallel_for(context, s.chunk.size(), kQueriedChunks, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) query_chunk(body, how, s.chunk[c], s.all);
+  });
+  engine::parallel_for(context, elements.all.size(), kElementGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e)
+      s.wanted[e] = static_cast<std::uint8_t>(wanted_parts(rules, s, e));
+  });
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,111 @@
+// Samples of edges and triangles near the body, chosen once a frame.
+//
+// How densely: a distance to a body that a ball of radius rho can touch from inside at every point is
+// semiconcave, with constant 1 / rho. So it lies below the interpolation of its values at the corners of a
+// triangle by up to r^2 / (2 rho), r the circumradius, and along an edge by up to e^2 / (8 rho); unions keep
+// that, because the least of semiconcave functions is one. The turn of the normals from one end to the other
+// measures e^2 / rho. An edge is cut until what is left is below a tolerance, and at least as finely as a
+// sharp feature of a body needs that no corner sees. Based on: Piermarco Cannarsa, Carlo Sinestrari.
+// Semiconcave Functions, Hamilton-Jacobi Equations, and Optimal Control. 2004. - section 2.2 (distances).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/context.hpp>
+
+#include "faces/elements.hpp"
+
+namespace bodice::cloth {
+
+/// A point of the cloth with the body's distance near it, to first order.
+struct alignas(64) FaceSample {
+  Index particle[3] = {};
+  float weight[2] = {};     ///< barycentric, of the first two particles
+  float at[3] = {};         ///< where the distance was queried, in the body's pose at the end of the frame
+  float normal[3] = {};     ///< of the body there
+  float distance_m = 0.0f;  ///< there; at least the band if nothing is in it
+  float ahead[3] = {};  ///< displacement of the body's material near it in the frame along the normal, meters
+  float keep_m = 0.0f;  ///< distance to keep; less beside a pin that the host holds nearer
+};
+
+/// Samples [begin, end) of one group of elements.
+struct SampleChunk {
+  std::uint32_t begin = 0, end = 0;
+};
+inline constexpr std::size_t kChunk = 256;  ///< the most samples in a chunk
+
+/// Lengths that decide which elements are sampled, and how densely.
+struct SampleRules {
+  float keep_m = 0.0f;                ///< distance that the cloth keeps from the proxy
+  float sag_m = 0.0f;                 ///< what a distance may fall below its interpolation between samples
+  float spacing_m = 0.0f;             ///< the widest spacing of samples near the body
+  float slope = 1.0f, rise_m = 0.0f;  ///< a distance falls by at most slope times the path, plus rise_m
+  float frame_s = 0.0f;
+  float fall_m = 0.0f;  ///< travel that gravity adds in a frame
+};
+
+/// Distance up to which samples are queried; a farther one has this distance.
+inline float band_of(const SampleRules& rules) {
+  return rules.keep_m + rules.rise_m + rules.spacing_m;
+}
+
+/// The body's motion in a frame near each particle (#P, meters), and its component along the normal.
+struct MotionNearParticles {
+  std::span<const Point> by, ahead;
+};
+
+/// The samples of a frame, by groups of elements.
+struct FaceSamples {
+  std::vector<FaceSample> all;
+  std::vector<SampleChunk> chunk;
+  std::vector<std::uint32_t> group_chunk;  ///< #groups + 1: first chunk of each group
+  std::vector<std::uint32_t> begin;        ///< #elements + 1: first sample of each
+  std::vector<std::uint8_t> parts;   ///< #elements: into how many its edges are cut; 0: not near the body
+  std::vector<std::uint8_t> wanted;  ///< #elements: parts that the last frame's samples showed to be needed
+  std::size_t most = 0;              ///< samples that memory is reserved for
+};
+
+/// The state for so many elements and room for `most` samples.
+FaceSamples make_face_samples(const Elements& elements, std::size_t most);
+
+/// The number of samples that the widest spacing gives for the garment at rest.
+std::size_t count_at_rest(const Elements& elements, const Particles& particles, float spacing_m);
+
+/// Chooses the samples of a frame and queries them. `nearest` is #P: the particles' contacts in the body's
+/// motion. Allocates nothing; with too many samples all are spaced more widely. The same for any number of
+/// workers.
+void place_samples(const engine::Context& context, const collision::Collider& body, const SampleRules& rules,
+                   const Elements& elements, std::span<const collision::Contact> nearest,
+                   const MotionNearParticles& motion, const Particles& particles, FaceSamples& samples);
+
+/// Queries the listed samples of a chunk at positions (x, y, z) in the body's pose at the end of the frame.
+struct SampleQuery {
+  std::uint32_t sample[kChunk];
+  float x[kChunk], y[kChunk], z[kChunk];
+  collision::Contact contact[kChunk];
+  std::size_t count = 0;
+
+  void add(std::uint32_t s, Float4 at) {
+    sample[count] = s, x[count] = at[0], y[count] = at[1], z[count++] = at[2];
+  }
+  /// Queries within `band_m` and writes distance, normal and motion of each sample.
+  void run(const collision::Collider& body, float band_m, float frame_s, std::span<FaceSample> samples);
+};
+
+inline Float4 vector_of(const float (&v)[3]) {
+  return Float4{v[0], v[1], v[2], 0.0f};
+}
+inline float dot3(Float4 a, Float4 b) {
+  const Float4 ab = a * b;
+  return ab[0] + ab[1] + ab[2];
+}
+/// The position of a sample, given those of the particles.
+inline Float4 position(const FaceSample& s, std::span<const Point> at) {
+  return xyz(s.weight[0] * load(at[s.particle[0]]) + s.weight[1] * load(at[s.particle[1]]) +
+             (1.0f - s.weight[0] - s.weight[1]) * load(at[s.particle[2]]));
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,278 @@
+// Edges and triangles keep out of the body, and not only their particles. The oracle is the closest point of
+// the ellipsoids in double precision, at a lattice of points over each triangle.
+#include <doctest/doctest.h>
+#include <bodice_test/allocations.hpp>
+#include <bodice_test/executors.hpp>
+
+#include <numbers>
+#include <optional>
+#include <span>
+
+#include "fixtures.hpp"
+
+using namespace bodice;
+using namespace bodice_test;
+
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60.0;
+constexpr double kThickness_m = 1.5e-3;
+/// How much nearer than the thickness a point between samples may be: twice the sag that contact allows,
+/// which is an eighth of the thickness, because particles lie on the body and not exactly at the thickness.
+constexpr double kSag_m = 0.25 * kThickness_m;
+
+cloth::SolverOptions options(bool face_contact) {
+  cloth::SolverOptions o;
+  o.thickness_m = kThickness_m;
+  o.face_contact = face_contact;
+  return o;
+}
+
+double distance(std::span<const geometry::Ellipsoid> body, const Vec3& p) {
+  double least = 1e9;
+  for (const geometry::Ellipsoid& e : body)
+    least = std::min(least, geometry::closest_point(e, p).signed_distance);
+  return least;
+}
+
+/// The least distance of any point of the triangles from the body, on a lattice with `cuts` cuts an edge.
+double nearest(std::span<const geometry::Ellipsoid> body, const std::vector<Vec3>& at,
+               const std::vector<geometry::Triangle>& triangles, int cuts = 24) {
+  double least = 1e9;
+  for (const auto& [a, b, c] : triangles)
+    for (int i = 0; i <= cuts; ++i)
+      for (int j = 0; i + j <= cuts; ++j) {
+        const double u = static_cast<double>(i) / cuts, v = static_cast<double>(j) / cuts;
+        least = std::min(least, distance(body, (1.0 - u - v) * at[a] + u * at[b] + v * at[c]));
+      }
+  return least;
+}
+
+/// A tube about y around a limb, with few segments.
+TriMesh tube(double radius, double low, double high, int around, int rows) {
+  TriMesh mesh;
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i < around; ++i) {
+      const double angle = 2.0 * std::numbers::pi * (i + 0.5 * (j % 2)) / around;
+      mesh.positions.emplace_back(radius * std::cos(angle), low + (high - low) * j / rows,
+                                  -radius * std::sin(angle));
+    }
+  const auto n = static_cast<Index>(around);
+  for (Index j = 0; j < static_cast<Index>(rows); ++j)
+    for (Index i = 0; i < n; ++i) {
+      const Index a = j * n + i, b = j * n + (i + 1) % n, c = a + n, d = b + n;
+      if (j % 2 == 0)
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {b, d, c}});
+      else
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {a, d, c}});
+    }
+  return mesh;
+}
+
+collision::Collider collider_of(std::span<const geometry::Ellipsoid> shapes) {
+  proxy::BodyProxy::Data data;
+  data.stature_m = 1.7;
+  for (const geometry::Ellipsoid& shape : shapes) {
+    proxy::ProxyEllipsoid e;
+    e.shape = shape;
+    data.ellipsoids.push_back(e);
+  }
+  return collision::Collider(*proxy::BodyProxy::make(std::move(data)));
+}
+
+geometry::Ellipsoid ellipsoid(const Vec3& center, const Vec3& radii) {
+  return {center, geometry::Mat3::Identity(), radii};
+}
+
+/// A tight sleeve of long edges on a limb: its particles lie on the skin, and its edges cut 4 mm deep. It is
+/// held at its upper rim, which is wide.
+struct Sleeve {
+  static constexpr Index kAround = 8, kRows = 5;
+
+  std::vector<geometry::Ellipsoid> limb = {ellipsoid(Vec3(0, 1, 0), Vec3(0.05, 0.6, 0.05))};
+  collision::Collider body = collider_of(limb);
+  TriMesh mesh = tube(0.0515, 0.9, 1.1, kAround, kRows);
+  std::vector<Vec3> rim;
+  std::optional<cloth::Solver> solver;
+
+  explicit Sleeve(bool face_contact) {
+    std::vector<Index> held;
+    for (Index v = kAround * kRows; v < kAround * (kRows + 1); ++v) {
+      mesh.positions[v] = mesh.positions[v].cwiseProduct(Vec3(1.2, 1.0, 1.2));
+      held.push_back(v);
+      rim.push_back(mesh.positions[v]);
+    }
+    solver.emplace(make_solver(mesh, held, cotton(), options(face_contact)));
+  }
+  /// Turns limb and rim about z, by an angle from the start.
+  void turn(double angle) {
+    const geometry::Mat3 turned = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
+    limb.front().axes = turned;
+    body.move_to(limb, kFrame_s);
+    std::vector<Vec3> now = rim;
+    for (Vec3& p : now) p = limb.front().center + turned * (p - limb.front().center);
+    solver->move_pins(now);
+  }
+  double nearest_now() { return nearest(limb, positions(*solver, mesh.positions.size()), mesh.triangles); }
+};
+
+}  // namespace
+
+TEST_CASE("face contact: a tight sleeve of long edges keeps the thickness everywhere, without it they cut") {
+  for (const bool on : {true, false}) {
+    CAPTURE(on);
+    Sleeve sleeve(on);
+    cloth::FrameReport report;
+    for (int frame = 0; frame < 60; ++frame) report = sleeve.solver->step({}, sleeve.body, kFrame_s);
+    if (on) {
+      CHECK(sleeve.nearest_now() > kThickness_m - kSag_m);
+      CHECK(report.faces.contacts > 0);
+      CHECK(report.faces.deepest_m <= 0.0f);
+      CHECK(report.stretch_p95 < 0.2);  // the limb is wider than the sleeve by a tenth
+    } else {
+      CHECK(sleeve.nearest_now() < -2e-3);
+      CHECK(report.faces.samples == 0);
+    }
+  }
+}
+
+TEST_CASE("face contact: a fingertip that no corner meets carries the middle of a triangle") {
+  // A ball of 8 mm stands under the middle of a taut triangle of 6 cm, and rises 3 cm in half a second.
+  for (const bool on : {true, false}) {
+    CAPTURE(on);
+    std::vector<geometry::Ellipsoid> tip = {ellipsoid(Vec3(0, 0.99, 0), Vec3::Constant(0.008))};
+    collision::Collider body = collider_of(tip);
+    TriMesh mesh = sheet(10, 10, 0.6, 0.6, Vec3(-0.28, 1.0, -0.28));
+    std::vector<Index> rim;
+    for (Index j = 0; j <= 10; ++j)
+      for (Index i = 0; i <= 10; ++i)
+        if (i == 0 || j == 0 || i == 10 || j == 10) rim.push_back(11 * j + i);
+    cloth::Solver solver = make_solver(mesh, rim, cotton(), options(on));
+    double worst = 1.0;
+    for (int frame = 0; frame < 30; ++frame) {
+      tip[0].center.y() += 0.001;
+      body.move_to(tip, kFrame_s);
+      solver.step({}, body, kFrame_s);
+      worst = std::min(worst, nearest(tip, positions(solver, mesh.positions.size()), mesh.triangles, 60));
+    }
+    if (on)
+      CHECK(worst > -0.5e-3);  // samples are added in the frame after the one that shows the need
+    else
+      CHECK(worst < -5e-3);  // the ball stands through the cloth
+  }
+}
+
+TEST_CASE("face contact: a limb that swings in its sleeve stays in it") {
+  for (const bool on : {true, false}) {
+    CAPTURE(on);
+    Sleeve sleeve(on);
+    double worst = 1.0, angle = 0.0;
+    for (int frame = 0; frame < 60; ++frame) {
+      angle += 2.0 * std::numbers::pi * kFrame_s * std::cos(0.1 * frame);  // at most 360 degrees a second
+      sleeve.turn(angle);
+      sleeve.solver->step({}, sleeve.body, kFrame_s);
+      if (frame >= 10) worst = std::min(worst, sleeve.nearest_now());
+    }
+    if (on)
+      CHECK(worst > -0.2e-3);
+    else
+      CHECK(worst < -2e-3);
+  }
+}
+
+TEST_CASE("face contact: the same bits for any number of workers, and no allocation once warm") {
+  auto run = [](engine::Executor& executor) {
+    Sleeve sleeve(true);
+    const engine::Context context{.executor = &executor};
+    for (int frame = 0; frame < 20; ++frame) sleeve.solver->step(context, sleeve.body, kFrame_s);
+    return sleeve.solver->hash();
+  };
+  const std::uint64_t serial = run(engine::inline_executor());
+  for (const int workers : {2, 3, 7}) CHECK(run(*make_threads(workers)) == serial);
+
+  if (!bodice_test::counts_allocations()) return;
+  Sleeve sleeve(true);
+  sleeve.solver->step({}, sleeve.body, kFrame_s);
+  const std::size_t before = bodice_test::allocations();
+  for (int frame = 0; frame < 20; ++frame) {
+    sleeve.limb.front().center.x() += 1e-3;
+    sleeve.body.move_to(sleeve.limb, kFrame_s);
+    sleeve.solver->step({}, sleeve.body, kFrame_s);
+  }
+  CHECK(bodice_test::allocations() == before);
+}
+
+TEST_CASE("face contact: a face of a meter beside faces of a millimeter keeps out of a limb") {
+  const std::vector<geometry::Ellipsoid> limb = {ellipsoid(Vec3(0, 0.94, 0), Vec3(0.05, 0.05, 0.6))};
+  const collision::Collider body = collider_of(limb);
+  TriMesh mesh;
+  mesh.positions = {Vec3(-0.5, 1.0, -0.4), Vec3(0.5, 1.0, -0.4), Vec3(0, 1.0, 0.5)};
+  mesh.triangles = {{0, 2, 1}};
+  for (Index k = 0; k < 40; ++k) {  // a strip of small faces hangs at a corner
+    const Index right = 3 + 2 * k, left = right + 1;
+    const double z = 0.501 + 0.001 * k;
+    mesh.positions.insert(mesh.positions.end(), {Vec3(0.0005, 1.0, z), Vec3(-0.0005, 1.0, z)});
+    if (k == 0)
+      mesh.triangles.push_back({2, left, right});
+    else
+      mesh.triangles.insert(mesh.triangles.end(), {{right - 2, left, right}, {right - 2, left - 2, left}});
+  }
+  cloth::Solver solver = make_solver(mesh, {}, cotton(), options(true));
+  cloth::FrameReport report;
+  for (int frame = 0; frame < 20; ++frame) {
+    report = solver.step({}, body, kFrame_s);
+    REQUIRE(report.finite);
+    CHECK(nearest(limb, positions(solver, mesh.positions.size()), {mesh.triangles[0]}, 200) > -1e-3);
+  }
+  CHECK(report.faces.samples > 100);
+}
+
+TEST_CASE("face contact: thicknesses of 0 and 50 mm hold between particles") {
+  for (const double thickness_m : {0.0, 0.05}) {
+    CAPTURE(thickness_m);
+    const std::vector<geometry::Ellipsoid> limb = {ellipsoid(Vec3(0, 1, 0), Vec3(0.05, 0.6, 0.05))};
+    const collision::Collider body = collider_of(limb);
+    const TriMesh mesh = tube(0.0515 + thickness_m, 0.9, 1.1, 8, 5);
+    cloth::SolverOptions o = options(true);
+    o.thickness_m = thickness_m;
+    cloth::Solver solver = make_solver(mesh, {}, cotton(), o);
+    for (int frame = 0; frame < 60; ++frame) REQUIRE(solver.step({}, body, kFrame_s).finite);
+    const double sag = std::max(0.25 * thickness_m, 1e-3);
+    CHECK(nearest(limb, positions(solver, mesh.positions.size()), mesh.triangles) > thickness_m - sag);
+  }
+}
+
+TEST_CASE("face contact: a garment wholly inside the body comes out") {
+  const std::vector<geometry::Ellipsoid> ball = {ellipsoid(Vec3(0, 1, 0), Vec3::Constant(0.15))};
+  const collision::Collider body = collider_of(ball);
+  const TriMesh mesh = sheet(4, 4, 0.1, 0.1, Vec3(-0.05, 1.05, -0.05));
+  cloth::Solver solver = make_solver(mesh, {}, cotton(), options(true));
+  cloth::FrameReport report;
+  for (int frame = 0; frame < 30; ++frame) report = solver.step({}, body, kFrame_s);
+  CHECK(report.finite);
+  CHECK(nearest(ball, positions(solver, mesh.positions.size()), mesh.triangles) > 0.0);
+}
+
+TEST_CASE("face contact: between two limbs no particle is pushed through either") {
+  // A sheet hangs between two limbs that close on it until there is room for the thickness alone.
+  std::vector<geometry::Ellipsoid> limbs = {ellipsoid(Vec3(-0.07, 1, 0), Vec3(0.05, 0.5, 0.05)),
+                                            ellipsoid(Vec3(0.07, 1, 0), Vec3(0.05, 0.5, 0.05))};
+  collision::Collider body = collider_of(limbs);
+  TriMesh mesh = sheet(6, 6, 0.24, 0.3, Vec3::Zero());
+  for (Vec3& p : mesh.positions) p = Vec3(0.0, 1.15 - p.z(), p.x() - 0.12);
+  cloth::Solver solver = make_solver(mesh, {0, 1, 2, 3, 4, 5, 6}, cotton(), options(true));
+  std::vector<Vec3> before = positions(solver, mesh.positions.size());
+  for (int frame = 0; frame < 40; ++frame) {
+    if (frame < 20)
+      for (geometry::Ellipsoid& limb : limbs)
+        limb.center.x() *= 1.0 - 0.019 / 20.0 / std::abs(limb.center.x());
+    body.move_to(limbs, kFrame_s);
+    REQUIRE(solver.step({}, body, kFrame_s).finite);
+    const std::vector<Vec3> now = positions(solver, mesh.positions.size());
+    for (std::size_t v = 7; v < now.size(); ++v) {
+      CHECK(std::abs(now[v].x()) < 0.05);         // it stays between the axes of the limbs
+      CHECK((now[v] - before[v]).norm() < 0.02);  // and does not jump
+    }
+    before = now;
+  }
+}
