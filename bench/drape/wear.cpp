@@ -76,14 +76,13 @@ Wear wear(const engine::Context& context, const Body& body, const tryon::WornGar
           const WearOptions& options) {
   const tryon::Wardrobe all = tryon::join({garment}).value();
   cloth::SolverOptions settings = options.solver;
-  settings.thickness_m =
-      tryon::fitted_thickness_m(context, all.mesh, *body.skin.distance, body.proxy.stature_m());
+  collision::Collider collider(body.proxy);
+  settings.thickness_m = tryon::known_thickness_m(context, all.mesh, *body.skin.distance, collider);
   auto made = cloth::Solver::make(all.mesh, all.held, options.fabric, settings);
   Wear out;
   out.finite = made.ok();
   if (!made) return out;
   cloth::Solver& solver = *made;
-  collision::Collider collider(body.proxy);
   Turntable table(body.proxy, collider.origin());
   const std::vector<Vec3> held = tryon::held_positions(all, collider, settings.thickness_m);
   solver.move_pins(held);

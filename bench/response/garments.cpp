@@ -55,10 +55,10 @@ Outcome drape(const tryon::PreparedBody& body, const fs::path& file, int frames,
   const tryon::Wardrobe all = tryon::join({worn}).value();
   const proxy::BodyProxy& proxy = body.fit.proxy;
   cloth::SolverOptions options{.substeps = 16};
-  options.thickness_m = tryon::covering_thickness_m(all.mesh, proxy.stature_m());
   if (proxy.tier() == proxy::Tier::kPaper) options.response = collision::Response::kPaper;
-  auto solver = must(cloth::Solver::make(all.mesh, all.held, must(cloth::find_fabric("cotton")), options));
   const collision::Collider collider(proxy);
+  options.thickness_m = tryon::known_thickness_m({}, all.mesh, *body.skin.distance, collider);
+  auto solver = must(cloth::Solver::make(all.mesh, all.held, must(cloth::find_fabric("cotton")), options));
   solver.move_pins(tryon::held_positions(all, collider, options.thickness_m));
   Outcome outcome;
   for (int frame = 1; frame <= frames; ++frame) {

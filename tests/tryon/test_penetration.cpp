@@ -83,27 +83,19 @@ TEST_CASE("positions that are not finite are not counted as inside a proxy") {
   CHECK(tryon::count_inside({}, ball(false), positions) == 1);
 }
 
-TEST_CASE("coarser cloth is kept further off, within bounds") {
-  auto square = [](double edge_m) {
-    geometry::TriMesh mesh;
-    mesh.positions = {{0, 0, 0}, {edge_m, 0, 0}, {0, edge_m, 0}, {edge_m, edge_m, 0}};
-    mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
-    return mesh;
-  };
-  CHECK(tryon::covering_thickness_m(square(0.005), 1.7) == doctest::Approx(0.0015).epsilon(0.1));
-  CHECK(tryon::covering_thickness_m(square(0.04), 1.7) > 0.003);
-  CHECK(tryon::covering_thickness_m(square(0.5), 1.7) == doctest::Approx(0.008));
-  CHECK(tryon::covering_thickness_m({}, 1.7) == doctest::Approx(0.0015));
-}
-
-TEST_CASE("a tight garment is kept no further off than it was cut") {
+TEST_CASE("cloth keeps its thickness and the proxy's error away, and coarse cloth no more than fine cloth") {
   const engine::Context context;
-  const geometry::MeshDistance skin(context, bodice_test::icosphere(0.2, 4));
-  auto thickness = [&](double gap_m) {
-    const geometry::TriMesh coarse = bodice_test::icosphere(0.2 + gap_m, 2);  // edges of 6 cm would need 8 mm
-    return tryon::fitted_thickness_m(context, coarse, skin, 1.7);
+  const geometry::MeshDistance skin(context, bodice_test::icosphere(0.2, 5));
+  auto thickness = [&](double radius, double gap_m, int halvings) {
+    proxy::BodyProxy::Data data{.tier = proxy::Tier::kSolid, .stature_m = 1.7};
+    data.ellipsoids.push_back({{Vec3::Zero(), geometry::Mat3::Identity(), Vec3::Constant(radius)}});
+    const collision::Collider collider(proxy::BodyProxy::make(std::move(data)).value());
+    return tryon::known_thickness_m(context, bodice_test::icosphere(0.2 + gap_m, halvings), skin, collider);
   };
-  CHECK(thickness(0.05) == doctest::Approx(0.008));
-  CHECK(thickness(0.004) == doctest::Approx(0.004).epsilon(0.1));
-  CHECK(thickness(0.0) == doctest::Approx(0.0015).epsilon(0.1));
+  CHECK(thickness(0.2, 0.005, 4) == doctest::Approx(1e-3).epsilon(0.1));
+  CHECK(thickness(0.198, 0.005, 4) == doctest::Approx(2.5e-3).epsilon(0.1));  // the skin stands out by 2 mm
+  CHECK(thickness(0.198, 0.005, 1) == doctest::Approx(2.5e-3).epsilon(0.1));
+  CHECK(thickness(0.198, 0.001, 4) == doctest::Approx(2.5e-3).epsilon(0.1));
+  CHECK(thickness(0.17, 0.005, 4) == doctest::Approx(8e-3));
+  CHECK(thickness(0.17, 0.2, 4) == doctest::Approx(1e-3));  // a wide skirt does not lie on the skin below it
 }

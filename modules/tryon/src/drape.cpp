@@ -58,9 +58,9 @@ cloth::SolverOptions solver_options(const engine::Context& context, const DrapeO
                                     const PreparedBody& body, const geometry::TriMesh& garments) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
   cloth::SolverOptions solver = options.solver;
-  solver.thickness_m = options.thickness_m
-                           ? *options.thickness_m
-                           : fitted_thickness_m(context, garments, *body.skin.distance, proxy.stature_m());
+  solver.thickness_m = options.thickness_m ? *options.thickness_m
+                                           : known_thickness_m(context, garments, *body.skin.distance,
+                                                               collision::Collider(proxy));
   if (proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
   return solver;
 }

@@ -10,11 +10,12 @@
 namespace bodice::tryon {
 namespace {
 
-constexpr double kClothThickness_m = 0.0015;
-constexpr double kMostThickness_m = 0.008;  // a wider gap is visible
-constexpr std::size_t kGrain = 256;         // vertices a block: about a millisecond of signed distances
-// The radius of the tightest turns that cloth covers (thighs and upper arms), in statures.
-constexpr double kLimbRadius = 0.03;
+constexpr double kHalfCloth_m = 0.5e-3;
+constexpr double kLeastThickness_m = 1e-3;  // rounding, and the linear distances of cloth's contact
+constexpr double kMostThickness_m = 8e-3;   // a wider gap is visible
+constexpr double kErrorQuantile = 0.99;
+constexpr double kNearSkin_m = 0.05;  // vertices farther away do not come to rest on the skin below them
+constexpr std::size_t kGrain = 256;   // vertices a block: about a millisecond of closest points
 
 engine::Result<void> check(const WornGarment& garment, std::size_t number) {
   const std::string name = garment.name.empty() ? engine::message("Garment ", number) : garment.name;
@@ -51,32 +52,24 @@ engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric
   return cloth::find_fabric("cotton");
 }
 
-double covering_thickness_m(const geometry::TriMesh& garment, double stature_m) {
-  std::vector<double> squared;
-  for (std::size_t t = 0; t < garment.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const double length = (garment.corner(t, k) - garment.corner(t, (k + 1) % 3)).squaredNorm();
-      if (length > 0.0 && length < stature_m * stature_m) squared.push_back(length);
-    }
-  if (squared.empty()) return kClothThickness_m;
-  const auto long_edge = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 9 / 10);
-  std::nth_element(squared.begin(), long_edge, squared.end());
-  return std::min(kMostThickness_m, kClothThickness_m + *long_edge / (8.0 * kLimbRadius * stature_m));
-}
-
-double fitted_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
-                          const geometry::MeshDistance& skin, double stature_m) {
-  const double covering = covering_thickness_m(garment, stature_m);
+double known_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
+                         const geometry::MeshDistance& skin, const collision::Collider& collider) {
   const std::vector<geometry::Vec3>& at = garment.positions;
-  std::vector<double> gap(at.size(), 0.0);
+  std::vector<float> missed_m(at.size(), 0.0f);
   engine::parallel_for(context, at.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (at[i].allFinite()) gap[i] = std::max(0.0, skin.signed_distance(at[i]));
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!at[i].allFinite()) continue;
+      const geometry::Vec3 below = skin.closest_point(at[i]).point;
+      if ((below - at[i]).norm() > kNearSkin_m) continue;
+      const Eigen::Vector3f local = (below - collider.origin()).cast<float>();
+      missed_m[i] = std::max(0.0f, collider.query({local.x(), local.y(), local.z()}).signed_distance);
+    }
   });
-  if (gap.empty()) return covering;
-  const auto median = gap.begin() + static_cast<std::ptrdiff_t>(gap.size() / 2);
-  std::nth_element(gap.begin(), median, gap.end());
-  return std::min(covering, std::max(kClothThickness_m, *median));
+  if (missed_m.empty()) return kLeastThickness_m;
+  const auto rank = static_cast<std::ptrdiff_t>(kErrorQuantile * static_cast<double>(missed_m.size() - 1));
+  std::nth_element(missed_m.begin(), missed_m.begin() + rank, missed_m.end());
+  return std::clamp(kHalfCloth_m + double{missed_m[static_cast<std::size_t>(rank)]}, kLeastThickness_m,
+                    kMostThickness_m);
 }
 
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,

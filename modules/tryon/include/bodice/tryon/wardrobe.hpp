@@ -33,15 +33,13 @@ engine::Result<Wardrobe> join(const std::vector<WornGarment>& garments);
 /// The given fabric, or else cotton.
 engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric);
 
-/// A thickness that keeps triangles, and not only their corners, out of the skin. It is 1.5 mm plus the
-/// height of the arc over a long edge (90 % are shorter) on a limb, at most 8 mm. O(#edges).
-double covering_thickness_m(const geometry::TriMesh& garment, double stature_m);
-
-/// The covering thickness, but at most the distance that half of the garment's vertices have from the skin
-/// (and at least 1.5 mm): a tight garment that is pushed farther off is stretched all around. Vertices inside
-/// the skin count as touching it. Cost: one signed distance a vertex.
-double fitted_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
-                          const geometry::MeshDistance& skin, double stature_m);
+/// The distance that cloth keeps from a proxy by what is known: half the thickness of a cloth, and the error
+/// of the proxy where the garment lies. That is the 99th percentile of how far the skin below the garment's
+/// vertices stands out of the proxy (both at rest); at least 1 mm, at most 8. The size of the triangles does
+/// not matter, because contact covers them (cloth::SolverOptions::face_contact). Cost: a closest point of the
+/// skin and a query a vertex, some microseconds.
+double known_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
+                         const geometry::MeshDistance& skin, const collision::Collider& collider);
 
 /// The positions of the held vertices (#held, world meters). Those inside the collider are pushed out of it,
 /// as a waistband lies on the body.
