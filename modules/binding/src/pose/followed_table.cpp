@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pose/lanes.hpp"
 #include "pose/vector_clones.hpp"
 #include "tolerances.hpp"
 
@@ -11,9 +12,7 @@ namespace {
 
 using geometry::Float4;
 
-constexpr int kLanes = proxy::kBundle;
 constexpr int kFixedPointSteps = 2;
-using Lanes = float[kLanes];
 
 /// Directions of consecutive texels of a table of n x n, in the rest table's frame.
 BODICE_CLONES

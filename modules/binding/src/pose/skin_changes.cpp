@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pose/lanes.hpp"
 #include "pose/vector_clones.hpp"
 
 namespace bodice::binding {
 namespace {
-
-constexpr int kLanes = proxy::kBundle;
-using Lanes = float[kLanes];
 
 /// An ellipsoid in units of its longest radius, in its own axes.
 struct UnitEllipsoid {
