@@ -236,3 +236,44 @@ TEST_CASE("a scene that cannot be drawn is refused and leaves no file") {
   index.body.triangles[0][2] = 1'000'000;
   CHECK(refused(index.scene));
 }
+
+TEST_CASE("the GLB's ellipsoids move with their proxy at the times of the garments") {
+  const TempFolder folder;
+  SceneFixture fixture;
+  std::vector<std::vector<geometry::Ellipsoid>> frames(3);
+  for (std::size_t f = 0; f < 3; ++f)
+    for (const proxy::ProxyEllipsoid& e : fixture.proxies.front().ellipsoids()) {
+      frames[f].push_back(e.shape);
+      frames[f].back().center.x() += 0.125 * static_cast<double>(f);
+    }
+  // The same ellipsoid with its first two axes in the other order: its node does not turn.
+  geometry::Ellipsoid& swapped = frames[1][0];
+  std::swap(swapped.radii.x(), swapped.radii.y());
+  const Vec3 first = swapped.axes.col(0);
+  swapped.axes.col(0) = swapped.axes.col(1);
+  swapped.axes.col(1) = -first;
+  fixture.scene.proxy_frames = frames;
+  const Glb glb = written(fixture.scene, folder);
+  check_accessors(glb);
+  const std::size_t moved = node(glb, "ellipsoids")["children"][0].get<std::size_t>();
+  const json& animation = glb.document["animations"][0];
+  int found = 0;
+  for (const json& channel : animation["channels"]) {
+    if (channel["target"]["node"] != moved) continue;
+    const json& sampler = animation["samplers"][channel["sampler"].get<std::size_t>()];
+    CHECK(floats(glb, sampler["input"].get<std::size_t>()) == std::vector<float>{0.0f, 0.5f, 1.0f});
+    ++found;
+    const std::string path = channel["target"]["path"];
+    if (path == "rotation") continue;  // four numbers each
+    const std::vector<float> values = floats(glb, sampler["output"].get<std::size_t>());
+    REQUIRE(values.size() == 9);
+    if (path == "translation") CHECK(values[6] == doctest::Approx(values[0] + 0.25f));
+    if (path == "scale") CHECK(values[3] == doctest::Approx(values[0]));
+  }
+  CHECK(found == 3);
+
+  fixture.scene.proxy_frames = std::span(frames).first(2);
+  const auto refused = io::write_glb(fixture.scene, folder / "short.glb");
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().sentence().find("2 frames") != std::string::npos);
+}

@@ -89,3 +89,25 @@ TEST_CASE("a rigged GLB of a rig that does not fit its skin is refused, and noth
   rig.clips[0].tracks[0].joint = 77;
   refused(rig, "joint 77");
 }
+
+TEST_CASE("a clip that goes on after its last key keeps its duration and its poses in a GLB") {
+  const TempFolder folder;
+  const TriMesh skin = figure();
+  rig::Rig rig = made_rig(skin);
+  for (rig::Clip& clip : rig.clips) clip.duration_s += 0.75;
+  rig.clips.push_back({.name = "still", .duration_s = 0.5, .tracks = {}});
+  const auto file = folder / "longer.glb";
+  REQUIRE(io::write_rigged_glb(skin, rig, file).ok());
+  const auto back = io::import_rigged_body({}, file);
+  REQUIRE(back.ok());
+  REQUIRE(back->rig.ok());
+  REQUIRE(back->rig->clips.size() == rig.clips.size());
+  for (std::size_t c = 0; c < rig.clips.size(); ++c) {
+    CAPTURE(c);
+    const double duration_s = rig.clips[c].duration_s;
+    CHECK(back->rig->clips[c].duration_s == doctest::Approx(duration_s));
+    for (const double time : {0.3, duration_s - 0.4, duration_s - 0.2, duration_s})
+      CHECK(farthest(back->body, posed(back->body.skin, *back->rig, back->rig->clips[c], time),
+                     posed(skin, rig, rig.clips[c], time)) < kFloats_m);
+  }
+}

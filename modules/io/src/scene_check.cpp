@@ -50,6 +50,22 @@ engine::Result<void> check_track(const GarmentTrack& track) {
   return {};
 }
 
+bool is_finite(const geometry::Ellipsoid& e) {
+  return e.center.allFinite() && e.axes.allFinite() && e.radii.allFinite();
+}
+
+engine::Result<void> check_proxy_frames(const Scene& scene) {
+  if (scene.proxy_frames.empty()) return {};
+  const std::size_t kept = scene.garments.empty() ? 0 : scene.garments.front().frames.size();
+  if (!scene.proxy || scene.proxy_frames.size() != kept)
+    return invalid("The scene has ellipsoids at " + std::to_string(scene.proxy_frames.size()) +
+                   " frames, but garments at " + std::to_string(kept) + ".");
+  for (const auto& shapes : scene.proxy_frames)
+    if (shapes.size() != scene.proxy->ellipsoids().size() || !std::ranges::all_of(shapes, is_finite))
+      return invalid("The proxy has a frame that is not finite or not of its ellipsoids.");
+  return {};
+}
+
 engine::Result<void> check_rig(const Scene& scene) {
   if (!scene.body) return invalid("The scene has a rig but no body that it moves.");
   if (auto checked = validate(scene.rig->skeleton); !checked) return checked;
@@ -83,6 +99,7 @@ engine::Result<void> check_scene(const Scene& scene) {
   for (const auto& frame : scene.body_frames)
     if (!scene.body || frame.size() != scene.body->positions.size() || !all_finite(frame))
       return invalid("The body has a frame that is not finite or not of its vertices.");
+  if (auto checked = check_proxy_frames(scene); !checked) return checked;
   if (scene.surface && !fits(*scene.surface, scene.proxy))
     return invalid("The proxy's surface is not that of the scene's proxy.");
   if (scene.rig)
@@ -98,9 +115,15 @@ geometry::Box scene_box(const Scene& scene) {
     for (const Vec3& p : scene.body->positions) box.extend(p);
   for (const auto& frame : scene.body_frames)
     for (const Vec3& p : frame) box.extend(p);
-  if (scene.proxy)
+  if (scene.proxy && scene.proxy_frames.empty())
     for (const auto& ellipsoid : scene.proxy->ellipsoids()) {
       const geometry::Box tight = geometry::bounding_box(ellipsoid.shape);
+      box.extend(tight.low);
+      box.extend(tight.high);
+    }
+  for (const auto& shapes : scene.proxy_frames)
+    for (const geometry::Ellipsoid& shape : shapes) {
+      const geometry::Box tight = geometry::bounding_box(shape);
       box.extend(tight.low);
       box.extend(tight.high);
     }

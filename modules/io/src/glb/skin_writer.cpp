@@ -80,6 +80,56 @@ void add_keys(const rig::Keys<T>& keys, std::size_t node, const char* path, GlbB
   animation.add(node, path, input, output, name_of(keys.interpolation));
 }
 
+/// Calls use(keys) with each kind of keys of a track that is there.
+template <class Use>
+void each_keys(rig::Track& track, Use use) {
+  if (!track.translation.empty()) use(track.translation);
+  if (!track.rotation.empty()) use(track.rotation);
+  if (!track.scale.empty()) use(track.scale);
+}
+
+/// Holds the last value until a time.
+template <class T>
+void hold(double time_s, rig::Keys<T>& keys) {
+  const std::size_t count = keys.value.size();
+  keys.time_s.push_back(time_s);
+  if (keys.interpolation != Interpolation::kCubic) {
+    keys.value.push_back(T(keys.value[count - 1]));
+    return;
+  }
+  T flat = keys.value[count - 1];
+  if constexpr (std::is_same_v<T, Vec3>)
+    flat.setZero();
+  else
+    flat.coeffs().setZero();
+  keys.value[count - 1] = flat;
+  for (const T& value : {flat, T(keys.value[count - 2]), flat}) keys.value.push_back(value);
+}
+
+/// Gives a clip that goes on after its last key one more at its end, which changes no pose.
+void hold_until_end(const rig::Skeleton& joints, rig::Clip& clip) {
+  double last_s = 0.0;
+  const rig::Track* latest = nullptr;
+  for (rig::Track& track : clip.tracks)
+    each_keys(track, [&](const auto& keys) {
+      if (latest && keys.time_s.back() <= last_s) return;
+      latest = &track;
+      last_s = keys.time_s.back();
+    });
+  if (!(clip.duration_s > last_s) || joints.joints.empty()) return;
+  if (!latest) {
+    rig::Track still;
+    still.translation = {Interpolation::kLinear, {0.0}, {joints.joints[0].local.translation}};
+    clip.tracks.assign(1, still);
+    latest = &clip.tracks.front();
+  }
+  bool done = false;
+  each_keys(clip.tracks[static_cast<std::size_t>(latest - clip.tracks.data())], [&](auto& keys) {
+    if (!done) hold(clip.duration_s, keys);
+    done = true;
+  });
+}
+
 }  // namespace
 
 void GlbAnimation::add(std::size_t node, const char* path, std::size_t input, std::size_t output,
@@ -135,7 +185,9 @@ GlbSkeleton add_skeleton(const rig::Skeleton& skeleton, GlbBuilder& glb) {
   return out;
 }
 
-void add_clip(const rig::Clip& clip, const GlbSkeleton& skeleton, GlbBuilder& glb, GlbAnimation& animation) {
+void add_clip(rig::Clip clip, const rig::Skeleton& joints, const GlbSkeleton& skeleton, GlbBuilder& glb,
+              GlbAnimation& animation) {
+  hold_until_end(joints, clip);
   for (const rig::Track& track : clip.tracks) {
     const std::size_t node = skeleton.first_node + track.joint;
     add_keys(track.translation, node, "translation", glb, animation);

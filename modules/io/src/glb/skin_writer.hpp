@@ -31,8 +31,9 @@ struct GlbSkeleton {
 /// Adds the joints' nodes under one root of the scene, and the skin with its inverse bind matrices.
 GlbSkeleton add_skeleton(const rig::Skeleton& skeleton, GlbBuilder& glb);
 
-/// Adds the channels of a clip. Times before 0 count as 0, and equal ones are set apart by the least that
-/// floats can.
-void add_clip(const rig::Clip& clip, const GlbSkeleton& skeleton, GlbBuilder& glb, GlbAnimation& animation);
+/// Adds the channels of a clip. A glTF animation ends with its last key, so that a clip which goes on gets
+/// one more at its end. Times before 0 count as 0, and equal ones are set apart by the least that floats can.
+void add_clip(rig::Clip clip, const rig::Skeleton& joints, const GlbSkeleton& skeleton, GlbBuilder& glb,
+              GlbAnimation& animation);
 
 }  // namespace bodice::io

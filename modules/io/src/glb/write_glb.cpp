@@ -8,6 +8,7 @@
 #include "../color.hpp"
 #include "../scene_check.hpp"
 #include "../unit_sphere.hpp"
+#include "ellipsoid_keys.hpp"
 #include "glb_builder.hpp"
 #include "skin_writer.hpp"
 
@@ -117,7 +118,7 @@ class SceneWriter {
     for (std::size_t k = 0; k < scene_.rig->clips.size(); ++k) {
       if (k > 0) animations_.emplace_back();
       animations_[k].name = scene_.rig->clips[k].name;
-      add_clip(scene_.rig->clips[k], skeleton, glb_, animations_[k]);
+      add_clip(scene_.rig->clips[k], scene_.rig->skeleton, skeleton, glb_, animations_[k]);
     }
     return skeleton.skin;
   }
@@ -147,16 +148,36 @@ class SceneWriter {
       node["mesh"] = mesh_of[part];
       children.push_back(glb_.add("nodes", std::move(node)));
     }
+    if (!scene_.proxy_frames.empty() && takes_time(scene_.garments.front())) animate_ellipsoids(children);
     Json root = {{"name", "ellipsoids"}};
     if (!children.empty()) root["children"] = std::move(children);
     add_root(std::move(root));
   }
 
+  /// Adds keys of each ellipsoid's node at the times of the garments' frames.
+  void animate_ellipsoids(const Json& nodes) {
+    const std::size_t times = glb_.add_times(times_of(scene_.garments.front()));
+    std::vector<geometry::Ellipsoid> shapes;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      shapes.clear();
+      geometry::Mat3 before = in_file(scene_.proxy->ellipsoids()[k].shape).axes;
+      for (const auto& frame : scene_.proxy_frames) {
+        shapes.push_back(aligned(in_file(frame[k]), before));
+        before = shapes.back().axes;
+      }
+      add_ellipsoid_keys(shapes, nodes[k].get<std::size_t>(), times, glb_, animations_.front());
+    }
+  }
+
+  /// The ellipsoid in the unit and axes of the file, less the offset.
+  geometry::Ellipsoid in_file(const geometry::Ellipsoid& shape) const {
+    return {frame_.to_file(shape.center) - origin_, frame_.rotation().transpose() * shape.axes,
+            shape.radii / frame_.meters_per_unit};
+  }
+
   /// The translation, rotation and scale that turn the unit sphere into the ellipsoid.
   Json placed(const geometry::Ellipsoid& shape) const {
-    const Vec3 center = frame_.to_file(shape.center) - origin_;
-    const Vec3 radii = shape.radii / frame_.meters_per_unit;
-    const geometry::Mat3 axes = frame_.rotation().transpose() * shape.axes;
+    const auto [center, axes, radii] = in_file(shape);
     const Eigen::Quaterniond turn = Eigen::Quaterniond(axes).normalized();
     return {{"translation", {center.x(), center.y(), center.z()}},
             {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}},
@@ -193,15 +214,20 @@ class SceneWriter {
   /// linear.
   void animate(const GarmentTrack& track, std::size_t node) {
     const std::size_t n = track.frames.size();
-    std::vector<float> times(n), weights(n * n, 0.0f);
+    std::vector<float> weights(n * n, 0.0f);
+    for (std::size_t i = 0; i < n; ++i) weights[i * n + i] = 1.0f;
+    const std::size_t input = glb_.add_times(times_of(track));
+    animations_.front().add(node, "weights", input, glb_.add_scalars(weights), "LINEAR");
+  }
+
+  /// The times of a track's frames in the file: from 0, or with a rig those of its clip.
+  std::vector<float> times_of(const GarmentTrack& track) const {
+    std::vector<float> times(track.frames.size());
     const double begin = track.time_s.empty() || scene_.rig ? 0.0 : track.time_s[0];
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < times.size(); ++i)
       times[i] =
           static_cast<float>(track.time_s.empty() ? static_cast<double>(i) / 30.0 : track.time_s[i] - begin);
-      weights[i * n + i] = 1.0f;
-    }
-    const std::size_t input = glb_.add_times(times);
-    animations_.front().add(node, "weights", input, glb_.add_scalars(weights), "LINEAR");
+    return times;
   }
 
   static constexpr std::size_t kNone = ~std::size_t{0};

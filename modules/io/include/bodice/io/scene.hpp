@@ -8,6 +8,7 @@
 
 #include <bodice/body/part.hpp>
 #include <bodice/engine/result.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/geometry/frame.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
@@ -31,6 +32,9 @@ struct Scene {
   /// Skin of a body that moves, #V at each kept frame of the garments; empty: the body stands still.
   std::span<const std::vector<geometry::Vec3>> body_frames;
   const proxy::BodyProxy* proxy = nullptr;
+  /// Ellipsoids of a proxy that moves, as many as `proxy` has, at each kept frame of the garments; empty:
+  /// they stand still.
+  std::span<const std::vector<geometry::Ellipsoid>> proxy_frames;
   const proxy::ProxySurface* surface = nullptr;  ///< the proxy's; pictures show it in place of ellipsoids
   std::span<const geometry::Vec3> landmarks;     ///< points that write_stages_picture() marks
   std::vector<GarmentTrack> garments;
@@ -43,7 +47,8 @@ struct Scene {
 std::span<const float, 3> part_color(body::Part part);
 
 /// Writes binary glTF 2.0 with nodes `body`, `ellipsoids`, `cloth`, `cloth_2`... The cloth's frames are morph
-/// targets with normals; an animation of their weights plays them, linear in between. With a rig the body is
+/// targets with normals; an animation of their weights plays them, linear in between. Ellipsoids that move
+/// have keys of their nodes at the same times. With a rig the body is
 /// skinned by the nodes of its joints, each clip is an animation, and the garments' frames play in the first
 /// one, at their own times. Fails with kInvalidArgument for a scene that cannot be drawn or with parts that
 /// do not fit together, and with kWriteFailed.
