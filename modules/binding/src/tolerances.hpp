@@ -24,6 +24,14 @@ inline constexpr double kNearOwner_m = 0.012;
 /// follows the skin, meters: below it the table's own error is larger.
 inline constexpr double kStiff_m = 0.0003;
 
+/// A joint that moves less of an ellipsoid's center has no say in which base poses are near, no unit.
+inline constexpr double kLeastTurning = 0.02;
+/// Joints turned otherwise by less than this are in the same pose: what tables differ by then is below their
+/// bytes.
+inline constexpr double kSameTurn_rad = 0.03;
+/// A smaller share of a base pose changes a table by hundredths of a millimeter, no unit.
+inline constexpr float kLeastShare = 0.01f;
+
 /// Least posed radius over the least radius at rest, no unit: a table on a flat disk has no directions.
 inline constexpr double kFlattest = 0.05;
 /// Largest height of a posed table over the reach of relief, no unit: more would only come from skin that has

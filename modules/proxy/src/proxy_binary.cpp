@@ -6,7 +6,7 @@
 //   table:      u16 nodes a side, u16 0, f32 h scale, h offset, a scale, a offset, u32 first      24 bytes
 //   texel:      u8 h, u8 a
 //   since version 3: u32 1 and a binding (binding/binding_bytes.hpp)
-//   u64 checksum of all bytes before it
+//   u64 checksum of all bytes before it; base poses may follow (base_pose_file.cpp)
 #include "proxy_binary.hpp"
 
 #include <algorithm>
@@ -17,6 +17,7 @@
 #include <bodice/engine/hash.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 
+#include "base_section.hpp"
 #include "binding/binding_bytes.hpp"
 #include "binding/bytes.hpp"
 
@@ -145,7 +146,8 @@ std::vector<std::byte> to_binary(const BodyProxy& proxy) {
   return out.take();
 }
 
-engine::Result<BodyProxy> from_binary(std::span<const std::byte> bytes) {
+engine::Result<BodyProxy> from_binary(std::span<const std::byte> file) {
+  const std::span<const std::byte> bytes = without_base_section(file);
   if (!is_binary_proxy(bytes)) return damaged("it does not begin with BODICEPX");
   if (bytes.size() < kMagic.size() + sizeof(kVersion) + kChecksumBytes) return damaged("it is cut short");
   const std::span<const std::byte> content = bytes.first(bytes.size() - kChecksumBytes);

@@ -38,14 +38,14 @@ engine::Result<std::vector<std::byte>> read_file(const fs::path& file) {
   return bytes;
 }
 
+}  // namespace
+
 bool is_named_binary(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return extension == ".bodice";
 }
-
-}  // namespace
 
 engine::Result<void> save(const BodyProxy& proxy, const fs::path& file) {
   if (is_named_binary(file)) return engine::write_file(file, to_binary(proxy));

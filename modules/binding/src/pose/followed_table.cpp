@@ -98,6 +98,22 @@ void resample(int first, int n, const float* to_table, float scale, float invers
   }
 }
 
+/// The texels at rest as floats, mixed with those of base poses.
+void read_values(const RestTable& rest, int count, TableScratch& scratch) {
+  for (int i = 0; i < count; ++i)
+    scratch.rest[static_cast<std::size_t>(i)] = Float4{0.0f, 0.0f, static_cast<float>(rest.burial[i]), 0.0f};
+  for (const TableShare& from : rest.values) {
+    const proxy::ReliefTable& table = *from.table;
+    const float h_step = from.share * table.h_scale_m / 255.0f, a_step = from.share * table.a_scale / 255.0f;
+    const float h_first = from.share * table.h_offset_m, a_first = from.share * table.a_offset;
+    for (int i = 0; i < count; ++i) {
+      const proxy::ReliefTexel texel = from.texels[i];
+      scratch.rest[static_cast<std::size_t>(i)] +=
+          Float4{h_first + h_step * texel.h, a_first + a_step * texel.a, 0.0f, 0.0f};
+    }
+  }
+}
+
 /// A range of values and how bytes divide it.
 struct ByteRange {
   float low = 0.0f, size = 0.0f;
@@ -131,12 +147,8 @@ void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableR
             TableScratch& scratch, proxy::ReliefTable& table, proxy::ReliefTexel* texels,
             std::uint8_t* burial) {
   const int n = rest.table.nodes_per_side, count = n * n;
-  const float h_step = rest.table.h_scale_m / 255.0f, a_step = rest.table.a_scale / 255.0f;
+  read_values(rest, count, scratch);
   for (int i = 0; i < count; ++i) {
-    const proxy::ReliefTexel texel = rest.texels[i];
-    scratch.rest[static_cast<std::size_t>(i)] =
-        Float4{rest.table.h_offset_m + h_step * texel.h, rest.table.a_offset + a_step * texel.a,
-               static_cast<float>(rest.burial[i]), 0.0f};
     const int followed = rest.followers ? rest.followers[i] : i;
     if (followed != i)
       scratch.changes[static_cast<std::size_t>(i)] = scratch.changes[static_cast<std::size_t>(followed)];

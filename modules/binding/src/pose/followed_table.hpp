@@ -10,8 +10,16 @@
 
 namespace bodice::binding {
 
+/// The values of a table in a base pose, and how much they count.
+struct TableShare {
+  const proxy::ReliefTable* table = nullptr;
+  const proxy::ReliefTexel* texels = nullptr;
+  float share = 0.0f;
+};
+
 /// What a table needs while it is posed: floats for as many texels as the largest table has.
 struct TableScratch {
+  std::vector<TableShare> values;
   std::vector<Change> changes;
   std::vector<geometry::Float4> rest;  ///< h and a, meters, and burial, in bytes
   std::vector<float> h, a;             ///< of the pose, meters
@@ -20,7 +28,7 @@ struct TableScratch {
 /// One table at rest.
 struct RestTable {
   const proxy::ReliefTable& table;
-  const proxy::ReliefTexel* texels;
+  std::span<const TableShare> values;  ///< its own and those of base poses; shares sum to 1
   const std::uint8_t* burial;
   const std::uint16_t* followers;  ///< null: nothing changes but the directions
 };

@@ -8,9 +8,11 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "pose/base_mix.hpp"
 #include "pose/carried_ellipsoid.hpp"
 #include "pose/followed_table.hpp"
 #include "pose/joint_motion.hpp"
+#include "pose/refusal.hpp"
 #include "pose/skin_changes.hpp"
 
 namespace bodice::binding {
@@ -25,12 +27,6 @@ bool overlap(const geometry::Box& a, const geometry::Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
-engine::Error refused(const std::string& joint, std::string_view reason) {
-  return {engine::ErrorCode::kInvalidArgument,
-          "Pose: the matrix of joint '" + joint + "' " + std::string(reason) + ".",
-          "Give each joint a rotation, a translation and one scale."};
-}
-
 }  // namespace
 
 struct Poser::Impl {
@@ -41,11 +37,13 @@ struct Poser::Impl {
                       proxy::PosedProxy& posed);
   void write_table(std::size_t k, const CarriedEllipsoid& carried, bool skin, TableScratch& scratch,
                    proxy::PosedProxy& posed);
+  engine::Result<void> add(std::shared_ptr<const proxy::BasePose> base, int blended, bool stays);
   void pose_all(const engine::Context& context, const PoseOptions& options);
 
   proxy::BodyProxy bound;
   const proxy::Binding& binding;
   JointMotion joints;
+  BaseMix bases;
   std::array<proxy::PosedProxy, 2> pose;
   /// Whether a pose's table differs from the one at rest in more than scale, #E each.
   std::array<std::vector<std::uint8_t>, 2> changed;
@@ -57,7 +55,7 @@ struct Poser::Impl {
 };
 
 Poser::Impl::Impl(proxy::BodyProxy proxy)
-    : bound(std::move(proxy)), binding(*bound.binding()), joints(binding) {
+    : bound(std::move(proxy)), binding(*bound.binding()), joints(binding), bases(bound) {
   maps.resize(12 * binding.terms.size());
   from_floats.resize(binding.bind.size());
   proxy::PosedProxy rest;
@@ -82,14 +80,22 @@ Poser::Impl::Impl(proxy::BodyProxy proxy)
   one.rest.resize(padded);
   one.h.resize(padded);
   one.a.resize(padded);
+  one.values.resize(1);
   scratch.assign((bound.ellipsoids().size() + kGrain - 1) / kGrain, one);
 }
 
 void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, bool skin, TableScratch& room,
                               proxy::PosedProxy& posed) {
   const proxy::ReliefTable& table = bound.relief()[k];
-  const RestTable rest{table, bound.texels().data() + table.first_texel,
-                       binding.burial.data() + table.first_texel,
+  room.values.clear();
+  room.values.push_back({&table, bound.texels().data() + table.first_texel, 1.0f});
+  for (std::size_t b = 0; b < bases.size(); ++b) {
+    room.values.front().share = bases.share_of_rest(k);
+    const proxy::BasePose& base = bases.base(b);
+    if (bases.share(k, b) > 0.0f)
+      room.values.push_back({&base.relief[k], base.texels.data() + table.first_texel, bases.share(k, b)});
+  }
+  const RestTable rest{table, room.values, binding.burial.data() + table.first_texel,
                        skin ? binding.followers.data() + binding.first_follower[k] : nullptr};
   const std::size_t count = std::size_t{table.nodes_per_side} * table.nodes_per_side;
   std::fill_n(room.changes.begin(), count, Change{});
@@ -105,6 +111,13 @@ void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, bo
   }
   follow(rest, carried, {proxy::relief_reach(bound.stature_m()).out_m}, room, posed.relief[k],
          posed.texels.data() + table.first_texel, posed.burial.data() + table.first_texel);
+}
+
+engine::Result<void> Poser::Impl::add(std::shared_ptr<const proxy::BasePose> base, int blended, bool stays) {
+  if (auto fit = proxy::check_base(bound, *base); !fit) return fit;
+  bases.add(std::move(base), blended, stays);
+  for (TableScratch& room : scratch) room.values.reserve(bases.size() + 1);  // frames allocate nothing
+  return {};
 }
 
 void Poser::Impl::pose_ellipsoid(std::size_t k, const PoseOptions& options, TableScratch& room,
@@ -157,9 +170,7 @@ Poser::Poser(Poser&&) noexcept = default;
 Poser& Poser::operator=(Poser&&) noexcept = default;
 
 engine::Result<Poser> Poser::make(const proxy::BodyProxy& bound) {
-  if (!bound.binding())
-    return engine::Error{engine::ErrorCode::kInvalidArgument, "Pose: the proxy is not bound to joints.",
-                         "Bind it to a rig, or fit it to a body file that has one."};
+  if (auto fit = check_bound(bound); !fit) return std::move(fit).error();
   return Poser(std::make_unique<Impl>(bound));
 }
 
@@ -169,13 +180,10 @@ std::size_t Poser::joints() const noexcept {
 
 engine::Result<void> Poser::pose(const engine::Context& context, std::span<const JointMatrix> world,
                                  const PoseOptions& options) {
-  if (world.size() != joints())
-    return engine::Error{engine::ErrorCode::kInvalidArgument,
-                         "Pose: there are " + std::to_string(world.size()) + " matrices for " +
-                             std::to_string(joints()) + " joints.",
-                         "Give one matrix a joint, in the order of the binding."};
+  if (auto fit = check_joints(impl_->bound, world.size()); !fit) return fit;
   if (const std::optional<Refusal> refusal = impl_->joints.take(world))
-    return refused(impl_->binding.joint_names[refusal->joint], refusal->reason);
+    return refused_joint(impl_->binding.joint_names[refusal->joint], refusal->reason);
+  impl_->bases.find(impl_->joints.skinning());
   impl_->pose_all(context, options);
   return {};
 }
@@ -193,6 +201,18 @@ engine::Result<void> Poser::pose(const engine::Context& context, std::span<const
         impl_->from_floats[j](row, column) =
             double{world[j * stride + static_cast<std::size_t>(4 * row + column)]};
   return pose(context, impl_->from_floats, options);
+}
+
+engine::Result<void> Poser::add_base(std::shared_ptr<const proxy::BasePose> base, int poses) {
+  return impl_->add(std::move(base), poses, false);
+}
+
+engine::Result<void> Poser::keep_base(std::shared_ptr<const proxy::BasePose> base) {
+  return impl_->add(std::move(base), 0, true);
+}
+
+double Poser::departure_rad(std::span<const JointMatrix> world) noexcept {
+  return world.size() == joints() ? impl_->bases.departure(world) : 0.0;
 }
 
 const proxy::PosedProxy& Poser::posed() const noexcept {

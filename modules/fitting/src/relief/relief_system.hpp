@@ -37,6 +37,8 @@ class ReliefSystem {
   std::vector<double> error_of_each(const Vector& x) const;
 
   const ReliefGrid& grid(std::size_t ellipsoid) const { return *tables_[ellipsoid].grid; }
+  /// The unknown of a solution at which the values h of an ellipsoid's grid begin; those of a follow.
+  std::size_t first(std::size_t ellipsoid) const { return tables_[ellipsoid].first; }
   /// #unknowns of one ellipsoid's grid: the values h, and the values a, of a solution.
   std::span<const double> h(const Vector& x, std::size_t ellipsoid) const;
   std::span<const double> a(const Vector& x, std::size_t ellipsoid) const;

@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/fitting/refit.hpp>
 
 namespace bodice::fitting {
 namespace {
@@ -43,20 +44,38 @@ Mat3 rotation_of(const Moments& m) {
   return u * svd.matrixV().transpose();
 }
 
-/// The ellipsoid's image under the affine map of its skin.
-Ellipsoid carried(const Ellipsoid& e, const Moments& m) {
-  if (!(m.weight > 0.0)) return e;
+/// The affine map of an ellipsoid's skin, of (point - center, 1).
+Mat4 map_of(const Ellipsoid& e, const Moments& m) {
   Mat4 rigid = Mat4::Zero();
   rigid.topLeftCorner<3, 3>() = e.axes * e.radii.cwiseAbs2().asDiagonal() * e.axes.transpose();
   rigid *= kRigid * m.weight;
   Mat4 rotation = Mat4::Zero();
   rotation.topLeftCorner<3, 3>() = rotation_of(m);
-  const Mat4 map = (m.as_it_is + rotation * rigid) * (m.flexed + rigid).inverse();
+  return (m.as_it_is + rotation * rigid) * (m.flexed + rigid).inverse();
+}
+
+/// The ellipsoid's image under the affine map of its skin.
+Ellipsoid carried(const Ellipsoid& e, const Moments& m) {
+  if (!(m.weight > 0.0)) return e;
+  const Mat4 map = map_of(e, m);
   const Eigen::JacobiSVD<Mat3> svd(map.topLeftCorner<3, 3>() * e.axes * e.radii.asDiagonal(),
                                    Eigen::ComputeFullU | Eigen::ComputeFullV);
   Ellipsoid image{map.topRightCorner<3, 1>(), svd.matrixU(), svd.singularValues()};
   image.radii = image.radii.cwiseMax(0.1 * e.radii.minCoeff());
   if (image.axes.determinant() < 0.0) image.axes.col(2) *= -1.0;
+  return image;
+}
+
+/// The image without its shear; its axes are those of the ellipsoid, turned.
+Ellipsoid carried_stiffly(const Ellipsoid& e, const Moments& m) {
+  if (!(m.weight > 0.0)) return e;
+  const Mat4 map = map_of(e, m);
+  const Mat3 axes = map.topLeftCorner<3, 3>() * e.axes;
+  const Eigen::JacobiSVD<Mat3> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Ellipsoid image{map.topRightCorner<3, 1>(), svd.matrixU() * svd.matrixV().transpose(), e.radii};
+  if (image.axes.determinant() < 0.0) image.axes.col(2) *= -1.0;
+  const Vec3 stretch = (image.axes.transpose() * axes).diagonal().cwiseAbs();
+  image.radii = e.radii.cwiseProduct(stretch).cwiseMax(0.1 * e.radii.minCoeff());
   return image;
 }
 
@@ -76,8 +95,10 @@ std::vector<std::pair<std::uint32_t, double>> near_ellipsoids(
   return near;
 }
 
-void carry_back(const engine::Context& context, const LabeledSkin& skin, std::span<const Vec3> flexed,
-                std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
+/// #E: the skin near each ellipsoid, as it was found on `flexed` and as it is.
+std::vector<Moments> moments_of(const engine::Context& context, const LabeledSkin& skin,
+                                std::span<const Vec3> flexed,
+                                const std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
   const std::size_t step = std::max<std::size_t>(1, flexed.size() / kMostVertices);
   std::vector<std::vector<std::pair<std::uint32_t, double>>> near((flexed.size() + step - 1) / step);
   engine::parallel_for(context, near.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -93,11 +114,27 @@ void carry_back(const engine::Context& context, const LabeledSkin& skin, std::sp
       moments[k].as_it_is += weight * t * s.transpose();
       moments[k].weight += weight;
     }
+  return moments;
+}
+
+void carry_back(const engine::Context& context, const LabeledSkin& skin, std::span<const Vec3> flexed,
+                std::vector<proxy::ProxyEllipsoid>& ellipsoids) {
+  const std::vector<Moments> moments = moments_of(context, skin, flexed, ellipsoids);
   for (std::size_t k = 0; k < ellipsoids.size(); ++k)
     ellipsoids[k].shape = carried(ellipsoids[k].shape, moments[k]);
 }
 
 }  // namespace
+
+std::vector<Ellipsoid> carry_ellipsoids(const engine::Context& context,
+                                        std::span<const proxy::ProxyEllipsoid> ellipsoids,
+                                        std::span<const Vec3> from, const LabeledSkin& to) {
+  const std::vector<proxy::ProxyEllipsoid> all(ellipsoids.begin(), ellipsoids.end());
+  const std::vector<Moments> moments = moments_of(context, to, from, all);
+  std::vector<Ellipsoid> shapes;
+  for (std::size_t k = 0; k < all.size(); ++k) shapes.push_back(carried_stiffly(all[k].shape, moments[k]));
+  return shapes;
+}
 
 Draft fit_tight_flexed(const engine::Context& context, const SkinSource& source, const FitOptions& options,
                        int count, double time_budget_s) {

@@ -9,6 +9,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/types.hpp>
+#include <bodice/proxy/base_pose.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/posed_proxy.hpp>
 
@@ -45,6 +46,20 @@ class Poser {
   /// The same for floats: rows of 3 x 4 matrices, `stride` floats from one matrix to the next.
   engine::Result<void> pose(const engine::Context& context, std::span<const float> world, std::size_t stride,
                             const PoseOptions& options = {});
+
+  /// Adds tables that were solved in another pose (tryon::make_base_pose()). Tables of a pose are mixed from
+  /// those of rest and of all base poses by how near their joints are: eq. (1) of pose/base_mix.hpp. The new
+  /// ones count fully after `poses` calls of pose(), so that the surface does not jump. Six are held at a
+  /// time; a further one replaces the least used. Fails with kInvalidArgument if it is of another proxy.
+  /// Allocates; must not overlap another call.
+  engine::Result<void> add_base(std::shared_ptr<const proxy::BasePose> base, int poses = 0);
+  /// The same for tables that were made beforehand (proxy::ProxyWithBases): they count at once and stay.
+  engine::Result<void> keep_base(std::shared_ptr<const proxy::BasePose> base);
+
+  /// How far the joints of a pose are turned from those of the nearest base pose or of rest, for the
+  /// ellipsoid for which this is farthest; radians, nearly. Zero for another number of joints. Allocates
+  /// nothing.
+  double departure_rad(std::span<const proxy::JointMatrix> world) noexcept;
 
   /// The pose of the last call, valid until the second next one.
   const proxy::PosedProxy& posed() const noexcept;

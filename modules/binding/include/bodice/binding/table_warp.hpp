@@ -1,0 +1,47 @@
+// Where the tables of a bound proxy are read in a pose: what a refit solves for (fitting/refit.hpp).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/ellipsoid.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+
+namespace bodice::binding {
+
+/// How a table at rest is read at one direction of the pose.
+struct WarpedReading {
+  geometry::Vec3 direction = geometry::Vec3::UnitX();  ///< at rest, not of unit length
+  double scale = 1.0;                                  ///< of the ellipsoid's lengths
+  double growth_m = 0.0;                               ///< of the skin's height over the ellipsoid
+  double burial_m = 0.0;                               ///< kappa b of eq. (4') in posed_proxy.hpp
+};
+
+/// The carried ellipsoids of a pose, and how their tables follow the skin there: what Poser writes into
+/// texels, as a function of the direction. Reading is thread-safe.
+class TableWarp {
+ public:
+  /// Fails as Poser::pose() does. `world` is joint space to world of each joint, #J.
+  static engine::Result<TableWarp> make(const engine::Context& context, const proxy::BodyProxy& bound,
+                                        std::span<const proxy::JointMatrix> world);
+  ~TableWarp();
+  TableWarp(TableWarp&&) noexcept;
+  TableWarp& operator=(TableWarp&&) noexcept;
+
+  std::span<const geometry::Ellipsoid> shapes() const noexcept;  ///< #E, world
+  double scale() const noexcept;                                 ///< size of the body over its size at rest
+  /// The reading at a unit direction of the posed ellipsoid. A microsecond at most.
+  WarpedReading read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const;
+  /// Whether the table of an ellipsoid follows the skin. Others are the same in every pose.
+  bool follows(std::uint32_t ellipsoid) const noexcept;
+
+ private:
+  struct Impl;
+  explicit TableWarp(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace bodice::binding
