@@ -81,7 +81,7 @@ engine::Result<void> write_outputs(const DrapeCommand& command, const tryon::Pre
                                    std::vector<std::string>& written) {
   io::Scene scene = scene_of(body);
   scene.rig = rig;
-  if (rig) scene.proxy = nullptr;  // its ellipsoids would stand still beside the body
+  scene.proxy_frames = draped.proxy_frames;
   scene.garments = std::move(draped.garments);
   scene.body_frames = draped.body_frames;
   if (auto saved = io::write_glb(scene, command.output); !saved) return saved;

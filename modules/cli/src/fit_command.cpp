@@ -4,14 +4,16 @@
 
 #include <bodice/anatomy/measure.hpp>
 #include <bodice/engine/message.hpp>
+#include <bodice/engine/stage_timer.hpp>
 #include <bodice/engine/write_file.hpp>
 #include <bodice/fitting/cost_model.hpp>
 #include <bodice/io/obj.hpp>
-#include <bodice/proxy/proxy_file.hpp>
+#include <bodice/proxy/base_pose.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
 #include <bodice/tryon/measurements.hpp>
 #include <bodice/tryon/reach.hpp>
 
+#include "prepared_poses.hpp"
 #include "query_speed.hpp"
 #include "run.hpp"
 #include "validators.hpp"
@@ -25,6 +27,7 @@ struct FitCommand {
   std::optional<double> surface_mm;
   bool exact_region = false;
   bool no_rig = false;
+  PosesToPrepare prepare;
 };
 
 /// Reduces the whole body's proxy to what the garment of --region-of can reach, where distances do not
@@ -98,14 +101,15 @@ engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, const 
 }
 
 engine::Result<void> write_outputs(const FitCommand& command, const engine::Context& context,
-                                   const tryon::PreparedBody& body, std::vector<std::string>& written) {
+                                   const tryon::PreparedBody& body, const proxy::BasePoses& bases,
+                                   std::vector<std::string>& written) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
   const auto surface = surface_for(command, context, proxy);
   if (!surface) return surface.error();
   io::Scene scene = scene_of(body);
   if (!proxy.relief().empty() && !surface->mesh.empty()) scene.surface = &*surface;
   if (!command.output.empty()) {
-    if (auto saved = proxy::save(proxy, command.output); !saved) return saved;
+    if (auto saved = proxy::save_with_bases({proxy, bases}, command.output); !saved) return saved;
     written.push_back(command.output);
   }
   if (!command.common.glb.empty()) {
@@ -128,6 +132,13 @@ engine::Result<void> write_outputs(const FitCommand& command, const engine::Cont
   return {};
 }
 
+engine::Result<proxy::BasePoses> make_bases(const engine::Context& context, const FitCommand& command,
+                                            tryon::PreparedBody& body) {
+  if (!command.prepare.any()) return proxy::BasePoses{};
+  engine::StageTimer timer(context, body.fit.stages, "base poses");
+  return prepare_poses(context, body, command.prepare, body.fit.warnings);
+}
+
 engine::Result<void> fit(const FitCommand& command) {
   const CommonOptions& o = command.common;
   Run run(o);
@@ -136,7 +147,7 @@ engine::Result<void> fit(const FitCommand& command) {
                                  {"--measurements", command.measurements, {".json", ".yaml", ".yml"}}});
       !ok)
     return ok;
-  auto skin = run.segment();
+  auto skin = command.prepare.any() ? run.segment_rigged() : run.segment();
   if (!skin) return std::move(skin).error();
   if (auto ok = check_surface_cell(command, skin->anatomy.stature_m); !ok) return ok;
   const auto garments = run.region_garments(*skin);
@@ -150,11 +161,38 @@ engine::Result<void> fit(const FitCommand& command) {
   if (!body) return std::move(body).error();
   if (command.exact_region)
     if (auto done = crop(o, run.context(), *garments, *body); !done) return done;
+  const auto bases = make_bases(run.context(), command, *body);
+  if (!bases) return bases.error();
   std::vector<std::string> written;
-  if (auto done = write_outputs(command, run.context(), *body, written); !done) return done;
+  if (auto done = write_outputs(command, run.context(), *body, *bases, written); !done) return done;
   auto done = run.finish(*body, nullptr, written, command.exact_region);
   if (done && o.budget_us && !o.quiet && !o.json) print_speed(o, *body);
   return done;
+}
+
+void add_pose_options(CLI::App& sub, FitCommand& c) {
+  const auto group = "Poses";
+  auto* poses =
+      sub.add_option("--poses", c.prepare.poses,
+                     "solve the tables anew in these poses, with which the proxy is as accurate there as at "
+                     "rest: motions as in sit,arms-up, or sit@2.5 for a second of one; a body without a rig "
+                     "gets one")
+          ->delimiter(',')
+          ->check(not_empty())
+          ->excludes("--no-rig")
+          ->group(group);
+  poses->needs("--output");
+  auto* motion = sub.add_option("--motion", c.prepare.motion.motion,
+                                "prepare a whole clip: walk, run, turn, spin, reach, sit, squat, arms-up, "
+                                "dance, or a file with a skeleton and clips")
+                     ->check(not_empty())
+                     ->excludes("--no-rig")
+                     ->group(group);
+  motion->needs("--output");
+  sub.add_option("--clip", c.prepare.motion.clip, "name of the file's clip (default: its first)")
+      ->check(not_empty())
+      ->needs(motion)
+      ->group(group);
 }
 
 }  // namespace
@@ -191,6 +229,7 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
          "--no-rig", command->no_rig,
          "leave the rig of the file alone: by default the proxy is bound to it, and follows its joints")
       ->group("Output");
+  add_pose_options(*sub, *command);
   add_common_options(*sub, command->common);
   sub->add_flag(
          "--region-exact", command->exact_region,

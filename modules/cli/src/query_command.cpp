@@ -8,11 +8,12 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/text.hpp>
 #include <bodice/engine/write_file.hpp>
-#include <bodice/proxy/proxy_file.hpp>
+#include <bodice/proxy/base_pose.hpp>
 
 #include "motion_time.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "prepared_poses.hpp"
 #include "terminal.hpp"
 #include "validators.hpp"
 
@@ -24,6 +25,8 @@ using geometry::Vec3;
 struct QueryCommand {
   std::string proxy, points, output;
   MotionTime motion;
+  bool refit = false;
+  std::string body;  ///< the file to refit for; empty: the motion's
 };
 
 engine::Result<std::vector<Vec3>> read_points(const std::string& file) {
@@ -83,13 +86,21 @@ std::string posed_answer(const binding::Poser& poser, const Vec3& file_point) {
   return line + ' ' + std::to_string(found.owner) + '\n';
 }
 
-engine::Result<std::string> posed_answers(const proxy::BodyProxy& proxy, const MotionTime& motion,
+engine::Result<std::string> posed_answers(const proxy::ProxyWithBases& both, const QueryCommand& command,
                                           const std::vector<Vec3>& points) {
   const engine::Context context;
-  auto poser = binding::Poser::make(proxy);
+  auto poser = binding::Poser::make(both.proxy);
   if (!poser) return std::move(poser).error();
-  const auto joints = joints_at(context, *proxy.binding(), motion);
+  for (const auto& base : both.bases)
+    if (auto kept = poser->keep_base(base); !kept) return std::move(kept).error();
+  const auto joints = joints_at(context, *both.proxy.binding(), command.motion);
   if (!joints) return joints.error();
+  if (command.refit) {
+    const std::string& body = command.body.empty() ? command.motion.choice.motion : command.body;
+    auto base = refit_for(context, both.proxy, body, *joints);
+    if (!base) return std::move(base).error();
+    if (auto added = poser->add_base(*base); !added) return std::move(added).error();
+  }
   if (auto posed = poser->pose(context, *joints); !posed) return posed.error();
   std::string text;
   for (const Vec3& p : points) text += posed_answer(*poser, p);
@@ -105,16 +116,18 @@ std::string answers(const proxy::BodyProxy& proxy, const std::vector<Vec3>& poin
 
 engine::Result<void> query(const QueryCommand& command) {
   const FileOption output{"-o", command.output};
-  const FileOption inputs[] = {
-      {"PROXY", command.proxy}, {"POINTS", command.points}, {"--motion", command.motion.choice.motion}};
+  const FileOption inputs[] = {{"PROXY", command.proxy},
+                               {"POINTS", command.points},
+                               {"--motion", command.motion.choice.motion},
+                               {"--body", command.body}};
   if (auto ok = check_outputs({&output, 1}, inputs); !ok) return ok;
-  auto proxy = proxy::load(command.proxy);
-  if (!proxy) return std::move(proxy).error();
+  auto both = proxy::load_with_bases(command.proxy);
+  if (!both) return std::move(both).error();
   auto points = read_points(command.points);
   if (!points) return std::move(points).error();
   const auto text = command.motion.choice.motion.empty()
-                        ? engine::Result<std::string>(answers(*proxy, *points))
-                        : posed_answers(*proxy, command.motion, *points);
+                        ? engine::Result<std::string>(answers(both->proxy, *points))
+                        : posed_answers(*both, command, *points);
   if (!text) return text.error();
   if (!command.output.empty()) return engine::write_file(command.output, std::string_view(*text));
   std::fputs(text->c_str(), stdout);
@@ -141,6 +154,14 @@ void add_query_command(CLI::App& app, int& exit_code) {
       ->needs(motion);
   sub->add_option("--time", command->motion.time_s, "seconds of the clip, from 0 (default: 0)")
       ->needs(motion);
+  CLI::Option* const refit =
+      sub->add_flag("--refit", command->refit,
+                    "solve the proxy's tables anew in that pose before answering (some tenths of a second)")
+          ->needs(motion);
+  sub->add_option("--body", command->body,
+                  "with --refit: the body that the proxy was fitted to (default: the file of --motion)")
+      ->check(not_empty())
+      ->needs(refit);
   sub->footer(
       "A line a point: signed distance (negative inside), closest point x y z, normal x y z, ellipsoid (from "
       "0);\n`inf nan ... none` where single precision does not reach, millions of body lengths away.\n"

@@ -107,7 +107,12 @@ class Drape {
         body_(body),
         recorder_(recorder),
         result_(result),
-        positions_(all.mesh.positions.size()) {}
+        positions_(all.mesh.positions.size()) {
+    if (!options.motion) return;
+    player_.emplace(*options.motion, result.report.ramp_s,
+                    options.loop ? rig::Playback::kLoop : rig::Playback::kClamp);
+    joints_.resize(options.motion->rig.skeleton.joints.size());
+  }
 
   /// Puts pins on the body where it stands, in the bind pose.
   void hold(double thickness_m, const rig::SkinWeights* skin_weights, const PreparedBody& body) {
@@ -120,15 +125,14 @@ class Drape {
 
   /// Brings a body that moves from the bind pose to the clip's first frame.
   engine::Result<void> ramp() {
-    const int steps = static_cast<int>(std::ceil(-body_.begin_s() / kRampStep_s));
+    const double ramp_s = result_.report.ramp_s;
+    const int steps = static_cast<int>(std::ceil(ramp_s / kRampStep_s));
     if (steps == 0) return pose(0.0, 0.0);  // without a ramp the body jumps to the first frame
     for (int step = 1; step <= steps; ++step) {
       context_.cancel.check();
-      if (auto posed =
-              pose(body_.begin_s() * (1.0 - static_cast<double>(step) / steps), -body_.begin_s() / steps);
-          !posed)
+      if (auto posed = pose(-ramp_s * (1.0 - static_cast<double>(step) / steps), ramp_s / steps); !posed)
         return posed;
-      solver_.step(context_, body_.collider(), -body_.begin_s() / steps);
+      solver_.step(context_, body_.collider(), ramp_s / steps);
     }
     return {};
   }
@@ -138,7 +142,7 @@ class Drape {
     DrapeReport& report = result_.report;
     std::vector<double> frame_ms;
     solver_.positions(positions_);
-    offer(0);
+    offer(0, body_.moves() ? penetration(context_, body_.distance(context_), positions_) : Penetration{});
     for (int frame = 1; frame <= options_.frames; ++frame) {
       context_.cancel.check();
       const std::int64_t begin_ns = context_.clock->now_ns();
@@ -148,9 +152,10 @@ class Drape {
 
       solver_.positions(positions_);
       report.finite = report.finite && step.finite;
-      add_frame(frame, penetration(context_, body_.distance(context_), positions_), report);
+      const Penetration depth = penetration(context_, body_.distance(context_), positions_);
+      add_frame(frame, depth, report);
       add_cloth(step, report);
-      offer(frame);
+      offer(frame, depth);
       if (progress) progress("drape", static_cast<double>(frame) / options_.frames);
     }
     summarize_times(std::move(frame_ms), report);
@@ -164,23 +169,29 @@ class Drape {
 
   engine::Result<void> pose(double time_s, double dt_s) {
     if (!body_.moves()) return {};
-    if (auto posed = body_.pose(context_, time_s, dt_s); !posed) return posed;
+    player_->joints(time_s, joints_);
+    if (auto posed = body_.pose(context_, joints_, dt_s); !posed)
+      return engine::Error{posed.error().code,
+                           engine::message("At second ", time_s, " of the clip '", options_.motion->clip.name,
+                                           "': ", posed.error().message),
+                           posed.error().remedy};
     body_.carry(held_, held_weights_, posed_);
     solver_.move_pins(posed_);
     return {};
   }
 
-  void offer(int frame) {
+  void offer(int frame, const Penetration& depth) {
     const double time_s = frame * options_.dt_s;
     if (!recorder_.offer(frame, positions_, time_s) || !body_.moves()) return;
     const geometry::MeshDistance& skin = body_.distance(context_);
-    result_.body_frames.push_back(body_.skin().positions);
-    result_.report.kept.push_back(
-        {.time_s = time_s,
-         .proxy_error = measure_proxy_error(context_, body_.collider(), body_.skin(), skin, kNearSkin_m),
-         .penetration_max_m = penetration(context_, skin, positions_).deepest_m,
-         .over_half_mm_m2 =
-             cloth_area_inside_m2(context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
+    result_.body_frames.push_back(body_.skin(context_).positions);
+    result_.proxy_frames.push_back(body_.poser()->posed().shapes);
+    result_.report.kept.push_back({.time_s = time_s,
+                                   .proxy_error = measure_proxy_error(
+                                       context_, body_.collider(), body_.skin(context_), skin, kNearSkin_m),
+                                   .penetration_max_m = depth.deepest_m,
+                                   .over_half_mm_m2 = cloth_area_inside_m2(
+                                       context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
   }
 
   static constexpr double kNearSkin_m = 0.03, kVisibleDepth_m = 0.5e-3;
@@ -192,8 +203,10 @@ class Drape {
   MovingBody& body_;
   Recorder& recorder_;
   DrapeResult& result_;
-  std::vector<Vec3> positions_;     // #vertices of all garments
-  std::vector<Vec3> held_, posed_;  // pins in the bind pose and in this one
+  std::optional<MotionPlayer> player_;  // of a body that moves
+  std::vector<rig::Affine> joints_;     // #J
+  std::vector<Vec3> positions_;         // #vertices of all garments
+  std::vector<Vec3> held_, posed_;      // pins in the bind pose and in this one
   rig::SkinWeights held_weights_;
 };
 
@@ -215,7 +228,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.particles = solver->particles();
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
-  auto moving = MovingBody::make(body, options.motion, report.ramp_s, options.loop);
+  auto moving = MovingBody::make(body.skin, body.fit.proxy, options.motion != nullptr);
   if (!moving) return std::move(moving).error();
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
   Drape drape(context, options, *all, *solver, *moving, recorder, result);
@@ -227,7 +240,9 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
 
   report.pierced_share =
       pierced_share(context, moving->distance(context), drape.positions(), all->mesh.triangles);
-  if (!moving->moves()) report.inside_union = count_inside(context, body.fit.proxy, drape.positions());
+  report.inside_union =
+      moving->moves() ? count_inside(context, body.fit.proxy, moving->poser()->posed(), drape.positions())
+                      : count_inside(context, body.fit.proxy, drape.positions());
   report.hash = solver->hash();
   report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();

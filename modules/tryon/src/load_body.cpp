@@ -4,6 +4,7 @@
 
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
+#include <bodice/io/rig.hpp>
 
 namespace bodice::tryon {
 namespace {
@@ -49,6 +50,25 @@ struct Loader {
 engine::Result<io::ImportedMesh> load_body(const engine::Context& context, const BodySource& source,
                                            const io::ImportOptions& options) {
   return std::visit(Loader{context, options}, source);
+}
+
+engine::Result<LoadedBody> load_rigged_body(const engine::Context& context, const BodySource& source,
+                                            const io::ImportOptions& options) {
+  const auto* const file = std::get_if<BodyFile>(&source);
+  if (!file) {
+    auto body = load_body(context, source, options);
+    if (!body) return std::move(body).error();
+    return LoadedBody{std::move(body).value(), nullptr};
+  }
+  auto read = io::import_rigged_body(context, file->file, options);
+  if (!read) return std::move(read).error();
+  LoadedBody loaded{std::move(read->body), nullptr};
+  if (read->rig)
+    loaded.rig = std::make_shared<const rig::Rig>(std::move(read->rig).value());
+  else if (read->rig.error().code != engine::ErrorCode::kNotFound)
+    loaded.body.warnings.push_back(
+        {"rig-not-usable", "", read->rig.error().message, read->rig.error().remedy});
+  return loaded;
 }
 
 engine::Error of_body(engine::Error error, const io::ImportedMesh& body) {

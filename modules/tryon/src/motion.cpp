@@ -8,6 +8,8 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
 
+#include "local_pose.hpp"
+
 namespace bodice::tryon {
 namespace {
 
@@ -17,33 +19,6 @@ constexpr double kRampSpeed_m_s = 1.0;  // the speed of a hand in a walk
 constexpr double kShortestRamp_s = 0.25, kLongestRamp_s = 2.0;
 constexpr double kAtRest_m = 1e-4;  // a skin that is this near the bind pose needs no ramp
 constexpr std::size_t kPointGrain = 1024;
-
-/// Local transforms that give the bind pose as world matrices.
-std::vector<rig::LocalTransform> bind_pose(const rig::Skeleton& skeleton) {
-  std::vector<rig::LocalTransform> local;
-  local.reserve(skeleton.joints.size());
-  for (const rig::Joint& joint : skeleton.joints) {
-    const bool root = joint.parent == rig::kNoParent;
-    const rig::Affine& bind = joint.bind;
-    local.push_back(rig::to_local_transform(
-        root ? bind
-             : rig::compose(rig::inverse(skeleton.joints[static_cast<std::size_t>(joint.parent)].bind),
-                            bind)));
-  }
-  return local;
-}
-
-/// Starts and ends without a jerk.
-double smooth(double share) {
-  const double t = std::clamp(share, 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
-
-rig::LocalTransform between(const rig::LocalTransform& a, const rig::LocalTransform& b, double share) {
-  return {.translation = (1.0 - share) * a.translation + share * b.translation,
-          .rotation = a.rotation.slerp(share, b.rotation),
-          .scale = (1.0 - share) * a.scale + share * b.scale};
-}
 
 double farthest_m(const engine::Context& context, std::span<const Vec3> a, std::span<const Vec3> b) {
   return engine::ordered_reduce(
@@ -83,14 +58,14 @@ MotionPlayer::MotionPlayer(const BodyMotion& motion, double ramp_s, rig::Playbac
     : motion_(&motion),
       ramp_s_(std::isfinite(ramp_s) ? std::max(0.0, ramp_s) : 0.0),
       playback_(playback),
-      bind_(bind_pose(motion.rig.skeleton)),
+      bind_(local_bind_pose(motion.rig.skeleton)),
       local_(bind_.size()) {}
 
 void MotionPlayer::joints(double time_s, std::span<rig::Affine> world) {
   const rig::Skeleton& skeleton = motion_->rig.skeleton;
   rig::sample(skeleton, motion_->clip, std::max(0.0, time_s), local_, playback_);
   if (time_s < 0.0 && ramp_s_ > 0.0) {
-    const double share = smooth(1.0 + time_s / ramp_s_);
+    const double share = smooth_step(1.0 + time_s / ramp_s_);
     for (std::size_t j = 0; j < local_.size(); ++j) local_[j] = between(bind_[j], local_[j], share);
   }
   rig::world_matrices(skeleton, local_, world);

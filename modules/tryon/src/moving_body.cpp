@@ -1,45 +1,50 @@
 #include "moving_body.hpp"
 
-#include <bodice/engine/message.hpp>
-
 namespace bodice::tryon {
 
 using geometry::Vec3;
 
-engine::Result<MovingBody> MovingBody::make(const PreparedBody& body, const BodyMotion* motion, double ramp_s,
-                                            bool loop) {
-  MovingBody moving(body);
-  if (!motion) return moving;
-  auto poser = binding::Poser::make(body.fit.proxy);
+engine::Result<MovingBody> MovingBody::make(const SegmentedSkin& skin, const proxy::BodyProxy& proxy,
+                                            bool moves) {
+  MovingBody moving(skin, proxy);
+  if (!moves) return moving;
+  if (!skin.rig)
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "The body has no rig that could move it.",
+                         "Read a body that has one, or give it one with tryon::give_rig()."};
+  auto poser = binding::Poser::make(proxy);
   if (!poser) return std::move(poser).error();
   moving.poser_.emplace(std::move(poser).value());
-  moving.motion_ = motion;
-  moving.player_.emplace(*motion, ramp_s, loop ? rig::Playback::kLoop : rig::Playback::kClamp);
-  moving.joints_.resize(motion->rig.skeleton.joints.size());
-  moving.skinning_.resize(moving.joints_.size());
-  moving.posed_ = body.skin.input.skin;
+  moving.skinning_.assign(moving.poser_->joints(), rig::identity());
+  moving.posed_ = skin.input.skin;
+  moving.is_skinned_ = true;
   return moving;
 }
 
-engine::Result<void> MovingBody::pose(const engine::Context& context, double time_s, double dt_s) {
+engine::Result<void> MovingBody::pose(const engine::Context& context, std::span<const rig::Affine> joints,
+                                      double dt_s) {
   if (!moves()) return {};
-  player_->joints(time_s, joints_);
-  if (auto posed = poser_->pose(context, joints_); !posed) return posed;
+  if (auto posed = poser_->pose(context, joints); !posed) return posed;
   if (!collider_.pose(poser_->posed(), dt_s))
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
-                         engine::message("At second ", time_s, " of the clip '", motion_->clip.name,
-                                         "' the body has no shape that a collider takes."),
+                         "In this pose the body has no shape that a collider takes.",
                          "Check the scales of the clip."};
-  rig::skinning_matrices(motion_->rig.skeleton, joints_, skinning_);
-  rig::skin_linear(context, body_->skin.input.skin.positions, motion_->rig.weights, skinning_,
-                   posed_.positions);
+  rig::skinning_matrices(skin_->rig->skeleton, joints, skinning_);
+  is_skinned_ = false;
   distance_.reset();
   return {};
 }
 
+const geometry::TriMesh& MovingBody::skin(const engine::Context& context) {
+  if (!moves()) return skin_->input.skin;
+  if (!is_skinned_)
+    rig::skin_linear(context, skin_->input.skin.positions, skin_->rig->weights, skinning_, posed_.positions);
+  is_skinned_ = true;
+  return posed_;
+}
+
 const geometry::MeshDistance& MovingBody::distance(const engine::Context& context) {
-  if (!moves()) return *body_->skin.distance;
-  if (!distance_) distance_.emplace(context, posed_);
+  if (!moves()) return *skin_->distance;
+  if (!distance_) distance_.emplace(context, skin(context));
   return *distance_;
 }
 

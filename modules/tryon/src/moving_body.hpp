@@ -1,4 +1,4 @@
-// The body of a drape as its frames see it: standing still, or posed by a clip before each frame.
+// A body as frames see it: standing still, or posed by its joints before each frame.
 #pragma once
 
 #include <memory>
@@ -14,23 +14,24 @@
 
 namespace bodice::tryon {
 
-/// A collider with the skin that judges it. Not thread-safe.
+/// A collider with the skin that judges it. Not thread-safe. Keeps a reference to the skin.
 class MovingBody {
  public:
-  /// `motion` null: the body stands still. Keeps references to both. Fails with kInvalidArgument where the
-  /// body is to move and its proxy is not bound.
-  static engine::Result<MovingBody> make(const PreparedBody& body, const BodyMotion* motion, double ramp_s,
-                                         bool loop);
+  /// `moves` false: the body stands still, whatever its proxy. Fails with kInvalidArgument where the body is
+  /// to move and its proxy is not bound, or its skin has no rig.
+  static engine::Result<MovingBody> make(const SegmentedSkin& skin, const proxy::BodyProxy& proxy,
+                                         bool moves);
 
-  bool moves() const noexcept { return player_.has_value(); }
-  /// Seconds of the clip at which the ramp begins; 0 or less.
-  double begin_s() const noexcept { return player_ ? -player_->ramp_s() : 0.0; }
-  /// Poses collider and skin; contacts then know the velocity of a surface that came here in dt_s.
-  engine::Result<void> pose(const engine::Context& context, double time_s, double dt_s);
+  bool moves() const noexcept { return poser_.has_value(); }
+  /// Poses the collider by the joints, #J; contacts then know the velocity of a surface that came here in
+  /// dt_s. Fails where a matrix is refused, and then nothing moves. Allocates nothing.
+  engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s);
+  /// Null where the body stands still.
+  binding::Poser* poser() noexcept { return poser_ ? &*poser_ : nullptr; }
 
   const collision::Collider& collider() const noexcept { return collider_; }
-  /// The skin in the pose in force.
-  const geometry::TriMesh& skin() const noexcept { return moves() ? posed_ : body_->skin.input.skin; }
+  /// The skin in the pose in force, computed at the first call in it.
+  const geometry::TriMesh& skin(const engine::Context& context);
   /// Exact, of skin(). Built anew in each pose in which it is called.
   const geometry::MeshDistance& distance(const engine::Context& context);
   /// Carries points that were attached to the skin in the bind pose into the pose in force, #points each.
@@ -38,15 +39,14 @@ class MovingBody {
              std::span<geometry::Vec3> posed) const;
 
  private:
-  explicit MovingBody(const PreparedBody& body) : body_(&body), collider_(body.fit.proxy) {}
+  MovingBody(const SegmentedSkin& skin, const proxy::BodyProxy& proxy) : skin_(&skin), collider_(proxy) {}
 
-  const PreparedBody* body_;
-  const BodyMotion* motion_ = nullptr;
+  const SegmentedSkin* skin_;
   collision::Collider collider_;
-  std::optional<MotionPlayer> player_;
   std::optional<binding::Poser> poser_;
-  std::vector<rig::Affine> joints_, skinning_;      // #J
+  std::vector<rig::Affine> skinning_;               // #J
   geometry::TriMesh posed_;                         // empty where the body stands still
+  bool is_skinned_ = false;                         // whether posed_ is of the pose in force
   std::optional<geometry::MeshDistance> distance_;  // of posed_, built at the first call
 };
 

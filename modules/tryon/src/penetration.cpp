@@ -23,6 +23,25 @@ struct Area {
   double inside = 0.0, all = 0.0;
 };
 
+double inside_tolerance_m(const proxy::BodyProxy& proxy) {
+  return (proxy.relief().empty() ? kInsideTolerance : kReliefTolerance) * proxy.stature_m();
+}
+
+/// The number of finite positions that are deeper than the tolerance.
+template <class Distance>
+std::size_t count_deeper(const engine::Context& context, std::span<const Vec3> positions, double tolerance_m,
+                         Distance distance) {
+  return engine::ordered_reduce(
+      context, positions.size(), kParticleGrain, std::size_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t inside = 0;
+        for (const Vec3& p : positions.subspan(begin, end - begin))
+          inside += p.allFinite() && distance(p) < -tolerance_m;
+        return inside;
+      },
+      std::plus<>());
+}
+
 }  // namespace
 
 Penetration penetration(const engine::Context& context, const geometry::MeshDistance& skin,
@@ -46,17 +65,14 @@ Penetration penetration(const engine::Context& context, const geometry::MeshDist
 
 std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& proxy,
                          std::span<const Vec3> positions) {
-  const double tolerance_m =
-      (proxy.relief().empty() ? kInsideTolerance : kReliefTolerance) * proxy.stature_m();
-  return engine::ordered_reduce(
-      context, positions.size(), kParticleGrain, std::size_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        std::size_t inside = 0;
-        for (const Vec3& p : positions.subspan(begin, end - begin))
-          inside += p.allFinite() && proxy::proxy_distance(proxy, p).distance < -tolerance_m;
-        return inside;
-      },
-      std::plus<>());
+  return count_deeper(context, positions, inside_tolerance_m(proxy),
+                      [&](const Vec3& p) { return proxy::proxy_distance(proxy, p).distance; });
+}
+
+std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& bound,
+                         const proxy::PosedProxy& posed, std::span<const Vec3> positions) {
+  return count_deeper(context, positions, inside_tolerance_m(bound) * posed.scale,
+                      [&](const Vec3& p) { return proxy::posed_proxy_distance(bound, posed, p).distance; });
 }
 
 double pierced_share(const engine::Context& context, const geometry::MeshDistance& skin,

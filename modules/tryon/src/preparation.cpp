@@ -3,8 +3,11 @@
 #include <optional>
 #include <utility>
 
+#include <bodice/binding/bind.hpp>
+#include <bodice/binding/flexed_skin.hpp>
 #include <bodice/fitting/enclose_parts.hpp>
 #include <bodice/tryon/reach.hpp>
+#include <bodice/tryon/rigged_body.hpp>
 
 #include "load_body.hpp"
 #include "segment_tasks.hpp"
@@ -30,22 +33,32 @@ Result<std::uint32_t> choose_region(const Context& context, const PreparationOpt
       skin.input);
 }
 
+binding::SkinnedBody skinned(const SegmentedSkin& skin) {
+  return {skin.input.skin, skin.rig->skeleton, skin.rig->weights};
+}
+
 /// Publishes the proxies of a body. A proxy is published once, even if it is both the last iterate of a tier
 /// and its result.
 class Publisher {
  public:
-  explicit Publisher(OnProxy on_proxy) : on_proxy_(std::move(on_proxy)) {}
+  Publisher(OnProxy on_proxy, bool bind) : on_proxy_(std::move(on_proxy)), bind_(bind) {}
 
   void begin(Skin skin) { skin_ = std::move(skin), last_.reset(); }
+  bool binds() const { return bind_; }
 
-  void publish(const BodyProxy& proxy) {
-    if (last_ && last_->hash() == proxy.hash()) return;
+  /// Publishes a proxy, bound where proxies are to be, and returns the published one.
+  Result<BodyProxy> publish(const Context& context, const BodyProxy& proxy) {
+    if (last_ && last_->hash() == proxy.hash()) return *published_;
+    auto bound = bind_ ? binding::bind(context, proxy, skinned(*skin_)) : Result<BodyProxy>(proxy);
+    if (!bound) return bound;
     last_ = proxy;
-    if (on_proxy_) on_proxy_(skin_, proxy);
+    published_ = *bound;
+    if (on_proxy_) on_proxy_(skin_, *bound);
+    return bound;
   }
 
   /// Publishes the last proxy with these parts in place of its own.
-  Result<void> publish_part(proxy::Tier tier, const fitting::FittedPart& part) {
+  Result<void> publish_part(const Context& context, proxy::Tier tier, const fitting::FittedPart& part) {
     BodyProxy::Data data{.tier = tier,
                          .stature_m = last_->stature_m(),
                          .source_hash = last_->source_hash(),
@@ -55,46 +68,84 @@ class Publisher {
     data.ellipsoids.insert(data.ellipsoids.end(), part.ellipsoids.begin(), part.ellipsoids.end());
     auto proxy = BodyProxy::make(std::move(data));
     if (!proxy) return std::move(proxy).error();
-    publish(*proxy);
+    if (auto published = publish(context, *proxy); !published) return std::move(published).error();
     return {};
   }
 
  private:
   OnProxy on_proxy_;
+  bool bind_;
   Skin skin_;
-  std::optional<BodyProxy> last_;
+  std::optional<BodyProxy> last_, published_;  // as fitted, and as published
 };
 
 Result<fitting::FitResult> fit_parts(const Context& context, const SegmentedSkin& skin,
                                      fitting::FitOptions options, std::uint32_t parts, Publisher& publisher) {
   options.parts = parts;
-  options.on_improved = [&](const BodyProxy& better) { publisher.publish(better); };
+  options.on_improved = [&](const BodyProxy& better) {
+    // Binding takes longer than a plain proxy is in force.
+    if (!publisher.binds() || !better.relief().empty()) static_cast<void>(publisher.publish(context, better));
+  };
+  std::vector<geometry::Vec3> flexed;
+  if (publisher.binds()) flexed = binding::flexed_skin(context, skinned(skin), skin.anatomy.part);
+  options.flexed = flexed;
   const proxy::Tier tier = options.tier.value_or(proxy::Tier::kSolid);  // only plain tiers give parts
   // A part that makes no proxy is skipped. If its fault is no accident, the fit fails as well.
   options.on_part = [&](const fitting::FittedPart& part) {
-    static_cast<void>(publisher.publish_part(tier, part));
+    if (!publisher.binds()) static_cast<void>(publisher.publish_part(context, tier, part));
   };
   auto fit = fitting::fit(context, labeled(skin), options);
   if (!fit) return of_body(std::move(fit).error(), skin.input);
-  publisher.publish(fit->proxy);
+  auto published = publisher.publish(context, fit->proxy);
+  if (!published) return of_body(std::move(published).error(), skin.input);
+  fit->proxy = std::move(published).value();
   return fit;
+}
+
+using Options = std::shared_ptr<const PreparationOptions>;
+
+/// The tasks from a source to a segmented skin, which has a rig where proxies are to be bound.
+Result<engine::Output<Skin>> add_skin_tasks(engine::GraphBuilder& builder,
+                                            const engine::Output<BodySource>& source, const Options& set) {
+  if (!set->bind) {
+    auto body = builder.add(
+        "body",
+        [set](const Context& context, const BodySource& from) {
+          return load_body(context, from, set->segment.import);
+        },
+        source);
+    return add_segment_tasks(builder, body, set->segment);
+  }
+  auto loaded = builder.add(
+      "rigged body",
+      [set](const Context& context, const BodySource& from) {
+        return load_rigged_body(context, from, set->segment.import);
+      },
+      source);
+  auto body = builder.add(
+      "body", [](const Context&, const LoadedBody& both) { return both.body; }, loaded);
+  auto skin = add_segment_tasks(builder, body, set->segment);
+  if (!skin) return std::move(skin).error();
+  return builder.add(
+      "rig",
+      [](const Context& context, const BodySource& from, const LoadedBody& both,
+         const Skin& on) -> Result<Skin> {
+        on->rig = both.rig;
+        if (auto given = give_rig(context, from, *on); !given) return std::move(given).error();
+        return on;
+      },
+      source, loaded, *skin);
 }
 
 }  // namespace
 
 Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_proxy) {
   const auto set = std::make_shared<const PreparationOptions>(std::move(options));
-  const auto publisher = std::make_shared<Publisher>(std::move(on_proxy));
+  const auto publisher = std::make_shared<Publisher>(std::move(on_proxy), set->bind);
 
   engine::GraphBuilder builder;
   auto source = builder.input<BodySource>("source");
-  auto body = builder.add(
-      "body",
-      [set](const Context& context, const BodySource& from) {
-        return load_body(context, from, set->segment.import);
-      },
-      source);
-  auto skin = add_segment_tasks(builder, body, set->segment);
+  auto skin = add_skin_tasks(builder, source, set);
   if (!skin) return std::move(skin).error();
   auto region = builder.add(
       "region", [set](const Context& c, const Skin& on) { return choose_region(c, *set, *on); }, *skin);
@@ -104,7 +155,8 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
         auto enclosed = fitting::enclose_parts(c, labeled(*on), parts);
         if (!enclosed) return of_body(std::move(enclosed).error(), on->input);
         publisher->begin(on);
-        publisher->publish(*enclosed);
+        if (auto published = publisher->publish(c, *enclosed); !published)
+          return of_body(std::move(published).error(), on->input);
         return {};
       },
       *skin, region);

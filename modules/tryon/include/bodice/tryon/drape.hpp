@@ -77,6 +77,7 @@ struct DrapeReport {
 struct DrapeResult {
   std::vector<io::GarmentTrack> garments;
   std::vector<std::vector<geometry::Vec3>> body_frames;  ///< skin of a body that moves at each kept frame, #V
+  std::vector<std::vector<geometry::Ellipsoid>> proxy_frames;  ///< its ellipsoids at each kept frame, #E
   DrapeReport report;
 };
 

@@ -5,6 +5,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/proxy/body_proxy.hpp>
+#include <bodice/proxy/posed_proxy.hpp>
 
 namespace bodice::tryon {
 
@@ -27,6 +28,10 @@ Penetration penetration(const engine::Context& context, const geometry::MeshDist
 /// Positions that are not finite are skipped. Cost: one proxy distance a particle, some microseconds.
 std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& proxy,
                          std::span<const geometry::Vec3> positions);
+
+/// The same for a bound proxy in a pose, by proxy::posed_proxy_distance().
+std::size_t count_inside(const engine::Context& context, const proxy::BodyProxy& bound,
+                         const proxy::PosedProxy& posed, std::span<const geometry::Vec3> positions);
 
 /// The share of the cloth's area, by its triangles' centroids, that lies inside the skin. It is what shows
 /// through although every particle is outside. O(#triangles).

@@ -28,6 +28,9 @@ struct PreparationOptions {
   /// With garments, only the parts within region_margin_m of them are fitted; the others cost nothing.
   std::vector<geometry::TriMesh> garments;
   double region_margin_m = 0.05;
+  /// The skin gets a rig (give_rig()), ellipsoids are found on the flexed skin, and proxies are bound to the
+  /// rig. Fewer of them are published, since binding each takes a tenth of a second.
+  bool bind = false;
 };
 
 /// Called with each proxy of a body, coarse to fine, one call at a time and in the same order in every run:

@@ -8,6 +8,10 @@
 //       const FrameOutcome outcome = session.frame(1.0 / 60.0);
 //       session.positions(vertices);
 //     }
+//
+// With SessionOptions::moves the bodies play clips: session.play({.motion = "walk"}). A clip is carried over
+// to each body that comes, and where the joints leave what the proxy's tables carry, these are solved anew
+// behind the frames.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +21,11 @@
 #include <vector>
 
 #include <bodice/cloth/solver.hpp>
+#include <bodice/collision/collider.hpp>
 #include <bodice/engine/frame_pipeline.hpp>
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/preparation.hpp>
+#include <bodice/tryon/rigged_body.hpp>
 
 namespace bodice::tryon {
 
@@ -30,6 +36,11 @@ struct SessionOptions {
   fitting::FitOptions fit;  ///< on_improved and on_part are replaced
   /// If given, a submitted body is fitted only where a garment worn at that time is within this distance.
   std::optional<double> region_margin_m;
+  /// Bodies get a rig, and proxies that are bound to it, so that they can play clips.
+  bool moves = false;
+  /// Tables of a body that moves are solved anew behind the frames where its joints are far from those that
+  /// it has tables for. With one worker in latency mode nothing runs behind, and this does nothing.
+  bool refits = true;
   std::optional<cloth::Fabric> fabric;  ///< absent: cotton
   cloth::SolverOptions solver;  ///< the defaults: eight substeps for a runtime, not the sixteen of drape()
 };
@@ -38,8 +49,15 @@ struct SessionOptions {
 struct LiveBody {
   std::shared_ptr<const SegmentedSkin> skin;
   proxy::BodyProxy proxy;
-  collision::Collider collider;
   int refinement = 0;  ///< 0: the first, coarse proxy of this body
+};
+
+/// How a clip is played.
+struct PlayOptions {
+  bool loop = true;  ///< false: its last pose holds
+  /// Seconds from the bind pose to the clip's first one, during which garments follow; absent:
+  /// suggested_ramp_s().
+  std::optional<double> ramp_s;
 };
 
 /// What a frame did.
@@ -48,6 +66,10 @@ struct FrameOutcome {
   cloth::FrameReport cloth;
   bool has_body = false;
   std::uint64_t proxy_hash = 0;  ///< hash of the proxy in use
+  bool plays = false;            ///< whether a clip moves the body
+  double clip_s = 0.0;           ///< time of the clip that is shown; where it loops, it goes on
+  double ramp_left_s = 0.0;      ///< above 0: a ramp still leads to the clip's pose
+  bool took_refit = false;       ///< whether tables of a further pose came into use
 };
 
 /// One body, its garments and its frames. All calls come from one thread; background work runs on the
@@ -69,12 +91,39 @@ class Session {
   /// does.
   engine::Result<void> dress(const std::vector<WornGarment>& garments);
 
-  /// Runs a frame boundary, then dt_s of cloth. Allocates nothing once warm, except in the first frame of a
-  /// new proxy.
+  /// Plays a clip from its begin: a made motion or one of a file, carried over to the body's skeleton behind
+  /// the frames. Garments are brought to its first pose by a ramp from the bind pose, or from the pose in
+  /// force if another clip is played. Bodies submitted later play it as well, from where it is then. The
+  /// ticket has the error of a clip that is not found, or is done where there is no body yet (its own ticket
+  /// then has it). Without SessionOptions::moves it fails with kInvalidArgument.
+  engine::Ticket play(MotionChoice choice, const PlayOptions& options = {});
+  /// Frames go on, but the body stays in its pose until resume().
+  void pause() noexcept;
+  void resume() noexcept;
+  /// Moves to a second of the clip, over `ramp_s` so that garments can follow; zero jumps. Does nothing while
+  /// no clip is played.
+  void seek(double time_s, double ramp_s = 0.5);
+
+  /// Gives the body in use another shape: `positions` are those of its skin's vertices (#V of
+  /// LiveBody::skin, meters, bind pose), as a slider moves them. Behind the frames its ellipsoids are carried
+  /// there, its tables are solved anew (reshape_body()), and it takes effect at a boundary; garments stay on.
+  /// One shape is worked on at a time; of those that wait the newest counts. Fails with kInvalidArgument for
+  /// another number of vertices, positions that are not finite, or where there is no body.
+  engine::Result<void> reshape(std::vector<geometry::Vec3> positions);
+
+  /// Runs a frame boundary, then dt_s of the clip and of cloth. Allocates nothing once warm, except in the
+  /// first frame of a new proxy, clip or refit.
   FrameOutcome frame(double dt_s);
 
   /// The body in use, or null before the first one; valid until the next frame().
   const LiveBody* body() const noexcept;
+  /// The body's skin in the pose of the last frame, as many positions as LiveBody::skin has. Without a body
+  /// nothing is written.
+  void skin_positions(std::span<geometry::Vec3> out) const;
+  /// The collider in the pose of the last frame; null before the first body.
+  const collision::Collider* collider() const noexcept;
+  /// The proxy in the pose of the last frame; null where the body does not move.
+  const proxy::PosedProxy* posed() const noexcept;
   /// The number of vertices of all garments, in the order given to dress().
   std::size_t vertices() const noexcept;
   void positions(std::span<geometry::Vec3> out) const;

@@ -1,0 +1,30 @@
+// The same body in another shape: what a slider of girth or weight does to its skin.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+#include <bodice/tryon/prepare.hpp>
+
+namespace bodice::tryon {
+
+/// A skin in another shape and its proxy.
+struct ReshapedBody {
+  std::shared_ptr<const SegmentedSkin> skin;
+  proxy::BodyProxy proxy;
+};
+
+/// Carries a proxy to another shape of its skin: `positions` are those of the skin's vertices (#V). Each
+/// ellipsoid goes by the affine map that its skin takes best; tables are solved anew for it, warm; joints
+/// move with the skin around them, and a bound proxy is bound anew, without its base poses. Parts and
+/// landmarks stay with their vertices. Fails with kInvalidArgument for another number of positions or ones
+/// that are not finite, with kUnusableGeometry where a shape has no stature, and with kCanceled. The same
+/// bits for any number of workers. Takes some .3 s of one core, .5 s with a binding.
+engine::Result<ReshapedBody> reshape_body(const engine::Context& context, const SegmentedSkin& skin,
+                                          const proxy::BodyProxy& proxy,
+                                          std::span<const geometry::Vec3> positions);
+
+}  // namespace bodice::tryon

@@ -1,0 +1,47 @@
+// A clip that is played frame by frame: paused, looped, moved in time, and reached by ramps.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <bodice/tryon/motion.hpp>
+
+namespace bodice::tryon {
+
+/// The joints of a body over the frames of a session. A ramp leads from some pose to the clip's; while it
+/// lasts, the clip waits. Nothing but the constructor allocates.
+class ClipPlayback {
+ public:
+  ClipPlayback(std::shared_ptr<const BodyMotion> motion, rig::Playback playback);
+
+  const BodyMotion& motion() const noexcept { return *motion_; }
+
+  /// Moves to a second of the clip, at once or over `ramp_s` from the pose in force.
+  void seek(double time_s, double ramp_s);
+  /// The same from the bind pose, or from other joints of this skeleton (#J, world).
+  void start_from_bind(double time_s, double ramp_s);
+  void start_from(std::span<const rig::Affine> world, double time_s, double ramp_s);
+  /// Shows the same time of the same clip as the playback of another body.
+  void go_on_as(const ClipPlayback& other);
+  /// Goes on by dt_s: with the ramp first, then with the clip.
+  void advance(double dt_s);
+
+  double time_s() const noexcept { return time_s_; }            ///< of the clip; where it loops, it goes on
+  double ramp_left_s() const noexcept { return ramp_left_s_; }  ///< 0: the clip's own pose is shown
+  /// #J: joint space to world of the pose in force.
+  std::span<const rig::Affine> joints() const noexcept { return world_; }
+  /// The joints after a further `ahead_s`.
+  void joints_ahead(double ahead_s, std::span<rig::Affine> world);
+
+ private:
+  void find_joints(double time_s, double ramp_left_s, std::span<rig::Affine> world);
+
+  std::shared_ptr<const BodyMotion> motion_;
+  rig::Playback playback_;
+  double time_s_ = 0.0, ramp_s_ = 0.0, ramp_left_s_ = 0.0;
+  std::vector<rig::LocalTransform> from_, local_;  // #J: where the ramp began; scratch
+  std::vector<rig::Affine> world_;                 // #J
+};
+
+}  // namespace bodice::tryon
