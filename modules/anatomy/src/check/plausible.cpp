@@ -17,13 +17,13 @@ struct Range {
   bool holds(double value) const { return value >= low && value <= high; }
 };
 
-// Wider than whatever was seen on clean bodies from two years on, BMI 17 to 42, in any pose, and on stylized
+// Wider than whatever was seen on clean bodies from one year on, BMI 17 to 46, in any pose, and on stylized
 // figures; boxes, chairs, fragments and two people in one skin lie outside of at least one.
 /// Area of the skin over the square of the stature: .55 to .85.
 constexpr Range kArea{0.36, 1.0};
 /// A skin this large is that of a very heavy body, on which the landmarks agree, or of two bodies, on which
 /// at least so many are in doubt.
-constexpr double kLargeArea = 0.75;
+constexpr double kLargeArea = 0.90;
 constexpr int kDoubts = 4;
 constexpr double kTypicalArea = 0.63;
 // Shares of the skin's area: head .08 to .2, trunk .3 to .5, an arm .07 to .12, a leg .13 to .22.
@@ -31,8 +31,8 @@ constexpr Range kHeadShare{0.03, 0.42}, kTrunkShare{0.14, 0.65}, kArmShare{0.025
 /// A limb to its counterpart.
 constexpr double kLimbRatio = 2.2;
 // Straight lengths over the stature, joint to joint: upper arm .15 to .2, forearm .2 to .27, thigh and calf
-// .2 to .3.
-constexpr Range kLimbLength{0.07, 0.42};
+// .2 to .3. A small child whose armpit is found too low has an upper arm of .067.
+constexpr Range kLimbLength{0.05, 0.42};
 
 struct Shares {
   std::array<double, body::kPartCount> of{};
