@@ -210,7 +210,8 @@ std::string check_drape(double dt_s, std::vector<double> key_s) {
   body.skin.anatomy.part = bound.body.part;
   body.skin.anatomy.stature_m = bound.body.stature_m;
   body.skin.distance = std::make_shared<geometry::MeshDistance>(engine::Context{}, bound.body.mesh);
-  tryon::BodyMotion motion{.rig = {bound.body.skeleton, bound.body.weights, {}}, .clip = {}};
+  body.skin.rig = std::make_shared<rig::Rig>(rig::Rig{bound.body.skeleton, bound.body.weights, {}});
+  tryon::BodyMotion motion{.rig = *body.skin.rig, .clip = {}};
   rig::Track track{.joint = static_cast<std::uint16_t>(*rig::find_joint(bound.body.skeleton, "upper_arm_l"))};
   track.rotation.value.assign(key_s.size(), Eigen::Quaterniond::Identity());
   motion.clip = {.name = "one key", .duration_s = key_s.back(), .tracks = {}};

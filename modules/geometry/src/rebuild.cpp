@@ -15,9 +15,8 @@ namespace {
 
 /// A vertex within so many cells of the data is measured.
 constexpr double kMeasuredCells = 1.0;
-/// Cosine between normal and offset above which a vertex lies above the data and not beside its rim, and the
-/// share of the reach within which it counts as measured all the same.
-constexpr double kAlongNormal = 0.9, kBesideRim = 0.3;
+/// Cosine between normal and offset above which a vertex lies above the data and not beside its rim.
+constexpr double kAlongNormal = 0.9;
 /// Components below this share of the largest one's area are bubbles and debris.
 constexpr double kSmallest = 0.01;
 /// Passes that even out what closes a hole, and the share of each step.
@@ -51,9 +50,9 @@ void snap(const engine::Context& context, const MeshDistance& data, double withi
       const auto hit = data.closest_point_within(out.mesh.positions[v], within_m);
       if (!hit) continue;
       const Vec3 offset = hit->point - out.mesh.positions[v];
-      const bool above = std::abs(offset.dot(hit->normal)) >= kAlongNormal * offset.norm();
-      near[v] = above || offset.norm() < kBesideRim * within_m;
-      if (above) out.mesh.positions[v] = hit->point;
+      if (std::abs(offset.dot(hit->normal)) < kAlongNormal * offset.norm()) continue;
+      near[v] = true;
+      out.mesh.positions[v] = hit->point;
     }
   });
   out.measured.assign(near.begin(), near.end());
