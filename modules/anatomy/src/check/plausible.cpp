@@ -31,7 +31,7 @@ constexpr Range kHeadShare{0.03, 0.42}, kTrunkShare{0.14, 0.65}, kArmShare{0.025
 /// A limb to its counterpart.
 constexpr double kLimbRatio = 2.2;
 // Straight lengths over the stature, joint to joint: upper arm .15 to .2, forearm .2 to .27, thigh and calf
-// .2 to .3. A small child whose armpit is found too low has an upper arm of .067.
+// .2 to .3. Where the armpit of a small child is found too low, its upper arm has .067.
 constexpr Range kLimbLength{0.05, 0.42};
 
 struct Shares {
