@@ -1,11 +1,10 @@
 // anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N | --measurements N [--from M]] [--all] [--verbose]
-// [--sheet FILE.png]
-//         [--cost] [--scans N [--from M] [--only KIND] [--keep FOLDER]]
+//         [--sheet FILE.png] [--cost] [--scans N [--from M] [--only KIND] [--keep FOLDER]]
 // How well is every body analyzed, and in what time? Rows of the bodies that miss a bar (--all: of every
 // body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
 // bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --measurements:
-// errors of the 26 measurements of N made bodies that stand. --sheet: a picture
-// of every body by part. --scans: outcomes of N made scans of each kind. Fails if a body of a file misses a
+// errors of the 26 measurements of N made bodies that stand. --sheet writes a picture of every body by part.
+// --scans counts the outcomes of N made scans of each kind. The program fails if a body of a file misses a
 // bar.
 #include <cstdio>
 #include <cstring>

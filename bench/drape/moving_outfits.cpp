@@ -17,7 +17,7 @@ using body::Part;
 /// A garment of the table: of a file where there is one, else made.
 struct Entry {
   const char* garment;
-  const char* made_body;  ///< of bodies_of()
+  const char* made_body;  ///< its name in bodies_of()
   const char* data_body;  ///< in DIR/bodies
   const char* data_file;  ///< in DIR/garments; null: made
 };

@@ -7,25 +7,11 @@
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
 
+#include "sheet.hpp"
+
 using namespace bodice;
 
 namespace {
-
-/// A square of cloth above the head of the built-in body.
-tryon::WornGarment sheet() {
-  constexpr int kSide = 12;
-  tryon::WornGarment cloth{.name = "sheet"};
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j)
-      cloth.mesh.positions.push_back({0.04 * (i - kSide / 2), 1.75, 0.04 * (j - kSide / 2)});
-  for (geometry::Index i = 0; i + 1 < kSide; ++i)
-    for (geometry::Index j = 0; j + 1 < kSide; ++j) {
-      const geometry::Index a = i * kSide + j, b = a + 1, c = a + kSide, d = c + 1;
-      cloth.mesh.triangles.push_back({a, b, c});
-      cloth.mesh.triangles.push_back({b, d, c});
-    }
-  return cloth;
-}
 
 std::uint64_t run_deterministic(engine::Executor& executor) {
   const engine::Context context{.executor = &executor};
@@ -34,7 +20,7 @@ std::uint64_t run_deterministic(engine::Executor& executor) {
   options.pipeline.delay_frames = 3;
   options.fit.tier = proxy::Tier::kSolid;
   tryon::Session session(context, options);
-  REQUIRE(session.dress({sheet()}).ok());
+  REQUIRE(session.dress({sheet(12)}).ok());
   session.submit(synth::BodyOptions{.vertices = 2600});
   for (int frame = 0; frame < 12; ++frame) session.frame(1.0 / 60.0);
   REQUIRE(session.body() != nullptr);
@@ -47,7 +33,7 @@ TEST_CASE("garments wait for their body, then fall on it") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
   tryon::Session session(context, {.fit = {.tier = proxy::Tier::kSolid}});
-  REQUIRE(session.dress({sheet()}).ok());
+  REQUIRE(session.dress({sheet(12)}).ok());
   CHECK(session.vertices() == 144);
   std::vector<geometry::Vec3> at(session.vertices());
   session.frame(1.0 / 60.0);
@@ -103,7 +89,7 @@ TEST_CASE("a body that cannot be read is an error of its ticket, and the frames 
 
 TEST_CASE("with one worker a frame prepares the body itself, before and after the first") {
   tryon::Session session({}, {.fit = {.tier = proxy::Tier::kSolid}});
-  REQUIRE(session.dress({sheet()}).ok());
+  REQUIRE(session.dress({sheet(12)}).ok());
   CHECK_FALSE(session.frame(1.0 / 60.0).has_body);
   session.submit(synth::BodyOptions{.stature_m = 1.5, .mass_kg = 50, .vertices = 1500});
   REQUIRE(session.frame(1.0 / 60.0).has_body);
@@ -126,7 +112,7 @@ TEST_CASE("a frame of a dressed body allocates nothing once warm") {
   for (const auto& [name, executor] : bodice_test::all_executors()) {
     CAPTURE(name);
     tryon::Session session({.executor = executor.get()}, {.fit = {.tier = proxy::Tier::kSolid}});
-    REQUIRE(session.dress({sheet()}).ok());
+    REQUIRE(session.dress({sheet(12)}).ok());
     REQUIRE(session.submit(synth::BodyOptions{.vertices = 1500}).wait().ok());
     session.frame(1.0 / 60.0);
     REQUIRE(session.body() != nullptr);

@@ -9,28 +9,14 @@
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
 
+#include "sheet.hpp"
+
 using namespace bodice;
 using geometry::Vec3;
 
 namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
-
-/// A square of cloth above the head of the built-in body.
-tryon::WornGarment sheet() {
-  constexpr int kSide = 10;
-  tryon::WornGarment cloth{.name = "sheet"};
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j)
-      cloth.mesh.positions.push_back({0.04 * (i - kSide / 2), 1.75, 0.04 * (j - kSide / 2)});
-  for (geometry::Index i = 0; i + 1 < kSide; ++i)
-    for (geometry::Index j = 0; j + 1 < kSide; ++j) {
-      const geometry::Index a = i * kSide + j, b = a + 1, c = a + kSide, d = c + 1;
-      cloth.mesh.triangles.push_back({a, b, c});
-      cloth.mesh.triangles.push_back({b, d, c});
-    }
-  return cloth;
-}
 
 tryon::SessionOptions moving(proxy::Tier tier) {
   tryon::SessionOptions options;
@@ -67,7 +53,7 @@ std::uint64_t run_deterministic(engine::Executor& executor) {
   options.pipeline.mode = engine::PipelineMode::kDeterministic;
   options.pipeline.delay_frames = 2;
   tryon::Session session(context, options);
-  REQUIRE(session.dress({sheet()}).ok());
+  REQUIRE(session.dress({sheet(10)}).ok());
   session.submit(synth::BodyOptions{.vertices = 1500});
   session.play({.motion = "squat"}, {.ramp_s = 0.05});
   bool took_refit = false;
@@ -158,7 +144,7 @@ TEST_CASE(
 TEST_CASE("garments hang on the body that moves") {
   const auto walker = walking();
   tryon::Session& session = *walker;
-  REQUIRE(session.dress({sheet()}).ok());
+  REQUIRE(session.dress({sheet(10)}).ok());
   std::vector<Vec3> at(session.vertices());
   std::uint64_t contacts = 0;
   for (int frame = 0; frame < 60; ++frame) {
@@ -191,7 +177,7 @@ TEST_CASE("a frame of a dressed body that walks allocates nothing once warm") {
     options.fit.max_ellipsoids = 24;
     options.refits = false;
     tryon::Session session({.executor = executor.get()}, options);
-    REQUIRE(session.dress({sheet()}).ok());
+    REQUIRE(session.dress({sheet(10)}).ok());
     auto body = session.submit(synth::BodyOptions{.vertices = 1500});
     session.play({.motion = "walk"}, {.ramp_s = 0.1});
     REQUIRE(body.wait().ok());

@@ -15,9 +15,8 @@ class WarpedTables final : public fitting::PosedTables {
  public:
   explicit WarpedTables(const binding::TableWarp& warp) : warp_(warp) {}
 
-  fitting::TableReading read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const override {
-    const binding::WarpedReading at = warp_.read(ellipsoid, direction);
-    return {at.direction, at.scale, at.growth_m, at.burial_m};
+  proxy::TableReading read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const override {
+    return warp_.read(ellipsoid, direction);
   }
   bool is_free(std::uint32_t ellipsoid) const override { return warp_.follows(ellipsoid); }
 

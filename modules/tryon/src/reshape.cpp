@@ -23,19 +23,6 @@ engine::Error unfit(std::string what, std::string remedy) {
   return {engine::ErrorCode::kInvalidArgument, std::move(what), std::move(remedy)};
 }
 
-engine::Result<void> check(const SegmentedSkin& skin, std::span<const Vec3> positions) {
-  const std::size_t vertices = skin.input.skin.positions.size();
-  if (positions.size() != vertices)
-    return unfit(
-        engine::message("The shape has ", positions.size(), " vertices, but the skin has ", vertices, "."),
-        "Give the same vertices at other positions.");
-  for (std::size_t v = 0; v < vertices; ++v)
-    if (!positions[v].allFinite())
-      return unfit(engine::message("Vertex ", v, " of the shape is not finite."),
-                   "Give positions in meters.");
-  return {};
-}
-
 double height_of(std::span<const Vec3> positions) {
   geometry::Box box;
   for (const Vec3& p : positions) box.extend(p);
@@ -103,7 +90,7 @@ std::shared_ptr<SegmentedSkin> reshaped_skin(const engine::Context& context, con
 /// Tables that are read as they are.
 class TablesAsTheyAre final : public fitting::PosedTables {
  public:
-  fitting::TableReading read(std::uint32_t, const Vec3& direction) const override {
+  proxy::TableReading read(std::uint32_t, const Vec3& direction) const override {
     return {.direction = direction};
   }
   bool is_free(std::uint32_t) const override { return true; }
@@ -132,9 +119,22 @@ engine::Result<proxy::BodyProxy> reshaped_proxy(const engine::Context& context, 
 
 }  // namespace
 
+engine::Result<void> check_shape(const SegmentedSkin& skin, std::span<const Vec3> positions) {
+  const std::size_t vertices = skin.input.skin.positions.size();
+  if (positions.size() != vertices)
+    return unfit(
+        engine::message("The shape has ", positions.size(), " vertices, but the skin has ", vertices, "."),
+        "Give the same vertices at other positions.");
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (!positions[v].allFinite())
+      return unfit(engine::message("Vertex ", v, " of the shape is not finite."),
+                   "Give positions in meters.");
+  return {};
+}
+
 engine::Result<ReshapedBody> reshape_body(const engine::Context& context, const SegmentedSkin& skin,
                                           const proxy::BodyProxy& proxy, std::span<const Vec3> positions) {
-  if (auto good = check(skin, positions); !good) return std::move(good).error();
+  if (auto good = check_shape(skin, positions); !good) return std::move(good).error();
   if (!(height_of(positions) > 0.0))
     return engine::Error{engine::ErrorCode::kUnusableGeometry, "The shape has no height.",
                          "Give the positions of a standing body, y up."};

@@ -52,22 +52,6 @@ engine::Error cannot_move() {
           "Make it with SessionOptions::moves."};
 }
 
-engine::Result<void> check_shape(const SessionBody* body, std::span<const Vec3> positions) {
-  const auto bad = [](std::string what, std::string remedy) {
-    return engine::Error{engine::ErrorCode::kInvalidArgument, std::move(what), std::move(remedy)};
-  };
-  if (!body) return bad("There is no body that could take a shape.", "Wait for the first one.");
-  const std::size_t vertices = body->origin->input.skin.positions.size();
-  if (positions.size() != vertices)
-    return bad(engine::message("The shape has ", positions.size(), " vertices, but the body's skin has ",
-                               vertices, "."),
-               "Give the vertices of Session::body()->skin.");
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    if (!positions[v].allFinite())
-      return bad(engine::message("Vertex ", v, " of the shape is not finite."), "Give positions in meters.");
-  return {};
-}
-
 }  // namespace
 
 Session::Session(const engine::Context& context, SessionOptions options)
@@ -138,7 +122,10 @@ void Session::seek(double time_s, double ramp_s) {
 }
 
 engine::Result<void> Session::reshape(std::vector<Vec3> positions) {
-  if (auto good = check_shape(impl_->body.get(), positions); !good) return good;
+  if (!impl_->body)
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "There is no body that could take a shape.",
+                         "Wait for the first one."};
+  if (auto good = check_shape(*impl_->body->origin, positions); !good) return good;
   impl_->wanted_shape = std::move(positions);
   impl_->begin_shape();
   return {};

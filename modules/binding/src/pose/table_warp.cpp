@@ -99,12 +99,12 @@ bool TableWarp::follows(std::uint32_t ellipsoid) const noexcept {
   return !impl_->changes[ellipsoid].empty();
 }
 
-WarpedReading TableWarp::read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const {
+proxy::TableReading TableWarp::read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const {
   const proxy::Binding& binding = *impl_->bound.binding();
   const CarriedEllipsoid& carried = impl_->carried[ellipsoid];
   const proxy::ReliefTable& table = impl_->bound.relief()[ellipsoid];
   const int n = table.nodes_per_side;
-  WarpedReading reading;
+  proxy::TableReading reading;
   reading.scale = carried.scale;
   const bool moves = follows(ellipsoid);
   const geometry::Vec3 target = moves ? geometry::Vec3(carried.to_table * direction) : direction;

@@ -37,7 +37,7 @@ class ThreadPool {
   std::condition_variable queued_, ended_;
   std::vector<Task> tasks_;
   std::vector<std::uint32_t> free_, queue_;  ///< indices of tasks; the queue is a ring
-  std::size_t first_ = 0, waiting_ = 0;      ///< of the queue
+  std::size_t first_ = 0, waiting_ = 0;      ///< the queue's front and length
   bool closing_ = false;
   std::vector<std::thread> threads_;
 };

@@ -15,7 +15,7 @@ struct bodice_collider {
   bodice::capi::SharedContext context;
   bodice::proxy::BodyProxy proxy;
   bodice::collision::Collider collider;
-  std::optional<bodice::binding::Poser> poser;            ///< of a bound proxy
-  std::vector<bodice::proxy::JointMatrix> matrices;       ///< of the pose that is read
-  std::vector<bodice::geometry::Ellipsoid> moved_shapes;  ///< of the move that is made
+  std::optional<bodice::binding::Poser> poser;            ///< absent if the proxy is not bound
+  std::vector<bodice::proxy::JointMatrix> matrices;       ///< room for the pose that a call reads
+  std::vector<bodice::geometry::Ellipsoid> moved_shapes;  ///< room for the ellipsoids that a call gives
 };

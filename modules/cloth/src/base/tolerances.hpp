@@ -10,6 +10,20 @@ inline constexpr float kTinyLength2 = 1e-24f;
 /// Inverse kilograms, added to weights: a constraint between pinned particles has a weight above zero to
 /// divide by.
 inline constexpr float kTinyWeight = 1e-12f;
+/// The speed at which cloth that was inside the body before its last step is moved out, meters a second. A
+/// garment that begins two centimeters inside is out after a frame, without a jerk for neighboring particles.
+inline constexpr float kFromBody_m_s = 1.0f;
+
+/// Bounds how a distance to the body falls with travel: by at most slope times the travel, plus rise_m.
+struct Steepness {
+  float slope, rise_m;
+};
+inline constexpr Steepness kPlainSteepness = {1.0f, 0.0f};
+/// Tables of relief are steep at some points. On five made bodies (seeds 0, 3, 5, 7 and 11, three poses), 1.4
+/// million paths of 0.5 to 40 mm toward the surface lowered the distance by at most 2.3 mm more than twice
+/// their length.
+inline constexpr Steepness kReliefSteepness = {2.0f, 3e-3f};
+
 /// Particles a task, in loops without gathers.
 inline constexpr std::size_t kParticleGrain = 1024;
 

@@ -16,10 +16,6 @@
 namespace bodice::cloth {
 namespace {
 
-// The speed at which a particle that was inside before its last step is moved out. A garment that begins two
-// centimeters inside is out after a frame, without a jerk for neighboring particles.
-constexpr float kFromBody_m_s = 1.0f;
-
 collision::Particles view(Particles& p, std::size_t begin, std::size_t end, bool with_velocities) {
   collision::Particles v;
   v.count = end - begin;

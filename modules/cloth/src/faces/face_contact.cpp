@@ -23,11 +23,8 @@ constexpr float kFresh = 5.0f;
 // Memory for samples: that of the widest spacing at rest, times this, and some for each element.
 constexpr std::size_t kRefined = 3, kMostAnElement = 2;
 constexpr int kSweeps = 2;
-constexpr float kRecovery_m_s = 1.0f;     // as for particles (contact/body_contact.cpp)
 constexpr std::size_t kChunkGrain = 16;   // chunks a task
 constexpr std::size_t kQueryGrain = 512;  // particles a task
-// Relief: see contact/clearance_cache.cpp for its steepness.
-constexpr float kReliefSlope = 2.0f, kReliefRise_m = 3e-3f;
 
 // Position of a sample in the body's pose at the end of the frame.
 Float4 seen_by_body(const FaceSample& s, std::span<const Point> now, float remaining) {
@@ -91,7 +88,7 @@ float longest_push(const FaceSample& s, const FaceSubstep& substep, const FaceCo
     const Index i = s.particle[c];
     path += weight[c] * (xyz(load(f.now[i])) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f});
   }
-  return kRecovery_m_s * substep.length_s + std::sqrt(dot3(path, path));
+  return kFromBody_m_s * substep.length_s + std::sqrt(dot3(path, path));
 }
 
 // Moves the particles of a sample that is too near; returns whether it was.
@@ -103,7 +100,7 @@ bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& 
   for (int c = 0; c < 3; ++c) yielding += f.now[s.particle[c]].weight * weight[c] * weight[c];
   if (!(yielding > 0.0f)) return true;
   float push = -room;
-  if (push > kRecovery_m_s * substep.length_s) push = std::min(push, longest_push(s, substep, f, p));
+  if (push > kFromBody_m_s * substep.length_s) push = std::min(push, longest_push(s, substep, f, p));
   const Float4 normal = vector_of(s.normal);
   for (int c = 0; c < 3; ++c) {
     Point& point = f.now[s.particle[c]];
@@ -148,7 +145,7 @@ FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& top
   f.samples = make_face_samples(f.elements, most);
   f.active.resize(most);
   f.active_count.assign(most / kChunk + f.elements.groups() + 1, 0);
-  f.group_report.resize(f.elements.groups());
+  f.group_contacts.resize(f.elements.groups());
   f.nearest.resize(particles.count()), f.now.resize(particles.count());
   return f;
 }
@@ -166,11 +163,11 @@ void query_particles(const engine::Context& context, const collision::Collider& 
 void begin_face_frame(const engine::Context& context, const collision::Collider& body, double frame_s,
                       const Environment& environment, const MotionNearParticles& motion, const Particles& p,
                       FaceContact& f) {
-  const bool relief = body.has_relief();
-  f.rules.slope = relief ? kReliefSlope : 1.0f, f.rules.rise_m = relief ? kReliefRise_m : 0.0f;
+  const Steepness& steepness = body.has_relief() ? kReliefSteepness : kPlainSteepness;
+  f.rules.slope = steepness.slope, f.rules.rise_m = steepness.rise_m;
   f.rules.frame_s = static_cast<float>(frame_s);
   f.rules.fall_m = static_cast<float>(frame_s * frame_s * environment.gravity_m_s2.norm());
-  f.group_report.assign(f.group_report.size(), {});
+  std::ranges::fill(f.group_contacts, std::uint64_t{0});
   place_samples(context, body, f.rules, f.elements, f.nearest, motion, p, f.samples);
   f.on = !f.samples.all.empty();
 }
@@ -187,16 +184,9 @@ void push_faces_out(const engine::Context& context, const collision::Collider& b
     for_each_group(context, f, [&](std::size_t group) {
       for_each_active(f, group, [&](const FaceSample& s) {
         const bool pushed = push_out(s, substep, p, f);
-        if (sweep == 0) f.group_report[group].contacts += pushed;
+        if (sweep == 0) f.group_contacts[group] += pushed;
       });
     });
-  for_each_group(context, f, [&](std::size_t group) {
-    float& deepest_m = f.group_report[group].deepest_m;
-    deepest_m = 0.0f;
-    for_each_active(f, group, [&](const FaceSample& s) {
-      deepest_m = std::max(deepest_m, -distance_at(s, seen_by_body(s, f.now, substep.remaining)));
-    });
-  });
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) p.x[i] = f.now[i].x, p.y[i] = f.now[i].y, p.z[i] = f.now[i].z;
   });
@@ -205,9 +195,11 @@ void push_faces_out(const engine::Context& context, const collision::Collider& b
 FaceReport report_faces(const FaceContact& f) {
   FaceReport report;
   report.samples = f.samples.all.size();
-  for (const FaceReport& group : f.group_report) {
-    report.contacts += group.contacts;
-    report.deepest_m = std::max(report.deepest_m, group.deepest_m);
+  for (std::size_t group = 0; group < f.elements.groups(); ++group) {
+    report.contacts += f.group_contacts[group];
+    for_each_active(f, group, [&](const FaceSample& s) {
+      report.deepest_m = std::max(report.deepest_m, -distance_at(s, seen_by_body(s, f.now, 0.0f)));
+    });
   }
   return report;
 }

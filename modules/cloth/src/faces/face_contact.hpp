@@ -24,9 +24,9 @@ struct FaceContact {
   std::vector<collision::Contact> nearest;  ///< #P: contacts of the particles when the frame began
   std::vector<Point> now;                   ///< #P: positions that are pushed, with weights
   std::vector<std::uint32_t> active;  ///< from the start of each chunk: its samples that may be too near
-  std::vector<std::uint32_t> active_count;  ///< #chunks
-  std::vector<FaceReport> group_report;     ///< #groups
-  bool on = false;                          ///< whether there are samples in this frame
+  std::vector<std::uint32_t> active_count;    ///< #chunks
+  std::vector<std::uint64_t> group_contacts;  ///< #groups: samples that were pushed in this frame
+  bool on = false;                            ///< whether there are samples in this frame
 };
 
 /// The contact of this garment at rest with a body, at the thickness of the options.

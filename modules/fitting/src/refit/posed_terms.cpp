@@ -14,7 +14,7 @@ constexpr std::size_t kGrain = 256;
 struct Near {
   std::uint32_t ellipsoid = 0;
   double distance_m = 0.0, score_m = 0.0;  ///< d, and d + kappa b
-  TableReading reading;
+  proxy::TableReading reading;
 };
 
 struct Found {

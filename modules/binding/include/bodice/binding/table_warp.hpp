@@ -9,16 +9,9 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/proxy/body_proxy.hpp>
+#include <bodice/proxy/table_reading.hpp>
 
 namespace bodice::binding {
-
-/// How a table at rest is read at one direction of the pose.
-struct WarpedReading {
-  geometry::Vec3 direction = geometry::Vec3::UnitX();  ///< at rest, not of unit length
-  double scale = 1.0;                                  ///< of the ellipsoid's lengths
-  double growth_m = 0.0;                               ///< of the skin's height over the ellipsoid
-  double burial_m = 0.0;                               ///< kappa b of eq. (4') in posed_proxy.hpp
-};
 
 /// The carried ellipsoids of a pose, and how their tables follow the skin there: what Poser writes into
 /// texels, as a function of the direction. Reading is thread-safe.
@@ -34,7 +27,7 @@ class TableWarp {
   std::span<const geometry::Ellipsoid> shapes() const noexcept;  ///< #E, world
   double scale() const noexcept;                                 ///< size of the body over its size at rest
   /// The reading at a unit direction of the posed ellipsoid. A microsecond at most.
-  WarpedReading read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const;
+  proxy::TableReading read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const;
   /// Whether the table of an ellipsoid follows the skin. Others are the same in every pose.
   bool follows(std::uint32_t ellipsoid) const noexcept;
 

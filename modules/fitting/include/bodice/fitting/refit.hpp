@@ -18,23 +18,16 @@
 #include <bodice/fitting/fit.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/proxy/body_proxy.hpp>
+#include <bodice/proxy/table_reading.hpp>
 
 namespace bodice::fitting {
-
-/// How a table is read at one direction of a pose.
-struct TableReading {
-  geometry::Vec3 direction = geometry::Vec3::UnitX();  ///< u: where the table at rest is read
-  double scale = 1.0;                                  ///< s
-  double growth_m = 0.0;                               ///< of the skin's height over the ellipsoid
-  double burial_m = 0.0;                               ///< kappa b of eq. (4'), of the pose
-};
 
 /// The tables of a pose, as far as a refit needs them. Calls come from many threads.
 class PosedTables {
  public:
   virtual ~PosedTables() = default;
   /// The reading of an ellipsoid's table at a unit direction of the posed ellipsoid.
-  virtual TableReading read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const = 0;
+  virtual proxy::TableReading read(std::uint32_t ellipsoid, const geometry::Vec3& direction) const = 0;
   /// Whether the table of an ellipsoid may be changed; others count as they are.
   virtual bool is_free(std::uint32_t ellipsoid) const = 0;
 };

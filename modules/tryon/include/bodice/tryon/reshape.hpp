@@ -17,6 +17,9 @@ struct ReshapedBody {
   proxy::BodyProxy proxy;
 };
 
+/// Whether positions are a shape of this skin: one for each vertex, and finite. Fails with kInvalidArgument.
+engine::Result<void> check_shape(const SegmentedSkin& skin, std::span<const geometry::Vec3> positions);
+
 /// Carries a proxy to another shape of its skin: `positions` are those of the skin's vertices (#V). Each
 /// ellipsoid goes by the affine map that its skin takes best; tables are solved anew for it, warm; joints
 /// move with the skin around them, and a bound proxy is bound anew, without its base poses. Parts and
