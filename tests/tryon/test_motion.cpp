@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
 
 #include <bodice/synth/garment.hpp>
 #include <bodice/tryon/drape.hpp>
@@ -211,4 +213,16 @@ TEST_CASE("without a ramp the first kept frame shows the clip's first pose, not 
   }
   CHECK(from_clip_m < 1e-9);
   CHECK(from_bind_m > 0.05);
+}
+
+TEST_CASE("a body with a rig that its proxy is not bound to does not move, and both are counted") {
+  Walker w = walker({}, "walk");
+  auto other = std::make_shared<rig::Rig>(*w.body.skin.rig);
+  const std::size_t joints = other->skeleton.joints.size();
+  other->skeleton.joints.push_back({.name = "tail", .parent = 0});
+  w.body.skin.rig = other;
+  const auto draped = tryon::drape({}, w.body, w.worn, {.frames = 1, .motion = &w.motion});
+  REQUIRE(!draped.ok());
+  CHECK(draped.error().message == "The body's rig has " + std::to_string(joints + 1) +
+                                      " joints, but its proxy is bound to " + std::to_string(joints) + ".");
 }

@@ -1,5 +1,7 @@
 #include "moving_body.hpp"
 
+#include <bodice/engine/message.hpp>
+
 namespace bodice::tryon {
 
 using geometry::Vec3;
@@ -13,6 +15,11 @@ engine::Result<MovingBody> MovingBody::make(const SegmentedSkin& skin, const pro
                          "Read a body that has one, or give it one with tryon::give_rig()."};
   auto poser = binding::Poser::make(proxy);
   if (!poser) return std::move(poser).error();
+  if (poser->joints() != skin.rig->skeleton.joints.size())
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         engine::message("The body's rig has ", skin.rig->skeleton.joints.size(),
+                                         " joints, but its proxy is bound to ", poser->joints(), "."),
+                         "Bind the proxy to the rig that moves the skin."};
   moving.poser_.emplace(std::move(poser).value());
   moving.skinning_.assign(moving.poser_->joints(), rig::identity());
   moving.posed_ = skin.input.skin;
