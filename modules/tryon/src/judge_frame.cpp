@@ -15,7 +15,7 @@ using geometry::Vec3;
 
 constexpr std::size_t kSamples = 4000;
 constexpr std::size_t kJudgeGrain = 64;
-constexpr double kDeep_m = 1e-3;                     // what counts as missed or false
+constexpr double kWrong_m = 1e-3;                    // what counts as missed or false
 constexpr double kOverlap = 1.5;                     // a winding number above it: two layers of the body
 constexpr double kSpacing_m = 4e-3;                  // of samples on the cloth
 constexpr double kGoldenRatio = 0.6180339887498949;  // spreads consecutive offsets evenly
@@ -43,8 +43,8 @@ ProxyError summarize(const std::vector<Sample>& samples) {
   for (const Sample& s : samples) {
     if (!std::isfinite(s.truth_m)) continue;
     errors.push_back(std::abs(s.proxy_m - s.truth_m));
-    missed += s.truth_m < -kDeep_m && s.proxy_m > 0.0;
-    false_hits += s.truth_m > kDeep_m && s.proxy_m < 0.0;
+    missed += s.truth_m < -kWrong_m && s.proxy_m > 0.0;
+    false_hits += s.truth_m > kWrong_m && s.proxy_m < 0.0;
   }
   if (errors.empty()) return result;
   std::ranges::sort(errors);

@@ -34,8 +34,8 @@ DistanceField measure_distances(const engine::Context& context, const io::Import
   return field;
 }
 
-std::shared_ptr<SegmentedSkin> join(const engine::Context&, const io::ImportedMesh& mesh,
-                                    const anatomy::Anatomy& anatomy, const DistanceField& field) {
+std::shared_ptr<SegmentedSkin> join_skin(const engine::Context&, const io::ImportedMesh& mesh,
+                                         const anatomy::Anatomy& anatomy, const DistanceField& field) {
   auto skin = std::make_shared<SegmentedSkin>(SegmentedSkin{.input = mesh,
                                                             .anatomy = anatomy,
                                                             .distance = field.distance,
@@ -67,7 +67,7 @@ engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks
       mesh);
   auto field = builder.add("distance field", measure_distances, mesh);
   builder.set_priority(anatomy, 1);  // the longer one starts first
-  return builder.add("skin", join, mesh, anatomy, field);
+  return builder.add("skin", join_skin, mesh, anatomy, field);
 }
 
 }  // namespace bodice::tryon
