@@ -161,8 +161,8 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
   s.faces.on = false;
   if (body != nullptr && options.face_contact) {
     if (!s.motion.moving) query_particles(context, *body, s.faces, particles);
-    begin_face_frame(context, *body, frame_s, options.environment, {s.motion.by, s.motion.ahead}, particles,
-                     s.faces);
+    begin_face_frame(context, *body, frame_s, options.environment,
+                     {s.motion.by, s.motion.ahead, s.motion.moving}, particles, s.faces);
   }
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
@@ -182,20 +182,24 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
                                substep.share};
   engine::Context alone = context;  // one worker resolves a whole patch
   alone.executor = &engine::inline_executor();
+  const FaceSubstep faces = {substep.length_s, substep.share.end - substep.share.begin,
+                             1.0f - substep.share.end};
   std::atomic<std::uint32_t> limits{0};
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     if (const std::uint32_t reset = take_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
     if (paper || collider == nullptr) velocities_from_positions(p, begin, end, contact.inverse_h);
+    if (s.faces.on) enter_faces(faces, begin, end, p, s.faces);
   });
   if (collider == nullptr) return limits.load();
   if (s.faces.on) {
     const std::int64_t begin_ns = context.clock->now_ns();
-    push_faces_out(context, *collider, {substep.length_s, 1.0f - substep.share.end}, p, s.faces);
+    push_faces_out(context, *collider, faces, p, s.faces);
     s.patch.front().spent_ns += context.clock->now_ns() - begin_ns;
   }
   // Particles come last, because their paths show on which side of the body they belong.
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
+    if (s.faces.on) leave_faces(begin, end, s.faces, p);
     resolve_patch(alone, contact, begin, end, s, p);
     if (!paper) velocities_from_positions(p, begin, end, contact.inverse_h);
     for (std::size_t i = begin; i < end; ++i) respond(p, s, i, contact);

@@ -14,7 +14,7 @@
 
 namespace bodice::cloth {
 
-static_assert(kPatch % kCluster == 0);
+static_assert(kPatch % kCluster == 0 && kPatch % kTravelCluster == 0);
 
 /// What happened to a patch of particles since the frame began.
 struct ContactPatch {

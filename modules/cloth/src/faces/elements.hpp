@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <bodice/geometry/tri_mesh.hpp>
@@ -18,13 +19,25 @@ struct Element {
   bool is_edge() const { return particle[1] == particle[2]; }
 };
 
+/// Elements in a run: neighbors on the cloth with samples that are handled together.
+inline constexpr std::size_t kRun = 64;
+/// Particles in a cluster: consecutive ones with one bound on their travel.
+inline constexpr std::size_t kTravelCluster = 32;
+
 /// All elements of a garment: first those inside blocks of particles (base/schedule.hpp), block by block,
-/// then those across blocks.
+/// then those across blocks; in a group by their first particle, so that neighbors are near each other.
 struct Elements {
   std::vector<Element> all;
-  std::vector<std::uint32_t> group_begin;  ///< #blocks + 2: first element of each block, then of those across
+  std::vector<std::uint32_t> run_begin;      ///< #runs + 1: first element of each run
+  std::vector<std::uint32_t> group_run;      ///< #blocks + 2: first run of each block, then of those across
+  std::vector<std::uint32_t> cluster_begin;  ///< #runs + 1, offsets into cluster
+  std::vector<std::uint32_t> cluster;        ///< the clusters that have particles of a run
 
-  std::size_t groups() const { return group_begin.size() - 1; }
+  std::size_t groups() const { return group_run.size() - 1; }
+  std::size_t runs() const { return run_begin.size() - 1; }
+  std::span<const std::uint32_t> clusters_of(std::size_t run) const {
+    return {cluster.data() + cluster_begin[run], cluster.data() + cluster_begin[run + 1]};
+  }
 };
 
 /// The elements of a garment. O(n log n).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -23,8 +24,15 @@ constexpr float kFresh = 5.0f;
 // Memory for samples: that of the widest spacing at rest, times this, and some for each element.
 constexpr std::size_t kRefined = 3, kMostAnElement = 2;
 constexpr int kSweeps = 2;
-constexpr std::size_t kChunkGrain = 16;   // chunks a task
+constexpr std::size_t kRunGrain = 16;     // runs a task
 constexpr std::size_t kQueryGrain = 512;  // particles a task
+constexpr std::size_t kWorthTasks = 512;  // with fewer samples to look at, tasks cost more than they save
+constexpr float kNever_m = 1e9f;
+constexpr float kRounding = 1.00001f;  // travel is rounded upward
+
+bool is_due(const RunState& run) {
+  return !(run.next_m > run.travel_m);
+}
 
 // Position of a sample in the body's pose at the end of the frame.
 Float4 seen_by_body(const FaceSample& s, std::span<const Point> now, float remaining) {
@@ -50,32 +58,88 @@ bool is_on_its_side(const FaceSample& s, const FaceContact& f) {
   return true;
 }
 
-// Lists the samples of a chunk that may be too near, with distances that are good enough.
-void refresh_chunk(const collision::Collider& body, const FaceSubstep& substep, std::size_t chunk,
-                   FaceContact& f) {
+// How far a sample's motion in the frame may be off its elements' share of that of the particles.
+float motion_off(const FaceSample& s, const FaceContact& f) {
+  if (!f.motion.moving) return 0.0f;
+  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  Float4 off = -vector_of(s.ahead);
+  for (int c = 0; c < 3; ++c) off += weight[c] * xyz(load(f.motion.ahead[s.particle[c]]));
+  return std::sqrt(dot3(off, off));
+}
+
+// What happens to a sample in a substep: it is queried anew, may be too near, or neither until it has
+// traveled farther.
+struct Look {
+  bool query = false, active = false;
+  float quiet_m = 0.0f;
+};
+
+Look look_at(const FaceSample& s, Float4 where, const FaceContact& f) {
   const SampleRules& r = f.rules;
-  const float fresh_m = kFresh * r.sag_m;
-  const auto [begin, end] = f.samples.chunk[chunk];
+  const Float4 from = where - vector_of(s.at);
+  const float path = std::sqrt(dot3(from, from));
+  const float far_m = (s.distance_m - r.keep_m - r.rise_m) / r.slope - path;
+  if (far_m > 0.0f) return {.quiet_m = far_m};
+  const float stale_m = kFresh * r.sag_m - path;
+  if (stale_m < 0.0f) return {.query = true};
+  const float room_m = distance_at(s, where) - s.keep_m - r.sag_m;
+  if (room_m > 0.0f) return {.quiet_m = std::min(stale_m, room_m)};
+  if (is_on_its_side(s, f)) return {.active = true};
+  return {.quiet_m = stale_m};
+}
+
+// Looks at the samples of a run that may have come too near, and lists those to push, with distances that are
+// good enough.
+void refresh_run(const collision::Collider& body, const FaceSubstep& substep, std::size_t run,
+                 FaceContact& f) {
+  RunState& state = f.run[run];
+  const auto [begin, end] = f.samples.of_run(f.elements, run);
+  state.active = 0, state.next_m = kNever_m;
   SampleQuery query;
-  std::uint32_t* const active = &f.active[begin];
-  std::uint32_t count = 0;
+  const auto settle = [&](std::uint32_t k, const Look& look) {
+    const float quiet_m = look.quiet_m - substep.remaining * motion_off(f.samples.all[k], f);
+    f.until_m[k] = look.active || !(quiet_m > 0.0f) ? 0.0f : state.travel_m + quiet_m;
+    state.next_m = std::min(state.next_m, f.until_m[k]);
+    if (look.active) f.active[begin + state.active++] = k;
+  };
+  const auto run_query = [&] {
+    const std::size_t count = query.count;
+    query.run(body, band_of(f.rules), f.rules.frame_s, f.samples.all);
+    for (std::size_t q = 0; q < count; ++q) {
+      const std::uint32_t k = query.sample[q];
+      settle(k, look_at(f.samples.all[k], vector_of(f.samples.all[k].at), f));
+    }
+  };
   for (std::uint32_t k = begin; k < end; ++k) {
-    const FaceSample& s = f.samples.all[k];
-    const Float4 where = seen_by_body(s, f.now, substep.remaining), path = where - vector_of(s.at);
-    const float path2 = dot3(path, path);
-    const float far_m = s.distance_m - r.keep_m - r.rise_m;
-    if (far_m > 0.0f && far_m * far_m > r.slope * r.slope * path2) continue;
-    if (path2 > fresh_m * fresh_m)
-      query.add(k, where);
-    else if (distance_at(s, where) < s.keep_m + fresh_m && is_on_its_side(s, f))
-      active[count++] = k;
+    if (f.until_m[k] > state.travel_m) {
+      state.next_m = std::min(state.next_m, f.until_m[k]);
+      continue;
+    }
+    const Float4 where = seen_by_body(f.samples.all[k], f.now, substep.remaining);
+    const Look look = look_at(f.samples.all[k], where, f);
+    if (!look.query) {
+      settle(k, look);
+      continue;
+    }
+    query.add(k, where);
+    if (query.is_full()) run_query();
   }
-  query.run(body, band_of(r), r.frame_s, f.samples.all);
-  for (std::size_t q = 0; q < query.count; ++q) {
-    const FaceSample& s = f.samples.all[query.sample[q]];
-    if (s.distance_m < s.keep_m + fresh_m && is_on_its_side(s, f)) active[count++] = query.sample[q];
+  run_query();
+}
+
+// Adds the substep's travel to all runs; returns the number of samples in those to look at.
+std::size_t travel(FaceContact& f) {
+  std::size_t work = 0;
+  for (std::size_t run = 0; run < f.run.size(); ++run) {
+    float longest = 0.0f;
+    for (const std::uint32_t cluster : f.elements.clusters_of(run))
+      longest = std::max(longest, f.step_m[cluster]);
+    f.run[run].travel_m += kRounding * longest;
+    if (!is_due(f.run[run])) continue;
+    const auto [begin, end] = f.samples.of_run(f.elements, run);
+    work += end - begin;
   }
-  f.active_count[chunk] = count;
+  return work;
 }
 
 // The longest push of a sample in a substep. What it came nearer in this substep is undone at once, and the
@@ -112,19 +176,25 @@ bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& 
 // Calls visit(sample) for the active samples of a group, in order.
 template <class Visit>
 void for_each_active(const FaceContact& f, std::size_t group, Visit&& visit) {
-  for (std::uint32_t c = f.samples.group_chunk[group]; c < f.samples.group_chunk[group + 1]; ++c) {
-    const std::uint32_t* const active = &f.active[f.samples.chunk[c].begin];
-    for (std::uint32_t k = 0; k < f.active_count[c]; ++k) visit(f.samples.all[active[k]]);
+  for (std::uint32_t run = f.elements.group_run[group]; run < f.elements.group_run[group + 1]; ++run) {
+    const std::uint32_t* const active = f.active.data() + f.samples.of_run(f.elements, run).begin;
+    for (std::uint32_t k = 0; k < f.run[run].active; ++k) visit(f.samples.all[active[k]]);
   }
 }
 
-// Calls visit(group) for all groups: those inside blocks in parallel, because they share no particle, then
-// the one across blocks.
-template <class Visit>
-void for_each_group(const engine::Context& context, const FaceContact& f, Visit&& visit) {
+// Pushes the active samples of all groups: those inside blocks in parallel, because they share no particle,
+// then the one across blocks. Returns the number of samples that were pushed.
+std::uint64_t push_all(const engine::Context& context, const FaceSubstep& substep, const Particles& p,
+                       FaceContact& f) {
   const std::size_t across = f.elements.groups() - 1;
-  engine::parallel_for(context, across, 1, [&](std::size_t group, std::size_t) { visit(group); });
-  visit(across);
+  const auto push_group = [&](std::size_t group) {
+    std::uint64_t pushed = 0;
+    for_each_active(f, group, [&](const FaceSample& s) { pushed += push_out(s, substep, p, f); });
+    f.group_pushed[group] = pushed;
+  };
+  engine::parallel_for(context, across, 1, [&](std::size_t group, std::size_t) { push_group(group); });
+  push_group(across);
+  return std::accumulate(f.group_pushed.begin(), f.group_pushed.end(), std::uint64_t{0});
 }
 
 }  // namespace
@@ -142,11 +212,11 @@ FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& top
       static_cast<float>(std::max(kSpacingOfThickness * keep_m, kLeastSpacing * median_edge_m));
   const std::size_t at_rest = count_at_rest(f.elements, particles, f.rules.spacing_m);
   const std::size_t most = kRefined * at_rest + kMostAnElement * f.elements.all.size();
-  f.samples = make_face_samples(f.elements, most);
-  f.active.resize(most);
-  f.active_count.assign(most / kChunk + f.elements.groups() + 1, 0);
-  f.group_contacts.resize(f.elements.groups());
-  f.nearest.resize(particles.count()), f.now.resize(particles.count());
+  f.samples = make_face_samples(f.elements, particles.count(), most);
+  f.active.resize(most), f.until_m.resize(most);
+  f.run.resize(f.elements.runs()), f.group_pushed.resize(f.elements.groups());
+  f.nearest.resize(particles.count()), f.now.resize(particles.count()), f.entered.resize(particles.count());
+  f.step_m.resize(engine::block_count(particles.count(), kTravelCluster));
   return f;
 }
 
@@ -166,37 +236,57 @@ void begin_face_frame(const engine::Context& context, const collision::Collider&
   const Steepness& steepness = body.has_relief() ? kReliefSteepness : kPlainSteepness;
   f.rules.slope = steepness.slope, f.rules.rise_m = steepness.rise_m;
   f.rules.frame_s = static_cast<float>(frame_s);
-  f.rules.fall_m = static_cast<float>(frame_s * frame_s * environment.gravity_m_s2.norm());
-  std::ranges::fill(f.group_contacts, std::uint64_t{0});
+  f.rules.fall_m = static_cast<float>(0.5 * frame_s * frame_s * environment.gravity_m_s2.norm());
+  f.contacts = 0;
+  f.motion = motion;
   place_samples(context, body, f.rules, f.elements, f.nearest, motion, p, f.samples);
   f.on = !f.samples.all.empty();
+  std::ranges::fill(f.run, RunState{});
+  std::fill_n(f.until_m.begin(), f.samples.all.size(), 0.0f);
+  for (std::size_t i = 0; i < p.count(); ++i) f.entered[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
+}
+
+void enter_faces(const FaceSubstep& substep, std::size_t begin, std::size_t end, const Particles& p,
+                 FaceContact& f) {
+  for (std::size_t from = begin; from < end; from += kTravelCluster) {
+    float longest2 = 0.0f;
+    for (std::size_t i = from; i < std::min(from + kTravelCluster, end); ++i) {
+      const Float4 at = load(p.point[i]);
+      Float4 path = xyz(at) - load(f.entered[i]);
+      if (f.motion.moving) path -= substep.share * xyz(load(f.motion.ahead[i]));
+      longest2 = std::max(longest2, dot3(path, path));
+      store(f.entered[i], xyz(at)), store(f.now[i], at);
+    }
+    f.step_m[from / kTravelCluster] = std::sqrt(longest2);
+  }
+}
+
+void leave_faces(std::size_t begin, std::size_t end, const FaceContact& f, Particles& p) {
+  for (std::size_t i = begin; i < end; ++i) p.x[i] = f.now[i].x, p.y[i] = f.now[i].y, p.z[i] = f.now[i].z;
 }
 
 void push_faces_out(const engine::Context& context, const collision::Collider& body,
-                    const FaceSubstep& substep, Particles& p, FaceContact& f) {
-  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) f.now[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};
+                    const FaceSubstep& substep, const Particles& p, FaceContact& f) {
+  const std::size_t work = travel(f);
+  if (work == 0) return;
+  engine::Context how = context;
+  if (work < kWorthTasks) how.executor = &engine::inline_executor();
+  engine::parallel_for(how, f.run.size(), kRunGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t run = begin; run < end; ++run)
+      if (is_due(f.run[run])) refresh_run(body, substep, run, f);
   });
-  engine::parallel_for(context, f.samples.chunk.size(), kChunkGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) refresh_chunk(body, substep, c, f);
-  });
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for_each_group(context, f, [&](std::size_t group) {
-      for_each_active(f, group, [&](const FaceSample& s) {
-        const bool pushed = push_out(s, substep, p, f);
-        if (sweep == 0) f.group_contacts[group] += pushed;
-      });
-    });
-  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) p.x[i] = f.now[i].x, p.y[i] = f.now[i].y, p.z[i] = f.now[i].z;
-  });
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    const std::uint64_t pushed = push_all(how, substep, p, f);
+    if (sweep == 0) f.contacts += pushed;
+    if (pushed == 0) return;  // nothing moved, and nothing would
+  }
 }
 
 FaceReport report_faces(const FaceContact& f) {
   FaceReport report;
   report.samples = f.samples.all.size();
+  report.contacts = f.contacts;
   for (std::size_t group = 0; group < f.elements.groups(); ++group) {
-    report.contacts += f.group_contacts[group];
     for_each_active(f, group, [&](const FaceSample& s) {
       report.deepest_m = std::max(report.deepest_m, -distance_at(s, seen_by_body(s, f.now, 0.0f)));
     });

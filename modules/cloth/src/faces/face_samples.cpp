@@ -11,10 +11,11 @@ namespace bodice::cloth {
 namespace {
 
 constexpr std::size_t kElementGrain = 1024;
-constexpr std::size_t kQueriedChunks = 8;  // chunks a task of queries
+constexpr std::size_t kQueriedRuns = 16;  // runs a task of queries
 // Samples are placed where the cloth may come within the frame if it moves this many times as far as its
 // speed leads: constraints pull some of it faster.
 constexpr float kSpare = 2.0f;
+constexpr float kFarthest_m = 1e6f;  // in place of an infinite distance
 
 Float4 at(const Particles& p, Index i) {
   return Float4{p.x[i], p.y[i], p.z[i], 0.0f};
@@ -26,51 +27,77 @@ float length(Float4 v) {
   return std::sqrt(dot3(v, v));
 }
 
+float length2(Float4 v) {
+  return dot3(v, v);
+}
+
 // What the choice of the samples of one frame depends on.
 struct Placement {
   const SampleRules& rules;
   const Particles& p;
   std::span<const collision::Contact> nearest;
   const MotionNearParticles& motion;
+  std::span<ParticleRoom> room;
   float widening = 1.0f;  // above 1 if there is no room for all samples
 
-  float distance(Index i) const {
-    return std::min(nearest[i].signed_distance, 1e6f);  // infinite beyond the band
+  float longest2(const Element& e) const {
+    const auto [a, b, c] = e.particle;
+    const float ab = length2(at(p, a) - at(p, b));
+    return e.is_edge() ? ab : std::max({ab, length2(at(p, b) - at(p, c)), length2(at(p, c) - at(p, a))});
   }
-  // How far particle i may come, relative to the body, within the frame.
-  float reach(Index i) const {
-    const Float4 path = Float4{p.vx[i], p.vy[i], p.vz[i], 0.0f} * rules.frame_s - xyz(load(motion.by[i]));
-    return kSpare * (length(path) + rules.fall_m);
+  // How much farther from the body particle i stays in the frame than it has to.
+  float to_spare(Index i) const {
+    return std::max(0.0f, room[i].distance_m - room[i].reach_m - rules.keep_m);
   }
-  // Parts that the edge from i to j needs.
-  float parts(Index i, Index j) const {
+  // What a distance may fall below its interpolation between samples of the element.
+  float sag(const Element& e) const {
+    const auto [a, b, c] = e.particle;
+    return rules.sag_m + std::min({to_spare(a), to_spare(b), to_spare(c)});
+  }
+  // Parts that the edge from i to j needs, if a distance may fall by `allowed_m` between samples.
+  float parts(Index i, Index j, float allowed_m) const {
     const Float4 edge = at(p, j) - at(p, i);
     const float by_length = length(edge) / (rules.spacing_m * widening);
     const collision::Contact &a = nearest[i], &b = nearest[j];
     if (a.ellipsoid == collision::kNoEllipsoid || b.ellipsoid == collision::kNoEllipsoid) return by_length;
     const float sag = dot3(vector_of(b.normal) - vector_of(a.normal), edge) / 8.0f;
-    return std::max(by_length, std::sqrt(std::max(0.0f, sag) / rules.sag_m) / widening);
+    return std::max(by_length, std::sqrt(std::max(0.0f, sag) / allowed_m) / widening);
   }
 };
 
+void find_room(const engine::Context& context, const Placement& how) {
+  const SampleRules& r = how.rules;
+  engine::parallel_for(context, how.p.count(), kElementGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 path =
+          Float4{how.p.vx[i], how.p.vy[i], how.p.vz[i], 0.0f} * r.frame_s - xyz(load(how.motion.by[i]));
+      how.room[i] = {std::min(how.nearest[i].signed_distance, kFarthest_m),
+                     kSpare * (length(path) + r.fall_m)};
+    }
+  });
+}
+
 // Whether a point of the element may come to the body within the frame. A distance changes by no more than
-// the point moves, and a point's distances from the corners sum to at most the two longest sides.
+// the point moves, and a point's distances from the corners sum to at most twice the longest side.
 bool is_near(const Placement& how, const Element& e) {
-  const auto [a, b, c] = e.particle;
-  const float reach =
-      std::max({how.reach(a), how.reach(b), how.reach(c)}) + how.rules.keep_m + how.rules.rise_m;
-  const float ab = length(at(how.p, a) - at(how.p, b));
-  if (e.is_edge()) return how.distance(a) + how.distance(b) - ab < 2.0f * reach;
-  const float bc = length(at(how.p, b) - at(how.p, c)), ca = length(at(how.p, c) - at(how.p, a));
-  const float two_longest = ab + bc + ca - std::min({ab, bc, ca});
-  return how.distance(a) + how.distance(b) + how.distance(c) - two_longest < 3.0f * reach;
+  float reach = 0.0f, distances = 0.0f;
+  const int corners = e.is_edge() ? 2 : 3;
+  for (int c = 0; c < corners; ++c) {
+    const ParticleRoom& room = how.room[e.particle[c]];
+    reach = std::max(reach, room.reach_m), distances += room.distance_m;
+  }
+  reach += how.rules.keep_m + how.rules.rise_m;
+  const float beyond = distances - static_cast<float>(corners) * reach;
+  const float most = static_cast<float>(corners - 1);
+  return beyond < 0.0f || beyond * beyond < most * most * how.longest2(e);
 }
 
 int parts_of(const Placement& how, const Element& e, int wanted) {
   const auto [a, b, c] = e.particle;
   if (!is_near(how, e)) return 0;
-  float parts = how.parts(a, b);
-  if (!e.is_edge()) parts = std::max({parts, how.parts(b, c), how.parts(c, a)});
+  const float sag = how.sag(e);
+  float parts = how.parts(a, b, sag);
+  if (!e.is_edge()) parts = std::max({parts, how.parts(b, c, sag), how.parts(c, a, sag)});
   parts = std::max(parts, static_cast<float>(wanted) / how.widening);
   return std::clamp(static_cast<int>(std::ceil(std::min(parts, 1e3f))), 1, kFinest);
 }
@@ -91,20 +118,6 @@ std::size_t count_samples(const engine::Context& context, const Placement& how, 
   return total;
 }
 
-void make_chunks(const Elements& elements, FaceSamples& s) {
-  s.chunk.clear();
-  for (std::size_t group = 0; group < elements.groups(); ++group) {
-    s.group_chunk[group] = static_cast<std::uint32_t>(s.chunk.size());
-    const std::uint32_t end = s.begin[elements.group_begin[group + 1]];
-    for (std::uint32_t at = s.begin[elements.group_begin[group]]; at < end;) {
-      const std::uint32_t next = std::min(end, at + static_cast<std::uint32_t>(kChunk));
-      s.chunk.push_back({at, next});
-      at = next;
-    }
-  }
-  s.group_chunk[elements.groups()] = static_cast<std::uint32_t>(s.chunk.size());
-}
-
 void write_samples(const Element& element, int parts, FaceSample* out) {
   if (parts < 2) return;
   for_each_lattice_point(element.is_edge(), parts, [&](float b1, float b2) {
@@ -119,13 +132,14 @@ void write_samples(const Element& element, int parts, FaceSample* out) {
 // How much less than the thickness samples beside particle i keep: nothing, unless it is a pin that the host
 // holds nearer to the body.
 float deficit(const Placement& how, Index i) {
-  return how.p.inverse_mass[i] > 0.0f ? 0.0f : std::max(0.0f, how.rules.keep_m - how.distance(i));
+  return how.p.inverse_mass[i] > 0.0f ? 0.0f : std::max(0.0f, how.rules.keep_m - how.room[i].distance_m);
 }
 
-void query_chunk(const collision::Collider& body, const Placement& how, const SampleChunk& chunk,
-                 std::span<FaceSample> samples) {
+void query_samples(const collision::Collider& body, const Placement& how, const SampleRange& range,
+                   std::span<FaceSample> samples) {
   SampleQuery query;
-  for (std::uint32_t k = chunk.begin; k < chunk.end; ++k) {
+  const float band_m = band_of(how.rules);
+  for (std::uint32_t k = range.begin; k < range.end; ++k) {
     FaceSample& s = samples[k];
     const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
     Float4 where = splat(0.0f), ahead = splat(0.0f);
@@ -137,31 +151,35 @@ void query_chunk(const collision::Collider& body, const Placement& how, const Sa
     }
     for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = ahead[axis];
     query.add(k, where + ahead);
+    if (query.is_full()) query.run(body, band_m, how.rules.frame_s, samples);
   }
-  query.run(body, band_of(how.rules), how.rules.frame_s, samples);
+  query.run(body, band_m, how.rules.frame_s, samples);
 }
 
 // The turn of normals between neighboring samples of an element shows which parts it needs next time.
-int wanted_parts(const SampleRules& rules, const FaceSamples& s, std::size_t e) {
-  float worst = 0.0f;
+int wanted_parts(const Placement& how, const Elements& elements, const FaceSamples& s, std::size_t e) {
+  // A need that is over is forgotten slowly, or samples would come and go.
+  const int kept = std::max(0, s.wanted[e] - 1);
+  if (s.begin[e + 1] <= s.begin[e] + 1) return kept;
+  float sharpest = 0.0f;  // turn of the normals, a length of path
   for (std::uint32_t k = s.begin[e]; k + 1 < s.begin[e + 1]; ++k) {
     const FaceSample &a = s.all[k], &b = s.all[k + 1];
     const Float4 path = vector_of(b.at) - vector_of(a.at);
-    worst = std::max(worst, dot3(vector_of(b.normal) - vector_of(a.normal), path) / 8.0f);
+    const float turn = dot3(vector_of(b.normal) - vector_of(a.normal), path);
+    if (turn > 0.0f) sharpest = std::max(sharpest, turn / dot3(path, path));
   }
-  const float wanted = static_cast<float>(s.parts[e]) * std::sqrt(worst / rules.sag_m);
-  // A need that is over is forgotten slowly, or samples would come and go.
-  return std::clamp(static_cast<int>(std::ceil(wanted)), std::max(0, s.wanted[e] - 1), kFinest);
+  const Element& element = elements.all[e];
+  const float wanted = std::sqrt(how.longest2(element) * sharpest / (8.0f * how.sag(element)));
+  return std::clamp(static_cast<int>(std::ceil(std::min(wanted, 1e3f))), kept, kFinest);
 }
 
 }  // namespace
 
-FaceSamples make_face_samples(const Elements& elements, std::size_t most) {
+FaceSamples make_face_samples(const Elements& elements, std::size_t particles, std::size_t most) {
   FaceSamples s;
+  s.room.resize(particles);
   s.most = most;
   s.all.reserve(most);
-  s.chunk.reserve(most / kChunk + elements.groups() + 1);
-  s.group_chunk.assign(elements.groups() + 1, 0);
   s.begin.assign(elements.all.size() + 1, 0);
   s.parts.assign(elements.all.size(), 0), s.wanted.assign(elements.all.size(), 0);
   return s;
@@ -197,12 +215,14 @@ void SampleQuery::run(const collision::Collider& body, float band_m, float frame
     const float along = frame_s * dot3(vector_of(s.normal), to_float4(velocity));
     for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = along * s.normal[axis];
   }
+  count = 0;
 }
 
 void place_samples(const engine::Context& context, const collision::Collider& body, const SampleRules& rules,
                    const Elements& elements, std::span<const collision::Contact> nearest,
                    const MotionNearParticles& motion, const Particles& p, FaceSamples& s) {
-  Placement how{rules, p, nearest, motion};
+  Placement how{rules, p, nearest, motion, s.room};
+  find_room(context, how);
   std::size_t count = count_samples(context, how, elements, s);
   while (count > s.most && how.widening < static_cast<float>(kFinest)) {
     how.widening *= 1.5f;
@@ -210,17 +230,16 @@ void place_samples(const engine::Context& context, const collision::Collider& bo
   }
   s.all.resize(std::min(count, s.most));
   if (count > s.most) std::ranges::fill(s.begin, 0u), s.all.clear();
-  make_chunks(elements, s);
   engine::parallel_for(context, elements.all.size(), kElementGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e)
       if (s.begin[e + 1] > s.begin[e]) write_samples(elements.all[e], s.parts[e], &s.all[s.begin[e]]);
   });
-  engine::parallel_for(context, s.chunk.size(), kQueriedChunks, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) query_chunk(body, how, s.chunk[c], s.all);
+  engine::parallel_for(context, elements.runs(), kQueriedRuns, [&](std::size_t begin, std::size_t end) {
+    query_samples(body, how, {s.of_run(elements, begin).begin, s.begin[elements.run_begin[end]]}, s.all);
   });
   engine::parallel_for(context, elements.all.size(), kElementGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e)
-      s.wanted[e] = static_cast<std::uint8_t>(wanted_parts(rules, s, e));
+      s.wanted[e] = static_cast<std::uint8_t>(wanted_parts(how, elements, s, e));
   });
 }
 

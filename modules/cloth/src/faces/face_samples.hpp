@@ -31,12 +31,6 @@ struct alignas(64) FaceSample {
   float keep_m = 0.0f;  ///< distance to keep; less beside a pin that the host holds nearer
 };
 
-/// Samples [begin, end) of one group of elements.
-struct SampleChunk {
-  std::uint32_t begin = 0, end = 0;
-};
-inline constexpr std::size_t kChunk = 256;  ///< the most samples in a chunk
-
 /// Lengths that decide which elements are sampled, and how densely.
 struct SampleRules {
   float keep_m = 0.0f;                ///< distance that the cloth keeps from the proxy
@@ -55,21 +49,36 @@ inline float band_of(const SampleRules& rules) {
 /// The body's motion in a frame near each particle (#P, meters), and its component along the normal.
 struct MotionNearParticles {
   std::span<const Point> by, ahead;
+  bool moving = false;  ///< whether any of it is not zero
 };
 
-/// The samples of a frame, by groups of elements.
+/// What the body leaves a particle in a frame.
+struct ParticleRoom {
+  float distance_m = 0.0f;  ///< large beyond the query band
+  float reach_m = 0.0f;     ///< how far it may come, relative to the body, within the frame
+};
+
+/// Samples [begin, end).
+struct SampleRange {
+  std::uint32_t begin = 0, end = 0;
+};
+
+/// The samples of a frame, in the order of their elements.
 struct FaceSamples {
   std::vector<FaceSample> all;
-  std::vector<SampleChunk> chunk;
-  std::vector<std::uint32_t> group_chunk;  ///< #groups + 1: first chunk of each group
-  std::vector<std::uint32_t> begin;        ///< #elements + 1: first sample of each
+  std::vector<std::uint32_t> begin;  ///< #elements + 1: first sample of each
   std::vector<std::uint8_t> parts;   ///< #elements: into how many its edges are cut; 0: not near the body
   std::vector<std::uint8_t> wanted;  ///< #elements: parts that the last frame's samples showed to be needed
+  std::vector<ParticleRoom> room;    ///< #P
   std::size_t most = 0;              ///< samples that memory is reserved for
+
+  SampleRange of_run(const Elements& elements, std::size_t run) const {
+    return {begin[elements.run_begin[run]], begin[elements.run_begin[run + 1]]};
+  }
 };
 
-/// The state for so many elements and room for `most` samples.
-FaceSamples make_face_samples(const Elements& elements, std::size_t most);
+/// The state for these elements, so many particles, and memory for `most` samples.
+FaceSamples make_face_samples(const Elements& elements, std::size_t particles, std::size_t most);
 
 /// The number of samples that the widest spacing gives for the garment at rest.
 std::size_t count_at_rest(const Elements& elements, const Particles& particles, float spacing_m);
@@ -81,13 +90,15 @@ void place_samples(const engine::Context& context, const collision::Collider& bo
                    const Elements& elements, std::span<const collision::Contact> nearest,
                    const MotionNearParticles& motion, const Particles& particles, FaceSamples& samples);
 
-/// Queries the listed samples of a chunk at positions (x, y, z) in the body's pose at the end of the frame.
+/// Queries the listed samples at positions (x, y, z) in the body's pose at the end of the frame.
 struct SampleQuery {
-  std::uint32_t sample[kChunk];
-  float x[kChunk], y[kChunk], z[kChunk];
-  collision::Contact contact[kChunk];
+  static constexpr std::size_t kMost = 256;
+  std::uint32_t sample[kMost];
+  float x[kMost], y[kMost], z[kMost];
+  collision::Contact contact[kMost];
   std::size_t count = 0;
 
+  bool is_full() const { return count == kMost; }
   void add(std::uint32_t s, Float4 at) {
     sample[count] = s, x[count] = at[0], y[count] = at[1], z[count++] = at[2];
   }
