@@ -159,6 +159,7 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
   begin_clearance_frame(context, s.motion.moving ? nullptr : body, options.thickness_m, travel_m, s.touching,
                         particles, s.clearance);
   s.faces.on = false;
+  s.proof = {};
   if (body != nullptr && options.face_contact) {
     if (!s.motion.moving) query_particles(context, *body, s.faces, particles);
     begin_face_frame(context, *body, frame_s, options.environment,
@@ -207,8 +208,17 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
   return limits.load();
 }
 
+void end_contact_frame(const engine::Context& context, const collision::Collider& collider,
+                       const SolverOptions& options, ContactState& s, Particles& p) {
+  if (!options.certify_m || s.faces.elements.all.empty()) return;
+  const std::int64_t begin_ns = context.clock->now_ns();
+  s.proof = prove_faces(context, collider, static_cast<float>(*options.certify_m), s.faces, p, s.certificate);
+  s.patch.front().spent_ns += context.clock->now_ns() - begin_ns;
+}
+
 void report_contacts(const ContactState& s, FrameReport& report) {
   if (s.faces.on) report.faces = report_faces(s.faces);
+  report.faces.proof = s.proof;
   for (const ContactPatch& patch : s.patch) {
     report.contacts.add(patch.report);
     report.collision_us += 1e-3 * static_cast<double>(patch.spent_ns);

@@ -10,7 +10,7 @@
 #include "base/particles.hpp"
 #include "contact/clearance_cache.hpp"
 #include "contact/continuous_contact.hpp"
-#include "faces/face_contact.hpp"
+#include "faces/certificate.hpp"
 
 namespace bodice::cloth {
 
@@ -29,6 +29,8 @@ struct ContactState {
   ClearanceCache clearance;
   BodyMotion motion;
   FaceContact faces;
+  FaceCertificate certificate;
+  FaceProof proof;
 };
 
 /// One of a frame's substeps.
@@ -53,6 +55,10 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
 std::uint32_t resolve_body_contacts(const engine::Context& context, const collision::Collider* collider,
                                     const SolverOptions& options, float friction, const Substep& substep,
                                     ContactState& state, Particles& particles);
+
+/// Ends a frame with a body: proves that faces are out of it, if the options ask for that.
+void end_contact_frame(const engine::Context& context, const collision::Collider& collider,
+                       const SolverOptions& options, ContactState& state, Particles& particles);
 
 /// Adds what happened since begin_contact_frame() to the report.
 void report_contacts(const ContactState& state, FrameReport& report);

@@ -44,20 +44,6 @@ float distance_at(const FaceSample& s, Float4 where) {
   return s.distance_m + dot3(vector_of(s.normal), where - vector_of(s.at));
 }
 
-// Whether a sample inside the body would be pushed toward the side that its particles lie on. Where a
-// triangle spans a fold or cuts a limb, the closest surface may be on the other side of the limb; there only
-// the particles, which know their paths, are moved out.
-bool is_on_its_side(const FaceSample& s, const FaceContact& f) {
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
-  const Float4 normal = vector_of(s.normal);
-  for (int c = 0; c < 3; ++c) {
-    const collision::Contact& corner = f.nearest[s.particle[c]];
-    const bool near = corner.signed_distance < f.rules.keep_m + f.rules.spacing_m;
-    if (weight[c] > 0.0f && near && dot3(normal, vector_of(corner.normal)) < 0.0f) return false;
-  }
-  return true;
-}
-
 // How far a sample's motion in the frame may be off its elements' share of that of the particles.
 float motion_off(const FaceSample& s, const FaceContact& f) {
   if (!f.motion.moving) return 0.0f;
@@ -198,6 +184,17 @@ std::uint64_t push_all(const engine::Context& context, const FaceSubstep& subste
 }
 
 }  // namespace
+
+bool is_on_its_side(const FaceSample& s, const FaceContact& f) {
+  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  const Float4 normal = vector_of(s.normal);
+  for (int c = 0; c < 3; ++c) {
+    const collision::Contact& corner = f.nearest[s.particle[c]];
+    const bool near = corner.signed_distance < f.rules.keep_m + f.rules.spacing_m;
+    if (weight[c] > 0.0f && near && dot3(normal, vector_of(corner.normal)) < 0.0f) return false;
+  }
+  return true;
+}
 
 FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& topology,
                               const SolverOptions& options, double median_edge_m,

@@ -167,6 +167,8 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
                       s.particles, s.contacts);
   for (int substep = 0; substep < plan.substeps; ++substep)
     report.limits |= run_substep(context, collider, plan, substep, s);
+  if (plan.substeps > 0 && collider != nullptr)
+    end_contact_frame(context, *collider, s.options, s.contacts, s.particles);
   report_contacts(s.contacts, report);
   if (plan.substeps > 0) end_frame(context, plan, s);
   measure(context, s, report);

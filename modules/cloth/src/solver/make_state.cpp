@@ -97,6 +97,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count(),
                              make_face_contact(mesh, topology, options, welded->median_edge_m, s.particles));
+  if (options.certify_m && !s.contacts.faces.elements.all.empty())
+    s.contacts.certificate = make_certificate(s.contacts.faces.elements, s.particles.count());
   s.scratch.resize(s.stretch.slots());
   s.selection = make_selection(std::max(s.stretch.slots(), s.particles.count()));
   s.max_travel_m = static_cast<float>(kMaxTravel * geometry::bounding_box(mesh.positions).size().norm());

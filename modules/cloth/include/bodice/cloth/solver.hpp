@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,12 @@ struct SolverOptions {
   double thickness_m = 0.001;  ///< distance that particles, edges and triangles keep from the proxy
   /// Whether edges and triangles keep the thickness between their particles as well. Not with kPaper.
   bool face_contact = true;
+  /// Depth in the proxy that no point of any triangle may exceed at the end of a frame, meters, above zero:
+  /// points that are deeper are pushed out, and the rest is proved (FaceReport::proof); absent: no proof.
+  /// What touches in a frame is then queried about every millimeter. Only with face_contact. The proof is
+  /// strict for proxies without relief. Distances with relief fall faster than it assumes (1.5 times the
+  /// path) on one short path of a thousand, at cliffs of up to 5 mm between tables.
+  std::optional<double> certify_m;
   bool self_collision = true;  ///< whether layers of cloth keep apart
   collision::Response response = collision::Response::kClosestPoint;
   Environment environment;
@@ -59,11 +66,19 @@ inline constexpr int kMaxSubsteps = 128;
 /// How far a particle may move in a substep, as a fraction of the diagonal of the garment at rest.
 inline constexpr double kMaxTravel = 0.05;
 
+/// Which triangles are proved to be no deeper in the proxy than a tolerance (SolverOptions::certify_m).
+struct FaceProof {
+  float tolerance_m = 0.0f;
+  std::size_t open = 0;     ///< triangles without a proof; zero: no point of the cloth is deeper
+  std::size_t samples = 0;  ///< points that were queried for it
+};
+
 /// Contact of edges and triangles with the body in a frame.
 struct FaceReport {
   std::size_t samples = 0;     ///< points between particles that were near the body
   std::uint64_t contacts = 0;  ///< those that were pushed, summed over the substeps
   float deepest_m = 0.0f;  ///< depth in the proxy of the deepest one at the end of the frame, to first order
+  FaceProof proof;         ///< with SolverOptions::certify_m
 };
 
 /// The state of a garment after a frame, and what the frame took.

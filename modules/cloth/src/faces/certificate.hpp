@@ -1,0 +1,39 @@
+// A proof that no point of any triangle is deeper in the body than a tolerance, and pushes where there is
+// none.
+//
+// A distance changes by at most `slope` times the length of a path between two points. So a point at distance
+// d proves that a disc of radius (d + tolerance) / slope around it is not deeper than the tolerance. A
+// triangle that the disc of its center does not cover is cut in four, and so on. Points deeper than half the
+// tolerance are pushed out, each by its barycentric weights, and what moved is proved again. Cost follows
+// what is near.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "faces/face_contact.hpp"
+
+namespace bodice::cloth {
+
+/// What the proof of a frame needs and finds.
+struct FaceCertificate {
+  std::vector<std::uint8_t> due;          ///< #runs: whether its triangles are to be proved
+  std::vector<std::uint8_t> moved;        ///< #clusters: whether a particle was pushed since its proof
+  std::vector<std::uint32_t> deep_count;  ///< #runs: points to push
+  std::vector<FaceSample> deep;           ///< #runs x kDeepARun
+  std::vector<std::uint32_t> open;        ///< #runs: triangles without a proof
+};
+
+/// The most points that are pushed in a run of elements and a round.
+inline constexpr std::size_t kDeepARun = 64;
+
+/// Memory for the proofs of this garment.
+FaceCertificate make_certificate(const Elements& elements, std::size_t particles);
+
+/// Proves all triangles against the body as it stands at the end of a frame; pushes particles (x, y, z), not
+/// their velocities, where a point is too deep. Returns what is left without a proof. Allocates nothing; the
+/// same for any number of workers.
+FaceProof prove_faces(const engine::Context& context, const collision::Collider& body, float tolerance_m,
+                      const FaceContact& faces, Particles& particles, FaceCertificate& certificate);
+
+}  // namespace bodice::cloth
