@@ -2,12 +2,13 @@
 // and 300 calm ones; the bars are printed over the columns. --substeps 2,4,8,16,32 shows how the result
 // improves with substeps, --halve compares outlines of two resolutions, --turn 90 turns the bodies.
 // --motion walk,run,dance instead lets two bodies each move in a skirt, a T-shirt and a bodysuit, and then
-// stand.
+// stand. --faces judges whole triangles by the exact skin, on bodies that stand and that walk.
 #include <cstdio>
 #include <map>
 
 #include <CLI/CLI.hpp>
 
+#include "faces.hpp"
 #include "moving.hpp"
 #include "sheet.hpp"
 #include "silhouette.hpp"
@@ -86,6 +87,8 @@ struct Arguments {
   double seconds = 10.0;
   std::string out;
   bool repeat = false;
+  bool faces = false;
+  double certify_mm = 0.0;
   bench::WearOptions wear = {.solver = bodice::tryon::DrapeOptions{}.solver};
 };
 
@@ -113,6 +116,12 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--out", a.out, "folder for contact sheets of every tenth frame, and the depths of all")
       ->needs(motion);
   app.add_flag("--repeat", a.repeat, "again with 1 and with 3 workers, to compare hashes")->needs(motion);
+  auto* faces =
+      app.add_flag("--faces", a.faces, "judges whole triangles, on a body that stands and one that walks")
+          ->excludes(motion);
+  app.add_option("--certify-mm", a.certify_mm,
+                 "depth in the proxy that no point may exceed, proved each frame")
+      ->needs(faces);
   app.add_flag("--trace", a.wear.trace, "a line every thirty frames");
 }
 
@@ -138,7 +147,7 @@ bool drape_all(Arguments a) {
       print_row(a.substeps.size() > 1 ? std::to_string(count) + " " + outfit.name : outfit.name, worn);
       if (a.turn_deg_s != 0.0) std::printf("  behind its body by %.2f degrees\n", worn.behind_rad / kRadians);
     }
-    sheet.add(body, garment, worn.end);
+    sheet.add(body.skin.input.skin.positions, body.skin.input.skin.triangles, garment, worn.end);
     hung[outfit.name] = {{worn.end, garment.mesh.triangles}, body.proxy.stature_m()};
   }
   print_outlines(hung);
@@ -162,6 +171,16 @@ bool drape_in_motion(const Arguments& a, bool has_data) {
   return bench::drape_moving({.executor = executor.get()}, options);
 }
 
+bool judge_all_faces(const Arguments& a) {
+  const auto executor = bodice::engine::make_tbb_executor(a.workers);
+  bench::FacesOptions options{.data = a.data, .only = a.only, .cache = a.cache, .sheet = a.picture};
+  options.drape.solver.substeps = a.substeps.front();
+  options.drape.solver.iterations = a.wear.solver.iterations;
+  options.drape.fabric = bodice::cloth::find_fabric(a.fabric).value();
+  if (a.certify_mm > 0.0) options.drape.solver.certify_m = 1e-3 * a.certify_mm;
+  return bench::judge_faces({.executor = executor.get()}, options);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -170,8 +189,9 @@ int main(int argc, char** argv) {
   CLI::App app("Every garment of the data folder on its body");
   add_options(app, arguments);
   CLI11_PARSE(app, argc, argv);
-  const bool done =
-      arguments.motions.empty() ? drape_all(arguments) : drape_in_motion(arguments, app.count("--data") > 0);
+  const bool done = arguments.faces             ? judge_all_faces(arguments)
+                    : arguments.motions.empty() ? drape_all(arguments)
+                                                : drape_in_motion(arguments, app.count("--data") > 0);
   if (done) return 0;
   std::fprintf(stderr, "could not write %s\n",
                (arguments.motions.empty() ? arguments.picture : arguments.out).c_str());

@@ -23,14 +23,13 @@ void append(const std::vector<Vec3>& positions, const std::vector<bodice::geomet
 
 }  // namespace
 
-void Sheet::add(const Body& body, const bodice::tryon::WornGarment& garment,
-                const std::vector<Vec3>& positions) {
+void Sheet::add(const std::vector<Vec3>& skin, const std::vector<bodice::geometry::Triangle>& triangles,
+                const bodice::tryon::WornGarment& garment, const std::vector<Vec3>& positions) {
   const int column = count_ % kColumns, row = count_ / kColumns;
   ++count_;
-  const TriMesh& skin = body.skin.input.skin;
-  const Vec3 middle = bodice::geometry::bounding_box(skin.positions).center();
+  const Vec3 middle = bodice::geometry::bounding_box(skin).center();
   const Vec3 offset(kColumn_m * column - middle.x(), -kRow_m * row, kColumn_m * column - middle.z());
-  append(skin.positions, skin.triangles, offset, bodies_);
+  append(skin, triangles, offset, bodies_);
   append(positions, garment.mesh.triangles, offset, garments_.mesh);
 }
 

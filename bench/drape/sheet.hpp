@@ -6,11 +6,13 @@
 
 namespace bench {
 
-/// A contact sheet of all outfits at the end of their windy frames, from the front and from the left.
+/// A contact sheet of outfits, from the front and from the left.
 class Sheet {
  public:
-  void add(const Body& body, const bodice::tryon::WornGarment& garment,
-           const std::vector<bodice::geometry::Vec3>& positions);
+  /// A skin with a garment, both at these positions.
+  void add(const std::vector<bodice::geometry::Vec3>& skin,
+           const std::vector<bodice::geometry::Triangle>& triangles,
+           const bodice::tryon::WornGarment& garment, const std::vector<bodice::geometry::Vec3>& positions);
   /// False if the picture could not be written.
   bool write(const std::filesystem::path& png) const;
 

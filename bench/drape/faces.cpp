@@ -1,0 +1,149 @@
+#include "faces.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+#include <vector>
+
+#include <bodice/tryon/judge_frame.hpp>
+#include <bodice/tryon/rigged_body.hpp>
+#include <bodice/tryon/wearing.hpp>
+
+#include "or_exit.hpp"
+#include "sheet.hpp"
+
+namespace bench {
+namespace {
+
+using namespace bodice;
+using geometry::Vec3;
+
+constexpr double kVisible_m = 0.5e-3;
+constexpr std::size_t kFirstFrames = 10;  // a garment may take so long to come out of a fold
+constexpr double kTight_m = 0.007;        // a garment starts as tight where its median gap is less
+// Bars, in the units of the columns; the fold of a knee or armpit that a garment starts in has its own.
+constexpr double kStanding_cm2 = 0.0, kInFold_cm2 = 2.0, kWalking_cm2 = 5.0, kGapMedian_mm = 2.5,
+                 kGap95_mm = 5.0;
+
+/// Gaps between cloth and skin, meters, by area at the middles of the triangles.
+struct Gaps {
+  double median = 0.0, p95 = 0.0;
+};
+
+Gaps gaps_of(const geometry::MeshDistance& skin, const std::vector<Vec3>& at,
+             const std::vector<geometry::Triangle>& triangles) {
+  std::vector<std::pair<double, double>> gap_and_area;
+  double total = 0.0;
+  for (const auto& [a, b, c] : triangles) {
+    const double area = 0.5 * (at[b] - at[a]).cross(at[c] - at[a]).norm();
+    gap_and_area.push_back({skin.signed_distance((at[a] + at[b] + at[c]) / 3.0), area});
+    total += area;
+  }
+  std::ranges::sort(gap_and_area);
+  auto quantile = [&](double share) {
+    double sum = 0.0;
+    for (const auto& [gap, area] : gap_and_area)
+      if ((sum += area) >= share * total) return gap;
+    return gap_and_area.back().first;
+  };
+  return {quantile(0.5), quantile(0.95)};
+}
+
+/// The numbers of a row.
+struct Row {
+  double start_cm2 = 0.0, end_cm2 = 0.0;  ///< cloth more than half a millimeter inside the skin
+  double worst_cm2 = 0.0;                 ///< of the frames after the first ten; walking only
+  Gaps start, end;
+  tryon::DrapeReport report;
+};
+
+double inside_cm2(const engine::Context& context, const geometry::MeshDistance& skin,
+                  const std::vector<Vec3>& at, const geometry::TriMesh& garment) {
+  return 1e4 * tryon::cloth_area_inside_m2(context, skin, at, garment.triangles, kVisible_m);
+}
+
+void print_head() {
+  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %15s %15s %8s %8s\n", "", "", "parti-", "ms", "thick", "cm2",
+              "cm2", "gap mm at start", "gap mm at end", "stretch", "stretch");
+  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %15s %15s %8s %8s\n", "garment", "body", "cles", "median", "mm",
+              "start", "inside", "median    95 %", "median    95 %", "p95 %", "max %");
+}
+
+void print_row(const std::string& name, const char* body, const Row& row, double bar_cm2) {
+  const bool walks = body[0] == 'w';
+  const double inside = walks ? row.worst_cm2 : row.end_cm2;
+  const tryon::DrapeReport& r = row.report;
+  std::printf("%-36s %-5s %6zu %6.2f %8.2f %8.2f %8.2f %7.1f %7.1f %7.1f %7.1f %8.2f %8.1f", name.c_str(),
+              body, r.particles, r.frame_ms_median, 1e3 * r.thickness_m, row.start_cm2, inside,
+              1e3 * row.start.median, 1e3 * row.start.p95, 1e3 * row.end.median, 1e3 * row.end.p95,
+              1e2 * r.stretch_p95, 1e2 * r.stretch_max);
+  if (inside > bar_cm2) std::printf("  MISSED inside");
+  const bool tight = !walks && row.start.median < kTight_m;
+  if (tight && (1e3 * row.end.median > kGapMedian_mm || 1e3 * row.end.p95 > kGap95_mm))
+    std::printf("  MISSED gap");
+  std::printf(r.finite ? "\n" : "  NOT FINITE\n");
+  std::fflush(stdout);
+}
+
+Row stand(const engine::Context& context, const FacesOptions& o, const Outfit& outfit, Sheet& sheet) {
+  Body body = load_body(context, outfit.body, proxy::Tier::kRelief, o.cache);
+  const tryon::WornGarment garment = load_garment(context, outfit, body);
+  tryon::PreparedBody prepared{std::move(body.skin), {.proxy = std::move(body.proxy)}};
+  const geometry::MeshDistance& skin = *prepared.skin.distance;
+  tryon::DrapeOptions settings = o.drape;
+  settings.frames = o.standing_frames, settings.kept_frames = 2;
+  const tryon::DrapeResult draped = or_exit(tryon::drape(context, prepared, {garment}, settings));
+  const std::vector<Vec3>& end = draped.garments.front().frames.back();
+  sheet.add(prepared.skin.input.skin.positions, prepared.skin.input.skin.triangles, garment, end);
+  const geometry::TriMesh& mesh = garment.mesh;
+  return {.start_cm2 = inside_cm2(context, skin, mesh.positions, mesh),
+          .end_cm2 = inside_cm2(context, skin, end, mesh),
+          .start = gaps_of(skin, mesh.positions, mesh.triangles),
+          .end = gaps_of(skin, end, mesh.triangles),
+          .report = draped.report};
+}
+
+Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& outfit, Sheet& sheet) {
+  tryon::SegmentedSkin skin = or_exit(tryon::segment_file(context, outfit.body, {}));
+  or_exit(tryon::give_rig(context, tryon::BodyFile{outfit.body}, skin));
+  std::vector<engine::Warning> warnings;
+  const tryon::BodyMotion motion =
+      or_exit(tryon::find_motion(context, skin, {.motion = "walk", .clip = {}}, warnings));
+  const tryon::PreparedBody body = or_exit(tryon::fit_bound_proxy(context, std::move(skin), {}));
+  io::ImportedMesh mesh = or_exit(io::import_garment(context, outfit.garment, body.skin.input.frame));
+  tryon::WornGarment garment{.name = outfit.name, .mesh = std::move(mesh.skin)};
+  garment.held = tryon::held_vertices(garment.mesh, body.skin);
+  tryon::DrapeOptions settings = o.drape;
+  settings.motion = &motion;
+  settings.frames = std::max(20, static_cast<int>(motion.clip.duration_s / settings.dt_s));
+  settings.kept_frames = settings.frames + 1;
+  const tryon::DrapeResult draped = or_exit(tryon::drape(context, body, {garment}, settings));
+  const std::vector<Vec3>& end = draped.garments.front().frames.back();
+  sheet.add(draped.body_frames.back(), body.skin.input.skin.triangles, garment, end);
+  const geometry::MeshDistance posed(context, {draped.body_frames.back(), body.skin.input.skin.triangles});
+  Row row{.start_cm2 = 1e4 * draped.report.kept.front().over_half_mm_m2,
+          .end_cm2 = 1e4 * draped.report.kept.back().over_half_mm_m2,
+          .start = gaps_of(*body.skin.distance, garment.mesh.positions, garment.mesh.triangles),
+          .end = gaps_of(posed, end, garment.mesh.triangles),
+          .report = draped.report};
+  for (std::size_t k = kFirstFrames; k < draped.report.kept.size(); ++k)
+    row.worst_cm2 = std::max(row.worst_cm2, 1e4 * draped.report.kept[k].over_half_mm_m2);
+  return row;
+}
+
+}  // namespace
+
+bool judge_faces(const engine::Context& context, const FacesOptions& options) {
+  Sheet sheet;
+  print_head();
+  const std::vector<Outfit> outfits = find_outfits(options.data, options.only, false);
+  for (const Outfit& outfit : outfits) {
+    const Row row = stand(context, options, outfit, sheet);
+    print_row(outfit.name, "stand", row, row.start_cm2 > 0.0 ? kInFold_cm2 : kStanding_cm2);
+  }
+  for (const Outfit& outfit : outfits)
+    print_row(outfit.name, "walks", walk(context, options, outfit, sheet), kWalking_cm2);
+  return options.sheet.empty() || sheet.write(options.sheet);
+}
+
+}  // namespace bench

@@ -1,0 +1,26 @@
+// Does skin show through the cloth? Every garment of the data folder on its body, which stands and then
+// walks, judged over whole triangles by the exact skin.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <bodice/tryon/drape.hpp>
+
+namespace bench {
+
+/// Which garments are judged, and how they are draped.
+struct FacesOptions {
+  std::filesystem::path data;   ///< with garments/ and bodies/
+  std::string only;             ///< part of the garments' names
+  std::filesystem::path cache;  ///< of proxies that stand; empty: none
+  std::filesystem::path
+      sheet;  ///< PNG of all garments at their ends, standing in the first rows; empty: none
+  int standing_frames = 120;
+  bodice::tryon::DrapeOptions drape;  ///< frames, kept frames and motion are set for each row
+};
+
+/// Prints a row for each garment and body; false if the sheet cannot be written.
+bool judge_faces(const bodice::engine::Context& context, const FacesOptions& options);
+
+}  // namespace bench
