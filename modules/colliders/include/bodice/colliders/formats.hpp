@@ -1,0 +1,36 @@
+// Colliders in the files of engines.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <bodice/colliders/plain_shape.hpp>
+#include <bodice/engine/result.hpp>
+
+namespace bodice::colliders {
+
+/// A form that some engine reads. README.md has the axes and units of each.
+enum class Format : std::uint8_t { kUnity, kUnreal, kGodot, kVrm, kMujoco, kSdformat };
+
+inline constexpr int kFormatCount = 6;
+
+/// What a format is called and what it can hold.
+struct FormatFacts {
+  std::string_view name;       ///< "unity", ...
+  std::string_view extension;  ///< ".json", ...
+  ShapeKind richest = ShapeKind::kCapsule;
+  bool takes_ellipsoids = false;  ///< in place of plain shapes
+  bool needs_rig = false;
+};
+
+const FormatFacts& facts(Format format);
+std::optional<Format> format_from_name(std::string_view text);
+
+/// The text of a file. `shapes` is not read where the format takes ellipsoids. Fails with kInvalidArgument
+/// where the format needs a rig and the proxy is bound to none, or cannot hold a shape.
+engine::Result<std::string> text_of(Format format, const proxy::BodyProxy& proxy,
+                                    std::span<const PlainShape> shapes);
+
+}  // namespace bodice::colliders

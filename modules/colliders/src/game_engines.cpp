@@ -1,0 +1,99 @@
+// Unity and Unreal: left-handed files, each shape in the coordinates of its bone.
+#include <nlohmann/json.hpp>
+
+#include <bodice/engine/text.hpp>
+
+#include "bone_frame.hpp"
+
+namespace bodice::colliders {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Importers of Unity negate x of everything, joints included.
+Json unity_point(const Vec3& v) {
+  return {{"x", tidy(-v.x())}, {"y", tidy(v.y())}, {"z", tidy(v.z())}};
+}
+
+/// Row after row, as Unity has the joint: mirrored on both sides.
+Json unity_rest(const BoneFrame& frame) {
+  Json rows = Json::array();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c)
+      rows.push_back(tidy(((r == 0) != (c == 0) ? -1.0 : 1.0) * frame.to_skin(r, c)));
+  return rows;
+}
+
+/// Importers of Unreal negate y of a joint's coordinates and turn the skin's y up into z up; centimeters.
+Vec3 unreal_point(const Vec3& v, const BoneFrame& frame) {
+  if (frame.name.empty()) return 100.0 * Vec3(v.x(), v.z(), v.y());
+  return 100.0 * Vec3(v.x(), -v.y(), v.z());
+}
+
+Json unreal_vector(const Vec3& v) {
+  return {{"X", tidy(v.x())}, {"Y", tidy(v.y())}, {"Z", tidy(v.z())}};
+}
+
+/// Adds a shape to the lists of Unreal's FKAggregateGeom. The ball of Radius0 is at the end of +Z.
+void add_unreal_shape(const PlainShape& local, const BoneFrame& frame, Json& geometry) {
+  const Vec3 a = unreal_point(local.a, frame), b = unreal_point(local.b, frame);
+  Json shape = {{"Center", unreal_vector(0.5 * (a + b))}};
+  if (is_sphere(local)) {
+    shape["Radius"] = tidy(100.0 * local.radius_a);
+    geometry["SphereElems"].push_back(std::move(shape));
+    return;
+  }
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), a - b);
+  shape["Rotation"] = {
+      {"X", tidy(turn.x())}, {"Y", tidy(turn.y())}, {"Z", tidy(turn.z())}, {"W", tidy(turn.w())}};
+  shape["Length"] = tidy((a - b).norm());
+  if (local.radius_a == local.radius_b) {
+    shape["Radius"] = tidy(100.0 * local.radius_a);
+    geometry["SphylElems"].push_back(std::move(shape));
+  } else {
+    shape["Radius0"] = tidy(100.0 * local.radius_a), shape["Radius1"] = tidy(100.0 * local.radius_b);
+    geometry["TaperedCapsuleElems"].push_back(std::move(shape));
+  }
+}
+
+}  // namespace
+
+std::string unity_text(const proxy::BodyProxy& proxy, std::span<const PlainShape> shapes) {
+  Json file = {{"format", "bodice colliders for Unity"}, {"version", 1}};
+  file["proxy"] = engine::hex64(proxy.hash());
+  file["bones"] = Json::array();
+  for (const std::int16_t bone : bones_of(shapes)) {
+    const BoneFrame frame = frame_of(proxy, bone);
+    if (!frame.name.empty()) file["bones"].push_back({{"name", frame.name}, {"rest", unity_rest(frame)}});
+  }
+  file["shapes"] = Json::array();
+  for (const PlainShape& shape : shapes) {
+    const BoneFrame frame = frame_of(proxy, shape.bone);
+    const PlainShape local = in_bone(shape, frame);
+    file["shapes"].push_back({{"bone", frame.name},
+                              {"part", body::name(shape.part)},
+                              {"a", unity_point(local.a)},
+                              {"b", unity_point(local.b)},
+                              {"radiusA", tidy(local.radius_a)},
+                              {"radiusB", tidy(local.radius_b)}});
+  }
+  return file.dump(1) + "\n";
+}
+
+std::string unreal_text(const proxy::BodyProxy& proxy, std::span<const PlainShape> shapes) {
+  Json file = {{"format", "bodice colliders for Unreal"}, {"version", 1}};
+  file["proxy"] = engine::hex64(proxy.hash());
+  file["SkeletalBodySetups"] = Json::array();
+  for (const std::int16_t bone : bones_of(shapes)) {
+    const BoneFrame frame = frame_of(proxy, bone);
+    Json geometry = {{"SphereElems", Json::array()},
+                     {"SphylElems", Json::array()},
+                     {"TaperedCapsuleElems", Json::array()}};
+    for (const PlainShape& shape : shapes)
+      if (shape.bone == bone) add_unreal_shape(in_bone(shape, frame), frame, geometry);
+    file["SkeletalBodySetups"].push_back({{"BoneName", frame.name}, {"AggGeom", std::move(geometry)}});
+  }
+  return file.dump(1) + "\n";
+}
+
+}  // namespace bodice::colliders

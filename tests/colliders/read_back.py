@@ -1,0 +1,290 @@
+"""Reads each exported file with Python's own parsers, puts the shapes back on the body by the conventions of the
+engine, and measures the skin's distances from them: they are those that the program reported."""
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import xml.etree.ElementTree as xml
+
+PROGRAM, SCRATCH = os.path.abspath(sys.argv[1]), sys.argv[2]
+KEEP = "--keep" in sys.argv
+failures = []
+
+
+def check(good, what):
+    if not good:
+        failures.append(what)
+        print("FAILED:", what)
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=200)
+    check(done.returncode == code, f"{' '.join(arguments)}: exit {done.returncode}, expected {code}\n{done.stderr}")
+    return done.stdout + done.stderr
+
+
+# Vectors and matrices, without numpy.
+def add(a, b): return [x + y for x, y in zip(a, b)]
+def sub(a, b): return [x - y for x, y in zip(a, b)]
+def scale(k, a): return [k * x for x in a]
+def dot(a, b): return sum(x * y for x, y in zip(a, b))
+def norm(a): return math.sqrt(dot(a, a))
+def apply(rows, v): return [dot(row, v) for row in rows]
+def transpose(rows): return [list(column) for column in zip(*rows)]
+def product(a, b): return [[dot(row, column) for column in zip(*b)] for row in a]
+
+
+def rows_of_quaternion(w, x, y, z):
+    return [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
+
+
+def rows_of_angles(roll, pitch, yaw):
+    c, s = math.cos, math.sin
+    about_x = [[1, 0, 0], [0, c(roll), -s(roll)], [0, s(roll), c(roll)]]
+    about_y = [[c(pitch), 0, s(pitch)], [0, 1, 0], [-s(pitch), 0, c(pitch)]]
+    about_z = [[c(yaw), -s(yaw), 0], [s(yaw), c(yaw), 0], [0, 0, 1]]
+    return product(about_z, product(about_y, about_x))
+
+
+IDENTITY = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]], [0, 0, 0])
+
+
+def place(frame, v): return add(apply(frame[0], v), frame[1])
+
+
+# Signed distances by search, not by the program's formulas.
+def hull_distance(p, shape):
+    """The hull of two balls: the least over a convex function, by golden section."""
+    a, b, ra, rb = shape
+    value = lambda t: norm(sub(p, add(a, scale(t, sub(b, a))))) - (ra + t * (rb - ra))
+    low, high, g = 0.0, 1.0, 0.6180339887498949
+    for _ in range(40):
+        left, right = high - g * (high - low), low + g * (high - low)
+        if value(left) < value(right): high = right
+        else: low = left
+    return min(value(0.0), value(1.0), value(0.5 * (low + high)))
+
+
+def ellipsoid_distance(p, ellipsoid):
+    center, rows, radii = ellipsoid
+    y = [abs(v) + 1e-15 for v in apply(transpose(rows), sub(p, center))]
+    low = max(r * v - r * r for r, v in zip(radii, y))
+    high = norm([r * v for r, v in zip(radii, y)])
+    for _ in range(70):  # the closest point is r^2 y / (t + r^2), on the ellipsoid
+        t = 0.5 * (low + high)
+        if sum((r * v / (t + r * r)) ** 2 for r, v in zip(radii, y)) > 1: low = t
+        else: high = t
+    close = [r * r * v / (high + r * r) for r, v in zip(radii, y)]
+    inside = sum((v / r) ** 2 for r, v in zip(radii, y)) < 1
+    return norm(sub(close, y)) * (-1 if inside else 1)
+
+
+def union_distance(p, solids, distance, center, reach):
+    best = math.inf
+    for solid in sorted(solids, key=lambda s: norm(sub(p, center(s))) - reach(s)):
+        if norm(sub(p, center(solid))) - reach(solid) > best: break
+        best = min(best, distance(p, solid))
+    return best
+
+
+def errors(points, solids):
+    if len(solids[0]) == 3:
+        value = lambda p: union_distance(p, solids, ellipsoid_distance, lambda s: s[0], lambda s: max(s[2]))
+    else:
+        value = lambda p: union_distance(p, solids, hull_distance, lambda s: s[0],
+                                         lambda s: norm(sub(s[1], s[0])) + max(s[2], s[3]))
+    gaps = sorted((abs(value(p)), area) for p, area in points if area > 0)
+    total, below = sum(area for _, area in gaps), 0.0
+    for gap, area in gaps:
+        below += area
+        if below >= 0.95 * total: break
+    return {"mean": 1e3 * sum(g * a for g, a in gaps) / total, "p95": 1e3 * gap, "worst": 1e3 * gaps[-1][0]}
+
+
+def skin_of(file):
+    points, area = [], []
+    for line in open(file):
+        fields = line.split()
+        if fields[:1] == ["v"]:
+            points.append([float(v) for v in fields[1:4]])
+            area.append(0.0)
+        if fields[:1] == ["f"]:
+            corners = [int(f.split("/")[0]) - 1 for f in fields[1:4]]
+            a, b, c = (points[k] for k in corners)
+            u, v = sub(b, a), sub(c, a)
+            cross = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+            for k in corners: area[k] += norm(cross) / 6
+    return list(zip(points, area))
+
+
+# One reader a format. Each returns solids in meters, y up, right-handed.
+def read_unity(file, joints):
+    data = json.load(open(file))
+    rest = {bone["name"]: bone["rest"] for bone in data["bones"]}
+    solids = []
+    for shape in data["shapes"]:
+        m = rest.get(shape["bone"], [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0])
+        frame = ([m[0:3], m[4:7], m[8:11]], [m[3], m[7], m[11]])
+        ends = []
+        for end in "ab":
+            x, y, z = place(frame, [shape[end][axis] for axis in "xyz"])
+            ends.append([-x, y, z])
+        solids.append((*ends, shape["radiusA"], shape["radiusB"]))
+    return solids
+
+
+def read_unreal(file, joints):
+    solids = []
+    for setup in json.load(open(file))["SkeletalBodySetups"]:
+        frame = joints.get(setup["BoneName"])
+        def back(v):
+            if frame is None: return scale(0.01, [v[0], v[2], v[1]])
+            return place(frame, scale(0.01, [v[0], -v[1], v[2]]))
+        vector = lambda v: [v[axis] for axis in "XYZ"]
+        geometry = setup["AggGeom"]
+        for s in geometry["SphereElems"]:
+            solids.append((back(vector(s["Center"])),) * 2 + (s["Radius"] / 100,) * 2)
+        for s in geometry["SphylElems"] + geometry["TaperedCapsuleElems"]:
+            q = s["Rotation"]
+            half = scale(0.5 * s["Length"], apply(rows_of_quaternion(q["W"], q["X"], q["Y"], q["Z"]), [0, 0, 1]))
+            solids.append((back(add(vector(s["Center"]), half)), back(sub(vector(s["Center"]), half)),
+                           s.get("Radius", s.get("Radius0")) / 100, s.get("Radius", s.get("Radius1")) / 100))
+    return solids
+
+
+def read_godot(file, joints):
+    text = open(file).read()
+    sections = re.findall(r"^\[(.*?)\]\n((?:[a-z_]+ = .*\n)*)", text, re.M)
+    resources, frames, solids = {}, {".": IDENTITY}, []
+    for head, body in sections:
+        tags = dict(re.findall(r'(\w+)="([^"]*)"', head))
+        values = dict(re.findall(r"^([a-z_]+) = (.*)$", body, re.M))
+        if head.startswith("sub_resource"):
+            resources[tags["id"]] = (float(values["radius"]), float(values.get("height", 0)))
+        elif head.startswith("node") and "parent" in tags:
+            frame = frames[tags["parent"]]
+            if "transform" in values:
+                n = [float(v) for v in values["transform"][len("Transform3D("):-1].split(",")]
+                own = ([n[0:3], n[3:6], n[6:9]], n[9:12])
+                frame = (product(frame[0], own[0]), place(frame, own[1]))
+            path = tags["name"] if tags["parent"] == "." else tags["parent"] + "/" + tags["name"]
+            frames[path] = frame
+            if "shape" in values:
+                radius, height = resources[re.search(r'"(.*)"', values["shape"])[1]]
+                half = [0, max(0.0, 0.5 * height - radius), 0]
+                solids.append((place(frame, half), place(frame, scale(-1, half)), radius, radius))
+    return solids
+
+
+def read_vrm(file, joints):
+    data = json.load(open(file))
+    check(data["extensionsUsed"] == ["VRMC_springBone"], "the extension of VRM is declared")
+    solids = []
+    for collider in data["extensions"]["VRMC_springBone"]["colliders"]:
+        m = data["nodes"][collider["node"]]["matrix"]
+        frame = ([m[0::4][:3], m[1::4][:3], m[2::4][:3]], m[12:15])
+        (shape,) = collider["shape"].values()
+        solids.append((place(frame, shape["offset"]), place(frame, shape.get("tail", shape["offset"])),
+                       shape["radius"], shape["radius"]))
+    return solids
+
+
+def lie_down(frame):
+    back = [[1, 0, 0], [0, 0, 1], [0, -1, 0]]  # z up to y up
+    return product(back, frame[0]), apply(back, frame[1])
+
+
+def read_mujoco(file, joints):
+    numbers = lambda element, name: [float(v) for v in element.get(name).split()]
+    solids = []
+    for body in xml.parse(file).getroot().iter("body"):
+        outer = (rows_of_quaternion(*numbers(body, "quat")), numbers(body, "pos"))
+        for geom in body.iter("geom"):
+            check(geom.get("type") == "ellipsoid", "MuJoCo takes ellipsoids")
+            turn = product(outer[0], rows_of_quaternion(*numbers(geom, "quat")))
+            rows, at = lie_down((turn, place(outer, numbers(geom, "pos"))))
+            solids.append((at, rows, numbers(geom, "size")))
+    return solids
+
+
+def read_sdformat(file, joints):
+    numbers = lambda element, path: [float(v) for v in element.find(path).text.split()]
+    solids = []
+    for link in xml.parse(file).getroot().iter("link"):
+        pose = numbers(link, "pose")
+        outer = (rows_of_angles(*pose[3:]), pose[:3])
+        for collision in link.iter("collision"):
+            pose = numbers(collision, "pose")
+            rows, at = lie_down((product(outer[0], rows_of_angles(*pose[3:])), place(outer, pose[:3])))
+            solids.append((at, rows, numbers(collision, "geometry/ellipsoid/radii")))
+    return solids
+
+
+FORMATS = [("unity", ".json", read_unity, ["capsules", "tapered", "spheres"]),
+           ("unreal", ".json", read_unreal, ["capsules", "tapered", "spheres"]),
+           ("godot", ".tscn", read_godot, ["capsules", "spheres"]),
+           ("vrm", ".gltf", read_vrm, ["capsules", "spheres"]),
+           ("mujoco", ".xml", read_mujoco, [None]),
+           ("sdformat", ".sdf", read_sdformat, [None])]
+
+
+def read_back(proxy, body, points, joints):
+    for name, extension, reader, kinds in FORMATS:
+        if name == "vrm" and not joints: continue
+        for kind in kinds:
+            file = f"{name}_{kind}{extension}"
+            run("export", proxy, "--to", name, "-o", file, "--body", body, "--report", "cost.json", "-q",
+                *(["--shapes", kind, "--count", "24"] if kind else []))
+            solids = reader(file, joints)
+            check(kind is None or 12 <= len(solids) <= 24, f"{file}: {len(solids)} shapes of 24")
+            told, found = json.load(open("cost.json"))["error_mm"], errors(points, solids)
+            for what in told:
+                check(abs(told[what] - found[what]) < 1e-3,
+                      f"{file}: {what} is {found[what]:.5f} mm when read back, {told[what]:.5f} as reported")
+            print(f"{file}: {len(solids)} solids, mean {found['mean']:.2f} mm, worst {found['worst']:.2f} mm")
+
+
+def refusals():
+    said = run("export", "free.json", "--to", "vrm", "-o", "none.gltf", code=2)
+    check("bound to none" in said and said.count("\n") == 1, f"a proxy without a rig, in one sentence: {said}")
+    said = run("export", "free.json", "--to", "quake", "-o", "none.json", code=2)
+    check("unity" in said and said.count("\n") == 1, f"a format that does not exist: {said}")
+    said = run("export", "free.json", "--to", "unity", "-o", "no/such/folder.json", code=1)
+    check("folder" in said and said.count("\n") == 1, f"a folder that does not exist: {said}")
+    said = run("export", "free.json", "--to", "unity", "-o", "none.tscn", code=2)
+    check("extension" in said, f"an extension that is not the format's: {said}")
+    said = run("export", "free.json", "--to", "mujoco", "--shapes", "capsules", "-o", "none.xml", code=2)
+    check("takes ellipsoids" in said, f"shapes where ellipsoids are written: {said}")
+    said = run("export", "free.json", "--to", "godot", "--shapes", "tapered", "-o", "none.tscn", code=2)
+    check("tapered" in said, f"tapered capsules for Godot: {said}")
+    for file in os.listdir("."): check(not file.startswith("none"), f"{file} was left behind")
+
+
+def main():
+    shutil.rmtree(SCRATCH, ignore_errors=True)
+    os.makedirs(SCRATCH)
+    os.chdir(SCRATCH)
+    run("make", "--vertices", "2000", "-o", "body.obj", "-q")
+    run("rig", "body.obj", "-o", "rigged.glb", "--clip", "none", "-q")
+    run("fit", "body.obj", "--tier", "solid", "-o", "free.json", "-q")
+    run("fit", "rigged.glb", "--tier", "solid", "-o", "bound.json", "-q")
+    points = skin_of("body.obj")
+    read_back("free.json", "body.obj", points, {})
+    # Unreal's file has no rest pose: joints are those of VRM's nodes, by name.
+    run("export", "bound.json", "--to", "vrm", "-o", "joints.gltf", "--body", "body.obj", "-q")
+    joints = {}
+    for node in json.load(open("joints.gltf"))["nodes"]:
+        m = node["matrix"]
+        joints[node["name"]] = ([m[0::4][:3], m[1::4][:3], m[2::4][:3]], m[12:15])
+    read_back("bound.json", "body.obj", points, joints)
+    refusals()
+    print("read back:", "failed" if failures else "passed")
+    return 1 if failures else 0
+
+
+sys.exit(main())
