@@ -1,7 +1,8 @@
 cmake_minimum_required(VERSION 3.25)
-# The binary interface of the C library: its symbols and the layout of its structures are those of abi.txt, nothing
-# else leaves it, and it needs no more than the C and C++ run time.
-#   -DLIBRARY= -DINCLUDE= -DABI= -DCOMPILER=<C> -DNM= -DREADELF= -DSANITIZE= -DSCRATCH=
+# The binary interface of a C library: its symbols and the layout of its structures are those of abi.txt, nothing
+# else leaves it, and it needs no more than the C and C++ run time and libraries that NEEDS matches.
+#   -DLIBRARY= -DLACKS=<names of headers that it does not have, a regular expression> -DNEEDS=<regular expression>
+#   -DINCLUDE= -DABI= -DCOMPILER=<C> -DNM= -DREADELF= -DSANITIZE= -DSCRATCH=
 file(MAKE_DIRECTORY "${SCRATCH}")
 
 # What leaves the library. (Sanitizers add symbols and libraries of their own.)
@@ -18,6 +19,9 @@ string(REGEX MATCHALL "NEEDED[^\n]*" needed "${needed}")
 list(TRANSFORM needed REPLACE ".*\\[(.*)\\].*" "\\1")
 set(more ${needed})
 list(FILTER more EXCLUDE REGEX "^(libc|libm|libstdc\\+\\+|libgcc_s|ld-linux[-a-z0-9_]*)\\.so")
+if(NEEDS)
+  list(FILTER more EXCLUDE REGEX "${NEEDS}")
+endif()
 if(more AND NOT SANITIZE)
   message(SEND_ERROR "${LIBRARY} needs ${more} at run time")
 endif()
@@ -26,6 +30,7 @@ endif()
 file(GLOB headers "${INCLUDE}/bodice/c/*.h")
 set(lines "")
 set(functions "")
+set(lacks "")
 foreach(header IN LISTS headers)
   file(READ "${header}" text)
   string(REGEX REPLACE "/\\*[^*]*\\*+([^/*][^*]*\\*+)*/" "" text "${text}")
@@ -35,6 +40,10 @@ foreach(header IN LISTS headers)
   string(REGEX MATCHALL "BODICE_(STABLE|EXPERIMENTAL) [^;]*\\)" declared "${flat}")
   foreach(declaration IN LISTS declared)
     list(APPEND functions "${declaration}")
+    cmake_path(GET header STEM subject)
+    if(LACKS AND subject MATCHES "${LACKS}" AND declaration MATCHES "(bodice_[a-z_0-9]+)\\(")
+      list(APPEND lacks "${CMAKE_MATCH_1}")
+    endif()
   endforeach()
   string(REGEX MATCHALL "typedef struct [a-z_]+ {[^}]*}" structures "${flat}")
   foreach(structure IN LISTS structures)
@@ -77,6 +86,9 @@ endif()
 # Each function that the header declares and this library should have is there.
 string(REGEX MATCHALL "bodice_[a-z_0-9]+\\(" declared "${functions}")
 list(TRANSFORM declared REPLACE "\\(" "")
+if(lacks)
+  list(REMOVE_ITEM declared ${lacks})
+endif()
 list(LENGTH declared count)
 foreach(name IN LISTS names)
   if(name MATCHES "^bodice_" AND NOT name IN_LIST declared)

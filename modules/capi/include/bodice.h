@@ -3,7 +3,9 @@
  *     bodice_context* context;
  *     bodice_context_options options = bodice_default_context_options();
  *     if (bodice_context_create(&options, &context) != BODICE_OK) return puts(bodice_last_error());
- *     bodice_proxy_from_bytes(context, bytes, size, &proxy);         a file that `bodice fit` wrote
+ *     bodice_proxy_from_bytes(context, bytes, size, &proxy);         a file that `bodice fit` wrote, or
+ *     bodice_skin_from_mesh(context, &mesh, NULL, &skin);            your own mesh, with libbodice:
+ *     bodice_fit(context, skin, NULL, &proxy, NULL);
  *     bodice_collider_create(context, proxy, &collider);
  *     bodice_workspace_create(context, &workspace);
  *     each frame:
@@ -28,10 +30,15 @@
 #ifndef BODICE_H
 #define BODICE_H
 
+/* In libbodice_frame and libbodice: */
 #include <bodice/c/base.h>
 #include <bodice/c/collider.h>
 #include <bodice/c/exact.h>
 #include <bodice/c/particles.h>
 #include <bodice/c/proxy.h>
+/* In libbodice alone: */
+#include <bodice/c/fit.h>
+#include <bodice/c/session.h>
+#include <bodice/c/skin.h>
 
 #endif

@@ -103,6 +103,64 @@ class Proxy : public detail::Handle<bodice_proxy, bodice_proxy_destroy> {
   }
 };
 
+/// See bodice_skin; with libbodice.
+class Skin : public detail::Handle<bodice_skin, bodice_skin_destroy> {
+ public:
+  using Handle::Handle;
+  static Expected<Skin> from_mesh(const Context& context, const bodice_mesh& mesh,
+                                  const bodice_skin_options& options = bodice_default_skin_options()) {
+    bodice_skin* made = nullptr;
+    const bodice_status status = bodice_skin_from_mesh(context.get(), &mesh, &options, &made);
+    if (status != BODICE_OK) return status;
+    return Skin(made);
+  }
+  static Expected<Skin> from_file(const Context& context, const char* path,
+                                  const bodice_skin_options& options = bodice_default_skin_options()) {
+    bodice_skin* made = nullptr;
+    const bodice_status status = bodice_skin_from_file(context.get(), path, &options, &made);
+    if (status != BODICE_OK) return status;
+    return Skin(made);
+  }
+  Expected<bodice_skin_info> info() const {
+    bodice_skin_info info = bodice_default_skin_info();
+    const bodice_status status = bodice_skin_get_info(get(), &info);
+    if (status != BODICE_OK) return status;
+    return info;
+  }
+  /// See bodice_fit(); `report` may be null.
+  Expected<Proxy> fit(const Context& context,
+                      const bodice_fit_options& options = bodice_default_fit_options(),
+                      bodice_fit_report* report = nullptr) const {
+    bodice_proxy* made = nullptr;
+    const bodice_status status = bodice_fit(context.get(), get(), &options, &made, report);
+    if (status != BODICE_OK) return status;
+    return Proxy(made);
+  }
+};
+
+/// See bodice_session; with libbodice. Its other functions take get().
+class Session : public detail::Handle<bodice_session, bodice_session_destroy> {
+ public:
+  using Handle::Handle;
+  static Expected<Session> create(const Context& context,
+                                  const bodice_session_options& options = bodice_default_session_options()) {
+    bodice_session* made = nullptr;
+    const bodice_status status = bodice_session_create(context.get(), &options, &made);
+    if (status != BODICE_OK) return status;
+    return Session(made);
+  }
+  bodice_status submit(const bodice_mesh& body) { return bodice_session_submit(get(), &body); }
+  bodice_status dress(const bodice_garment* garments, std::size_t count) {
+    return bodice_session_dress(get(), garments, count);
+  }
+  Expected<bodice_step_report> step(double dt_s) {
+    bodice_step_report report = bodice_default_step_report();
+    const bodice_status status = bodice_session_step(get(), dt_s, &report);
+    if (status != BODICE_OK) return status;
+    return report;
+  }
+};
+
 /// See bodice_workspace.
 class Workspace : public detail::Handle<bodice_workspace, bodice_workspace_destroy> {
  public:

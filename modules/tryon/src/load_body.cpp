@@ -11,24 +11,16 @@ namespace {
 
 engine::Result<io::ImportedMesh> make_builtin(const engine::Context& context,
                                               const synth::BodyOptions& options) {
-  io::ImportedMesh input;
-  engine::StageTimer load(context, input.stages, "load");
+  std::vector<engine::StageTime> stages;
+  engine::StageTimer load(context, stages, "load");
   auto made = synth::make_body(context, options);
   load.stop();
   if (!made) return std::move(made).error();
-  engine::StageTimer check(context, input.stages, "check");
-  auto repaired = geometry::repair(context, made->mesh);
-  check.stop();
-  if (!repaired) return std::move(repaired).error();
-
-  input.file = "built-in";
-  input.mesh = options.sex == body::Sex::kFemale ? "female" : "male";
-  input.unit = "m";
-  input.skin = std::move(repaired->mesh);
-  input.vertex_of_input = std::move(repaired->vertex_of_input);
-  input.repair = std::move(repaired->report);
-  input.input_vertices = made->mesh.positions.size();
-  input.input_triangles = made->mesh.triangles.size();
+  auto input = repair_body(context, made->mesh);
+  if (!input) return std::move(input).error();
+  input->file = "built-in";
+  input->mesh = options.sex == body::Sex::kFemale ? "female" : "male";
+  input->stages.insert(input->stages.begin(), stages.begin(), stages.end());
   return input;
 }
 
@@ -46,6 +38,21 @@ struct Loader {
 };
 
 }  // namespace
+
+engine::Result<io::ImportedMesh> repair_body(const engine::Context& context, const geometry::TriMesh& mesh) {
+  io::ImportedMesh input;
+  engine::StageTimer check(context, input.stages, "check");
+  auto repaired = geometry::repair(context, mesh);
+  check.stop();
+  if (!repaired) return std::move(repaired).error();
+  input.unit = "m";
+  input.skin = std::move(repaired->mesh);
+  input.vertex_of_input = std::move(repaired->vertex_of_input);
+  input.repair = std::move(repaired->report);
+  input.input_vertices = mesh.positions.size();
+  input.input_triangles = mesh.triangles.size();
+  return input;
+}
 
 engine::Result<io::ImportedMesh> load_body(const engine::Context& context, const BodySource& source,
                                            const io::ImportOptions& options) {

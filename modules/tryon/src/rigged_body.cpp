@@ -18,26 +18,6 @@
 namespace bodice::tryon {
 namespace {
 
-/// The weights of the input's vertices for the skin that repair made of them.
-rig::SkinWeights weights_of_skin(const rig::SkinWeights& input, const io::ImportedMesh& body) {
-  std::vector<geometry::Index> input_of(body.skin.positions.size(), geometry::kNoIndex);
-  for (std::size_t i = 0; i < body.vertex_of_input.size(); ++i) {
-    const geometry::Index v = body.vertex_of_input[i];
-    if (v != geometry::kNoIndex && input_of[v] == geometry::kNoIndex)
-      input_of[v] = static_cast<geometry::Index>(i);
-  }
-  rig::SkinWeights weights;
-  weights.first.push_back(0);
-  for (const geometry::Index i : input_of) {
-    for (std::uint32_t e = input.first[i]; e < input.first[i + 1]; ++e) {
-      weights.joint.push_back(input.joint[e]);
-      weights.weight.push_back(input.weight[e]);
-    }
-    weights.first.push_back(static_cast<std::uint32_t>(weights.joint.size()));
-  }
-  return weights;
-}
-
 engine::Result<rig::Rig> rig_of(const engine::Context& context, const synth::BodyOptions& builtin,
                                 const io::ImportedMesh& skin) {
   auto made = synth::make_body(context, builtin);
@@ -80,6 +60,25 @@ engine::Result<BodyMotion> made_motion(const engine::Context& context, const Seg
 }
 
 }  // namespace
+
+rig::SkinWeights weights_of_skin(const rig::SkinWeights& input, const io::ImportedMesh& body) {
+  std::vector<geometry::Index> input_of(body.skin.positions.size(), geometry::kNoIndex);
+  for (std::size_t i = 0; i < body.vertex_of_input.size(); ++i) {
+    const geometry::Index v = body.vertex_of_input[i];
+    if (v != geometry::kNoIndex && input_of[v] == geometry::kNoIndex)
+      input_of[v] = static_cast<geometry::Index>(i);
+  }
+  rig::SkinWeights weights;
+  weights.first.push_back(0);
+  for (const geometry::Index i : input_of) {
+    for (std::uint32_t e = input.first[i]; e < input.first[i + 1]; ++e) {
+      weights.joint.push_back(input.joint[e]);
+      weights.weight.push_back(input.weight[e]);
+    }
+    weights.first.push_back(static_cast<std::uint32_t>(weights.joint.size()));
+  }
+  return weights;
+}
 
 engine::Result<void> give_rig(const engine::Context& context, const BodySource& source, SegmentedSkin& skin) {
   if (skin.rig) return {};

@@ -27,6 +27,23 @@ void set_defaults(bodice_resolve_options& options) {
 void set_defaults(bodice_mesh& mesh) {
   mesh.index_bytes = 4;
 }
+void set_defaults(bodice_rig& rig) {
+  rig.joints_per_vertex = 4;
+}
+void set_defaults(bodice_fit_options& options) {
+  options.tier = -1;
+  options.bind = 1;
+}
+void set_defaults(bodice_session_options& options) {
+  options.tier = -1;
+  options.substeps = 8;
+  options.thickness_m = 0.001;
+}
+void set_defaults(bodice_drape_options& options) {
+  options.frames = 120;
+  options.substeps = 16;
+  options.dt_s = 1.0 / 60.0;
+}
 template <class T>
 void set_defaults(T&) {}
 
@@ -88,6 +105,8 @@ bodice_status bodice_fill_defaults(int32_t kind, void* structure, size_t size) {
     if (!structure) return invalid("The structure is null.", "Pass one.");
     return fill_one_of<bodice_context_options, bodice_proxy_info, bodice_pose, bodice_particles,
                        bodice_contacts, bodice_query_options, bodice_resolve_options, bodice_contact_report,
-                       bodice_mesh>(kind, structure, size);
+                       bodice_mesh, bodice_rig, bodice_skin_options, bodice_skin_info, bodice_fit_options,
+                       bodice_fit_report, bodice_garment, bodice_session_options, bodice_step_report,
+                       bodice_drape_options, bodice_drape_report>(kind, structure, size);
   });
 }

@@ -36,6 +36,16 @@ BODICE_STRUCTURE(bodice_query_options, BODICE_QUERY_OPTIONS, 16);
 BODICE_STRUCTURE(bodice_resolve_options, BODICE_RESOLVE_OPTIONS, 32);
 BODICE_STRUCTURE(bodice_contact_report, BODICE_CONTACT_REPORT, 184);
 BODICE_STRUCTURE(bodice_mesh, BODICE_MESH, 80);
+BODICE_STRUCTURE(bodice_rig, BODICE_RIG, 64);
+BODICE_STRUCTURE(bodice_skin_options, BODICE_SKIN_OPTIONS, 40);
+BODICE_STRUCTURE(bodice_skin_info, BODICE_SKIN_INFO, 64);
+BODICE_STRUCTURE(bodice_fit_options, BODICE_FIT_OPTIONS, 64);
+BODICE_STRUCTURE(bodice_fit_report, BODICE_FIT_REPORT, 72);
+BODICE_STRUCTURE(bodice_garment, BODICE_GARMENT, 40);
+BODICE_STRUCTURE(bodice_session_options, BODICE_SESSION_OPTIONS, 40);
+BODICE_STRUCTURE(bodice_step_report, BODICE_STEP_REPORT, 56);
+BODICE_STRUCTURE(bodice_drape_options, BODICE_DRAPE_OPTIONS, 64);
+BODICE_STRUCTURE(bodice_drape_report, BODICE_DRAPE_REPORT, 64);
 #undef BODICE_STRUCTURE
 
 /// A structure with its defaults, as bodice_fill_defaults() makes it.

@@ -85,7 +85,17 @@ enum {
   BODICE_QUERY_OPTIONS = 6,
   BODICE_RESOLVE_OPTIONS = 7,
   BODICE_CONTACT_REPORT = 8,
-  BODICE_MESH = 9
+  BODICE_MESH = 9,
+  BODICE_RIG = 10,
+  BODICE_SKIN_OPTIONS = 11,
+  BODICE_SKIN_INFO = 12,
+  BODICE_FIT_OPTIONS = 13,
+  BODICE_FIT_REPORT = 14,
+  BODICE_GARMENT = 15,
+  BODICE_SESSION_OPTIONS = 16,
+  BODICE_STEP_REPORT = 17,
+  BODICE_DRAPE_OPTIONS = 18,
+  BODICE_DRAPE_REPORT = 19
 };
 
 /** Fills a structure of `size` bytes with its defaults and its head. The functions bodice_default_...() below

@@ -59,6 +59,9 @@ engine::Result<SegmentedSkin> segment_file(const engine::Context& context, const
 engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, const synth::BodyOptions& body,
                                               const SegmentOptions& options, const Progress& progress = {});
 
+/// Repairs a mesh in memory, in meters with y up, for segment_mesh(). Fails as geometry::repair() does.
+engine::Result<io::ImportedMesh> repair_body(const engine::Context& context, const geometry::TriMesh& mesh);
+
 /// Segments a repaired mesh in memory.
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress = {});

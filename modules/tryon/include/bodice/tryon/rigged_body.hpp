@@ -16,6 +16,10 @@ namespace bodice::tryon {
 /// (rigging::make_rig). A skin that has a rig keeps it. Errors name the body and the remedy.
 engine::Result<void> give_rig(const engine::Context& context, const BodySource& source, SegmentedSkin& skin);
 
+/// The weights of a body's input vertices (those of the file or mesh) for the skin that repair made of them.
+/// Where several input vertices became one, the first counts. Precondition: a row for each input vertex.
+rig::SkinWeights weights_of_skin(const rig::SkinWeights& input, const io::ImportedMesh& body);
+
 /// The clip that is named: a made motion (rigging::kMotionNames), or one of a file with a skeleton and clips.
 struct MotionChoice {
   std::string motion;

@@ -1,0 +1,99 @@
+#include "whole/fit.hpp"
+
+#include <cmath>
+
+#include <bodice/binding/bind.hpp>
+
+#include "base/handles.hpp"
+#include "base/structures.hpp"
+#include "frame/proxy.hpp"
+#include "whole/skin.hpp"
+
+using namespace bodice;
+using capi::invalid;
+using capi::Outcome;
+
+namespace bodice::capi {
+namespace {
+
+bodice_fit_report as_c(const fitting::FitResult& fit, double seconds) {
+  auto report = with_defaults<bodice_fit_report>();
+  report.gap_mean_m = fit.accuracy.gap_m.mean;
+  report.gap_p95_m = fit.accuracy.gap_m.p95;
+  report.gap_max_m = fit.accuracy.gap_m.max;
+  report.interior_covered = fit.accuracy.interior_covered_percent / 100.0;
+  report.skin_outside = fit.accuracy.skin_outside_percent / 100.0;
+  report.skin_outside_depth_m = fit.accuracy.skin_outside_depth_m;
+  report.seconds = seconds;
+  report.ellipsoids = static_cast<std::uint32_t>(fit.proxy.ellipsoids().size());
+  report.warnings = static_cast<std::uint32_t>(fit.warnings.size());
+  return report;
+}
+
+Outcome read_wish(double value, const char* name, std::optional<double>& out) {
+  if (!std::isfinite(value) || value < 0.0)
+    return invalid(std::string("bodice_fit_options.") + name + " is " + std::to_string(value) + ".",
+                   "Give a positive number, or 0 for none.");
+  if (value > 0.0) out = value;
+  return {};
+}
+
+}  // namespace
+
+Outcome read_tier(std::int32_t tier, const char* name, std::optional<proxy::Tier>& out) {
+  if (tier < -1 || tier > BODICE_RELIEF)
+    return invalid(std::string(name) + " is " + std::to_string(tier) + ".",
+                   "Give BODICE_PAPER to BODICE_RELIEF, or -1.");
+  if (tier >= 0) out = static_cast<proxy::Tier>(tier);
+  return {};
+}
+
+Outcome read_fit(const bodice_fit_options& given, fitting::FitOptions& out) {
+  BODICE_CHECK(read_tier(given.tier, "bodice_fit_options.tier", out.tier));
+  BODICE_CHECK(read_wish(given.target_error_m, "target_error_m", out.target_error_m));
+  BODICE_CHECK(read_wish(given.budget_us, "budget_us", out.budget_us));
+  BODICE_CHECK(read_wish(given.time_budget_s, "time_budget_s", out.time_budget_s));
+  if (given.max_ellipsoids < 0)
+    return invalid("bodice_fit_options.max_ellipsoids is " + std::to_string(given.max_ellipsoids) + ".",
+                   "Give a positive number, or 0 for none.");
+  if (given.max_ellipsoids > 0) out.max_ellipsoids = given.max_ellipsoids;
+  out.covering = given.covering != 0;
+  return {};
+}
+
+Outcome make_fit(Progress& progress, const tryon::SegmentedSkin& skin, const fitting::FitOptions& given,
+                 bool bind, Fitted& out) {
+  const engine::Context& context = progress.context();
+  const std::int64_t begin = context.clock->now_ns();
+  progress.stage("fit");
+  tryon::SegmentedSkin copy = skin;
+  if (!bind) copy.rig = nullptr;
+  auto body = tryon::fit_bound_proxy(context, std::move(copy), given);
+  if (!body) return body.error();
+  for (const engine::Warning& warning : body->fit.warnings)
+    context.warn(warning.message + " " + warning.remedy);
+  out.report = as_c(body->fit, 1e-9 * static_cast<double>(context.clock->now_ns() - begin));
+  out.proxy = std::move(body->fit.proxy);
+  return {};
+}
+
+}  // namespace bodice::capi
+
+bodice_status bodice_fit(const bodice_context* context, const bodice_skin* skin,
+                         const bodice_fit_options* given, bodice_proxy** out, bodice_fit_report* report) {
+  return capi::guarded([&]() -> Outcome {
+    BODICE_CHECK(capi::begin_result(out, "the proxy"));
+    BODICE_CHECK(capi::check_handle(context, "The context"));
+    BODICE_CHECK(capi::check_handle(skin, "The skin"));
+    bodice_fit_options options;
+    BODICE_CHECK(capi::read(given, options, true));
+    fitting::FitOptions wanted;
+    BODICE_CHECK(capi::read_fit(options, wanted));
+    BODICE_CHECK(capi::write(capi::with_defaults<bodice_fit_report>(), report, true));
+    capi::Progress progress(context->state->engine_context(), options.progress, options.host);
+    capi::Fitted fitted;
+    BODICE_CHECK(capi::make_fit(progress, skin->skin, wanted, options.bind != 0, fitted));
+    *out = new bodice_proxy{context->state, std::move(*fitted.proxy)};
+    return capi::write(fitted.report, report, true);
+  });
+}
