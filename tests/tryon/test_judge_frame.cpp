@@ -12,11 +12,12 @@ using geometry::Vec3;
 
 namespace {
 
-/// One ellipsoid as a collider.
-collision::Collider ball_collider(const Vec3& center, double radius_m) {
+/// Balls of one radius as a collider.
+collision::Collider ball_collider(std::initializer_list<Vec3> centers, double radius_m) {
   proxy::BodyProxy::Data data;
   data.stature_m = 1.7;
-  data.ellipsoids = {{.shape = {.center = center, .radii = Vec3::Constant(radius_m)}}};
+  for (const Vec3& center : centers)
+    data.ellipsoids.push_back({.shape = {.center = center, .radii = Vec3::Constant(radius_m)}});
   auto made = proxy::BodyProxy::make(data);
   REQUIRE(made.ok());
   return collision::Collider(*made);
@@ -28,18 +29,34 @@ TEST_CASE("the error of a ball that is too large is the difference of the radii,
   const geometry::TriMesh skin = bodice_test::icosphere(0.2, 5, Vec3(0.1, 1.0, 0.0));
   const geometry::MeshDistance distance({}, skin);
   const auto exact =
-      tryon::measure_proxy_error({}, ball_collider({0.1, 1.0, 0.0}, 0.2), skin, distance, 0.03);
+      tryon::measure_proxy_error({}, ball_collider({{0.1, 1.0, 0.0}}, 0.2), skin, distance, 0.03);
   CHECK(exact.error_m.max < 1e-3);  // of the sphere's facets
   CHECK(exact.missed_share == 0.0);
   const auto large =
-      tryon::measure_proxy_error({}, ball_collider({0.1, 1.0, 0.0}, 0.21), skin, distance, 0.03);
+      tryon::measure_proxy_error({}, ball_collider({{0.1, 1.0, 0.0}}, 0.21), skin, distance, 0.03);
   CHECK(large.error_m.mean == doctest::Approx(0.01).epsilon(0.05));
   CHECK(large.missed_share == 0.0);
   CHECK(large.false_share == doctest::Approx(0.15).epsilon(0.15));  // 1 to 10 mm of the 60 that samples cover
   const auto small =
-      tryon::measure_proxy_error({}, ball_collider({0.1, 1.0, 0.0}, 0.19), skin, distance, 0.03);
+      tryon::measure_proxy_error({}, ball_collider({{0.1, 1.0, 0.0}}, 0.19), skin, distance, 0.03);
   CHECK(small.false_share == 0.0);
   CHECK(small.missed_share == doctest::Approx(0.15).epsilon(0.15));
+}
+
+TEST_CASE("skin that lies under another layer of the body counts for nothing") {
+  const Vec3 left(0.0, 1.0, 0.0), right(0.25, 1.0, 0.0);
+  geometry::TriMesh skin = bodice_test::icosphere(0.2, 5, left);
+  const auto first = static_cast<geometry::Index>(skin.positions.size());
+  const geometry::TriMesh other = bodice_test::icosphere(0.2, 5, right);
+  skin.positions.insert(skin.positions.end(), other.positions.begin(), other.positions.end());
+  for (const auto& t : other.triangles) skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const geometry::MeshDistance distance({}, skin);
+  const auto exact = tryon::measure_proxy_error({}, ball_collider({left, right}, 0.2), skin, distance, 0.03);
+  // The other ball covers a cap of 3/16 of each ball's area.
+  CHECK(exact.samples > 3000);
+  CHECK(exact.error_m.max < 1e-3);  // of the spheres' facets; the buried caps would give 30 mm
+  CHECK(exact.missed_share == 0.0);
+  CHECK(exact.false_share == 0.0);
 }
 
 TEST_CASE("the area of cloth inside the skin is that of the disc where a sheet cuts a ball") {

@@ -17,6 +17,7 @@ constexpr std::size_t kSamples = 4000;
 constexpr std::size_t kJudgeGrain = 64;
 constexpr double kWrong_m = 1e-3;                    // what counts as missed or false
 constexpr double kOverlap = 1.5;                     // a winding number above it: two layers of the body
+constexpr double kOver_m = 3e-4;                     // where the layer above the skin is looked for
 constexpr double kSpacing_m = 4e-3;                  // of samples on the cloth
 constexpr double kGoldenRatio = 0.6180339887498949;  // spreads consecutive offsets evenly
 
@@ -34,6 +35,14 @@ double offset_of(std::size_t sample) {
 double collider_distance_m(const collision::Collider& collider, const Vec3& world) {
   const Eigen::Vector3f p = (world - collider.origin()).cast<float>();
   return double{collider.query({p.x(), p.y(), p.z()}).signed_distance};
+}
+
+/// Whether a point lies in skin that overlaps itself, or its nearest skin lies under another layer of the
+/// body. Skin that is buried bounds nothing, so that the distance to it is none of the body.
+bool is_overlapped(const geometry::MeshDistance& distance, const Vec3& point,
+                   const geometry::SurfacePoint& nearest) {
+  return distance.winding_number(point) > kOverlap ||
+         distance.inside(nearest.point + kOver_m * nearest.normal);
 }
 
 ProxyError summarize(const std::vector<Sample>& samples) {
@@ -100,9 +109,10 @@ ProxyError measure_proxy_error(const engine::Context& context, const collision::
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t v = i * step;
       const Vec3 point = skin.positions[v] + within_m * offset_of(i) * normals[v];
-      const double truth_m = distance.signed_distance(point);
-      if (!(std::abs(truth_m) <= within_m) || distance.winding_number(point) > kOverlap) continue;
-      samples[i] = {truth_m, collider_distance_m(collider, point)};
+      const geometry::SurfacePoint nearest = distance.closest_point(point);
+      if (!(std::abs(nearest.signed_distance) <= within_m) || is_overlapped(distance, point, nearest))
+        continue;
+      samples[i] = {nearest.signed_distance, collider_distance_m(collider, point)};
     }
   });
   return summarize(samples);
