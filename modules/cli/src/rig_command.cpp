@@ -70,11 +70,13 @@ engine::Result<void> add_clips(const RigCommand& command, RiggedSkin& skin) {
   if (wanted("none")) return {};
   const double arms_out_deg =
       command.arms_out_deg ? *command.arms_out_deg : rigging::clear_arms_deg(skin.input.skin, skin.part, rig);
+  const rigging::MotionOptions options{.travel = command.travel,
+                                       .arms_out_deg = arms_out_deg,
+                                       .floor_m = geometry::bounding_box(skin.input.skin.positions).low.y()};
   for (int i = 0; i < rigging::kMotionCount; ++i) {
     const auto motion = static_cast<rigging::Motion>(i);
     if (!wanted("all") && !wanted(std::string(name(motion)))) continue;
-    auto clip =
-        rigging::make_clip(rig.skeleton, motion, {.travel = command.travel, .arms_out_deg = arms_out_deg});
+    auto clip = rigging::make_clip(rig.skeleton, motion, options);
     if (!clip) return std::move(clip).error();
     rig.clips.push_back(std::move(clip).value());
   }

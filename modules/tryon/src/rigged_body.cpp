@@ -46,15 +46,20 @@ engine::Result<BodyMotion> carried_over(const rig::Skeleton& source, const rig::
   return BodyMotion{rig, std::move(carried->clip)};
 }
 
+/// Scans may sit on the floor with heels or toes up, so that the floor is where the skin ends.
+rigging::MotionOptions on_floor_of(const SegmentedSkin& skin) {
+  return {.floor_m = geometry::bounding_box(skin.input.skin.positions).low.y()};
+}
+
 /// Made motions are of the common skeleton. For a rig of another one, the common skeleton of the same body is
 /// found and its clip carried over.
 engine::Result<BodyMotion> made_motion(const engine::Context& context, const SegmentedSkin& skin,
                                        rigging::Motion motion, std::vector<engine::Warning>& warnings) {
-  if (auto clip = rigging::make_clip(skin.rig->skeleton, motion))
+  if (auto clip = rigging::make_clip(skin.rig->skeleton, motion, on_floor_of(skin)))
     return BodyMotion{*skin.rig, std::move(clip).value()};
   auto common = rigging::make_rig(context, skin.input.skin, skin.anatomy);
   if (!common) return of_body(std::move(common).error(), skin.input);
-  auto clip = rigging::make_clip(common->rig.skeleton, motion);
+  auto clip = rigging::make_clip(common->rig.skeleton, motion, on_floor_of(skin));
   if (!clip) return std::move(clip).error();
   return carried_over(common->rig.skeleton, *clip, *skin.rig, warnings);
 }
