@@ -9,7 +9,7 @@
 #include <bodice/engine/executor.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-#include <capsules.hpp>
+#include <bench_references/capsules.hpp>
 
 namespace {
 
@@ -24,7 +24,7 @@ struct Row {
 
 std::vector<PlainShape> naive(const geometry::TriMesh& mesh, std::span<const body::Part> part) {
   std::vector<PlainShape> shapes;
-  for (const tradeoff::Capsule& c : tradeoff::fit_capsules(mesh, part)) {
+  for (const bench::Capsule& c : bench::fit_capsules(mesh, part)) {
     const geometry::Vec3 start(double{c.start[0]}, double{c.start[1]}, double{c.start[2]});
     const geometry::Vec3 along(double{c.along[0]}, double{c.along[1]}, double{c.along[2]});
     shapes.push_back({start, start + along, double{c.radius}, double{c.radius}, body::Part::kHead, -1});

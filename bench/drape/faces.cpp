@@ -9,7 +9,7 @@
 #include <bodice/tryon/rigged_body.hpp>
 #include <bodice/tryon/wearing.hpp>
 
-#include "or_exit.hpp"
+#include <bench_support/or_exit.hpp>
 #include "sheet.hpp"
 
 namespace bench {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "or_exit.hpp"
+#include <bench_support/or_exit.hpp>
 
 namespace bench {
 namespace {

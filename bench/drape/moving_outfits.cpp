@@ -6,7 +6,7 @@
 #include <bodice/synth/garment.hpp>
 #include <bodice/tryon/wearing.hpp>
 
-#include "or_exit.hpp"
+#include <bench_support/or_exit.hpp>
 
 namespace bench {
 namespace {

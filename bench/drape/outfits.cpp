@@ -9,7 +9,7 @@
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice/tryon/wearing.hpp>
 
-#include "or_exit.hpp"
+#include <bench_support/or_exit.hpp>
 
 namespace bench {
 namespace {

@@ -1,13 +1,15 @@
 #include <cmath>
 #include <memory>
 
+#include <bench_references/capsules.hpp>
 #include <bench_references/peers.hpp>
 #include <bench_support/stopwatch.hpp>
-#include "capsules.hpp"
 #include "contender.hpp"
 
 namespace tradeoff {
 namespace {
+
+using bench::Capsule;
 
 Contender of_peer(const Subject& subject, std::string kind, std::string setting, bench::Peer peer) {
   const auto shared = std::make_shared<bench::Peer>(std::move(peer));
@@ -41,14 +43,14 @@ void turn(std::vector<Capsule>& capsules) {
 Contender of_capsules(const Subject& subject) {
   const bench::Stopwatch watch;
   const auto capsules = std::make_shared<std::vector<Capsule>>(
-      fit_capsules(subject.skin.input.skin, subject.skin.anatomy.part));
+      bench::fit_capsules(subject.skin.input.skin, subject.skin.anatomy.part));
   const double build_ms = watch.cpu_ms();
   const auto count = static_cast<double>(capsules->size());
   bench::Peer peer;
   peer.build_ms = build_ms;
   peer.bytes = count * sizeof(Capsule);
   peer.query = [capsules](const bench::Cloud& cloud, std::span<float> distance_m) {
-    capsule_distances(*capsules, cloud, distance_m);
+    bench::capsule_distances(*capsules, cloud, distance_m);
   };
   Contender c = of_peer(subject, "capsules", "one a part", std::move(peer));
   c.size = count;

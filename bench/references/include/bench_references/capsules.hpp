@@ -1,4 +1,4 @@
-// Capsules around a body, one a part, as games have them.
+// Capsules around a body, as games have them.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 #include <bench_references/subject.hpp>
 
-namespace tradeoff {
+namespace bench {
 
 /// All points within a radius of a segment.
 struct Capsule {
@@ -18,13 +18,16 @@ struct Capsule {
   float radius;
 };
 
-/// A capsule for each part that has vertices: its axis is that of greatest spread through the mean, its
-/// radius is the median distance from the axis, and its segment ends a radius before the ends of the part.
+/// The capsule of some points, at least one: its axis is that of greatest spread through the mean, its radius
+/// is the median distance from the axis, and its segment ends a radius before the ends of the points.
+Capsule capsule_around(const std::vector<bodice::geometry::Vec3>& points);
+
+/// A capsule for each part that has vertices.
 std::vector<Capsule> fit_capsules(const bodice::geometry::TriMesh& mesh,
                                   std::span<const bodice::body::Part> part);
 
 /// Writes the signed distance of every particle to the union of capsules.
-void capsule_distances(std::span<const Capsule> capsules, const bench::Cloud& particles,
+void capsule_distances(std::span<const Capsule> capsules, const Cloud& particles,
                        std::span<float> distance_m);
 
-}  // namespace tradeoff
+}  // namespace bench

@@ -1,4 +1,4 @@
-#include "capsules.hpp"
+#include <bench_references/capsules.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,12 @@
 #define BENCH_VECTOR_CLONES
 #endif
 
-namespace tradeoff {
-namespace {
+namespace bench {
 
 using bodice::geometry::Mat3;
 using bodice::geometry::Vec3;
 
-/// The capsule of one part's points.
-Capsule around(const std::vector<Vec3>& points) {
+Capsule capsule_around(const std::vector<Vec3>& points) {
   const auto count = static_cast<double>(points.size());
   Vec3 mean = Vec3::Zero();
   for (const Vec3& p : points) mean += p / count;
@@ -47,8 +45,6 @@ Capsule around(const std::vector<Vec3>& points) {
   return capsule;
 }
 
-}  // namespace
-
 std::vector<Capsule> fit_capsules(const bodice::geometry::TriMesh& mesh,
                                   std::span<const bodice::body::Part> part) {
   std::vector<Capsule> capsules;
@@ -56,13 +52,13 @@ std::vector<Capsule> fit_capsules(const bodice::geometry::TriMesh& mesh,
     std::vector<Vec3> points;
     for (std::size_t v = 0; v < part.size(); ++v)
       if (static_cast<int>(part[v]) == p) points.push_back(mesh.positions[v]);
-    if (!points.empty()) capsules.push_back(around(points));
+    if (!points.empty()) capsules.push_back(capsule_around(points));
   }
   return capsules;
 }
 
 BENCH_VECTOR_CLONES
-void capsule_distances(std::span<const Capsule> capsules, const bench::Cloud& particles,
+void capsule_distances(std::span<const Capsule> capsules, const Cloud& particles,
                        std::span<float> distance_m) {
   std::fill(distance_m.begin(), distance_m.end(), std::numeric_limits<float>::infinity());
   const std::size_t count = particles.size();
@@ -78,4 +74,4 @@ void capsule_distances(std::span<const Capsule> capsules, const bench::Cloud& pa
     }
 }
 
-}  // namespace tradeoff
+}  // namespace bench
