@@ -15,6 +15,22 @@ using rig::LocalTransform;
 using rig::Mat3;
 using rig::Vec3;
 
+/// A linear map as `stretch * rotation`, where the columns of `stretch` are orthogonal.
+struct ShearSplit {
+  Mat3 stretch;
+  Mat3 rotation;
+};
+
+ShearSplit split_shear(const Mat3& linear) {
+  const Eigen::JacobiSVD<Mat3> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (svd.info() != Eigen::Success) return {linear, Mat3::Identity()};  // its squares overflow
+  // A mirror stands on both sides, so that it cancels.
+  const double mirror = svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
+  ShearSplit split{mirror * svd.matrixU(), mirror * svd.matrixV().transpose()};
+  for (int k = 0; k < 3; ++k) split.stretch.col(k) *= svd.singularValues()[k];
+  return split;
+}
+
 constexpr std::uint16_t kNoJoint = 65535;
 
 /// A map of file space as one of meters, y up: roots and bind matrices are turned, all lengths are scaled.
@@ -125,14 +141,9 @@ class SkeletonBuilder {
       keyed_joint_of_[n] = joint_of_[n] = add_joint(node.name, parent, local);
       return;
     }
-    const Eigen::JacobiSVD<Mat3> svd(rig::linear_of(local), Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const Mat3 scaled = svd.matrixU() * svd.singularValues().asDiagonal();
-    const double mirror =
-        svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;  // on both sides, so that it cancels
-    keyed_joint_of_[n] =
-        add_joint(node.name + " (shear)", parent, rig::affine(mirror * scaled, local.col(3)));
-    joint_of_[n] = add_joint(node.name, keyed_joint_of_[n],
-                             rig::affine(mirror * svd.matrixV().transpose(), Vec3::Zero()));
+    const ShearSplit split = split_shear(rig::linear_of(local));
+    keyed_joint_of_[n] = add_joint(node.name + " (shear)", parent, rig::affine(split.stretch, local.col(3)));
+    joint_of_[n] = add_joint(node.name, keyed_joint_of_[n], rig::affine(split.rotation, Vec3::Zero()));
   }
 
   /// The first used bind pose of a node is its joint's; others get joints of their own that stand on it.
