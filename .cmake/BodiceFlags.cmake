@@ -51,9 +51,14 @@ function(bodice_precompile target)
 endfunction()
 
 # Most of a small file's compile time goes into headers and templates that its neighbors need as well. As one file, a
-# folder of sources takes less than half the processor time (geodesic: 14 s alone, 6 s together). It is a choice, since
-# a changed file then compiles with all its neighbors, and a file no longer shows that it includes what it uses.
-option(BODICE_UNITY "Compile each folder of sources as one file" OFF)
+# folder of sources takes less than half the processor time (geodesic: 14 s alone, 6 s together). A changed file then
+# compiles with all its neighbors, and no longer shows that it includes what it uses: with a compiler launcher, which
+# makes small files cheap, each file stands alone, and a weekly command builds so (CONTRIBUTING.md).
+set(unity OFF)
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(unity ON)
+endif()
+option(BODICE_UNITY "Compile each folder of sources as one file (our own build)" ${unity})
 
 # bodice_unite(<target> <root> <sources...>): compiles the sources of each folder below root as one file. Kernels stay
 # alone, since they are compiled once for each instruction set, and so do landmarks, whose files all define find() and

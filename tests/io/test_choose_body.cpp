@@ -154,6 +154,15 @@ TEST_CASE("a body of loose patches is assembled and closed, with debris around i
   for (const Vec3& p : result->skin.positions) CHECK(std::abs(truth.signed_distance(p)) < 0.02);
 }
 
+TEST_CASE("an open surface of a few triangles is not rebuilt") {
+  TriMesh open = icosphere(0.2, 0, {0.0, 1.0, 0.0});  // 20 triangles
+  open.triangles.resize(8);
+  const auto result = import_groups({{"", open}});
+  REQUIRE(result.ok());
+  CHECK(result->skin.triangles.size() == 8);
+  CHECK(!find(*result, "skin-rebuilt"));
+}
+
 TEST_CASE("a mesh is taken by its name, and a wrong name is an error that lists the names") {
   const std::vector<NamedMesh> groups = {{"body", figure()}, {"Skirt", skirt()}};
   const auto skirt_only = import_groups(groups, "skirt");

@@ -23,6 +23,8 @@ using geometry::Vec3;
 /// Length of the rims over the square root of the area. It is up to .3 for skins with open eyes and
 /// mouth, 1.5 with some lost vertices, and 4 and more for scans.
 constexpr double kNearlyClosed = 2.0;
+/// A surface of fewer triangles shows no person, and a rebuilt one would have a hundred thousand.
+constexpr std::size_t kFewestTriangles = 100;
 /// Cells of a rebuilt skin along the body's longest side: 8 mm for a person that stands.
 constexpr double kCells = 215.0;
 /// Nodes of the grid: bodies have 2 million in a T pose; what would need more is no body, and gets larger
@@ -112,6 +114,7 @@ engine::Warning rebuilt_warning(std::size_t pieces, std::size_t open_edges, doub
 
 std::optional<RepairedMesh> close_skin(const engine::Context& context, const TriMesh& input,
                                        const RepairedMesh& repaired) {
+  if (repaired.mesh.triangles.size() < kFewestTriangles) return std::nullopt;
   if (openness(repaired.mesh) < kNearlyClosed) return std::nullopt;
   const TriMesh surface = outward(input, repaired);
   const Vec3 size = geometry::bounding_box(surface.positions).size();
