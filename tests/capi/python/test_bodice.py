@@ -104,6 +104,10 @@ class Distances(unittest.TestCase):
         self.assertEqual(len(again), 3)
         self.assertTrue(np.allclose(again.ellipsoids()["center"], CENTERS))
 
+    def test_a_proxy_from_a_file_has_no_mesh_to_be_exact_by(self):
+        with self.assertRaisesRegex(bodice.Error, "has no mesh"):
+            self.body.signed_distance(self.points, exact=True)
+
     def test_the_exact_distance_is_that_of_the_mesh(self):
         corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
         faces = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6],

@@ -1,11 +1,13 @@
-"""Body proxies in Python: signed distances, contacts and poses, over the C interface of bodice.
+"""Body proxies in Python: fits, signed distances, contacts, poses and drapes, over the C interface of bodice.
 
     import bodice
-    body = bodice.load("body.bodice")                # made by `bodice fit body.obj -o body.bodice`
+    body = bodice.fit(vertices, faces)               # (n, 3) meters, (m, 3); or bodice.load("body.bodice")
     distance = body.signed_distance(points)          # (n, 3) -> (n,), meters, negative inside
+    error = distance - body.signed_distance(points, exact=True)   # against the mesh itself
     contacts = body.contacts(points)                 # distance, point, normal (the gradient), ellipsoid, part
-    error = distance - bodice.Exact(vertices, faces).signed_distance(points)  # against the mesh itself
+    body.landmarks["elbow_l"], body.measurements["waist"], body.parts
     body.pose(matrices)                              # (joints, 3, 4) or (joints, 4, 4), of a bound proxy
+    positions, report = body.drape(garment_vertices, garment_faces)
 
 Arrays of numpy are read and written where they are, float32 and float64, with any strides; the interpreter's lock is
 released meanwhile. Each failure raises bodice.Error with one sentence and its remedy.
@@ -13,35 +15,20 @@ released meanwhile. Each failure raises bodice.Error with one sentence and its r
 
 from __future__ import annotations
 
-import ctypes
-import dataclasses
 import os
-import threading
-from typing import Optional, Sequence, Tuple, Union
-
-import numpy as np
+from typing import Union
 
 from . import _library as _c
+from ._body import Body, Contacts, Error, Exact
+from ._skin import FittedBody, Progress, Skin, built_in, fit, load_skin
 
-__all__ = ["Body", "Contacts", "Error", "Exact", "build", "load", "loads"]
-
-Error = _c.Error
+__all__ = ["Body", "Contacts", "Error", "Exact", "FittedBody", "Progress", "Skin", "build", "built_in", "fit", "load",
+           "load_skin", "loads"]
 
 
 def build() -> str:
     """One line about the library: version, ABI, compiler, instruction set in use."""
     return _c.library.bodice_build().decode()
-
-
-@dataclasses.dataclass
-class Contacts:
-    """The closest point of the surface for each of n points. Rows without a contact have ellipsoid -1."""
-
-    distance: np.ndarray  #: (n,), meters, negative inside, +inf without a contact
-    point: np.ndarray  #: (n, 3)
-    normal: np.ndarray  #: (n, 3), outward, unit length: the gradient of the distance
-    ellipsoid: np.ndarray  #: (n,), int64
-    part: np.ndarray  #: (n,), uint8, index into Body.part_names; 255 without a contact
 
 
 def load(path: Union[str, "os.PathLike[str]"], workers: int = 1) -> "Body":
@@ -53,178 +40,3 @@ def load(path: Union[str, "os.PathLike[str]"], workers: int = 1) -> "Body":
 def loads(data: bytes, workers: int = 1) -> "Body":
     """Reads a proxy from bytes."""
     return Body(data, workers)
-
-
-class Body:
-    """A body proxy, at rest or in a pose. Queries of one body may overlap on several threads; poses must not."""
-
-    part_names: Tuple[str, ...] = tuple(_c.library.bodice_part_name(i).decode() for i in range(_c.PARTS))
-
-    def __init__(self, data: bytes, workers: int = 1):
-        options = _c.defaults(_c.ContextOptions)
-        options.workers = workers
-        self._context = _c.Handle("bodice_context", _c.library.bodice_context_create, ctypes.byref(options))
-        self._proxy = _c.Handle("bodice_proxy", _c.library.bodice_proxy_from_bytes, self._context, data, len(data))
-        self._collider = _c.Handle("bodice_collider", _c.library.bodice_collider_create, self._context, self._proxy)
-        self._spare: list = []  # workspaces that no call uses
-        self._lock = threading.Lock()
-        info = _c.defaults(_c.ProxyInfo)
-        _c.check(_c.library.bodice_proxy_get_info(self._proxy, ctypes.byref(info)))
-        #: Height of the body as if it stood upright, meters; hash of its geometry; number of joints it is bound to.
-        self.stature: float = info.stature_m
-        self.hash: int = info.hash
-        self.joints: Tuple[str, ...] = tuple(
-            _c.library.bodice_proxy_joint_name(self._proxy, j).decode() for j in range(info.joints))
-        self._ellipsoids = info.ellipsoids
-
-    def __len__(self) -> int:
-        """The number of ellipsoids."""
-        return self._ellipsoids
-
-    def ellipsoids(self) -> np.ndarray:
-        """The ellipsoids at rest: center (3), axes (3, 3; an axis a row), radii (3), part and bone of each."""
-        out = np.zeros(len(self), _c.ELLIPSOID)
-        _c.check(_c.library.bodice_proxy_get_ellipsoids(self._proxy, out.ctypes.data, len(out)))
-        return out
-
-    def bind_matrices(self) -> np.ndarray:
-        """(joints, 3, 4): joint space to body space, in the pose that the proxy was bound in."""
-        out = np.zeros((len(self.joints), 3, 4))
-        for joint in range(len(out)):
-            _c.check(_c.library.bodice_proxy_get_bind(
-                self._proxy, joint, out[joint].ctypes.data_as(ctypes.POINTER(ctypes.c_double))))
-        return out
-
-    def to_bytes(self, json: bool = False) -> bytes:
-        """The proxy as a file has it."""
-        size = ctypes.c_size_t()
-        _c.check(_c.library.bodice_proxy_to_bytes(self._proxy, int(json), None, 0, ctypes.byref(size)))
-        data = ctypes.create_string_buffer(size.value)
-        _c.check(_c.library.bodice_proxy_to_bytes(self._proxy, int(json), data, size.value, ctypes.byref(size)))
-        return data.raw
-
-    def signed_distance(self, points: np.ndarray, within: float = float("inf"), fast: bool = False) -> np.ndarray:
-        """(n, 3) -> (n,): meters to the surface, negative inside, +inf beyond `within` and for points that are not
-        finite. `fast`: to first order, in half of the time."""
-        points = _c.as_points(points)
-        out = np.empty(len(points), points.dtype)
-        self._query(points, within, fast, distance=_c.scalars(out))
-        return out
-
-    def contacts(self, points: np.ndarray, within: float = float("inf"), fast: bool = False) -> Contacts:
-        """The contact of each of (n, 3) points."""
-        points = _c.as_points(points)
-        n, kind = len(points), points.dtype
-        found = Contacts(np.empty(n, kind), np.empty((n, 3), kind), np.empty((n, 3), kind), np.empty(n, np.uint32),
-                         np.empty(n, np.uint8))
-        self._query(points, within, fast, distance=_c.scalars(found.distance), point=_c.vectors(found.point),
-                    normal=_c.vectors(found.normal), ellipsoid=found.ellipsoid.ctypes.data,
-                    part=found.part.ctypes.data)
-        found.ellipsoid = np.where(found.ellipsoid == _c.NO_ELLIPSOID, -1, found.ellipsoid.astype(np.int64))
-        return found
-
-    def resolve(self, positions: np.ndarray, velocities: Optional[np.ndarray] = None,
-                safe: Optional[np.ndarray] = None, inverse_mass: Optional[np.ndarray] = None, *,
-                thickness: float = 0.0, friction: float = 0.3) -> int:
-        """Moves the particles (n, 3) out that are inside or nearer than the thickness, in place, and corrects their
-        velocities. Those of inverse mass 0 stay. Returns the number of contacts."""
-        particles = _c.particles(_c.as_points(positions, in_place=True))
-        arrays = {"velocity": velocities, "safe": safe}
-        for name, array in arrays.items():
-            if array is not None:
-                setattr(particles, name, _c.vectors(_c.as_points(array, len(positions), in_place=True)))
-        if inverse_mass is not None:
-            inverse_mass = _c.as_numbers(inverse_mass, len(positions))
-            particles.inverse_mass = _c.scalars(inverse_mass)
-        options, report = _c.defaults(_c.ResolveOptions), _c.defaults(_c.ContactReport)
-        options.thickness_m, options.friction = thickness, friction
-        with self._workspace() as workspace:
-            _c.check(_c.library.bodice_resolve(self._collider, ctypes.byref(particles), ctypes.byref(options),
-                                               workspace, ctypes.byref(report)))
-        return report.contacts
-
-    def pose(self, matrices: Union[np.ndarray, Sequence], dt: float = 0.0) -> None:
-        """Poses a bound proxy: (joints, 3, 4) or (joints, 4, 4), joint space to world, in the order of `joints`. Of a
-        proxy that is not bound: a matrix an ellipsoid, from rest to the world. `dt`: seconds since the last pose."""
-        matrices = np.asarray(matrices)
-        if matrices.dtype not in (np.float32, np.float64):
-            matrices = matrices.astype(np.float64)
-        if matrices.ndim != 3 or matrices.shape[1:] not in ((3, 4), (4, 4)):
-            raise Error(f"The matrices have the shape {matrices.shape}. Pass (joints, 3, 4) or (joints, 4, 4).")
-        matrices = np.ascontiguousarray(matrices)
-        pose = _c.defaults(_c.Pose)
-        pose.matrices, pose.count = matrices.ctypes.data, len(matrices)
-        pose.scalar, pose.layout, pose.dt_s = _c.scalar_of(matrices), int(matrices.shape[1] == 4), dt
-        move = _c.library.bodice_collider_pose if self.joints else _c.library.bodice_collider_move
-        _c.check(move(self._collider, ctypes.byref(pose)))
-
-    def _query(self, points: np.ndarray, within: float, fast: bool, **arrays) -> None:
-        particles, contacts = _c.particles(points), _c.defaults(_c.ContactArrays)
-        for name, array in arrays.items():
-            setattr(contacts, name, array)
-        options = _c.defaults(_c.QueryOptions)
-        options.within_m, options.first_order = within, int(fast)
-        with self._workspace() as workspace:
-            _c.check(_c.library.bodice_query(self._collider, ctypes.byref(particles), ctypes.byref(options), workspace,
-                                             ctypes.byref(contacts)))
-
-    def _workspace(self) -> "_Borrowed":
-        return _Borrowed(self)
-
-
-class Exact:
-    """The exact signed distance to a triangle mesh: slow, in double precision, the reference for a proxy.
-
-    `vertices` (n, 3), meters; `faces` (m, 3), wound counter-clockwise seen from outside. The mesh should be closed.
-    Calls may overlap on several threads."""
-
-    def __init__(self, vertices: np.ndarray, faces: np.ndarray, workers: int = 0):
-        vertices, faces = _c.as_points(vertices), np.asarray(faces)
-        if faces.ndim != 2 or faces.shape[1] != 3 or faces.dtype.kind not in "iu" or (faces.size and faces.min() < 0):
-            raise Error(f"The faces are {faces.dtype} of shape {faces.shape}. Pass (m, 3) integers, zero or more.")
-        faces = np.ascontiguousarray(faces if faces.itemsize in (2, 4, 8) else faces.astype(np.uint32))
-        options, mesh = _c.defaults(_c.ContextOptions), _c.defaults(_c.Mesh)
-        options.workers = workers
-        self._context = _c.Handle("bodice_context", _c.library.bodice_context_create, ctypes.byref(options))
-        if len(vertices):
-            mesh.position = _c.vectors(vertices)
-        mesh.vertices, mesh.triangles = len(vertices), len(faces)
-        mesh.index, mesh.index_bytes = faces.ctypes.data, faces.itemsize
-        self._exact = _c.Handle("bodice_exact", _c.library.bodice_exact_create, self._context, ctypes.byref(mesh))
-
-    def signed_distance(self, points: np.ndarray) -> np.ndarray:
-        """(n, 3) -> (n,): meters to the mesh, negative inside."""
-        return self.contacts(points).distance
-
-    def contacts(self, points: np.ndarray) -> Contacts:
-        """The closest point of the mesh to each of (n, 3) points; `ellipsoid` is the triangle, `part` is 255."""
-        points = _c.as_points(points)
-        n, kind = len(points), points.dtype
-        found = Contacts(np.empty(n, kind), np.empty((n, 3), kind), np.empty((n, 3), kind), np.empty(n, np.uint32),
-                         np.full(n, 255, np.uint8))
-        arrays = _c.defaults(_c.ContactArrays)
-        arrays.distance, arrays.point = _c.scalars(found.distance), _c.vectors(found.point)
-        arrays.normal, arrays.ellipsoid = _c.vectors(found.normal), found.ellipsoid.ctypes.data
-        particles = _c.particles(points)
-        _c.check(_c.library.bodice_exact_query(self._exact, ctypes.byref(particles), ctypes.byref(arrays)))
-        found.ellipsoid = np.where(found.ellipsoid == _c.NO_ELLIPSOID, -1, found.ellipsoid.astype(np.int64))
-        return found
-
-
-class _Borrowed:
-    """A workspace for one call: calls on several threads must not share one."""
-
-    def __init__(self, body: Body):
-        self._body = body
-
-    def __enter__(self):
-        with self._body._lock:
-            if self._body._spare:
-                self._workspace = self._body._spare.pop()
-                return self._workspace
-        self._workspace = _c.Handle("bodice_workspace", _c.library.bodice_workspace_create, self._body._context)
-        return self._workspace
-
-    def __exit__(self, *failure) -> None:
-        with self._body._lock:
-            self._body._spare.append(self._workspace)

@@ -1,0 +1,204 @@
+"""Skins: bodies from meshes and files, what is known of them, and the proxies fitted to them. Needs libbodice."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+from typing import Callable, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+
+from . import _library as _c
+from ._body import Body
+
+#: Called with the name of the stage now and then, on any thread; true cancels.
+Progress = Callable[[str], object]
+
+TIERS = ("paper", "solid", "tight", "relief")
+
+
+class Hook:
+    """A progress hook for one call. Whatever it raises cancels the call and is raised there, Ctrl-C included."""
+
+    def __init__(self, options, progress: Optional[Progress]):
+        self._progress = progress
+        self._raised: Optional[BaseException] = None
+        self._function = _c.PROGRESS(self._call)
+        options.progress = ctypes.cast(self._function, ctypes.c_void_p)
+
+    def _call(self, host, stage: bytes) -> int:
+        try:
+            return int(bool(self._progress and self._progress(stage.decode())))
+        except BaseException as raised:  # it must not cross the library
+            self._raised = raised
+            return 1
+
+    def check(self, status: int) -> None:
+        if self._raised is not None:
+            raise self._raised
+        _c.check(status)
+
+
+class Skin:
+    """The repaired mesh of a body with its landmarks and parts. Any pose and up axis; coordinates are meters.
+
+    `vertices` (n, 3), `faces` (m, 3). `find_rig`: the body gets a skeleton, and its proxies follow it."""
+
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray, *, find_rig: bool = False, workers: int = 0,
+                 progress: Optional[Progress] = None):
+        points = _c.as_points(vertices)
+        mesh, self._kept = _c.mesh(points, faces)
+        self._make(_c.whole("bodice_skin_from_mesh"), (ctypes.byref(mesh),), find_rig, workers, progress)
+
+    @classmethod
+    def _by(cls, name: str, arguments: tuple, find_rig: bool, workers: int, progress: Optional[Progress]) -> "Skin":
+        skin = cls.__new__(cls)
+        skin._make(_c.whole(name), arguments, find_rig, workers, progress)
+        return skin
+
+    def _make(self, create, arguments, find_rig, workers, progress) -> None:
+        self._context = _c.make_context(workers)
+        options = _c.defaults(_c.SkinOptions)
+        options.find_rig = int(find_rig)
+        hook = Hook(options, progress)
+        self._skin = _c.Handle("bodice_skin", create, self._context, *arguments, ctypes.byref(options),
+                               check=hook.check)
+        info = _c.defaults(_c.SkinInfo)
+        _c.check(_c.library.bodice_skin_get_info(self._skin, ctypes.byref(info)))
+        #: Height of the body as if it stood upright, meters; unit vector from feet to head.
+        self.stature: float = info.stature_m
+        self.up: np.ndarray = np.array(info.up)
+        #: What was repaired or is doubtful, a sentence each.
+        self.warnings: List[str] = [_c.library.bodice_skin_warning(self._skin, i).decode()
+                                    for i in range(info.warnings)]
+        self._sizes = info.vertices, info.triangles, info.input_vertices
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """(v, 3), meters: the repaired mesh."""
+        out = np.empty((self._sizes[0], 3))
+        _c.check(_c.library.bodice_skin_get_mesh(self._skin, out.ctypes.data, len(out), None, 0))
+        return out
+
+    @property
+    def faces(self) -> np.ndarray:
+        """(f, 3), wound counter-clockwise seen from outside."""
+        out = np.empty((self._sizes[1], 3), np.uint32)
+        _c.check(_c.library.bodice_skin_get_mesh(self._skin, None, 0, out.ctypes.data, len(out)))
+        return out
+
+    @property
+    def vertex_of_input(self) -> np.ndarray:
+        """(n,), int64: the vertex of this skin for each vertex that was given; -1 where repair has dropped it."""
+        out = np.empty(self._sizes[2], np.uint32)
+        _c.check(_c.library.bodice_skin_get_vertex_of_input(self._skin, out.ctypes.data, len(out)))
+        return np.where(out == _c.NO_ELLIPSOID, -1, out.astype(np.int64))
+
+    @property
+    def parts(self) -> np.ndarray:
+        """(n,), uint8: index into Body.part_names of each vertex that was given; 255 where repair has dropped it."""
+        part = np.empty(self._sizes[0], np.uint8)
+        _c.check(_c.library.bodice_skin_get_parts(self._skin, part.ctypes.data, len(part)))
+        vertex = self.vertex_of_input
+        return np.where(vertex < 0, 255, part[vertex]).astype(np.uint8)
+
+    def _landmarks(self) -> np.ndarray:
+        out = np.zeros(_c.LANDMARKS, _c.LANDMARK)
+        _c.check(_c.library.bodice_skin_get_landmarks(self._skin, out.ctypes.data, len(out)))
+        return out
+
+    @property
+    def landmarks(self) -> Dict[str, np.ndarray]:
+        """Position (3,) of each landmark that was found, by name, such as "elbow_l"."""
+        return {_c.library.bodice_landmark_name(i).decode(): mark["position"].copy()
+                for i, mark in enumerate(self._landmarks()) if mark["confidence"] > 0.0}
+
+    @property
+    def confidence(self) -> Dict[str, float]:
+        """Confidence of each landmark, from 0 (not found) to 1."""
+        return {_c.library.bodice_landmark_name(i).decode(): float(mark["confidence"])
+                for i, mark in enumerate(self._landmarks())}
+
+    @property
+    def measurements(self) -> Dict[str, float]:
+        """Measurements for garments by name, meters and radians, NaN where one could not be taken."""
+        out = np.empty(_c.MEASUREMENTS)
+        _c.check(_c.library.bodice_skin_get_measurements(self._skin, out.ctypes.data, len(out)))
+        return {_c.library.bodice_measurement_name(i).decode(): float(value) for i, value in enumerate(out)}
+
+    def fit(self, tier: Optional[str] = None, *, target_error: Optional[float] = None,
+            max_ellipsoids: Optional[int] = None, budget_us: Optional[float] = None,
+            progress: Optional[Progress] = None) -> "FittedBody":
+        """Fits a proxy. `tier`: "paper", "solid", "tight" or "relief" (default); `target_error`: wanted mean gap to the
+        skin, meters; `budget_us`: wanted time of a query of 10,000 points."""
+        if tier is not None and tier not in TIERS:
+            raise _c.Error(f"There is no tier {tier!r}. Give one of {', '.join(TIERS)}.")
+        options, report = _c.defaults(_c.FitOptions), _c.defaults(_c.FitReport)
+        options.tier = -1 if tier is None else TIERS.index(tier)
+        options.target_error_m, options.budget_us = target_error or 0.0, budget_us or 0.0
+        options.max_ellipsoids = max_ellipsoids or 0
+        hook = Hook(options, progress)
+        proxy = ctypes.c_void_p()
+        hook.check(_c.library.bodice_fit(self._context, self._skin, ctypes.byref(options), ctypes.byref(proxy),
+                                         ctypes.byref(report)))
+        return FittedBody(self._context, _c.Handle.owning("bodice_proxy", proxy), self, _c.as_dict(report))
+
+
+class FittedBody(Body):
+    """A proxy together with the skin that it was fitted to."""
+
+    def __init__(self, context, proxy, skin: Skin, report: Dict[str, float]):
+        self._adopt(context, proxy)
+        self.skin = skin
+        #: Gaps between proxy and skin (meters), shares, seconds: see bodice_fit_report.
+        self.report = report
+
+    landmarks = property(lambda self: self.skin.landmarks, doc="See Skin.landmarks.")
+    measurements = property(lambda self: self.skin.measurements, doc="See Skin.measurements.")
+    parts = property(lambda self: self.skin.parts, doc="See Skin.parts.")
+
+    def _mesh(self) -> Tuple[np.ndarray, np.ndarray]:
+        return self.skin.vertices, self.skin.faces
+
+    def drape(self, vertices: np.ndarray, faces: np.ndarray, held: Optional[np.ndarray] = None, *,
+              frames: int = 120, dt: float = 1.0 / 60.0, fabric: str = "cotton", motion: Optional[str] = None,
+              progress: Optional[Progress] = None) -> Tuple[np.ndarray, Dict[str, float]]:
+        """Drapes a garment (meters, y up, worn by this body at rest); `held`: vertices that stay with the body.
+        `motion` ("walk", "sit", a file, ...) needs a skin with a rig. Returns the positions (n, 3) at the end, and the
+        numbers of the drape: see bodice_drape_report."""
+        points = _c.as_points(vertices)
+        mesh, kept = _c.mesh(points, faces)
+        garment, options = _c.defaults(_c.Garment), _c.defaults(_c.DrapeOptions)
+        garment.mesh = ctypes.cast(ctypes.pointer(mesh), ctypes.c_void_p)
+        if held is not None and len(held):
+            held = np.ascontiguousarray(held, np.uint32)
+            garment.held, garment.held_count = held.ctypes.data, len(held)
+        options.frames, options.dt_s, options.fabric = frames, dt, fabric.encode()
+        options.motion = motion.encode() if motion else None
+        hook, report = Hook(options, progress), _c.defaults(_c.DrapeReport)
+        out = np.empty((len(points), 3))
+        to = _c.vectors(out)
+        hook.check(_c.library.bodice_drape(self._context, self.skin._skin, self._proxy, ctypes.byref(garment), 1,
+                                           ctypes.byref(options), ctypes.byref(to), ctypes.byref(report)))
+        return out, _c.as_dict(report)
+
+
+def load_skin(path: Union[str, "os.PathLike[str]"], *, find_rig: bool = False, workers: int = 0,
+              progress: Optional[Progress] = None) -> Skin:
+    """A skin from an OBJ, PLY, STL, glTF/GLB, FBX or Collada file in any unit; meters with y up. A rig of the file is
+    taken along."""
+    return Skin._by("bodice_skin_from_file", (os.fsencode(path),), find_rig, workers, progress)
+
+
+def built_in(female: bool = True, stature: float = 1.68, *, find_rig: bool = False, workers: int = 0) -> Skin:
+    """The skin of the built-in body, to try things out."""
+    return Skin._by("bodice_skin_built_in", (int(female), stature), find_rig, workers, None)
+
+
+def fit(vertices: np.ndarray, faces: np.ndarray, tier: Optional[str] = None, *,
+        target_error: Optional[float] = None, max_ellipsoids: Optional[int] = None, budget_us: Optional[float] = None,
+        find_rig: bool = False, workers: int = 0, progress: Optional[Progress] = None) -> FittedBody:
+    """From a mesh to a body: Skin(vertices, faces).fit(...). 1 to 3 seconds; tier "solid" takes half a second."""
+    skin = Skin(vertices, faces, find_rig=find_rig, workers=workers, progress=progress)
+    return skin.fit(tier, target_error=target_error, max_ellipsoids=max_ellipsoids, budget_us=budget_us,
+                    progress=progress)

@@ -1,0 +1,124 @@
+"""bodice.fit and what comes with it, on the built-in body. Needs libbodice; skips aloud without numpy."""
+
+import contextlib
+import io
+import math
+import pathlib
+import sys
+import tempfile
+import unittest
+
+try:
+    import numpy as np
+except ImportError:
+    print("skipped: numpy is not installed for", sys.executable)
+    sys.exit(0)
+
+import bodice
+from bodice import _library
+
+
+@unittest.skipUnless(_library._is_whole, "the library is libbodice_frame")
+class Fits(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        skin = bodice.built_in(stature=1.7)
+        cls.vertices, cls.faces = skin.vertices, skin.faces
+        cls.body = bodice.fit(cls.vertices, cls.faces, "solid")
+
+    def test_the_body_is_known(self):
+        skin = self.body.skin
+        self.assertAlmostEqual(skin.stature, 1.7, delta=0.03)
+        self.assertGreater(skin.up[1], 0.99)
+        self.assertLess(np.abs(skin.vertices[skin.vertex_of_input] - self.vertices).max(), 1e-5)
+        self.assertEqual(len(self.body.parts), len(self.vertices))
+        self.assertEqual(set(self.body.parts), set(range(15)))
+        marks = self.body.landmarks
+        self.assertAlmostEqual(marks["crown"][1], self.vertices[:, 1].max(), delta=0.01)
+        self.assertGreater(marks["elbow_l"][0], 0.1)  # the left is at +x
+        self.assertLess(marks["elbow_r"][0], -0.1)
+        head = self.vertices[self.body.parts == bodice.Body.part_names.index("head")]
+        self.assertGreater(head[:, 1].min(), 1.3)
+        self.assertEqual(len(skin.confidence), 28)
+        self.assertTrue(0.5 < self.body.measurements["waist"] < 1.2)
+        self.assertAlmostEqual(self.body.measurements["height"], 1.7, delta=0.03)
+
+    def test_the_error_of_the_proxy_is_what_the_report_states(self):
+        random = np.random.default_rng(3)
+        corners = self.vertices[self.faces[random.integers(0, len(self.faces), 3000)]]
+        points = corners.mean(axis=1) + random.normal(0, 0.003, (3000, 3))
+        error = self.body.signed_distance(points) - self.body.signed_distance(points, exact=True)
+        self.assertLess(np.abs(error).mean(), 2 * self.body.report["gap_mean_m"])
+        self.assertGreater(np.abs(error).mean(), 0.3 * self.body.report["gap_mean_m"])
+        fine = self.body.skin.fit()
+        error = fine.signed_distance(points) - fine.signed_distance(points, exact=True)
+        self.assertLess(np.abs(error).mean(), 0.001)
+        self.assertEqual(bodice.loads(fine.to_bytes()).hash, fine.hash)
+
+    def test_the_python_block_of_the_readme_runs(self):
+        text = (pathlib.Path(__file__).parents[3] / "README.md").read_text()
+        block = text.split("```python\n")[1].split("```")[0]
+        with tempfile.TemporaryDirectory() as folder:
+            obj = pathlib.Path(folder, "body.obj")
+            obj.write_text("".join(f"v {x} {y} {z}\n" for x, y, z in self.vertices) +
+                           "".join(f"f {a} {b} {c}\n" for a, b, c in self.faces + 1))
+            names, printed = {}, io.StringIO()
+            with contextlib.redirect_stdout(printed):
+                exec(block.replace("body.obj", str(obj)), names)
+        distance = names["body"].signed_distance(names["points"])
+        self.assertIn(str(distance), printed.getvalue())
+        self.assertGreater((distance > 0.0).mean(), 0.4)
+
+    def test_centimeters_and_wrong_shapes_are_one_sentence(self):
+        with self.assertRaisesRegex(bodice.Error, "0.01"):
+            bodice.fit(self.vertices * 100, self.faces)
+        with self.assertRaisesRegex(bodice.Error, "no tier"):
+            bodice.fit(self.vertices, self.faces, "best")
+        with self.assertRaisesRegex(bodice.Error, "shape"):
+            bodice.fit(self.vertices, self.faces.reshape(-1))
+        with self.assertRaisesRegex(bodice.Error, "no.such.file"):
+            bodice.load_skin("no/such.file")
+
+    def test_progress_is_heard_cancels_and_may_raise(self):
+        stages = []
+        bodice.fit(self.vertices, self.faces, "solid", progress=stages.append)
+        self.assertEqual([s for i, s in enumerate(stages) if i == 0 or s != stages[i - 1]],
+                         ["repair", "segment", "fit"])
+        with self.assertRaises(bodice.Error):
+            bodice.fit(self.vertices, self.faces, progress=lambda stage: True)
+
+        def interrupt(stage):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            bodice.fit(self.vertices, self.faces, progress=interrupt)
+
+    def test_a_found_skeleton_carries_the_proxy(self):
+        body = bodice.fit(self.vertices, self.faces, "solid", find_rig=True)
+        self.assertGreater(len(body.joints), 15)
+        points = self.vertices[::50]
+        rest = body.signed_distance(points)
+        moved = body.bind_matrices()
+        moved[:, 0, 3] += 1.0
+        body.pose(moved)
+        self.assertLess(np.abs(body.signed_distance(points + [1.0, 0, 0]) - rest).max(), 1e-4)
+
+    def test_a_sheet_falls_onto_the_shoulders_and_stays_outside(self):
+        n = 40
+        grid = np.stack(np.meshgrid(np.linspace(-0.5, 0.5, n), np.linspace(-0.5, 0.5, n), indexing="ij"), -1)
+        neck = self.body.landmarks["crown"]
+        sheet = np.empty((n * n, 3))
+        sheet[:, 0], sheet[:, 2], sheet[:, 1] = grid[..., 0].ravel(), grid[..., 1].ravel(), neck[1] + 0.02
+        a = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+        faces = np.concatenate([np.stack([a, a + 1, a + n], 1), np.stack([a + 1, a + n + 1, a + n], 1)])
+        end, report = self.body.drape(sheet, faces, frames=30)
+        self.assertEqual(end.shape, sheet.shape)
+        self.assertTrue(np.isfinite(end).all())
+        self.assertLess(end[:, 1].min(), neck[1] - 0.1)
+        self.assertLess(report["penetration_end_m"], 0.01)
+        self.assertGreater(self.body.signed_distance(end).min(), -0.002)
+        self.assertTrue(math.isfinite(report["frame_ms"]))
+
+
+if __name__ == "__main__":
+    unittest.main()
