@@ -83,7 +83,7 @@ refused query "" triangle.obj
 
 # Options that would be ignored are refused.
 for option in "--height 1.7" "--sex male" "--pose t" "--mass 60" "--vertices 5000"; do refused fit triangle.obj $option; prints "BODY"; done
-for option in "--unit m" "--up y" "--mesh body"; do refused fit $option; prints "BODY"; done
+for option in "--unit m" "--up y" "--mesh body" "--person 2" "--force"; do refused fit $option; prints "BODY"; done
 refused fit --region-margin-mm 20
 refused fit --surface-mm 5
 refused drape --gust 0.5
@@ -147,7 +147,7 @@ done
 # A rig: any tool's skinned GLB, for a body that has none.
 refused rig -o r.obj
 refused rig --clip fly
-says "walk"
+prints "walk"
 refused rig body.obj -o body.obj
 for value in nan 90; do refused rig --arms-out "$value"; done
 expect 1 "a triangle has no joints" "$bodice" rig triangle.obj -o none.glb
@@ -155,7 +155,7 @@ one_line
 absent none.glb
 expect 0 "make a body to rig" "$bodice" make --vertices 3000 --pose sit -o seated.obj -q
 expect 0 "rig it" "$bodice" rig seated.obj -o seated.glb --clip walk sit
-says "22 joints, 2 clips"
+prints "22 joints, 2 clips"
 exists seated.glb
 for word in '"skins"' '"inverseBindMatrices"' '"JOINTS_0"' '"WEIGHTS_0"' '"walk"' '"sit"' '"forearm_l"'; do
   grep -qa -- "$word" seated.glb || { echo "FAILED: no $word in the rigged GLB"; failures=$((failures + 1)); }
@@ -164,7 +164,7 @@ grep -qa '"dance"' seated.glb && { echo "FAILED: a clip that nobody wanted"; fai
 expect 0 "rig it again" "$bodice" rig seated.obj -o again.glb --clip walk sit --threads 1 -q
 cmp -s seated.glb again.glb || { echo "FAILED: one worker gives another rig"; failures=$((failures + 1)); }
 expect 0 "the built-in body brings its rig" "$bodice" rig --vertices 2000 -o builtin.glb
-says "9 clips"
+prints "9 clips"
 expect 0 "a rigged file is a body" "$bodice" fit seated.glb --tier paper -o seated.json -q
 
 expect 0 "make a body and a garment" "$bodice" make --vertices 4500 -o body.obj --garment skirt --garment-out skirt.obj
@@ -223,6 +223,25 @@ head -c 100 p.json >cut.json
 printf '0 5 0\n' >points.txt
 expect 1 "a truncated proxy" "$bodice" query cut.json points.txt
 prints "cut.json"
+
+# A second body stands beside the first; a stretched body contradicts what is known of people.
+awk '$1 == "v" { v[++n] = $0; x[n] = $2; y[n] = $3; z[n] = $4 } $1 == "f" { f[++m] = $2 " " $3 " " $4 }
+  END { for (i = 1; i <= n; ++i) print v[i]; for (i = 1; i <= n; ++i) print "v", x[i] + 1.6, y[i], z[i]
+        for (i = 1; i <= m; ++i) { split(f[i], k, " "); print "f", f[i]; print "f", k[1] + n, k[2] + n, k[3] + n } }' body.obj >two.obj
+for person in 1 2; do
+  expect 0 "person $person of two" "$bodice" fit two.obj --person $person --tier paper --labels labels.txt
+  prints "2 bodies; number $person"
+  awk '{ if ($1 > 0.8) ++right } END { print right == NR ? "right" : right == 0 ? "left" : "both" }' labels.txt
+done | sort >sides.txt
+printf 'left\nright\n' | cmp -s - sides.txt || { echo "FAILED: not one person each:"; cat sides.txt; failures=$((failures + 1)); }
+expect 1 "a third person of two" "$bodice" fit two.obj --person 3 --tier paper
+prints "from 1 to 2"
+awk '$1 == "v" { print "v", $2, 2.5 * $3, $4; next } { print }' body.obj >stretched.obj
+expect 1 "a body that is no person's" "$bodice" fit stretched.obj --unit m --tier paper -o stretched.json
+prints "force"
+absent stretched.json
+expect 0 "the same, forced" "$bodice" fit stretched.obj --unit m --tier paper -o stretched.json --force
+prints "went on although"
 
 expect 0 "drape files" "$bodice" drape body.obj skirt.obj --tier paper --frames 5 --wind -1,0,2 --gust 0.5 -o d.glb --report d.json
 exists d.glb

@@ -160,6 +160,15 @@ void add_input_options(CLI::App& command, CommonOptions& o) {
       ->check(not_empty())
       ->needs("BODY")
       ->group(group);
+  command
+      .add_option("--person", o.person, "which body of a file with several people, from 1 (the most likely)")
+      ->check(whole(1, 1000))
+      ->needs("BODY")
+      ->group(group)
+      ->capture_default_str();
+  command.add_flag("--force", o.force, "go on with a warning where the shape contradicts a human body")
+      ->needs("BODY")
+      ->group(group);
   command.add_option("--profile", o.profile, "body proportions: ansur2, gb10000-88 or a JSON file")
       ->check(profile())
       ->group(group)
@@ -230,6 +239,8 @@ engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {
   options.import.unit = kUnits.at(o.unit);
   if (o.up != "auto") options.import.up = static_cast<geometry::Axis>(o.up[0] - 'x');
   if (!o.mesh.empty()) options.import.mesh = o.mesh;
+  options.import.person = o.person;
+  options.force = o.force;
   auto profile = proportions(o);
   if (!profile) return std::move(profile).error();
   options.profile = std::move(profile).value();

@@ -20,6 +20,8 @@ inline constexpr int kExitOk = 0, kExitFailed = 1, kExitUsage = 2;
 struct CommonOptions {
   std::string body;  ///< a file; empty: the built-in body
   std::string up = "auto", unit = "auto", mesh, profile = "ansur2";
+  int person = 1;
+  bool force = false;
 
   std::string sex = "female", pose = "a";
   double height_m = 1.68, mass_kg = 62.0;

@@ -58,9 +58,9 @@ engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks
   if (!profile) return profile.error();
   auto anatomy = builder.add(
       "anatomy",
-      [profile = *profile](const engine::Context& context,
-                           const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
-        auto found = anatomy::analyze(context, body.skin, {.profile = profile});
+      [known = anatomy::Options{.profile = *profile, .force = options.force}](
+          const engine::Context& context, const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
+        auto found = anatomy::analyze(context, body.skin, known);
         if (!found) return of_body(std::move(found).error(), body);
         return found;
       },

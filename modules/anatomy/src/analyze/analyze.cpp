@@ -125,7 +125,11 @@ engine::Result<Anatomy> checked(const geometry::TriMesh& mesh, engine::Result<An
   if (clauses.empty()) return found;
   std::string why;
   for (const std::string& clause : clauses) why += (why.empty() ? "" : ", ") + clause;
-  if (!force) return no_body(why + ".");
+  if (!force) {
+    engine::Error refusal = no_body(why + ".");
+    refusal.remedy += " With --force it is fitted all the same.";
+    return refusal;
+  }
   found->warnings.push_back(
       {"not-human", "", "The analysis went on although " + why + ".", "Check the landmarks and the parts."});
   return found;

@@ -196,7 +196,7 @@ engine::Result<std::vector<std::size_t>> pieces_of_person(const engine::Context&
     chosen.warnings.push_back({"several-people", "",
                                "The file holds " + std::to_string(count) + " bodies; number " +
                                    std::to_string(person) + " was taken.",
-                               "Give a file with one person where that is the wrong one."});
+                               "Choose another with --person if that is the wrong one."});
   if (person == 1) return body;
   return join_pieces(context, joined, pieces, people[static_cast<std::size_t>(person - 2)]);
 }

@@ -48,6 +48,7 @@ struct PreparedBody {
 struct SegmentOptions {
   io::ImportOptions import;
   std::optional<body::ProportionProfile> profile;  ///< absent: "ansur2"
+  bool force = false;                              ///< as in anatomy::Options
 };
 
 /// Reads a body file and segments it. Fails as io::import_body() and anatomy::analyze() do; errors name the
