@@ -164,6 +164,14 @@ class Drape {
 
   std::span<const Vec3> positions() const { return positions_; }
 
+  /// Measures how each garment lies now.
+  void measure_garments(const std::vector<WornGarment>& garments, const PreparedBody& body) {
+    for (std::size_t g = 0; g < garments.size(); ++g)
+      result_.report.garments[g].ease = measure_ease(
+          context_, body_.skin(context_), body.skin.anatomy.part, body_.distance(context_), garments[g].mesh,
+          positions().subspan(all_.first_vertex[g], garments[g].mesh.positions.size()));
+  }
+
  private:
   static constexpr double kRampStep_s = 1.0 / 60.0;
 
@@ -236,6 +244,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   drape.hold(settings.thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
   if (auto done = drape.ramp(); !done) return std::move(done).error();
   if (auto done = drape.run(progress); !done) return std::move(done).error();
+  drape.measure_garments(garments, body);
   timer.reset();
 
   report.pierced_share =

@@ -77,10 +77,21 @@ void append_stages(Json& list, std::span<const engine::StageTime> stages) {
   for (const engine::StageTime& stage : stages) list.push_back({{"name", stage.name}, {"ms", stage.ms}});
 }
 
+Json ease_json(std::span<const PartEase> parts) {
+  Json list = Json::array();
+  for (const PartEase& p : parts)
+    list.push_back({{"part", body::name(p.part)},
+                    {"area_cm2", 1e4 * p.area_m2},
+                    {"gap_mm", {{"median", mm(p.gap_median_m)}, {"p95", mm(p.gap_p95_m)}}},
+                    {"strain_percent", {{"mean", 100.0 * p.strain_mean}, {"p95", 100.0 * p.strain_p95}}}});
+  return list;
+}
+
 Json garments_json(std::span<const DrapedGarment> garments) {
   Json list = Json::array();
   for (const DrapedGarment& g : garments)
-    list.push_back({{"name", g.name}, {"vertices", g.vertices}, {"held", g.held}});
+    list.push_back(
+        {{"name", g.name}, {"vertices", g.vertices}, {"held", g.held}, {"ease", ease_json(g.ease)}});
   return list;
 }
 

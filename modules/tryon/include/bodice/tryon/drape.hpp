@@ -7,6 +7,7 @@
 
 #include <bodice/cloth/solver.hpp>
 #include <bodice/io/scene.hpp>
+#include <bodice/tryon/ease.hpp>
 #include <bodice/tryon/judge_frame.hpp>
 #include <bodice/tryon/motion.hpp>
 #include <bodice/tryon/prepare.hpp>
@@ -35,6 +36,7 @@ struct DrapeOptions {
 struct DrapedGarment {
   std::string name;
   std::size_t vertices = 0, held = 0;
+  std::vector<PartEase> ease;  ///< how it lies at the end, by part of the body
 };
 
 /// One kept frame of a body that moves, judged by the posed skin.
