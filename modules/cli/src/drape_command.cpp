@@ -76,7 +76,7 @@ engine::Result<std::vector<tryon::WornGarment>> dress(const Run& run, const Drap
   return worn;
 }
 
-engine::Result<void> write_outputs(const DrapeCommand& command, const tryon::PreparedBody& body,
+engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const tryon::PreparedBody& body,
                                    const rig::Rig* rig, tryon::DrapeResult draped,
                                    std::vector<std::string>& written) {
   io::Scene scene = scene_of(body);
@@ -101,7 +101,7 @@ engine::Result<void> write_outputs(const DrapeCommand& command, const tryon::Pre
       return saved;
     written.push_back(command.contact_sheet);
   }
-  return {};
+  return run.write_page(body, scene, &draped.report, written);
 }
 
 /// The frames that play a clip once, when the user gives no number.
@@ -157,8 +157,8 @@ engine::Result<void> drape(const DrapeCommand& command) {
   std::vector<std::string> written;
   const tryon::DrapeReport report = draped->report;
   if (motion) motion->rig.clips = {motion->clip};
-  if (auto done =
-          write_outputs(command, *body, motion ? &motion->rig : nullptr, std::move(draped).value(), written);
+  if (auto done = write_outputs(run, command, *body, motion ? &motion->rig : nullptr,
+                                std::move(draped).value(), written);
       !done)
     return done;
   return run.finish(*body, &report, written);

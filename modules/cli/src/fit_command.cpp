@@ -100,11 +100,10 @@ engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, const 
   return engine::write_file(file, std::string_view(text));
 }
 
-engine::Result<void> write_outputs(const FitCommand& command, const engine::Context& context,
-                                   const tryon::PreparedBody& body, const proxy::BasePoses& bases,
-                                   std::vector<std::string>& written) {
+engine::Result<void> write_outputs(const FitCommand& command, Run& run, const tryon::PreparedBody& body,
+                                   const proxy::BasePoses& bases, std::vector<std::string>& written) {
   const proxy::BodyProxy& proxy = body.fit.proxy;
-  const auto surface = surface_for(command, context, proxy);
+  const auto surface = surface_for(command, run.context(), proxy);
   if (!surface) return surface.error();
   io::Scene scene = scene_of(body);
   if (!proxy.relief().empty() && !surface->mesh.empty()) scene.surface = &*surface;
@@ -129,7 +128,7 @@ engine::Result<void> write_outputs(const FitCommand& command, const engine::Cont
     if (auto saved = write_measurements(body.skin, command.measurements); !saved) return saved;
     written.push_back(command.measurements);
   }
-  return {};
+  return run.write_page(body, scene, nullptr, written);
 }
 
 engine::Result<proxy::BasePoses> make_bases(const engine::Context& context, const FitCommand& command,
@@ -164,7 +163,7 @@ engine::Result<void> fit(const FitCommand& command) {
   const auto bases = make_bases(run.context(), command, *body);
   if (!bases) return bases.error();
   std::vector<std::string> written;
-  if (auto done = write_outputs(command, run.context(), *body, *bases, written); !done) return done;
+  if (auto done = write_outputs(command, run, *body, *bases, written); !done) return done;
   auto done = run.finish(*body, nullptr, written, command.exact_region);
   if (done && o.budget_us && !o.quiet && !o.json) print_speed(o, *body);
   return done;

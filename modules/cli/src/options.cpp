@@ -126,6 +126,12 @@ void add_output_options(CLI::App& command, CommonOptions& o) {
   command.add_option("--labels", o.labels, "write `x y z part` for each welded vertex")
       ->check(not_empty())
       ->group(group);
+  command
+      .add_option("--html", o.html,
+                  "write a page to look at, one file that needs no network: the body to turn, its error in "
+                  "color, cloth over time")
+      ->check(not_empty())
+      ->group(group);
   command.add_option("--report", o.report, "write the report, one JSON object")
       ->check(not_empty())
       ->group(group);

@@ -36,7 +36,7 @@ struct CommonOptions {
   int threads = 0;
   std::uint64_t seed = 0;
 
-  std::string labels, glb, report, trace, picture;
+  std::string labels, glb, report, html, trace, picture;
   bool json = false, quiet = false;
   std::vector<std::string> command_line;  ///< for the report
 };

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include <bodice/engine/write_file.hpp>
+#include <bodice/page/page.hpp>
 #include <bodice/tryon/reach.hpp>
 
 #include "summary.hpp"
@@ -22,6 +23,7 @@ engine::Result<void> Run::check_files(std::vector<FileOption> outputs, std::vect
                                  {"--picture", o.picture, {".png"}},
                                  {"--labels", o.labels},
                                  {"--report", o.report},
+                                 {"--html", o.html, {".html"}},
                                  {"--trace", o.trace}});
   inputs.insert(inputs.end(), {{"BODY", o.body}, {"--region-of", o.region_of}, {"--profile", o.profile}});
   return check_outputs(outputs, inputs);
@@ -74,16 +76,31 @@ engine::Result<fitting::FitOptions> Run::fit_options_for(const tryon::SegmentedS
   return options;
 }
 
+std::string Run::report(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
+                        bool cropped) const {
+  return tryon::report_json(body, drape,
+                            {.threads = context_.executor->concurrency(),
+                             .seed = options_.seed,
+                             .program = "bodice " BODICE_VERSION,
+                             .command = options_.command_line,
+                             .cropped = cropped});
+}
+
+engine::Result<void> Run::write_page(const tryon::PreparedBody& body, const io::Scene& scene,
+                                     const tryon::DrapeReport* drape, std::vector<std::string>& written) {
+  if (options_.html.empty()) return {};
+  const std::string text = page::page_html(
+      context_, body, {.scene = &scene, .drape = drape, .report = report(body, drape, false)});
+  if (auto done = engine::write_file(options_.html, std::string_view(text)); !done) return done;
+  written.push_back(options_.html);
+  return {};
+}
+
 engine::Result<void> Run::finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
                                  const std::vector<std::string>& written, bool cropped) {
   progress_.clear();
   std::vector<std::string> files = written;
-  const std::string report = tryon::report_json(body, drape,
-                                                {.threads = context_.executor->concurrency(),
-                                                 .seed = options_.seed,
-                                                 .program = "bodice " BODICE_VERSION,
-                                                 .command = options_.command_line,
-                                                 .cropped = cropped});
+  const std::string report = this->report(body, drape, cropped);
   auto write = [&](const std::string& file, const std::string& text) -> engine::Result<void> {
     if (file.empty()) return {};
     files.push_back(file);

@@ -44,10 +44,14 @@ class Run {
   /// was reduced after it was measured.
   engine::Result<void> finish(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,
                               const std::vector<std::string>& written, bool cropped = false);
+  /// Writes the page of --html if it was given, and adds it to `written`.
+  engine::Result<void> write_page(const tryon::PreparedBody& body, const io::Scene& scene,
+                                  const tryon::DrapeReport* drape, std::vector<std::string>& written);
   /// Prints one line a file, unless --quiet was given.
   void list_written(const std::vector<std::string>& files);
 
  private:
+  std::string report(const tryon::PreparedBody& body, const tryon::DrapeReport* drape, bool cropped) const;
   const CommonOptions& options_;
   std::unique_ptr<engine::Executor> executor_;
   std::unique_ptr<engine::Trace> trace_;

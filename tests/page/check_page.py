@@ -1,0 +1,108 @@
+"""Reads the data of pages back: they agree with `bodice query`, with the GLB's frames and with each other, and a page
+names nothing outside itself."""
+import array
+import base64
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+PROGRAM, SCRATCH = os.path.abspath(sys.argv[1]), sys.argv[2]
+failures = []
+
+
+def check(good, what):
+    if not good:
+        failures.append(what)
+        print("FAILED:", what)
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
+    check(done.returncode == code, f"{' '.join(arguments)}: exit {done.returncode}, expected {code}\n{done.stderr}")
+    return done.stdout + done.stderr
+
+
+def numbers(text, code):
+    return array.array(code, base64.b64decode(text, validate=True))
+
+
+def read(file):
+    text = open(file, encoding="utf-8").read()
+    check(not re.search(r"https?:|<link|src=|@import|fetch\(|XMLHttpRequest", text), f"{file} loads something")
+    check(text.count("<script") == 2 and text.count("</script>") == 2, f"{file}: the data end their element")
+    return json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])
+
+
+def points_of(data, packed):
+    *low, side = data["cube"]
+    return [low[i % 3] + side * v / 65535 for i, v in enumerate(numbers(packed, "H"))]
+
+
+def check_mesh(data, mesh, frames, name):
+    triangles = numbers(mesh["triangles"], "I")
+    for packed in frames:
+        count = len(points_of(data, packed)) // 3
+        check(len(triangles) > 0 and max(triangles) < count, f"{name}: a triangle of a vertex that is not there")
+
+
+def errors_are_those_of_queries():
+    run("make", "--vertices", "2000", "-o", "body.obj", "-q")
+    run("fit", "body.obj", "--tier", "relief", "--max-ellipsoids", "20", "-o", "p.json", "--html", "fit.html", "-q")
+    data = read("fit.html")
+    at, error = points_of(data, data["skin"]["positions"]), numbers(data["skin"]["error"], "h")
+    check(len(error) == data["skin"]["vertices"] == len(at) // 3, "not an error a vertex")
+    vertices = [line.split()[1:4] for line in open("body.obj") if line.startswith("v ")]
+    apart = max(abs(float(v) - at[3 * i + k]) for i, p in enumerate(vertices) for k, v in enumerate(p))
+    check(len(vertices) == len(error) and apart < 2e-5, f"vertices are {apart} m off")
+    with open("points.txt", "w") as out:
+        for p in vertices: print(*p, file=out)
+    found = [float(line.split()[0]) for line in run("query", "p.json", "points.txt").splitlines()]
+    apart = max(abs(1e3 * d - e / 100) for d, e in zip(found, error))
+    check(apart < 6e-3, f"errors are {apart} mm off those of bodice query")
+    check_mesh(data, data["surface"], [data["surface"]["positions"]], "surface")
+    check(len(numbers(data["ellipsoids"]["shapes"], "f")) == 12 * len(numbers(data["ellipsoids"]["part"], "B")),
+          "not twelve numbers an ellipsoid")
+    check(data["hash"] in data["report"] and json.loads(data["report"]), "the report of this proxy is not in the page")
+
+
+def drapes_move():
+    run("drape", "--vertices", "3000", "--tier", "solid", "--motion", "walk", "--frames", "6", "--keep", "4",
+        "--substeps", "4", "-o", "w.glb", "--no-picture", "--report", "w.json", "--html", "w.html", "-q")
+    data, report = read("w.html"), json.load(open("w.json"))
+    frames = len(data["times"])
+    check(frames == 4 and data["left_out"] == 0, f"{frames} frames of 4")
+    for name, item in [("cloth", data["cloth"][0]), ("skin", data["skin"])]:
+        check(len(item["frames"]) == frames, f"{name}: not a mesh a frame")
+        check(item["frames"][0] != item["frames"][-1], f"{name} stands still")
+        check_mesh(data, item, item["frames"], name)
+    check(len(data["drape"]["penetration"]) == 6, "not a penetration a frame")
+    worst = max(data["drape"]["penetration"])
+    check(abs(worst - report["drape"]["penetration"]["max_mm"]) < 1e-6, "the deepest particle is another one")
+    check(worst == 0 or data["drape"]["penetration"][data["drape"]["worst"] - 1] == worst, "the worst frame is another")
+
+
+def large_skins_are_thinned():
+    run("fit", "--vertices", "80000", "--tier", "paper", "--html", "large.html", "-q")
+    data = read("large.html")
+    error, at = numbers(data["skin"]["error"], "h"), numbers(data["skin"]["positions"], "H")
+    check(data["skin"]["vertices"] > 60000 >= len(error) > 20000 and len(at) == 3 * len(error), "thinning")
+    check_mesh(data, data["skin"], [data["skin"]["positions"]], "a thinned skin")
+
+
+def main():
+    shutil.rmtree(SCRATCH, ignore_errors=True)
+    os.makedirs(SCRATCH)
+    os.chdir(SCRATCH)
+    errors_are_those_of_queries()
+    drapes_move()
+    large_skins_are_thinned()
+    check("folder" in run("fit", "--html", "no/such/page.html", code=1), "a folder that does not exist")
+    check("extension" in run("fit", "--html", "page.txt", code=2), "an extension that is not a page's")
+    print("pages:", "failed" if failures else "passed")
+    return 1 if failures else 0
+
+
+sys.exit(main())
