@@ -62,14 +62,15 @@ option(BODICE_UNITY "Compile each folder of sources as one file (our own build)"
 
 # bodice_unite(<target> <root> <sources...>): compiles the sources of each folder below root as one file. Kernels stay
 # alone, since they are compiled once for each instruction set, and so do landmarks, whose files all define find() and
-# other functions of the same names.
+# other functions of the same names. So does what needs oneTBB or spdlog: in one object with the rest of the engine it
+# would make libbodice_frame need them, too.
 function(bodice_unite target root)
   if(NOT BODICE_UNITY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   foreach(source IN LISTS ARGN)
-    if(source MATCHES "/kernels[a-z0-9_]*[.]cpp$|/landmarks/")
+    if(source MATCHES "/kernels[a-z0-9_]*[.]cpp$|/landmarks/|/(tbb_executor|log_sinks)[.]cpp$")
       continue()
     endif()
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${root}" OUTPUT_VARIABLE folder)

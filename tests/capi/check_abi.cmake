@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 # The binary interface of a C library: its symbols and the layout of its structures are those of abi.txt, nothing
 # else leaves it, and it needs no more than the C and C++ run time and libraries that NEEDS matches.
-#   -DLIBRARY= -DLACKS=<names of headers that it does not have, a regular expression> -DNEEDS=<regular expression>
+#   -DLIBRARY= [-DONLY_STABLE=ON] -DLACKS=<names of headers that it does not have, a regular expression> -DNEEDS=<regular expression>
 #   -DINCLUDE= -DABI= -DCOMPILER=<C> -DNM= -DREADELF= -DSANITIZE= -DSCRATCH=
 file(MAKE_DIRECTORY "${SCRATCH}")
 
@@ -41,7 +41,7 @@ foreach(header IN LISTS headers)
   foreach(declaration IN LISTS declared)
     list(APPEND functions "${declaration}")
     cmake_path(GET header STEM subject)
-    if(LACKS AND subject MATCHES "${LACKS}" AND declaration MATCHES "(bodice_[a-z_0-9]+)\\(")
+    if((subject MATCHES "${LACKS}" OR (ONLY_STABLE AND declaration MATCHES "^BODICE_EXPERIMENTAL")) AND declaration MATCHES "(bodice_[a-z_0-9]+)\\(")
       list(APPEND lacks "${CMAKE_MATCH_1}")
     endif()
   endforeach()

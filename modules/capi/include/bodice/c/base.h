@@ -11,9 +11,13 @@
 /** Number of the binary interface. A library takes programs that were compiled with the same number. */
 #define BODICE_ABI 1
 
-#if defined(_WIN32) && defined(BODICE_BUILDS_LIBRARY)
+/* BODICE_STATIC: the library is linked into the program, and nothing of it leaves the program's own
+ * libraries. */
+#if defined(BODICE_STATIC)
+#define BODICE_EXPORT
+#elif defined(_WIN32) && defined(BODICE_BUILDS_LIBRARY)
 #define BODICE_EXPORT __declspec(dllexport)
-#elif defined(_WIN32) && !defined(BODICE_STATIC)
+#elif defined(_WIN32)
 #define BODICE_EXPORT __declspec(dllimport)
 #elif defined(__GNUC__)
 #define BODICE_EXPORT __attribute__((visibility("default")))
