@@ -59,10 +59,12 @@ class Prover {
   }
 
   std::size_t prove_batch() {
-    const std::size_t count = std::min(pieces_, kBatch);
-    pieces_ -= count;
     Piece batch[kBatch];
-    std::copy_n(piece_ + pieces_, count, batch);
+    std::size_t count = 0;
+    while (pieces_ > 0 && count < kBatch) {
+      const Piece& piece = piece_[--pieces_];
+      if (!is_open(piece)) batch[count++] = piece;
+    }
     float x[kBatch], y[kBatch], z[kBatch], radius[kBatch], longest = 0.0f;
     for (std::size_t k = 0; k < count; ++k) {
       const auto& w = batch[k].weight;
@@ -90,8 +92,15 @@ class Prover {
       note_deep(piece, center);
     else if (fall_m > 0.5f * tolerance_m_ && piece.cuts < kMostCuts)
       return cut(piece);
-    if (open_element_ != piece.element) ++out_.open[run_], open_element_ = piece.element;
+    if (!is_open(piece)) ++out_.open[run_], open_ |= bit_of(piece);
   }
+
+  // A triangle without a proof is given up until it has moved: its other pieces prove nothing.
+  static_assert(kRun <= 64);
+  std::uint64_t bit_of(const Piece& piece) const {
+    return std::uint64_t{1} << (piece.element - f_.elements.run_begin[run_]);
+  }
+  bool is_open(const Piece& piece) const { return (open_ & bit_of(piece)) != 0; }
 
   void note_deep(const Piece& piece, const collision::Contact& center) {
     std::uint32_t& count = out_.deep_count[run_];
@@ -128,7 +137,7 @@ class Prover {
   const std::size_t run_;
   FaceCertificate& out_;
   float slope_ = 1.0f;
-  std::uint32_t open_element_ = ~0u;
+  std::uint64_t open_ = 0;  // bits of the run's triangles without a proof
   std::size_t pieces_ = 0;
   Piece piece_[kMostPieces];
 };
