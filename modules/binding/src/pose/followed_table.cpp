@@ -89,10 +89,9 @@ void resample(int first, int n, const float* to_table, float scale, float invers
   stencils(u, n, at.first, at.weight);
   const int count = std::min(kLanes, n * n - first);
   for (int l = 0; l < count; ++l) {
-    const float growth = at.read(scratch.changes.data(), n, l)[3];
     const Float4 rest = at.read(scratch.rest.data(), n, l);
     const float slope = std::max(static_cast<float>(kLeastSlope), 1.0f - rest[1] * inverse_out);
-    scratch.h[static_cast<std::size_t>(first + l)] = scale * rest[0] + growth * slope;
+    scratch.h[static_cast<std::size_t>(first + l)] = scale * rest[0] + rest[3] * slope;
     scratch.a[static_cast<std::size_t>(first + l)] = scale * rest[1];
     burial[first + l] = static_cast<std::uint8_t>(rest[2] + 0.5f);
   }
@@ -149,9 +148,9 @@ void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableR
   const int n = rest.table.nodes_per_side, count = n * n;
   read_values(rest, count, scratch);
   for (int i = 0; i < count; ++i) {
-    const int followed = rest.followers ? rest.followers[i] : i;
-    if (followed != i)
-      scratch.changes[static_cast<std::size_t>(i)] = scratch.changes[static_cast<std::size_t>(followed)];
+    const Change& change = scratch.changes[static_cast<std::size_t>(rest.followers[i])];
+    scratch.changes[static_cast<std::size_t>(i)] = change;
+    scratch.rest[static_cast<std::size_t>(i)][3] = change[3];  // growth is read together with the values
   }
   float to_table[9];
   for (int i = 0; i < 9; ++i) to_table[i] = static_cast<float>(carried.to_table(i / 3, i % 3));

@@ -21,7 +21,7 @@ struct TableShare {
 struct TableScratch {
   std::vector<TableShare> values;
   std::vector<Change> changes;
-  std::vector<geometry::Float4> rest;  ///< h and a, meters, and burial, in bytes
+  std::vector<geometry::Float4> rest;  ///< h and a, meters; burial, in bytes; growth, meters
   std::vector<float> h, a;             ///< of the pose, meters
 };
 
@@ -30,7 +30,7 @@ struct RestTable {
   const proxy::ReliefTable& table;
   std::span<const TableShare> values;  ///< its own and those of base poses; shares sum to 1
   const std::uint8_t* burial;
-  const std::uint16_t* followers;  ///< null: nothing changes but the directions
+  const std::uint16_t* followers;  ///< the skin node that each texel changes with
 };
 
 /// The lengths that heights are bounded by.

@@ -35,7 +35,7 @@ struct Poser::Impl {
   bool follows(std::size_t k) const { return binding.first_bundle[k] < binding.first_bundle[k + 1]; }
   void pose_ellipsoid(std::size_t k, const PoseOptions& options, TableScratch& scratch,
                       proxy::PosedProxy& posed);
-  void write_table(std::size_t k, const CarriedEllipsoid& carried, bool skin, TableScratch& scratch,
+  void write_table(std::size_t k, const CarriedEllipsoid& carried, TableScratch& scratch,
                    proxy::PosedProxy& posed);
   engine::Result<void> add(std::shared_ptr<const proxy::BasePose> base, int blended, bool stays);
   void pose_all(const engine::Context& context, const PoseOptions& options);
@@ -84,7 +84,7 @@ Poser::Impl::Impl(proxy::BodyProxy proxy)
   scratch.assign((bound.ellipsoids().size() + kGrain - 1) / kGrain, one);
 }
 
-void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, bool skin, TableScratch& room,
+void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, TableScratch& room,
                               proxy::PosedProxy& posed) {
   const proxy::ReliefTable& table = bound.relief()[k];
   room.values.clear();
@@ -96,19 +96,17 @@ void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, bo
       room.values.push_back({&base.relief[k], base.texels.data() + table.first_texel, bases.share(k, b)});
   }
   const RestTable rest{table, room.values, binding.burial.data() + table.first_texel,
-                       skin ? binding.followers.data() + binding.first_follower[k] : nullptr};
+                       binding.followers.data() + binding.first_follower[k]};
   const std::size_t count = std::size_t{table.nodes_per_side} * table.nodes_per_side;
   std::fill_n(room.changes.begin(), count, Change{});
-  if (skin) {
-    const std::span all(binding.terms);
-    const std::size_t first = binding.first_term[k];
-    const auto terms = all.subspan(first, binding.first_term[k + 1] - first);
-    const std::span own = std::span(maps).subspan(12 * first, 12 * terms.size());
-    const double step_m = double{binding.step_m[k]};
-    posed_maps(bound.ellipsoids()[k].shape.center, step_m, terms, joints.skinning(), carried, own);
-    find_changes(binding, binding.first_bundle[k], binding.first_bundle[k + 1], step_m, carried, own.data(),
-                 room.changes.data());
-  }
+  const std::span all(binding.terms);
+  const std::size_t first = binding.first_term[k];
+  const auto terms = all.subspan(first, binding.first_term[k + 1] - first);
+  const std::span own = std::span(maps).subspan(12 * first, 12 * terms.size());
+  const double step_m = double{binding.step_m[k]};
+  posed_maps(bound.ellipsoids()[k].shape.center, step_m, terms, joints.skinning(), carried, own);
+  find_changes(binding, binding.first_bundle[k], binding.first_bundle[k + 1], step_m, carried, own.data(),
+               room.changes.data());
   follow(rest, carried, {proxy::relief_reach(bound.stature_m()).out_m}, room, posed.relief[k],
          posed.texels.data() + table.first_texel, posed.burial.data() + table.first_texel);
 }
@@ -127,16 +125,19 @@ void Poser::Impl::pose_ellipsoid(std::size_t k, const PoseOptions& options, Tabl
   const JointMatrix map =
       affine_map(all.subspan(binding.first_term[k], binding.first_term[k + 1] - binding.first_term[k]),
                  joints.skinning());
-  const bool tables = options.tables && follows(k);
-  const CarriedEllipsoid carried = tables ? carry(rest, map) : carry_stiffly(rest, map);
+  bool tables = options.tables && follows(k);
+  CarriedEllipsoid carried = tables ? carry(rest, map) : carry_stiffly(rest, map);
+  if (tables && options.within && !overlap(geometry::bounding_box(carried.shape), *options.within)) {
+    tables = false;
+    carried = carry_stiffly(rest, map);
+  }
   posed.shapes[k] = carried.shape;
   posed.material[k] = carried.shape.axes * carried.shape.radii.asDiagonal() * carried.to_table.transpose();
   if (bound.relief().empty()) return;
   const proxy::ReliefTable& table = bound.relief()[k];
   const std::size_t back = 1 - current;
   if (tables) {
-    const bool skin = !options.within || overlap(geometry::bounding_box(carried.shape), *options.within);
-    write_table(k, carried, skin, room, posed);
+    write_table(k, carried, room, posed);
     changed[back][k] = 1;
     return;
   }
