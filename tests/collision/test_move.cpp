@@ -126,3 +126,25 @@ TEST_CASE("a refused pose names the ellipsoid, its part and the reason, and noth
   CHECK(why->message == "Collider: the pose has 4 ellipsoids, and the proxy 5.");
   CHECK(distances(collider) == before);
 }
+
+TEST_CASE("a step in which no body can move leaves velocities at zero, not infinite") {
+  const auto shapes = random_ellipsoids(7, 6, 0.8, 0.05, 0.2);
+  Collider collider(proxy_of(shapes));
+  auto moved = shapes;
+  double shift_m = 0.0;
+  for (const double dt_s : {1e-300, 5e-324, 1e-30, 1e30, std::numeric_limits<double>::infinity()}) {
+    CAPTURE(dt_s);
+    shift_m += 0.01;
+    for (std::size_t k = 0; k < moved.size(); ++k)
+      moved[k].center = shapes[k].center + geometry::Vec3(shift_m, 0.0, 0.0);
+    REQUIRE(collider.move_to(moved, dt_s));
+    const geometry::Vec3 at = moved.front().center - collider.origin();
+    CHECK(collider.surface_velocity(0, at) == geometry::Vec3::Zero());
+    float x = static_cast<float>(at.x()), y = static_cast<float>(at.y()), z = static_cast<float>(at.z());
+    float vx = 0.0f, vy = 0.0f, vz = 0.0f;
+    const auto report =
+        collider.resolve({}, {.count = 1, .x = &x, .y = &y, .z = &z, .vx = &vx, .vy = &vy, .vz = &vz}, {});
+    CHECK(report.not_finite == 0);
+    CHECK(std::isfinite(x + y + z + vx + vy + vz));
+  }
+}

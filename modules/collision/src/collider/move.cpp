@@ -8,9 +8,22 @@
 #include "collider/mended_ellipsoid.hpp"
 
 namespace bodice::collision {
+namespace {
+
+/// A step outside of these has no velocity that floats could hold, seconds: a body that moves by a kilometer
+/// within the shortest one still has.
+constexpr double kShortestStep_s = 1e-9, kLongestStep_s = 1e9;
+
+/// The step that velocities follow from; zero if there is none.
+double usable_step_s(double dt_s) {
+  return dt_s >= kShortestStep_s && dt_s <= kLongestStep_s ? dt_s : 0.0;
+}
+
+}  // namespace
 
 void Collider::Impl::move(std::span<const geometry::Ellipsoid> now,
-                          std::span<const geometry::Mat3> axes_of_material, double dt_s) noexcept {
+                          std::span<const geometry::Mat3> axes_of_material, double step_s) noexcept {
+  const double dt_s = usable_step_s(step_s);
   double farthest_m = 0.0;
   for (std::size_t k = 0; k < now.size(); ++k) {
     const std::uint32_t at = internal_index[k];
