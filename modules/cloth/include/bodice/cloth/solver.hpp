@@ -34,7 +34,7 @@ struct SolverOptions {
   /// points that are deeper are pushed out, and the rest is proved (FaceReport::proof); absent: no proof.
   /// What touches in a frame is then queried about every millimeter. Only with face_contact. The proof is
   /// strict for proxies without relief. Distances with relief fall faster than it assumes (1.5 times the
-  /// path) on one short path of a thousand, at cliffs of up to 5 mm between tables.
+  /// path) on a few short paths of a thousand, at cliffs of up to 5 mm between tables.
   std::optional<double> certify_m;
   bool self_collision = true;  ///< whether layers of cloth keep apart
   collision::Response response = collision::Response::kClosestPoint;
