@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <bench_support/median.hpp>
+
 #include "scene.hpp"
 
 namespace bench {
@@ -41,15 +43,10 @@ class TimedCloth {
   }
 
   double least_ms() const { return *std::ranges::min_element(ms_); }
-  double median_ms() const { return median(ms_); }
-  double collision_share() const { return median(share_); }
+  double median_ms() const { return bench::median(ms_); }
+  double collision_share() const { return bench::median(share_); }
 
  private:
-  static double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-  }
-
   std::unique_ptr<engine::Executor> executor_;
   engine::Context context_;
   collision::Collider body_;

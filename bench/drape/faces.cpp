@@ -52,7 +52,7 @@ Gaps gaps_of(const geometry::MeshDistance& skin, const std::vector<Vec3>& at,
 /// The numbers of a row.
 struct Row {
   double start_cm2 = 0.0, end_cm2 = 0.0;  ///< cloth more than half a millimeter inside the skin
-  double worst_cm2 = 0.0;                 ///< of the frames after the first ten; walking only
+  double worst_cm2 = 0.0;                 ///< largest of the frames after the first ten; walking only
   Gaps start, end;
   tryon::DrapeReport report;
 };

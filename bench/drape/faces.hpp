@@ -11,9 +11,9 @@ namespace bench {
 
 /// Which garments are judged, and how they are draped.
 struct FacesOptions {
-  std::filesystem::path data;   ///< with garments/ and bodies/
+  std::filesystem::path data;   ///< folder that holds garments/ and bodies/
   std::string only;             ///< part of the garments' names
-  std::filesystem::path cache;  ///< of proxies that stand; empty: none
+  std::filesystem::path cache;  ///< folder that keeps proxies of standing bodies; empty: none
   std::filesystem::path
       sheet;  ///< PNG of all garments at their ends, standing in the first rows; empty: none
   int standing_frames = 120;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <bench_support/median.hpp>
 #include <bench_support/stopwatch.hpp>
 
 #include "posed_proxy.hpp"
@@ -14,13 +15,6 @@ using namespace bodice;
 
 constexpr int kTurns = 7;
 constexpr double kSkirtMargin_m = 0.05;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 template <class Work>
 double timed_ms(const Work& work) {

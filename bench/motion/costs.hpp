@@ -14,7 +14,7 @@ namespace bench {
 
 /// Cost of one method: medians over the frames, processor time of one thread.
 struct PeerCost {
-  double pose_ms = 0.0;   ///< with skinning, where the method needs the skin
+  double pose_ms = 0.0;   ///< includes skinning where the method needs the skin
   double query_ns = 0.0;  ///< a particle within 30 mm of the skin, in coherent order
 };
 

@@ -20,12 +20,12 @@ class Judge {
  public:
   void add(const Truth& truth, std::span<const float> distance_m);
 
-  Spread_mm error() const;          ///< of the distance, within 30 mm of the skin
+  Spread_mm error() const;          ///< error of the distance within 30 mm of the skin
   Spread_mm protrusion() const;     ///< how far the surface lies over the skin, over skin that it covers
   Spread_mm gap() const;            ///< how far it lies under the skin, over skin that it leaves bare
-  double missed_percent() const;    ///< of points near the skin: deeper than 1 mm, but called outside
-  double false_percent() const;     ///< of points near the skin: over 1 mm outside, but called inside
-  double coverage_percent() const;  ///< of the volume inside the skin, called inside
+  double missed_percent() const;    ///< points near the skin that are deeper than 1 mm, but called outside
+  double false_percent() const;     ///< points near the skin that are over 1 mm outside, but called inside
+  double coverage_percent() const;  ///< share of the volume inside the skin that is called inside
   const std::vector<Spread_mm>& of_frame() const { return frames_; }
   const bodice::geometry::Vec3& worst_point() const { return worst_point_; }
   std::size_t worst_frame() const { return worst_frame_; }

@@ -17,7 +17,7 @@ struct MethodResult {
   PeerCost cost;
   double bytes = 0.0;
   bool knows_depth = true;
-  std::vector<double> time_s;  ///< of the frames that were judged
+  std::vector<double> time_s;  ///< time of each frame that was judged
 };
 
 /// One clip of one body. The first method is the carried proxy, the second one the refitted.

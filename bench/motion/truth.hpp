@@ -36,7 +36,8 @@ class TruePoints {
  private:
   struct Sample {
     bodice::geometry::Index triangle = 0;
-    bodice::geometry::Vec3 weight = bodice::geometry::Vec3::Zero();  ///< of the triangle's corners
+    bodice::geometry::Vec3 weight =
+        bodice::geometry::Vec3::Zero();  ///< barycentric weights of the triangle's corners
     double offset_m = 0.0;
   };
   std::vector<Sample> samples_;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <bench_support/median.hpp>
 #include <bench_support/stopwatch.hpp>
 
 #include <bench_references/triangle_trees.hpp>
@@ -22,11 +23,6 @@ constexpr double kOver_m = 0.004;
 
 void apply(const Mat3& rotation, TriMesh& mesh) {
   for (Vec3& p : mesh.positions) p = rotation * p;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace

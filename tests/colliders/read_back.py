@@ -5,25 +5,14 @@ import math
 import os
 import re
 import shutil
-import subprocess
 import sys
 import xml.etree.ElementTree as xml
 
-PROGRAM, SCRATCH = os.path.abspath(sys.argv[1]), sys.argv[2]
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support", "python"))
+from program_check import check, failures, run
+
+SCRATCH = sys.argv[2]
 KEEP = "--keep" in sys.argv
-failures = []
-
-
-def check(good, what):
-    if not good:
-        failures.append(what)
-        print("FAILED:", what)
-
-
-def run(*arguments, code=0):
-    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=200)
-    check(done.returncode == code, f"{' '.join(arguments)}: exit {done.returncode}, expected {code}\n{done.stderr}")
-    return done.stdout + done.stderr
 
 
 # Vectors and matrices, without numpy.

@@ -6,23 +6,12 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 
-PROGRAM, SCRATCH = os.path.abspath(sys.argv[1]), sys.argv[2]
-failures = []
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support", "python"))
+from program_check import check, failures, run
 
-
-def check(good, what):
-    if not good:
-        failures.append(what)
-        print("FAILED:", what)
-
-
-def run(*arguments, code=0):
-    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=250)
-    check(done.returncode == code, f"{' '.join(arguments)}: exit {done.returncode}, expected {code}\n{done.stderr}")
-    return done.stdout + done.stderr
+SCRATCH = sys.argv[2]
 
 
 def numbers(text, code):

@@ -30,7 +30,7 @@ std::string packed_triangles(std::span<const geometry::Triangle> triangles);
 /// A mesh with one vertex for each cell of a lattice, and the original vertex of each.
 struct ThinMesh {
   std::vector<geometry::Index> vertex;        ///< #thin, into the mesh's vertices
-  std::vector<geometry::Triangle> triangles;  ///< of thin vertices
+  std::vector<geometry::Triangle> triangles;  ///< corners are indices of thinned vertices
 };
 /// The mesh itself if it has at most so many vertices; else cells grow until few enough are left.
 ThinMesh thinned(const geometry::TriMesh& mesh, std::size_t most);

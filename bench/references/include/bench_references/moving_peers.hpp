@@ -18,7 +18,7 @@ namespace bench {
 struct MovingFrame {
   std::span<const Eigen::Matrix<double, 3, 4>> joints;    ///< #J: joint space to world
   std::span<const Eigen::Matrix<double, 3, 4>> skinning;  ///< #J: bind pose to this pose
-  const bodice::geometry::TriMesh& skin;                  ///< in this pose
+  const bodice::geometry::TriMesh& skin;                  ///< the skin in this pose
 };
 
 /// A method that answers for the pose it was brought to last.

@@ -38,7 +38,7 @@ engine::Result<std::vector<PlainShape>> reduce(const engine::Context& context, c
 
 /// Distances of points of the skin from a collider's surface, weighted by area. Meters.
 struct SurfaceError {
-  double mean_m = 0.0, p95_m = 0.0, worst_m = 0.0;  ///< of the absolute distance
+  double mean_m = 0.0, p95_m = 0.0, worst_m = 0.0;  ///< spread of the absolute distance
   double area_m2 = 0.0;                             ///< 0: no points
 };
 

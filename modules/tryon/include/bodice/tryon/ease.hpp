@@ -14,7 +14,7 @@ namespace bodice::tryon {
 /// A garment over one part of the body. Quantiles are by area of the cloth.
 struct PartEase {
   body::Part part = body::Part::kHead;         ///< the part that the cloth is nearest to
-  double area_m2 = 0.0;                        ///< of the cloth there, as it lies
+  double area_m2 = 0.0;                        ///< area of the cloth there, as it lies
   double gap_median_m = 0.0, gap_p95_m = 0.0;  ///< signed distance from the cloth to the skin
   double strain_mean = 0.0,
          strain_p95 = 0.0;  ///< elongation of the most stretched edge of a triangle, zero or more
