@@ -10,9 +10,9 @@
 
 namespace bodice::cli {
 
-Run::Run(const CommonOptions& options)
-    : options_(options), executor_(engine::make_tbb_executor(options.threads)), progress_(options.quiet) {
-  context_.executor = executor_.get();
+Run::Run(const CommonOptions& options) : options_(options), progress_(options.quiet) {
+  if (options.threads != 1) executor_ = engine::make_tbb_executor(options.threads);
+  context_.executor = executor_ ? executor_.get() : &engine::inline_executor();
   if (!options.trace.empty()) trace_ = std::make_unique<engine::Trace>();
   context_.trace = trace_.get();
 }

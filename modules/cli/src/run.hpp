@@ -53,11 +53,14 @@ class Run {
  private:
   std::string report(const tryon::PreparedBody& body, const tryon::DrapeReport* drape, bool cropped) const;
   const CommonOptions& options_;
-  std::unique_ptr<engine::Executor> executor_;
+  std::unique_ptr<engine::Executor> executor_;  ///< null for one worker: this thread
   std::unique_ptr<engine::Trace> trace_;
   engine::Context context_;
   ProgressLine progress_;
 };
+
+/// Pictures in lists of results.
+inline constexpr io::PictureOptions kThumbnail = {.width = 120, .height = 180};
 
 /// The body, its parts and its proxy as a scene for output.
 io::Scene scene_of(const tryon::PreparedBody& body);

@@ -1,0 +1,28 @@
+// A child process that takes the step that jobs share, and then forks a process for each of them.
+#pragma once
+
+#include <string>
+
+#include <bodice/batch/batch.hpp>
+
+#include "manifest.hpp"
+#include "process.hpp"
+#include "result_store.hpp"
+
+namespace bodice::batch {
+
+/// What a fitter needs of its batch.
+struct FitterContext {
+  Work& work;
+  Manifest& manifest;
+  const ResultStore& store;
+  const BatchOptions& options;
+};
+
+/// The first message of a fitter is the outcome of the shared step. Then each line "ADDRESS KEY", with the
+/// address of Manifest::address(), starts a job, and {"line": ..., "outcome": ...} reports its end; the line
+/// "end" kills the running jobs and ends the fitter. Never returns. Called in a process that was forked for
+/// it.
+[[noreturn]] void serve(const FitterContext& context, const Job& first, ChannelEnd channel, pid_t parent);
+
+}  // namespace bodice::batch

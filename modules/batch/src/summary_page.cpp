@@ -1,0 +1,132 @@
+#include "summary_page.hpp"
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+#include <bodice/engine/message.hpp>
+
+namespace bodice::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::size_t kFailuresShown = 1000;
+
+constexpr const char* kHead = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<title>bodice batch</title><style>
+body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 75em; padding: 0 1em; color: #223; }
+table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: .2em .8em .2em 0; vertical-align: top; }
+tr { border-top: 1px solid #dde; } .why { color: #a22; }
+.results { display: grid; grid-template-columns: repeat(auto-fill, minmax(13em, 1fr)); gap: 1em; }
+.results a { display: block; border: 1px solid #dde; border-radius: 6px; padding: .6em; color: inherit; text-decoration: none; }
+.results img { display: block; width: 100%; background: #f4f5f8; } .results b { font-size: 1.1em; }
+small { color: #667; display: block; overflow-wrap: anywhere; }
+</style></head><body>
+)";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  return out;
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+std::string picture(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (bytes.empty()) return "";
+  return "<img alt=\"\" src=\"data:image/png;base64," + base64(bytes) + "\">";
+}
+
+/// The job as its line has it: "body a.obj, garment b.obj".
+std::string words_of(const json& about) {
+  std::string text;
+  const json job = about.value("job", json::object());
+  for (const auto& [name, values] : job.items()) {
+    text += (text.empty() ? "" : ", ") + name;
+    for (const json& value : values) text += " " + value.get<std::string>();
+  }
+  return text;
+}
+
+void add_failures(const Summary& summary, std::size_t failed, std::string& page) {
+  page += "<h2>Failed: " + std::to_string(failed) + "</h2>\n";
+  if (failed == 0) return;
+  page += "<table><tr><th>line<th>kind<th>why<th>job</tr>\n";
+  std::size_t shown = 0;
+  for (const Row& row : summary.rows) {
+    if (!row.is_failure || shown == kFailuresShown) break;
+    ++shown;
+    const json about = row.about();
+    page += "<tr><td>" + std::to_string(row.line) + "<td>" + escaped(about.value("failure", "")) +
+            "<td class=why>" + escaped(about.value("reason", "")) + "<td><small>" + escaped(words_of(about)) +
+            "</small></tr>\n";
+  }
+  page += "</table>\n";
+  if (shown < failed) page += "<p>failures.jsonl has all of them.</p>\n";
+}
+
+void add_result(const fs::path& out, const Row& row, std::string& page) {
+  const json about = row.about();
+  const std::string folder = about.value("folder", "");
+  page += "<a href=\"" + escaped(folder) + "/\">" + picture(out / folder / kThumbnail) + "<b>" +
+          engine::message(row.error_mm) + " mm</b> line " + std::to_string(row.line);
+  if (const std::size_t warnings = about.value("warnings", json::array()).size())
+    page += ", " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
+  page += "<small>" + escaped(words_of(about)) + "</small></a>\n";
+}
+
+}  // namespace
+
+std::string summary_page(const fs::path& out, const Summary& summary, const SummaryCounts& counts) {
+  std::string page = kHead;
+  page += "<h1>" + std::to_string(counts.jobs) + " jobs, " + std::to_string(counts.done) + " results, " +
+          std::to_string(counts.failed) + " failed</h1>\n";
+  add_failures(summary, counts.failed, page);
+  page +=
+      "<h2>Results, the largest error first</h2>\n<p>The error is the deepest point of cloth inside the skin "
+      "in "
+      "any frame; of a fit alone, the largest distance from the proxy to the skin.";
+  if (counts.done > kShownOnPage)
+    page += " The first " + std::to_string(kShownOnPage) + " are here; summary.csv has all.";
+  page += "</p>\n<div class=results>\n";
+  std::size_t shown = 0;
+  for (const Row& row : summary.rows) {
+    if (row.is_failure) continue;
+    if (++shown > kShownOnPage) break;
+    add_result(out, row, page);
+  }
+  return page + "</div></body></html>\n";
+}
+
+}  // namespace bodice::batch
