@@ -179,4 +179,12 @@ inline std::vector<Ellipsoid> ball(double radius_m) {
   return shapes;
 }
 
+/// Points spread evenly over a cube around the origin.
+inline std::vector<Vec3> points_around(std::uint64_t seed, int count, double half_side) {
+  bodice::engine::Random random(seed);
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) points.push_back(random_vector(random, half_side));
+  return points;
+}
+
 }  // namespace bodice_test

@@ -148,3 +148,29 @@ TEST_CASE("a step in which no body can move leaves velocities at zero, not infin
     CHECK(std::isfinite(x + y + z + vx + vy + vz));
   }
 }
+
+TEST_CASE("an invalid pose is rejected, and the proxy stays where it was") {
+  const auto shapes = random_ellipsoids(4, 5, 0.8, 0.02, 0.2);
+  Collider collider(proxy_of(shapes));
+  CHECK(collider.proxy_hash() == proxy_of(shapes).hash());
+  const auto distance = [&] { return collider.query({0.1f, 0.2f, 0.3f}).signed_distance; };
+  const float before = distance();
+  auto moved = shapes;
+  for (Ellipsoid& e : moved) e.center.x() += 0.5;
+  CHECK_FALSE(collider.move_to(std::span(moved).first(4), 0.01));
+  auto bad = moved;
+  bad[2].center.y() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(collider.move_to(bad, 0.01));
+  bad = moved;
+  bad[4].radii.z() = 0.0;
+  CHECK_FALSE(collider.move_to(bad, 0.01));
+  bad = moved;
+  bad[1].axes(0, 1) += 0.1;  // shear
+  CHECK_FALSE(collider.move_to(bad, 0.01));
+  bad = moved;
+  bad[0].axes.col(1) *= -1.0;
+  CHECK_FALSE(collider.move_to(bad, 0.01));
+  CHECK(distance() == before);
+  CHECK(collider.move_to(moved, 0.01));
+  CHECK(distance() != before);
+}
