@@ -82,6 +82,13 @@ struct CacheRefresh {
   /// How much farther than the nearest a candidate may be to be cached.
   float widest_m() const { return beyond_m + 2.0f * cached.reach_m; }
 
+  Status operator()(const Candidates& among) const {
+    return with_tables(among.columns, [&](auto tables) { return cache_candidates<tables()>(among); });
+  }
+
+ private:
+  template <int kTables>
+  HWY_INLINE Status cache_candidates(const Candidates& among) const;
   /// Bounds all candidates at one step of particles and evaluates the probable owners exactly.
   template <int kTables>
   HWY_INLINE void bound_step(int from, const CandidateList& candidates, const Columns& columns,
@@ -92,6 +99,16 @@ struct CacheRefresh {
   HWY_INLINE bool cache_step(int from, const CandidateList& candidates, const Columns& columns,
                              std::int32_t* slot) const;
 };
+
+template <int kTables>
+HWY_INLINE Status CacheRefresh::cache_candidates(const Candidates& among) const {
+  std::int32_t slot[kMaxCandidates];
+  std::fill_n(slot, among.columns.count(), -1);
+  for (int i = 0; i < among.count; ++i)
+    for (int from = among.ranges[i].begin; from < end_of(among.ranges[i]); from += kStep)
+      if (!cache_step<kTables>(from, among.lists[i], among.columns, slot)) return Status::kTooMany;
+  return Status::kDone;
+}
 
 template <int kTables>
 HWY_INLINE void CacheRefresh::bound_step(int from, const CandidateList& candidates, const Columns& columns,
@@ -167,17 +184,8 @@ bool fill_cache(float beyond_m, Batch& batch, BroadPhase& broad) {
   std::fill_n(cached.slack_m[0], CachedBatch::kSpans * CachedBatch::kCapacity, CachedBatch::kFar_m);
   std::fill_n(cached.least_m, CachedBatch::kSpans, kNoLimit_m);
   const CacheRefresh refresh{broad.model().baked, batch, beyond_m, cached};
-  const auto work = [&](auto tables, const Candidates& candidates) {
-    std::int32_t slot[kMaxCandidates];
-    std::fill_n(slot, candidates.columns.count(), -1);
-    for (int i = 0; i < candidates.count; ++i)
-      for (int from = candidates.ranges[i].begin; from < end_of(candidates.ranges[i]); from += kStep)
-        if (!refresh.cache_step<tables()>(from, candidates.lists[i], candidates.columns, slot))
-          return Status::kTooMany;
-    return Status::kDone;
-  };
   const Find find{refresh.widest_m()};
-  if (broad.search(blocks.ranges, blocks.count, find, work) != Status::kDone) return false;
+  if (broad.search(blocks.ranges, blocks.count, find, refresh) != Status::kDone) return false;
   // With more candidates, gathers would cost more than a new search.
   if (cached.candidates > kPermuted) return false;
   sort_candidates(cached);

@@ -100,9 +100,27 @@ struct Candidates {
   int count;
 };
 
-/// Finds the candidates of ranges by a rule, and calls `work` (number of tables, candidates; returns a
-/// Status) on them. A rule (source, box around the ranges, ranges, their number, lists out) returns false on
-/// overflow; domination-inl.hpp has them.
+/// Reference to an evaluation of particles among their candidates: a callable (candidates; returns a Status)
+/// that lives longer than this. Since its type is erased, a search is compiled once for all evaluations, and
+/// an evaluation once for all searches. A call is made once a batch or a block.
+class EvaluationRef {
+ public:
+  template <class Evaluate>
+  HWY_INLINE EvaluationRef(const Evaluate& evaluate)
+      : evaluate_(&evaluate), call_([](const void* object, const Candidates& among) {
+          return (*static_cast<const Evaluate*>(object))(among);
+        }) {}
+
+  HWY_INLINE Status operator()(const Candidates& among) const { return call_(evaluate_, among); }
+
+ private:
+  const void* evaluate_;
+  Status (*call_)(const void*, const Candidates&);
+};
+
+/// Finds the candidates of ranges by a rule, and evaluates the particles among them. A rule (source, box
+/// around the ranges, ranges, their number, lists out) returns false on overflow; domination-inl.hpp has
+/// them.
 class BroadPhase {
  public:
   explicit HWY_INLINE BroadPhase(const ProxyModel& model) : model_(model) {}
@@ -112,37 +130,34 @@ class BroadPhase {
   /// meters; zero: they do not.
   void reuse_within(float room_m) { room_m_ = room_m; }
 
-  /// `find` is called for all ranges together, then for each range among the candidates found. `work` is
+  /// `find` is called for all ranges together, then for each range among the candidates found. `evaluate` is
   /// called once if the candidates fit into two vectors of columns, otherwise once a range.
-  template <class Find, class Work>
-  HWY_INLINE Status search(const LaneRange* ranges, int count, Find&& find, Work&& work);
-  /// Calls `work` with the candidates of the previous search if they are known to hold for all ranges.
-  template <class Work>
-  HWY_INLINE bool search_again(const Blocks& blocks, Work&& work);
+  template <class Find>
+  Status search(const LaneRange* ranges, int count, const Find& find, EvaluationRef evaluate);
+  /// Evaluates among the candidates of the previous search if they are known to hold for all ranges.
+  HWY_INLINE bool search_again(const Blocks& blocks, EvaluationRef evaluate);
   /// One range against any number of plain ellipsoids, as many at a time as there is room for; `find`
   /// (source, list out).
-  template <class Find, class Work>
-  HWY_INLINE void search_in_parts(const LaneRange& range, Find&& find, Work&& work);
-  /// Calls `work` with the cached candidates of a batch that have less slack than `beyond_m` allows by now.
+  template <class Find>
+  HWY_INLINE void search_in_parts(const LaneRange& range, Find&& find, EvaluationRef evaluate);
+  /// Evaluates among the cached candidates of a batch that have less slack than `beyond_m` allows by now.
   /// Spans of lanes that cannot come within `limit_m` of an ellipsoid get no candidates.
-  template <class Work>
   HWY_INLINE Status take_cached(const Batch& batch, float beyond_m, float limit_m, Columns::Rows rows,
-                                Work&& work);
+                                EvaluationRef evaluate);
 
  private:
   /// Up to this many shared candidates, each block evaluates all bounds instead of filtering the candidates.
   static constexpr int kFew = kWidth / 2;
 
-  /// Calls work on one range with all columns as candidates.
-  template <class Work>
-  HWY_INLINE Status work_on_range(const LaneRange& range, const Columns& columns, Work&& work);
+  /// Evaluates one range with all columns as candidates.
+  HWY_INLINE Status evaluate_range(const LaneRange& range, const Columns& columns, EvaluationRef evaluate);
   /// The ranges share up to two vectors of columns.
-  template <class Find, class Work>
-  HWY_INLINE Status work_together(const Aabb& around, const LaneRange* ranges, int count, Find&& find,
-                                  Work&& work);
-  template <class Find, class Work>
-  HWY_INLINE Status work_apart(const Aabb& around, const LaneRange* ranges, int count, Find&& find,
-                               Work&& work);
+  template <class Find>
+  HWY_INLINE Status evaluate_together(const Aabb& around, const LaneRange* ranges, int count,
+                                      const Find& find, EvaluationRef evaluate);
+  template <class Find>
+  HWY_INLINE Status evaluate_apart(const Aabb& around, const LaneRange* ranges, int count, const Find& find,
+                                   EvaluationRef evaluate);
 
   const ProxyModel& model_;
   Columns columns_, alone_;
@@ -158,46 +173,41 @@ HWY_INLINE void list_every_column(const Columns& columns, CandidateList& out) {
   for (int i = 0; i < out.count; i += kWidth) hn::Store(lanes_from(i), I(), out.index + i);
 }
 
-template <class Work>
-HWY_INLINE Status BroadPhase::work_on_range(const LaneRange& range, const Columns& columns, Work&& work) {
-  Status status = Status::kDone;
-  CandidateList& list = of_alone_;
-  list_every_column(columns, list);
-  with_tables(columns, [&](auto tables) { status = work(tables, Candidates{columns, &range, &list, 1}); });
-  return status;
+HWY_INLINE Status BroadPhase::evaluate_range(const LaneRange& range, const Columns& columns,
+                                             EvaluationRef evaluate) {
+  list_every_column(columns, of_alone_);
+  return evaluate({columns, &range, &of_alone_, 1});
 }
 
-template <class Find, class Work>
-HWY_INLINE Status BroadPhase::work_together(const Aabb& around, const LaneRange* ranges, int count,
-                                            Find&& find, Work&& work) {
-  Status status = Status::kDone;
-  with_tables(columns_, [&](auto tables) {
-    if (of_all_.count <= kFew)
-      for (int i = 0; i < count; ++i) list_every_column(columns_, of_range_[i]);
-    else
-      (void)find(ColumnEllipsoids<tables()>{columns_}, around, ranges, count, of_range_);
-    status = work(tables, Candidates{columns_, ranges, of_range_, count});
-  });
-  return status;
+template <class Find>
+HWY_INLINE Status BroadPhase::evaluate_together(const Aabb& around, const LaneRange* ranges, int count,
+                                                const Find& find, EvaluationRef evaluate) {
+  if (of_all_.count <= kFew)
+    for (int i = 0; i < count; ++i) list_every_column(columns_, of_range_[i]);
+  else
+    (void)with_tables(columns_, [&](auto tables) {
+      return find(ColumnEllipsoids<tables()>{columns_}, around, ranges, count, of_range_);
+    });
+  return evaluate({columns_, ranges, of_range_, count});
 }
 
-template <class Find, class Work>
-HWY_INLINE Status BroadPhase::work_apart(const Aabb& around, const LaneRange* ranges, int count, Find&& find,
-                                         Work&& work) {
+template <class Find>
+HWY_INLINE Status BroadPhase::evaluate_apart(const Aabb& around, const LaneRange* ranges, int count,
+                                             const Find& find, EvaluationRef evaluate) {
   if (!find(ColumnEllipsoids<0>{columns_}, around, ranges, count, of_range_)) return Status::kTooMany;
   for (int i = 0; i < count; ++i) {
     CandidateList& list = of_range_[i];
     if (list.count == 0) continue;
     for (int k = 0; k < list.count; ++k) list.index[k] = of_all_.index[list.index[k]];
     alone_.fill(model_, list.index, list.count);
-    const Status status = work_on_range(ranges[i], alone_, work);
+    const Status status = evaluate_range(ranges[i], alone_, evaluate);
     if (status != Status::kDone) return status;
   }
   return Status::kDone;
 }
 
-template <class Find, class Work>
-HWY_INLINE Status BroadPhase::search(const LaneRange* ranges, int count, Find&& find, Work&& work) {
+template <class Find>
+Status BroadPhase::search(const LaneRange* ranges, int count, const Find& find, EvaluationRef evaluate) {
   LaneRange around = ranges[0];
   for (int i = 1; i < count; ++i) around.box = united(around.box, ranges[i].box);
   covers_ = false;
@@ -208,23 +218,22 @@ HWY_INLINE Status BroadPhase::search(const LaneRange* ranges, int count, Find&& 
   const bool few = of_all_.count <= 2 * kWidth;
   covered_ = around.box;
   covers_ = room_m_ > 0.0f && few;
-  if (count == 1) return work_on_range(ranges[0], columns_, work);
-  return few ? work_together(around.box, ranges, count, find, work)
-             : work_apart(around.box, ranges, count, find, work);
+  if (count == 1) return evaluate_range(ranges[0], columns_, evaluate);
+  return few ? evaluate_together(around.box, ranges, count, find, evaluate)
+             : evaluate_apart(around.box, ranges, count, find, evaluate);
 }
 
-template <class Work>
-HWY_INLINE bool BroadPhase::search_again(const Blocks& blocks, Work&& work) {
+HWY_INLINE bool BroadPhase::search_again(const Blocks& blocks, EvaluationRef evaluate) {
   if (!covers_) return false;
   for (int i = 0; i < blocks.count; ++i)
     if (!contains(covered_, blocks.ranges[i].box)) return false;
   LaneRange all = blocks.ranges[0];
   all.end = blocks.ranges[blocks.count - 1].end;
-  return work_on_range(all, columns_, work) == Status::kDone;
+  return evaluate_range(all, columns_, evaluate) == Status::kDone;
 }
 
-template <class Find, class Work>
-HWY_INLINE void BroadPhase::search_in_parts(const LaneRange& range, Find&& find, Work&& work) {
+template <class Find>
+HWY_INLINE void BroadPhase::search_in_parts(const LaneRange& range, Find&& find, EvaluationRef evaluate) {
   constexpr int kPart = kMaxCandidates;
   static_assert(kPart % kGroup == 0);
   const int end = static_cast<int>(model_.baked.size());
@@ -232,7 +241,7 @@ HWY_INLINE void BroadPhase::search_in_parts(const LaneRange& range, Find&& find,
     find(AllEllipsoids(model_.baked, k, std::min(k + kPart, end)), of_all_);
     if (of_all_.count == 0) continue;
     columns_.fill(model_, of_all_.index, of_all_.count);
-    (void)work_on_range(range, columns_, work);
+    (void)evaluate_range(range, columns_, evaluate);
   }
 }
 
@@ -247,9 +256,8 @@ HWY_INLINE void list_cached(const CachedBatch& cached, int span, float beyond_m,
   }
 }
 
-template <class Work>
 HWY_INLINE Status BroadPhase::take_cached(const Batch& batch, float beyond_m, float limit_m,
-                                          Columns::Rows rows, Work&& work) {
+                                          Columns::Rows rows, EvaluationRef evaluate) {
   const CachedBatch& cached = *batch.cache.batch;
   columns_.fill(model_, cached.candidate, cached.candidates, rows);
   LaneRange ranges[CachedBatch::kSpans];
@@ -261,11 +269,7 @@ HWY_INLINE Status BroadPhase::take_cached(const Batch& batch, float beyond_m, fl
     if (cached.least_m[count] - cached.moved_m <= limit_m)
       list_cached(cached, count, beyond_m, of_span_[count]);
   }
-  Status status = Status::kDone;
-  with_tables(columns_, [&](auto tables) {
-    status = work(tables, Candidates{columns_, ranges, of_span_, count});
-  });
-  return status;
+  return evaluate({columns_, ranges, of_span_, count});
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

@@ -162,18 +162,16 @@ class ColumnLanes {
   int first_row_;
 };
 
-/// Calls work with the number of tables as a constant.
+/// Returns work(the number of tables as a constant).
 template <class Work>
-HWY_INLINE void with_tables(const Columns& columns, Work&& work) {
-  if constexpr (kWidth == 1) return work(std::integral_constant<int, 0>());
-  if (columns.count() <= kWidth)
-    work(std::integral_constant<int, 1>());
-  else if (columns.count() <= 2 * kWidth)
-    work(std::integral_constant<int, 2>());
-  else if (kMostTables > 2 && columns.count() <= kPermuted)
-    work(std::integral_constant<int, kMostTables>());
-  else
-    work(std::integral_constant<int, 0>());
+HWY_INLINE auto with_tables(const Columns& columns, Work&& work) {
+  if constexpr (kWidth > 1) {
+    if (columns.count() <= kWidth) return work(std::integral_constant<int, 1>());
+    if (columns.count() <= 2 * kWidth) return work(std::integral_constant<int, 2>());
+    if constexpr (kMostTables > 2)
+      if (columns.count() <= kPermuted) return work(std::integral_constant<int, kMostTables>());
+  }
+  return work(std::integral_constant<int, 0>());
 }
 
 }  // namespace bodice::collision::HWY_NAMESPACE

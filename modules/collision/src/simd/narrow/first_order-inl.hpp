@@ -132,17 +132,20 @@ struct FirstOrderEvaluation {
   const ContactOutput& out;
   LaneBits& buried;
 
-  template <class Tables>
-  HWY_INLINE Status operator()(Tables tables, const Candidates& among) const {
+  Status operator()(const Candidates& among) const {
+    return with_tables(among.columns, [&](auto tables) { return write<tables()>(among); });
+  }
+
+ private:
+  template <int kTables>
+  HWY_INLINE Status write(const Candidates& among) const {
     for (int i = 0; i < among.count; ++i)
       if (among.lists[i].count == 0)
         write_none(out, among.ranges[i].begin, among.ranges[i].end);
       else
-        write_range<tables()>(among.ranges[i], among.lists[i], among.columns);
+        write_range<kTables>(among.ranges[i], among.lists[i], among.columns);
     return Status::kDone;
   }
-
- private:
   /// The columns of the ellipsoids of least first-order distance.
   HWY_INLINE void find_owners(const CandidateList& candidates, const Columns& columns,
                               const V3 (&p)[kVectorsAtOnce], VI (&column)[kVectorsAtOnce]) const {

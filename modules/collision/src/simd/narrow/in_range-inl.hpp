@@ -105,17 +105,12 @@ struct EvaluationInRange {
   InRange& in_range;
   BatchResults& out;
 
-  template <class Tables>
-  HWY_INLINE Status operator()(Tables tables, const Candidates& among) const {
+  Status operator()(const Candidates& among) const {
     const int begin = in_range.count;
     collect(among);
     if (in_range.count == begin) return Status::kDone;
     in_range.pad<kLowest>(begin);
-    const Batch at{.at = {in_range.x, in_range.y, in_range.z, in_range.count}};
-    NarrowPhase<Union> narrow(kernel.proxy, at, kernel.open, out);
-    narrow.start();
-    if (!evaluate<tables()>(narrow, begin, among.columns)) return Status::kTooMany;
-    return narrow.template finish<tables()>(among.columns, {begin, in_range.count});
+    return with_tables(among.columns, [&](auto tables) { return evaluate<tables()>(begin, among.columns); });
   }
 
  private:
@@ -177,9 +172,12 @@ struct EvaluationInRange {
       }
     }
   }
-  /// Evaluates the probable owners of the particles [begin, in_range.count). False on overflow.
+  /// Evaluates the particles [begin, in_range.count).
   template <int kTables>
-  HWY_INLINE bool evaluate(NarrowPhase<Union>& narrow, int begin, const Columns& columns) const {
+  HWY_INLINE Status evaluate(int begin, const Columns& columns) const {
+    const Batch at{.at = {in_range.x, in_range.y, in_range.z, in_range.count}};
+    NarrowPhase<Union> narrow(kernel.proxy, at, kernel.open, out);
+    narrow.start();
     for (int from = begin; from < in_range.count; from += kStep) {
       V3 p[kVectorsInStep];
       for (int v = 0; v < kVectorsInStep; ++v) {
@@ -187,9 +185,9 @@ struct EvaluationInRange {
         p[v] = load3(in_range.x + i, in_range.y + i, in_range.z + i);
       }
       const Step step{in_range, from, limits.plain_m};
-      if (!narrow.template evaluate_owners<kTables>(columns, from, p, step)) return false;
+      if (!narrow.template evaluate_owners<kTables>(columns, from, p, step)) return Status::kTooMany;
     }
-    return true;
+    return narrow.template finish<kTables>(columns, {begin, in_range.count});
   }
 };
 

@@ -39,22 +39,25 @@ struct Evaluation {
   const Batch& batch;
   BatchResults& out;
 
-  template <class Tables>
-  HWY_INLINE Status operator()(Tables tables, const Candidates& among) const {
+  Status operator()(const Candidates& among) const {
+    return with_tables(among.columns, [&](auto tables) { return evaluate<tables()>(among); });
+  }
+
+ private:
+  template <int kTables>
+  HWY_INLINE Status evaluate(const Candidates& among) const {
     NarrowPhase<Union> narrow(kernel.proxy, batch, kernel.open, out);
     narrow.start();
     for (int i = 0; i < among.count; ++i) {
       const LaneRange& range = among.ranges[i];
       if (among.lists[i].count == 1)
         narrow.evaluate_single(range, among.columns.ellipsoid(among.lists[i].index[0]));
-      else if (!evaluate_range<tables()>(narrow, range, among.lists[i], among.columns))
+      else if (!evaluate_range<kTables>(narrow, range, among.lists[i], among.columns))
         return Status::kTooMany;
     }
-    return narrow.template finish<tables()>(among.columns,
-                                            {among.ranges[0].begin, end_of(among.ranges[among.count - 1])});
+    return narrow.template finish<kTables>(among.columns,
+                                           {among.ranges[0].begin, end_of(among.ranges[among.count - 1])});
   }
-
- private:
   template <int kTables>
   static HWY_INLINE bool evaluate_range(NarrowPhase<Union>& narrow, const LaneRange& range,
                                         const CandidateList& candidates, const Columns& columns) {
@@ -97,8 +100,8 @@ inline Status nearest_in_parts(Kernel<PlainUnion>& kernel, const Batch& batch, L
     (void)rule.collect(source, range.box, &range, dominators, &list);
   };
   const Evaluation<PlainUnion> evaluate{kernel, batch, part};
-  kernel.broad.search_in_parts(range, find, [&](auto tables, const Candidates& among) {
-    (void)evaluate(tables, among);
+  kernel.broad.search_in_parts(range, find, [&](const Candidates& among) {
+    (void)evaluate(among);
     take_nearer(range, part, out);
     return Status::kDone;
   });

@@ -29,8 +29,13 @@ struct EvaluationOfOthers {
   float limit_m;
   BatchResults& out;
 
-  template <class Tables>
-  HWY_INLINE Status operator()(Tables tables, const Candidates& among) const {
+  Status operator()(const Candidates& among) const {
+    return with_tables(among.columns, [&](auto tables) { return evaluate<tables()>(among); });
+  }
+
+ private:
+  template <int kTables>
+  HWY_INLINE Status evaluate(const Candidates& among) const {
     NarrowPhase<PlainUnion> narrow(kernel.proxy, cleared.batch, kernel.open, out);
     narrow.start();
     const V limit = bound_limit(kernel.model().baked, all(limit_m), 0.0f);
@@ -38,16 +43,14 @@ struct EvaluationOfOthers {
       for (int from = among.ranges[range].begin; from < end_of(among.ranges[range]); from += kStep) {
         LowestBounds<1> lowest[kVectorsInStep];
         bound_others(among.columns, among.lists[range], from, lowest);
-        (void)narrow.make_room<tables()>(among.columns, kVectorsInStep);
+        (void)narrow.make_room<kTables>(among.columns, kVectorsInStep);
         for (int v = 0; v < kVectorsInStep; ++v) {
           const int i = from + v * kWidth;
           kernel.open.add<1, 0>(lanes_below(i, among.ranges[range].end), lowest[v], limit, lanes_from(i));
         }
       }
-    return narrow.finish<tables()>(among.columns, {});
+    return narrow.finish<kTables>(among.columns, {});
   }
-
- private:
   /// The lowest bound at each position among the ellipsoids that were not cleared.
   HWY_INLINE void bound_others(const Columns& columns, const CandidateList& candidates, int from,
                                LowestBounds<1> (&lowest)[kVectorsInStep]) const {

@@ -83,8 +83,13 @@ struct EvaluationOfUncertain {
   const float* score_m;
   BatchResults& out;
 
-  template <class Tables>
-  HWY_INLINE Status operator()(Tables, const Candidates& among) const {
+  Status operator()(const Candidates& among) const {
+    return with_tables(among.columns, [&](auto tables) { return evaluate<tables()>(among); });
+  }
+
+ private:
+  template <int kTables>
+  HWY_INLINE Status evaluate(const Candidates& among) const {
     NarrowPhase<Union> narrow(kernel.proxy, batch, kernel.open, out);
     narrow.start();
     for (int i = 0; i < among.count; ++i) {
@@ -95,12 +100,11 @@ struct EvaluationOfUncertain {
         step.score_m = score_m, step.from = from, step.end = range.end;
         load_step(batch, from, p);
         narrow.bound_step(among.columns, among.lists[i], p, step.bounds);
-        if (!narrow.template evaluate_owners<Tables::value>(among.columns, from, p, step))
-          return Status::kTooMany;
+        if (!narrow.template evaluate_owners<kTables>(among.columns, from, p, step)) return Status::kTooMany;
       }
     }
-    return narrow.template finish<Tables::value>(
-        among.columns, {among.ranges[0].begin, end_of(among.ranges[among.count - 1])});
+    return narrow.template finish<kTables>(among.columns,
+                                           {among.ranges[0].begin, end_of(among.ranges[among.count - 1])});
   }
 };
 
