@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bodies.hpp"
-#include "landmarks/landmark_kind.hpp"
+#include "landmarks/base/landmark_kind.hpp"
 
 namespace calibrate {
 

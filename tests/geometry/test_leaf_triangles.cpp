@@ -8,7 +8,7 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/triangle.hpp>
 
-#include "leaf_triangles.hpp"
+#include "distance/leaf_triangles.hpp"
 
 using namespace bodice::geometry;
 using bodice::engine::Random;

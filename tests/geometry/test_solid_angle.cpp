@@ -9,7 +9,7 @@
 
 #include <bodice/engine/random.hpp>
 
-#include "solid_angle.hpp"
+#include "shape/solid_angle.hpp"
 
 using namespace bodice::geometry;
 using bodice::engine::Random;

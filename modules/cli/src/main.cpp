@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "options.hpp"
-#include "terminal.hpp"
+#include "options/options.hpp"
+#include "output/terminal.hpp"
 
 int main(int argc, char** argv) {
   using namespace bodice::cli;

@@ -1,7 +1,7 @@
 // All landmarks, each with a confidence that its cross-checks have lowered.
 #pragma once
 
-#include "landmarks/landmark_kind.hpp"
+#include "landmarks/base/landmark_kind.hpp"
 
 namespace bodice::anatomy {
 

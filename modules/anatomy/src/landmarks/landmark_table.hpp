@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "landmarks/landmark_kind.hpp"
+#include "landmarks/base/landmark_kind.hpp"
 
 namespace bodice::anatomy {
 

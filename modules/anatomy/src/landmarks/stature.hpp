@@ -1,7 +1,7 @@
 // The height of a body that need not stand.
 #pragma once
 
-#include "landmarks/landmarks.hpp"
+#include "landmarks/base/landmarks.hpp"
 
 namespace bodice::anatomy {
 

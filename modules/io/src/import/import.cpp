@@ -5,11 +5,11 @@
 #include <bodice/io/import.hpp>
 #include <bodice/io/rig.hpp>
 
-#include "body_frame.hpp"
-#include "build_rig.hpp"
-#include "choose_body.hpp"
-#include "close_skin.hpp"
-#include "file_scene.hpp"
+#include "import/body/body_frame.hpp"
+#include "import/body/choose_body.hpp"
+#include "import/body/close_skin.hpp"
+#include "import/rig/build_rig.hpp"
+#include "import/scene/file_scene.hpp"
 
 namespace bodice::io {
 

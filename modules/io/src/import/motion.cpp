@@ -6,11 +6,11 @@
 #include <bodice/io/rig.hpp>
 #include <bodice/rig/retarget.hpp>
 
-#include "body_frame.hpp"
-#include "build_skeleton.hpp"
-#include "bvh.hpp"
-#include "file_format.hpp"
-#include "file_scene.hpp"
+#include "import/body/body_frame.hpp"
+#include "import/rig/build_skeleton.hpp"
+#include "import/scene/bvh.hpp"
+#include "import/scene/file_scene.hpp"
+#include "import/source/file_format.hpp"
 
 namespace bodice::io {
 

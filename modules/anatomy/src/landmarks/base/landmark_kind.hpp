@@ -1,0 +1,55 @@
+// The entry of one kind of landmark in the table of landmarks.
+#pragma once
+
+#include <bodice/body/part.hpp>
+
+#include "landmarks/base/landmarks.hpp"
+
+namespace bodice::anatomy {
+
+/// A second estimate of a landmark that shares no coefficients with the first.
+struct CrossCheck {
+  /// The distance of the two estimates as a fraction of the body size; negative where there is no second one.
+  double (*difference)(const LandmarkInput& input, const Landmarks& marks, int side) = nullptr;
+  double most = 0.0;  ///< a difference above it is a contradiction; half the confidence is left at it
+  const char* warning = nullptr;  ///< what a contradiction means to a user; null: only the confidence falls
+};
+
+/// How the program bench/calibrate makes the coefficients of a landmark.
+enum class Recipe {
+  kNone,        ///< it does not
+  kSignature,   ///< landmarks/skin_signature.hpp
+  kTrunkLevel,  ///< landmarks/level_loop.hpp, find_trunk_level()
+  kLimbLevel,   ///< landmarks/level_loop.hpp, find_limb_level()
+};
+
+/// How one kind of landmark is found. A step that is null is left out. The steps of all kinds run in this
+/// order: `find` of all kinds side by side, `refine` kind by kind in the order of the table, `finish`
+/// likewise, `checks` side by side. A step that takes `marks` computes both sides before either changes.
+struct LandmarkKind {
+  LandmarkId id = LandmarkId::kCrown;  ///< the left one of a pair
+  bool paired = false;
+  body::Part part = body::Part::kHead;  ///< named by warnings about it; the left one of a pair
+  /// The first estimate, from the body's coordinates alone.
+  FoundLandmark (*find)(const LandmarkInput& input, int side) = nullptr;
+  /// A better estimate from this and other landmarks.
+  FoundLandmark (*refine)(const LandmarkInput& input, const Landmarks& marks, int side) = nullptr;
+  /// The last estimate, when every landmark is refined.
+  FoundLandmark (*finish)(const LandmarkInput& input, const Landmarks& marks, int side) = nullptr;
+  std::array<CrossCheck, 2> checks{};
+  bool warn_uncertain = false;  ///< a confidence below kUncertain gives a warning
+  int doubt = 0;                ///< how much doubt about it counts as a sign of fused limbs
+  bool on_skin = false;         ///< its vertex is the one nearest to where it ends up
+  Recipe recipe = Recipe::kNone;
+};
+
+/// Below this confidence a landmark is named in a warning.
+inline constexpr double kUncertain = 0.35;
+
+/// 1 at a Mahalanobis distance of 0, falling to 0 at `hopeless`.
+inline double confidence_of(double mahalanobis, double hopeless) {
+  const double m = mahalanobis / hopeless;
+  return std::max(0.0, 1.0 - m * m);
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,41 @@
+#include "landmarks/base/limb_joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "coordinates/body_lengths.hpp"
+#include "landmarks/base/correction.hpp"
+#include "skin/centerline.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using geometry::Vec3;
+
+/// A limb that bends less has no bend to read, so that its joint is estimated by proportion. A bend alone
+/// contradicts nothing: on heavy arms it may be flesh at the wrist or a raised shoulder.
+constexpr float kBent_rad = 0.6F;
+
+}  // namespace
+
+Vec3 limb_joint(const LandmarkInput& input, const Loop& loop, const Vec3& root, const Vec3& end,
+                std::array<std::span<const double>, 2> weights) {
+  if (!loop.found()) return loop.center;
+  const BodyLengths lengths = body_lengths(input.coordinates);
+  const std::vector<double> measures(lengths.begin(), lengths.end());
+  const Vec3 upper = (loop.center - root).normalized(), lower = (end - loop.center).normalized();
+  return corrected({loop.center, input.size_m(), {{upper, measures}, {lower, measures}}},
+                   {weights[0], weights[1]}, kMostByLengths)
+      .position;
+}
+
+double joint_difference(const LandmarkInput& input, const Limb& limb, const Loop& loop) {
+  if (!loop.found() || !(limb.length_m > 0.0F)) return -1.0;
+  const Bend bend =
+      sharpest_bend(input.skin, limb.from_end, limb.from * limb.length_m, limb.to * limb.length_m);
+  float apart = std::abs(limb.share * limb.length_m - loop.level_m);
+  if (bend.angle_rad > kBent_rad) apart = std::min(apart, std::abs(bend.level - loop.level_m));
+  return static_cast<double>(apart / input.coordinates.size_m());
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,27 @@
+// The joint of an ankle, at the center of its girth.
+#include <coefficients/ankle.hpp>
+
+#include "landmarks/base/landmark_kind.hpp"
+#include "landmarks/base/level_loop.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+/// Beyond this distance from the toe, in units of foot to foot, the level means nothing.
+constexpr float kReach = 0.24F;
+
+FoundLandmark find(const LandmarkInput& input, int side) {
+  return find_limb_level(input, LandmarkId::kAnkleL, side, kOwnFoot, kReach, coefficients::ankle::kLevel);
+}
+
+}  // namespace
+
+LandmarkKind ankle() {
+  return {.id = LandmarkId::kAnkleL,
+          .paired = true,
+          .part = body::Part::kCalfL,
+          .find = find,
+          .recipe = Recipe::kLimbLevel};
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,105 @@
+#include "landmarks/kinds/armpit_signature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <coefficients/armpit.hpp>
+
+#include "coordinates/signature.hpp"
+#include "skin/nearest_signature.hpp"
+#include "skin/soft_position.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using geometry::Index;
+
+/// Own hand, other hand, own foot, front, back, perineum, past the shoulder level; front minus back and front
+/// plus back as shares of half the chest's girth; detour between hand and foot; other foot; detours between
+/// head and hands, and head and feet; head. The measures of the body: half the chest's girth, hands apart,
+/// feet apart, trunk, front and back at the crown.
+constexpr Signature<14, 6> kArmpit = make_signature<14, 6>(
+    coefficients::armpit::kMean, coefficients::armpit::kOfBody, coefficients::armpit::kWhiten);
+
+/// The armpit lies between these distances from its own hand; fractions of hand to hand.
+constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
+/// It is near the level where the arm widens, in fractions of hand to hand, and near the shortest path from
+/// hand to foot.
+constexpr float kNearShoulder = 0.075F, kArmpitDetour = 1.13F;
+/// The paths around the chest that count for one side lie beyond its forearm, nearer to its own hand, and
+/// under the arm: paths over the neck are shorter on heavy bodies.
+constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
+constexpr float kLeastHalfChest = 0.02F;  // a fraction of the body size
+/// A vertex this far from the best one is elsewhere, as a fraction of the body size: more than a landmark's
+/// bar, less than from the armpit to the top of the shoulder, to the chest or to the back, which resemble it.
+constexpr double kElsewhere = 0.06;
+
+/// Half the girth of the chest on one side: the shortest path from the midline's front to its back under the
+/// arm, as a fraction of the body size.
+float half_chest(const BodyCoordinates& coordinates, int side) {
+  const BodyExtremities& tips = coordinates.extremities();
+  const geodesic::Field &own = *tips.from_hand[side], &other = *tips.from_hand[1 - side];
+  float least = 0.0F;
+  for (std::size_t v = 0; v < own.size(); ++v) {
+    if (!(own[v] > kChestFrom * tips.hands_apart && own[v] < kOwnSide * other[v])) continue;
+    const CoordinateArray x = coordinates.at(v, side);
+    if (!(x[kHandFootDetour] < kUnderArm)) continue;
+    const float around = x[kFromFront] + x[kFromBack];
+    if (least == 0.0F || around < least) least = around;
+  }
+  return std::max(least, kLeastHalfChest);
+}
+
+/// The measures of the body that the armpit's coordinates follow.
+std::array<float, 6> measures_of(const BodyCoordinates& coordinates, float half) {
+  const BodyExtremities& tips = coordinates.extremities();
+  const float size = coordinates.size_m();
+  return {half,
+          tips.hands_apart / size,
+          tips.feet_apart / size,
+          coordinates.from_perineum()[tips.head] / size,
+          coordinates.from_front()[tips.head] / size,
+          coordinates.from_back()[tips.head] / size};
+}
+
+}  // namespace
+
+ArmpitSignature find_armpit(const engine::Context& context, const Skin& skin,
+                            const BodyCoordinates& coordinates, int side) {
+  const float half = half_chest(coordinates, side);
+  const auto expected = kArmpit.expected(measures_of(coordinates, half));
+  const auto distance2 = [&](std::size_t v) {
+    const CoordinateArray x = coordinates.at(v, side);
+    return kArmpit.distance2(
+        {x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack], x[kFromPerineum],
+         x[kPastShoulder], (x[kFromFront] - x[kFromBack]) / half, (x[kFromFront] + x[kFromBack]) / half,
+         x[kHandFootDetour], x[kOtherFoot], x[kHeadHandDetour], x[kHeadFootDetour], x[kFromHead]},
+        expected);
+  };
+  const geodesic::Field& own = *coordinates.extremities().from_hand[side];
+  const float apart = coordinates.extremities().hands_apart;
+  const auto may_be = [&](std::size_t v) {
+    if (!(own[v] > kArmpitFrom * apart && own[v] < kArmpitTo * apart)) return false;
+    const CoordinateArray x = coordinates.at(v, side);
+    return std::abs(x[kPastShoulder]) < kNearShoulder && x[kHandFootDetour] < kArmpitDetour;
+  };
+  const NearestSignature found =
+      nearest_signature(context, coordinates.from_perineum().size(), may_be, distance2);
+  const float least2 = found.mahalanobis * found.mahalanobis;
+  const geometry::Vec3 position =
+      soft_position(skin, found.vertex, kSoftRadius * static_cast<double>(coordinates.size_m()),
+                    [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
+  const double elsewhere = kElsewhere * static_cast<double>(coordinates.size_m());
+  const auto may_be_other = [&](std::size_t v) {
+    const auto& p = skin.mesh.positions;
+    return may_be(v) && (p[v] - p[found.vertex]).squaredNorm() > elsewhere * elsewhere;
+  };
+  const NearestSignature other =
+      nearest_signature(context, coordinates.from_perineum().size(), may_be_other, distance2);
+  const float margin = may_be_other(other.vertex) ? other.mahalanobis - found.mahalanobis
+                                                  : std::numeric_limits<float>::infinity();
+  return {position, found.vertex, found.mahalanobis, margin};
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,55 @@
+// The joint of an elbow.
+#include <coefficients/elbow.hpp>
+
+#include "landmarks/base/border_loop.hpp"
+#include "landmarks/base/limb_joint.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+/// Beyond this distance from the fingertip, in units of hand to hand, the border's sign means nothing.
+constexpr float kReach = 0.36F;
+/// Where elbows may lie, and where they lie on straight arms on the mean of made and scanned bodies: shares
+/// of the path from fingertip to armpit.
+constexpr float kFrom = 0.40F, kTo = 0.85F, kShare = 0.635F;
+/// One elbow in a hundred that is right lies farther from its second estimate, as a fraction of the body
+/// size.
+constexpr double kMaxDifference = 0.07;
+
+FoundLandmark find(const LandmarkInput& input, int side) {
+  FoundLandmark elbow;
+  elbow.loop = border_loop(input.skin, input.coordinates, {kElbow, kOwnHand, kReach}, side);
+  elbow.mark = {body::of_side(LandmarkId::kElbowL, side), elbow.loop.center, elbow.loop.vertex,
+                elbow.loop.confidence};
+  return elbow;
+}
+
+FoundLandmark refine(const LandmarkInput& input, const Landmarks& marks, int side) {
+  FoundLandmark elbow = marks[body::of_side(LandmarkId::kElbowL, side)];
+  elbow.mark.position = limb_joint(input, elbow.loop, marks.at(LandmarkId::kArmpitL, side),
+                                   input.skin.mesh.positions[input.tips().hand[side]],
+                                   {coefficients::elbow::kUpper, coefficients::elbow::kLower});
+  return elbow;
+}
+
+double difference(const LandmarkInput& input, const Landmarks& marks, int side) {
+  const geodesic::Field& from_hand = *input.tips().from_hand[side];
+  const geometry::Index armpit = marks[body::of_side(LandmarkId::kArmpitL, side)].mark.vertex;
+  return joint_difference(input, {from_hand, from_hand[armpit], kFrom, kTo, kShare},
+                          marks[body::of_side(LandmarkId::kElbowL, side)].loop);
+}
+
+}  // namespace
+
+LandmarkKind elbow() {
+  return {.id = LandmarkId::kElbowL,
+          .paired = true,
+          .part = body::Part::kUpperArmL,
+          .find = find,
+          .refine = refine,
+          .checks = {{{difference, kMaxDifference,
+                       "The elbow's border and the bend or the middle of the arm lie far from each other."}}},
+          .doubt = 1};
+}
+
+}  // namespace bodice::anatomy

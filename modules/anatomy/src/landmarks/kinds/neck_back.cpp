@@ -1,0 +1,27 @@
+// The back of the neck's base: the prominent vertebra (C7).
+#include <coefficients/neck_back.hpp>
+
+#include "landmarks/base/skin_signature.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+constexpr SkinSignature kSignature = make_signature<kCoordinateCount, kBuildCount>(
+    coefficients::neck_back::kMean, coefficients::neck_back::kOfBody, coefficients::neck_back::kWhiten);
+
+FoundLandmark find(const LandmarkInput& input, int side) {
+  return find_by_signature(input, LandmarkId::kNeckBack, side, kSignature);
+}
+
+}  // namespace
+
+LandmarkKind neck_back() {
+  return {.id = LandmarkId::kNeckBack,
+          .paired = false,
+          .part = body::Part::kTorsoUL,
+          .find = find,
+          .on_skin = true,
+          .recipe = Recipe::kSignature};
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,27 @@
+// The front of the neck's base: the notch above the breastbone.
+#include <coefficients/neck_front.hpp>
+
+#include "landmarks/base/skin_signature.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+constexpr SkinSignature kSignature = make_signature<kCoordinateCount, kBuildCount>(
+    coefficients::neck_front::kMean, coefficients::neck_front::kOfBody, coefficients::neck_front::kWhiten);
+
+FoundLandmark find(const LandmarkInput& input, int side) {
+  return find_by_signature(input, LandmarkId::kNeckFront, side, kSignature);
+}
+
+}  // namespace
+
+LandmarkKind neck_front() {
+  return {.id = LandmarkId::kNeckFront,
+          .paired = false,
+          .part = body::Part::kTorsoUL,
+          .find = find,
+          .on_skin = true,
+          .recipe = Recipe::kSignature};
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,132 @@
+#include "landmarks/kinds/perineum_by_legs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <coefficients/perineum.hpp>
+
+#include "coordinates/build.hpp"
+#include "landmarks/base/trunk_frame.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using geometry::Vec3;
+namespace data = coefficients::perineum;
+
+/// The frame of the trunk with its origin in the perineum's first estimate; lengths are fractions of the body
+/// size.
+struct Trunk {
+  TrunkFrame frame;
+  Vec3 origin;
+  double size_m;
+
+  Vec3 coordinates(const Vec3& p) const { return frame.coordinates(p - origin) / size_m; }
+};
+
+/// The directions of both thighs: how far outward, up and forward each points.
+struct Thighs {
+  std::array<Vec3, 2> of_side;
+  double mean(int axis) const { return 0.5 * (of_side[0][axis] + of_side[1][axis]); }
+  double differ(int axis) const { return of_side[0][axis] - of_side[1][axis]; }
+};
+enum Axis { kOut, kUp, kAhead };
+
+/// One body in a thousand needs more; a fraction of the body size.
+constexpr double kFarthest = 0.04;
+/// The sum of the distances from breastbone and back to where the legs merge, on a body of middle build; a
+/// fraction of the body size.
+constexpr double kMiddleTrunk = 0.6856;
+
+Thighs thighs_of(const Trunk& trunk, const Landmarks& marks) {
+  Thighs thighs;
+  for (int side = 0; side < 2; ++side) {
+    thighs.of_side[side] = trunk.coordinates(marks.at(LandmarkId::kKneeL, side)).normalized();
+    if (side == 1) thighs.of_side[side].x() = -thighs.of_side[side].x();
+  }
+  return thighs;
+}
+
+/// How much longer than on a body of middle build the front and back of the trunk are; a fraction of the body
+/// size.
+double heaviness(const BodyCoordinates& coordinates) {
+  return static_cast<double>((coordinates.front_to_merge_m() + coordinates.back_to_merge_m()) /
+                             coordinates.size_m()) -
+         kMiddleTrunk;
+}
+
+/// What is the same in a mirror: the thighs' mean directions, how far they differ, squares and products of
+/// these, and the products of those with how heavy the trunk is; the build; up and forward to where the legs
+/// merge and to the estimate by distances, forward and up to breastbone and back.
+std::vector<double> even_measures(const BodyCoordinates& coordinates, const Trunk& trunk,
+                                  const Thighs& thighs) {
+  const double ahead = thighs.mean(kAhead), up = thighs.mean(kUp), out = thighs.mean(kOut);
+  const double aheads = std::abs(thighs.differ(kAhead)), ups = std::abs(thighs.differ(kUp));
+  const double heavy = heaviness(coordinates);
+  std::vector<double> x{ahead,
+                        up,
+                        out,
+                        aheads,
+                        ups,
+                        aheads * aheads,
+                        ups * ups,
+                        ahead * ahead,
+                        up * up,
+                        out * out,
+                        ahead * up,
+                        heavy * ahead,
+                        heavy * up,
+                        heavy * aheads,
+                        heavy * aheads * aheads,
+                        heavy * ups * ups};
+  for (const float length : build_of(coordinates)) x.push_back(static_cast<double>(length));
+  for (const Vec3& to : {coordinates.leg_merge().at.position, coordinates.perineum_position()}) {
+    x.push_back(trunk.coordinates(to).y());
+    x.push_back(trunk.coordinates(to).z());
+  }
+  const Vec3 front = trunk.coordinates(coordinates.midline().front.position),
+             back = trunk.coordinates(coordinates.midline().back.position);
+  x.insert(x.end(), {front.z(), back.z(), front.y(), back.y()});
+  clamp_measures(x, data::kLeast, data::kMost);
+  return x;
+}
+
+/// What changes its sign in a mirror: differences of the thighs, their products with how heavy the trunk is
+/// and with their means; left to the two estimates and to the middle of breastbone and back.
+std::vector<double> odd_measures(const BodyCoordinates& coordinates, const Trunk& trunk,
+                                 const Thighs& thighs) {
+  const double ahead = thighs.differ(kAhead), up = thighs.differ(kUp);
+  const double heavy = heaviness(coordinates);
+  const Midline& middle = coordinates.midline();
+  std::vector<double> x{
+      ahead,
+      up,
+      thighs.differ(kOut),
+      heavy * ahead,
+      heavy * up,
+      ahead * thighs.mean(kAhead),
+      up * thighs.mean(kUp),
+      trunk.coordinates(coordinates.leg_merge().at.position).x(),
+      trunk.coordinates(coordinates.perineum_position()).x(),
+      0.5 * (trunk.coordinates(middle.front.position).x() + trunk.coordinates(middle.back.position).x())};
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x[i], -data::kMostOdd[i], data::kMostOdd[i]);
+  return x;
+}
+
+}  // namespace
+
+Corrected perineum_by_legs(const LandmarkInput& input, const Landmarks& marks) {
+  const Vec3& first = marks.at(LandmarkId::kPerineum);
+  if (input.fused() || !input.coordinates.leg_merge().at.found()) return {first, 0.0};
+  const Trunk trunk{trunk_frame(marks), first, input.size_m()};
+  const Thighs thighs = thighs_of(trunk, marks);
+  const std::vector<double> even = even_measures(input.coordinates, trunk, thighs);
+  return corrected({first,
+                    input.size_m(),
+                    {{trunk.frame.left, odd_measures(input.coordinates, trunk, thighs)},
+                     {trunk.frame.up, even},
+                     {trunk.frame.forward, even}}},
+                   {data::kLeftward, data::kUpward, data::kForward}, kFarthest);
+}
+
+}  // namespace bodice::anatomy

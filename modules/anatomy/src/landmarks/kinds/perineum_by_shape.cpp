@@ -1,0 +1,81 @@
+#include "landmarks/kinds/perineum_by_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <coefficients/perineum.hpp>
+
+#include "coordinates/crotch_line.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using geometry::Vec3;
+
+/// The points of the line that are read, from front to back, in spacings.
+constexpr std::array<int, 10> kReadAt{-10, -8, -6, -4, -2, 2, 4, 6, 8, 10};
+/// The chord between these two points of the line, in front and behind, is level.
+constexpr int kChord = 9;
+
+using Shape = std::array<double, 2 * kReadAt.size()>;
+
+/// The largest shift that a calibration body needs is .037 of the body size.
+constexpr double kMost = 0.04;
+
+/// How far behind the first estimate the perineum lies, as a fraction of the body size: a constant, then what
+/// each point's depth below the first estimate counts, then its distance before it. One form for bent legs,
+/// and one that is added on straight legs.
+double shift_on(const Shape& shape, const double (&weights)[std::tuple_size_v<Shape> + 1]) {
+  double sum = weights[0];
+  for (std::size_t i = 0; i < shape.size(); ++i) sum += weights[i + 1] * shape[i];
+  return sum;
+}
+
+Shape shape_of(const CrotchLine& line, double size) {
+  const Vec3 &front = line.at(-kChord), &back = line.at(kChord);
+  Vec3 middle = Vec3::Zero();
+  for (int i = -kChord; i <= kChord; ++i) middle += line.at(i) / (2 * kChord + 1);
+  const Vec3 forward = (front - back).normalized();
+  const Vec3 sag = middle - 0.5 * (front + back);
+  const Vec3 down = (sag - sag.dot(forward) * forward).normalized();
+  Shape shape{};
+  for (std::size_t i = 0; i < kReadAt.size(); ++i) {
+    const Vec3 off = (line.at(kReadAt[i]) - line.at(0)) / size;
+    shape[i] = off.dot(down);
+    shape[kReadAt.size() + i] = off.dot(forward);
+  }
+  return shape;
+}
+
+/// 0 if a knee is drawn up to a right angle or more, 1 if both legs go on where the trunk ends.
+double straightness(const Landmarks& marks) {
+  constexpr double kBentCosine = 0.2, kStraightCosine = 0.8;
+  const Vec3& perineum = marks.at(LandmarkId::kPerineum);
+  const Vec3 up = (marks.at(LandmarkId::kNeck) - perineum).normalized();
+  double cosine = 1.0;
+  for (int side = 0; side < 2; ++side)
+    cosine = std::min(cosine, -(marks.at(LandmarkId::kKneeL, side) - perineum).normalized().dot(up));
+  return std::clamp((cosine - kBentCosine) / (kStraightCosine - kBentCosine), 0.0, 1.0);
+}
+
+/// The point of the line this far behind its middle one, a fraction of the body size.
+Vec3 point_behind(const CrotchLine& line, double shift) {
+  const double steps = shift / CrotchLine::kSpacing;
+  const int before = static_cast<int>(std::floor(steps));
+  return line.at(before) + (steps - before) * (line.at(before + 1) - line.at(before));
+}
+
+}  // namespace
+
+Vec3 perineum_by_shape(const LandmarkInput& input, const Landmarks& marks) {
+  const Vec3& first = marks.at(LandmarkId::kPerineum);
+  const auto line = crotch_line(input.skin, input.coordinates, first);
+  if (!line) return first;
+  const Shape shape = shape_of(*line, input.size_m());
+  const double shift = shift_on(shape, coefficients::perineum::kBent) +
+                       straightness(marks) * shift_on(shape, coefficients::perineum::kStraighter);
+  if (!std::isfinite(shift)) return first;
+  return first + point_behind(*line, std::clamp(shift, -kMost, kMost)) - line->at(0);
+}
+
+}  // namespace bodice::anatomy

@@ -1,0 +1,21 @@
+// The middle of the trunk at the level of the waist.
+#include <coefficients/waist.hpp>
+
+#include "landmarks/base/landmark_kind.hpp"
+#include "landmarks/base/level_loop.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+FoundLandmark find(const LandmarkInput& input, int) {
+  return find_trunk_level(input, LandmarkId::kWaist, coefficients::waist::kLevel);
+}
+
+}  // namespace
+
+LandmarkKind waist() {
+  return {
+      .id = LandmarkId::kWaist, .part = body::Part::kTorsoML, .find = find, .recipe = Recipe::kTrunkLevel};
+}
+
+}  // namespace bodice::anatomy

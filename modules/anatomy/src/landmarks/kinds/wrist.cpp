@@ -1,0 +1,27 @@
+// The joint of a wrist, at the center of its girth.
+#include <coefficients/wrist.hpp>
+
+#include "landmarks/base/landmark_kind.hpp"
+#include "landmarks/base/level_loop.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+/// Beyond this distance from the fingertip, in units of hand to hand, the level means nothing.
+constexpr float kReach = 0.17F;
+
+FoundLandmark find(const LandmarkInput& input, int side) {
+  return find_limb_level(input, LandmarkId::kWristL, side, kOwnHand, kReach, coefficients::wrist::kLevel);
+}
+
+}  // namespace
+
+LandmarkKind wrist() {
+  return {.id = LandmarkId::kWristL,
+          .paired = true,
+          .part = body::Part::kForearmL,
+          .find = find,
+          .recipe = Recipe::kLimbLevel};
+}
+
+}  // namespace bodice::anatomy

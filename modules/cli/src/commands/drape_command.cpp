@@ -1,0 +1,131 @@
+#include <filesystem>
+#include <memory>
+
+#include "options/validators.hpp"
+#include "run/drape_steps.hpp"
+
+namespace bodice::cli {
+namespace {
+
+engine::Result<void> drape(const DrapeCommand& command) {
+  const CommonOptions& o = command.common;
+  Run run(o);
+  std::vector<FileOption> garments;
+  for (const std::string& file : command.garments) garments.push_back({"GARMENT", file});
+  if (auto ok = run.check_files(
+          {{"-o", command.output, {".glb"}}, {"--contact-sheet", command.contact_sheet, {".png"}}},
+          std::move(garments));
+      !ok)
+    return ok;
+  auto skin = read_body(run, command);
+  if (!skin) return std::move(skin).error();
+  auto motion = find_motion(run, command, *skin);
+  if (!motion) return std::move(motion).error();
+  auto worn = dress(run, command, *skin);
+  if (!worn) return std::move(worn).error();
+  auto body = fit_body(run, std::move(skin).value(), command.moves());
+  if (!body) return std::move(body).error();
+  DressedBody dressed{std::move(body).value(), std::move(motion).value(), std::move(worn).value()};
+  std::vector<std::string> written;
+  const auto report = drape_and_write(run, command, dressed, written);
+  if (!report) return report.error();
+  return run.finish(dressed.body, &*report, written);
+}
+
+void add_motion_options(CLI::App& sub, DrapeCommand& c) {
+  const auto group = "Motion";
+  auto* motion =
+      sub.add_option(
+             "--motion", c.motion.motion,
+             "move the body: walk, run, turn, spin, reach, sit, squat, arms-up, dance, or a file with a "
+             "skeleton and clips (GLB, FBX, DAE, BVH)")
+          ->check(not_empty())
+          ->group(group);
+  sub.add_option("--clip", c.motion.clip, "name of the file's clip (default: its first)")
+      ->check(not_empty())
+      ->needs(motion)
+      ->group(group);
+  sub.add_flag("--loop", c.drape.loop, "start the clip over at its end")->needs(motion)->group(group);
+  sub.add_option(
+         "--ramp", c.drape.ramp_s,
+         "seconds from the pose of the file to the clip's first frame (default: by how far the skin moves)")
+      ->check(between(0.0, 60.0))
+      ->needs(motion)
+      ->group(group);
+  sub.add_option("--frames", c.frames, "frames to simulate (default: 120, or the clip once)")
+      ->check(whole(1, 100000))
+      ->group(group);
+  sub.add_option("--dt", c.drape.dt_s, "seconds a frame")
+      ->check(between(0.0, 1.0))
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--substeps", c.drape.solver.substeps, "solver steps a frame: more is stiffer and slower")
+      ->check(whole(1, cloth::kMaxSubsteps))
+      ->group(group)
+      ->capture_default_str();
+  auto* wind = sub.add_option("--wind", c.wind_m_s, "x,y,z in the file's axes, meters a second");
+  wind->delimiter(',')->check(finite())->expected(3)->group(group);
+  sub.add_option("--gust", c.drape.solver.environment.gust, "share of the wind that fluctuates")
+      ->check(between(0.0, 1.0))
+      ->needs(wind)
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--fabric", c.fabric, "cotton, silk, denim, jersey, leather")
+      ->check(CLI::IsMember(cloth::fabric_names()))
+      ->group(group)
+      ->capture_default_str();
+  sub.add_option("--thickness-mm", c.thickness_mm,
+                 "distance that particles keep from the skin (default: so that triangles stay out too)")
+      ->check(between(0.0, 100.0))
+      ->group(group);
+  sub.add_option("--keep", c.drape.kept_frames, "frames kept in the GLB")
+      ->check(whole(2, 10000))
+      ->group(group)
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_drape_options(CLI::App& sub, DrapeCommand& command) {
+  add_common_options(sub, command.common);
+  auto* garments =
+      sub.add_option("GARMENT", command.garments,
+                     "garment meshes in the body's coordinates and unit (default: one made to fit)");
+  garments->check(not_empty());
+  sub.add_option("--garment", command.made, "without GARMENT, make this: skirt, tunic, poncho, tube")
+      ->check(CLI::IsMember({"skirt", "tunic", "poncho", "tube"}))
+      ->excludes(garments)
+      ->group("Garment")
+      ->capture_default_str();
+  sub.add_option("--hold", command.hold, "auto: waistbands stay with the body; none: everything is free")
+      ->check(CLI::IsMember({"auto", "none"}))
+      ->group("Garment")
+      ->capture_default_str();
+  add_motion_options(sub, command);
+  sub.add_option("-o,--output", command.output, "body, ellipsoids and moving cloth, .glb for any glTF viewer")
+      ->check(not_empty())
+      ->group("Output")
+      ->capture_default_str();
+  sub.add_option("--contact-sheet", command.contact_sheet, "write a PNG with a view of every kept frame")
+      ->check(not_empty())
+      ->group("Output");
+  sub.add_flag("--no-picture", command.no_picture, "write no PNG beside the output")
+      ->excludes("--picture")
+      ->group("Output");
+}
+
+void add_drape_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line) {
+  auto command = std::make_shared<DrapeCommand>();
+  command->common.command_line = command_line;
+  CLI::App* sub = app.add_subcommand("drape", "Drape garments over a body under gravity and wind");
+  add_drape_options(*sub, *command);
+  sub->footer("Example: bodice drape body.obj dress.obj -o out.glb --frames 120 --wind 0,0,2");
+  sub->callback([command, &exit_code] {
+    if (!command->no_picture && command->common.picture.empty())
+      command->common.picture = std::filesystem::path(command->output).replace_extension(".png").string();
+    const auto done = drape(*command);
+    exit_code = done ? kExitOk : fail(done.error());
+  });
+}
+
+}  // namespace bodice::cli

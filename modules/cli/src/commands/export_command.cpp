@@ -1,0 +1,161 @@
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include <bodice/colliders/formats.hpp>
+#include <bodice/colliders/reduce.hpp>
+#include <bodice/engine/executor.hpp>
+#include <bodice/engine/message.hpp>
+#include <bodice/engine/write_file.hpp>
+#include <bodice/io/import.hpp>
+#include <bodice/proxy/base_pose.hpp>
+#include <bodice/proxy/proxy_surface.hpp>
+
+#include "options/options.hpp"
+#include "options/validators.hpp"
+#include "output/outputs.hpp"
+#include "output/terminal.hpp"
+
+namespace bodice::cli {
+namespace {
+
+/// Cells of the surface that stands for the skin where no body is given.
+constexpr double kReferenceCells = 200.0;
+
+struct ExportCommand {
+  std::string proxy, format, output, body, report, shapes;
+  int count = 32;
+  bool quiet = false;
+};
+
+/// A collider and what it costs.
+struct Reduced {
+  std::vector<colliders::PlainShape> shapes;  ///< empty where ellipsoids are written
+  colliders::ReductionCost cost;
+  std::string what;  ///< "32 capsules", "89 ellipsoids"
+};
+
+engine::Result<geometry::TriMesh> reference(const engine::Context& context, const ExportCommand& command,
+                                            const proxy::BodyProxy& proxy) {
+  if (!command.body.empty()) {
+    io::ImportOptions options;
+    options.up = proxy.frame().up;
+    auto body = io::import_body(context, command.body, options);
+    if (!body) return std::move(body).error();
+    return std::move(body->skin);
+  }
+  auto surface = proxy::proxy_surface(context, proxy, proxy.stature_m() / kReferenceCells);
+  if (!surface) return std::move(surface).error();
+  return std::move(surface->mesh);
+}
+
+engine::Result<Reduced> reduce(const engine::Context& context, const ExportCommand& command,
+                               const colliders::FormatFacts& facts, const proxy::BodyProxy& proxy) {
+  const auto mesh = reference(context, command, proxy);
+  if (!mesh) return mesh.error();
+  const colliders::SkinPoints points = colliders::skin_points(context, proxy, *mesh);
+  Reduced reduced;
+  if (facts.takes_ellipsoids) {
+    reduced.cost = colliders::cost_of_ellipsoids(context, proxy, points);
+    reduced.what = engine::message(proxy.ellipsoids().size(), " ellipsoids");
+    return reduced;
+  }
+  const auto kind = command.shapes.empty() ? colliders::ShapeKind::kCapsule
+                                           : *colliders::shape_kind_from_name(command.shapes);
+  auto shapes = colliders::reduce(context, proxy, points, kind, command.count);
+  if (!shapes) return std::move(shapes).error();
+  reduced.shapes = std::move(shapes).value();
+  reduced.cost = colliders::cost_of(context, proxy, points, reduced.shapes);
+  reduced.what = engine::message(
+      reduced.shapes.size(), " ",
+      kind == colliders::ShapeKind::kTaperedCapsule ? "tapered capsules" : colliders::name(kind));
+  return reduced;
+}
+
+void print_cost(const ExportCommand& command, const Reduced& reduced) {
+  std::printf("collider    %s for %s\n", reduced.what.c_str(), command.format.c_str());
+  const auto row = [](std::string_view name, const colliders::SurfaceError& error) {
+    std::printf("%-11s mean %.2f mm, 95 %% within %.2f mm, worst %.2f mm\n", std::string(name).c_str(),
+                1e3 * error.mean_m, 1e3 * error.p95_m, 1e3 * error.worst_m);
+  };
+  std::printf("error       against %s\n", command.body.empty()
+                                              ? "the proxy's surface (--body measures against the skin)"
+                                              : ("the skin of " + command.body).c_str());
+  row("  whole", reduced.cost.whole);
+  for (std::size_t p = 0; p < reduced.cost.of_part.size(); ++p)
+    if (reduced.cost.of_part[p].area_m2 > 0.0)
+      row("  " + std::string(body::kPartNames[p]), reduced.cost.of_part[p]);
+}
+
+engine::Result<void> export_colliders(const ExportCommand& command) {
+  const colliders::Format format = *colliders::format_from_name(command.format);
+  const colliders::FormatFacts& facts = colliders::facts(format);
+  const FileOption outputs[] = {{"-o", command.output, {std::string(facts.extension)}},
+                                {"--report", command.report, {".json"}}};
+  const FileOption inputs[] = {{"PROXY", command.proxy}, {"--body", command.body}};
+  if (auto ok = check_outputs(outputs, inputs); !ok) return ok;
+  if (facts.takes_ellipsoids && !command.shapes.empty())
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         "--shapes " + command.shapes + ": " + command.format + " takes ellipsoids.",
+                         "Leave --shapes out."};
+  const auto both = proxy::load_with_bases(command.proxy);
+  if (!both) return both.error();
+  if (const auto possible = colliders::text_of(format, both->proxy, {}); !possible) return possible.error();
+  const auto executor = engine::make_tbb_executor(0);
+  engine::Context context;
+  context.executor = executor.get();
+  const auto reduced = reduce(context, command, facts, both->proxy);
+  if (!reduced) return reduced.error();
+  const auto text = colliders::text_of(format, both->proxy, reduced->shapes);
+  if (!text) return text.error();
+  if (auto done = engine::write_file(command.output, std::string_view(*text)); !done) return done;
+  if (!command.report.empty()) {
+    const std::string report = colliders::cost_json(
+        both->proxy, reduced->cost,
+        {command.format, reduced->what, command.body.empty() ? "the proxy's surface" : command.body});
+    if (auto done = engine::write_file(command.report, std::string_view(report)); !done) return done;
+  }
+  if (command.quiet) return {};
+  print_cost(command, *reduced);
+  std::printf("wrote       %s\n", command.output.c_str());
+  if (!command.report.empty()) std::printf("wrote       %s\n", command.report.c_str());
+  return {};
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, int& exit_code) {
+  auto command = std::make_shared<ExportCommand>();
+  CLI::App* sub = app.add_subcommand("export", "Write colliders for a game engine or a simulator");
+  std::vector<std::string> formats;
+  for (int i = 0; i < colliders::kFormatCount; ++i)
+    formats.emplace_back(colliders::facts(static_cast<colliders::Format>(i)).name);
+  sub->add_option("PROXY", command->proxy, "a proxy that `bodice fit` wrote")->check(not_empty())->required();
+  sub->add_option("--to", command->format, "what reads the file")->check(CLI::IsMember(formats))->required();
+  sub->add_option("-o,--output", command->output,
+                  "the file: .json for unity and unreal, .tscn for godot, .gltf for vrm, .xml for mujoco, "
+                  ".sdf for sdformat")
+      ->check(not_empty())
+      ->required();
+  sub->add_option("--shapes", command->shapes,
+                  "spheres, capsules (the default), or tapered capsules (unity, unreal)")
+      ->check(CLI::IsMember({"spheres", "capsules", "tapered"}));
+  sub->add_option("--count", command->count, "at most so many shapes (default: 32)")
+      ->check(whole(1, colliders::kMaxShapes));
+  sub->add_option("--body", command->body,
+                  "the body that the proxy was fitted to: shapes are then fitted to its skin and measured "
+                  "against it, in place of the proxy's surface")
+      ->check(not_empty());
+  sub->add_option("--report", command->report, "what the collider costs, as JSON")->check(not_empty());
+  sub->add_flag("-q,--quiet", command->quiet, "print errors only");
+  sub->footer(
+      "Shapes carry the names of the rig's joints where the proxy is bound to one; mujoco and sdformat take\n"
+      "the ellipsoids themselves.\n"
+      "Example: bodice export proxy.json --to unity --body body.obj -o colliders.json");
+  sub->callback([command, &exit_code] {
+    const auto done = export_colliders(*command);
+    exit_code = done ? kExitOk : fail(done.error());
+  });
+}
+
+}  // namespace bodice::cli

@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include <bodice/anatomy/measure.hpp>
+#include <bodice/engine/message.hpp>
+#include <bodice/engine/stage_timer.hpp>
+#include <bodice/engine/write_file.hpp>
+#include <bodice/fitting/cost_model.hpp>
+#include <bodice/io/obj.hpp>
+#include <bodice/proxy/base_pose.hpp>
+#include <bodice/proxy/proxy_surface.hpp>
+#include <bodice/tryon/measurements.hpp>
+#include <bodice/tryon/reach.hpp>
+
+#include "options/validators.hpp"
+#include "output/query_speed.hpp"
+#include "run/prepared_poses.hpp"
+#include "run/run.hpp"
+
+namespace bodice::cli {
+namespace {
+
+struct FitCommand {
+  CommonOptions common;
+  std::string output, surface, measurements;
+  std::optional<double> surface_mm;
+  bool exact_region = false;
+  bool no_rig = false;
+  PosesToPrepare prepare;
+};
+
+/// Reduces the whole body's proxy to what the garment of --region-of can reach, where distances do not
+/// change.
+engine::Result<void> crop(const CommonOptions& o, const engine::Context& context,
+                          std::span<const geometry::TriMesh> garments, tryon::PreparedBody& body) {
+  auto near = tryon::within_reach(context, body.fit.proxy, garments, 1e-3 * o.region_margin_mm);
+  if (!near) return std::move(near).error();
+  body.fit.proxy = std::move(near).value();
+  for (fitting::PartFit& part : body.fit.parts)
+    part.ellipsoids = static_cast<std::size_t>(
+        std::ranges::count(body.fit.proxy.ellipsoids(), part.part, &proxy::ProxyEllipsoid::part));
+  std::erase_if(body.fit.parts, [](const fitting::PartFit& part) { return part.ellipsoids == 0; });
+  return {};
+}
+
+constexpr double kApart = 1.2;  // factor by which bodies differ from the cost model on its machine
+
+/// Whether another budget gives another proxy. It does not where the number of ellipsoids is at its bounds,
+/// now or with the advised budget.
+bool is_useful(double advised_us, const CommonOptions& o, const proxy::BodyProxy& proxy) {
+  constexpr int kFewest = 16;  // the least number that a budget gives: fewer take as long
+  const double predicted_us =
+      fitting::predicted_frame_us(proxy.tier(), static_cast<int>(proxy.ellipsoids().size()));
+  const proxy::Tier fastest = o.tier.empty() ? proxy::Tier::kTight : proxy.tier();
+  return predicted_us < kApart * *o.budget_us && *o.budget_us < kApart * predicted_us &&
+         advised_us >= fitting::predicted_frame_us(fastest, kFewest);
+}
+
+/// Prints the measured time of a query. The fit kept the budget by a cost model, so that results repeat.
+void print_speed(const CommonOptions& o, const tryon::PreparedBody& body) {
+  const double budget_us = *o.budget_us;
+  const double us = query_us(body.fit.proxy, body.skin.input.skin);
+  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (budget %g)", us,
+              budget_us);
+  const double advised_us = budget_us * budget_us / us;
+  if ((us > kApart * budget_us || kApart * us < budget_us) && is_useful(advised_us, o, body.fit.proxy))
+    std::printf("; if this machine is idle, --budget-us %.0f gives that time here", advised_us);
+  std::putchar('\n');
+}
+
+constexpr double kCellsAStature = 300.0, kFewestCells = 10.0;
+constexpr double kMostCells = 2000.0;  // across a body; the number of cells goes with the square
+
+/// Checks the cell against the stature, which bounds the memory. It runs before the fit, when the stature is
+/// known.
+engine::Result<void> check_surface_cell(const FitCommand& command, double stature_m) {
+  const double coarsest_mm = 1e3 * stature_m / kFewestCells, finest_mm = 1e3 * stature_m / kMostCells;
+  if (!command.surface_mm || (*command.surface_mm >= finest_mm && *command.surface_mm <= coarsest_mm))
+    return {};
+  return engine::Error{
+      engine::ErrorCode::kInvalidArgument,
+      engine::message("--surface-mm ", *command.surface_mm, " does not suit a body of ", stature_m, " m."),
+      engine::message("Give ", finest_mm, " to ", coarsest_mm, ".")};
+}
+
+/// The proxy's surface if it is to be written, or drawn because the ellipsoids do not show the relief.
+engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const engine::Context& context,
+                                                const proxy::BodyProxy& proxy) {
+  const bool seen = !command.common.picture.empty() && !proxy.relief().empty();
+  if (command.surface.empty() && !seen) return proxy::ProxySurface{};
+  const double cell_m = command.surface_mm ? 1e-3 * *command.surface_mm : proxy.stature_m() / kCellsAStature;
+  return proxy::proxy_surface(context, proxy, cell_m);
+}
+
+engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, const std::string& file) {
+  const body::Measurements measurements = anatomy::measure(skin.input.skin, skin.anatomy);
+  const std::string text = extension_of(file) == ".json" ? tryon::measurements_json(measurements)
+                                                         : tryon::measurements_yaml(measurements);
+  return engine::write_file(file, std::string_view(text));
+}
+
+engine::Result<void> write_outputs(const FitCommand& command, Run& run, const tryon::PreparedBody& body,
+                                   const proxy::BasePoses& bases, std::vector<std::string>& written) {
+  const proxy::BodyProxy& proxy = body.fit.proxy;
+  const auto surface = surface_for(command, run.context(), proxy);
+  if (!surface) return surface.error();
+  io::Scene scene = scene_of(body);
+  if (!proxy.relief().empty() && !surface->mesh.empty()) scene.surface = &*surface;
+  if (!command.output.empty()) {
+    if (auto saved = proxy::save_with_bases({proxy, bases}, command.output); !saved) return saved;
+    written.push_back(command.output);
+  }
+  if (!command.common.glb.empty()) {
+    if (auto saved = io::write_glb(scene, command.common.glb); !saved) return saved;
+    written.push_back(command.common.glb);
+  }
+  if (!command.common.picture.empty()) {
+    if (auto saved = io::write_picture(scene, {}, command.common.picture, {.show_proxy = true}); !saved)
+      return saved;
+    written.push_back(command.common.picture);
+  }
+  if (!command.surface.empty()) {
+    if (auto saved = io::write_obj(surface->mesh, command.surface, proxy.frame()); !saved) return saved;
+    written.push_back(command.surface);
+  }
+  if (!command.measurements.empty()) {
+    if (auto saved = write_measurements(body.skin, command.measurements); !saved) return saved;
+    written.push_back(command.measurements);
+  }
+  return run.write_page(body, scene, nullptr, written);
+}
+
+engine::Result<proxy::BasePoses> make_bases(const engine::Context& context, const FitCommand& command,
+                                            tryon::PreparedBody& body) {
+  if (!command.prepare.any()) return proxy::BasePoses{};
+  engine::StageTimer timer(context, body.fit.stages, "base poses");
+  return prepare_poses(context, body, command.prepare, body.fit.warnings);
+}
+
+engine::Result<void> fit(const FitCommand& command) {
+  const CommonOptions& o = command.common;
+  Run run(o);
+  if (auto ok = run.check_files({{"-o", command.output, {".json", ".bodice"}},
+                                 {"--surface", command.surface, {".obj"}},
+                                 {"--measurements", command.measurements, {".json", ".yaml", ".yml"}}});
+      !ok)
+    return ok;
+  auto skin = command.prepare.any() ? run.segment_rigged() : run.segment();
+  if (!skin) return std::move(skin).error();
+  if (auto ok = check_surface_cell(command, skin->anatomy.stature_m); !ok) return ok;
+  const auto garments = run.region_garments(*skin);
+  if (!garments) return garments.error();
+  auto options = command.exact_region ? fit_options(o) : run.fit_options_for(*skin, *garments);
+  if (!options) return std::move(options).error();
+  const auto progress = run.progress().callback();
+  auto body = command.no_rig
+                  ? tryon::fit_proxy(run.context(), std::move(skin).value(), *options, progress)
+                  : tryon::fit_bound_proxy(run.context(), std::move(skin).value(), *options, progress);
+  if (!body) return std::move(body).error();
+  if (command.exact_region)
+    if (auto done = crop(o, run.context(), *garments, *body); !done) return done;
+  const auto bases = make_bases(run.context(), command, *body);
+  if (!bases) return bases.error();
+  std::vector<std::string> written;
+  if (auto done = write_outputs(command, run, *body, *bases, written); !done) return done;
+  auto done = run.finish(*body, nullptr, written, command.exact_region);
+  if (done && o.budget_us && !o.quiet && !o.json) print_speed(o, *body);
+  return done;
+}
+
+void add_pose_options(CLI::App& sub, FitCommand& c) {
+  const auto group = "Poses";
+  auto* poses =
+      sub.add_option("--poses", c.prepare.poses,
+                     "solve the tables anew in these poses, with which the proxy is as accurate there as at "
+                     "rest: motions as in sit,arms-up, or sit@2.5 for a second of one; a body without a rig "
+                     "gets one")
+          ->delimiter(',')
+          ->check(not_empty())
+          ->excludes("--no-rig")
+          ->group(group);
+  poses->needs("--output");
+  auto* motion = sub.add_option("--motion", c.prepare.motion.motion,
+                                "prepare a whole clip: walk, run, turn, spin, reach, sit, squat, arms-up, "
+                                "dance, or a file with a skeleton and clips")
+                     ->check(not_empty())
+                     ->excludes("--no-rig")
+                     ->group(group);
+  motion->needs("--output");
+  sub.add_option("--clip", c.prepare.motion.clip, "name of the file's clip (default: its first)")
+      ->check(not_empty())
+      ->needs(motion)
+      ->group(group);
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::string>& command_line) {
+  auto command = std::make_shared<FitCommand>();
+  command->common.command_line = command_line;
+  CLI::App* sub = app.add_subcommand("fit", "Fit a body proxy of ellipsoids to a body mesh");
+  sub->add_option("-o,--output", command->output, "the proxy: .json, or .bodice for the compact binary")
+      ->check(not_empty())
+      ->group("Output");
+  sub->add_option(
+         "--glb", command->common.glb,
+         "body by part and ellipsoids, those of relief without their tables, for any glTF viewer; in the "
+         "body's own units and axes")
+      ->check(not_empty())
+      ->group("Output");
+  sub->add_option("--surface", command->surface,
+                  "the proxy's surface as triangles (OBJ), for tools that collide with meshes")
+      ->check(not_empty())
+      ->group("Output");
+  sub->add_option("--surface-mm", command->surface_mm,
+                  "length of that surface's cells: half gives four times the triangles (default: a "
+                  "three-hundredth of the stature)")
+      ->check(above_zero())
+      ->needs("--surface")
+      ->group("Output");
+  sub->add_option("--measurements", command->measurements,
+                  "26 body measurements for garments in millimeters and degrees (.json or .yaml), for a body "
+                  "that stands with its arms away from the trunk")
+      ->check(not_empty())
+      ->group("Output");
+  sub->add_flag(
+         "--no-rig", command->no_rig,
+         "leave the rig of the file alone: by default the proxy is bound to it, and follows its joints")
+      ->group("Output");
+  add_pose_options(*sub, *command);
+  add_common_options(*sub, command->common);
+  sub->add_flag(
+         "--region-exact", command->exact_region,
+         "fit the whole body and keep the ellipsoids that the garment of --region-of can reach: any "
+         "tier then has the distances of the whole body there; the report gives the whole body's accuracy")
+      ->needs("--region-of")
+      ->group("Speed against accuracy");
+  sub->footer("Example: bodice fit body.obj -o proxy.json --target-error-mm 2 --report report.json");
+  sub->callback([command, &exit_code] {
+    const auto done = fit(*command);
+    exit_code = done ? kExitOk : fail(done.error());
+  });
+}
+
+}  // namespace bodice::cli

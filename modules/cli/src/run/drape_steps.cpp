@@ -1,0 +1,136 @@
+#include "run/drape_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <bodice/tryon/wearing.hpp>
+
+#include "options/garment_kinds.hpp"
+
+namespace bodice::cli {
+namespace {
+
+engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const DrapeCommand& command,
+                                                           tryon::SegmentedSkin& skin) {
+  std::vector<tryon::WornGarment> worn;
+  for (const std::string& file : command.garments) {
+    auto garment = io::import_garment(run.context(), file, skin.input.frame);
+    if (!garment) return std::move(garment).error();
+    skin.warnings.insert(skin.warnings.end(), garment->warnings.begin(), garment->warnings.end());
+    worn.push_back({.name = file, .mesh = std::move(garment->skin)});
+  }
+  return worn;
+}
+
+engine::Result<std::vector<tryon::WornGarment>> make_garment(const Run& run, const DrapeCommand& command,
+                                                             const tryon::SegmentedSkin& skin) {
+  auto garment = make_garment_for(run.context(), skin, command.made);
+  if (!garment) return std::move(garment).error();
+  std::vector<geometry::Index> held;
+  if (command.hold == "auto") held = std::move(garment->pinned);
+  return std::vector<tryon::WornGarment>{
+      {.name = command.made, .mesh = std::move(garment->mesh), .held = std::move(held)}};
+}
+
+engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const DressedBody& dressed,
+                                   tryon::DrapeResult draped, std::vector<std::string>& written) {
+  io::Scene scene = scene_of(dressed.body);
+  scene.rig = dressed.motion ? &dressed.motion->rig : nullptr;
+  scene.proxy_frames = draped.proxy_frames;
+  scene.garments = std::move(draped.garments);
+  scene.body_frames = draped.body_frames;
+  if (auto saved = io::write_glb(scene, command.output); !saved) return saved;
+  written.push_back(command.output);
+  if (const std::string& picture = command.common.picture; !picture.empty()) {
+    const std::size_t kept = scene.garments.front().frames.size();
+    const std::size_t frames[] = {0, (kept - 1) / 2, kept - 1};
+    if (auto saved = io::write_picture(scene, frames, picture); !saved) return saved;
+    written.push_back(picture);
+  }
+  if (!command.thumbnail.empty()) {
+    const std::size_t last[] = {scene.garments.front().frames.size() - 1};
+    if (auto saved = io::write_picture(scene, last, command.thumbnail, kThumbnail); !saved) return saved;
+  }
+  if (!command.contact_sheet.empty()) {
+    std::vector<std::size_t> frames(scene.garments.front().frames.size());
+    std::iota(frames.begin(), frames.end(), std::size_t{0});
+    if (auto saved = io::write_contact_sheet(scene, frames, command.sheet_columns, command.contact_sheet,
+                                             {.width = 240, .height = 320});
+        !saved)
+      return saved;
+    written.push_back(command.contact_sheet);
+  }
+  return run.write_page(dressed.body, scene, &draped.report, written);
+}
+
+/// The frames that play a clip once, when the user gives no number.
+int frames_of(const rig::Clip& clip, double dt_s) {
+  return dt_s > 0.0 ? std::max(1, static_cast<int>(std::ceil(clip.duration_s / dt_s - 1e-6))) : 1;
+}
+
+engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, const geometry::Frame& frame,
+                                                  const tryon::BodyMotion* motion) {
+  tryon::DrapeOptions options = command.drape;
+  options.motion = motion;
+  if (motion) options.frames = frames_of(motion->clip, options.dt_s);
+  if (command.frames) options.frames = *command.frames;
+  auto fabric = cloth::find_fabric(command.fabric);
+  if (!fabric) return std::move(fabric).error();
+  options.fabric = std::move(fabric).value();
+  options.solver.seed = command.common.seed;
+  if (command.thickness_mm) options.thickness_m = *command.thickness_mm * 1e-3;
+  if (!command.wind_m_s.empty())
+    options.solver.environment.wind_m_s =
+        frame.rotation() * geometry::Vec3(command.wind_m_s[0], command.wind_m_s[1], command.wind_m_s[2]);
+  return options;
+}
+
+}  // namespace
+
+engine::Result<tryon::SegmentedSkin> read_body(Run& run, const DrapeCommand& command) {
+  return command.moves() ? run.segment_rigged() : run.segment();
+}
+
+engine::Result<std::optional<tryon::BodyMotion>> find_motion(const Run& run, const DrapeCommand& command,
+                                                             tryon::SegmentedSkin& skin) {
+  if (!command.moves()) return std::optional<tryon::BodyMotion>();
+  auto motion = tryon::find_motion(run.context(), skin, command.motion, skin.warnings);
+  if (!motion) return std::move(motion).error();
+  return std::optional(std::move(motion).value());
+}
+
+engine::Result<std::vector<tryon::WornGarment>> dress(const Run& run, const DrapeCommand& command,
+                                                      tryon::SegmentedSkin& skin) {
+  if (command.garments.empty()) return make_garment(run, command, skin);
+  auto worn = wear_files(run, command, skin);
+  if (worn && command.hold == "auto")
+    for (tryon::WornGarment& garment : *worn) garment.held = tryon::held_vertices(garment.mesh, skin);
+  return worn;
+}
+
+engine::Result<tryon::PreparedBody> fit_body(Run& run, tryon::SegmentedSkin skin, bool bound) {
+  const auto region = run.region_garments(skin);
+  if (!region) return region.error();
+  const auto options = run.fit_options_for(skin, *region);
+  if (!options) return options.error();
+  const auto progress = run.progress().callback();
+  return bound ? tryon::fit_bound_proxy(run.context(), std::move(skin), *options, progress)
+               : tryon::fit_proxy(run.context(), std::move(skin), *options, progress);
+}
+
+engine::Result<tryon::DrapeReport> drape_and_write(Run& run, const DrapeCommand& command,
+                                                   DressedBody& dressed, std::vector<std::string>& written) {
+  tryon::BodyMotion* const motion = dressed.motion ? &*dressed.motion : nullptr;
+  const auto options = drape_options(command, dressed.body.skin.input.frame, motion);
+  if (!options) return options.error();
+  auto draped = tryon::drape(run.context(), dressed.body, dressed.worn, *options, run.progress().callback());
+  if (!draped) return std::move(draped).error();
+  tryon::DrapeReport report = draped->report;
+  if (motion) motion->rig.clips = {motion->clip};
+  if (auto done = write_outputs(run, command, dressed, std::move(draped).value(), written); !done)
+    return std::move(done).error();
+  return report;
+}
+
+}  // namespace bodice::cli

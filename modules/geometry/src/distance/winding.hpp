@@ -1,0 +1,23 @@
+// Generalized winding numbers over a Bvh.
+#pragma once
+
+#include "distance/bvh.hpp"
+
+namespace bodice::geometry {
+
+/// The far fields of a node's children, side by side like their boxes.
+struct DipoleNode {
+  Float4 center[3];  ///< area-weighted centroid
+  Float4 area[3];    ///< sum of area vectors
+  Float4 radius2;    ///< squared radius of the triangles around the centroid
+};
+
+/// The dipoles of all nodes, in the order of bvh.nodes. O(n).
+std::vector<DipoleNode> build_dipoles(const Bvh& bvh);
+
+/// The winding number at a query in the local frame. A dipole replaces a child when the query is farther away
+/// than `far_ratio` times its radius; with infinity the sum is exact.
+double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& local_query,
+                      double far_ratio);
+
+}  // namespace bodice::geometry

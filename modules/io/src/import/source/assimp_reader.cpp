@@ -1,0 +1,82 @@
+#include "import/source/assimp_reader.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/importerdesc.h>
+
+namespace bodice::io {
+
+namespace {
+
+/// assimp's post-processing asserts, and so aborts, on damaged meshes.
+constexpr unsigned kNoSteps = 0;
+
+bool reads(std::string_view importer, Format format) {
+  switch (format) {
+    case Format::kObj:
+      return importer == "Wavefront Object Importer";
+    case Format::kPly:
+      return importer == "Stanford Polygon Library (PLY) Importer";
+    case Format::kStl:
+      return importer == "Stereolithography (STL) Importer";
+    case Format::kGltf:
+    case Format::kGlb:
+      return importer == "glTF2 Importer";
+    case Format::kFbx:
+      return importer == "Autodesk FBX Importer";
+    case Format::kCollada:
+    case Format::kColladaArchive:
+      return importer == "Collada Importer";
+    default:
+      return false;
+  }
+}
+
+/// Opens one file by another name: assimp looks at extensions even where one reader is left.
+class Renamed final : public Assimp::DefaultIOSystem {
+ public:
+  Renamed(std::string alias, std::string file) : alias_(std::move(alias)), file_(std::move(file)) {}
+
+  bool Exists(const char* name) const override { return DefaultIOSystem::Exists(real(name)); }
+  Assimp::IOStream* Open(const char* name, const char* mode) override {
+    return DefaultIOSystem::Open(real(name), mode);
+  }
+
+ private:
+  const char* real(const char* name) const { return alias_ == name ? file_.c_str() : name; }
+
+  std::string alias_, file_;
+};
+
+}  // namespace
+
+AssimpReader::AssimpReader(Format format) : format_(format) {
+  std::vector<Assimp::BaseImporter*> others;
+  for (std::size_t i = 0; i < importer_.GetImporterCount(); ++i)
+    if (!reads(importer_.GetImporterInfo(i)->mName, format)) others.push_back(importer_.GetImporter(i));
+  for (Assimp::BaseImporter* other : others) {
+    importer_.UnregisterLoader(other);  // it is the caller's from here on
+    delete other;
+  }
+}
+
+const aiScene* AssimpReader::read(const std::filesystem::path& file) {
+  const std::string extension = "." + std::string(extension_of(format_));
+  const std::string name = file.string(), alias = name + extension;
+  if (file.extension() == extension) return importer_.ReadFile(name, kNoSteps);
+  importer_.SetIOHandler(new Renamed(alias, name));  // the importer deletes it
+  return importer_.ReadFile(alias, kNoSteps);
+}
+
+const aiScene* AssimpReader::read_text(const std::string& text) {
+  return importer_.ReadFileFromMemory(text.data(), text.size(), kNoSteps,
+                                      std::string(extension_of(format_)).c_str());
+}
+
+}  // namespace bodice::io

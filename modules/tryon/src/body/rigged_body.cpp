@@ -1,0 +1,128 @@
+#include <bodice/tryon/rigged_body.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include <bodice/engine/message.hpp>
+#include <bodice/engine/stage_timer.hpp>
+#include <bodice/io/rig.hpp>
+#include <bodice/rig/retarget.hpp>
+#include <bodice/rigging/make_rig.hpp>
+#include <bodice/rigging/motion.hpp>
+
+#include "body/append.hpp"
+#include "body/load_body.hpp"
+
+namespace bodice::tryon {
+namespace {
+
+engine::Result<rig::Rig> rig_of(const engine::Context& context, const synth::BodyOptions& builtin,
+                                const io::ImportedMesh& skin) {
+  auto made = synth::make_body(context, builtin);
+  if (!made) return std::move(made).error();
+  return rig::Rig{std::move(made->skeleton), weights_of_skin(made->weights, skin), {}};
+}
+
+bool same_joints(const rig::Skeleton& a, const rig::Skeleton& b) {
+  return std::ranges::equal(a.joints, b.joints, [](const rig::Joint& x, const rig::Joint& y) {
+    return x.name == y.name && x.parent == y.parent;
+  });
+}
+
+/// A clip of another skeleton for this rig, with a warning that counts the joints which do not take part.
+engine::Result<BodyMotion> carried_over(const rig::Skeleton& source, const rig::Clip& clip,
+                                        const rig::Rig& rig, std::vector<engine::Warning>& warnings) {
+  auto carried = rig::retarget(source, clip, rig.skeleton);
+  if (!carried) return std::move(carried).error();
+  const rig::RetargetReport& report = carried->report;
+  if (!report.unmatched_source.empty())
+    warnings.push_back({"motion-joints", report.unmatched_source.front(),
+                        engine::message("The clip '", clip.name, "' is of another skeleton: ",
+                                        report.matched.size(), " joints follow it, ",
+                                        report.unmatched_source.size(), " that it moves are not there."),
+                        "Give a clip of this body's own skeleton for all of its motion."});
+  return BodyMotion{rig, std::move(carried->clip)};
+}
+
+/// Scans may sit on the floor with heels or toes up, so that the floor is where the skin ends.
+rigging::MotionOptions on_floor_of(const SegmentedSkin& skin) {
+  return {.floor_m = geometry::bounding_box(skin.input.skin.positions).low.y()};
+}
+
+/// Made motions are of the common skeleton. For a rig of another one, the common skeleton of the same body is
+/// found and its clip carried over.
+engine::Result<BodyMotion> made_motion(const engine::Context& context, const SegmentedSkin& skin,
+                                       rigging::Motion motion, std::vector<engine::Warning>& warnings) {
+  if (auto clip = rigging::make_clip(skin.rig->skeleton, motion, on_floor_of(skin)))
+    return BodyMotion{*skin.rig, std::move(clip).value()};
+  auto common = rigging::make_rig(context, skin.input.skin, skin.anatomy);
+  if (!common) return of_body(std::move(common).error(), skin.input);
+  auto clip = rigging::make_clip(common->rig.skeleton, motion, on_floor_of(skin));
+  if (!clip) return std::move(clip).error();
+  return carried_over(common->rig.skeleton, *clip, *skin.rig, warnings);
+}
+
+}  // namespace
+
+rig::SkinWeights weights_of_skin(const rig::SkinWeights& input, const io::ImportedMesh& body) {
+  std::vector<geometry::Index> input_of(body.skin.positions.size(), geometry::kNoIndex);
+  for (std::size_t i = 0; i < body.vertex_of_input.size(); ++i) {
+    const geometry::Index v = body.vertex_of_input[i];
+    if (v != geometry::kNoIndex && input_of[v] == geometry::kNoIndex)
+      input_of[v] = static_cast<geometry::Index>(i);
+  }
+  rig::SkinWeights weights;
+  weights.first.push_back(0);
+  for (const geometry::Index i : input_of) {
+    for (std::uint32_t e = input.first[i]; e < input.first[i + 1]; ++e) {
+      weights.joint.push_back(input.joint[e]);
+      weights.weight.push_back(input.weight[e]);
+    }
+    weights.first.push_back(static_cast<std::uint32_t>(weights.joint.size()));
+  }
+  return weights;
+}
+
+engine::Result<void> give_rig(const engine::Context& context, const BodySource& source, SegmentedSkin& skin) {
+  if (skin.rig) return {};
+  const engine::StageTimer timer(context, skin.stages, "rig");
+  if (const auto* builtin = std::get_if<synth::BodyOptions>(&source)) {
+    auto rig = rig_of(context, *builtin, skin.input);
+    if (!rig) return std::move(rig).error();
+    skin.rig = std::make_shared<const rig::Rig>(std::move(rig).value());
+    return {};
+  }
+  auto found = rigging::make_rig(context, skin.input.skin, skin.anatomy);
+  if (!found) return of_body(std::move(found).error(), skin.input);
+  skin.rig = std::make_shared<const rig::Rig>(std::move(found->rig));
+  return {};
+}
+
+engine::Result<rig::Clip> choose_clip(const MotionChoice& choice, const std::vector<rig::Clip>& clips) {
+  if (choice.clip.empty() && !clips.empty()) return clips.front();
+  std::string names;
+  for (const rig::Clip& clip : clips) {
+    if (clip.name == choice.clip) return clip;
+    names += (names.empty() ? "'" : ", '") + clip.name + "'";
+  }
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       engine::message(choice.motion, ": there is no clip '", choice.clip, "'."),
+                       clips.empty() ? "The file has no clips." : "Its clips are " + names + "."};
+}
+
+engine::Result<BodyMotion> find_motion(const engine::Context& context, const SegmentedSkin& skin,
+                                       const MotionChoice& choice, std::vector<engine::Warning>& warnings) {
+  if (const auto motion = rigging::motion_from_name(choice.motion))
+    return made_motion(context, skin, *motion, warnings);
+  auto read = io::import_motion(context, choice.motion);
+  if (!read) return std::move(read).error();
+  append(warnings, read->warnings);
+  auto clip = choose_clip(choice, read->clips);
+  if (!clip) return std::move(clip).error();
+  if (same_joints(read->skeleton, skin.rig->skeleton)) return BodyMotion{*skin.rig, std::move(clip).value()};
+  return carried_over(read->skeleton, *clip, *skin.rig, warnings);
+}
+
+}  // namespace bodice::tryon

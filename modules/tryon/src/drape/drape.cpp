@@ -1,0 +1,270 @@
+#include <bodice/tryon/drape.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <bodice/engine/catch_canceled.hpp>
+#include <bodice/engine/message.hpp>
+#include <bodice/engine/stage_timer.hpp>
+#include <bodice/tryon/penetration.hpp>
+
+#include "drape/recorder.hpp"
+#include "garment/misplaced_garments.hpp"
+#include "motion/moving_body.hpp"
+
+namespace bodice::tryon {
+namespace {
+
+using geometry::Vec3;
+
+void summarize_times(std::vector<double> frame_ms, DrapeReport& report) {
+  if (frame_ms.empty()) return;
+  std::ranges::sort(frame_ms);
+  auto at = [&](double q) {
+    return frame_ms[static_cast<std::size_t>(q * static_cast<double>(frame_ms.size() - 1))];
+  };
+  report.frame_ms_median = at(0.5);
+  report.frame_ms_p99 = at(0.99);
+  report.frame_ms_max = frame_ms.back();
+}
+
+engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body) {
+  const auto bad = [](std::string what, std::string remedy) {
+    return engine::Error{engine::ErrorCode::kInvalidArgument, "Drape option " + what + ".",
+                         std::move(remedy)};
+  };
+  if (options.frames < 1) return bad(engine::message("frames is ", options.frames), "Give 1 or more.");
+  if (options.kept_frames < 2)
+    return bad(engine::message("kept_frames is ", options.kept_frames), "Give 2 or more.");
+  if (!(options.dt_s >= 0.0 && std::isfinite(options.dt_s)))
+    return bad(engine::message("dt_s is ", options.dt_s), "Give seconds, zero or more.");
+  if (options.ramp_s && !(*options.ramp_s >= 0.0 && std::isfinite(*options.ramp_s)))
+    return bad(engine::message("ramp_s is ", *options.ramp_s), "Give seconds, zero or more.");
+  if (options.motion) return check(*options.motion, body.skin.input.skin.positions.size());
+  return {};
+}
+
+double ramp_s(const engine::Context& context, const DrapeOptions& options, const PreparedBody& body) {
+  if (!options.motion) return 0.0;
+  return options.ramp_s ? *options.ramp_s
+                        : suggested_ramp_s(context, *options.motion, body.skin.input.skin.positions);
+}
+
+cloth::SolverOptions solver_options(const engine::Context& context, const DrapeOptions& options,
+                                    const PreparedBody& body, const geometry::TriMesh& garments) {
+  const proxy::BodyProxy& proxy = body.fit.proxy;
+  cloth::SolverOptions solver = options.solver;
+  solver.thickness_m = options.thickness_m ? *options.thickness_m
+                                           : known_thickness_m(context, garments, *body.skin.distance,
+                                                               collision::Collider(proxy));
+  if (proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
+  return solver;
+}
+
+/// The part of the report that is known before the first frame.
+DrapeReport describe(const std::vector<WornGarment>& garments, const DrapeOptions& options,
+                     const cloth::SolverOptions& solver, const cloth::Fabric& fabric) {
+  DrapeReport report;
+  report.frames = options.frames;
+  report.dt_s = options.dt_s;
+  report.thickness_m = solver.thickness_m;
+  report.substeps = solver.substeps;
+  report.fabric = fabric.name;
+  for (const WornGarment& garment : garments)
+    report.garments.push_back({garment.name, garment.mesh.positions.size(), garment.held.size()});
+  return report;
+}
+
+void add_frame(int frame, const Penetration& depth, DrapeReport& report) {
+  if (depth.deepest_m > report.penetration_max_m) {
+    report.penetration_max_m = depth.deepest_m;
+    report.worst_frame = frame;
+  }
+  report.penetration_of_frame_m.push_back(depth.deepest_m);
+  report.penetration_over_1mm = depth.over_1mm;
+  report.penetration_end_m = depth.deepest_m;
+}
+
+void add_cloth(const cloth::FrameReport& last, DrapeReport& report) {
+  report.stretch_p95 = last.stretch_p95;
+  report.stretch_max = last.stretch_max;
+  report.median_speed_m_s = last.median_speed_m_s;
+}
+
+/// A drape in progress: cloth, body, and what is recorded of them.
+class Drape {
+ public:
+  Drape(const engine::Context& context, const DrapeOptions& options, const Wardrobe& all,
+        cloth::Solver& solver, MovingBody& body, Recorder& recorder, DrapeResult& result)
+      : context_(context),
+        options_(options),
+        all_(all),
+        solver_(solver),
+        body_(body),
+        recorder_(recorder),
+        result_(result),
+        positions_(all.mesh.positions.size()) {
+    if (!options.motion) return;
+    player_.emplace(*options.motion, result.report.ramp_s,
+                    options.loop ? rig::Playback::kLoop : rig::Playback::kClamp);
+    joints_.resize(options.motion->rig.skeleton.joints.size());
+  }
+
+  /// Puts pins on the body where it stands, in the bind pose.
+  void hold(double thickness_m, const rig::SkinWeights* skin_weights, const PreparedBody& body) {
+    held_ = held_positions(all_, body_.collider(), thickness_m);
+    if (skin_weights)
+      held_weights_ = attach_to_skin(body.skin.input.skin, *body.skin.distance, *skin_weights, held_);
+    posed_ = held_;
+    solver_.move_pins(posed_);
+  }
+
+  /// Brings a body that moves from the bind pose to the clip's first frame.
+  engine::Result<void> ramp() {
+    const double ramp_s = result_.report.ramp_s;
+    const int steps = static_cast<int>(std::ceil(ramp_s / kRampStep_s));
+    if (steps == 0) return pose(0.0, 0.0);  // without a ramp the body jumps to the first frame
+    for (int step = 1; step <= steps; ++step) {
+      context_.cancel.check();
+      if (auto posed = pose(-ramp_s * (1.0 - static_cast<double>(step) / steps), ramp_s / steps); !posed)
+        return posed;
+      solver_.step(context_, body_.collider(), ramp_s / steps);
+    }
+    return {};
+  }
+
+  /// Runs all frames and measures each.
+  engine::Result<void> run(const Progress& progress) {
+    DrapeReport& report = result_.report;
+    std::vector<double> frame_ms;
+    solver_.positions(positions_);
+    offer(0, body_.moves() ? penetration(context_, body_.distance(context_), positions_) : Penetration{});
+    for (int frame = 1; frame <= options_.frames; ++frame) {
+      context_.cancel.check();
+      const std::int64_t begin_ns = context_.clock->now_ns();
+      if (auto posed = pose(frame * options_.dt_s, options_.dt_s); !posed) return posed;
+      const cloth::FrameReport step = solver_.step(context_, body_.collider(), options_.dt_s);
+      frame_ms.push_back(static_cast<double>(context_.clock->now_ns() - begin_ns) * 1e-6);
+
+      solver_.positions(positions_);
+      report.finite = report.finite && step.finite;
+      const Penetration depth = penetration(context_, body_.distance(context_), positions_);
+      add_frame(frame, depth, report);
+      add_cloth(step, report);
+      offer(frame, depth);
+      if (progress) progress("drape", static_cast<double>(frame) / options_.frames);
+    }
+    summarize_times(std::move(frame_ms), report);
+    return {};
+  }
+
+  std::span<const Vec3> positions() const { return positions_; }
+
+  /// Measures how each garment lies now.
+  void measure_garments(const std::vector<WornGarment>& garments, const PreparedBody& body) {
+    for (std::size_t g = 0; g < garments.size(); ++g)
+      result_.report.garments[g].ease = measure_ease(
+          context_, body_.skin(context_), body.skin.anatomy.part, body_.distance(context_), garments[g].mesh,
+          positions().subspan(all_.first_vertex[g], garments[g].mesh.positions.size()));
+  }
+
+ private:
+  static constexpr double kRampStep_s = 1.0 / 60.0;
+
+  engine::Result<void> pose(double time_s, double dt_s) {
+    if (!body_.moves()) return {};
+    player_->joints(time_s, joints_);
+    if (auto posed = body_.pose(context_, joints_, dt_s); !posed)
+      return engine::Error{posed.error().code,
+                           engine::message("At second ", time_s, " of the clip '", options_.motion->clip.name,
+                                           "': ", posed.error().message),
+                           posed.error().remedy};
+    body_.carry(held_, held_weights_, posed_);
+    solver_.move_pins(posed_);
+    return {};
+  }
+
+  void offer(int frame, const Penetration& depth) {
+    const double time_s = frame * options_.dt_s;
+    if (!recorder_.offer(frame, positions_, time_s) || !body_.moves()) return;
+    const geometry::MeshDistance& skin = body_.distance(context_);
+    result_.body_frames.push_back(body_.skin(context_).positions);
+    result_.proxy_frames.push_back(body_.poser()->posed().shapes);
+    result_.report.kept.push_back({.time_s = time_s,
+                                   .proxy_error = measure_proxy_error(
+                                       context_, body_.collider(), body_.skin(context_), skin, kNearSkin_m),
+                                   .penetration_max_m = depth.deepest_m,
+                                   .over_half_mm_m2 = cloth_area_inside_m2(
+                                       context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
+  }
+
+  static constexpr double kNearSkin_m = 0.03, kVisibleDepth_m = 0.5e-3;
+
+  const engine::Context& context_;
+  const DrapeOptions& options_;
+  const Wardrobe& all_;
+  cloth::Solver& solver_;
+  MovingBody& body_;
+  Recorder& recorder_;
+  DrapeResult& result_;
+  std::optional<MotionPlayer> player_;  // of a body that moves
+  std::vector<rig::Affine> joints_;     // #J
+  std::vector<Vec3> positions_;         // #vertices of all garments
+  std::vector<Vec3> held_, posed_;      // pins in the bind pose and in this one
+  rig::SkinWeights held_weights_;
+};
+
+engine::Result<DrapeResult> simulate(const engine::Context& context, const PreparedBody& body,
+                                     const std::vector<WornGarment>& garments, const DrapeOptions& options,
+                                     const Progress& progress) {
+  if (auto good = check(options, body); !good) return std::move(good).error();
+  const auto all = join(garments);
+  if (!all) return all.error();
+  const auto fabric = fabric_or_cotton(options.fabric);
+  if (!fabric) return fabric.error();
+  const cloth::SolverOptions settings = solver_options(context, options, body, all->mesh);
+  auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, settings);
+  if (!solver) return std::move(solver).error();
+
+  DrapeResult result;
+  DrapeReport& report = result.report;
+  report = describe(garments, options, settings, *fabric);
+  report.particles = solver->particles();
+  report.ramp_s = ramp_s(context, options, body);
+  warn_of_misplaced(garments, body, report.warnings);
+  auto moving = MovingBody::make(body.skin, body.fit.proxy, options.motion != nullptr);
+  if (!moving) return std::move(moving).error();
+  Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
+  Drape drape(context, options, *all, *solver, *moving, recorder, result);
+  std::optional<engine::StageTimer> timer(std::in_place, context, report.stages, "drape");
+  drape.hold(settings.thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
+  if (auto done = drape.ramp(); !done) return std::move(done).error();
+  if (auto done = drape.run(progress); !done) return std::move(done).error();
+  drape.measure_garments(garments, body);
+  timer.reset();
+
+  report.pierced_share =
+      pierced_share(context, moving->distance(context), drape.positions(), all->mesh.triangles);
+  report.inside_union =
+      moving->moves() ? count_inside(context, body.fit.proxy, moving->poser()->posed(), drape.positions())
+                      : count_inside(context, body.fit.proxy, drape.positions());
+  report.hash = solver->hash();
+  report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
+  result.garments = recorder.take();
+  return result;
+}
+
+}  // namespace
+
+engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
+                                  const std::vector<WornGarment>& garments, const DrapeOptions& options,
+                                  const Progress& progress) {
+  return engine::catch_canceled("The drape",
+                                [&] { return simulate(context, body, garments, options, progress); });
+}
+
+}  // namespace bodice::tryon

@@ -1,0 +1,111 @@
+#include <bodice/tryon/motion.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include <bodice/engine/message.hpp>
+#include <bodice/engine/parallel.hpp>
+
+#include "motion/local_pose.hpp"
+
+namespace bodice::tryon {
+namespace {
+
+using geometry::Vec3;
+
+constexpr double kRampSpeed_m_s = 1.0;  // the speed of a hand in a walk
+constexpr double kShortestRamp_s = 0.25, kLongestRamp_s = 2.0;
+constexpr double kAtRest_m = 1e-4;  // a skin that is this near the bind pose needs no ramp
+constexpr std::size_t kPointGrain = 1024;
+
+double farthest_m(const engine::Context& context, std::span<const Vec3> a, std::span<const Vec3> b) {
+  return engine::ordered_reduce(
+      context, a.size(), kPointGrain, 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double most = 0.0;
+        for (std::size_t i = begin; i < end; ++i) most = std::max(most, (a[i] - b[i]).norm());
+        return most;
+      },
+      [](double x, double y) { return std::max(x, y); });
+}
+
+/// Barycentric weights of a point in the plane of a triangle; a triangle without area gives equal ones.
+std::array<double, 3> barycentric(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point) {
+  const Vec3 normal = (b - a).cross(c - a);
+  const double twice_area = normal.squaredNorm();
+  if (!(twice_area > 0.0)) return {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+  const double v = std::clamp((point - a).cross(c - a).dot(normal) / twice_area, 0.0, 1.0);
+  const double w = std::clamp((b - a).cross(point - a).dot(normal) / twice_area, 0.0, 1.0 - v);
+  return {1.0 - v - w, v, w};
+}
+
+}  // namespace
+
+engine::Result<void> check(const BodyMotion& motion, std::size_t vertices) {
+  if (auto good = rig::validate(motion.rig.skeleton); !good) return good;
+  if (auto good = rig::validate(motion.clip, motion.rig.skeleton); !good) return good;
+  if (motion.rig.weights.vertices() != vertices)
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         engine::message("The rig has skin weights for ", motion.rig.weights.vertices(),
+                                         " vertices, but the skin has ", vertices, "."),
+                         "Give the rig that was read or made with this skin."};
+  return {};
+}
+
+MotionPlayer::MotionPlayer(const BodyMotion& motion, double ramp_s, rig::Playback playback)
+    : motion_(&motion),
+      ramp_s_(std::isfinite(ramp_s) ? std::max(0.0, ramp_s) : 0.0),
+      playback_(playback),
+      bind_(local_bind_pose(motion.rig.skeleton)),
+      local_(bind_.size()) {}
+
+void MotionPlayer::joints(double time_s, std::span<rig::Affine> world) {
+  const rig::Skeleton& skeleton = motion_->rig.skeleton;
+  rig::sample(skeleton, motion_->clip, std::max(0.0, time_s), local_, playback_);
+  if (time_s < 0.0 && ramp_s_ > 0.0) {
+    const double share = smooth_step(1.0 + time_s / ramp_s_);
+    for (std::size_t j = 0; j < local_.size(); ++j) local_[j] = between(bind_[j], local_[j], share);
+  }
+  rig::world_matrices(skeleton, local_, world);
+}
+
+double suggested_ramp_s(const engine::Context& context, const BodyMotion& motion,
+                        std::span<const Vec3> skin) {
+  const std::size_t joints = motion.rig.skeleton.joints.size();
+  std::vector<rig::Affine> world(joints), skinning(joints);
+  rig::joint_matrices(motion.rig.skeleton, motion.clip, 0.0, world);
+  rig::skinning_matrices(motion.rig.skeleton, world, skinning);
+  std::vector<Vec3> posed(skin.size());
+  rig::skin_linear(context, skin, motion.rig.weights, skinning, posed);
+  const double far_m = farthest_m(context, skin, posed);
+  if (far_m < kAtRest_m) return 0.0;
+  return std::clamp(far_m / kRampSpeed_m_s, kShortestRamp_s, kLongestRamp_s);
+}
+
+rig::SkinWeights attach_to_skin(const geometry::TriMesh& mesh, const geometry::MeshDistance& distance,
+                                const rig::SkinWeights& skin_weights, std::span<const Vec3> points) {
+  rig::SkinWeights weights;
+  weights.first.push_back(0);
+  std::map<std::uint16_t, double> of_joint;
+  for (const Vec3& point : points) {
+    of_joint.clear();
+    const geometry::SurfacePoint nearest = distance.closest_point(point);
+    const geometry::Triangle& corners = mesh.triangles[nearest.triangle];
+    const std::array<double, 3> share = barycentric(mesh.positions[corners[0]], mesh.positions[corners[1]],
+                                                    mesh.positions[corners[2]], nearest.point);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::uint32_t e = skin_weights.first[corners[k]]; e < skin_weights.first[corners[k] + 1]; ++e)
+        of_joint[skin_weights.joint[e]] += share[k] * double{skin_weights.weight[e]};
+    for (const auto& [joint, weight] : of_joint) {
+      if (!(weight > 0.0)) continue;
+      weights.joint.push_back(joint);
+      weights.weight.push_back(static_cast<float>(weight));
+    }
+    weights.first.push_back(static_cast<std::uint32_t>(weights.joint.size()));
+  }
+  return weights;
+}
+
+}  // namespace bodice::tryon

@@ -1,0 +1,62 @@
+#include "motion/refits.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <bodice/tryon/base_pose.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+/// What a refit takes behind frames, about: a moving body is refitted where it will be then.
+constexpr double kAhead_s = 0.3;
+/// Joints turned farther than this from every base pose: a moving body gets another one.
+constexpr double kFarMoving_rad = 0.35;
+/// A body that stands still gets one in its very pose.
+constexpr double kFarStill_rad = 0.08;
+/// Joints that turn by less within kAhead_s stand still; in entries of their matrices.
+constexpr double kStill = 0.02;
+/// Over so many poses a new base pose comes to count fully.
+constexpr int kPosesToBlend = 10;
+
+bool stand_still(std::span<const rig::Affine> now, std::span<const rig::Affine> later) {
+  double most = 0.0;
+  for (std::size_t j = 0; j < now.size(); ++j)
+    most = std::max(most, (now[j] - later[j]).leftCols<3>().cwiseAbs().maxCoeff());
+  return most < kStill;
+}
+
+}  // namespace
+
+bool Refits::take(const proxy::BodyProxy& proxy, MovingBody& body) {
+  const Refit* const ready = stream_.current();
+  if (ready == taken_) return false;
+  taken_ = ready;
+  runs_ = false;
+  if (!ready || !ready->base || ready->proxy_hash != proxy.hash()) return false;
+  return body.poser()->add_base(ready->base, kPosesToBlend).ok();
+}
+
+void Refits::consider(const std::shared_ptr<const SegmentedSkin>& skin, const proxy::BodyProxy& proxy,
+                      MovingBody& body, ClipPlayback& playback, bool paused) {
+  if (runs_ || proxy.relief().empty()) return;
+  ahead_.resize(playback.joints().size());
+  if (paused)
+    std::ranges::copy(playback.joints(), ahead_.begin());
+  else
+    playback.joints_ahead(kAhead_s, ahead_);
+  const bool still = stand_still(playback.joints(), ahead_);
+  if (body.poser()->departure_rad(ahead_) < (still ? kFarStill_rad : kFarMoving_rad)) return;
+  runs_ = true;
+  stream_.submit("refit",
+                 [skin, proxy, joints = ahead_](const engine::Context& context,
+                                                engine::Sink<Refit>& sink) -> engine::Result<void> {
+                   auto base = make_base_pose(context, proxy, *skin, joints, "");
+                   if (!base && base.error().code == engine::ErrorCode::kCanceled)
+                     return std::move(base).error();
+                   sink.publish(std::make_shared<const Refit>(Refit{proxy.hash(), base ? *base : nullptr}));
+                   return {};
+                 });
+}
+
+}  // namespace bodice::tryon

@@ -1,0 +1,44 @@
+// Refits behind the frames of a session: where the joints have left what is there, tables are solved anew in
+// a pose, and taken at a frame boundary.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <bodice/engine/frame_pipeline.hpp>
+#include <bodice/proxy/body_proxy.hpp>
+#include <bodice/tryon/prepare.hpp>
+
+#include "motion/clip_playback.hpp"
+#include "motion/moving_body.hpp"
+
+namespace bodice::tryon {
+
+/// Decides when a refit is worth its time, and runs at most one at a time.
+class Refits {
+ public:
+  explicit Refits(engine::FramePipeline& pipeline) : stream_(pipeline) {}
+
+  /// Gives the body a base pose that has become ready since the last call, if it is one of its proxy. It then
+  /// counts fully after some frames, so that the surface does not jump. Returns whether it did.
+  bool take(const proxy::BodyProxy& proxy, MovingBody& body);
+
+  /// Begins a refit where the joints will soon be far from every base pose of the body: of the pose in which
+  /// a moving body will be when the refit is ready.
+  void consider(const std::shared_ptr<const SegmentedSkin>& skin, const proxy::BodyProxy& proxy,
+                MovingBody& body, ClipPlayback& playback, bool paused);
+
+ private:
+  struct Refit {
+    std::uint64_t proxy_hash = 0;
+    std::shared_ptr<const proxy::BasePose> base;  ///< null: the pose was refused
+  };
+
+  engine::Stream<Refit> stream_;
+  const Refit* taken_ = nullptr;
+  bool runs_ = false;
+  std::vector<rig::Affine> ahead_;  // #J
+};
+
+}  // namespace bodice::tryon

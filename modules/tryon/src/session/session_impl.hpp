@@ -1,0 +1,64 @@
+// What a session holds, and what it does at a frame boundary.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "motion/refits.hpp"
+#include "session/session_body.hpp"
+
+namespace bodice::tryon {
+
+/// A shape that a slider requested, in the order of the requests; null: it failed.
+struct SessionShape {
+  std::uint64_t number = 0;
+  std::shared_ptr<const SessionBody> body;
+};
+
+struct Session::Impl {
+  Impl(const engine::Context& context, SessionOptions o)
+      : options(std::move(o)),
+        nothing_runs_behind(context.executor->concurrency() == 1 &&
+                            options.pipeline.mode == engine::PipelineMode::kLatency),
+        pipeline(context, options.pipeline),
+        bodies(pipeline),
+        motions(pipeline),
+        shapes(pipeline),
+        refits(pipeline) {}
+
+  SessionOptions options;
+  bool nothing_runs_behind;
+  engine::FramePipeline pipeline;
+  engine::Stream<SessionBody> bodies;  // streams after the pipeline, because they must be destroyed first
+  engine::Stream<SessionMotion> motions;
+  engine::Stream<SessionShape> shapes;
+  Refits refits;
+  std::optional<cloth::Solver> solver;
+  Wardrobe wardrobe;
+
+  const SessionBody* seen_body = nullptr;  // of the streams, at the last boundary
+  const SessionMotion* seen_motion = nullptr;
+  const SessionShape* seen_shape = nullptr;
+  std::shared_ptr<const SessionBody> body;  // in use
+  std::shared_ptr<const SessionMotion> motion;
+  WantedClip wanted;
+  bool paused = false, jumped = false;
+  std::vector<geometry::Vec3> wanted_shape;  // empty: none waits
+  std::uint64_t shapes_begun = 0, shapes_done = 0;
+
+  std::vector<geometry::Vec3> held, posed;  // pins in the bind pose, and in the one in force
+  rig::SkinWeights held_weights;
+  const SessionBody* held_by = nullptr;
+
+  void take_results(FrameOutcome& outcome);
+  void take_body(std::shared_ptr<const SessionBody> next);
+  void take_motion(std::shared_ptr<const SessionMotion> next);
+  void hold_garments(const engine::Context& context);
+  void pose(const engine::Context& context, double dt_s);
+  void begin_shape();
+  engine::Ticket find_wanted_clip();
+};
+
+}  // namespace bodice::tryon
