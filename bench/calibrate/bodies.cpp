@@ -7,6 +7,7 @@
 #include <bodice/engine/random.hpp>
 
 #include "extremities/sides.hpp"
+#include "landmarks/find_landmarks.hpp"
 
 namespace calibrate {
 namespace {
@@ -39,7 +40,9 @@ BodyOptions options_of(std::uint64_t seed, bool standing) {
 }  // namespace
 
 Sample::Sample(std::uint64_t seed, bool standing) {
-  auto made = bodice::synth::make_body({}, options_of(seed, standing));
+  const BodyOptions options = options_of(seed, standing);
+  adult_ = options.childhood == 0.0;
+  auto made = bodice::synth::make_body({}, options);
   if (!made) throw std::runtime_error(made.error().sentence());
   truth_ = std::move(*made);
   skin_ = std::make_unique<bodice::anatomy::Skin>(bodice::anatomy::make_skin({}, truth_.mesh));
@@ -50,6 +53,7 @@ Sample::Sample(std::uint64_t seed, bool standing) {
   coordinates_ = std::make_unique<bodice::anatomy::BodyCoordinates>(bodice::engine::Context{}, *skin_, tips_);
   const Vec3& hand = truth_.mesh.positions[tips_.hand[0]];
   usable_ = (hand - landmark(bodice::body::LandmarkId::kFingertipL)).norm() < 0.1 * truth_.stature_m;
+  if (usable_) (void)bodice::anatomy::find_landmarks({}, *skin_, *coordinates_, &records_);
 }
 
 Vec3 Sample::joint(const std::string& name) const {

@@ -5,6 +5,7 @@
 
 #include "coordinates/build.hpp"
 #include "extremities/extremities.hpp"
+#include "landmarks/base/correction.hpp"
 
 namespace calibrate {
 
@@ -30,11 +31,14 @@ class Sample {
   const bodice::anatomy::BodyCoordinates& coordinates() const { return *coordinates_; }
   /// False where the five extremities were not found, or left and right were mistaken.
   bool usable() const { return usable_; }
+  bool adult() const { return adult_; }
   double size_m() const { return static_cast<double>(coordinates_->size_m()); }
   Vec3 landmark(bodice::body::LandmarkId id) const {
     return truth_.landmarks[static_cast<std::size_t>(id)].position;
   }
   Vec3 joint(const std::string& name) const;
+  /// What the corrections of its landmarks are computed from.
+  const bodice::anatomy::CorrectionRecords& records() const { return records_; }
 
  private:
   bodice::synth::Body truth_;
@@ -42,7 +46,8 @@ class Sample {
   std::optional<bodice::anatomy::Extremities> extremities_;
   bodice::anatomy::BodyExtremities tips_;
   std::unique_ptr<bodice::anatomy::BodyCoordinates> coordinates_;
-  bool usable_ = false;
+  bodice::anatomy::CorrectionRecords records_;
+  bool adult_ = true, usable_ = false;
 };
 
 /// The usable ones of the drawn bodies.

@@ -4,13 +4,13 @@
 
 #include <bodice/geometry/mesh_distance.hpp>
 
+#include "landmarks/kinds/armpit_signature.hpp"
 #include "least_squares.hpp"
 
 namespace calibrate {
 namespace {
 
 using bodice::anatomy::Build;
-using bodice::anatomy::CoordinateArray;
 using bodice::anatomy::kCoordinateCount;
 using bodice::anatomy::LandmarkKind;
 using bodice::body::LandmarkId;
@@ -26,9 +26,78 @@ constexpr double kRidge = 1e-7;
 constexpr double kLeastDeviation = 0.008;
 /// Skin this near to a level takes part in its fit; a fraction of the stature.
 constexpr double kNearLevel = 0.06;
+/// The two features of the perineum, from this one on, that a mirror turns around: the mean over both is
+/// zero.
+constexpr int kLeftOfPerineum = 1;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
-/// Numbers with the digits that single precision holds.
+template <std::size_t N>
+Eigen::VectorXd as_vector(const std::array<float, N>& x) {
+  return Eigen::Map<const Eigen::VectorXf>(x.data(), N).template cast<double>();
+}
+
+Eigen::VectorXd with_build(const Eigen::VectorXd& x, const Build& build) {
+  Eigen::VectorXd all(x.size() + 1 + kBuildCount);
+  all << x, 1.0, Eigen::Map<const Eigen::VectorXf>(build.data(), kBuildCount).cast<double>();
+  return all;
+}
+
+/// Features at any point of the skin, between those of the corners of its triangle. `features` (vertex).
+template <class Features>
+Eigen::VectorXd features_at(const Sample& sample, const bodice::geometry::MeshDistance& distance,
+                            const Vec3& point, Features&& features) {
+  const auto at = distance.closest_point_within(point, kAnywhere).value();
+  const auto& t = sample.skin().mesh.triangles[at.triangle];
+  const auto& p = sample.skin().mesh.positions;
+  const Vec3 a = p[t[1]] - p[t[0]], b = p[t[2]] - p[t[0]], c = at.point - p[t[0]];
+  const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), ca = c.dot(a), cb = c.dot(b);
+  const double det = std::max(aa * bb - ab * ab, 1e-30);
+  const double v = (bb * ca - ab * cb) / det, w = (aa * cb - ab * ca) / det;
+  return (1.0 - v - w) * as_vector(features(t[0])) + v * as_vector(features(t[1])) +
+         w * as_vector(features(t[2]));
+}
+
+/// One landmark of one body: the measures of the body, with a one before them, and the features.
+struct SignatureRow {
+  Eigen::VectorXd body, features;
+};
+
+void add_row(const Eigen::VectorXd& measures, const Eigen::VectorXd& features,
+             std::vector<SignatureRow>& rows) {
+  Eigen::VectorXd body(measures.size() + 1);
+  body << 1.0, measures;
+  if (body.allFinite() && features.allFinite()) rows.push_back({body, features});
+}
+
+/// Mean and covariance of the features, after what the measures of the body explain.
+ordered_json signature_of(const std::vector<SignatureRow>& rows) {
+  const auto measures = rows.front().body.size() - 1, count = rows.front().features.size();
+  LeastSquares follow(static_cast<int>(measures) + 1, static_cast<int>(count));
+  for (const SignatureRow& row : rows) follow.add(row.body, row.features);
+  const Eigen::MatrixXd by_body = follow.solve(kRidge);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
+  for (const SignatureRow& row : rows) {
+    const Eigen::VectorXd off = row.features - by_body.transpose() * row.body;
+    covariance += off * off.transpose() / static_cast<double>(rows.size());
+  }
+  covariance.diagonal().array() += kLeastDeviation * kLeastDeviation;
+  const Eigen::MatrixXd upper = covariance.inverse().llt().matrixU();
+  Eigen::VectorXd of_body(count * measures), whiten(count * (count + 1) / 2);
+  for (Eigen::Index i = 0, k = 0; i < count; ++i) {
+    of_body.segment(i * measures, measures) = by_body.col(i).tail(measures);
+    for (Eigen::Index j = i; j < count; ++j) whiten[k++] = upper(i, j);
+  }
+  return {{"mean", rounded(by_body.row(0).transpose())},
+          {"of_body", rounded(of_body)},
+          {"whiten", rounded(whiten)}};
+}
+
+bool on_trunk(Part part) {
+  return bodice::body::is_torso(part) || part == Part::kThighL || part == Part::kThighR;
+}
+
+}  // namespace
+
 ordered_json rounded(const Eigen::VectorXd& values) {
   ordered_json list = ordered_json::array();
   for (const double v : values) {
@@ -39,67 +108,49 @@ ordered_json rounded(const Eigen::VectorXd& values) {
   return list;
 }
 
-Eigen::VectorXd as_vector(const CoordinateArray& x) {
-  return Eigen::Map<const Eigen::VectorXf>(x.data(), kCoordinateCount).cast<double>();
-}
-
-Eigen::VectorXd with_build(const Eigen::VectorXd& x, const Build& build) {
-  Eigen::VectorXd all(x.size() + 1 + kBuildCount);
-  all << x, 1.0, Eigen::Map<const Eigen::VectorXf>(build.data(), kBuildCount).cast<double>();
-  return all;
-}
-
-/// The coordinates at any point of the skin, between those of the corners of its triangle.
-Eigen::VectorXd coordinates_at(const Sample& sample, const bodice::geometry::MeshDistance& distance,
-                               const Vec3& point, int side) {
-  const auto at = distance.closest_point_within(point, kAnywhere).value();
-  const auto& t = sample.skin().mesh.triangles[at.triangle];
-  const auto& p = sample.skin().mesh.positions;
-  const Vec3 a = p[t[1]] - p[t[0]], b = p[t[2]] - p[t[0]], c = at.point - p[t[0]];
-  const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), ca = c.dot(a), cb = c.dot(b);
-  const double det = std::max(aa * bb - ab * ab, 1e-30);
-  const double v = (bb * ca - ab * cb) / det, w = (aa * cb - ab * ca) / det;
-  const auto x = [&](int k) { return as_vector(sample.coordinates().at(t[k], side)); };
-  return (1.0 - v - w) * x(0) + v * x(1) + w * x(2);
-}
-
-bool on_trunk(Part part) {
-  return bodice::body::is_torso(part) || part == Part::kThighL || part == Part::kThighR;
-}
-
-}  // namespace
-
 ordered_json fit_signature(const LandmarkKind& kind, const Samples& samples) {
-  LeastSquares follow(kBuildCount + 1, kCoordinateCount);
-  std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> rows;  // build with its one, features
+  std::vector<SignatureRow> rows;
   for (const auto& sample : samples) {
     const bodice::geometry::MeshDistance distance({}, sample->skin().mesh);
+    for (int side = 0; side < (kind.paired ? 2 : 1); ++side)
+      add_row(as_vector(build_of(sample->coordinates())),
+              features_at(*sample, distance, sample->landmark(bodice::body::of_side(kind.id, side)),
+                          [&](Index v) { return sample->coordinates().at(v, side); }),
+              rows);
+  }
+  return signature_of(rows);
+}
+
+ordered_json fit_armpit_signature(const Samples& samples) {
+  std::vector<SignatureRow> rows;
+  for (const auto& sample : samples) {
+    const bodice::geometry::MeshDistance distance({}, sample->skin().mesh);
+    const auto& coordinates = sample->coordinates();
     for (int side = 0; side < 2; ++side) {
-      const LandmarkId id = kind.paired ? bodice::body::of_side(kind.id, side) : kind.id;
-      const Eigen::VectorXd x = coordinates_at(*sample, distance, sample->landmark(id), side);
-      const Eigen::VectorXd z = with_build(Eigen::VectorXd(), build_of(sample->coordinates()));
-      if (!x.allFinite() || !z.allFinite()) continue;
-      follow.add(z, x);
-      rows.emplace_back(z, x);
+      const float half = bodice::anatomy::half_chest(coordinates, side);
+      add_row(
+          as_vector(bodice::anatomy::armpit_measures(coordinates, half)),
+          features_at(*sample, distance, sample->landmark(bodice::body::of_side(LandmarkId::kArmpitL, side)),
+                      [&](Index v) { return bodice::anatomy::armpit_features(coordinates, v, side, half); }),
+          rows);
     }
   }
-  const Eigen::MatrixXd by_build = follow.solve(kRidge);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kCoordinateCount, kCoordinateCount);
-  for (const auto& [z, x] : rows) {
-    const Eigen::VectorXd off = x - by_build.transpose() * z;
-    covariance += off * off.transpose() / static_cast<double>(rows.size());
+  return signature_of(rows);
+}
+
+ordered_json fit_perineum_signature(const Samples& samples) {
+  std::vector<SignatureRow> rows;
+  for (const auto& sample : samples) {
+    const bodice::geometry::MeshDistance distance({}, sample->skin().mesh);
+    const auto& coordinates = sample->coordinates();
+    Eigen::VectorXd features = features_at(*sample, distance, sample->landmark(LandmarkId::kPerineum),
+                                           [&](Index v) { return coordinates.perineum_features(v); });
+    for (int mirrored = 0; mirrored < 2; ++mirrored) {
+      add_row(as_vector(coordinates.perineum_measures()), features, rows);
+      features.segment(kLeftOfPerineum, 2) *= -1.0;
+    }
   }
-  covariance.diagonal().array() += kLeastDeviation * kLeastDeviation;
-  const Eigen::MatrixXd upper = covariance.inverse().llt().matrixU();
-  Eigen::VectorXd of_body(kCoordinateCount * kBuildCount),
-      whiten(kCoordinateCount * (kCoordinateCount + 1) / 2);
-  for (int i = 0, k = 0; i < kCoordinateCount; ++i) {
-    for (int j = 0; j < kBuildCount; ++j) of_body[i * kBuildCount + j] = by_build(1 + j, i);
-    for (int j = i; j < kCoordinateCount; ++j) whiten[k++] = upper(i, j);
-  }
-  return {{"mean", rounded(by_build.row(0).transpose())},
-          {"of_body", rounded(of_body)},
-          {"whiten", rounded(whiten)}};
+  return signature_of(rows);
 }
 
 ordered_json fit_trunk_level(const LandmarkKind& kind, const Samples& samples) {

@@ -1,6 +1,7 @@
 // The fits: each makes one file of coefficients from made bodies.
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "bodies.hpp"
@@ -11,8 +12,15 @@ namespace calibrate {
 using Samples = std::vector<std::unique_ptr<Sample>>;
 using nlohmann::ordered_json;
 
+/// Numbers with the digits that single precision holds.
+ordered_json rounded(const Eigen::VectorXd& values);
+
 /// Mean and covariance of the coordinates of the true landmark, after what the build explains of them.
 ordered_json fit_signature(const bodice::anatomy::LandmarkKind& kind, const Samples& samples);
+
+/// The same for the two signatures that read features of their own.
+ordered_json fit_armpit_signature(const Samples& samples);
+ordered_json fit_perineum_signature(const Samples& samples);
 
 /// Least squares of the height above the true level over the trunk's skin near it. `samples`: standing
 /// bodies.

@@ -74,7 +74,8 @@ ordered_json fit_extremities(const Samples& samples) {
   mean /= adults;
   const Eigen::VectorXd distances{{0.5 * (mean[0] + mean[1]), 0.5 * (mean[2] + mean[3]), mean[4], mean[9],
                                    0.25 * (mean[5] + mean[6] + mean[7] + mean[8])}};
-  const TemplatePairs expected = bodice::anatomy::template_pairs({distances.data(), 5});
+  const TemplatePairs expected =
+      bodice::anatomy::template_pairs(std::span<const double, 5>(distances.data(), 5));
   Eigen::MatrixXd spread = Eigen::MatrixXd::Zero(expected.size(), expected.size());
   for (const auto& sample : samples) {
     const TemplatePairs off = pairs_of(*sample) - expected;

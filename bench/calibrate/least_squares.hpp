@@ -22,8 +22,12 @@ class LeastSquares {
   /// #unknowns x #targets. `ridge`: what a squared weight costs, as a share of a row; it settles what the
   /// rows leave open.
   Eigen::MatrixXd solve(double ridge) const {
+    return solve(Eigen::VectorXd::Constant(square_.rows(), ridge));
+  }
+  /// The same with a ridge for each unknown.
+  Eigen::MatrixXd solve(const Eigen::VectorXd& ridge) const {
     Eigen::MatrixXd square = square_;
-    square.diagonal().array() += ridge * static_cast<double>(rows_);
+    square.diagonal() += static_cast<double>(rows_) * ridge;
     return square.ldlt().solve(right_);
   }
 

@@ -8,12 +8,15 @@
 #include <fstream>
 
 #include "fit.hpp"
+#include "fit_corrections.hpp"
+#include "fit_lengths.hpp"
 #include "landmarks/landmark_table.hpp"
 
 namespace {
 
 using bodice::anatomy::LandmarkKind;
 using bodice::anatomy::Recipe;
+using calibrate::ordered_json;
 
 /// Seeds that no test and no other bench makes bodies of.
 constexpr std::uint64_t kFirstSeed = 910000, kFirstStandingSeed = 930000;
@@ -44,6 +47,30 @@ std::string file_of(const LandmarkKind& kind) {
   return std::string(kind.paired ? name.substr(0, name.size() - 2) : name);
 }
 
+ordered_json fit(const LandmarkKind& kind, const calibrate::Samples& samples) {
+  switch (kind.recipe) {
+    case Recipe::kSignature:
+      return fit_signature(kind, samples);
+    case Recipe::kTrunkLevel:
+      return fit_trunk_level(kind, samples);
+    case Recipe::kLimbLevel:
+      return fit_limb_level(kind, samples);
+    case Recipe::kCorrections:
+      return fit_corrections(kind, samples);
+    case Recipe::kNone:
+      break;
+  }
+  return {};
+}
+
+/// What a file holds, with the members that were made again.
+ordered_json replaced(const std::filesystem::path& file, const ordered_json& made) {
+  std::ifstream in(file);
+  ordered_json all = in ? ordered_json::parse(in) : ordered_json::object();
+  for (const auto& [member, numbers] : made.items()) all[member] = numbers;
+  return all;
+}
+
 /// One member a line, numbers separated by spaces.
 bool write(const std::filesystem::path& file, const calibrate::ordered_json& coefficients) {
   std::ofstream out(file);
@@ -60,6 +87,27 @@ bool write(const std::filesystem::path& file, const calibrate::ordered_json& coe
   return static_cast<bool>(out);
 }
 
+/// Replaces members of a file. False if it cannot be written.
+bool make_again(const std::filesystem::path& folder, const std::string& name, const ordered_json& made) {
+  const std::filesystem::path file = folder / (name + ".json");
+  if (!write(file, replaced(file, made))) {
+    std::fprintf(stderr, "could not write %s\n", file.c_str());
+    return false;
+  }
+  std::printf("wrote %s.json\n", name.c_str());
+  return true;
+}
+
+/// Fits that no recipe of a landmark names.
+struct OwnFit {
+  const char* name;
+  ordered_json (*fit)(const calibrate::Samples& samples);
+};
+constexpr OwnFit kOwnFits[] = {{"stature", calibrate::fit_stature},
+                               {"extremities", calibrate::fit_extremities},
+                               {"perineum", calibrate::fit_perineum_signature},
+                               {"armpit", calibrate::fit_armpit_signature}};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -70,6 +118,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   calibrate::Samples posed, standing;
+  for (const auto& [name, fit] : kOwnFits)
+    if (a.only.empty() || a.only == name) {
+      if (posed.empty()) posed = calibrate::make_samples({kFirstSeed, a.bodies, false});
+      if (!make_again(a.folder, name, fit(posed))) return 1;
+    }
   for (const LandmarkKind& kind : bodice::anatomy::landmark_kinds()) {
     const std::string name = file_of(kind);
     if (kind.recipe == Recipe::kNone || (!a.only.empty() && a.only != name)) continue;
@@ -77,14 +130,8 @@ int main(int argc, char** argv) {
       standing = calibrate::make_samples({kFirstStandingSeed, a.bodies, true});
     if (kind.recipe != Recipe::kTrunkLevel && posed.empty())
       posed = calibrate::make_samples({kFirstSeed, a.bodies, false});
-    const auto coefficients = kind.recipe == Recipe::kSignature    ? fit_signature(kind, posed)
-                              : kind.recipe == Recipe::kTrunkLevel ? fit_trunk_level(kind, standing)
-                                                                   : fit_limb_level(kind, posed);
-    if (!write(a.folder / (name + ".json"), coefficients)) {
-      std::fprintf(stderr, "could not write %s\n", (a.folder / (name + ".json")).c_str());
+    if (!make_again(a.folder, name, fit(kind, kind.recipe == Recipe::kTrunkLevel ? standing : posed)))
       return 1;
-    }
-    std::printf("wrote %s.json\n", name.c_str());
   }
   return 0;
 }

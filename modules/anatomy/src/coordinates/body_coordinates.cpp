@@ -89,25 +89,12 @@ void BodyCoordinates::measure_lengths() {
 }
 
 void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& skin) {
-  const Field &left_hand = *tips_.from_hand[0], &right_hand = *tips_.from_hand[1], &head = *tips_.from_head;
-  const Field &left_foot = *tips_.from_foot[0], &right_foot = *tips_.from_foot[1];
-  const float tilt = left_hand[tips_.head] - right_hand[tips_.head];
   const bool merged = merge_.at.found();
-  const float half_way = merged ? merge_.distance : 0.5F * tips_.feet_apart;
+  const Field &left_foot = *tips_.from_foot[0], &right_foot = *tips_.from_foot[1];
   merge_front_ = merged ? value_at(skin, merge_.at, from_front_) : kUsualMergeFront * size_;
   merge_back_ = merged ? value_at(skin, merge_.at, from_back_) : kUsualMergeBack * size_;
-  const auto expected = kPerineum.expected(
-      {tips_.feet_apart / size_, tips_.hands_apart / size_, merge_front_ / size_, merge_back_ / size_});
-  const auto distance2 = [&](std::size_t v) {
-    return kPerineum.distance2(
-        {(left_foot[v] + right_foot[v]) / (2.0F * half_way),
-         (left_foot[v] - right_foot[v]) / tips_.feet_apart,
-         (left_hand[v] - right_hand[v] - tilt) / tips_.hands_apart, from_front_[v] / size_,
-         from_back_[v] / size_, 0.5F * (merge_back_ - merge_front_ - from_back_[v] + from_front_[v]) / size_,
-         0.5F * (left_hand[v] + right_hand[v]) / tips_.hands_apart, head[v] / size_,
-         0.5F * ((head[v] + left_foot[v]) / head_to_foot_[0] + (head[v] + right_foot[v]) / head_to_foot_[1])},
-        expected);
-  };
+  const auto expected = kPerineum.expected(perineum_measures());
+  const auto distance2 = [&](std::size_t v) { return kPerineum.distance2(perineum_features(v), expected); };
   const auto may_be = [&](std::size_t v) {
     const float feet = left_foot[v] + right_foot[v];
     return feet > 2.0F * kPerineumFrom * tips_.feet_apart && feet < 2.0F * kPerineumTo * tips_.feet_apart;
@@ -125,6 +112,27 @@ void BodyCoordinates::find_perineum(const engine::Context& context, const Skin& 
                     [&](Index v) { return may_be(v) ? std::exp(-0.5F * (distance2(v) - least2)) : 0.0F; });
   perineum_ = vertex_near(skin, perineum_position_, found.vertex);
   perineum_mahalanobis_ = found.mahalanobis;
+}
+
+std::array<float, 9> BodyCoordinates::perineum_features(std::size_t v) const {
+  const Field &left_hand = *tips_.from_hand[0], &right_hand = *tips_.from_hand[1], &head = *tips_.from_head;
+  const Field &left_foot = *tips_.from_foot[0], &right_foot = *tips_.from_foot[1];
+  const float tilt = left_hand[tips_.head] - right_hand[tips_.head];
+  const float half_path = merge_.at.found() ? merge_.distance : 0.5F * tips_.feet_apart;
+  return {
+      (left_foot[v] + right_foot[v]) / (2.0F * half_path),
+      (left_foot[v] - right_foot[v]) / tips_.feet_apart,
+      (left_hand[v] - right_hand[v] - tilt) / tips_.hands_apart,
+      from_front_[v] / size_,
+      from_back_[v] / size_,
+      0.5F * (merge_back_ - merge_front_ - from_back_[v] + from_front_[v]) / size_,
+      0.5F * (left_hand[v] + right_hand[v]) / tips_.hands_apart,
+      head[v] / size_,
+      0.5F * ((head[v] + left_foot[v]) / head_to_foot_[0] + (head[v] + right_foot[v]) / head_to_foot_[1])};
+}
+
+std::array<float, 4> BodyCoordinates::perineum_measures() const {
+  return {tips_.feet_apart / size_, tips_.hands_apart / size_, merge_front_ / size_, merge_back_ / size_};
 }
 
 bool BodyCoordinates::on_head(std::size_t v) const {

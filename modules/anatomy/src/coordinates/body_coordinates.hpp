@@ -33,6 +33,9 @@ class BodyCoordinates {
   float perineum_mahalanobis() const { return perineum_mahalanobis_; }
   /// How many deviations more the best vertex in front of the one that fits best is off.
   float perineum_margin() const { return perineum_margin_; }
+  /// What the perineum's signature reads at a vertex, and which measures of the body it follows.
+  std::array<float, 9> perineum_features(std::size_t vertex) const;
+  std::array<float, 4> perineum_measures() const;
   /// Above the border of the neck.
   bool on_head(std::size_t vertex) const;
   const geodesic::Field& from_front() const { return from_front_; }

@@ -8,21 +8,12 @@
 namespace bodice::anatomy {
 namespace {
 
-constexpr int kPairs = 10;
-using Pairs = Eigen::Matrix<double, kPairs, 1>;
+using Pairs = TemplatePairs;
+constexpr int kPairs = kTemplatePairs;
 
 /// The ten pairs of extremities in a fixed order.
 constexpr std::array<std::array<int, 2>, kPairs> kPairOf{
     {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}, {3, 4}}};
-
-/// Mean distances along the skin as ratios to stature, over adults of many builds and poses: head to hand,
-/// head to foot, hand to hand, foot to foot, hand to foot.
-Pairs template_distances() {
-  const auto [head_hand, head_foot, hands, feet, hand_foot] =
-      std::to_array(coefficients::extremities::kDistances);
-  return Pairs{head_hand, head_hand, head_foot, head_foot, hands,
-               hand_foot, hand_foot, hand_foot, hand_foot, feet};
-}
 
 /// One independent mode in which bodies and poses differ: what it adds to each distance, at one deviation.
 Pairs mode(double deviation, const std::array<double, kExtremityCount>& of_end, double trunk = 0.0) {
@@ -35,9 +26,21 @@ Pairs mode(double deviation, const std::array<double, kExtremityCount>& of_end, 
   return m;
 }
 
-/// Deviations as ratios to stature. Children: larger heads, shorter legs. Poses stretch single limbs.
-Eigen::Matrix<double, kPairs, kPairs> precision() {
-  const auto [head, arms, legs, trunk, one_limb, noise] = std::to_array(coefficients::extremities::kSpread);
+/// Extremities lie farther out than their neighbors (toe and heel, fingertip and thumb), so that the fit with
+/// the greater distances is the right one of two equal fits.
+constexpr double kFartherIsBetter = 4.0;
+
+}  // namespace
+
+TemplatePairs template_pairs(std::span<const double, 5> distances) {
+  const double head_hand = distances[0], head_foot = distances[1], hand_foot = distances[4];
+  return Pairs{head_hand, head_hand, head_foot, head_foot, distances[2],
+               hand_foot, hand_foot, hand_foot, hand_foot, distances[3]};
+}
+
+Eigen::Matrix<double, kPairs, kPairs> template_spread(std::span<const double, kTemplateModes> deviations) {
+  const double head = deviations[0], arms = deviations[1], legs = deviations[2], trunk = deviations[3],
+               one_limb = deviations[4], noise = deviations[5];
   Eigen::Matrix<double, kPairs, kPairs> spread =
       noise * noise * Eigen::Matrix<double, kPairs, kPairs>::Identity();
   const auto add = [&](const Pairs& m) { spread += m * m.transpose(); };
@@ -50,18 +53,14 @@ Eigen::Matrix<double, kPairs, kPairs> precision() {
     one[end] = 1.0;
     add(mode(one_limb, one));
   }
-  return spread.inverse();
+  return spread;
 }
 
-/// Extremities lie farther out than their neighbors (toe and heel, fingertip and thumb), so that the fit with
-/// the greater distances is the right one of two equal fits.
-constexpr double kFartherIsBetter = 4.0;
-
-}  // namespace
-
 std::optional<TemplateMatch> match_template(std::span<const float> apart, std::size_t n) {
-  const Pairs expected = template_distances();
-  const Eigen::Matrix<double, kPairs, kPairs> weight = precision();
+  // Distances and deviations are fractions of the stature, over people of many builds, ages and poses.
+  const Pairs expected = template_pairs(coefficients::extremities::kDistances);
+  const Eigen::Matrix<double, kPairs, kPairs> weight =
+      template_spread(coefficients::extremities::kSpread).inverse();
   std::optional<TemplateMatch> best;
   double best_score = 0.0, longest = 0.0;
   for (const float d : apart)

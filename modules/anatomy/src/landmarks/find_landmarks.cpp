@@ -77,8 +77,8 @@ double checked_confidence(double confidence, double difference, double most) {
 }
 
 CheckedLandmarks find_landmarks(const engine::Context& context, const Skin& skin,
-                                const BodyCoordinates& coordinates) {
-  const LandmarkInput input{context, skin, coordinates, head_ball(skin, coordinates)};
+                                const BodyCoordinates& coordinates, CorrectionRecords* records) {
+  const LandmarkInput input{context, skin, coordinates, head_ball(skin, coordinates), records};
   const std::vector<Task> tasks = all_tasks();
   CheckedLandmarks found;
   find_first(input, tasks, found.marks);

@@ -15,9 +15,10 @@ struct CheckedLandmarks {
   Differences differences;
 };
 
-/// Runs the steps of the table of landmarks. The same for any number of workers. O(#V + #F) a landmark.
+/// Runs the steps of the table of landmarks. The same for any number of workers. `records`, if there are any,
+/// take what corrections are computed from. O(#V + #F) a landmark.
 CheckedLandmarks find_landmarks(const engine::Context& context, const Skin& skin,
-                                const BodyCoordinates& coordinates);
+                                const BodyCoordinates& coordinates, CorrectionRecords* records = nullptr);
 
 /// The landmarks as users see them, in the order of LandmarkId; confidence 0 where nothing was found.
 /// Vertices of landmarks on the skin are those nearest to where the landmarks ended up.

@@ -14,24 +14,34 @@ double weighted_sum(std::span<const double> weights, std::span<const double> mea
 
 }  // namespace
 
-Corrected corrected(const CorrectionInput& input, std::initializer_list<std::span<const double>> weights,
-                    double most) {
-  Corrected result{input.first, 0.0};
+void record(const LandmarkInput& input, const Correction& correction) {
+  if (input.records) input.records->corrections.push_back(correction);
+}
+
+Corrected corrected(const LandmarkInput& input, const Correction& correction) {
+  record(input, correction);
+  Corrected result{correction.first, 0.0};
   geometry::Vec3 shift = geometry::Vec3::Zero();
   double square = 0.0;
-  for (std::size_t a = 0; a < input.axes.size(); ++a) {
-    const double far = weighted_sum(weights.begin()[a], input.axes[a].measures);
+  for (const CorrectionAxis& axis : correction.axes) {
+    const double far = weighted_sum(axis.weights.values, axis.measures);
     if (!std::isfinite(far)) return result;
-    shift += std::clamp(far, -most, most) * input.axes[a].direction;
+    shift += std::clamp(far, -correction.most, correction.most) * axis.direction;
     square += far * far;
   }
   result.wanted = std::sqrt(square);
-  if (!input.axes.empty()) result.position = input.first + input.size_m * shift;
+  if (!correction.axes.empty()) result.position = correction.first + input.size_m() * shift;
   return result;
 }
 
-void clamp_measures(std::span<double> measures, std::span<const double> least, std::span<const double> most) {
-  for (std::size_t i = 0; i < measures.size(); ++i) measures[i] = std::clamp(measures[i], least[i], most[i]);
+void limit_measures(const LandmarkInput& input, LandmarkId of, const MeasureLimits& limits,
+                    std::span<double> measures) {
+  if (input.records) {
+    input.records->measured.push_back({of, limits, {measures.begin(), measures.end()}});
+    return;
+  }
+  for (std::size_t i = 0; i < measures.size(); ++i)
+    measures[i] = std::clamp(measures[i], limits.least.values[i], limits.most.values[i]);
 }
 
 }  // namespace bodice::anatomy

@@ -4,22 +4,33 @@
 #include <span>
 #include <vector>
 
-#include <bodice/geometry/types.hpp>
+#include "landmarks/base/landmarks.hpp"
 
 namespace bodice::anatomy {
+
+/// Coefficients with their name in the landmark's file of modules/anatomy/data.
+struct Coefficients {
+  const char* member = "";
+  std::span<const double> values;
+};
 
 /// A direction in which a landmark may move, and the measures that its distance follows.
 struct CorrectionAxis {
   geometry::Vec3 direction = geometry::Vec3::Zero();
   std::vector<double> measures;
+  /// The distance is values[0] + values[1] measures[0] + ..., a fraction of the body size.
+  Coefficients weights;
+  /// True if a mirror changes the sign of all measures and of the distance: values[0] is then zero.
+  bool odd = false;
 };
 
-/// What a correction is computed from; without axes the first estimate stays. Lengths among the measures are
+/// How one landmark is corrected; without axes the first estimate stays. Lengths among the measures are
 /// fractions of the body size.
-struct CorrectionInput {
+struct Correction {
+  LandmarkId of = LandmarkId::kCrown;
   geometry::Vec3 first = geometry::Vec3::Zero();
-  double size_m = 0.0;
   std::vector<CorrectionAxis> axes;
+  double most = 0.0;  ///< the farthest along one axis, as a fraction of the body size
 };
 
 /// The corrected position, and the length of the correction before it was limited, as a fraction of the body
@@ -29,12 +40,31 @@ struct Corrected {
   double wanted = 0.0;
 };
 
-/// Moves the first estimate along each axis by weight[0] + weight[1] measure[0] + ..., a fraction of the body
-/// size that is limited to +-most. `weights`: one list an axis, one longer than its measures.
-Corrected corrected(const CorrectionInput& input, std::initializer_list<std::span<const double>> weights,
-                    double most);
+/// The least and the most that the calibration bodies measure; beyond it nothing is known.
+struct MeasureLimits {
+  Coefficients least, most;
+};
 
-/// Limits each measure to what the calibration bodies measure; beyond it nothing is known.
-void clamp_measures(std::span<double> measures, std::span<const double> least, std::span<const double> most);
+/// What the corrections of one body were computed from: bench/calibrate fits their coefficients to it.
+struct CorrectionRecords {
+  struct Measured {
+    LandmarkId of;
+    MeasureLimits limits;
+    std::vector<double> measures;  ///< as measured, without limits
+  };
+  std::vector<Correction> corrections;
+  std::vector<Measured> measured;
+};
+
+/// Records the correction where corrections are recorded.
+void record(const LandmarkInput& input, const Correction& correction);
+
+/// Records the correction, and moves the first estimate along each axis.
+Corrected corrected(const LandmarkInput& input, const Correction& correction);
+
+/// Limits each measure. Where corrections are recorded the measures stay as they are, because the limits are
+/// then made from them.
+void limit_measures(const LandmarkInput& input, LandmarkId of, const MeasureLimits& limits,
+                    std::span<double> measures);
 
 }  // namespace bodice::anatomy

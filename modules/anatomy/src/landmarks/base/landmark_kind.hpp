@@ -17,10 +17,11 @@ struct CrossCheck {
 
 /// How the program bench/calibrate makes the coefficients of a landmark.
 enum class Recipe {
-  kNone,        ///< it does not
-  kSignature,   ///< landmarks/skin_signature.hpp
-  kTrunkLevel,  ///< landmarks/level_loop.hpp, find_trunk_level()
-  kLimbLevel,   ///< landmarks/level_loop.hpp, find_limb_level()
+  kNone,         ///< it does not
+  kSignature,    ///< landmarks/base/skin_signature.hpp
+  kTrunkLevel,   ///< landmarks/base/level_loop.hpp, find_trunk_level()
+  kLimbLevel,    ///< landmarks/base/level_loop.hpp, find_limb_level()
+  kCorrections,  ///< landmarks/base/correction.hpp
 };
 
 /// How one kind of landmark is found. A step that is null is left out. The steps of all kinds run in this

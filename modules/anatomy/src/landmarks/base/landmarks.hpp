@@ -38,12 +38,15 @@ struct Landmarks {
   const geometry::Vec3& at(LandmarkId left, int side) const { return at(body::of_side(left, side)); }
 };
 
+struct CorrectionRecords;
+
 /// What landmarks are found from. It is complete before the search begins and does not change.
 struct LandmarkInput {
   const engine::Context& context;
   const Skin& skin;
   const BodyCoordinates& coordinates;
-  Ball head;  ///< the ball that the skin above the neck's border resembles
+  Ball head;                             ///< the ball that the skin above the neck's border resembles
+  CorrectionRecords* records = nullptr;  ///< takes what corrections are computed from; null: nothing does
 
   double size_m() const { return static_cast<double>(coordinates.size_m()); }
   const BodyExtremities& tips() const { return coordinates.extremities(); }

@@ -18,14 +18,16 @@ constexpr float kBent_rad = 0.6F;
 
 }  // namespace
 
-Vec3 limb_joint(const LandmarkInput& input, const Loop& loop, const Vec3& root, const Vec3& end,
-                std::array<std::span<const double>, 2> weights) {
+Vec3 limb_joint(const LandmarkInput& input, LandmarkId of, const Loop& loop, const LimbBones& bones) {
   if (!loop.found()) return loop.center;
   const BodyLengths lengths = body_lengths(input.coordinates);
   const std::vector<double> measures(lengths.begin(), lengths.end());
-  const Vec3 upper = (loop.center - root).normalized(), lower = (end - loop.center).normalized();
-  return corrected({loop.center, input.size_m(), {{upper, measures}, {lower, measures}}},
-                   {weights[0], weights[1]}, kMostByLengths)
+  const Vec3 upper = (loop.center - bones.root).normalized(), lower = (bones.end - loop.center).normalized();
+  return corrected(input,
+                   {of,
+                    loop.center,
+                    {{upper, measures, {"upper", bones.upper}}, {lower, measures, {"lower", bones.lower}}},
+                    kMostByLengths})
       .position;
 }
 

@@ -7,11 +7,17 @@
 
 namespace bodice::anatomy {
 
-/// Moves a joint from the center of its loop along the limb's two bones by what the body's lengths say.
-/// `root`: where the limb leaves the trunk; `end`: its tip. Skin weights put the border below the joint, the
-/// more so on heavy bodies. `weights`: along the upper and the lower bone. O(1).
-geometry::Vec3 limb_joint(const LandmarkInput& input, const Loop& loop, const geometry::Vec3& root,
-                          const geometry::Vec3& end, std::array<std::span<const double>, 2> weights);
+/// The two bones of a limb, and the coefficients of the correction along each.
+struct LimbBones {
+  geometry::Vec3 root;  ///< where the limb leaves the trunk
+  geometry::Vec3 end;   ///< its tip
+  std::span<const double> upper, lower;
+};
+
+/// Moves a joint from the center of its loop along the limb's two bones by what the body's lengths say. Skin
+/// weights put the border below the joint, the more so on heavy bodies. O(1).
+geometry::Vec3 limb_joint(const LandmarkInput& input, LandmarkId of, const Loop& loop,
+                          const LimbBones& bones);
 
 /// A limb as its cross-check reads it. Shares are of the length from its tip to where it leaves the trunk.
 struct Limb {

@@ -51,7 +51,8 @@ std::vector<double> arm_measures(const LandmarkInput& input, const Landmarks& ma
   const Midline& middle = input.coordinates.midline();
   for (const Vec3& to : {marks.at(LandmarkId::kNeck), middle.front.position, middle.back.position})
     for (const double part : frame.coordinates(to - armpit)) measures.push_back(part / size);
-  clamp_measures(std::span(measures).subspan(kOfArm), data::kLeast, data::kMost);
+  limit_measures(input, body::of_side(LandmarkId::kArmpitL, side),
+                 {{"least", data::kLeast}, {"most", data::kMost}}, std::span(measures).subspan(kOfArm));
   return measures;
 }
 
@@ -63,12 +64,13 @@ FoundLandmark refine(const LandmarkInput& input, const Landmarks& marks, int sid
   TrunkFrame frame = trunk_frame(marks);
   if (side == 1) frame.left = -frame.left;  // outward
   const std::vector<double> measures = arm_measures(input, marks, side, frame);
-  armpit.mark.position =
-      corrected({armpit.mark.position,
-                 input.size_m(),
-                 {{frame.left, measures}, {frame.up, measures}, {frame.forward, measures}}},
-                {data::kOutward, data::kUpward, data::kForward}, kFarthest)
-          .position;
+  armpit.mark.position = corrected(input, {armpit.mark.id,
+                                           armpit.mark.position,
+                                           {{frame.left, measures, {"outward", data::kOutward}},
+                                            {frame.up, measures, {"upward", data::kUpward}},
+                                            {frame.forward, measures, {"forward", data::kForward}}},
+                                           kFarthest})
+                             .position;
   return armpit;
 }
 
@@ -104,7 +106,8 @@ LandmarkKind armpit() {
                   {asymmetry, kMaxAsymmetry, nullptr}}},
       .warn_uncertain = true,
       .doubt = 1,
-      .on_skin = true};
+      .on_skin = true,
+      .recipe = Recipe::kCorrections};
 }
 
 }  // namespace bodice::anatomy

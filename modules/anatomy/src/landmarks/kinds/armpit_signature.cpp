@@ -35,8 +35,8 @@ constexpr float kLeastHalfChest = 0.02F;  // a fraction of the body size
 /// bar, less than from the armpit to the top of the shoulder, to the chest or to the back, which resemble it.
 constexpr double kElsewhere = 0.06;
 
-/// Half the girth of the chest on one side: the shortest path from the midline's front to its back under the
-/// arm, as a fraction of the body size.
+}  // namespace
+
 float half_chest(const BodyCoordinates& coordinates, int side) {
   const BodyExtremities& tips = coordinates.extremities();
   const geodesic::Field &own = *tips.from_hand[side], &other = *tips.from_hand[1 - side];
@@ -51,11 +51,10 @@ float half_chest(const BodyCoordinates& coordinates, int side) {
   return std::max(least, kLeastHalfChest);
 }
 
-/// The measures of the body that the armpit's coordinates follow.
-std::array<float, 6> measures_of(const BodyCoordinates& coordinates, float half) {
+std::array<float, 6> armpit_measures(const BodyCoordinates& coordinates, float half_chest) {
   const BodyExtremities& tips = coordinates.extremities();
   const float size = coordinates.size_m();
-  return {half,
+  return {half_chest,
           tips.hands_apart / size,
           tips.feet_apart / size,
           coordinates.from_perineum()[tips.head] / size,
@@ -63,19 +62,31 @@ std::array<float, 6> measures_of(const BodyCoordinates& coordinates, float half)
           coordinates.from_back()[tips.head] / size};
 }
 
-}  // namespace
+std::array<float, 14> armpit_features(const BodyCoordinates& coordinates, std::size_t v, int side,
+                                      float half_chest) {
+  const CoordinateArray x = coordinates.at(v, side);
+  return {x[kOwnHand],
+          x[kOtherHand],
+          x[kOwnFoot],
+          x[kFromFront],
+          x[kFromBack],
+          x[kFromPerineum],
+          x[kPastShoulder],
+          (x[kFromFront] - x[kFromBack]) / half_chest,
+          (x[kFromFront] + x[kFromBack]) / half_chest,
+          x[kHandFootDetour],
+          x[kOtherFoot],
+          x[kHeadHandDetour],
+          x[kHeadFootDetour],
+          x[kFromHead]};
+}
 
 ArmpitSignature find_armpit(const engine::Context& context, const Skin& skin,
                             const BodyCoordinates& coordinates, int side) {
   const float half = half_chest(coordinates, side);
-  const auto expected = kArmpit.expected(measures_of(coordinates, half));
+  const auto expected = kArmpit.expected(armpit_measures(coordinates, half));
   const auto distance2 = [&](std::size_t v) {
-    const CoordinateArray x = coordinates.at(v, side);
-    return kArmpit.distance2(
-        {x[kOwnHand], x[kOtherHand], x[kOwnFoot], x[kFromFront], x[kFromBack], x[kFromPerineum],
-         x[kPastShoulder], (x[kFromFront] - x[kFromBack]) / half, (x[kFromFront] + x[kFromBack]) / half,
-         x[kHandFootDetour], x[kOtherFoot], x[kHeadHandDetour], x[kHeadFootDetour], x[kFromHead]},
-        expected);
+    return kArmpit.distance2(armpit_features(coordinates, v, side, half), expected);
   };
   const geodesic::Field& own = *coordinates.extremities().from_hand[side];
   const float apart = coordinates.extremities().hands_apart;

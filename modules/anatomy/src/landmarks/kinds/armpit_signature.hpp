@@ -1,6 +1,8 @@
 // The armpit by its signature in the body's coordinates.
 #pragma once
 
+#include <array>
+
 #include "coordinates/body_coordinates.hpp"
 
 namespace bodice::anatomy {
@@ -12,6 +14,15 @@ struct ArmpitSignature {
   float mahalanobis = 0.0F;  ///< of its coordinates, in deviations among bodies
   float margin = 0.0F;       ///< how many deviations more the best vertex elsewhere is off
 };
+
+/// Half the girth of the chest on one side: the shortest path from the midline's front to its back under the
+/// arm, as a fraction of the body size. O(#V).
+float half_chest(const BodyCoordinates& coordinates, int side);
+
+/// What the armpit's signature reads at a vertex, and which measures of the body it follows.
+std::array<float, 14> armpit_features(const BodyCoordinates& coordinates, std::size_t vertex, int side,
+                                      float half_chest);
+std::array<float, 6> armpit_measures(const BodyCoordinates& coordinates, float half_chest);
 
 /// side 0: left, 1: right. O(#V).
 ArmpitSignature find_armpit(const engine::Context& context, const Skin& skin,

@@ -17,6 +17,7 @@ using geodesic::Field;
 using geometry::Index;
 using geometry::kNoIndex;
 using geometry::Vec3;
+namespace data = coefficients::crown;
 
 /// Where the crown divides the path over the head from the back of the neck to its front: the same on
 /// children and adults, whatever the size of the head.
@@ -69,7 +70,7 @@ Index best_vertex(const LandmarkInput& input, const CrownScore& score) {
 
 /// A head that is bent back folds the nape, so that the path over it looks like that of a shorter head:
 /// distances through space show how far it is bent.
-CorrectionInput head_correction(const LandmarkInput& input, const Loop& neck, const Vec3& first) {
+Correction head_correction(const LandmarkInput& input, const Loop& neck, const Vec3& first) {
   const Midline& middle = input.coordinates.midline();
   const Vec3 &front = middle.front.position, &back = middle.back.position;
   const double size = input.size_m();
@@ -80,7 +81,10 @@ CorrectionInput head_correction(const LandmarkInput& input, const Loop& neck, co
   measures.push_back(input.head.radius / size);
   const Vec3 up = (input.head.center - neck.center).normalized(), through = front - back;
   const Vec3 forward = (through - through.dot(up) * up).normalized();
-  return {first, size, {{up, measures}, {forward, measures}}};
+  return {LandmarkId::kCrown,
+          first,
+          {{up, measures, {"up", data::kUp}}, {forward, measures, {"forward", data::kForward}}},
+          kMostByLengths};
 }
 
 FoundLandmark find_crown(const LandmarkInput& input, int) {
@@ -104,9 +108,7 @@ FoundLandmark refine_crown(const LandmarkInput& input, const Landmarks& marks, i
   };
   const double radius = static_cast<double>(kDomeRadius * input.coordinates.size_m());
   const Vec3 first = soft_position(input.skin, best, radius, dome);
-  crown.mark.position = corrected(head_correction(input, neck, first),
-                                  {coefficients::crown::kUp, coefficients::crown::kForward}, kMostByLengths)
-                            .position;
+  crown.mark.position = corrected(input, head_correction(input, neck, first)).position;
   crown.mark.vertex = vertex_near(input.skin, crown.mark.position, best);
   return crown;
 }
@@ -124,7 +126,8 @@ LandmarkKind crown() {
           .refine = refine_crown,
           .checks = {{{difference, kMaxDifference,
                        "The top of the head and the point of the head that is farthest from the perineum lie "
-                       "apart."}}}};
+                       "apart."}}},
+          .recipe = Recipe::kCorrections};
 }
 
 }  // namespace bodice::anatomy

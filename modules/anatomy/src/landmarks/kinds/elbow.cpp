@@ -26,9 +26,10 @@ FoundLandmark find(const LandmarkInput& input, int side) {
 
 FoundLandmark refine(const LandmarkInput& input, const Landmarks& marks, int side) {
   FoundLandmark elbow = marks[body::of_side(LandmarkId::kElbowL, side)];
-  elbow.mark.position = limb_joint(input, elbow.loop, marks.at(LandmarkId::kArmpitL, side),
-                                   input.skin.mesh.positions[input.tips().hand[side]],
-                                   {coefficients::elbow::kUpper, coefficients::elbow::kLower});
+  elbow.mark.position =
+      limb_joint(input, elbow.mark.id, elbow.loop,
+                 {marks.at(LandmarkId::kArmpitL, side), input.skin.mesh.positions[input.tips().hand[side]],
+                  coefficients::elbow::kUpper, coefficients::elbow::kLower});
   return elbow;
 }
 
@@ -49,7 +50,8 @@ LandmarkKind elbow() {
           .refine = refine,
           .checks = {{{difference, kMaxDifference,
                        "The elbow's border and the bend or the middle of the arm lie far from each other."}}},
-          .doubt = 1};
+          .doubt = 1,
+          .recipe = Recipe::kCorrections};
 }
 
 }  // namespace bodice::anatomy

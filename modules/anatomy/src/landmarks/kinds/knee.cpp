@@ -27,9 +27,10 @@ FoundLandmark find(const LandmarkInput& input, int side) {
 
 FoundLandmark refine(const LandmarkInput& input, const Landmarks& marks, int side) {
   FoundLandmark knee = marks[body::of_side(LandmarkId::kKneeL, side)];
-  knee.mark.position = limb_joint(input, knee.loop, marks.at(LandmarkId::kPerineum),
-                                  input.skin.mesh.positions[input.tips().foot[side]],
-                                  {coefficients::knee::kUpper, coefficients::knee::kLower});
+  knee.mark.position =
+      limb_joint(input, knee.mark.id, knee.loop,
+                 {marks.at(LandmarkId::kPerineum), input.skin.mesh.positions[input.tips().foot[side]],
+                  coefficients::knee::kUpper, coefficients::knee::kLower});
   return knee;
 }
 
@@ -50,7 +51,8 @@ LandmarkKind knee() {
           .refine = refine,
           .checks = {{{difference, kMaxDifference,
                        "The knee's border and the bend or the middle of the leg lie far from each other."}}},
-          .doubt = 1};
+          .doubt = 1,
+          .recipe = Recipe::kCorrections};
 }
 
 }  // namespace bodice::anatomy

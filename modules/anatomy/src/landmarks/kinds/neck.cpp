@@ -22,6 +22,8 @@ namespace data = coefficients::neck;
 constexpr float kReach = 0.40F;
 /// A wider loop is not the neck's: it runs over the shoulders. A fraction of the body size.
 constexpr double kWidestNeck = 0.6;
+/// No limit on the share of the distance to another point.
+constexpr double kAllTheWay = 1.0;
 /// The largest correction that a calibration body needs is .026 of the body size.
 constexpr double kFarthest = 0.03;
 /// Where the narrowest neck may be: distances from the crown as fractions of the body size, wide enough for
@@ -61,16 +63,30 @@ Vec3 joint_by_lengths(const LandmarkInput& input, const Landmarks& marks) {
   const BodyLengths lengths = body_lengths(input.coordinates);
   std::vector<double> measures(lengths.begin(), lengths.end());
   const bool has_head = input.head.radius > 0.0;  // not where all of it is taken for something else
-  if (input.fused() || !has_head)
-    return corrected({loop, input.size_m(), {{axes.up, measures}, {axes.forward, measures}}},
-                     {data::kLoopUp, data::kLoopForward}, kMostByLengths)
-        .position;
+  if (input.fused() || !has_head || input.records) {
+    const Vec3 by_loop = corrected(input, {LandmarkId::kNeck,
+                                           loop,
+                                           {{axes.up, measures, {"loop_up", data::kLoopUp}},
+                                            {axes.forward, measures, {"loop_forward", data::kLoopForward}}},
+                                           kMostByLengths})
+                             .position;
+    if (input.fused() || !has_head) return by_loop;
+  }
   measures.push_back(input.head.radius / input.size_m());
   const Vec3 armpits = 0.5 * (marks.at(LandmarkId::kArmpitL) + marks.at(LandmarkId::kArmpitR));
+  const double size = input.size_m();
   const Vec3 first =
-      loop + data::kToward[0] * (armpits - loop) + data::kToward[1] * (input.head.center - loop);
-  return corrected({first, input.size_m(), {{axes.up, measures}, {axes.forward, measures}}},
-                   {data::kJointUp, data::kJointForward}, kMostByLengths)
+      corrected(input, {LandmarkId::kNeck,
+                        loop,
+                        {{(armpits - loop) / size, {}, {"toward_armpits", data::kTowardArmpits}},
+                         {(input.head.center - loop) / size, {}, {"toward_head", data::kTowardHead}}},
+                        kAllTheWay})
+          .position;
+  return corrected(input, {LandmarkId::kNeck,
+                           first,
+                           {{axes.up, measures, {"joint_up", data::kJointUp}},
+                            {axes.forward, measures, {"joint_forward", data::kJointForward}}},
+                           kMostByLengths})
       .position;
 }
 
@@ -92,7 +108,7 @@ std::vector<double> neck_measures(const LandmarkInput& input, const Landmarks& m
                                (0.5 * (left + right) - joint).norm() / size,
                                of_size(input.tips().hands_apart),
                                of_size(input.tips().feet_apart)};
-  clamp_measures(measures, data::kLeast, data::kMost);
+  limit_measures(input, LandmarkId::kNeck, {{"least", data::kLeast}, {"most", data::kMost}}, measures);
   return measures;
 }
 
@@ -104,10 +120,12 @@ FoundLandmark refine(const LandmarkInput& input, const Landmarks& marks, int) {
   if (input.fused() || !(neck.loop.girth_m < kWidestNeck * input.size_m())) return neck;
   const NeckAxes axes = neck_axes(input, neck.mark.position, input.coordinates.perineum_position());
   const std::vector<double> measures = neck_measures(input, marks, neck.mark.position);
-  neck.mark.position =
-      corrected({neck.mark.position, input.size_m(), {{axes.up, measures}, {axes.forward, measures}}},
-                {data::kUp, data::kForward}, kFarthest)
-          .position;
+  neck.mark.position = corrected(input, {LandmarkId::kNeck,
+                                         neck.mark.position,
+                                         {{axes.up, measures, {"up", data::kUp}},
+                                          {axes.forward, measures, {"forward", data::kForward}}},
+                                         kFarthest})
+                           .position;
   return neck;
 }
 
@@ -144,7 +162,8 @@ LandmarkKind neck() {
           .checks = {{{difference, kMaxDifference,
                        "The neck's border and its narrowest level lie far from each other."}}},
           .warn_uncertain = true,
-          .doubt = 2};
+          .doubt = 2,
+          .recipe = Recipe::kCorrections};
 }
 
 }  // namespace bodice::anatomy

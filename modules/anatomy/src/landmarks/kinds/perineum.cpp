@@ -66,7 +66,8 @@ LandmarkKind perineum() {
                        "other."}}},
           .warn_uncertain = true,
           .doubt = 1,
-          .on_skin = true};
+          .on_skin = true,
+          .recipe = Recipe::kCorrections};
 }
 
 }  // namespace bodice::anatomy

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <coefficients/perineum.hpp>
 
@@ -58,8 +59,8 @@ double heaviness(const BodyCoordinates& coordinates) {
 /// What is the same in a mirror: the thighs' mean directions, how far they differ, squares and products of
 /// these, and the products of those with how heavy the trunk is; the build; up and forward to where the legs
 /// merge and to the estimate by distances, forward and up to breastbone and back.
-std::vector<double> even_measures(const BodyCoordinates& coordinates, const Trunk& trunk,
-                                  const Thighs& thighs) {
+std::vector<double> even_measures(const LandmarkInput& input, const Trunk& trunk, const Thighs& thighs) {
+  const BodyCoordinates& coordinates = input.coordinates;
   const double ahead = thighs.mean(kAhead), up = thighs.mean(kUp), out = thighs.mean(kOut);
   const double aheads = std::abs(thighs.differ(kAhead)), ups = std::abs(thighs.differ(kUp));
   const double heavy = heaviness(coordinates);
@@ -87,14 +88,14 @@ std::vector<double> even_measures(const BodyCoordinates& coordinates, const Trun
   const Vec3 front = trunk.coordinates(coordinates.midline().front.position),
              back = trunk.coordinates(coordinates.midline().back.position);
   x.insert(x.end(), {front.z(), back.z(), front.y(), back.y()});
-  clamp_measures(x, data::kLeast, data::kMost);
+  limit_measures(input, LandmarkId::kPerineum, {{"least", data::kLeast}, {"most", data::kMost}}, x);
   return x;
 }
 
 /// What changes its sign in a mirror: differences of the thighs, their products with how heavy the trunk is
 /// and with their means; left to the two estimates and to the middle of breastbone and back.
-std::vector<double> odd_measures(const BodyCoordinates& coordinates, const Trunk& trunk,
-                                 const Thighs& thighs) {
+std::vector<double> odd_measures(const LandmarkInput& input, const Trunk& trunk, const Thighs& thighs) {
+  const BodyCoordinates& coordinates = input.coordinates;
   const double ahead = thighs.differ(kAhead), up = thighs.differ(kUp);
   const double heavy = heaviness(coordinates);
   const Midline& middle = coordinates.midline();
@@ -109,7 +110,9 @@ std::vector<double> odd_measures(const BodyCoordinates& coordinates, const Trunk
       trunk.coordinates(coordinates.leg_merge().at.position).x(),
       trunk.coordinates(coordinates.perineum_position()).x(),
       0.5 * (trunk.coordinates(middle.front.position).x() + trunk.coordinates(middle.back.position).x())};
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::clamp(x[i], -data::kMostOdd[i], data::kMostOdd[i]);
+  std::array<double, std::size(data::kMostOdd)> least{};
+  std::transform(std::begin(data::kMostOdd), std::end(data::kMostOdd), least.begin(), std::negate<>());
+  limit_measures(input, LandmarkId::kPerineum, {{"", least}, {"most_odd", data::kMostOdd}}, x);
   return x;
 }
 
@@ -120,13 +123,14 @@ Corrected perineum_by_legs(const LandmarkInput& input, const Landmarks& marks) {
   if (input.fused() || !input.coordinates.leg_merge().at.found()) return {first, 0.0};
   const Trunk trunk{trunk_frame(marks), first, input.size_m()};
   const Thighs thighs = thighs_of(trunk, marks);
-  const std::vector<double> even = even_measures(input.coordinates, trunk, thighs);
-  return corrected({first,
-                    input.size_m(),
-                    {{trunk.frame.left, odd_measures(input.coordinates, trunk, thighs)},
-                     {trunk.frame.up, even},
-                     {trunk.frame.forward, even}}},
-                   {data::kLeftward, data::kUpward, data::kForward}, kFarthest);
+  const std::vector<double> even = even_measures(input, trunk, thighs);
+  const std::vector<double> odd = odd_measures(input, trunk, thighs);
+  return corrected(input, {LandmarkId::kPerineum,
+                           first,
+                           {{trunk.frame.left, odd, {"leftward", data::kLeftward}, true},
+                            {trunk.frame.up, even, {"upward", data::kUpward}},
+                            {trunk.frame.forward, even, {"forward", data::kForward}}},
+                           kFarthest});
 }
 
 }  // namespace bodice::anatomy

@@ -6,11 +6,13 @@
 #include <coefficients/perineum.hpp>
 
 #include "coordinates/crotch_line.hpp"
+#include "landmarks/base/correction.hpp"
 
 namespace bodice::anatomy {
 namespace {
 
 using geometry::Vec3;
+namespace data = coefficients::perineum;
 
 /// The points of the line that are read, from front to back, in spacings.
 constexpr std::array<int, 10> kReadAt{-10, -8, -6, -4, -2, 2, 4, 6, 8, 10};
@@ -65,6 +67,17 @@ Vec3 point_behind(const CrotchLine& line, double shift) {
   return line.at(before) + (steps - before) * (line.at(before + 1) - line.at(before));
 }
 
+/// The shift as a correction along a line that is straight near its middle.
+Correction along_line(const CrotchLine& line, const Vec3& first, const Shape& shape, double straight) {
+  const Vec3 back = (line.at(1) - line.at(-1)).normalized();
+  const std::vector<double> measures(shape.begin(), shape.end());
+  return {LandmarkId::kPerineum,
+          first,
+          {{back, measures, {"bent", data::kBent}},
+           {straight * back, measures, {"straighter", data::kStraighter}}},
+          kMost};
+}
+
 }  // namespace
 
 Vec3 perineum_by_shape(const LandmarkInput& input, const Landmarks& marks) {
@@ -72,8 +85,9 @@ Vec3 perineum_by_shape(const LandmarkInput& input, const Landmarks& marks) {
   const auto line = crotch_line(input.skin, input.coordinates, first);
   if (!line) return first;
   const Shape shape = shape_of(*line, input.size_m());
-  const double shift = shift_on(shape, coefficients::perineum::kBent) +
-                       straightness(marks) * shift_on(shape, coefficients::perineum::kStraighter);
+  const double straight = straightness(marks);
+  const double shift = shift_on(shape, data::kBent) + straight * shift_on(shape, data::kStraighter);
+  record(input, along_line(*line, first, shape, straight));
   if (!std::isfinite(shift)) return first;
   return first + point_behind(*line, std::clamp(shift, -kMost, kMost)) - line->at(0);
 }
