@@ -198,7 +198,9 @@ void Coordinator::finish(Task task, const Outcome& outcome, Crew& crew) {
                  {"outcome", outcome.there ? "there" : "done"},
                  {"folder", ResultStore::folder_of(task.key)},
                  {"seconds", outcome.seconds},
+                 {"cpu_seconds", outcome.cpu_s},
                  {"shared_seconds", crew.prepared->seconds},
+                 {"shared_cpu_seconds", crew.prepared->cpu_s},
                  {"memory_mb", outcome.memory_mb},
                  {"attempts", task.attempts},
                  {"job", task.job.values}};

@@ -175,6 +175,7 @@ class Fitter {
       ResultStore::discard(job->part);
     }
     job->outcome->memory_mb = ending.memory_mb;
+    job->outcome->cpu_s = ending.cpu_s;
     report(*job, *job->outcome);
     running_.erase(job);
   }

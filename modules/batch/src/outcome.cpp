@@ -35,8 +35,13 @@ bool may_differ_next_time(Failure failure) {
 }
 
 json json_of(const Outcome& outcome) {
-  return {{"failure", name(outcome.failure)}, {"there", outcome.there},         {"reason", outcome.reason},
-          {"seconds", outcome.seconds},       {"memory_mb", outcome.memory_mb}, {"facts", outcome.facts}};
+  return {{"failure", name(outcome.failure)},
+          {"there", outcome.there},
+          {"reason", outcome.reason},
+          {"seconds", outcome.seconds},
+          {"cpu_s", outcome.cpu_s},
+          {"memory_mb", outcome.memory_mb},
+          {"facts", outcome.facts}};
 }
 
 Outcome outcome_from(const json& j) {
@@ -45,6 +50,7 @@ Outcome outcome_from(const json& j) {
   outcome.there = j.value("there", false);
   outcome.reason = j.value("reason", "");
   outcome.seconds = j.value("seconds", 0.0);
+  outcome.cpu_s = j.value("cpu_s", 0.0);
   outcome.memory_mb = j.value("memory_mb", 0.0);
   outcome.facts = j.value("facts", json::object());
   return outcome;

@@ -24,7 +24,7 @@ struct Outcome {
   Failure failure = Failure::kNone;
   bool there = false;  ///< another process had published the result first
   std::string reason;  ///< of a failure, in a sentence
-  double seconds = 0.0, memory_mb = 0.0;
+  double seconds = 0.0, cpu_s = 0.0, memory_mb = 0.0;
   nlohmann::json facts = nlohmann::json::object();  ///< seed, warnings, numbers
 };
 
@@ -58,6 +58,7 @@ Outcome guarded(double limit_mb, Attempt attempt) {
   // Libraries turn a failed allocation into errors of their own.
   if (outcome.failure != Failure::kNone && memory_ran_out()) outcome = outcome_of_memory(limit_mb);
   outcome.seconds = now_s() - begin_s;
+  outcome.cpu_s = own_cpu_s();
   return outcome;
 }
 

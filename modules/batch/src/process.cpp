@@ -20,6 +20,13 @@ namespace {
 /// The state of a child process, which runs one job and ends: the allocator has no other channel for it.
 bool ran_out = false;
 
+double cpu_s_of(const rusage& usage) {
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 [[noreturn]] void run_out_of_memory() {
   ran_out = true;
   throw std::bad_alloc();
@@ -113,12 +120,19 @@ Ending wait_for(pid_t process) {
   while (::wait4(process, &ending.status, 0, &usage) < 0 && errno == EINTR) {
   }
   ending.memory_mb = static_cast<double>(usage.ru_maxrss) * 1024e-6;
+  ending.cpu_s = cpu_s_of(usage);
   return ending;
 }
 
 std::string signal_name(int signal) {
   const char* const name = ::sigabbrev_np(signal);
   return name ? std::string("SIG") + name : "signal " + std::to_string(signal);
+}
+
+double own_cpu_s() {
+  rusage usage = {};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return cpu_s_of(usage);
 }
 
 double now_s() {

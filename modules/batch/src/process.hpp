@@ -60,6 +60,7 @@ bool memory_ran_out();
 struct Ending {
   int status = 0;
   double memory_mb = 0.0;  ///< most resident memory
+  double cpu_s = 0.0;      ///< of all cores
   bool by_itself() const;
   int signal() const;  ///< 0 where it ended by itself
 };
@@ -72,5 +73,8 @@ std::string signal_name(int signal);
 
 /// Seconds of a clock that only goes forward.
 double now_s();
+
+/// Seconds of all cores that this process has used.
+double own_cpu_s();
 
 }  // namespace bodice::batch

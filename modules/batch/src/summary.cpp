@@ -29,7 +29,8 @@ std::string field(const std::string& text) {
 
 std::string csv_of(const Summary& summary) {
   std::string text =
-      "manifest,line,outcome,failure,reason,folder,seconds,shared_seconds,memory_mb,attempts,seed,warnings";
+      "manifest,line,outcome,failure,reason,folder,seconds,cpu_seconds,shared_seconds,shared_cpu_seconds,"
+      "memory_mb,attempts,seed,warnings";
   for (const std::string& name : summary.inputs) text += "," + field(name);
   for (const std::string& name : summary.numbers) text += "," + field(name);
   text += "\n";
@@ -40,8 +41,8 @@ std::string csv_of(const Summary& summary) {
   for (const Row& row : summary.rows) {
     const json about = row.about();
     text += field(row.manifest) + "," + std::to_string(row.line);
-    for (const char* name : {"outcome", "failure", "reason", "folder", "seconds", "shared_seconds",
-                             "memory_mb", "attempts", "seed"})
+    for (const char* name : {"outcome", "failure", "reason", "folder", "seconds", "cpu_seconds",
+                             "shared_seconds", "shared_cpu_seconds", "memory_mb", "attempts", "seed"})
       text += "," + field(plain(about.value(name, json())));
     text += "," + std::to_string(about.value("warnings", json::array()).size());
     for (const std::string& name : summary.inputs) {

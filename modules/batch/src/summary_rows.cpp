@@ -115,8 +115,8 @@ class Reader {
     if (const auto made = made_.find(folder); !facts.is_object() && made != made_.end())
       facts = of_folder(rows_[made->second.first][made->second.second]);
     if (!facts.is_object()) facts = facts_in(out_ / folder);
-    for (const char* name :
-         {"seconds", "shared_seconds", "memory_mb", "attempts", "seed", "warnings", "numbers"})
+    for (const char* name : {"seconds", "cpu_seconds", "shared_seconds", "shared_cpu_seconds", "memory_mb",
+                             "attempts", "seed", "warnings", "numbers"})
       if (facts.is_object() && facts.contains(name)) line[name] = facts[name];
   }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include <bodice/engine/stage_timer.hpp>
 #include <bodice/proxy/base_pose.hpp>
 #include <bodice/rigging/motion.hpp>
 
@@ -70,7 +71,11 @@ class PreparedBodies : public batch::PreparedJobs {
   engine::Result<void> drape(Run& run, const DrapeCommand& command, batch::JobFacts& facts) {
     auto motion = find_motion(run, command, body_.skin);
     if (!motion) return std::move(motion).error();
-    auto worn = dress(run, command, body_.skin);
+    std::vector<engine::StageTime> stages;
+    auto worn = [&] {
+      const engine::StageTimer timer(run.context(), stages, "dress");
+      return dress(run, command, body_.skin);
+    }();
     if (!worn) return std::move(worn).error();
     // This process is for one job: what it moves out of the body, no other job misses.
     DressedBody dressed{std::move(body_), std::move(motion).value(), std::move(worn).value()};
@@ -86,6 +91,8 @@ class PreparedBodies : public batch::PreparedJobs {
                           {"over_1mm", static_cast<double>(report->penetration_over_1mm)},
                           {"stretch_p95_percent", 100.0 * report->stretch_p95},
                           {"frame_ms", report->frame_ms_median},
+                          {"dress_s", 1e-3 * stages.front().ms},
+                          {"drape_s", 1e-3 * report->stages.front().ms},
                           {"error_mm", kMm * report->penetration_max_m}});
     return run.finish(body_, &*report, written);
   }

@@ -50,7 +50,8 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
   }
   if (!command.thumbnail.empty()) {
     const std::size_t last[] = {scene.garments.front().frames.size() - 1};
-    if (auto saved = io::write_picture(scene, last, command.thumbnail, kThumbnail); !saved) return saved;
+    if (auto saved = io::write_contact_sheet(scene, last, 1, command.thumbnail, kThumbnail); !saved)
+      return saved;
   }
   if (!command.contact_sheet.empty()) {
     std::vector<std::size_t> frames(scene.garments.front().frames.size());

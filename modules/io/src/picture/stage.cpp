@@ -1,12 +1,13 @@
 #include "stage.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace bodice::io {
 
 namespace {
 
-constexpr int kShadowSize = 1536;
+constexpr int kLargestShadow = 1536;
 constexpr float kShadowBiasPixels = 5.0f;
 /// The radius of the ring of shadow samples that makes the penumbra.
 constexpr float kPenumbraPixels = 5.0f;
@@ -17,8 +18,9 @@ View light_view(const geometry::Box& box, const View& eye) {
   view.right = Vec3f::UnitY().cross(view.toward_eye).normalized();
   view.up = view.toward_eye.cross(view.right);
   view.center = box.center().cast<float>();
-  view.width = view.height = kShadowSize;
-  view.pixels_per_meter = static_cast<float>(kShadowSize) / static_cast<float>(1.02 * box.size().norm());
+  view.width = view.height =
+      std::min(kLargestShadow, 2 * std::max(eye.width, eye.height));  // enough for small pictures
+  view.pixels_per_meter = static_cast<float>(view.width) / static_cast<float>(1.02 * box.size().norm());
   return view;
 }
 
