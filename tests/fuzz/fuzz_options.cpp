@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <options.hpp>
+#include <options/options.hpp>
 
 #include "harness.hpp"
 
