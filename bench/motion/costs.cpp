@@ -107,7 +107,8 @@ ProxyCost proxy_cost(const tryon::PreparedBody& body, const Frames& frames, std:
   const double bind_ratio = ratio(proxy.collider(), near_rest, rest, near_rest, exact);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const MovingFrame frame = frames.at(i);
-    const binding::PoseOptions reach{.within = around_skirt(body.skin, frames.skin[i])};
+    const geometry::Box around = around_skirt(body.skin, frames.skin[i]);
+    const binding::PoseOptions reach{.within = std::span(&around, 1)};
     // A pose that follows one without tables writes all of them back, so that turns do not mix the kinds.
     for (int turn = 0; turn < 3; ++turn)
       ellipsoids.push_back(timed_ms([&] { proxy.pose_alone(frame, {.tables = false}); }));

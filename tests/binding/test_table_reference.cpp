@@ -1,5 +1,6 @@
 // The tables of a pose against a scalar evaluation, in double precision, of the formulas in the layer's page:
-//   h(w) = s h(u) + growth(u) (1 - a(u) / out),  a(w) = s a(u),  u = V w - change(u) in two fixed-point steps
+//   h(w) = s h(u) + growth(u) (1 - a(u) / out),  a(w) = s a(u),  u = V w - shift(w)
+// The shift is read from a table half as fine; at its directions shift(w) = change(V w - change(V w)).
 // It shares the definition of tables (proxy_distance.hpp) and the exact closest point with the code, and
 // nothing of binding but the constants that binding stores.
 #include <algorithm>
@@ -41,6 +42,13 @@ Change operator*(double factor, const Change& c) {
 }
 Change operator+(const Change& a, const Change& b) {
   return {a.direction + b.direction, a.growth_m + b.growth_m};
+}
+
+/// The direction of a node of a table.
+Vec3 node_direction(int node, int nodes_per_side) {
+  const double last = nodes_per_side - 1.0;
+  return proxy::octahedral_direction(2.0 * (node % nodes_per_side) / last - 1.0,
+                                     2.0 * (node / nodes_per_side) / last - 1.0);
 }
 
 Vec3 octahedral_of(std::int16_t x, std::int16_t y) {
@@ -155,11 +163,15 @@ void compare(const proxy::BodyProxy& bound, const proxy::PosedProxy& posed,
                             now_a = decoded(now, posed.texels.data() + now.first_texel, false);
   const double out_m = proxy::relief_reach(bound.stature_m()).out_m;
   constexpr double kLeastSlope = 0.2;
+  const int half = n / 2 + 1;
+  std::vector<Change> shifts;
+  for (int i = 0; i < half * half; ++i) {
+    const Vec3 target = to_table * node_direction(i, half);
+    shifts.push_back(read(changes, target - read(changes, target, n).direction, n));
+  }
   for (int i = 0; i < n * n; ++i) {
-    const Vec3 w =
-        proxy::octahedral_direction(2.0 * (i % n) / (n - 1.0) - 1.0, 2.0 * (i / n) / (n - 1.0) - 1.0);
-    Vec3 u = to_table * w;
-    for (int step = 0; step < 2; ++step) u = to_table * w - read(changes, u, n).direction;
+    const Vec3 w = node_direction(i, n);
+    const Vec3 u = to_table * w - read(shifts, w, half).direction;
     const double a = read(rest_a, u, n);
     const double h = reference.scale() * read(rest_h, u, n) +
                      read(changes, u, n).growth_m * std::max(kLeastSlope, 1.0 - a / out_m);

@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstring>
 #include <memory>
 
+#include <bodice/binding/poser.hpp>
 #include <bodice/tryon/session.hpp>
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
@@ -90,6 +92,55 @@ TEST_CASE("a body comes to its clip by a ramp, plays it, waits while paused, and
   session.seek(outcome.clip_s + 1.1 - kFrame_s, 0.0);  // a walk takes 1.1 s
   outcome = session.frame(kFrame_s);
   CHECK(height_of_left_knee(session) == doctest::Approx(knee_m).epsilon(1e-6));
+}
+
+TEST_CASE("tables near the garments are those of the whole pose, tables out of their reach those at rest") {
+  tryon::SessionOptions options = moving(proxy::Tier::kRelief);
+  options.fit.max_ellipsoids = 60;
+  options.refits = false;
+  tryon::Session session(engine::Context{}, options);
+  REQUIRE(session.dress({sheet(10)}).ok());
+  session.submit(synth::BodyOptions{.vertices = 2600});
+  session.play({.motion = "squat"}, {.ramp_s = 0.1});
+  for (int frame = 0; frame < 60; ++frame) session.frame(kFrame_s);
+  REQUIRE(session.posed() != nullptr);
+
+  const proxy::BodyProxy& bound = session.body()->proxy;
+  const tryon::SegmentedSkin& skin = *session.body()->skin;
+  std::vector<engine::Warning> warnings;
+  const auto motion = tryon::find_motion({}, skin, {.motion = "squat", .clip = {}}, warnings);
+  REQUIRE(motion);
+  std::vector<rig::Affine> joints(motion->rig.skeleton.joints.size());
+  rig::joint_matrices(motion->rig.skeleton, motion->clip, session.frame(0.0).clip_s, joints);
+  auto whole = binding::Poser::make(bound);
+  REQUIRE(whole);
+  REQUIRE(whole->pose({}, joints));
+  std::vector<Vec3> cloth(session.vertices());
+  session.positions(cloth);
+
+  int near = 0, at_rest = 0;
+  for (std::size_t k = 0; k < bound.ellipsoids().size(); ++k) {
+    const proxy::ReliefTable& table = bound.relief()[k];
+    const std::size_t bytes =
+        std::size_t{table.nodes_per_side} * table.nodes_per_side * sizeof(proxy::ReliefTexel);
+    const auto same = [&](const proxy::ReliefTexel* texels) {
+      return std::memcmp(&session.posed()->texels[table.first_texel], texels + table.first_texel, bytes) == 0;
+    };
+    double least_m = 1e9;
+    for (const Vec3& at : cloth)
+      least_m = std::min(least_m, geometry::closest_point(whole->posed().shapes[k], at).signed_distance);
+    CAPTURE(k);
+    CAPTURE(least_m);
+    if (least_m < 0.05) {
+      CHECK(same(whole->posed().texels.data()));
+      ++near;
+    } else if (least_m > 0.3) {
+      CHECK(same(bound.texels().data()));
+      ++at_rest;
+    }
+  }
+  CHECK(near > 5);
+  CHECK(at_rest > 5);
 }
 
 TEST_CASE("seeking by a ramp reaches the same pose as seeking at once") {

@@ -24,6 +24,10 @@ inline constexpr double kNearOwner_m = 0.012;
 /// follows the skin, meters: below it the table's own error is larger.
 inline constexpr double kStiff_m = 0.0003;
 
+/// Joints that move an ellipsoid's skin apart by less than this move it as one, meters: a table's bytes do
+/// not show it.
+inline constexpr double kAlike_m = 2e-5;
+
 /// A joint that moves less of an ellipsoid's center has no say in which base poses are near, no unit.
 inline constexpr double kLeastTurning = 0.02;
 /// Joints turned otherwise by less than this are in the same pose: what tables differ by then is below their

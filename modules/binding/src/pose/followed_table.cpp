@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "pose/lanes.hpp"
+#include "pose/resampling.hpp"
 #include "pose/vector_clones.hpp"
 #include "tolerances.hpp"
 
@@ -12,104 +14,34 @@ namespace {
 
 using geometry::Float4;
 
-constexpr int kFixedPointSteps = 2;
-
-/// Directions of consecutive texels of a table of n x n, in the rest table's frame.
+/// Adds a share of a table's heights and slopes to those in scratch.h and scratch.a.
 BODICE_CLONES
-void directions(int first, int n, const float* to_table, Lanes (&u)[3]) {
-  const float step = 2.0f / static_cast<float>(n - 1);
-  const float inverse = 1.0f / static_cast<float>(n);
-  for (int l = 0; l < kLanes; ++l) {
-    const int texel = first + l;
-    // Exact for any texel of a table: a half is far from the rounding of a quotient of small numbers.
-    const int row = static_cast<int>((static_cast<float>(texel) + 0.5f) * inverse);
-    const float x = static_cast<float>(texel - row * n) * step - 1.0f;
-    const float y = static_cast<float>(row) * step - 1.0f;
-    const float z = 1.0f - std::abs(x) - std::abs(y);
-    const float fold = std::max(-z, 0.0f);
-    const float px = x - std::copysign(fold, x), py = y - std::copysign(fold, y);
-    const float scale = 1.0f / std::sqrt(px * px + py * py + z * z);
-    for (int i = 0; i < 3; ++i)
-      u[i][l] = (to_table[3 * i] * px + to_table[3 * i + 1] * py + to_table[3 * i + 2] * z) * scale;
+void add_values(const TableShare& from, int count, TableScratch& scratch) {
+  const proxy::ReliefTable& table = *from.table;
+  const float h_step = from.share * table.h_scale_m / 255.0f, a_step = from.share * table.a_scale / 255.0f;
+  const float h_first = from.share * table.h_offset_m, a_first = from.share * table.a_offset;
+  const proxy::ReliefTexel* const texels = from.texels;
+  float* const h = scratch.h.data();
+  float* const a = scratch.a.data();
+  for (int i = 0; i < count; ++i) {
+    h[i] += h_first + h_step * static_cast<float>(texels[i].h);
+    a[i] += a_first + a_step * static_cast<float>(texels[i].a);
   }
 }
 
-/// Nodes and bilinear weights around directions of any length but zero.
+/// Collects what is read of each texel: its values at rest, and the change of the node that it follows.
 BODICE_CLONES
-void stencils(const Lanes (&u)[3], int n, std::int32_t (&first)[kLanes], Lanes (&weight)[4]) {
-  const float half = 0.5f * static_cast<float>(n - 1);
-  const auto last = static_cast<float>(n - 2);
-  for (int l = 0; l < kLanes; ++l) {
-    const float ax = std::abs(u[0][l]), ay = std::abs(u[1][l]);
-    const float scale = 1.0f / std::max(ax + ay + std::abs(u[2][l]), 1e-20f);
-    float x = u[0][l] * scale, y = u[1][l] * scale;
-    const float fx = std::copysign(1.0f - ay * scale, u[0][l]);
-    const float fy = std::copysign(1.0f - ax * scale, u[1][l]);
-    x = u[2][l] < 0.0f ? fx : x;
-    y = u[2][l] < 0.0f ? fy : y;
-    // In this order of arguments, what is not a number becomes 0.
-    const float gx = std::max(0.0f, (x + 1.0f) * half), gy = std::max(0.0f, (y + 1.0f) * half);
-    const auto i = static_cast<std::int32_t>(std::min(gx, last));
-    const auto j = static_cast<std::int32_t>(std::min(gy, last));
-    const float s = std::min(gx - static_cast<float>(i), 1.0f);
-    const float t = std::min(gy - static_cast<float>(j), 1.0f);
-    first[l] = j * n + i;
-    weight[0][l] = (1.0f - s) * (1.0f - t);
-    weight[1][l] = s * (1.0f - t);
-    weight[2][l] = (1.0f - s) * t;
-    weight[3][l] = s * t;
-  }
-}
-
-struct Stencils {
-  std::int32_t first[kLanes];
-  Lanes weight[4];
-
-  Float4 read(const Float4* values, int n, int lane) const {
-    const Float4* const at = values + first[lane];
-    return weight[0][lane] * at[0] + weight[1][lane] * at[1] + weight[2][lane] * at[n] +
-           weight[3][lane] * at[n + 1];
-  }
-};
-
-/// The texels [first, first + kLanes) of the posed table, as floats.
-void resample(int first, int n, const float* to_table, float scale, float inverse_out, TableScratch& scratch,
-              std::uint8_t* burial) {
-  Lanes target[3], u[3];
-  directions(first, n, to_table, target);
-  for (int i = 0; i < 3; ++i) std::copy(target[i], target[i] + kLanes, u[i]);
-  Stencils at;
-  for (int step = 0; step < kFixedPointSteps; ++step) {
-    stencils(u, n, at.first, at.weight);
-    for (int l = 0; l < kLanes; ++l) {
-      const Float4 change = at.read(scratch.changes.data(), n, l);
-      for (int i = 0; i < 3; ++i) u[i][l] = target[i][l] - change[i];
-    }
-  }
-  stencils(u, n, at.first, at.weight);
-  const int count = std::min(kLanes, n * n - first);
-  for (int l = 0; l < count; ++l) {
-    const Float4 rest = at.read(scratch.rest.data(), n, l);
-    const float slope = std::max(static_cast<float>(kLeastSlope), 1.0f - rest[1] * inverse_out);
-    scratch.h[static_cast<std::size_t>(first + l)] = scale * rest[0] + rest[3] * slope;
-    scratch.a[static_cast<std::size_t>(first + l)] = scale * rest[1];
-    burial[first + l] = static_cast<std::uint8_t>(rest[2] + 0.5f);
-  }
-}
-
-/// The texels at rest as floats, mixed with those of base poses.
-void read_values(const RestTable& rest, int count, TableScratch& scratch) {
-  for (int i = 0; i < count; ++i)
-    scratch.rest[static_cast<std::size_t>(i)] = Float4{0.0f, 0.0f, static_cast<float>(rest.burial[i]), 0.0f};
-  for (const TableShare& from : rest.values) {
-    const proxy::ReliefTable& table = *from.table;
-    const float h_step = from.share * table.h_scale_m / 255.0f, a_step = from.share * table.a_scale / 255.0f;
-    const float h_first = from.share * table.h_offset_m, a_first = from.share * table.a_offset;
-    for (int i = 0; i < count; ++i) {
-      const proxy::ReliefTexel texel = from.texels[i];
-      scratch.rest[static_cast<std::size_t>(i)] +=
-          Float4{h_first + h_step * texel.h, a_first + a_step * texel.a, 0.0f, 0.0f};
-    }
+void collect(const RestTable& rest, int count, TableScratch& scratch) {
+  std::fill_n(scratch.h.begin(), count, 0.0f);
+  std::fill_n(scratch.a.begin(), count, 0.0f);
+  for (const TableShare& from : rest.values) add_values(from, count, scratch);
+  Change* const changes = scratch.changes.data();
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Change change = changes[rest.followers[i]];
+    changes[i] = change;
+    // Growth is read together with the values.
+    scratch.rest[at] = Float4{scratch.h[at], scratch.a[at], change[3], 0.0f};
   }
 }
 
@@ -117,17 +49,6 @@ void read_values(const RestTable& rest, int count, TableScratch& scratch) {
 struct ByteRange {
   float low = 0.0f, size = 0.0f;
 };
-
-BODICE_CLONES
-ByteRange bounded(float* values, int count, float most) {
-  float low = values[0], high = values[0];
-  for (int i = 0; i < count; ++i) {
-    values[i] = std::min(std::max(values[i], -most), most);
-    low = std::min(low, values[i]);
-    high = std::max(high, values[i]);
-  }
-  return {low, high - low};
-}
 
 BODICE_CLONES
 void to_bytes(const float* h, const ByteRange& h_range, const float* a, const ByteRange& a_range, int count,
@@ -142,24 +63,35 @@ void to_bytes(const float* h, const ByteRange& h_range, const float* a, const By
 
 }  // namespace
 
+void TableScratch::reserve(int nodes) {
+  // Chunks end beyond the table.
+  const auto n = static_cast<std::size_t>(nodes), m = static_cast<std::size_t>(shift_nodes(nodes));
+  const std::size_t padded = n * n + kChunk + proxy::kMostBoundNodes;
+  changes.resize(padded);
+  rest.resize(padded);
+  h.resize(padded);
+  a.resize(padded);
+  burial.resize(padded);
+  coarse.resize(m * m + kChunk);
+  for (std::vector<float>& component : wide) component.resize(m * (n + kLanes) + kLanes);
+  for (std::vector<float>& component : shift) component.resize(padded);
+}
+
 void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableReach& reach,
             TableScratch& scratch, proxy::ReliefTable& table, proxy::ReliefTexel* texels,
             std::uint8_t* burial) {
   const int n = rest.table.nodes_per_side, count = n * n;
-  read_values(rest, count, scratch);
-  for (int i = 0; i < count; ++i) {
-    const Change& change = scratch.changes[static_cast<std::size_t>(rest.followers[i])];
-    scratch.changes[static_cast<std::size_t>(i)] = change;
-    scratch.rest[static_cast<std::size_t>(i)][3] = change[3];  // growth is read together with the values
-  }
-  float to_table[9];
-  for (int i = 0; i < 9; ++i) to_table[i] = static_cast<float>(carried.to_table(i / 3, i % 3));
-  const auto scale = static_cast<float>(carried.scale);
-  for (int first = 0; first < count; first += kLanes)
-    resample(first, n, to_table, scale, static_cast<float>(1.0 / reach.out_m), scratch, burial);
-  const auto most = static_cast<float>(kHighest * reach.out_m * carried.scale);
-  const ByteRange h = bounded(scratch.h.data(), count, most);
-  const ByteRange a = bounded(scratch.a.data(), count, most);
+  collect(rest, count, scratch);
+  Resampling to;
+  to.nodes = n;
+  for (int i = 0; i < 9; ++i) to.to_table[i] = static_cast<float>(carried.to_table(i / 3, i % 3));
+  to.scale = static_cast<float>(carried.scale);
+  to.inverse_out = static_cast<float>(1.0 / reach.out_m);
+  to.most_m = static_cast<float>(kHighest * reach.out_m * carried.scale);
+  find_shifts(to, scratch);
+  resample(to, rest.burial, scratch);
+  std::copy_n(scratch.burial.begin(), count, burial);
+  const ByteRange h{to.h.least(), to.h.most() - to.h.least()}, a{to.a.least(), to.a.most() - to.a.least()};
   to_bytes(scratch.h.data(), h, scratch.a.data(), a, count, texels);
   table.h_offset_m = h.low;
   table.h_scale_m = h.size;

@@ -17,12 +17,23 @@ struct TableShare {
   float share = 0.0f;
 };
 
+/// Shifts are found at the directions of a table of so many nodes a side, half as fine as one of `nodes`.
+constexpr int shift_nodes(int nodes) {
+  return nodes / 2 + 1;
+}
+
 /// What a table needs while it is posed: floats for as many texels as the largest table has.
 struct TableScratch {
   std::vector<TableShare> values;
   std::vector<Change> changes;
-  std::vector<geometry::Float4> rest;  ///< h and a, meters; burial, in bytes; growth, meters
-  std::vector<float> h, a;             ///< of the pose, meters
+  std::vector<geometry::Float4> rest;             ///< h, a, growth, meters; nothing
+  std::vector<float> h, a;                        ///< of the pose, meters
+  std::vector<std::uint8_t> burial;               ///< in bytes
+  std::vector<geometry::Float4> coarse;           ///< shifts of the coarser table
+  std::array<std::vector<float>, 3> wide, shift;  ///< shifts of its rows with all columns, and of all texels
+
+  /// Makes room for tables of up to so many nodes a side.
+  void reserve(int nodes);
 };
 
 /// One table at rest.
@@ -39,8 +50,9 @@ struct TableReach {
 };
 
 /// Writes texels, burial and scales of the posed table, given the changes of its nodes in scratch.changes.
-/// For texel direction w: u = V w - change(u), in two fixed-point steps; h = s h(u) + growth(u) (1 - a(u) /
-/// out) and a = s a(u), with s the ellipsoid's scale. Allocates nothing.
+/// For texel direction w: u = V w - shift(w); h = s h(u) + growth(u) (1 - a(u) / out) and a = s a(u), with s
+/// the ellipsoid's scale. The shift is bilinear between directions of a table of shift_nodes(n) a side, at
+/// which shift(w) = change(V w - change(V w)). Burial is that of the texel nearest to u. Allocates nothing.
 void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableReach& reach,
             TableScratch& scratch, proxy::ReliefTable& table, proxy::ReliefTexel* texels,
             std::uint8_t* burial);

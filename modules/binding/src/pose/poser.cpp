@@ -14,6 +14,7 @@
 #include "pose/joint_motion.hpp"
 #include "pose/refusal.hpp"
 #include "pose/skin_changes.hpp"
+#include "tolerances.hpp"
 
 namespace bodice::binding {
 namespace {
@@ -27,12 +28,38 @@ bool overlap(const geometry::Box& a, const geometry::Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
 }
 
+/// Whether the joints of some terms move an ellipsoid as one, so that its table is that of rest.
+bool move_alike(const geometry::Ellipsoid& rest, std::span<const proxy::CarryTerm> terms,
+                std::span<const JointMatrix> skinning) {
+  const JointMatrix& main = skinning[terms.front().joint];
+  const double longest_m = rest.radii.maxCoeff();
+  double most_m = 0.0;
+  for (const proxy::CarryTerm& term : terms.subspan(1)) {
+    const JointMatrix other = skinning[term.joint] - main;
+    const geometry::Vec3 at_center = other.leftCols<3>() * rest.center + other.col(3);
+    most_m = std::max(most_m, at_center.norm() + longest_m * other.leftCols<3>().norm());
+  }
+  return most_m < kAlike_m * main.col(0).norm();
+}
+
+bool reached(const geometry::Ellipsoid& shape, const PoseOptions& options) {
+  if (!options.within) return true;
+  const geometry::Box box = geometry::bounding_box(shape);
+  return std::ranges::any_of(*options.within,
+                             [&](const geometry::Box& other) { return overlap(box, other); });
+}
+
 }  // namespace
 
 struct Poser::Impl {
   explicit Impl(proxy::BodyProxy proxy);
 
   bool follows(std::size_t k) const { return binding.first_bundle[k] < binding.first_bundle[k + 1]; }
+  std::span<const proxy::CarryTerm> terms_of(std::size_t k) const {
+    return std::span(binding.terms)
+        .subspan(binding.first_term[k], binding.first_term[k + 1] - binding.first_term[k]);
+  }
+  bool find_all_follow_nodes(std::size_t k) const;
   void pose_ellipsoid(std::size_t k, const PoseOptions& options, TableScratch& scratch,
                       proxy::PosedProxy& posed);
   void write_table(std::size_t k, const CarriedEllipsoid& carried, TableScratch& scratch,
@@ -49,8 +76,9 @@ struct Poser::Impl {
   std::array<std::vector<std::uint8_t>, 2> changed;
   std::size_t current = 0;
   std::uint64_t poses = 0;
-  std::vector<float> maps;            ///< 12 for each term
-  std::vector<TableScratch> scratch;  ///< one a task
+  std::vector<std::uint8_t> all_follow_nodes;  ///< #E: whether every texel follows a skin node
+  std::vector<float> maps;                     ///< 12 for each term
+  std::vector<TableScratch> scratch;           ///< one a task
   std::vector<JointMatrix> from_floats;
 };
 
@@ -59,29 +87,35 @@ Poser::Impl::Impl(proxy::BodyProxy proxy)
   maps.resize(12 * binding.terms.size());
   from_floats.resize(binding.bind.size());
   proxy::PosedProxy rest;
-  std::size_t most = 0;
+  int most = 0;
   for (std::size_t k = 0; k < bound.ellipsoids().size(); ++k) {
     rest.shapes.push_back(bound.ellipsoids()[k].shape);
     rest.material.push_back(rest.shapes[k].axes * rest.shapes[k].radii.asDiagonal());
     if (bound.relief().empty()) continue;
-    const std::size_t n = bound.relief()[k].nodes_per_side;
-    most = std::max(most, n * n);
+    if (follows(k)) most = std::max(most, int{bound.relief()[k].nodes_per_side});
   }
   rest.relief.assign(bound.relief().begin(), bound.relief().end());
   rest.texels.assign(bound.texels().begin(), bound.texels().end());
   rest.burial = binding.burial;
   rest.burial_step_m = binding.burial_step_m;
   pose.fill(rest);
+  for (std::size_t k = 0; k < pose[0].shapes.size(); ++k)
+    all_follow_nodes.push_back(find_all_follow_nodes(k));
   for (auto& flags : changed) flags.assign(bound.ellipsoids().size(), 0);
-  // Stencils read a node beyond the last row with weight zero, and vectors of texels end beyond the table.
-  const std::size_t padded = most + proxy::kBundle + proxy::kMostBoundNodes + 1;
   TableScratch one;
-  one.changes.resize(padded);
-  one.rest.resize(padded);
-  one.h.resize(padded);
-  one.a.resize(padded);
+  one.reserve(most);
   one.values.resize(1);
   scratch.assign((bound.ellipsoids().size() + kGrain - 1) / kGrain, one);
+}
+
+bool Poser::Impl::find_all_follow_nodes(std::size_t k) const {
+  if (!follows(k)) return false;
+  const std::size_t n = bound.relief()[k].nodes_per_side;
+  std::vector<std::uint8_t> is_node(n * n, 0);
+  for (std::size_t b = binding.first_bundle[k]; b < binding.first_bundle[k + 1]; ++b)
+    for (const std::uint16_t texel : binding.bundles[b].texel) is_node[texel] = 1;
+  const auto followers = std::span(binding.followers).subspan(binding.first_follower[k], n * n);
+  return std::ranges::all_of(followers, [&](std::uint16_t texel) { return is_node[texel] != 0; });
 }
 
 void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, TableScratch& room,
@@ -98,11 +132,9 @@ void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, Ta
   const RestTable rest{table, room.values, binding.burial.data() + table.first_texel,
                        binding.followers.data() + binding.first_follower[k]};
   const std::size_t count = std::size_t{table.nodes_per_side} * table.nodes_per_side;
-  std::fill_n(room.changes.begin(), count, Change{});
-  const std::span all(binding.terms);
-  const std::size_t first = binding.first_term[k];
-  const auto terms = all.subspan(first, binding.first_term[k + 1] - first);
-  const std::span own = std::span(maps).subspan(12 * first, 12 * terms.size());
+  if (!all_follow_nodes[k]) std::fill_n(room.changes.begin(), count, Change{});
+  const auto terms = terms_of(k);
+  const std::span own = std::span(maps).subspan(12 * std::size_t{binding.first_term[k]}, 12 * terms.size());
   const double step_m = double{binding.step_m[k]};
   posed_maps(bound.ellipsoids()[k].shape.center, step_m, terms, joints.skinning(), carried, own);
   find_changes(binding, binding.first_bundle[k], binding.first_bundle[k + 1], step_m, carried, own.data(),
@@ -121,13 +153,11 @@ engine::Result<void> Poser::Impl::add(std::shared_ptr<const proxy::BasePose> bas
 void Poser::Impl::pose_ellipsoid(std::size_t k, const PoseOptions& options, TableScratch& room,
                                  proxy::PosedProxy& posed) {
   const geometry::Ellipsoid& rest = bound.ellipsoids()[k].shape;
-  const std::span all(binding.terms);
-  const JointMatrix map =
-      affine_map(all.subspan(binding.first_term[k], binding.first_term[k + 1] - binding.first_term[k]),
-                 joints.skinning());
-  bool tables = options.tables && follows(k);
+  const auto terms = terms_of(k);
+  const JointMatrix map = affine_map(terms, joints.skinning());
+  bool tables = options.tables && follows(k) && !move_alike(rest, terms, joints.skinning());
   CarriedEllipsoid carried = tables ? carry(rest, map) : carry_stiffly(rest, map);
-  if (tables && options.within && !overlap(geometry::bounding_box(carried.shape), *options.within)) {
+  if (tables && !reached(carried.shape, options)) {
     tables = false;
     carried = carry_stiffly(rest, map);
   }

@@ -38,66 +38,64 @@ UnitEllipsoid unit_ellipsoid(const CarriedEllipsoid& carried, double step_m) {
 BODICE_CLONES
 void skin_bundle(const proxy::SkinBundle& bundle, const proxy::SkinEntry* entry, std::size_t entries,
                  const float* maps, Lanes (&at)[3]) {
-  Lanes blend[12] = {};
+  Vector blend[12] = {};
   for (std::size_t i = 0; i < entries; ++i) {
     const float* const map = maps + 12 * entry[i].term;
-    Lanes weight;
-    for (int l = 0; l < kLanes; ++l) weight[l] = static_cast<float>(entry[i].weight[l]) * (1.0f / 65535.0f);
-    for (int c = 0; c < 12; ++c)
-      for (int l = 0; l < kLanes; ++l) blend[c][l] += map[c] * weight[l];
+    Vector weight;
+    load(entry[i].weight.data(), weight);
+    weight *= 1.0f / 65535.0f;
+    for (int c = 0; c < 12; ++c) blend[c] += map[c] * weight;
   }
-  Lanes p[3];
-  for (int axis = 0; axis < 3; ++axis)
-    for (int l = 0; l < kLanes; ++l) p[axis][l] = static_cast<float>(bundle.position[axis][l]);
-  for (int row = 0; row < 3; ++row)
-    for (int l = 0; l < kLanes; ++l)
-      at[row][l] = blend[4 * row][l] * p[0][l] + blend[4 * row + 1][l] * p[1][l] +
-                   blend[4 * row + 2][l] * p[2][l] + blend[4 * row + 3][l];
+  Vector p[3];
+  for (int axis = 0; axis < 3; ++axis) load(bundle.position[axis].data(), p[axis]);
+  for (int row = 0; row < 3; ++row) {
+    const Vector* const b = blend + 4 * row;
+    store(b[0] * p[0] + b[1] * p[1] + b[2] * p[2] + b[3], at[row]);
+  }
 }
 
 /// Unit directions of the closest points, and distances to them: the root t of |w(t)| = 1,
-/// w_j = r_j y_j / (t + r_j^2), by three steps from below.
+/// w_j = r_j y_j / (t + r_j^2), by three steps from below. The axes are written out, since loops over them
+/// inside of the loop over lanes keep the latter from becoming vector code.
 BODICE_CLONES
 void find_feet(const UnitEllipsoid& e, const Lanes (&y)[3], Lanes (&w)[3], Lanes& distance) {
   constexpr int kSteps = 3;
   constexpr float kInside = -0.9999f, kTiny = 1e-12f;
-  Lanes t;
+  const float r0 = e.radius[0], r1 = e.radius[1], r2 = e.radius[2];
+  const float s0 = e.squared[0], s1 = e.squared[1], s2 = e.squared[2];
+  Lanes t, ry[3];
   for (int l = 0; l < kLanes; ++l) {
-    float start = kInside * e.least_squared;
-    float squares = 0.0f;
-    for (int j = 0; j < 3; ++j) {
-      const float ry = e.radius[j] * std::abs(y[j][l]);
-      start = std::max(start, ry - e.squared[j]);
-      squares += ry * ry;
-    }
-    t[l] = std::max(start, std::sqrt(squares) - 1.0f);
+    const float a = r0 * std::abs(y[0][l]), b = r1 * std::abs(y[1][l]), c = r2 * std::abs(y[2][l]);
+    const float start = greater(greater(a - s0, b - s1), greater(c - s2, kInside * e.least_squared));
+    t[l] = greater(start, std::sqrt(a * a + b * b + c * c) - 1.0f);
+    ry[0][l] = r0 * y[0][l];
+    ry[1][l] = r1 * y[1][l];
+    ry[2][l] = r2 * y[2][l];
   }
   for (int step = 0; step < kSteps; ++step)
     for (int l = 0; l < kLanes; ++l) {
-      float length2 = 0.0f, slope = 0.0f;
-      for (int j = 0; j < 3; ++j) {
-        const float inverse = 1.0f / (t[l] + e.squared[j]);
-        const float wj = e.radius[j] * y[j][l] * inverse;
-        length2 += wj * wj;
-        slope += wj * wj * inverse;
-      }
-      t[l] += (std::sqrt(length2) - 1.0f) * length2 / std::max(slope, kTiny);
+      // One quotient serves all three.
+      const float a = t[l] + s0, b = t[l] + s1, c = t[l] + s2, ab = a * b, inverse = 1.0f / (ab * c);
+      const float i0 = b * c * inverse, i1 = a * c * inverse, i2 = ab * inverse;
+      const float w0 = ry[0][l] * i0, w1 = ry[1][l] * i1, w2 = ry[2][l] * i2;
+      const float q0 = w0 * w0, q1 = w1 * w1, q2 = w2 * w2;
+      const float length2 = q0 + q1 + q2, slope = q0 * i0 + q1 * i1 + q2 * i2;
+      t[l] += (std::sqrt(length2) - 1.0f) * length2 / greater(slope, kTiny);
     }
+  const float i0 = e.inverse[0], i1 = e.inverse[1], i2 = e.inverse[2];
   for (int l = 0; l < kLanes; ++l) {
-    float length2 = 0.0f;
-    for (int j = 0; j < 3; ++j) {
-      w[j][l] = e.radius[j] * y[j][l] / (t[l] + e.squared[j]);
-      length2 += w[j][l] * w[j][l];
-    }
-    const float scale = 1.0f / std::sqrt(std::max(length2, kTiny));
-    float normal2 = 0.0f, along = 0.0f;
-    for (int j = 0; j < 3; ++j) {
-      w[j][l] *= scale;
-      const float n = w[j][l] * e.inverse[j];
-      normal2 += n * n;
-      along += n * (y[j][l] - e.radius[j] * w[j][l]);
-    }
-    distance[l] = along / std::sqrt(std::max(normal2, kTiny));
+    const float a = t[l] + s0, b = t[l] + s1, c = t[l] + s2, unit = 1.0f / (a * b * c);
+    const float x0 = ry[0][l] * (b * c * unit), x1 = ry[1][l] * (a * c * unit),
+                x2 = ry[2][l] * (a * b * unit);
+    const float scale = 1.0f / std::sqrt(greater(x0 * x0 + x1 * x1 + x2 * x2, kTiny));
+    const float w0 = x0 * scale, w1 = x1 * scale, w2 = x2 * scale;
+    const float n0 = w0 * i0, n1 = w1 * i1, n2 = w2 * i2;
+    const float normal2 = n0 * n0 + n1 * n1 + n2 * n2;
+    const float along = n0 * (y[0][l] - r0 * w0) + n1 * (y[1][l] - r1 * w1) + n2 * (y[2][l] - r2 * w2);
+    distance[l] = along / std::sqrt(greater(normal2, kTiny));
+    w[0][l] = w0;
+    w[1][l] = w1;
+    w[2][l] = w2;
   }
 }
 
@@ -105,19 +103,29 @@ void find_feet(const UnitEllipsoid& e, const Lanes (&y)[3], Lanes (&w)[3], Lanes
 BODICE_CLONES
 void compare(const UnitEllipsoid& e, const proxy::SkinBundle& bundle, const Lanes (&w)[3],
              const Lanes& distance, Lanes (&change)[4]) {
+  Lanes rest[3], height;
   for (int l = 0; l < kLanes; ++l) {
     const float x = static_cast<float>(bundle.direction[0][l]) * (1.0f / 32767.0f);
     const float y = static_cast<float>(bundle.direction[1][l]) * (1.0f / 32767.0f);
     const float z = 1.0f - std::abs(x) - std::abs(y);
-    const float fold = std::max(-z, 0.0f);
+    const float fold = greater(-z, 0.0f);
     const float px = x - std::copysign(fold, x), py = y - std::copysign(fold, y);
     const float scale = 1.0f / std::sqrt(px * px + py * py + z * z);
-    const float rest[3] = {px * scale, py * scale, z * scale};
-    for (int i = 0; i < 3; ++i)
-      change[i][l] = e.to_table[3 * i] * w[0][l] + e.to_table[3 * i + 1] * w[1][l] +
-                     e.to_table[3 * i + 2] * w[2][l] - rest[i];
-    change[3][l] = distance[l] * e.longest_m - static_cast<float>(bundle.height[l]) * e.height_unit_m;
+    rest[0][l] = px * scale;
+    rest[1][l] = py * scale;
+    rest[2][l] = z * scale;
+    height[l] = static_cast<float>(bundle.height[l]);
   }
+  Vector to[3], from, length;
+  for (int i = 0; i < 3; ++i) load(w[i], to[i]);
+  for (int i = 0; i < 3; ++i) {
+    const float* const row = e.to_table + 3 * i;
+    load(rest[i], from);
+    store(row[0] * to[0] + row[1] * to[1] + row[2] * to[2] - from, change[i]);
+  }
+  load(distance, length);
+  load(height, from);
+  store(length * e.longest_m - from * e.height_unit_m, change[3]);
 }
 
 }  // namespace

@@ -7,15 +7,15 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/posed_proxy.hpp>
 
+#include "bind/texel_directions.hpp"
 #include "pose/carried_ellipsoid.hpp"
+#include "pose/followed_table.hpp"
 #include "pose/joint_motion.hpp"
 #include "pose/refusal.hpp"
 #include "pose/skin_changes.hpp"
 
 namespace bodice::binding {
 namespace {
-
-constexpr int kWarpSteps = 2;
 
 /// A value of a table's nodes at a direction.
 template <class Value, class Of>
@@ -31,6 +31,8 @@ struct TableWarp::Impl {
   explicit Impl(const proxy::BodyProxy& proxy) : bound(proxy), joints(*bound.binding()) {}
 
   void carry_one(std::size_t k);
+  /// shift(w) = change(V w - change(V w)) at the directions of a table half as fine.
+  void find_shifts(std::size_t k);
   Eigen::Vector4d change(std::size_t k, const proxy::TableStencil& at) const {
     return bilinear(at, Eigen::Vector4d(Eigen::Vector4d::Zero()), [&](std::uint32_t node) {
       const Change& c = changes[k][node];
@@ -40,9 +42,10 @@ struct TableWarp::Impl {
 
   proxy::BodyProxy bound;
   JointMotion joints;
-  std::vector<CarriedEllipsoid> carried;     // #E
-  std::vector<geometry::Ellipsoid> shapes;   // #E
-  std::vector<std::vector<Change>> changes;  // #E: a table's texels; empty where it does not follow
+  std::vector<CarriedEllipsoid> carried;            // #E
+  std::vector<geometry::Ellipsoid> shapes;          // #E
+  std::vector<std::vector<Change>> changes;         // #E: a table's texels; empty where it does not follow
+  std::vector<std::vector<geometry::Vec3>> shifts;  // #E: of a table half as fine
 };
 
 void TableWarp::Impl::carry_one(std::size_t k) {
@@ -64,6 +67,16 @@ void TableWarp::Impl::carry_one(std::size_t k) {
                changes[k].data());
   const std::uint16_t* const followers = binding.followers.data() + binding.first_follower[k];
   for (std::size_t i = 0; i < n * n; ++i) changes[k][i] = changes[k][followers[i]];
+  find_shifts(k);
+}
+
+void TableWarp::Impl::find_shifts(std::size_t k) {
+  const int n = bound.relief()[k].nodes_per_side, m = shift_nodes(n);
+  for (int i = 0; i < m * m; ++i) {
+    const geometry::Vec3 target = carried[k].to_table * texel_direction(i, m);
+    const geometry::Vec3 first = target - change(k, proxy::table_stencil(target, n)).head<3>();
+    shifts[k].push_back(change(k, proxy::table_stencil(first, n)).head<3>());
+  }
 }
 
 TableWarp::TableWarp(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -81,6 +94,7 @@ engine::Result<TableWarp> TableWarp::make(const engine::Context& context, const 
   impl->carried.resize(bound.ellipsoids().size());
   impl->shapes.resize(impl->carried.size());
   impl->changes.resize(impl->carried.size());
+  impl->shifts.resize(impl->carried.size());
   engine::parallel_for(context, impl->carried.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) impl->carry_one(k);
   });
@@ -109,11 +123,10 @@ proxy::TableReading TableWarp::read(std::uint32_t ellipsoid, const geometry::Vec
   const bool moves = follows(ellipsoid);
   const geometry::Vec3 target = moves ? geometry::Vec3(carried.to_table * direction) : direction;
   reading.direction = target;
-  if (moves) {
-    for (int step = 0; step < kWarpSteps; ++step)
-      reading.direction =
-          target - impl_->change(ellipsoid, proxy::table_stencil(reading.direction, n)).head<3>();
-  }
+  const geometry::Vec3 zero = geometry::Vec3::Zero();
+  if (moves)
+    reading.direction -= bilinear(proxy::table_stencil(direction, shift_nodes(n)), zero,
+                                  [&](std::uint32_t node) { return impl_->shifts[ellipsoid][node]; });
   const proxy::TableStencil at = proxy::table_stencil(reading.direction, n);
   if (moves) reading.growth_m = impl_->change(ellipsoid, at)[3];
   const double depth = bilinear(

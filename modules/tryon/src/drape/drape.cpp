@@ -13,6 +13,7 @@
 #include <bodice/tryon/penetration.hpp>
 
 #include "drape/recorder.hpp"
+#include "garment/garment_reach.hpp"
 #include "garment/misplaced_garments.hpp"
 #include "motion/moving_body.hpp"
 
@@ -95,19 +96,35 @@ void add_cloth(const cloth::FrameReport& last, DrapeReport& report) {
   report.median_speed_m_s = last.median_speed_m_s;
 }
 
+/// The body that the cloth meets, of which tables beyond the garments' reach stay as at rest; and the whole
+/// of it, which the report judges.
+struct Bodies {
+  MovingBody met, judged;
+};
+
+engine::Result<Bodies> make_bodies(const PreparedBody& body, bool moves) {
+  auto met = MovingBody::make(body.skin, body.fit.proxy, moves);
+  if (!met) return std::move(met).error();
+  auto judged = MovingBody::make(body.skin, body.fit.proxy, moves);
+  if (!judged) return std::move(judged).error();
+  return Bodies{std::move(met).value(), std::move(judged).value()};
+}
+
 /// A drape in progress: cloth, body, and what is recorded of them.
 class Drape {
  public:
   Drape(const engine::Context& context, const DrapeOptions& options, const Wardrobe& all,
-        cloth::Solver& solver, MovingBody& body, Recorder& recorder, DrapeResult& result)
+        cloth::Solver& solver, Bodies& bodies, Recorder& recorder, DrapeResult& result)
       : context_(context),
         options_(options),
         all_(all),
         solver_(solver),
-        body_(body),
+        body_(bodies.met),
+        judged_(bodies.judged),
         recorder_(recorder),
         result_(result),
-        positions_(all.mesh.positions.size()) {
+        positions_(all.mesh.positions),
+        reach_(positions_) {
     if (!options.motion) return;
     player_.emplace(*options.motion, result.report.ramp_s,
                     options.loop ? rig::Playback::kLoop : rig::Playback::kClamp);
@@ -133,6 +150,7 @@ class Drape {
       if (auto posed = pose(-ramp_s * (1.0 - static_cast<double>(step) / steps), ramp_s / steps); !posed)
         return posed;
       solver_.step(context_, body_.collider(), ramp_s / steps);
+      solver_.positions(positions_);
     }
     return {};
   }
@@ -178,7 +196,7 @@ class Drape {
   engine::Result<void> pose(double time_s, double dt_s) {
     if (!body_.moves()) return {};
     player_->joints(time_s, joints_);
-    if (auto posed = body_.pose(context_, joints_, dt_s); !posed)
+    if (auto posed = body_.pose(context_, joints_, dt_s, {.within = reach_.boxes(positions_)}); !posed)
       return engine::Error{posed.error().code,
                            engine::message("At second ", time_s, " of the clip '", options_.motion->clip.name,
                                            "': ", posed.error().message),
@@ -191,12 +209,14 @@ class Drape {
   void offer(int frame, const Penetration& depth) {
     const double time_s = frame * options_.dt_s;
     if (!recorder_.offer(frame, positions_, time_s) || !body_.moves()) return;
+    // What the cloth's own body took in this frame is taken here as well.
+    static_cast<void>(judged_.pose(context_, joints_, 0.0));
     const geometry::MeshDistance& skin = body_.distance(context_);
     result_.body_frames.push_back(body_.skin(context_).positions);
     result_.proxy_frames.push_back(body_.poser()->posed().shapes);
     result_.report.kept.push_back({.time_s = time_s,
                                    .proxy_error = measure_proxy_error(
-                                       context_, body_.collider(), body_.skin(context_), skin, kNearSkin_m),
+                                       context_, judged_.collider(), body_.skin(context_), skin, kNearSkin_m),
                                    .penetration_max_m = depth.deepest_m,
                                    .over_half_mm_m2 = cloth_area_inside_m2(
                                        context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
@@ -208,12 +228,13 @@ class Drape {
   const DrapeOptions& options_;
   const Wardrobe& all_;
   cloth::Solver& solver_;
-  MovingBody& body_;
+  MovingBody &body_, &judged_;
   Recorder& recorder_;
   DrapeResult& result_;
   std::optional<MotionPlayer> player_;  // of a body that moves
   std::vector<rig::Affine> joints_;     // #J
   std::vector<Vec3> positions_;         // #vertices of all garments
+  GarmentReach reach_;                  // of positions_
   std::vector<Vec3> held_, posed_;      // pins in the bind pose and in this one
   rig::SkinWeights held_weights_;
 };
@@ -236,10 +257,11 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.particles = solver->particles();
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
-  auto moving = MovingBody::make(body.skin, body.fit.proxy, options.motion != nullptr);
-  if (!moving) return std::move(moving).error();
+  auto bodies = make_bodies(body, options.motion != nullptr);
+  if (!bodies) return std::move(bodies).error();
+  MovingBody& moving = bodies->met;
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
-  Drape drape(context, options, *all, *solver, *moving, recorder, result);
+  Drape drape(context, options, *all, *solver, *bodies, recorder, result);
   std::optional<engine::StageTimer> timer(std::in_place, context, report.stages, "drape");
   drape.hold(settings.thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
   if (auto done = drape.ramp(); !done) return std::move(done).error();
@@ -248,10 +270,10 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   timer.reset();
 
   report.pierced_share =
-      pierced_share(context, moving->distance(context), drape.positions(), all->mesh.triangles);
+      pierced_share(context, moving.distance(context), drape.positions(), all->mesh.triangles);
   report.inside_union =
-      moving->moves() ? count_inside(context, body.fit.proxy, moving->poser()->posed(), drape.positions())
-                      : count_inside(context, body.fit.proxy, drape.positions());
+      moving.moves() ? count_inside(context, body.fit.proxy, moving.poser()->posed(), drape.positions())
+                     : count_inside(context, body.fit.proxy, drape.positions());
   report.hash = solver->hash();
   report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();

@@ -28,9 +28,9 @@ engine::Result<MovingBody> MovingBody::make(const SegmentedSkin& skin, const pro
 }
 
 engine::Result<void> MovingBody::pose(const engine::Context& context, std::span<const rig::Affine> joints,
-                                      double dt_s) {
+                                      double dt_s, const binding::PoseOptions& options) {
   if (!moves()) return {};
-  if (auto posed = poser_->pose(context, joints); !posed) return posed;
+  if (auto posed = poser_->pose(context, joints, options); !posed) return posed;
   if (!collider_.pose(poser_->posed(), dt_s))
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
                          "In this pose the body has no shape that a collider takes.",

@@ -24,8 +24,10 @@ class MovingBody {
 
   bool moves() const noexcept { return poser_.has_value(); }
   /// Poses the collider by the joints, #J; contacts then know the velocity of a surface that came here in
-  /// dt_s. Fails where a matrix is refused, and then nothing moves. Allocates nothing.
-  engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s);
+  /// dt_s. Outside of the boxes `options.within` tables stay as at rest. Fails where a matrix is refused, and
+  /// then nothing moves. Allocates nothing.
+  engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s,
+                            const binding::PoseOptions& options = {});
   /// Null where the body stands still.
   binding::Poser* poser() noexcept { return poser_ ? &*poser_ : nullptr; }
 

@@ -89,6 +89,8 @@ engine::Result<void> Session::dress(const std::vector<WornGarment>& garments) {
   impl_->solver.emplace(std::move(solver).value());
   impl_->wardrobe = std::move(all).value();
   impl_->held_by = nullptr;
+  impl_->cloth = impl_->wardrobe.mesh.positions;
+  impl_->reach.emplace(impl_->cloth);
   if (impl_->motion) {  // garments are made for the bind pose
     ClipPlayback& playback = *impl_->motion->playback;
     playback.start_from_bind(playback.time_s(), impl_->motion->ramp_s);

@@ -99,8 +99,13 @@ void Session::Impl::pose(const engine::Context& context, double dt_s) {
   if (!motion || motion->skin != body->live.skin) return;
   ClipPlayback& playback = *motion->playback;
   if (!paused) playback.advance(dt_s);
+  binding::PoseOptions where;
+  if (solver) {
+    solver->positions(cloth);
+    where.within = reach->boxes(cloth);
+  }
   // A body that jumped here did not come with the velocity of the jump.
-  if (auto done = body->body->pose(context, playback.joints(), jumped ? 0.0 : dt_s); !done) return;
+  if (auto done = body->body->pose(context, playback.joints(), jumped ? 0.0 : dt_s, where); !done) return;
   jumped = false;
   if (!solver) return;
   body->body->carry(held, held_weights, posed);

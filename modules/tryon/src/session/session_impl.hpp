@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "garment/garment_reach.hpp"
 #include "motion/refits.hpp"
 #include "session/session_body.hpp"
 
@@ -50,6 +51,8 @@ struct Session::Impl {
 
   std::vector<geometry::Vec3> held, posed;  // pins in the bind pose, and in the one in force
   rig::SkinWeights held_weights;
+  std::vector<geometry::Vec3> cloth;  // #vertices of all garments, after the last frame
+  std::optional<GarmentReach> reach;  // of the garments
   const SessionBody* held_by = nullptr;
 
   void take_results(FrameOutcome& outcome);

@@ -19,9 +19,9 @@ namespace bodice::binding {
 struct PoseOptions {
   /// False: ellipsoids are carried, and their tables stay as they are at rest.
   bool tables = true;
-  /// Only tables of ellipsoids that come into this box (world, meters) follow the skin; all if absent. Tables
-  /// outside keep what they were at rest.
-  std::optional<geometry::Box> within;
+  /// Only tables of ellipsoids that come into one of these boxes (world, meters) follow the skin; all if
+  /// absent. Tables outside of all keep what they were at rest.
+  std::optional<std::span<const geometry::Box>> within;
 };
 
 /// The joints of one bound proxy, and its current pose. Two poses are kept: while one is written, queries may

@@ -120,9 +120,10 @@ class Session {
   /// The body's skin in the pose of the last frame, as many positions as LiveBody::skin has. Without a body
   /// nothing is written.
   void skin_positions(std::span<geometry::Vec3> out) const;
-  /// The collider in the pose of the last frame; null before the first body.
+  /// The collider in the pose of the last frame; null before the first body. Beyond the reach of the
+  /// garments, if there are any, tables of a body that moves stay as at rest.
   const collision::Collider* collider() const noexcept;
-  /// The proxy in the pose of the last frame; null where the body does not move.
+  /// The proxy in the pose of the last frame, as collider() has it; null where the body does not move.
   const proxy::PosedProxy* posed() const noexcept;
   /// The number of vertices of all garments, in the order given to dress().
   std::size_t vertices() const noexcept;
