@@ -49,7 +49,8 @@ Subject prepare(const engine::Context& context, const std::string& file, bench::
   const proxy::BodyProxy rest = bench::or_exit(proxy::BodyProxy::make(std::move(data)));
   const bench::Stopwatch watch;
   const rig::Rig& rig = *subject.body.skin.rig;
-  bench::or_exit(binding::bind({}, rest, {subject.body.skin.input.skin, rig.skeleton, rig.weights}));
+  bench::or_exit(binding::bind(
+      {}, rest, {subject.body.skin.input.skin, rig.skeleton, rig.weights, subject.body.skin.anatomy.part}));
   result = {subject.name,
             subject.body.skin.input.skin.positions.size(),
             bound.ellipsoids().size(),

@@ -13,6 +13,7 @@
 
 #include "bind/burial.hpp"
 #include "bind/carry_terms.hpp"
+#include "bind/exercises.hpp"
 #include "bind/skin_nodes.hpp"
 #include "tolerances.hpp"
 
@@ -64,6 +65,7 @@ proxy::BodyProxy::Data bound_data(const engine::Context& context, const proxy::B
     data.ellipsoids[k].bone = joint <= INT16_MAX ? static_cast<std::int16_t>(joint) : proxy::kNoBone;
   }
   Burial burial = find_burial(context, proxy);
+  raise_burial(context, proxy, *binding, body, exercises(body, body.part), burial);
   binding->burial = std::move(burial.depth);
   binding->burial_step_m = burial.step_m;
   data.binding = std::move(binding);

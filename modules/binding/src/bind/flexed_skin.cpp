@@ -1,105 +1,18 @@
 #include <bodice/binding/flexed_skin.hpp>
 
 #include <array>
-#include <cmath>
-#include <numbers>
-#include <optional>
 
-#include <Eigen/Geometry>
+#include "bind/bends.hpp"
 
 namespace bodice::binding {
-namespace {
 
 using body::Part;
 
-/// Share of a part's skin that its joint must carry, with the joints below it.
-constexpr double kCarries = 0.85;
-/// A limb that points farther from where a straight one does is bent enough.
-constexpr double kBent_deg = 25.0;
-
-constexpr double radians(double degrees) {
-  return degrees / 180.0 * std::numbers::pi;
-}
-
-using PartWeights = std::array<double, body::kPartCount>;
-
-/// For each joint how much of each part it carries with the joints below it, 0 to 1.
-std::vector<PartWeights> carried_parts(const SkinnedBody& body, std::span<const Part> part) {
-  const auto& joints = body.skeleton.joints;
-  std::vector<PartWeights> carried(joints.size(), PartWeights{});
-  PartWeights all{};
-  for (std::size_t t = 0; t < body.skin.triangles.size(); ++t) {
-    const double area = geometry::area_vector(body.skin, t).norm();
-    for (const geometry::Index v : body.skin.triangles[t]) {
-      const auto p = static_cast<std::size_t>(part[v]);
-      all[p] += area;
-      for (std::uint32_t i = body.weights.first[v]; i < body.weights.first[v + 1]; ++i)
-        carried[body.weights.joint[i]][p] += area * static_cast<double>(body.weights.weight[i]);
-    }
-  }
-  for (std::size_t j = joints.size(); j-- > 0;)
-    for (std::size_t p = 0; p < all.size() && joints[j].parent >= 0; ++p)
-      carried[static_cast<std::size_t>(joints[j].parent)][p] += carried[j][p];
-  for (PartWeights& weights : carried)
-    for (std::size_t p = 0; p < all.size(); ++p) weights[p] = all[p] > 0.0 ? weights[p] / all[p] : 0.0;
-  return carried;
-}
-
-/// The last joint of the hierarchy that carries a part.
-std::optional<std::size_t> joint_of(const std::vector<PartWeights>& carried, Part part) {
-  std::optional<std::size_t> found;
-  double least = 2.0 * body::kPartCount;
-  for (std::size_t j = 0; j < carried.size(); ++j) {
-    if (carried[j][static_cast<std::size_t>(part)] < kCarries) continue;
-    double sum = 0.0;
-    for (const double weight : carried[j]) sum += weight;
-    if (sum > least) continue;
-    least = sum;
-    found = j;
-  }
-  return found;
-}
-
-Vec3 centroid(const SkinnedBody& body, std::span<const Part> part, Part of) {
-  Vec3 sum = Vec3::Zero();
-  double count = 0.0;
-  for (std::size_t v = 0; v < part.size(); ++v) {
-    if (part[v] != of) continue;
-    sum += body.skin.positions[v];
-    count += 1.0;
-  }
-  return count > 0.0 ? Vec3(sum / count) : Vec3(Vec3::Zero());
-}
-
-/// A bend of one limb: its part turns toward a direction, unless it is far from the straight one.
-struct Bend {
-  Part part;
-  Vec3 toward;
-  double degrees;
-  Part straight_from;  ///< a straight limb goes on with the direction of this part; the same: any direction
-};
-
-/// The turn of a joint's frame, or none.
-std::optional<Mat3> turn_of(const Bend& bend, const Vec3& head, const Vec3& middle,
-                            const std::optional<Vec3>& straight) {
-  const Vec3 along = (middle - head).stableNormalized();
-  if (straight && along.dot(straight->stableNormalized()) < std::cos(radians(kBent_deg))) return std::nullopt;
-  const Vec3 axis = along.cross(bend.toward);
-  // A limb that points there already has nowhere to bend.
-  if (axis.norm() < std::sin(radians(kBent_deg))) return std::nullopt;
-  return Eigen::AngleAxisd(radians(bend.degrees), axis.normalized()).toRotationMatrix();
-}
-
-}  // namespace
-
 std::vector<Vec3> flexed_skin(const engine::Context& context, const SkinnedBody& body,
                               std::span<const Part> part) {
-  const auto& joints = body.skeleton.joints;
   if (part.size() != body.skin.positions.size() || body.weights.vertices() != part.size()) return {};
-  const std::vector<PartWeights> carried = carried_parts(body, part);
-  const Vec3 up = Vec3::UnitY();
-  const Vec3 left = centroid(body, part, Part::kThighL) - centroid(body, part, Part::kThighR);
-  const Vec3 front = left.cross(up).stableNormalized();
+  const Limbs limbs(body, part);
+  const Vec3& front = limbs.directions().front;
   // Halfway to what a seat, a run and raised arms ask of the joints.
   const std::array<Bend, 8> bends = {{{Part::kThighL, front, 31.0, Part::kThighL},
                                       {Part::kThighR, front, 31.0, Part::kThighR},
@@ -109,32 +22,10 @@ std::vector<Vec3> flexed_skin(const engine::Context& context, const SkinnedBody&
                                       {Part::kUpperArmR, front, 35.0, Part::kUpperArmR},
                                       {Part::kForearmL, front, 40.0, Part::kUpperArmL},
                                       {Part::kForearmR, front, 40.0, Part::kUpperArmR}}};
-  std::vector<std::optional<Mat3>> turns(joints.size());
-  bool any = false;
-  for (const Bend& bend : bends) {
-    const auto joint = joint_of(carried, bend.part);
-    if (!joint || turns[*joint]) continue;
-    const Vec3 head = joints[*joint].bind.col(3);
-    std::optional<Vec3> straight;
-    if (bend.straight_from == bend.part) {
-      if (bend.part == Part::kThighL || bend.part == Part::kThighR) straight = -up;
-    } else {
-      straight = head - centroid(body, part, bend.straight_from);
-    }
-    turns[*joint] = turn_of(bend, head, centroid(body, part, bend.part), straight);
-    any = any || turns[*joint];
-  }
-  if (!any) return {};
-  std::vector<rig::Affine> skinning;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const Vec3 head = joints[j].bind.col(3);
-    const Mat3 turn = turns[j].value_or(Mat3::Identity());
-    const rig::Affine own = rig::affine(turn, head - turn * head);
-    skinning.push_back(
-        joints[j].parent < 0 ? own : rig::compose(skinning[static_cast<std::size_t>(joints[j].parent)], own));
-  }
+  const auto skinning = limbs.bent(bends);
+  if (!skinning) return {};
   std::vector<Vec3> flexed(part.size());
-  rig::skin_linear(context, body.skin.positions, body.weights, skinning, flexed);
+  rig::skin_linear(context, body.skin.positions, body.weights, *skinning, flexed);
   return flexed;
 }
 

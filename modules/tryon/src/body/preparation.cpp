@@ -34,7 +34,7 @@ Result<std::uint32_t> choose_region(const Context& context, const PreparationOpt
 }
 
 binding::SkinnedBody skinned(const SegmentedSkin& skin) {
-  return {skin.input.skin, skin.rig->skeleton, skin.rig->weights};
+  return {skin.input.skin, skin.rig->skeleton, skin.rig->weights, skin.anatomy.part};
 }
 
 /// Publishes the proxies of a body. A proxy is published once, even if it is both the last iterate of a tier

@@ -100,7 +100,8 @@ engine::Result<PreparedBody> fit_bound_proxy(const engine::Context& context, Seg
   if (!body) return body;
   report(progress, "bind", 0.0);
   engine::StageTimer timer(context, body->fit.stages, "bind");
-  auto bound = binding::bind(context, body->fit.proxy, {body->skin.input.skin, rig->skeleton, rig->weights});
+  auto bound = binding::bind(context, body->fit.proxy,
+                             {body->skin.input.skin, rig->skeleton, rig->weights, body->skin.anatomy.part});
   timer.stop();
   if (!bound) return of_body(std::move(bound).error(), body->skin.input);
   body->fit.proxy = std::move(bound).value();

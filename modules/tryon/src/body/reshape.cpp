@@ -114,7 +114,8 @@ engine::Result<proxy::BodyProxy> reshaped_proxy(const engine::Context& context, 
   }
   auto made = proxy::BodyProxy::make(std::move(data));
   if (!made || !proxy.binding() || !shape.rig) return made;
-  return binding::bind(context, *made, {shape.input.skin, shape.rig->skeleton, shape.rig->weights});
+  return binding::bind(context, *made,
+                       {shape.input.skin, shape.rig->skeleton, shape.rig->weights, shape.anatomy.part});
 }
 
 }  // namespace

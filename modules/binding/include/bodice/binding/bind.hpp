@@ -9,6 +9,7 @@
 // And (3) each texel knows how deep its surface point lies under other ellipsoids (proxy/posed_proxy.hpp).
 #pragma once
 
+#include <bodice/body/part.hpp>
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
@@ -26,6 +27,9 @@ struct SkinnedBody {
   const geometry::TriMesh& skin;    ///< meters, y up
   const rig::Skeleton& skeleton;    ///< valid
   const rig::SkinWeights& weights;  ///< mended, of the skin's vertices
+  /// #V: which limb a vertex is of. With it binding bends the limbs, and learns there what must yield;
+  /// without it, empty, burial at rest alone decides.
+  std::span<const body::Part> part = {};
 };
 
 /// The same proxy, bound: its hash is another one, each ellipsoid has its bone. Fails with kInvalidArgument
