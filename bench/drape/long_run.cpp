@@ -94,7 +94,7 @@ void judge_depths(const LongRunOptions& options, LongRun& run) {
 
 bool repeats(const MovingOutfit& outfit, const tryon::BodyMotion& motion, const LongRunOptions& options,
              std::uint64_t hash) {
-  for (const int workers : {1, 3}) {
+  for (const int workers : {1, 2, 3, 7}) {
     const auto executor = engine::make_tbb_executor(workers);
     if (drape({.executor = executor.get()}, outfit, motion, options).report.hash != hash) return false;
   }

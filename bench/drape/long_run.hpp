@@ -29,7 +29,7 @@ struct LongRun {
   double rest_m = 0.0;      ///< deepest particle of the last half second
   double drop_m = 0.0;      ///< how much lower the garment ends, against the body
   double proxy_mm = 0.0;    ///< mean of the proxy's mean errors over the kept frames
-  bool same_hashes = true;  ///< for 1 and 3 workers; true where it was not repeated
+  bool same_hashes = true;  ///< for 1, 2, 3 and 7 workers; true where it was not repeated
 };
 
 LongRun run_long(const bodice::engine::Context& context, const MovingOutfit& outfit,

@@ -115,7 +115,7 @@ void add_options(CLI::App& app, Arguments& a) {
       ->needs(motion);
   app.add_option("--out", a.out, "folder for contact sheets of every tenth frame, and the depths of all")
       ->needs(motion);
-  app.add_flag("--repeat", a.repeat, "again with 1 and with 3 workers, to compare hashes")->needs(motion);
+  app.add_flag("--repeat", a.repeat, "again with 1, 2, 3 and 7 workers, to compare hashes")->needs(motion);
   auto* faces =
       app.add_flag("--faces", a.faces, "judges whole triangles, on a body that stands and one that walks")
           ->excludes(motion);
