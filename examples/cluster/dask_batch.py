@@ -4,24 +4,24 @@
 
 Run it again to go on: results that are there are skipped. Without --scheduler it starts a cluster on this machine.
 MANIFEST and OUT are on a disk that all workers see. The shard of a worker that dies goes to another one, which skips
-what the first has done. Start workers with one thread each: a task takes the cores that its worker has.
+what the first has done. A task takes one thread of a worker: start workers with as many threads as they have cores.
 """
 import argparse
 import os
+import shutil
 import subprocess
 import sys
 
 
 def run_shard(program, manifest, out, shard, options):
-    """One shard in a process of the program, in the cores that this worker has."""
+    """One shard in a process of the program. A task takes one thread of its worker, and so one core."""
     # This function travels to the worker alone, and brings its own imports.
     import shutil
     import subprocess
 
-    from distributed import get_worker
-
-    # The worker's threads are its share of the machine; other workers have the rest.
-    command = [program, "batch", manifest, "--out", out, "--shard", shard, "--jobs", str(get_worker().state.nthreads)]
+    command = [program, "batch", manifest, "--out", out, "--shard", shard]
+    if "--jobs" not in options:
+        command += ["--jobs", "1"]
     if shutil.which("setpriv"):  # a worker that is killed takes its program along
         command = ["setpriv", "--pdeathsig", "KILL", *command]
     done = subprocess.run(command + options, capture_output=True, text=True)
@@ -41,8 +41,10 @@ def main():
     cluster = None if arguments.scheduler else LocalCluster(threads_per_worker=1, dashboard_address=None)
     with Client(arguments.scheduler or cluster) as client:
         manifest, out = os.path.abspath(arguments.manifest), os.path.abspath(arguments.out)
+        program = shutil.which(arguments.program) or parser.error(f"there is no program {arguments.program}")
+        program = os.path.abspath(program)  # workers have other folders
         # A worker that dies three times over one shard is no accident; its other shards go on.
-        tasks = [client.submit(run_shard, arguments.program, manifest, out, f"{i}/{arguments.shards}", options,
+        tasks = [client.submit(run_shard, program, manifest, out, f"{i}/{arguments.shards}", options,
                                pure=False, retries=3) for i in range(arguments.shards)]
         ended = 0
         for task in as_completed(tasks):
@@ -54,7 +56,7 @@ def main():
             print(f"{ended} of {arguments.shards} shards ended", file=sys.stderr)
     if cluster:
         cluster.close()
-    return subprocess.run([arguments.program, "batch", "--summary", out]).returncode
+    return subprocess.run([program, "batch", "--summary", out]).returncode
 
 
 if __name__ == "__main__":

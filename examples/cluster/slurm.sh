@@ -20,10 +20,13 @@ cat >"$task.$$" <<'TASK'
 #!/bin/bash
 # A shard of a batch, in the cores and the memory that Slurm gave it.
 manifest=$1 out=$2 bodice=$3 options=$4
-cores=${SLURM_CPUS_PER_TASK:-1}
+export SLURM_CPUS_PER_TASK=${SLURM_CPUS_PER_TASK:-1}   # not set without --cpus-per-task, which means 1
+cores=$SLURM_CPUS_PER_TASK
 granted_mb=${SLURM_MEM_PER_NODE:-$((${SLURM_MEM_PER_CPU:-0} * cores))}
-# Some of it is for the program itself; 0 is no limit, or all of the node.
-[ "$granted_mb" -le 0 ] || options="--memory $(((granted_mb - 64) * 1048576 / 1000000 / cores)) $options"
+# Some of it is for the program itself. 0 is no limit, or all of the node.
+if [ "$granted_mb" -gt 64 ] && [[ $options != *--memory* ]]; then
+  options="--memory $(((granted_mb - 64) * 1048576 / 1000000 / cores)) $options"
+fi
 # exec, so that the signals of Slurm reach the program, which then ends within a second.
 exec "$bodice" batch "$manifest" --out "$out" --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT" $options
 TASK
