@@ -108,6 +108,7 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
       sweep(context, bend, inverse_h2, s);
     if (bend) solve_bend_across(context, s.bend, inverse_h2, p);
     solve_stretch_across(context, s.stretch, inverse_h2, p);
+    solve_threads(s.threads, p.point);
   }
   solve_coarse(context, s.coarse, p);
   if (s.options.self_collision && !(plan.limits & kNoSelfContact))

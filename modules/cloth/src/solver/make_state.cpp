@@ -70,10 +70,22 @@ std::vector<Vec3> reported_positions(const geometry::TriMesh& garment, const geo
   return out;
 }
 
+// The garment's edges and its threads: along both, cloth holds together and layers do not push each other.
+Topology with_threads(Topology topology, std::span<const Thread> threads) {
+  for (const Thread& t : threads)
+    topology.edges.push_back({std::min(t.a, t.b), std::max(t.a, t.b), 0.0, false});
+  const auto ends = [](const Edge& e) { return std::pair(e.a, e.b); };
+  std::ranges::stable_sort(topology.edges, {}, ends);
+  const auto repeated = std::ranges::unique(topology.edges, {}, ends);
+  topology.edges.erase(repeated.begin(), repeated.end());
+  return topology;
+}
+
 }  // namespace
 
 engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<const Index> pinned,
-                                 const Fabric& fabric, const SolverOptions& options) {
+                                 const Fabric& fabric, const SolverOptions& options,
+                                 std::span<const Tack> tacks) {
   if (auto good = check(fabric); !good) return good.error();
   if (auto good = check(options); !good) return good.error();
   auto welded = weld(garment);
@@ -89,10 +101,12 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   const Topology topology = find_topology(mesh);
   s.stretch = make_stretch(mesh, topology, fabric, s.particles);
   s.bend = make_bend(mesh, topology, fabric, s.particles);
-  s.coarse = make_coarse(mesh, topology, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
+  s.threads = make_threads(tacks, welded->particle_of_vertex, mesh.positions);
+  const Topology together = with_threads(topology, s.threads);
+  s.coarse = make_coarse(mesh, together, welded->median_edge_m, kCoarseSlack * fabric.max_stretch);
   update_weights({}, s.particles, s.coarse);  // later whenever a particle falls asleep or wakes
   s.air = make_air(mesh);
-  s.ring = make_ring(mesh, topology);
+  s.ring = make_ring(mesh, together);
   s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
   s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count(),

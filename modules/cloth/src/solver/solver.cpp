@@ -17,8 +17,9 @@ Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
 engine::Result<Solver> Solver::make(const geometry::TriMesh& garment, std::span<const geometry::Index> pinned,
-                                    const Fabric& fabric, const SolverOptions& options) {
-  auto state = make_state(garment, pinned, fabric, options);
+                                    const Fabric& fabric, const SolverOptions& options,
+                                    std::span<const Tack> tacks) {
+  auto state = make_state(garment, pinned, fabric, options, tacks);
   if (!state) return state.error();
   return Solver(std::make_unique<Impl>(Impl{std::move(*state)}));
 }

@@ -11,6 +11,7 @@
 #include "constraints/bend.hpp"
 #include "constraints/coarse.hpp"
 #include "constraints/stretch.hpp"
+#include "constraints/tacks.hpp"
 #include "contact/body_contact.hpp"
 #include "contact/self_contact.hpp"
 #include "motion/aerodynamics.hpp"
@@ -28,6 +29,7 @@ struct State {
   Pins pins;
   StretchConstraints stretch;
   BendConstraints bend;
+  std::vector<Thread> threads;
   std::vector<CoarseLevel> coarse;
   Air air;
   ContactState contacts;
@@ -49,7 +51,8 @@ struct State {
 
 /// Welds, orders the particles in space and builds all constraints.
 engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<const Index> pinned,
-                                 const Fabric& fabric, const SolverOptions& options);
+                                 const Fabric& fabric, const SolverOptions& options,
+                                 std::span<const Tack> tacks = {});
 
 /// Advances by one frame.
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,

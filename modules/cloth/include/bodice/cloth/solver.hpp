@@ -46,6 +46,12 @@ struct SolverOptions {
   double budget_us = 0.0;
 };
 
+/// Two vertices of a garment that stay as near to each other as they are at first: pieces that are sewn
+/// together, or a button on what it lies on.
+struct Tack {
+  geometry::Index a = 0, b = 0;
+};
+
 /// What a frame left out or bounded, as bits of FrameReport::limits.
 enum FrameLimit : std::uint32_t {
   kTimeCut = 1u << 0,  ///< dt_s was longer than kMaxSubsteps substeps may be, and the rest was dropped; or it
@@ -107,10 +113,11 @@ class Solver {
   /// dropped
   ///          and reported as warnings.
   /// pinned   vertices of `garment` that the host moves with move_pins().
+  /// tacks    those that name a vertex that does not exist or was dropped are left out.
   /// Fails with kInvalidArgument (fabric or options out of range) or kUnusableGeometry (no usable triangle).
   static engine::Result<Solver> make(const geometry::TriMesh& garment,
                                      std::span<const geometry::Index> pinned, const Fabric& fabric,
-                                     const SolverOptions& options);
+                                     const SolverOptions& options, std::span<const Tack> tacks = {});
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
