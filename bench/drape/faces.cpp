@@ -5,11 +5,13 @@
 #include <numeric>
 #include <vector>
 
+#include <bodice/proxy/proxy_file.hpp>
 #include <bodice/tryon/judge_frame.hpp>
 #include <bodice/tryon/rigged_body.hpp>
 #include <bodice/tryon/wearing.hpp>
 
 #include <bench_support/or_exit.hpp>
+#include "causes.hpp"
 #include "sheet.hpp"
 
 namespace bench {
@@ -20,6 +22,7 @@ using geometry::Vec3;
 
 constexpr double kVisible_m = 0.5e-3;
 constexpr std::size_t kFirstFrames = 10;  // a garment may take so long to come out of a fold
+constexpr std::size_t kStep = 6;          // frames from one to the next that causes are found in
 constexpr double kTight_m = 0.007;        // a garment starts as tight where its median gap is less
 // Bars, in the units of the columns; the fold of a knee or armpit that a garment starts in has its own.
 constexpr double kStanding_cm2 = 0.0, kInFold_cm2 = 2.0, kWalking_cm2 = 5.0, kGapMedian_mm = 2.5,
@@ -53,30 +56,31 @@ Gaps gaps_of(const geometry::MeshDistance& skin, const std::vector<Vec3>& at,
 struct Row {
   double start_cm2 = 0.0, end_cm2 = 0.0;  ///< cloth more than half a millimeter inside the skin
   double worst_cm2 = 0.0;                 ///< largest of the frames after the first ten; walking only
+  double overlapped_cm2 = 0.0;  ///< besides, where the skin overlaps itself: at the end or in that frame
   Gaps start, end;
   tryon::DrapeReport report;
 };
 
-double inside_cm2(const engine::Context& context, const geometry::MeshDistance& skin,
-                  const std::vector<Vec3>& at, const geometry::TriMesh& garment) {
-  return 1e4 * tryon::cloth_area_inside_m2(context, skin, at, garment.triangles, kVisible_m);
+tryon::ClothInside inside(const engine::Context& context, const geometry::MeshDistance& skin,
+                          const std::vector<Vec3>& at, const geometry::TriMesh& garment) {
+  return tryon::cloth_inside(context, skin, at, garment.triangles, kVisible_m);
 }
 
 void print_head() {
-  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %15s %15s %8s %8s\n", "", "", "parti-", "ms", "thick", "cm2",
-              "cm2", "gap mm at start", "gap mm at end", "stretch", "stretch");
-  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %15s %15s %8s %8s\n", "garment", "body", "cles", "median", "mm",
-              "start", "inside", "median    95 %", "median    95 %", "p95 %", "max %");
+  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s\n", "", "", "parti-", "ms", "thick",
+              "cm2", "cm2", "cm2", "gap mm at start", "gap mm at end", "stretch", "stretch");
+  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s\n", "garment", "body", "cles", "median",
+              "mm", "start", "inside", "overlap", "median    95 %", "median    95 %", "p95 %", "max %");
 }
 
 void print_row(const std::string& name, const char* body, const Row& row, double bar_cm2) {
   const bool walks = body[0] == 'w';
   const double inside = walks ? row.worst_cm2 : row.end_cm2;
   const tryon::DrapeReport& r = row.report;
-  std::printf("%-36s %-5s %6zu %6.2f %8.2f %8.2f %8.2f %7.1f %7.1f %7.1f %7.1f %8.2f %8.1f", name.c_str(),
-              body, r.particles, r.frame_ms_median, 1e3 * r.thickness_m, row.start_cm2, inside,
-              1e3 * row.start.median, 1e3 * row.start.p95, 1e3 * row.end.median, 1e3 * row.end.p95,
-              1e2 * r.stretch_p95, 1e2 * r.stretch_max);
+  std::printf("%-36s %-5s %6zu %6.2f %8.2f %8.2f %8.2f %8.2f %7.1f %7.1f %7.1f %7.1f %8.2f %8.1f",
+              name.c_str(), body, r.particles, r.frame_ms_median, 1e3 * r.thickness_m, row.start_cm2, inside,
+              row.overlapped_cm2, 1e3 * row.start.median, 1e3 * row.start.p95, 1e3 * row.end.median,
+              1e3 * row.end.p95, 1e2 * r.stretch_p95, 1e2 * r.stretch_max);
   if (inside > bar_cm2) std::printf("  MISSED inside");
   const bool tight = !walks && row.start.median < kTight_m;
   if (tight && (1e3 * row.end.median > kGapMedian_mm || 1e3 * row.end.p95 > kGap95_mm))
@@ -85,9 +89,21 @@ void print_row(const std::string& name, const char* body, const Row& row, double
   std::fflush(stdout);
 }
 
+/// Moves the vertices of a garment toward the skin, to a millimeter off it at most.
+void tighten(const geometry::MeshDistance& skin, double by_m, geometry::TriMesh& garment) {
+  constexpr double kLeast_m = 1e-3;
+  if (!(by_m > 0.0)) return;
+  for (Vec3& p : garment.positions) {
+    const geometry::SurfacePoint below = skin.closest_point(p);
+    const double gap_m = below.signed_distance, step_m = std::clamp(gap_m - kLeast_m, 0.0, by_m);
+    if (gap_m > 0.0) p += step_m / gap_m * (below.point - p);
+  }
+}
+
 Row stand(const engine::Context& context, const FacesOptions& o, const Outfit& outfit, Sheet& sheet) {
   Body body = load_body(context, outfit.body, proxy::Tier::kRelief, o.cache);
-  const tryon::WornGarment garment = load_garment(context, outfit, body);
+  tryon::WornGarment garment = load_garment(context, outfit, body);
+  tighten(*body.skin.distance, o.tighter_m, garment.mesh);
   tryon::PreparedBody prepared{std::move(body.skin), {.proxy = std::move(body.proxy)}};
   const geometry::MeshDistance& skin = *prepared.skin.distance;
   tryon::DrapeOptions settings = o.drape;
@@ -96,11 +112,27 @@ Row stand(const engine::Context& context, const FacesOptions& o, const Outfit& o
   const std::vector<Vec3>& end = draped.garments.front().frames.back();
   sheet.add(prepared.skin.input.skin.positions, prepared.skin.input.skin.triangles, garment, end);
   const geometry::TriMesh& mesh = garment.mesh;
-  return {.start_cm2 = inside_cm2(context, skin, mesh.positions, mesh),
-          .end_cm2 = inside_cm2(context, skin, end, mesh),
+  const tryon::ClothInside last = inside(context, skin, end, mesh);
+  return {.start_cm2 = 1e4 * inside(context, skin, mesh.positions, mesh).shown_m2,
+          .end_cm2 = 1e4 * last.shown_m2,
+          .overlapped_cm2 = 1e4 * last.overlapped_m2,
           .start = gaps_of(skin, mesh.positions, mesh.triangles),
           .end = gaps_of(skin, end, mesh.triangles),
           .report = draped.report};
+}
+
+/// The body with a proxy that follows its rig; the proxy is kept from run to run where there is a cache.
+tryon::PreparedBody bound_body(const engine::Context& context, tryon::SegmentedSkin skin,
+                               const std::string& name, const std::filesystem::path& cache) {
+  const std::filesystem::path kept = cache / (name + "_bound.bodice");
+  if (!cache.empty() && std::filesystem::exists(kept))
+    return {std::move(skin), {.proxy = or_exit(proxy::load(kept))}};
+  tryon::PreparedBody body = or_exit(tryon::fit_bound_proxy(context, std::move(skin), {}));
+  if (!cache.empty()) {
+    std::filesystem::create_directories(cache);
+    or_exit(proxy::save(body.fit.proxy, kept));
+  }
+  return body;
 }
 
 Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& outfit, Sheet& sheet) {
@@ -109,9 +141,10 @@ Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& ou
   std::vector<engine::Warning> warnings;
   const tryon::BodyMotion motion =
       or_exit(tryon::find_motion(context, skin, {.motion = "walk", .clip = {}}, warnings));
-  const tryon::PreparedBody body = or_exit(tryon::fit_bound_proxy(context, std::move(skin), {}));
+  const tryon::PreparedBody body = bound_body(context, std::move(skin), outfit.body.stem().string(), o.cache);
   io::ImportedMesh mesh = or_exit(io::import_garment(context, outfit.garment, body.skin.input.frame));
   tryon::WornGarment garment{.name = outfit.name, .mesh = std::move(mesh.skin)};
+  tighten(*body.skin.distance, o.tighter_m, garment.mesh);
   garment.held = tryon::held_vertices(garment.mesh, body.skin);
   tryon::DrapeOptions settings = o.drape;
   settings.motion = &motion;
@@ -121,13 +154,26 @@ Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& ou
   const std::vector<Vec3>& end = draped.garments.front().frames.back();
   sheet.add(draped.body_frames.back(), body.skin.input.skin.triangles, garment, end);
   const geometry::MeshDistance posed(context, {draped.body_frames.back(), body.skin.input.skin.triangles});
-  Row row{.start_cm2 = 1e4 * draped.report.kept.front().over_half_mm_m2,
-          .end_cm2 = 1e4 * draped.report.kept.back().over_half_mm_m2,
+  Row row{.start_cm2 = 1e4 * draped.report.kept.front().inside.shown_m2,
+          .end_cm2 = 1e4 * draped.report.kept.back().inside.shown_m2,
           .start = gaps_of(*body.skin.distance, garment.mesh.positions, garment.mesh.triangles),
           .end = gaps_of(posed, end, garment.mesh.triangles),
           .report = draped.report};
-  for (std::size_t k = kFirstFrames; k < draped.report.kept.size(); ++k)
-    row.worst_cm2 = std::max(row.worst_cm2, 1e4 * draped.report.kept[k].over_half_mm_m2);
+  const auto settled = draped.report.kept.begin() + kFirstFrames;
+  const auto worst = std::max_element(settled, draped.report.kept.end(), [](const auto& a, const auto& b) {
+    return a.inside.shown_m2 < b.inside.shown_m2;
+  });
+  row.worst_cm2 = 1e4 * worst->inside.shown_m2, row.overlapped_cm2 = 1e4 * worst->inside.overlapped_m2;
+  if (o.causes) {
+    const auto frame = static_cast<std::size_t>(worst - draped.report.kept.begin());
+    const Judged judged{body, motion, garment.mesh, draped};
+    Causes mean;
+    const std::size_t kept = draped.report.kept.size(), count = (kept - kFirstFrames + kStep - 1) / kStep;
+    for (std::size_t k = kFirstFrames; k < kept; k += kStep)
+      mean.add(find_causes(context, judged, k), 1.0 / static_cast<double>(count));
+    print_causes(find_causes(context, judged, frame), "frame " + std::to_string(frame));
+    print_causes(mean, "mean");
+  }
   return row;
 }
 
@@ -138,6 +184,7 @@ bool judge_faces(const engine::Context& context, const FacesOptions& options) {
   print_head();
   const std::vector<Outfit> outfits = find_outfits(options.data, options.only, false);
   for (const Outfit& outfit : outfits) {
+    if (options.walking_only) break;
     const Row row = stand(context, options, outfit, sheet);
     print_row(outfit.name, "stand", row, row.start_cm2 > 0.0 ? kInFold_cm2 : kStanding_cm2);
   }

@@ -87,8 +87,8 @@ struct Arguments {
   double seconds = 10.0;
   std::string out;
   bool repeat = false;
-  bool faces = false;
-  double certify_mm = 0.0;
+  bool faces = false, causes = false, walking_only = false;
+  double certify_mm = 0.0, tighter_mm = 0.0;
   bench::WearOptions wear = {.solver = bodice::tryon::DrapeOptions{}.solver};
 };
 
@@ -119,6 +119,11 @@ void add_options(CLI::App& app, Arguments& a) {
   auto* faces =
       app.add_flag("--faces", a.faces, "judges whole triangles, on a body that stands and one that walks")
           ->excludes(motion);
+  app.add_flag("--causes", a.causes, "why cloth lies inside the skin in the worst frame of a walk")
+      ->needs(faces);
+  app.add_option("--tighter-mm", a.tighter_mm, "garments are first moved so much nearer to the skin")
+      ->needs(faces);
+  app.add_flag("--walking", a.walking_only, "no body that stands")->needs(faces);
   app.add_option("--certify-mm", a.certify_mm,
                  "depth in the proxy that no point may exceed, proved each frame")
       ->needs(faces);
@@ -174,6 +179,8 @@ bool drape_in_motion(const Arguments& a, bool has_data) {
 bool judge_all_faces(const Arguments& a) {
   const auto executor = bodice::engine::make_tbb_executor(a.workers);
   bench::FacesOptions options{.data = a.data, .only = a.only, .cache = a.cache, .sheet = a.picture};
+  options.tighter_m = 1e-3 * a.tighter_mm;
+  options.causes = a.causes, options.walking_only = a.walking_only;
   options.drape.solver.substeps = a.substeps.front();
   options.drape.solver.iterations = a.wear.solver.iterations;
   options.drape.fabric = bodice::cloth::find_fabric(a.fabric).value();

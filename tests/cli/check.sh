@@ -130,14 +130,15 @@ rm p.json
 refused drape --motion ""
 refused drape --clip walk
 refused drape --motion walk --ramp -1
+refused drape --fit-map size
 expect 1 "a motion file that does not exist" "$bodice" drape --motion nowhere.bvh --tier solid -o none.glb
 prints "nowhere.bvh"
 absent none.glb
 expect 0 "a skirt on a body that walks" "$bodice" drape --vertices 3000 --tier solid --motion walk --frames 4 --keep 3 \
-  --substeps 4 -o walk.glb --report walk.json --contact-sheet walk_sheet.png -q
+  --substeps 4 -o walk.glb --report walk.json --contact-sheet walk_sheet.png --fit-map strain -q
 exists walk.glb
 exists walk_sheet.png
-for key in '"ramp_s"' '"kept"' '"proxy_error_mm"' '"over_half_mm_cm2"'; do
+for key in '"ramp_s"' '"kept"' '"proxy_error_mm"' '"over_half_mm_cm2"' '"overlapped_cm2"' '"fit_map"'; do
   grep -q "$key" walk.json || { echo "FAILED: no $key in the report"; failures=$((failures + 1)); }
 done
 for word in JOINTS_0 inverseBindMatrices '"cloth"'; do

@@ -277,3 +277,23 @@ TEST_CASE("the GLB's ellipsoids move with their proxy at the times of the garmen
   REQUIRE_FALSE(refused.ok());
   CHECK(refused.error().sentence().find("2 frames") != std::string::npos);
 }
+
+TEST_CASE("the colors of a garment are in the GLB in linear light, and its material is white") {
+  SceneFixture fixture;
+  io::GarmentTrack& track = fixture.scene.garments[0];
+  track.colors.assign(track.mesh.positions.size(), {1.0f, 0.5f, 0.0f});
+  const TempFolder folder;
+  REQUIRE(io::write_glb(fixture.scene, folder / "map.glb").ok());
+  const Glb glb = open(folder / "map.glb");
+  check_accessors(glb);
+  const json& cloth = primitive(glb, "cloth");
+  const std::vector<float> colors = floats(glb, cloth["attributes"]["COLOR_0"].get<std::size_t>());
+  REQUIRE(colors.size() == 3 * track.mesh.positions.size());
+  CHECK(colors[0] == 1.0f);
+  CHECK(double{colors[1]} == doctest::Approx(0.2140).epsilon(0.001));
+  CHECK(colors[2] == 0.0f);
+  const json& material = glb.document["materials"][cloth["material"].get<std::size_t>()];
+  CHECK(material["pbrMetallicRoughness"]["baseColorFactor"] == json({1.0, 1.0, 1.0, 1.0}));
+  track.colors.pop_back();
+  CHECK(!io::write_glb(fixture.scene, folder / "few.glb").ok());
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <bodice/tryon/judge_frame.hpp>
+#include <bodice_test/executors.hpp>
 #include <bodice_test/shapes.hpp>
 
 using namespace bodice;
@@ -21,6 +22,16 @@ collision::Collider ball_collider(std::initializer_list<Vec3> centers, double ra
   auto made = proxy::BodyProxy::make(data);
   REQUIRE(made.ok());
   return collision::Collider(*made);
+}
+
+/// Two balls of 0.2 m as one skin.
+geometry::TriMesh two_balls(const Vec3& left, const Vec3& right) {
+  geometry::TriMesh skin = bodice_test::icosphere(0.2, 5, left);
+  const auto first = static_cast<geometry::Index>(skin.positions.size());
+  const geometry::TriMesh other = bodice_test::icosphere(0.2, 5, right);
+  skin.positions.insert(skin.positions.end(), other.positions.begin(), other.positions.end());
+  for (const auto& t : other.triangles) skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  return skin;
 }
 
 }  // namespace
@@ -45,11 +56,7 @@ TEST_CASE("the error of a ball that is too large is the difference of the radii,
 
 TEST_CASE("skin that lies under another layer of the body counts for nothing") {
   const Vec3 left(0.0, 1.0, 0.0), right(0.25, 1.0, 0.0);
-  geometry::TriMesh skin = bodice_test::icosphere(0.2, 5, left);
-  const auto first = static_cast<geometry::Index>(skin.positions.size());
-  const geometry::TriMesh other = bodice_test::icosphere(0.2, 5, right);
-  skin.positions.insert(skin.positions.end(), other.positions.begin(), other.positions.end());
-  for (const auto& t : other.triangles) skin.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  const geometry::TriMesh skin = two_balls(left, right);
   const geometry::MeshDistance distance({}, skin);
   const auto exact = tryon::measure_proxy_error({}, ball_collider({left, right}, 0.2), skin, distance, 0.03);
   // The other ball covers a cap of 3/16 of each ball's area.
@@ -67,7 +74,28 @@ TEST_CASE("the area of cloth inside the skin is that of the disc where a sheet c
   const std::vector<geometry::Triangle> sheet = {{0, 1, 2}, {0, 2, 3}};
   // Deeper than 0.5 mm: inside the ball of 0.1995 m.
   const double radius2 = 0.1995 * 0.1995 - 0.19 * 0.19;
-  CHECK(tryon::cloth_area_inside_m2({}, distance, corners, sheet, 0.5e-3) ==
-        doctest::Approx(3.14159265 * radius2).epsilon(0.05));
-  CHECK(tryon::cloth_area_inside_m2({}, distance, corners, sheet, 0.02) == 0.0);
+  const tryon::ClothInside inside = tryon::cloth_inside({}, distance, corners, sheet, 0.5e-3);
+  CHECK(inside.shown_m2 == doctest::Approx(3.14159265 * radius2).epsilon(0.05));
+  CHECK(inside.overlapped_m2 == 0.0);
+  CHECK(tryon::cloth_inside({}, distance, corners, sheet, 0.02).shown_m2 == 0.0);
+}
+
+TEST_CASE("cloth where two balls overlap counts apart, with any number of workers") {
+  const geometry::TriMesh skin = two_balls({-0.125, 0.0, 0.0}, {0.125, 0.0, 0.0});
+  const geometry::MeshDistance distance({}, skin);
+  const auto executor = bodice_test::make_threads(3);
+  const auto cut_at = [&](double x, const engine::Context& context) {
+    const std::vector<Vec3> corners = {{x, -0.3, -0.3}, {x, 0.3, -0.3}, {x, 0.3, 0.3}, {x, -0.3, 0.3}};
+    const std::vector<geometry::Triangle> sheet = {{0, 1, 2}, {0, 2, 3}};
+    return tryon::cloth_inside(context, distance, corners, sheet, 0.5e-3);
+  };
+  const tryon::ClothInside between = cut_at(0.0, {}), beside = cut_at(-0.2, {});
+  CHECK(between.shown_m2 == 0.0);
+  CHECK(between.overlapped_m2 ==
+        doctest::Approx(3.14159265 * (0.1995 * 0.1995 - 0.125 * 0.125)).epsilon(0.05));
+  CHECK(beside.overlapped_m2 == 0.0);
+  CHECK(beside.shown_m2 == doctest::Approx(3.14159265 * (0.1995 * 0.1995 - 0.075 * 0.075)).epsilon(0.05));
+  const tryon::ClothInside many = cut_at(-0.05, {.executor = executor.get()}), one = cut_at(-0.05, {});
+  CHECK(many.shown_m2 == one.shown_m2);
+  CHECK(many.overlapped_m2 == one.overlapped_m2);
 }

@@ -141,7 +141,8 @@ TEST_CASE("report: it holds what is needed to repeat the run, and the garments")
   REQUIRE(garments[0]["ease"].size() == 1);  // one triangle lies on one part
   CHECK(garments[0]["ease"][0]["area_cm2"].get<double>() == doctest::Approx(100.0).epsilon(1e-3));
   garments[0].erase("ease");
-  CHECK(garments == nlohmann::json::parse(R"([{"name": "vest.obj", "vertices": 3, "held": 2}])"));
+  CHECK(garments ==
+        nlohmann::json::parse(R"([{"name": "vest.obj", "vertices": 3, "held": 2, "tacked": []}])"));
   CHECK(report["drape"]["fabric"] == "cotton");
   CHECK(report["drape"]["dt_s"] == 0.01);
   CHECK(report["drape"]["substeps"] == tryon::DrapeOptions{}.solver.substeps);

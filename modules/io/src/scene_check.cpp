@@ -43,6 +43,12 @@ engine::Result<void> check_track(const GarmentTrack& track) {
     if (frame.size() != track.mesh.positions.size() || !all_finite(frame))
       return invalid(name + " has a frame that is not finite or not of its " +
                      std::to_string(track.mesh.positions.size()) + " vertices.");
+  if (!track.colors.empty() && track.colors.size() != track.mesh.positions.size())
+    return invalid(name + " has " + std::to_string(track.colors.size()) + " colors for " +
+                   std::to_string(track.mesh.positions.size()) + " vertices.");
+  for (const auto& color : track.colors)
+    if (!std::ranges::all_of(color, [](float c) { return c >= 0.0f && c <= 1.0f; }))
+      return invalid(name + " has a color that is not in 0..1.");
   for (std::size_t i = 0; i < track.time_s.size(); ++i)
     if (!std::isfinite(track.time_s[i]) ||
         (i > 0 && takes_time(track) && !(track.time_s[i] > track.time_s[i - 1])))

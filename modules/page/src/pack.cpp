@@ -66,6 +66,14 @@ std::string packed_positions(std::span<const Vec3> points, const Cube& cube) {
   return packed(values);
 }
 
+std::string packed_colors(std::span<const std::array<float, 3>> colors) {
+  std::vector<std::uint8_t> values;
+  values.reserve(3 * colors.size());
+  for (const auto& color : colors)
+    for (const float c : color) values.push_back(static_cast<std::uint8_t>(std::lround(255.0f * c)));
+  return packed(values);
+}
+
 std::string packed_triangles(std::span<const geometry::Triangle> triangles) {
   return base64(std::as_bytes(triangles));
 }

@@ -1,6 +1,7 @@
 // Arrays as text in a page.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -25,6 +26,8 @@ struct Cube {
 };
 Cube cube_around(std::span<const geometry::Vec3> points, const Cube* with = nullptr);
 std::string packed_positions(std::span<const geometry::Vec3> points, const Cube& cube);
+/// A byte a channel.
+std::string packed_colors(std::span<const std::array<float, 3>> colors);
 std::string packed_triangles(std::span<const geometry::Triangle> triangles);
 
 /// A mesh with one vertex for each cell of a lattice, and the original vertex of each.

@@ -134,6 +134,7 @@ void add_frames(const io::Scene& scene, const std::vector<std::size_t>& shown, c
   for (const io::GarmentTrack& garment : scene.garments) {
     Json cloth = {{"name", garment.name}, {"triangles", packed_triangles(garment.mesh.triangles)}};
     for (const std::size_t f : shown) cloth["frames"].push_back(packed_positions(garment.frames[f], cube));
+    if (!garment.colors.empty()) cloth["colors"] = packed_colors(garment.colors);
     data["cloth"].push_back(std::move(cloth));
   }
   if (!scene.body_frames.empty())

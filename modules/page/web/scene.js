@@ -76,7 +76,8 @@ if (data.surface) {
 }
 (data.cloth || []).forEach((cloth, i) => {
   const triangles = new Uint32Array(bytes(cloth.triangles)), first = positions(cloth.frames[0]);
-  addMesh(cloth.name, frameOf(cloth, positions), triangles, flat(first.length / 3, [[.25, .45, .62], [.55, .4, .62], [.6, .52, .3]][i % 3]), true);
+  addMesh(cloth.name, frameOf(cloth, positions), triangles, cloth.colors ? Float32Array.from(new Uint8Array(bytes(cloth.colors)), c => c / 255)
+    : flat(first.length / 3, [[.25, .45, .62], [.55, .4, .62], [.6, .52, .3]][i % 3]), true);
 });
 let showLandmarks = false;
 

@@ -101,6 +101,19 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
       ->check(CLI::IsMember({"auto", "none"}))
       ->group("Garment")
       ->capture_default_str();
+  sub.add_option(
+         "--position", command.position,
+         "auto: garments in another unit, with another axis up or beside the body are put on it, with a "
+         "warning; as-is: they stay where their files have them")
+      ->check(CLI::IsMember({"auto", "as-is"}))
+      ->needs(garments)
+      ->group("Garment")
+      ->capture_default_str();
+  sub.add_option("--tack-mm", command.tack,
+                 "pieces of a garment this near to each other stay together: auto (6), off or millimeters")
+      ->check(CLI::IsMember({"auto", "off"}) | between(0.0, 100.0))
+      ->group("Garment")
+      ->capture_default_str();
   add_motion_options(sub, command);
   sub.add_option("-o,--output", command.output, "body, ellipsoids and moving cloth, .glb for any glTF viewer")
       ->check(not_empty())
@@ -108,6 +121,11 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
       ->capture_default_str();
   sub.add_option("--contact-sheet", command.contact_sheet, "write a PNG with a view of every kept frame")
       ->check(not_empty())
+      ->group("Output");
+  sub.add_option("--fit-map", command.fit_map,
+                 "color the garments by fit at the end, red tight, blue loose: ease, the gap to the skin, or "
+                 "strain")
+      ->check(CLI::IsMember({"ease", "strain"}))
       ->group("Output");
   sub.add_flag("--no-picture", command.no_picture, "write no PNG beside the output")
       ->excludes("--picture")

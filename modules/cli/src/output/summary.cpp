@@ -58,6 +58,16 @@ void add_drape(std::string& text, const tryon::DrapeReport& d) {
            d.penetration_over_1mm, d.penetration_max_m * 1e3, d.worst_frame, d.pierced_share * 100.0);
   add_line(text, "cloth       stretch %.1f %% at 95 %%, median speed %.1f mm/s, %zu inside the proxy%s",
            d.stretch_p95 * 100.0, d.median_speed_m_s * 1e3, d.inside_union, d.finite ? "" : ", NOT FINITE");
+  for (const tryon::DrapedGarment& garment : d.garments)
+    for (const tryon::TackedPiece& p : garment.tacked)
+      add_line(text, "tacked      %s: piece %zu to piece %zu at %zu points", garment.name.c_str(), p.piece,
+               p.onto, p.points);
+  if (d.fit_map && d.fit_map->map == tryon::FitMap::kEase)
+    add_line(text, "fit map     ease: red %.0f mm off the skin, blue %.0f mm or more", 1e3 * d.fit_map->tight,
+             1e3 * d.fit_map->loose);
+  if (d.fit_map && d.fit_map->map == tryon::FitMap::kStrain)
+    add_line(text, "fit map     strain: blue %.0f %%, red %.0f %% or more", 1e2 * d.fit_map->loose,
+             1e2 * d.fit_map->tight);
 }
 
 void add_warnings(std::string& text, std::span<const engine::Warning> warnings) {

@@ -1,9 +1,11 @@
 #include "run/drape_steps.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
 
+#include <bodice/tryon/place_garment.hpp>
 #include <bodice/tryon/wearing.hpp>
 
 #include "options/garment_kinds.hpp"
@@ -18,6 +20,12 @@ engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const
     auto garment = io::import_garment(run.context(), file, skin.input.frame);
     if (!garment) return std::move(garment).error();
     skin.warnings.insert(skin.warnings.end(), garment->warnings.begin(), garment->warnings.end());
+    if (command.position == "auto") {
+      auto placed = tryon::place_garment(
+          run.context(), {*skin.distance, skin.input.skin, skin.anatomy.stature_m}, file, garment->skin);
+      if (!placed) return std::move(placed).error();
+      if (*placed) skin.warnings.push_back(**placed);
+    }
     worn.push_back({.name = file, .mesh = std::move(garment->skin)});
   }
   return worn;
@@ -70,6 +78,14 @@ int frames_of(const rig::Clip& clip, double dt_s) {
   return dt_s > 0.0 ? std::max(1, static_cast<int>(std::ceil(clip.duration_s / dt_s - 1e-6))) : 1;
 }
 
+/// The distance of --tack-mm, which is checked already.
+double tack_m(const std::string& text) {
+  double mm = 1e3 * tryon::kTackWithin_m;
+  if (text == "off") return 0.0;
+  if (text != "auto") std::from_chars(text.data(), text.data() + text.size(), mm);
+  return 1e-3 * mm;
+}
+
 engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, const geometry::Frame& frame,
                                                   const tryon::BodyMotion* motion) {
   tryon::DrapeOptions options = command.drape;
@@ -80,6 +96,9 @@ engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, c
   if (!fabric) return std::move(fabric).error();
   options.fabric = std::move(fabric).value();
   options.solver.seed = command.common.seed;
+  if (!command.fit_map.empty())
+    options.fit_map = command.fit_map == "ease" ? tryon::FitMap::kEase : tryon::FitMap::kStrain;
+  options.tack_m = tack_m(command.tack);
   if (command.thickness_mm) options.thickness_m = *command.thickness_mm * 1e-3;
   if (!command.wind_m_s.empty())
     options.solver.environment.wind_m_s =

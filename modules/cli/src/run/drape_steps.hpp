@@ -15,12 +15,13 @@ namespace bodice::cli {
 struct DrapeCommand {
   CommonOptions common;
   std::vector<std::string> garments;
-  std::string made = "skirt", output = "drape.glb", hold = "auto", fabric = "cotton";
+  std::string made = "skirt", output = "drape.glb", hold = "auto", position = "auto", tack = "auto",
+              fabric = "cotton";
   std::vector<double> wind_m_s;
   std::optional<double> thickness_mm;
   std::optional<int> frames;
   bool no_picture = false;
-  std::string contact_sheet;
+  std::string contact_sheet, fit_map;
   std::string thumbnail;  ///< a small picture of the end, for lists of results; no option gives it
   int sheet_columns = 8;
   tryon::MotionChoice motion;

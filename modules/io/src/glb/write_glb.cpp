@@ -187,10 +187,16 @@ class SceneWriter {
   void add_garment(const GarmentTrack& track, std::size_t k) {
     const std::vector<Vec3f> positions = to_file(track.mesh.positions), normals = normals_of(track.mesh);
     const std::array<float, 3> color = garment_color(k);
-    Json primitive = {
-        {"attributes", {{"POSITION", glb_.add_positions(positions)}, {"NORMAL", glb_.add_vectors(normals)}}},
-        {"indices", glb_.add_triangles(track.mesh.triangles)},
-        {"material", add_material(track.name.c_str(), to_linear(std::span(color)), 1.0f, true)}};
+    Json attributes = {{"POSITION", glb_.add_positions(positions)}, {"NORMAL", glb_.add_vectors(normals)}};
+    if (!track.colors.empty()) {
+      std::vector<Vec3f> colors;
+      for (const auto& srgb : track.colors) colors.push_back(to_linear(std::span(srgb)));
+      attributes["COLOR_0"] = glb_.add_vectors(colors);
+    }
+    const Vec3f base = track.colors.empty() ? to_linear(std::span(color)) : Vec3f(Vec3f::Ones());
+    Json primitive = {{"attributes", std::move(attributes)},
+                      {"indices", glb_.add_triangles(track.mesh.triangles)},
+                      {"material", add_material(track.name.c_str(), base, 1.0f, true)}};
     for (const auto& frame : track.frames)
       primitive["targets"].push_back(add_target(track.mesh.triangles, frame, positions, normals));
     Json mesh = {{"name", track.name}, {"primitives", {primitive}}};

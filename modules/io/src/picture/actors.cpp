@@ -67,6 +67,8 @@ void add_garments(const Scene& scene, std::size_t frame, std::vector<Actor>& act
     const std::array<float, 3> color = garment_color(k);
     actors.push_back(
         make_actor({track.frames[frame], track.mesh.triangles}, to_linear(std::span(color)), true));
+    for (std::size_t v = 0; v < track.colors.size(); ++v)
+      actors.back().colors[v] = to_linear(std::span(track.colors[v]));
   }
 }
 

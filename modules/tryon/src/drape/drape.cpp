@@ -12,26 +12,17 @@
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/tryon/penetration.hpp>
 
+#include "drape/drape_report.hpp"
 #include "drape/recorder.hpp"
 #include "garment/garment_reach.hpp"
 #include "garment/misplaced_garments.hpp"
+#include "measure/fit_warnings.hpp"
 #include "motion/moving_body.hpp"
 
 namespace bodice::tryon {
 namespace {
 
 using geometry::Vec3;
-
-void summarize_times(std::vector<double> frame_ms, DrapeReport& report) {
-  if (frame_ms.empty()) return;
-  std::ranges::sort(frame_ms);
-  auto at = [&](double q) {
-    return frame_ms[static_cast<std::size_t>(q * static_cast<double>(frame_ms.size() - 1))];
-  };
-  report.frame_ms_median = at(0.5);
-  report.frame_ms_p99 = at(0.99);
-  report.frame_ms_max = frame_ms.back();
-}
 
 engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body) {
   const auto bad = [](std::string what, std::string remedy) {
@@ -43,6 +34,8 @@ engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body
     return bad(engine::message("kept_frames is ", options.kept_frames), "Give 2 or more.");
   if (!(options.dt_s >= 0.0 && std::isfinite(options.dt_s)))
     return bad(engine::message("dt_s is ", options.dt_s), "Give seconds, zero or more.");
+  if (!(options.tack_m >= 0.0 && std::isfinite(options.tack_m)))
+    return bad(engine::message("tack_m is ", options.tack_m), "Give meters, zero or more.");
   if (options.ramp_s && !(*options.ramp_s >= 0.0 && std::isfinite(*options.ramp_s)))
     return bad(engine::message("ramp_s is ", *options.ramp_s), "Give seconds, zero or more.");
   if (options.motion) return check(*options.motion, body.skin.input.skin.positions.size());
@@ -64,36 +57,6 @@ cloth::SolverOptions solver_options(const engine::Context& context, const DrapeO
                                                                collision::Collider(proxy));
   if (proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
   return solver;
-}
-
-/// The part of the report that is known before the first frame.
-DrapeReport describe(const std::vector<WornGarment>& garments, const DrapeOptions& options,
-                     const cloth::SolverOptions& solver, const cloth::Fabric& fabric) {
-  DrapeReport report;
-  report.frames = options.frames;
-  report.dt_s = options.dt_s;
-  report.thickness_m = solver.thickness_m;
-  report.substeps = solver.substeps;
-  report.fabric = fabric.name;
-  for (const WornGarment& garment : garments)
-    report.garments.push_back({garment.name, garment.mesh.positions.size(), garment.held.size()});
-  return report;
-}
-
-void add_frame(int frame, const Penetration& depth, DrapeReport& report) {
-  if (depth.deepest_m > report.penetration_max_m) {
-    report.penetration_max_m = depth.deepest_m;
-    report.worst_frame = frame;
-  }
-  report.penetration_of_frame_m.push_back(depth.deepest_m);
-  report.penetration_over_1mm = depth.over_1mm;
-  report.penetration_end_m = depth.deepest_m;
-}
-
-void add_cloth(const cloth::FrameReport& last, DrapeReport& report) {
-  report.stretch_p95 = last.stretch_p95;
-  report.stretch_max = last.stretch_max;
-  report.median_speed_m_s = last.median_speed_m_s;
 }
 
 /// The body that the cloth meets, of which tables beyond the garments' reach stay as at rest; and the whole
@@ -182,12 +145,35 @@ class Drape {
 
   std::span<const Vec3> positions() const { return positions_; }
 
-  /// Measures how each garment lies now.
-  void measure_garments(const std::vector<WornGarment>& garments, const PreparedBody& body) {
-    for (std::size_t g = 0; g < garments.size(); ++g)
-      result_.report.garments[g].ease = measure_ease(
-          context_, body_.skin(context_), body.skin.anatomy.part, body_.distance(context_), garments[g].mesh,
-          positions().subspan(all_.first_vertex[g], garments[g].mesh.positions.size()));
+  /// Measures how each garment lies now, and warns of what does not fit.
+  void measure_garments(const std::vector<WornGarment>& garments, const PreparedBody& body,
+                        const cloth::Fabric& fabric) {
+    for (std::size_t g = 0; g < garments.size(); ++g) {
+      const WornGarment& garment = garments[g];
+      const std::span<const Vec3> now =
+          positions().subspan(all_.first_vertex[g], garment.mesh.positions.size());
+      std::vector<PartEase>& ease = result_.report.garments[g].ease;
+      ease = measure_ease(context_, body_.skin(context_), body.skin.anatomy.part, body_.distance(context_),
+                          garment.mesh, now);
+      const std::vector<PartEase> start =
+          measure_ease(context_, body.skin.input.skin, body.skin.anatomy.part, *body.skin.distance,
+                       garment.mesh, garment.mesh.positions);
+      warn_of_fit({garment, start, ease, now, body.skin.anatomy.up, !body_.moves()}, fabric,
+                  result_.report.warnings);
+    }
+  }
+
+  /// Colors the tracks by how the garments lie now.
+  void color(const FitScale& scale, const std::vector<WornGarment>& garments,
+             std::vector<io::GarmentTrack>& tracks) {
+    for (std::size_t g = 0; g < garments.size(); ++g) {
+      const std::span<const Vec3> now =
+          positions().subspan(all_.first_vertex[g], garments[g].mesh.positions.size());
+      tracks[g].colors =
+          fit_colors(scale.map == FitMap::kEase ? ease_of_vertices(context_, body_.distance(context_), now)
+                                                : strain_of_vertices(garments[g].mesh, now),
+                     scale);
+    }
   }
 
  private:
@@ -214,12 +200,12 @@ class Drape {
     const geometry::MeshDistance& skin = body_.distance(context_);
     result_.body_frames.push_back(body_.skin(context_).positions);
     result_.proxy_frames.push_back(body_.poser()->posed().shapes);
-    result_.report.kept.push_back({.time_s = time_s,
-                                   .proxy_error = measure_proxy_error(
-                                       context_, judged_.collider(), body_.skin(context_), skin, kNearSkin_m),
-                                   .penetration_max_m = depth.deepest_m,
-                                   .over_half_mm_m2 = cloth_area_inside_m2(
-                                       context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
+    result_.report.kept.push_back(
+        {.time_s = time_s,
+         .proxy_error =
+             measure_proxy_error(context_, judged_.collider(), body_.skin(context_), skin, kNearSkin_m),
+         .penetration_max_m = depth.deepest_m,
+         .inside = cloth_inside(context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
   }
 
   static constexpr double kNearSkin_m = 0.03, kVisibleDepth_m = 0.5e-3;
@@ -243,17 +229,19 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
                                      const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                      const Progress& progress) {
   if (auto good = check(options, body); !good) return std::move(good).error();
-  const auto all = join(garments);
+  auto all = join(garments);
   if (!all) return all.error();
+  const auto tacked = add_tacks(context, garments, options.tack_m, *all);
   const auto fabric = fabric_or_cotton(options.fabric);
   if (!fabric) return fabric.error();
   const cloth::SolverOptions settings = solver_options(context, options, body, all->mesh);
-  auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, settings);
+  auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, settings, all->tacks);
   if (!solver) return std::move(solver).error();
 
   DrapeResult result;
   DrapeReport& report = result.report;
   report = describe(garments, options, settings, *fabric);
+  for (std::size_t g = 0; g < garments.size(); ++g) report.garments[g].tacked = tacked[g];
   report.particles = solver->particles();
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
@@ -266,7 +254,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   drape.hold(settings.thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
   if (auto done = drape.ramp(); !done) return std::move(done).error();
   if (auto done = drape.run(progress); !done) return std::move(done).error();
-  drape.measure_garments(garments, body);
+  drape.measure_garments(garments, body, *fabric);
   timer.reset();
 
   report.pierced_share =
@@ -277,6 +265,10 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.hash = solver->hash();
   report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();
+  if (options.fit_map) {
+    report.fit_map = fit_scale(*options.fit_map, *fabric);
+    drape.color(*report.fit_map, garments, result.garments);
+  }
   return result;
 }
 

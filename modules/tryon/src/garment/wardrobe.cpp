@@ -47,6 +47,19 @@ engine::Result<Wardrobe> join(const std::vector<WornGarment>& garments) {
   return all;
 }
 
+std::vector<std::vector<TackedPiece>> add_tacks(const engine::Context& context,
+                                                const std::vector<WornGarment>& garments, double within_m,
+                                                Wardrobe& wardrobe) {
+  std::vector<std::vector<TackedPiece>> pieces;
+  for (std::size_t g = 0; g < garments.size(); ++g) {
+    Tacking tacking = find_tacks(context, garments[g].mesh, within_m);
+    const auto first = static_cast<geometry::Index>(wardrobe.first_vertex[g]);
+    for (const cloth::Tack& tack : tacking.tacks) wardrobe.tacks.push_back({tack.a + first, tack.b + first});
+    pieces.push_back(std::move(tacking.pieces));
+  }
+  return pieces;
+}
+
 engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric) {
   if (fabric) return *fabric;
   return cloth::find_fabric("cotton");

@@ -1,10 +1,15 @@
 #include <bodice/tryon/ease.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <bodice/engine/parallel.hpp>
+
+#include "measure/triangle_strain.hpp"
 
 namespace bodice::tryon {
 namespace {
@@ -20,22 +25,50 @@ struct Middle {
   body::Part part = body::Part::kHead;
 };
 
-double longest_strain(const geometry::TriMesh& rest, std::span<const Vec3> now, const geometry::Triangle& t) {
-  double strain = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const geometry::Index a = t[k], b = t[(k + 1) % 3];
-    const double length_m = (rest.positions[a] - rest.positions[b]).norm();
-    if (length_m > 0.0) strain = std::max(strain, (now[a] - now[b]).norm() / length_m - 1.0);
-  }
-  return strain;
-}
-
 /// The part of the vertex of the nearest triangle that is closest to the point.
 body::Part part_at(const geometry::TriMesh& skin, std::span<const body::Part> part,
                    const geometry::SurfacePoint& at) {
   const geometry::Triangle& t = skin.triangles[at.triangle];
   return part[*std::ranges::min_element(
       t, {}, [&](geometry::Index v) { return (skin.positions[v] - at.point).squaredNorm(); })];
+}
+
+/// Moments of the skin of a part, or of both halves of a ring of the torso.
+struct Tube {
+  double area_m2 = 0.0;
+  Vec3 moment = Vec3::Zero();
+  geometry::Mat3 second = geometry::Mat3::Zero(), normals = geometry::Mat3::Zero();
+
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 middle = (a + b + c) / 3.0, normal = 0.5 * (b - a).cross(c - a);
+    const double own_m2 = normal.norm();
+    if (!(own_m2 > 0.0)) return;
+    area_m2 += own_m2, moment += own_m2 * middle, second += own_m2 * middle * middle.transpose();
+    normals += normal * normal.transpose() / own_m2;
+  }
+  /// Area over length. The normals of a tube are across its axis; along it a tube of length L has the
+  /// variance L^2 / 12.
+  double girth_m() const {
+    if (!(area_m2 > 0.0)) return 0.0;
+    const Vec3 axis = Eigen::SelfAdjointEigenSolver<geometry::Mat3>(normals).eigenvectors().col(0);
+    const double mean = axis.dot(moment) / area_m2;
+    const double variance = axis.dot(second * axis) / area_m2 - mean * mean;
+    return variance > 0.0 ? area_m2 / std::sqrt(12.0 * variance) : 0.0;
+  }
+};
+
+/// The mean girth of each part. The halves of a ring of the torso both have the ring's.
+std::array<double, body::kPartCount> girths_of(const geometry::TriMesh& skin,
+                                               std::span<const body::Part> part) {
+  const auto whole = [](body::Part p) { return body::is_torso(p) ? std::min(p, body::mirrored(p)) : p; };
+  std::array<Tube, body::kPartCount> tubes;
+  for (const geometry::Triangle& t : skin.triangles)
+    tubes[static_cast<std::size_t>(whole(part[t[0]]))].add(skin.positions[t[0]], skin.positions[t[1]],
+                                                           skin.positions[t[2]]);
+  std::array<double, body::kPartCount> girths{};
+  for (std::size_t p = 0; p < girths.size(); ++p)
+    girths[p] = tubes[static_cast<std::size_t>(whole(static_cast<body::Part>(p)))].girth_m();
+  return girths;
 }
 
 using Value = double Middle::*;
@@ -78,13 +111,16 @@ std::vector<PartEase> measure_ease(const engine::Context& context, const geometr
                     longest_strain(rest, now, corners), part_at(skin, part, below)};
     }
   });
+  const std::array<double, body::kPartCount> girths = girths_of(skin, part);
   std::vector<PartEase> eases;
   std::vector<Middle> on_part;
   for (int k = 0; k < body::kPartCount; ++k) {
     on_part.clear();
     for (const Middle& m : middles)
       if (m.area_m2 > 0.0 && m.part == static_cast<body::Part>(k)) on_part.push_back(m);
-    if (!on_part.empty()) eases.push_back(summarize(static_cast<body::Part>(k), on_part));
+    if (on_part.empty()) continue;
+    eases.push_back(summarize(static_cast<body::Part>(k), on_part));
+    eases.back().girth_m = girths[static_cast<std::size_t>(k)];
   }
   return eases;
 }

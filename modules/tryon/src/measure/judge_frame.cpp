@@ -83,19 +83,6 @@ Patch patch_of(std::span<const Vec3> positions, const geometry::Triangle& t) {
   return patch;
 }
 
-/// Share of the middles of a triangle's n x n smaller ones that are deeper than `depth_m`.
-double share_inside(const geometry::MeshDistance& skin, const Patch& patch, double depth_m) {
-  const int n = patch.splits();
-  int inside = 0;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n - i; ++j)
-      for (int down = 0; down < (j < n - i - 1 ? 2 : 1); ++down) {
-        const double u = (i + (1.0 + down) / 3.0) / n, v = (j + (1.0 + down) / 3.0) / n;
-        inside += skin.signed_distance((1.0 - u - v) * patch.a + u * patch.b + v * patch.c) < -depth_m;
-      }
-  return static_cast<double>(inside) / (static_cast<double>(n) * n);
-}
-
 }  // namespace
 
 ProxyError measure_proxy_error(const engine::Context& context, const collision::Collider& collider,
@@ -118,23 +105,42 @@ ProxyError measure_proxy_error(const engine::Context& context, const collision::
   return summarize(samples);
 }
 
-double cloth_area_inside_m2(const engine::Context& context, const geometry::MeshDistance& skin,
-                            std::span<const Vec3> positions, std::span<const geometry::Triangle> triangles,
-                            double depth_m) {
+void for_each_inside(const geometry::MeshDistance& skin, std::span<const Vec3> positions,
+                     const geometry::Triangle& triangle, double depth_m,
+                     const std::function<void(const InsidePoint&)>& visit) {
+  const Patch patch = patch_of(positions, triangle);
+  if (!(patch.area_m2 > 0.0) || !std::isfinite(patch.area_m2)) return;
+  // A distance changes by no more than the point moves, so that most triangles need one.
+  if (skin.signed_distance((patch.a + patch.b + patch.c) / 3.0) > patch.longest_m) return;
+  const int n = patch.splits();
+  const double area_m2 = patch.area_m2 / (static_cast<double>(n) * n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n - i; ++j)
+      for (int down = 0; down < (j < n - i - 1 ? 2 : 1); ++down) {
+        const double u = (i + (1.0 + down) / 3.0) / n, v = (j + (1.0 + down) / 3.0) / n;
+        const Vec3 at = (1.0 - u - v) * patch.a + u * patch.b + v * patch.c;
+        const geometry::SurfacePoint nearest = skin.closest_point(at);
+        if (nearest.signed_distance < -depth_m)
+          visit({at, area_m2, -nearest.signed_distance, is_overlapped(skin, at, nearest)});
+      }
+}
+
+ClothInside cloth_inside(const engine::Context& context, const geometry::MeshDistance& skin,
+                         std::span<const Vec3> positions, std::span<const geometry::Triangle> triangles,
+                         double depth_m) {
   return engine::ordered_reduce(
-      context, triangles.size(), kJudgeGrain, 0.0,
+      context, triangles.size(), kJudgeGrain, ClothInside{},
       [&](std::size_t begin, std::size_t end) {
-        double inside_m2 = 0.0;
-        for (std::size_t t = begin; t < end; ++t) {
-          const Patch patch = patch_of(positions, triangles[t]);
-          if (!(patch.area_m2 > 0.0) || !std::isfinite(patch.area_m2)) continue;
-          // A distance changes by no more than the point moves, so that most triangles need one.
-          if (skin.signed_distance((patch.a + patch.b + patch.c) / 3.0) > patch.longest_m) continue;
-          inside_m2 += patch.area_m2 * share_inside(skin, patch, depth_m);
-        }
-        return inside_m2;
+        ClothInside sum;
+        for (std::size_t t = begin; t < end; ++t)
+          for_each_inside(skin, positions, triangles[t], depth_m, [&](const InsidePoint& point) {
+            (point.is_overlapped ? sum.overlapped_m2 : sum.shown_m2) += point.area_m2;
+          });
+        return sum;
       },
-      [](double a, double b) { return a + b; });
+      [](const ClothInside& a, const ClothInside& b) {
+        return ClothInside{a.shown_m2 + b.shown_m2, a.overlapped_m2 + b.overlapped_m2};
+      });
 }
 
 }  // namespace bodice::tryon

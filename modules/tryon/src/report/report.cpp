@@ -82,17 +82,34 @@ Json ease_json(std::span<const PartEase> parts) {
   for (const PartEase& p : parts)
     list.push_back({{"part", body::name(p.part)},
                     {"area_cm2", 1e4 * p.area_m2},
+                    {"girth_mm", mm(p.girth_m)},
                     {"gap_mm", {{"median", mm(p.gap_median_m)}, {"p95", mm(p.gap_p95_m)}}},
                     {"strain_percent", {{"mean", 100.0 * p.strain_mean}, {"p95", 100.0 * p.strain_p95}}}});
+  return list;
+}
+
+Json tacked_json(std::span<const TackedPiece> pieces) {
+  Json list = Json::array();
+  for (const TackedPiece& p : pieces)
+    list.push_back({{"piece", p.piece}, {"onto", p.onto}, {"points", p.points}});
   return list;
 }
 
 Json garments_json(std::span<const DrapedGarment> garments) {
   Json list = Json::array();
   for (const DrapedGarment& g : garments)
-    list.push_back(
-        {{"name", g.name}, {"vertices", g.vertices}, {"held", g.held}, {"ease", ease_json(g.ease)}});
+    list.push_back({{"name", g.name},
+                    {"vertices", g.vertices},
+                    {"held", g.held},
+                    {"tacked", tacked_json(g.tacked)},
+                    {"ease", ease_json(g.ease)}});
   return list;
+}
+
+Json fit_map_json(const FitScale& scale) {
+  if (scale.map == FitMap::kEase)
+    return {{"of", "ease"}, {"blue_mm", mm(scale.loose)}, {"red_mm", mm(scale.tight)}};
+  return {{"of", "strain"}, {"blue_percent", 1e2 * scale.loose}, {"red_percent", 1e2 * scale.tight}};
 }
 
 Json kept_json(std::span<const KeptFrame> frames) {
@@ -103,7 +120,9 @@ Json kept_json(std::span<const KeptFrame> frames) {
                     {"missed_percent", 100.0 * f.proxy_error.missed_share},
                     {"false_percent", 100.0 * f.proxy_error.false_share},
                     {"penetration",
-                     {{"max_mm", mm(f.penetration_max_m)}, {"over_half_mm_cm2", 1e4 * f.over_half_mm_m2}}}});
+                     {{"max_mm", mm(f.penetration_max_m)},
+                      {"over_half_mm_cm2", 1e4 * f.inside.shown_m2},
+                      {"overlapped_cm2", 1e4 * f.inside.overlapped_m2}}}});
   return list;
 }
 
@@ -159,6 +178,7 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
                  {"warnings", warnings},
                  {"stages", stages}};
   if (drape) report["drape"] = drape_json(*drape);
+  if (drape && drape->fit_map) report["drape"]["fit_map"] = fit_map_json(*drape->fit_map);
   if (drape && !drape->kept.empty()) {
     report["drape"]["ramp_s"] = drape->ramp_s;
     report["drape"]["kept"] = kept_json(drape->kept);

@@ -1,6 +1,7 @@
 // A scene for output as GLB or picture: the body by part, its ellipsoids, garments over time.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -23,6 +24,8 @@ struct GarmentTrack {
   geometry::TriMesh mesh;                           ///< topology and first frame, meters, y up
   std::vector<std::vector<geometry::Vec3>> frames;  ///< kept frames, #V each
   std::vector<double> time_s;                       ///< time of each kept frame: increasing, or all equal
+  /// Colors of a map over the garment, sRGB 0..1, #V; empty: the garment has one color.
+  std::vector<std::array<float, 3>> colors;
 };
 
 /// What an output shows. It refers to data that must outlive it; all members are optional.

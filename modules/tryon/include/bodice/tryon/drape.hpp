@@ -8,6 +8,7 @@
 #include <bodice/cloth/solver.hpp>
 #include <bodice/io/scene.hpp>
 #include <bodice/tryon/ease.hpp>
+#include <bodice/tryon/fit_map.hpp>
 #include <bodice/tryon/judge_frame.hpp>
 #include <bodice/tryon/motion.hpp>
 #include <bodice/tryon/prepare.hpp>
@@ -30,13 +31,17 @@ struct DrapeOptions {
   const BodyMotion* motion = nullptr;
   std::optional<double> ramp_s;  ///< zero or more; absent: suggested_ramp_s()
   bool loop = false;             ///< after its end the clip starts over; else its last frame holds
+  /// Pieces of a garment that lie this near to each other at the start stay together; 0: none do.
+  double tack_m = kTackWithin_m;
+  std::optional<FitMap> fit_map;  ///< colors the garments by how they fit at the last frame
 };
 
 /// What a report lists of each garment.
 struct DrapedGarment {
   std::string name;
   std::size_t vertices = 0, held = 0;
-  std::vector<PartEase> ease;  ///< how it lies at the end, by part of the body
+  std::vector<PartEase> ease;       ///< how it lies at the end, by part of the body
+  std::vector<TackedPiece> tacked;  ///< pieces that threads hold together
 };
 
 /// One kept frame of a body that moves, judged by the posed skin.
@@ -44,7 +49,7 @@ struct KeptFrame {
   double time_s = 0.0;             ///< of the clip
   ProxyError proxy_error;          ///< within 30 mm of the skin
   double penetration_max_m = 0.0;  ///< deepest particle
-  double over_half_mm_m2 = 0.0;    ///< area of cloth more than half a millimeter inside the skin
+  ClothInside inside;              ///< area of cloth more than half a millimeter inside the skin
 };
 
 /// The numbers of a drape. Penetration is measured by the exact signed distance to the skin, never to the
@@ -68,7 +73,8 @@ struct DrapeReport {
   double ramp_s = 0.0;                          ///< from the bind pose to the clip's first frame
   std::vector<KeptFrame> kept;                  ///< of a body that moves
   std::vector<DrapedGarment> garments;
-  std::string fabric;  ///< name of the fabric; dt_s and substeps are those of the run
+  std::optional<FitScale> fit_map;  ///< of the garments' colors, with the option
+  std::string fabric;               ///< name of the fabric; dt_s and substeps are those of the run
   double dt_s = 0.0;
   int substeps = 0;
   std::vector<engine::StageTime> stages;  ///< "drape"

@@ -18,6 +18,7 @@ struct PartEase {
   double gap_median_m = 0.0, gap_p95_m = 0.0;  ///< signed distance from the cloth to the skin
   double strain_mean = 0.0,
          strain_p95 = 0.0;  ///< elongation of the most stretched edge of a triangle, zero or more
+  double girth_m = 0.0;     ///< mean girth of the part: its area over its length
 };
 
 /// Measures a garment by the middles of its triangles. `rest` is the garment as it was made, `now` its

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 
 #include <bodice/collision/collider.hpp>
@@ -30,10 +31,32 @@ ProxyError measure_proxy_error(const engine::Context& context, const collision::
                                const geometry::TriMesh& skin, const geometry::MeshDistance& distance,
                                double within_m);
 
-/// Area of the cloth that lies more than `depth_m` inside the skin, square meters: what a viewer sees as
-/// spots of skin. Triangles are sampled every 4 mm. Cost: a signed distance a sample near the skin.
-double cloth_area_inside_m2(const engine::Context& context, const geometry::MeshDistance& skin,
-                            std::span<const geometry::Vec3> positions,
-                            std::span<const geometry::Triangle> triangles, double depth_m);
+/// A sample of a cloth triangle inside the skin.
+struct InsidePoint {
+  geometry::Vec3 at;
+  double area_m2 = 0.0;        ///< of the cloth that it stands for
+  double depth_m = 0.0;        ///< distance to the nearest skin
+  bool is_overlapped = false;  ///< it lies in skin that overlaps itself, or its nearest skin is buried there
+};
+
+/// Calls visit for each sample of a triangle, 4 mm apart, that lies deeper than `depth_m` in the skin. Cost:
+/// a signed distance a sample near the skin.
+void for_each_inside(const geometry::MeshDistance& skin, std::span<const geometry::Vec3> positions,
+                     const geometry::Triangle& triangle, double depth_m,
+                     const std::function<void(const InsidePoint&)>& visit);
+
+/// Areas of cloth inside the skin.
+struct ClothInside {
+  double shown_m2 = 0.0;  ///< what a viewer sees as spots of skin
+  /// In skin that overlaps itself, as an arm pressed into the flank by a clip: no position of the cloth is
+  /// right there, and little of it is seen.
+  double overlapped_m2 = 0.0;
+};
+
+/// Area of the cloth that lies more than `depth_m` inside the skin. Triangles are sampled every 4 mm. The
+/// result does not depend on the number of workers.
+ClothInside cloth_inside(const engine::Context& context, const geometry::MeshDistance& skin,
+                         std::span<const geometry::Vec3> positions,
+                         std::span<const geometry::Triangle> triangles, double depth_m);
 
 }  // namespace bodice::tryon

@@ -9,6 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/tryon/tack.hpp>
 
 namespace bodice::tryon {
 
@@ -24,11 +25,18 @@ struct Wardrobe {
   geometry::TriMesh mesh;
   std::vector<geometry::Index> held;
   std::vector<std::size_t> first_vertex;  ///< #garments + 1
+  std::vector<cloth::Tack> tacks;         ///< of add_tacks()
 };
 
 /// Joins the garments, in order. Fails with kInvalidArgument, naming garment and element, when a triangle or
 /// a held vertex refers to a vertex that the garment does not have. O(#vertices).
 engine::Result<Wardrobe> join(const std::vector<WornGarment>& garments);
+
+/// Tacks the pieces of each garment that lie within `within_m` of each other (find_tacks()); returns what was
+/// tacked, by garment.
+std::vector<std::vector<TackedPiece>> add_tacks(const engine::Context& context,
+                                                const std::vector<WornGarment>& garments, double within_m,
+                                                Wardrobe& wardrobe);
 
 /// The given fabric, or else cotton.
 engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric);

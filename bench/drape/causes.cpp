@@ -1,0 +1,104 @@
+#include "causes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include <bodice/binding/poser.hpp>
+#include <bodice/engine/parallel.hpp>
+#include <bodice/tryon/judge_frame.hpp>
+
+#include <bench_support/or_exit.hpp>
+
+namespace bench {
+namespace {
+
+using namespace bodice;
+using body::Part;
+using geometry::Vec3;
+
+constexpr double kVisible_m = 0.5e-3;
+constexpr std::size_t kListed = 5;  // pairs of parts in a line
+
+/// The part of the skin nearest to a point.
+Part part_at(const tryon::SegmentedSkin& skin, const geometry::MeshDistance& distance, const Vec3& at) {
+  const geometry::Index triangle = distance.closest_point(at).triangle;
+  return skin.anatomy.part[skin.input.skin.triangles[triangle][0]];
+}
+
+template <class Enum>
+std::size_t index(Enum value) {
+  return static_cast<std::size_t>(value);
+}
+
+double depth_in(const collision::Collider& collider, const Vec3& world) {
+  const Eigen::Vector3f p = (world - collider.origin()).cast<float>();
+  return -double{collider.query({p.x(), p.y(), p.z()}).signed_distance};
+}
+
+}  // namespace
+
+Causes find_causes(const engine::Context& context, const Judged& j, std::size_t frame) {
+  const tryon::SegmentedSkin& skin = j.body.skin;
+  const geometry::MeshDistance posed(context, {j.draped.body_frames[frame], skin.input.skin.triangles});
+  tryon::MotionPlayer player(j.motion, j.draped.report.ramp_s);
+  std::vector<rig::Affine> joints(j.motion.rig.skeleton.joints.size());
+  player.joints(j.draped.report.kept[frame].time_s, joints);
+  binding::Poser poser = or_exit(binding::Poser::make(j.body.fit.proxy));
+  or_exit(poser.pose(context, joints));
+  collision::Collider collider(j.body.fit.proxy);
+  collider.pose(poser.posed(), 0.0);
+
+  const std::vector<Vec3>& at = j.draped.garments.front().frames[frame];
+  Causes causes;
+  for (const geometry::Triangle& t : j.garment.triangles) {
+    std::optional<Part> own;
+    bool corner_in = false;
+    tryon::for_each_inside(posed, at, t, kVisible_m, [&](const tryon::InsidePoint& point) {
+      if (!own) {
+        own = part_at(skin, *skin.distance, j.garment.positions[t[0]]);
+        corner_in = std::ranges::any_of(t, [&](auto v) { return depth_in(collider, at[v]) > kVisible_m; });
+      }
+      const Cause cause = point.is_overlapped                               ? Cause::kOverlap
+                          : depth_in(collider, point.at) < 0.5 * kVisible_m ? Cause::kProxy
+                          : corner_in                                       ? Cause::kParticle
+                                                                            : Cause::kFace;
+      causes.cm2[index(cause)][index(*own)][index(part_at(skin, posed, point.at))] += 1e4 * point.area_m2;
+    });
+  }
+  return causes;
+}
+
+double Causes::of(Cause cause) const {
+  double sum = 0.0;
+  for (const ByPart& row : cm2[index(cause)])
+    for (const double area : row) sum += area;
+  return sum;
+}
+
+void Causes::add(const Causes& other, double share) {
+  for (std::size_t c = 0; c < kCauses; ++c)
+    for (std::size_t own = 0; own < cm2[c].size(); ++own)
+      for (std::size_t in = 0; in < cm2[c][own].size(); ++in)
+        cm2[c][own][in] += share * other.cm2[c][own][in];
+}
+
+void print_causes(const Causes& causes, const std::string& when) {
+  constexpr const char* kNames[kCauses] = {"overlap", "proxy too deep", "particle", "face"};
+  for (std::size_t c = 0; c < kCauses; ++c) {
+    std::vector<std::pair<double, std::string>> pairs;
+    for (std::size_t own = 0; own < body::kPartCount; ++own)
+      for (std::size_t in = 0; in < body::kPartCount; ++in)
+        pairs.push_back({causes.cm2[c][own][in],
+                         std::string(body::kPartNames[own]) + " in " + std::string(body::kPartNames[in])});
+    std::ranges::sort(pairs, std::greater<>());
+    std::printf("  %s, cm2: %-14s %6.1f", when.c_str(), kNames[c], causes.of(static_cast<Cause>(c)));
+    for (std::size_t k = 0; k < kListed && pairs[k].first > 0.05; ++k)
+      std::printf("%s %s %.1f", k == 0 ? " |" : ",", pairs[k].second.c_str(), pairs[k].first);
+    std::printf("\n");
+  }
+}
+
+}  // namespace bench

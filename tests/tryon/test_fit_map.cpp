@@ -1,0 +1,124 @@
+// How garments fit: warnings of what is too small or too large, and colors by ease and strain.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/synth/garment.hpp>
+#include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/fit_map.hpp>
+#include <bodice_test/executors.hpp>
+#include <bodice_test/shapes.hpp>
+
+using namespace bodice;
+using geometry::Vec3;
+
+namespace {
+
+double lightness(const std::array<float, 3>& c) {
+  return 0.2126 * double{c[0]} + 0.7152 * double{c[1]} + 0.0722 * double{c[2]};
+}
+
+tryon::PreparedBody prepare(const engine::Context& context) {
+  auto skin = tryon::segment_builtin(context, {.vertices = 4500}, {});
+  REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
+  auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = proxy::Tier::kSolid});
+  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
+  return std::move(body).value();
+}
+
+/// A tube of cloth around hips and thighs with these radii across and in depth, relative to the body's own
+/// half widths there; nothing holds it.
+tryon::WornGarment tube_for(const tryon::PreparedBody& body, double of_body) {
+  const double stature_m = body.skin.anatomy.stature_m;
+  geometry::Box hips;
+  for (std::size_t v = 0; v < body.skin.anatomy.part.size(); ++v) {
+    const Vec3& p = body.skin.input.skin.positions[v];
+    if ((body.skin.anatomy.part[v] == body::Part::kTorsoLL ||
+         body.skin.anatomy.part[v] == body::Part::kTorsoLR) &&
+        std::abs(p.y() - 0.52 * stature_m) < 0.02 * stature_m)
+      hips.extend(p);
+  }
+  REQUIRE(!hips.empty());
+  tryon::WornGarment tube{
+      .name = "tube", .mesh = bodice_test::cylinder(1.0, 0.12 * stature_m, 48, 14, false), .held = {}};
+  geometry::Box own = geometry::bounding_box(tube.mesh.positions);
+  for (Vec3& p : tube.mesh.positions) {
+    p.x() *= of_body * 0.5 * hips.size().x(), p.z() *= of_body * 0.5 * hips.size().z();
+    p += Vec3(hips.center().x(), 0.46 * stature_m - own.low.y(), hips.center().z());
+  }
+  return tube;
+}
+
+std::vector<std::string> codes_of(const tryon::DrapeReport& report) {
+  std::vector<std::string> codes;
+  for (const engine::Warning& w : report.warnings) codes.push_back(w.code);
+  return codes;
+}
+
+bool has(const std::vector<std::string>& codes, const char* code) {
+  return std::ranges::find(codes, code) != codes.end();
+}
+
+}  // namespace
+
+TEST_CASE("fit map: colors run from dark blue over pale yellow to dark red, and stay beyond the ends") {
+  const double values[] = {-0.01, 0.0, 0.025, 0.05, 0.3, std::nan("")};
+  const auto colors = tryon::fit_colors(values, {tryon::FitMap::kEase, 0.05, 0.0});
+  CHECK(colors[0] == colors[1]);
+  CHECK(colors[3] == colors[4]);
+  CHECK(colors[1][0] > 2.0f * colors[1][2]);  // red
+  CHECK(colors[3][2] > 2.0f * colors[3][0]);  // blue
+  CHECK(lightness(colors[2]) > 0.8);
+  for (const auto& c : colors)
+    for (const float channel : c) CHECK((channel >= 0.0f && channel <= 1.0f));
+}
+
+TEST_CASE("fit map: the ease of a vertex is its distance to the skin, the strain that of its triangles") {
+  const geometry::TriMesh ball = bodice_test::icosphere(0.2, 4);
+  const geometry::MeshDistance skin({}, ball);
+  std::vector<Vec3> now = ball.positions;
+  for (Vec3& p : now) p *= 1.05;
+  now[7] = Vec3::Constant(std::nan(""));
+  const std::vector<double> ease = tryon::ease_of_vertices({}, skin, now);
+  CHECK(ease[7] == 0.0);
+  for (std::size_t v = 0; v < now.size(); ++v)
+    if (v != 7) CHECK(ease[v] == doctest::Approx(0.01).epsilon(0.02));
+  for (Vec3& p : now = ball.positions) p *= 1.05;
+  for (const double strain : tryon::strain_of_vertices(ball, now)) CHECK(strain == doctest::Approx(0.05));
+  for (Vec3& p : now) p *= 0.9;
+  for (const double strain : tryon::strain_of_vertices(ball, now)) CHECK(strain == 0.0);
+}
+
+TEST_CASE("fit: a tube too small around the hips is too tight there by what it lacks, one that fits is not") {
+  const auto executor = bodice_test::make_threads(2);
+  const engine::Context context{.executor = executor.get()};
+  const tryon::PreparedBody body = prepare(context);
+  const auto small =
+      tryon::drape(context, body, {tube_for(body, 0.85)}, {.frames = 30, .fit_map = tryon::FitMap::kStrain});
+  REQUIRE(small.ok());
+  const auto tight = std::ranges::find(small->report.warnings, "too-tight", &engine::Warning::code);
+  REQUIRE(tight != small->report.warnings.end());
+  CHECK(tight->part == "tube");
+  CHECK_MESSAGE(tight->message.find(" mm (stretched by ") != std::string::npos, tight->message);
+  REQUIRE(small->garments[0].colors.size() == small->garments[0].mesh.positions.size());
+  CHECK(small->report.fit_map->tight > 0.0);
+
+  const auto fitting = tryon::drape(context, body, {tube_for(body, 1.35)}, {.frames = 30});
+  REQUIRE(fitting.ok());
+  CHECK(!has(codes_of(fitting->report), "too-tight"));
+  CHECK(fitting->garments[0].colors.empty());
+}
+
+TEST_CASE("fit: a tube that nothing holds is too loose when it slides down, not while it lies") {
+  const auto executor = bodice_test::make_threads(2);
+  const engine::Context context{.executor = executor.get()};
+  const tryon::PreparedBody body = prepare(context);
+  const tryon::WornGarment loose = tube_for(body, 1.3);
+  const auto fallen = tryon::drape(context, body, {loose}, {.frames = 60});
+  REQUIRE(fallen.ok());
+  CHECK(has(codes_of(fallen->report), "too-loose"));
+  const auto at_first = tryon::drape(context, body, {loose}, {.frames = 2});
+  REQUIRE(at_first.ok());
+  CHECK(!has(codes_of(at_first->report), "too-loose"));
+}
