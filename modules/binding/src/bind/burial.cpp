@@ -43,8 +43,8 @@ Burial find_burial(const engine::Context& context, const proxy::BodyProxy& proxy
       }
     }
   });
-  // Eight blends are depth enough to yield to any other ellipsoid.
-  const double most = std::min(8.0 * from_m, depth.empty() ? 0.0 : *std::ranges::max_element(depth));
+  // Twelve blends are depth enough to yield to any other ellipsoid.
+  const double most = std::min(12.0 * from_m, depth.empty() ? 0.0 : *std::ranges::max_element(depth));
   Burial burial;
   burial.step_m = static_cast<float>(most / 255.0);
   burial.depth.resize(depth.size());

@@ -20,6 +20,8 @@ using body::Part;
 
 /// Farther than this over the skin no carried surface is looked for, meters at the reference stature.
 constexpr double kFarthest_m = 0.06;
+/// The ellipsoid that is the skin there may lie this far under it, its table making up for it, in blends.
+constexpr double kOthersOver = 4.0;
 
 /// A body in an exercise.
 struct Exercise {
@@ -161,7 +163,7 @@ void raise_burial(const engine::Context& context, const proxy::BodyProxy& proxy,
         for (std::size_t i = 0; i < buried.size(); ++i) {
           if (outside_m[i] <= 0.0) continue;
           std::uint8_t& depth = burial.depth[table.first_texel + i];
-          const double needed_m = (outside_m[i] + reach.blend_m) / proxy::kBurialWeight;
+          const double needed_m = (outside_m[i] + kOthersOver * reach.blend_m) / proxy::kBurialWeight;
           depth = static_cast<std::uint8_t>(
               std::clamp(std::ceil(needed_m / double{burial.step_m}), static_cast<double>(depth), 255.0));
         }
