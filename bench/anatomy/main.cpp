@@ -1,11 +1,11 @@
 // anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N | --measurements N [--from M]] [--all] [--verbose]
-//         [--sheet FILE.png] [--cost] [--scans N [--from M] [--only KIND] [--keep FOLDER]]
+//         [--sheet FILE.png] [--cost] [--scans N [--from M] [--only KIND] [--keep FOLDER] [--real]]
 // How well is every body analyzed, and in what time? Rows of the bodies that miss a bar (--all: of every
 // body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
 // bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --measurements:
 // errors of the 26 measurements of N made bodies that stand. --sheet writes a picture of every body by part.
-// --scans counts the outcomes of N made scans of each kind. The program fails if a body of a file misses a
-// bar.
+// --scans counts the outcomes of N made scans of each kind, of made bodies or (--real) of the data folder's.
+// The program fails if a body of a file misses a bar.
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace {
 struct Arguments {
   std::string data = "../shared/data", only, picture, keep;
   std::uint64_t seeds = 0, rigs = 0, measured = 0, scans = 0, from = 0;
-  bool all = false, verbose = false, cost = false;
+  bool all = false, verbose = false, cost = false, real = false;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -31,6 +31,7 @@ Arguments parse(int argc, char** argv) {
     if (is("--all")) a.all = true;
     if (is("--verbose")) a.verbose = true;
     if (is("--cost")) a.cost = true;
+    if (is("--real")) a.real = true;
     if (i + 1 >= argc) break;
     if (is("--data"))
       a.data = argv[++i];
@@ -58,7 +59,7 @@ void run(const bench::Case& c, bench::Report& report, bench::Sheet& sheet) {
   const auto anatomy = bodice::anatomy::analyze({}, c.mesh, {bodice::body::find_profile("ansur2").value()});
   if (!anatomy) return report.add_refused(c, anatomy.error().sentence());
   report.add(c, *anatomy);
-  sheet.add(c, *anatomy);
+  sheet.add(c.mesh, *anatomy);
 }
 
 }  // namespace
@@ -70,12 +71,19 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (arguments.scans > 0) {
-    bench::print_scans({.count = arguments.scans,
-                        .from = arguments.from,
-                        .only = arguments.only,
-                        .folder = arguments.keep,
-                        .verbose = arguments.verbose});
-    return 0;
+    if (arguments.real && !std::filesystem::is_directory(arguments.data + "/rigs")) {
+      std::fprintf(stderr, "%s is no folder of bodies: name one with --data, or leave --real out\n",
+                   arguments.data.c_str());
+      return 2;
+    }
+    const bool written = bench::print_scans({.count = arguments.scans,
+                                             .from = arguments.from,
+                                             .only = arguments.only,
+                                             .folder = arguments.keep,
+                                             .data = arguments.real ? arguments.data : "",
+                                             .picture = arguments.picture,
+                                             .verbose = arguments.verbose});
+    return written ? 0 : 1;
   }
   if (arguments.cost) {
     bench::print_cost();

@@ -1,14 +1,12 @@
+#include "rig_cases.hpp"
+
 #include <algorithm>
 #include <fstream>
-#include <map>
 
 #include <nlohmann/json.hpp>
 
-#include <bodice/engine/random.hpp>
-
 #include "cases.hpp"
 #include "read_mesh.hpp"
-#include "rig.hpp"
 
 namespace bench {
 namespace {
@@ -22,24 +20,13 @@ using nlohmann::json;
 
 constexpr double kDegree = M_PI / 180.0;
 
-/// About the body's own axes: x to its left, y up, z forward.
-Quaterniond turn(double x_deg, double y_deg, double z_deg) {
-  return AngleAxisd(z_deg * kDegree, Vec3::UnitZ()) * AngleAxisd(y_deg * kDegree, Vec3::UnitY()) *
-         AngleAxisd(x_deg * kDegree, Vec3::UnitX());
-}
-
-/// The right limb turns as the left one does, seen in a mirror.
-Quaterniond mirrored(const Quaterniond& left) {
-  return {left.w(), left.x(), -left.y(), -left.z()};
-}
-
 double near_zero(Random& random, double deviation, double most) {
   return std::clamp(deviation * random.normal(), -most, most);
 }
 
 /// As far as joints go in sport and sleep; each limb on its own.
-std::map<std::string, Quaterniond> random_turns(Random& random) {
-  std::map<std::string, Quaterniond> turns;
+Turns random_turns(Random& random) {
+  Turns turns;
   for (const char* bone : {"spine04", "spine02", "neck01", "head"})
     turns[bone] =
         turn(4.0 + near_zero(random, 9.0, 20.0), near_zero(random, 8.0, 20.0), near_zero(random, 6.0, 15.0));
@@ -57,13 +44,6 @@ std::map<std::string, Quaterniond> random_turns(Random& random) {
   return turns;
 }
 
-struct RiggedBody {
-  std::string name;
-  Rig rig;
-  std::map<std::string, std::size_t> landmark_vertex;  ///< by LandmarkId's name
-  double stature = 0.0;
-};
-
 std::map<std::string, std::size_t> landmark_vertices(const json& truth) {
   std::map<std::string, std::size_t> vertex;
   const json& v = truth["landmark_vertices"];
@@ -77,7 +57,26 @@ std::map<std::string, std::size_t> landmark_vertices(const json& truth) {
   return vertex;
 }
 
-/// Every body at rest, with the skeleton and the weights of the one of its sex.
+const std::map<std::string, std::string>& joint_landmarks() {
+  static const std::map<std::string, std::string> bone_of{{"neck", "neck01"},
+                                                          {"elbow_l", "lowerarm01.L"},
+                                                          {"elbow_r", "lowerarm01.R"},
+                                                          {"knee_l", "lowerleg01.L"},
+                                                          {"knee_r", "lowerleg01.R"}};
+  return bone_of;
+}
+
+}  // namespace
+
+Quaterniond turn(double x_deg, double y_deg, double z_deg) {
+  return AngleAxisd(z_deg * kDegree, Vec3::UnitZ()) * AngleAxisd(y_deg * kDegree, Vec3::UnitY()) *
+         AngleAxisd(x_deg * kDegree, Vec3::UnitX());
+}
+
+Quaterniond mirrored(const Quaterniond& left) {
+  return {left.w(), left.x(), -left.y(), -left.z()};
+}
+
 std::vector<RiggedBody> rigged_bodies(const fs::path& data) {
   std::map<char, Rig> rig_of_sex{{'f', read_rig(data / "rigs" / "f_avg_walk.glb")},
                                  {'m', read_rig(data / "rigs" / "m_avg_reach.glb")}};
@@ -97,18 +96,7 @@ std::vector<RiggedBody> rigged_bodies(const fs::path& data) {
   return bodies;
 }
 
-const std::map<std::string, std::string>& joint_landmarks() {
-  static const std::map<std::string, std::string> bone_of{{"neck", "neck01"},
-                                                          {"elbow_l", "lowerarm01.L"},
-                                                          {"elbow_r", "lowerarm01.R"},
-                                                          {"knee_l", "lowerleg01.L"},
-                                                          {"knee_r", "lowerleg01.R"}};
-  return bone_of;
-}
-
-Case posed_case(const RiggedBody& body, const std::vector<int>& labels, std::uint64_t seed) {
-  Random random(seed);
-  const auto turns_of = random_turns(random);
+PosedBody pose(const RiggedBody& body, const Turns& turns_of) {
   std::vector<Quaterniond> turns(body.rig.bones.size(), Quaterniond::Identity());
   std::map<std::string, std::size_t> bone;
   for (std::size_t b = 0; b < turns.size(); ++b) {
@@ -116,26 +104,31 @@ Case posed_case(const RiggedBody& body, const std::vector<int>& labels, std::uin
     if (const auto found = turns_of.find(body.rig.bones[b].name); found != turns_of.end())
       turns[b] = found->second;
   }
-  const auto pose = pose_bones(body.rig, turns);
-  Case c{
-      "rig/" + std::to_string(seed) + " " + body.name, pose_skin(body.rig, pose), labels, {}, body.stature};
-  c.kind = body.name;
-  for (const auto& [name, vertex] : body.landmark_vertex) c.landmarks[name] = c.mesh.positions[vertex];
-  for (const auto& [name, of] : joint_landmarks()) {
-    const std::size_t b = bone.at(of);
-    c.landmarks[name] = pose[b] * body.rig.bones[b].head;
-  }
-  return c;
+  const auto moved = pose_bones(body.rig, turns);
+  const auto head = [&](const std::string& name) {
+    const std::size_t b = bone.at(name);
+    return Vec3(moved[b] * body.rig.bones[b].head);
+  };
+  PosedBody posed{pose_skin(body.rig, moved), {}, head("upperleg01.L")};
+  posed.pelvis = 0.5 * (posed.pelvis + head("upperleg01.R"));
+  for (const auto& [name, vertex] : body.landmark_vertex)
+    posed.landmarks[name] = posed.skin.positions[vertex];
+  for (const auto& [name, of] : joint_landmarks()) posed.landmarks[name] = head(of);
+  return posed;
 }
-
-}  // namespace
 
 std::vector<Case> rig_cases(const fs::path& data, std::uint64_t from, std::uint64_t count) {
   const std::vector<RiggedBody> bodies = rigged_bodies(data);
   const std::vector<int> labels = body_labels(data);
   std::vector<Case> cases;
-  for (std::uint64_t seed = from; seed < from + count && !bodies.empty(); ++seed)
-    cases.push_back(posed_case(bodies[seed % bodies.size()], labels, seed));
+  for (std::uint64_t seed = from; seed < from + count && !bodies.empty(); ++seed) {
+    const RiggedBody& body = bodies[seed % bodies.size()];
+    Random random(seed);
+    PosedBody posed = pose(body, random_turns(random));
+    cases.push_back({"rig/" + std::to_string(seed) + " " + body.name, std::move(posed.skin), labels,
+                     std::move(posed.landmarks), body.stature});
+    cases.back().kind = body.name;
+  }
   return cases;
 }
 

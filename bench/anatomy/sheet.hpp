@@ -4,18 +4,20 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 
-#include "cases.hpp"
-
 namespace bench {
 
-/// A contact sheet: many bodies, colored by part, in one picture from the front and from the left.
+/// A contact sheet: many bodies, colored by part, in one picture from the front and from the left. Landmarks
+/// are bars that cross the body from front to back and from side to side.
 class Sheet {
  public:
-  void add(const Case& c, const bodice::anatomy::Anatomy& anatomy);
+  void add(const bodice::geometry::TriMesh& skin, const bodice::anatomy::Anatomy& anatomy);
   /// False if the picture could not be written.
   bool write(const std::filesystem::path& png) const;
 
  private:
+  void add_bar(const bodice::geometry::Vec3& low, const bodice::geometry::Vec3& high,
+               bodice::body::Part color);
+
   bodice::geometry::TriMesh mesh_;
   std::vector<bodice::body::Part> part_;
   int count_ = 0;

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/mesh_edges.hpp>
@@ -46,7 +47,7 @@ double share_near(const TriMesh& mesh, const TriMesh& other, double within_m) {
 
 Match match(const synth::Scan& scan, double within_m) {
   const TriMesh all = inside(scan);
-  return {share_near(all, scan.body, within_m), share_near(scan.body, all, within_m)};
+  return {share_near(all, scan.persons[0].body, within_m), share_near(scan.persons[0].body, all, within_m)};
 }
 
 synth::Scan made(ScanKind kind, std::uint64_t seed = 1) {
@@ -78,7 +79,7 @@ TEST_CASE("fused kinds are closed surfaces around the body, and what is added li
 TEST_CASE("two people are two pieces apart, and one piece where they are fused") {
   for (const ScanKind kind : {ScanKind::kTwoApart, ScanKind::kTwoFused}) {
     const synth::Scan scan = made(kind);
-    CHECK(scan.persons == 2);
+    CHECK(scan.persons.size() == 2);
     auto pieces = geometry::connected_components(inside(scan)).area;
     const auto large =
         std::count_if(pieces.begin(), pieces.end(), [&](double area) { return area > 0.1 * pieces.front(); });
@@ -93,4 +94,19 @@ TEST_CASE("a scan repeats to the bit, and another seed gives another body, unit 
   for (std::size_t m = 0; m < one.meshes.size(); ++m)
     CHECK(one.meshes[m].shape.positions == same.meshes[m].shape.positions);
   CHECK(one.meshes[0].shape.positions != other.meshes[0].shape.positions);
+}
+
+TEST_CASE("noise leaves the triangles, and moves vertices by its strength") {
+  for (const auto& [kind, least_m, most_m] :
+       {std::tuple(ScanKind::kNoise, 0.0010, 0.0014), std::tuple(ScanKind::kStrongNoise, 0.0035, 0.0055)}) {
+    const synth::Scan scan = made(kind);
+    const TriMesh rough = inside(scan), &clean = scan.persons[0].body;
+    REQUIRE(rough.triangles == clean.triangles);
+    double sum = 0.0;
+    for (std::size_t v = 0; v < clean.positions.size(); ++v)
+      sum += (rough.positions[v] - clean.positions[v]).norm();
+    const double mean = sum / static_cast<double>(clean.positions.size());
+    CHECK(mean > least_m);
+    CHECK(mean < most_m);
+  }
 }

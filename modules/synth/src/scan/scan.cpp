@@ -26,44 +26,16 @@ using geometry::Vec3;
 
 constexpr double kCameraRadius_m = 2.2;
 
-bool sits(ScanKind kind) {
-  return kind >= ScanKind::kSeated && kind <= ScanKind::kChairFused;
-}
-
-Pose pose_of(ScanKind kind, engine::Random& random) {
-  if (sits(kind)) return Pose::kSit;
-  constexpr std::array kStanding = {Pose::kA, Pose::kArmsDown, Pose::kT, Pose::kStride};
-  if (kind == ScanKind::kWebbed || kind == ScanKind::kTwoClose || kind == ScanKind::kTwoFused)
-    return Pose::kArmsDown;
-  const bool game = kind >= ScanKind::kPieces && kind <= ScanKind::kClothes;
-  return kStanding[random.below(game ? 1 : kStanding.size())];
-}
-
-/// An adult of random build, standing as people do in scanners.
-BodyOptions person(ScanKind kind, std::uint64_t seed, std::uint64_t number) {
-  engine::Random random(seed, 0x5CA4 + 2 * static_cast<std::uint64_t>(kind) + 101 * number);
-  BodyOptions o;
-  o.sex = random.below(2) == 0 ? body::Sex::kFemale : body::Sex::kMale;
-  o.stature_m = random.uniform(1.5, 1.95);
-  o.mass_kg = random.uniform(18.5, 36.0) * o.stature_m * o.stature_m;
-  o.pose = pose_of(kind, random);
-  o.vertices = kind == ScanKind::kLow ? static_cast<int>(random.uniform(1350.0, 1700.0)) : 14000;
-  o.seed = random.bits() >> 1;
-  return o;
-}
-
 /// Makes one scan, in the body's own coordinates until the end.
 class Scanner {
  public:
-  Scanner(const engine::Context& context, ScanKind kind, std::uint64_t seed, Body body)
+  Scanner(const engine::Context& context, ScanKind kind, std::uint64_t seed, ScanSubjects subjects)
       : context_(context),
         kind_(kind),
-        seed_(seed),
         random_(seed, 0xF1A5 + static_cast<std::uint64_t>(kind)),
-        body_(std::move(body)) {
-    scan_.body = body_.mesh;
-    scan_.landmarks = body_.landmarks;
-    scan_.stature_m = body_.stature_m;
+        body_(std::move(subjects.body)),
+        other_(std::move(subjects.other)) {
+    scan_.persons.push_back({body_.mesh, body_.landmarks, body_.stature_m});
   }
 
   engine::Result<Scan> run() {
@@ -89,13 +61,14 @@ class Scanner {
         break;
       case ScanKind::kTwoApart:
       case ScanKind::kTwoClose:
-        if (auto second = second_person(); !second)
-          return second.error();
-        else
-          append(second->mesh, merged());
+        append(second_person(), merged());
+        break;
+      case ScanKind::kNoise:
+      case ScanKind::kStrongNoise:
+        add_roughness();
         break;
       default:
-        if (auto fused = fuse(); !fused) return fused.error();
+        fuse();
     }
     to_file();
     return std::move(scan_);
@@ -159,21 +132,39 @@ class Scanner {
     }
   }
 
-  engine::Result<Body> second_person() {
-    auto second = make_body(context_, person(kind_, seed_, 1));
-    if (!second) return second;
-    const Vec3 mine = geometry::bounding_box(body_.mesh.positions).high;
-    const double reach = mine.x() - geometry::bounding_box(second->mesh.positions).low.x();
+  /// The other body, beside this one: so far to its left that the skins are a gap apart.
+  TriMesh second_person() {
     const double gap = kind_ == ScanKind::kTwoApart   ? random_.uniform(0.3, 0.8)
                        : kind_ == ScanKind::kTwoClose ? random_.uniform(0.01, 0.04)
-                                                      : -random_.uniform(0.02, 0.05);
-    shift({reach + gap, 0.0, 0.0}, second->mesh);
-    scan_.persons = 2;
-    return second;
+                                                      : -random_.uniform(0.005, 0.02);
+    const MeshDistance distance(context_, body_.mesh);
+    double low = 0.0, high = 3.0;
+    while (high - low > 1e-3) {
+      const double middle = 0.5 * (low + high);
+      double least = high;
+      for (const Vec3& p : other_.mesh.positions)
+        least = std::min(least, distance.signed_distance(p + middle * Vec3::UnitX()));
+      (least < gap ? low : high) = middle;
+    }
+    const Vec3 by = high * Vec3::UnitX();
+    shift(by, other_.mesh);
+    for (auto& mark : other_.landmarks) mark.position += by;
+    scan_.persons.push_back({other_.mesh, other_.landmarks, other_.stature_m});
+    return other_.mesh;
+  }
+
+  void add_roughness() {
+    TriMesh& mesh = merged();
+    const bool strong = kind_ == ScanKind::kStrongNoise;
+    if (strong) add_waves(0.003, random_, mesh);
+    const std::vector<Vec3> normal = vertex_normals(mesh);
+    add_noise(strong ? 0.004 : 0.0015, random_, mesh);
+    for (std::size_t v = 0; strong && v < normal.size(); ++v)
+      if (random_.below(20) == 0) mesh.positions[v] += (random_.below(2) == 0 ? 0.01 : -0.01) * normal[v];
   }
 
   /// The kinds that are one surface around a field.
-  engine::Result<void> fuse() {
+  void fuse() {
     const MeshDistance body(context_, body_.mesh);
     DistanceField field = [&](const Vec3& p) { return body.signed_distance(p); };
     Box box = geometry::bounding_box(body_.mesh.positions);
@@ -209,11 +200,10 @@ class Scanner {
                      {neck.x() + 0.11, crown.y() - 0.02, neck.z() - 0.04}};
       boxes = {hair};
     } else if (kind_ == ScanKind::kTwoFused) {
-      auto other = second_person();
-      if (!other) return other.error();
-      second.emplace(context_, other->mesh);
+      const TriMesh other = second_person();
+      second.emplace(context_, other);
       with([&](const Vec3& p) { return second->signed_distance(p); });
-      for (const Vec3& p : other->mesh.positions) box.extend(p);
+      for (const Vec3& p : other.positions) box.extend(p);
     } else if (kind_ == ScanKind::kPhotogrammetry) {
       cell_m = 0.006;
     } else if (kind_ == ScanKind::kClosed) {
@@ -229,7 +219,6 @@ class Scanner {
     TriMesh mesh = geometry::contour(context_, geometry::sample_field(context_, field, box, cell_m));
     finish(mesh);
     add("scan", std::move(mesh));
-    return {};
   }
 
   void finish(TriMesh& mesh) {
@@ -255,17 +244,18 @@ class Scanner {
     const Eigen::AngleAxisd turn(heading, Vec3::UnitY());
     const Vec3 by(random_.uniform(-0.5, 0.5), 0.0, random_.uniform(-0.5, 0.5));
     const auto moved = [&](const Vec3& p) { return Vec3(turn * p + by); };
-    for (Vec3& p : scan_.body.positions) p = moved(p);
-    for (auto& mark : scan_.landmarks) mark.position = moved(mark.position);
+    for (ScanPerson& person : scan_.persons) {
+      for (Vec3& p : person.body.positions) p = moved(p);
+      for (auto& mark : person.landmarks) mark.position = moved(mark.position);
+    }
     for (ScanMesh& mesh : scan_.meshes)
       for (Vec3& p : mesh.shape.positions) p = scan_.frame.to_file(moved(p));
   }
 
   const engine::Context& context_;
   ScanKind kind_;
-  std::uint64_t seed_;
   engine::Random random_;
-  Body body_;
+  Body body_, other_;
   Scan scan_;
 };
 
@@ -276,15 +266,14 @@ std::string_view name(ScanKind kind) {
       "booth",        "few cameras", "patches",     "closed",       "fused",          "webbed",
       "floor joined", "floor loose", "bun and hem", "long hair",    "photogrammetry", "pieces",
       "tucked",       "clothes",     "seated",      "chair beside", "chair in mesh",  "chair fused",
-      "two apart",    "two close",   "two fused",   "low"};
+      "two apart",    "two close",   "two fused",   "low",          "noise",          "strong noise"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-engine::Result<Scan> make_scan(const engine::Context& context, ScanKind kind, std::uint64_t seed) {
-  auto body = make_body(context, person(kind, seed, 0));
-  if (!body) return body.error();
+engine::Result<Scan> make_scan(const engine::Context& context, ScanKind kind, std::uint64_t seed,
+                               ScanSubjects subjects) {
   return engine::catch_canceled("The making of the scan", [&]() -> engine::Result<Scan> {
-    return Scanner(context, kind, seed, std::move(*body)).run();
+    return Scanner(context, kind, seed, std::move(subjects)).run();
   });
 }
 

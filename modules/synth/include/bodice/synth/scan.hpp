@@ -11,6 +11,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/frame.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/synth/body.hpp>
 
 namespace bodice::synth {
 
@@ -38,8 +39,10 @@ enum class ScanKind {
   kTwoClose,        ///< two people side by side
   kTwoFused,        ///< two people in one skin
   kLow,             ///< few vertices
+  kNoise,           ///< 1.5 mm of noise along the normals
+  kStrongNoise,     ///< 4 mm of it, waves, and a vertex in twenty 10 mm off
 };
-inline constexpr int kScanKindCount = 22;
+inline constexpr int kScanKindCount = 24;
 
 /// "booth", "few cameras", ...
 std::string_view name(ScanKind kind);
@@ -50,18 +53,37 @@ struct ScanMesh {
   geometry::TriMesh shape;
 };
 
-/// A made scan and the truth about it. Truth is in meters, y up: `frame` maps the file to it.
-struct Scan {
-  std::vector<ScanMesh> meshes;
-  geometry::Frame frame;
+/// The truth about a person in a scan, in meters, y up.
+struct ScanPerson {
   geometry::TriMesh body;                 ///< the clean skin in the scanned pose and position
   std::vector<body::Landmark> landmarks;  ///< of that skin
   double stature_m = 0.0;
-  int persons = 1;
+};
+
+/// A made scan and the truth about it: `frame` maps the file to it.
+struct Scan {
+  std::vector<ScanMesh> meshes;
+  geometry::Frame frame;
+  std::vector<ScanPerson> persons;  ///< one, or two
 };
 
 /// Makes a scan of a made body of random build. It is a function of kind and seed. Fails with kCanceled.
 /// Cost: seconds.
 engine::Result<Scan> make_scan(const engine::Context& context, ScanKind kind, std::uint64_t seed);
+
+/// The bodies of a scan, where they come from elsewhere. They stand on y = 0 around the y axis, facing +z; of
+/// each, `mesh`, `part`, `landmarks`, `stature_m` and the joint "pelvis" are used.
+struct ScanSubjects {
+  Body body;
+  Body other;  ///< the second one of two people
+};
+/// Makes a scan of bodies that are given; their poses must suit the kind. Fails and costs as the other one.
+engine::Result<Scan> make_scan(const engine::Context& context, ScanKind kind, std::uint64_t seed,
+                               ScanSubjects subjects);
+
+/// Whether people sit in scans of this kind.
+bool sits(ScanKind kind);
+/// Whether their arms hang.
+bool hangs_arms(ScanKind kind);
 
 }  // namespace bodice::synth
