@@ -265,45 +265,6 @@ TEST_CASE("a forearm welded to the trunk in one vertex is taken apart with a war
                     [](const engine::Warning& w) { return w.code == "skin-touches"; }));
 }
 
-TEST_CASE("hands fused to legs and legs to each other are refused with a sentence that names them") {
-  using body::Part;
-  const auto truth = synth::make_body({}, {.pose = synth::Pose::kArmsDown, .vertices = 5000});
-  REQUIRE(truth.ok());
-  const auto left = made::fused(*truth, truth->mesh, Part::kForearmL, Part::kThighL);
-  const auto hands = analyze(made::fused(*truth, left, Part::kForearmR, Part::kThighR));
-  REQUIRE(!hands.ok());
-  CHECK(hands.error().code == engine::ErrorCode::kUnusableGeometry);
-  CHECK(hands.error().message.find("a hand touches a leg") != std::string::npos);
-  CHECK(!hands.error().remedy.empty());
-  const auto legs = analyze(made::fused(*truth, truth->mesh, Part::kCalfL, Part::kCalfR));
-  REQUIRE(!legs.ok());
-  CHECK(legs.error().message.find("the legs touch") != std::string::npos);
-}
-
-TEST_CASE("a weld that spoils few landmarks leaves the rest, and a warning names each spoiled one") {
-  using body::Part;
-  const auto truth = synth::make_body({}, {.pose = synth::Pose::kA, .vertices = 5000});
-  REQUIRE(truth.ok());
-  const auto has = [](const anatomy::Anatomy& found, const std::string& code, const std::string& part) {
-    return std::any_of(found.warnings.begin(), found.warnings.end(),
-                       [&](const engine::Warning& w) { return w.code == code && w.part == part; });
-  };
-  const auto hand = analyze(made::fused(*truth, truth->mesh, Part::kForearmL, Part::kThighL));
-  REQUIRE(hand.ok());
-  CHECK(made::agreement(*truth, hand->part) > 0.95);
-  CHECK(has(*hand, "hand-fused-to-leg", "forearm_l"));
-  CHECK(has(*hand, "armpit-uncertain", "upper_arm_l"));
-  for (int i = 0; i < body::kLandmarkCount; ++i)
-    if (static_cast<LandmarkId>(i) != LandmarkId::kArmpitL) {
-      const bool doubted = i > static_cast<int>(LandmarkId::kToeR) && hand->landmarks[i].confidence < 0.35;
-      CHECK((made::error(*truth, *hand, static_cast<LandmarkId>(i)) < 0.03 || doubted));
-    }
-  const auto thighs = analyze(made::fused(*truth, truth->mesh, Part::kThighL, Part::kThighR));
-  REQUIRE(thighs.ok());
-  CHECK(made::agreement(*truth, thighs->part) > 0.95);
-  CHECK(has(*thighs, "limbs-fused", ""));
-}
-
 TEST_CASE("any number of workers gives the same bits") {
   const synth::Body truth = made::random_body(5);
   const auto serial = analyze(truth.mesh);

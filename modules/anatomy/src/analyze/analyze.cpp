@@ -4,6 +4,7 @@
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/fins.hpp>
 
+#include "analyze/cut_welds.hpp"
 #include "check/diagnostics.hpp"
 #include "check/fused_limbs.hpp"
 #include "landmarks/find_landmarks.hpp"
@@ -127,7 +128,7 @@ engine::Result<Anatomy> checked(const geometry::TriMesh& mesh, engine::Result<An
   for (const std::string& clause : clauses) why += (why.empty() ? "" : ", ") + clause;
   if (!force) {
     engine::Error refusal = no_body(why + ".");
-    refusal.remedy += " With --force it is fitted all the same.";
+    refusal.remedy += " Forced (program: --force), it is fitted all the same.";
     return refusal;
   }
   found->warnings.push_back(
@@ -152,7 +153,7 @@ engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::
                                 const Options& options) {
   if (mesh.empty()) return no_body("the mesh has no triangles.");
   return engine::catch_canceled("The analysis of the body", [&] {
-    return checked(mesh, analyze_mesh(context, mesh, options), options.force);
+    return checked(mesh, cut_welds(context, mesh, options, analyze_mesh), options.force);
   });
 }
 

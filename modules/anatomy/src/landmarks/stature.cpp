@@ -26,18 +26,25 @@ double estimate(const BodyExtremities& tips) {
 
 }  // namespace
 
-double find_stature(const Skin& skin, const BodyExtremities& tips, const Landmarks& marks) {
-  const double stature = estimate(tips);
-  const auto& p = skin.mesh.positions;
-  const Vec3 axis = p[tips.head] - 0.5 * (marks.at(LandmarkId::kKneeL) + marks.at(LandmarkId::kKneeR));
-  if (!(axis.norm() > 0.0)) return stature;
+double stature_of(const Stance& stance, const std::vector<Vec3>& points, double estimate) {
+  const Vec3 axis = stance.crown - stance.knees;
+  if (!(axis.norm() > 0.0)) return estimate;
   const Vec3 up = axis.normalized();
-  const double toes_differ = std::abs((p[tips.foot[0]] - p[tips.foot[1]]).dot(up));
+  const double toes_differ = std::abs((stance.toes[0] - stance.toes[1]).dot(up));
   double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : points) lowest = std::min(lowest, (p - stance.crown).dot(up));
+  const bool stands =
+      toes_differ < kLevelToes * estimate && std::abs(-lowest / estimate - 1.0) < kNearEstimate;
+  return stands ? -lowest : estimate;
+}
+
+double find_stature(const Skin& skin, const BodyExtremities& tips, const Landmarks& marks) {
+  const auto& p = skin.mesh.positions;
+  std::vector<Vec3> own;
   for (std::size_t v = 0; v < p.size(); ++v)
-    if (skin.component[v] == 0) lowest = std::min(lowest, (p[v] - p[tips.head]).dot(up));
-  const bool stands = toes_differ < kLevelToes * stature && std::abs(-lowest / stature - 1.0) < kNearEstimate;
-  return stands ? -lowest : stature;
+    if (skin.component[v] == 0) own.push_back(p[v]);
+  const Vec3 knees = 0.5 * (marks.at(LandmarkId::kKneeL) + marks.at(LandmarkId::kKneeR));
+  return stature_of({p[tips.head], knees, {p[tips.foot[0]], p[tips.foot[1]]}}, own, estimate(tips));
 }
 
 }  // namespace bodice::anatomy

@@ -1,9 +1,21 @@
 // The height of a body that need not stand.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "landmarks/base/landmarks.hpp"
 
 namespace bodice::anatomy {
+
+/// What shows whether a body stands.
+struct Stance {
+  geometry::Vec3 crown, knees;  ///< the point between the knees
+  std::array<geometry::Vec3, 2> toes;
+};
+/// From the lowest of the points to the crown, if the body stands and is about as tall as was estimated; else
+/// the estimate. O(#points).
+double stature_of(const Stance& stance, const std::vector<geometry::Vec3>& points, double estimate);
 
 /// The height of the body as if it stood, in the mesh's unit: from sole to crown if it stands, else from
 /// distances along the skin, within about 2 % (one deviation).

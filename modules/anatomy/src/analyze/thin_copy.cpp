@@ -1,0 +1,186 @@
+#include "analyze/thin_copy.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include <bodice/geometry/contour.hpp>
+#include <bodice/geometry/mesh_edges.hpp>
+#include <bodice/geometry/mesh_repair.hpp>
+
+#include "landmarks/stature.hpp"
+
+namespace bodice::anatomy {
+namespace {
+
+using body::LandmarkId;
+using geometry::Index;
+using geometry::kNoIndex;
+using geometry::MeshDistance;
+using geometry::TriMesh;
+using geometry::Vec3;
+
+/// Cells along a body's height, which follows from its area: .63 of the squared height in any pose.
+constexpr double kCells = 215.0, kAreaOfHeight = 0.63;
+/// Nodes of the grid: a body in a T pose has two million.
+constexpr double kMostNodes = 6e6;
+/// Skin within this multiple of the depth, and a cell, lies right above the copy.
+constexpr double kAbove = 1.25;
+/// How much a vertex beside the line from a limb's joint to its tip counts against it as the tip.
+constexpr double kBeside = 0.5;
+
+TriMesh largest_component(const TriMesh& mesh) {
+  const geometry::Components components = geometry::connected_components(mesh);
+  TriMesh kept;
+  std::vector<Index> number(mesh.positions.size(), kNoIndex);
+  for (const geometry::Triangle& t : mesh.triangles) {
+    if (components.of_vertex[t[0]] != 0) continue;
+    geometry::Triangle& out = kept.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& n = number[t[k]];
+      if (n == kNoIndex) {
+        n = static_cast<Index>(kept.positions.size());
+        kept.positions.push_back(mesh.positions[t[k]]);
+      }
+      out[k] = n;
+    }
+  }
+  return kept;
+}
+
+/// The part of the copy's skin right below each vertex, where there is one.
+std::vector<std::optional<body::Part>> parts_below(const ThinCopy& thin, const MeshDistance& distance,
+                                                   const Anatomy& found, const TriMesh& skin) {
+  std::vector<std::optional<body::Part>> parts(skin.positions.size());
+  for (std::size_t v = 0; v < parts.size(); ++v) {
+    const auto below = distance.closest_point_within(skin.positions[v], kAbove * thin.depth + thin.cell);
+    if (!below) continue;
+    const geometry::Triangle& corners = thin.mesh.triangles[below->triangle];
+    const Index nearest = *std::min_element(corners.begin(), corners.end(), [&](Index a, Index b) {
+      return (thin.mesh.positions[a] - below->point).squaredNorm() <
+             (thin.mesh.positions[b] - below->point).squaredNorm();
+    });
+    parts[v] = found.part[nearest];
+  }
+  return parts;
+}
+
+/// Each vertex without a part takes that of the nearest one along the skin.
+std::vector<body::Part> spread(const TriMesh& skin, const std::vector<std::optional<body::Part>>& known) {
+  const geometry::MeshEdges edges = geometry::mesh_edges(skin);
+  std::vector<std::vector<Index>> neighbors(skin.positions.size());
+  for (const auto& [a, b] : edges.ends) neighbors[a].push_back(b), neighbors[b].push_back(a);
+  struct Front {
+    double distance;
+    Index vertex;
+    body::Part part;
+    bool operator<(const Front& other) const {  // the nearest comes first, of equals the first vertex
+      return distance != other.distance ? distance > other.distance : vertex > other.vertex;
+    }
+  };
+  std::priority_queue<Front> fronts;
+  for (Index v = 0; v < known.size(); ++v)
+    if (known[v]) fronts.push({0.0, v, *known[v]});
+  std::vector<body::Part> parts(known.size(), body::Part::kHead);
+  std::vector<bool> done(known.size());
+  while (!fronts.empty()) {
+    const Front front = fronts.top();
+    fronts.pop();
+    if (done[front.vertex]) continue;
+    done[front.vertex] = true;
+    parts[front.vertex] = front.part;
+    for (const Index next : neighbors[front.vertex])
+      if (!done[next])
+        fronts.push({front.distance + (skin.positions[next] - skin.positions[front.vertex]).norm(), next,
+                     front.part});
+  }
+  return parts;
+}
+
+/// The vertex of a part that lies farthest along a direction from a point.
+Index end_of(const TriMesh& skin, const std::vector<body::Part>& parts, body::Part part, const Vec3& from,
+             const Vec3& toward) {
+  const Vec3 direction = (toward - from).normalized();
+  Index best = kNoIndex;
+  double most = 0.0;
+  for (Index v = 0; v < parts.size(); ++v) {
+    if (parts[v] != part) continue;
+    const Vec3 offset = skin.positions[v] - from;
+    const double along = offset.dot(direction), beside = (offset - along * direction).norm();
+    if (best != kNoIndex && along - kBeside * beside <= most) continue;
+    most = along - kBeside * beside;
+    best = v;
+  }
+  return best;
+}
+
+struct Tip {
+  LandmarkId tip, joint;
+  body::Part part;
+};
+constexpr std::array<Tip, 5> kTips = {{{LandmarkId::kCrown, LandmarkId::kNeck, body::Part::kHead},
+                                       {LandmarkId::kFingertipL, LandmarkId::kWristL, body::Part::kForearmL},
+                                       {LandmarkId::kFingertipR, LandmarkId::kWristR, body::Part::kForearmR},
+                                       {LandmarkId::kToeL, LandmarkId::kAnkleL, body::Part::kCalfL},
+                                       {LandmarkId::kToeR, LandmarkId::kAnkleR, body::Part::kCalfR}}};
+
+bool lies_on_skin(LandmarkId id) {
+  constexpr std::array kOnSkin = {LandmarkId::kNeckFront, LandmarkId::kNeckBack,  LandmarkId::kNeckSideL,
+                                  LandmarkId::kNeckSideR, LandmarkId::kShoulderL, LandmarkId::kShoulderR,
+                                  LandmarkId::kBustL,     LandmarkId::kBustR};
+  return std::find(kOnSkin.begin(), kOnSkin.end(), id) != kOnSkin.end();
+}
+
+Index nearest_vertex(const TriMesh& skin, const Vec3& point) {
+  Index best = 0;
+  for (Index v = 1; v < skin.positions.size(); ++v)
+    if ((skin.positions[v] - point).squaredNorm() < (skin.positions[best] - point).squaredNorm()) best = v;
+  return best;
+}
+
+}  // namespace
+
+std::optional<ThinCopy> thin_copy(const engine::Context& context, const TriMesh& skin, double depth_share) {
+  const double height = std::sqrt(surface_area(skin) / kAreaOfHeight);
+  ThinCopy thin{{}, depth_share * height, height / kCells};
+  const geometry::Box box = geometry::bounding_box(skin.positions);
+  if (!(thin.cell > 0.0) || box.size().prod() > kMostNodes * std::pow(thin.cell, 3)) return std::nullopt;
+  const MeshDistance distance(context, skin);
+  const auto field = [&](const Vec3& p) { return distance.signed_distance(p) + thin.depth; };
+  const TriMesh all = contour(context, geometry::sample_field(context, field, box, thin.cell));
+  if (all.empty()) return std::nullopt;
+  auto repaired = geometry::repair(context, largest_component(all));
+  if (!repaired) return std::nullopt;
+  thin.mesh = std::move(repaired->mesh);
+  return thin;
+}
+
+Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const Anatomy& found,
+                  const TriMesh& skin) {
+  Anatomy out = found;
+  const MeshDistance below(context, thin.mesh), surface(context, skin);
+  out.part = spread(skin, parts_below(thin, below, found, skin));
+  const auto mark = [&](LandmarkId id) -> body::Landmark& {
+    return out.landmarks[static_cast<std::size_t>(id)];
+  };
+  for (const Tip& tip : kTips) {
+    const Index end = end_of(skin, out.part, tip.part, mark(tip.joint).position,
+                             found.landmarks[static_cast<std::size_t>(tip.tip)].position);
+    if (end != kNoIndex) mark(tip.tip).position = skin.positions[end];
+  }
+  for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum})
+    mark(id).position -= thin.depth * out.up;
+  for (body::Landmark& landmark : out.landmarks) {
+    if (lies_on_skin(landmark.id)) landmark.position = surface.closest_point(landmark.position).point;
+    landmark.vertex = nearest_vertex(skin, landmark.position);
+  }
+  const Vec3 knees = 0.5 * (mark(LandmarkId::kKneeL).position + mark(LandmarkId::kKneeR).position);
+  out.stature_m = stature_of({mark(LandmarkId::kCrown).position,
+                              knees,
+                              {mark(LandmarkId::kToeL).position, mark(LandmarkId::kToeR).position}},
+                             skin.positions, found.stature_m + 2.0 * thin.depth);  // sole and crown
+  return out;
+}
+
+}  // namespace bodice::anatomy
