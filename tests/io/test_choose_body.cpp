@@ -106,9 +106,9 @@ TEST_CASE("limbs that are closed pieces of their own belong to the body") {
   CHECK(geometry::bounding_box(result->skin.positions).size().x() == doctest::Approx(1.7).epsilon(0.01));
 }
 
-TEST_CASE("of two people beside each other the larger is taken, and the other by its number") {
+TEST_CASE("of two people beside each other the file's first is taken, and the other by its number") {
   const TriMesh second =
-      moved(mapped(figure(), [](const Vec3& p) { return Vec3(0.9 * p); }), {0.9, 0.0, 0.0});
+      moved(mapped(figure(), [](const Vec3& p) { return Vec3(1.1 * p); }), {0.9, 0.0, 0.0});
   const TempFolder folder;
   const auto file = folder.write("two.obj", to_obj({{"", bodice_test::joined(figure(), second)}}));
   const auto first = io::import_body(kContext, file), other = io::import_body(kContext, file, {.person = 2});
@@ -121,6 +121,26 @@ TEST_CASE("of two people beside each other the larger is taken, and the other by
   REQUIRE(!third.ok());
   CHECK(third.error().code == engine::ErrorCode::kNotFound);
   CHECK(third.error().remedy.find("1 to 2") != std::string::npos);
+}
+
+TEST_CASE("a small child before an adult is number two") {
+  const TriMesh child = moved(mapped(figure(), [](const Vec3& p) { return Vec3(0.6 * p); }), {0.9, 0.0, 0.0});
+  const TempFolder folder;
+  const auto file = folder.write("two.obj", to_obj({{"", bodice_test::joined(child, figure())}}));
+  const auto first = io::import_body(kContext, file), other = io::import_body(kContext, file, {.person = 2});
+  REQUIRE(first.ok());
+  REQUIRE(other.ok());
+  CHECK(vertex_distance(first->skin, figure()) < 1e-6);
+  CHECK(vertex_distance(other->skin, child) < 1e-6);
+}
+
+TEST_CASE("a floor is no body, even where the body has so many holes that it is less closed") {
+  TriMesh holed = figure();
+  std::size_t next = 0;
+  std::erase_if(holed.triangles, [&](const geometry::Triangle&) { return next++ % 3 == 0; });
+  const auto result = import_groups({{"", bodice_test::joined(holed, sheet(3.0, 3.0, 24, 24))}});
+  REQUIRE(result.ok());
+  CHECK(geometry::bounding_box(result->skin.positions).size().x() < 2.0);
 }
 
 TEST_CASE("a chair in the mesh of the body is left out") {

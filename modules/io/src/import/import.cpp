@@ -80,6 +80,7 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   DetectedFrame detected = detect_frame(repaired->mesh, options, scene->meters_per_unit, scene->up);
   out.frame = detected.frame;
   out.unit = std::move(detected.unit);
+  out.up_found_by_extents = detected.up_found_by_extents;
   append_warnings(std::move(detected.warnings), out.warnings);
   check_precision(chosen->shape, scene->kept_digits, out);
 

@@ -6,8 +6,8 @@
 
 #include <bodice/engine/stage_timer.hpp>
 
-#include "body/append.hpp"
 #include "body/load_body.hpp"
+#include "body/stand_upright.hpp"
 
 namespace bodice::tryon {
 namespace {
@@ -34,7 +34,7 @@ DistanceField measure_distances(const engine::Context& context, const io::Import
   return field;
 }
 
-std::shared_ptr<SegmentedSkin> join_skin(const engine::Context&, const io::ImportedMesh& mesh,
+std::shared_ptr<SegmentedSkin> join_skin(const engine::Context& context, const io::ImportedMesh& mesh,
                                          const anatomy::Anatomy& anatomy, const DistanceField& field) {
   auto skin = std::make_shared<SegmentedSkin>(SegmentedSkin{.input = mesh,
                                                             .anatomy = anatomy,
@@ -45,6 +45,8 @@ std::shared_ptr<SegmentedSkin> join_skin(const engine::Context&, const io::Impor
   append(skin->stages, field.stages);
   append(skin->warnings, anatomy.warnings);
   drop_repeated_holes(skin->warnings);
+  if (stand_upright(skin->input, skin->anatomy))
+    skin->distance = std::make_shared<const MeshDistance>(context, skin->input.skin);
   return skin;
 }
 

@@ -28,9 +28,11 @@ struct ImportOptions {
 /// A repaired mesh in meters, y up, and its relation to the file.
 struct ImportedMesh {
   std::filesystem::path file;
-  std::string mesh;        ///< name of the chosen mesh or group
-  std::string unit;        ///< "m", "cm", ...; "unknown" with a warning when none fits
-  geometry::Frame frame;   ///< maps the file's coordinates to the skin's
+  std::string mesh;       ///< name of the chosen mesh or group
+  std::string unit;       ///< "m", "cm", ...; "unknown" with a warning when none fits
+  geometry::Frame frame;  ///< maps the file's coordinates to the skin's
+  /// Whether neither the caller nor the file gave the up axis; landmarks may correct it.
+  bool up_found_by_extents = false;
   geometry::TriMesh skin;  ///< the repaired mesh, meters, y up
   /// #input vertices -> skin vertex or kNoIndex. Input vertices are those of the file, mesh after mesh. OBJ,
   /// FBX and Collada are split by corner when they are read; there they are those of the chosen meshes, in

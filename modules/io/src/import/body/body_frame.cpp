@@ -68,7 +68,7 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
       out.warnings.push_back({"unit-unlikely", "",
                               engine::message("In ", out.unit, ", the given unit, the body is ",
                                               unit.meters * length, " m long, which is no person's size."),
-                              "Leave --unit out to have it found."});
+                              "Leave the unit out (program: --unit) to have it found."});
     return;
   }
   const double area = surface_area(body);
@@ -83,7 +83,7 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
           {"unit-contradicted", "",
            engine::message("The file gives its unit as ", *stated, " m, which makes the body ",
                            *stated * length, " m long; '", out.unit, "' fits its skin and was taken."),
-           "Give --unit if that is wrong."});
+           "If that is wrong, give the unit (program: --unit) or scale the body to meters."});
     return;
   }
   out.frame.meters_per_unit = area > 0.0 ? std::sqrt(kTypicalSkin_m2 / area) : 1.0;
@@ -92,7 +92,7 @@ void detect_unit(const geometry::TriMesh& body, const ImportOptions& options, st
                           engine::message("No common unit makes the body, ", length,
                                           " units long, a person's size; it was scaled to ",
                                           out.frame.meters_per_unit * length, " m."),
-                          "Give --unit to set it."});
+                          "Give the unit (program: --unit), or scale the body to meters."});
 }
 
 /// A body as a coarse grid of occupied cells, which is compared with its mirror images.
@@ -189,6 +189,7 @@ DetectedFrame detect_frame(const geometry::TriMesh& body, const ImportOptions& o
   detect_unit(body, options, meters_per_unit, detected);
   const Axis by_shape = up_axis_of(body);
   detected.frame.up = options.up ? *options.up : up ? *up : by_shape;
+  detected.up_found_by_extents = !options.up && !up;
   return detected;
 }
 

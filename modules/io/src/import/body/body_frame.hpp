@@ -15,6 +15,7 @@ namespace bodice::io {
 struct DetectedFrame {
   geometry::Frame frame;
   std::string unit;
+  bool up_found_by_extents = false;
   std::vector<engine::Warning> warnings;
 };
 

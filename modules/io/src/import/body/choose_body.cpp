@@ -19,6 +19,8 @@ using geometry::kNoIndex;
 constexpr double kEnoughTriangles = 100;
 /// A closed piece with a smaller share of the area that may be skin is debris among patches.
 constexpr double kMainPiece = 0.2;
+/// Bodies above this share of the best one's score look alike: a child beside an adult has .5 of its area.
+constexpr double kAlike = 0.45;
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -89,9 +91,9 @@ void report(const FileScene& scene, const std::vector<Piece>& pieces, const std:
     left_count += in ? 0 : 1;
   }
   if (taken.size() > 1)
-    chosen.warnings.push_back({"body-joined", chosen.name,
-                               "The body was joined from the meshes " + list_names(scene, taken) + ".",
-                               "Name one with --mesh if that is not the body."});
+    chosen.warnings.push_back(
+        {"body-joined", chosen.name, "The body was joined from the meshes " + list_names(scene, taken) + ".",
+         "If that is not the body, name its mesh (program: --mesh), or save it alone."});
   if (left_count == 0) return;
   std::set<std::size_t> only_left;
   std::set_difference(left.begin(), left.end(), taken.begin(), taken.end(),
@@ -104,7 +106,7 @@ void report(const FileScene& scene, const std::vector<Piece>& pieces, const std:
                                  " % of the file's surface" +
                                  (only_left.empty() ? "" : " (" + list_names(scene, only_left) + ")") +
                                  (left_count == 1 ? " was" : " were") + " left out: not the body's skin.",
-                             "Name the body's mesh with --mesh if that is wrong."});
+                             "If that is wrong, name the body's mesh (program: --mesh), or save it alone."});
 }
 
 /// The chosen triangles as in the file, flaws included, which repair will report. `wanted` is indexed by
@@ -175,19 +177,39 @@ std::size_t seed_of(const FileScene& scene, const std::vector<Piece>& pieces) {
     area += pieces[i].area;
     largest = std::min(largest, i);
   }
+  // A floor is more closed than a scan with many holes, but never the body.
+  if (area > 0.0)
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (is_flat(pieces[i]) || is_room(pieces[i])) score[i] = 0.0;
   const auto best =
       static_cast<std::size_t>(std::distance(score.begin(), std::max_element(score.begin(), score.end())));
   return pieces[best].area < kMainPiece * area ? largest : best;
 }
 
-/// Body number `person` of the file, the first being the one that shape and names point to.
+/// The pieces that people begin with. Where several look alike, the file's order numbers them.
+std::vector<std::size_t> people_in(const engine::Context& context, const FileScene& scene,
+                                   const JoinedScene& joined, const std::vector<Piece>& pieces,
+                                   const std::vector<std::size_t>& body) {
+  std::vector<std::size_t> people = other_people(context, joined, pieces, body);
+  people.insert(people.begin(), body.front());
+  const double best = body_score(pieces[body.front()], scene);
+  const auto alike = std::stable_partition(people.begin(), people.end(), [&](std::size_t i) {
+    return body_score(pieces[i], scene) > kAlike * best;
+  });
+  std::sort(people.begin(), alike, [&](std::size_t a, std::size_t b) {
+    return pieces[a].triangles.front() < pieces[b].triangles.front();
+  });
+  return people;
+}
+
+/// Body number `person` of the file.
 engine::Result<std::vector<std::size_t>> pieces_of_person(const engine::Context& context,
                                                           const FileScene& scene, const JoinedScene& joined,
                                                           const std::vector<Piece>& pieces, int person,
                                                           ChosenBody& chosen) {
   std::vector<std::size_t> body = join_pieces(context, joined, pieces, seed_of(scene, pieces));
-  const std::vector<std::size_t> people = other_people(context, joined, pieces, body);
-  const auto count = static_cast<int>(people.size()) + 1;
+  const std::vector<std::size_t> people = people_in(context, scene, joined, pieces, body);
+  const auto count = static_cast<int>(people.size());
   if (person > count || person < 1)
     return engine::Error{engine::ErrorCode::kNotFound,
                          "There is no person " + std::to_string(person) + " in the file.",
@@ -196,9 +218,10 @@ engine::Result<std::vector<std::size_t>> pieces_of_person(const engine::Context&
     chosen.warnings.push_back({"several-people", "",
                                "The file holds " + std::to_string(count) + " bodies; number " +
                                    std::to_string(person) + " was taken.",
-                               "Choose another with --person if that is the wrong one."});
-  if (person == 1) return body;
-  return join_pieces(context, joined, pieces, people[static_cast<std::size_t>(person - 2)]);
+                               "Choose another by its number (program: --person), or save one body alone."});
+  const std::size_t wanted = people[static_cast<std::size_t>(person - 1)];
+  if (wanted == body.front()) return body;
+  return join_pieces(context, joined, pieces, wanted);
 }
 
 }  // namespace
