@@ -12,6 +12,12 @@
 
 namespace bodice_test {
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool kSanitized = true;  // shadow memory counts as data, signals are taken, all is slower
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 /// Jobs have `body` (a file), `n`, and `do`: what run() does, or `prepare`: what prepare() does.
 class FakeWork : public bodice::batch::Work {
  public:

@@ -5,12 +5,7 @@
 
 using namespace bodice;
 using bodice_test::BatchFolder;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // shadow memory counts as data, and signals are taken
-#else
-constexpr bool kSanitized = false;
-#endif
+using bodice_test::kSanitized;
 
 TEST_CASE("a batch with jobs that fail in every manner names each and does the others") {
   BatchFolder folder({R"({"n": 1})", R"({"n": 2, "do": "hang"})", R"({"n": 3, "do": "crash"})",

@@ -98,8 +98,10 @@ TEST_CASE("a million lines start in under ten seconds and 200 MB, and a broken o
   const double cpu_s =
       static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
   MESSAGE("a million lines: ", took.count(), " s, of a core ", cpu_s, " s, ", usage.ru_maxrss / 1024, " MiB");
-  CHECK(cpu_s < 10.0);
-  CHECK(usage.ru_maxrss < 200'000'000 / 1024);
+  if (!bodice_test::kSanitized) {
+    CHECK(cpu_s < 10.0);
+    CHECK(usage.ru_maxrss < 200'000'000 / 1024);
+  }
   CHECK(folder.results().size() == 9);
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out/log")) {
     auto log = folder.log(entry.path());
