@@ -1,5 +1,6 @@
 #include "bodies.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <bodice/engine/executor.hpp>
@@ -15,6 +16,13 @@ namespace {
 using bodice::synth::BodyOptions;
 using bodice::synth::Pose;
 
+/// Seeds of random poses that no test and no other bench takes.
+constexpr std::uint64_t kFirstPose = 950000;
+/// A body of a file stands or moves as people do, and there are few; the poses made of them are random.
+constexpr int kWeightOfFile = 10;
+constexpr auto kLeftFingertip = bodice::body::LandmarkId::kFingertipL;
+/// A hand that is farther from the true fingertip, as a fraction of the stature, is another extremity.
+constexpr double kNearFingertip = 0.1;
 /// Poses in which the trunk is as in the rest pose; arms that are raised lengthen paths over the chest.
 constexpr std::array kUpright{Pose::kA, Pose::kT, Pose::kArmsDown, Pose::kArmsUp};
 
@@ -39,20 +47,37 @@ BodyOptions options_of(std::uint64_t seed, bool standing) {
 
 }  // namespace
 
-Sample::Sample(std::uint64_t seed, bool standing) {
+Sample::Sample(std::uint64_t seed, bool standing) : person_(seed) {
   const BodyOptions options = options_of(seed, standing);
   adult_ = options.childhood == 0.0;
   auto made = bodice::synth::make_body({}, options);
   if (!made) throw std::runtime_error(made.error().sentence());
   truth_ = std::move(*made);
-  skin_ = std::make_unique<bodice::anatomy::Skin>(bodice::anatomy::make_skin({}, truth_.mesh));
+  stature_m_ = truth_.stature_m;
+  for (const auto& mark : truth_.landmarks) landmarks_[static_cast<std::size_t>(mark.id)] = mark.position;
+  analyze();
+}
+
+Sample::Sample(const bench::Case& body, std::size_t person, int weight)
+    : stature_m_(body.stature), person_(person), weight_(weight) {
+  for (std::size_t id = 0; id < landmarks_.size(); ++id) {
+    const auto found = body.landmarks.find(std::string(name(static_cast<bodice::body::LandmarkId>(id))));
+    if (found != body.landmarks.end()) landmarks_[id] = found->second;
+  }
+  truth_.mesh = body.mesh;
+  if (knows(kLeftFingertip) && stature_m_ > 0.0) analyze();
+}
+
+void Sample::analyze() {
+  const bodice::geometry::TriMesh& mesh = truth_.mesh;
+  skin_ = std::make_unique<bodice::anatomy::Skin>(bodice::anatomy::make_skin({}, mesh));
   extremities_ = bodice::anatomy::find_extremities({}, *skin_);
   if (!extremities_) return;
   const auto sides = bodice::anatomy::find_sides({}, *skin_, *extremities_);
   tips_ = bodice::anatomy::in_body_order(*extremities_, sides);
   coordinates_ = std::make_unique<bodice::anatomy::BodyCoordinates>(bodice::engine::Context{}, *skin_, tips_);
-  const Vec3& hand = truth_.mesh.positions[tips_.hand[0]];
-  usable_ = (hand - landmark(bodice::body::LandmarkId::kFingertipL)).norm() < 0.1 * truth_.stature_m;
+  const Vec3& hand = mesh.positions[tips_.hand[0]];
+  usable_ = (hand - landmark(kLeftFingertip)).norm() < kNearFingertip * stature_m_;
   if (usable_) (void)bodice::anatomy::find_landmarks({}, *skin_, *coordinates_, &records_);
 }
 
@@ -62,15 +87,42 @@ Vec3 Sample::joint(const std::string& name) const {
   throw std::runtime_error("no joint is named " + name);
 }
 
-std::vector<std::unique_ptr<Sample>> make_samples(const Draw& draw) {
-  std::vector<std::unique_ptr<Sample>> samples(draw.count);
+namespace {
+
+/// Makes samples side by side, and drops those that are not usable. `make` (index) returns one.
+template <class Make>
+OwnedSamples side_by_side(std::size_t count, Make&& make) {
+  OwnedSamples samples(count);
   const auto workers = bodice::engine::make_tbb_executor();
   const bodice::engine::Context context{.executor = workers.get()};
-  bodice::engine::parallel_for(context, draw.count, 1, [&](std::size_t i, std::size_t) {
-    samples[i] = std::make_unique<Sample>(draw.from + i, draw.standing);
-  });
+  bodice::engine::parallel_for(context, count, 1, [&](std::size_t i, std::size_t) { samples[i] = make(i); });
   std::erase_if(samples, [](const auto& s) { return !s->usable(); });
   return samples;
+}
+
+}  // namespace
+
+OwnedSamples make_samples(const Draw& draw) {
+  return side_by_side(draw.count,
+                      [&](std::size_t i) { return std::make_unique<Sample>(draw.from + i, draw.standing); });
+}
+
+OwnedSamples read_samples(const std::filesystem::path& data, std::size_t count) {
+  std::vector<bench::Case> bodies = bench::rig_cases(data, kFirstPose, count);
+  std::vector<std::string> people;
+  for (const bench::Case& body : bodies)
+    if (std::ranges::find(people, body.kind) == people.end()) people.push_back(body.kind);
+  const std::size_t posed = bodies.size();
+  for (bench::Case& body : bench::file_cases(data, "bodies/")) bodies.push_back(std::move(body));
+  const auto person_of = [&](const bench::Case& body) {
+    return static_cast<std::size_t>(
+        std::ranges::find_if(
+            people, [&](const std::string& name) { return body.name.find(name) != std::string::npos; }) -
+        people.begin());
+  };
+  return side_by_side(bodies.size(), [&](std::size_t i) {
+    return std::make_unique<Sample>(bodies[i], person_of(bodies[i]), i < posed ? 1 : kWeightOfFile);
+  });
 }
 
 }  // namespace calibrate

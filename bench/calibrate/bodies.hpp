@@ -1,8 +1,14 @@
 // Made bodies of known truth, with the coordinates that landmarks are found in.
 #pragma once
 
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
 #include <bodice/synth/body.hpp>
 
+#include "../anatomy/cases.hpp"
 #include "coordinates/build.hpp"
 #include "extremities/extremities.hpp"
 #include "landmarks/base/correction.hpp"
@@ -18,30 +24,45 @@ struct Draw {
   bool standing = false;  ///< with an upright trunk, arms raised or not; else in all poses
 };
 
-/// A made body with everything that its landmarks are found from.
+/// A body of known truth with everything that its landmarks are found from.
 class Sample {
  public:
-  /// Random sex, build (thin to obese; children and pregnant women too), pose and resolution.
+  /// A made body: random sex, build (thin to obese; children and pregnant women too), pose and resolution.
   explicit Sample(std::uint64_t seed, bool standing);
+  /// A body of a file, one person's in whatever pose; it counts `weight` times.
+  Sample(const bench::Case& body, std::size_t person, int weight);
   Sample(const Sample&) = delete;
   Sample& operator=(const Sample&) = delete;
 
+  /// The labels and joints of a made body; empty for a body of a file.
   const bodice::synth::Body& truth() const { return truth_; }
+  double stature_m() const { return stature_m_; }
+  /// Bodies of one person are left out of a fit together.
+  std::size_t person() const { return person_; }
+  int weight() const { return weight_; }
   const bodice::anatomy::Skin& skin() const { return *skin_; }
   const bodice::anatomy::BodyCoordinates& coordinates() const { return *coordinates_; }
   /// False where the five extremities were not found, or left and right were mistaken.
   bool usable() const { return usable_; }
   bool adult() const { return adult_; }
   double size_m() const { return static_cast<double>(coordinates_->size_m()); }
-  Vec3 landmark(bodice::body::LandmarkId id) const {
-    return truth_.landmarks[static_cast<std::size_t>(id)].position;
+  bool knows(bodice::body::LandmarkId id) const {
+    return landmarks_[static_cast<std::size_t>(id)].has_value();
   }
+  /// Precondition: knows(id).
+  Vec3 landmark(bodice::body::LandmarkId id) const { return *landmarks_[static_cast<std::size_t>(id)]; }
   Vec3 joint(const std::string& name) const;
   /// What the corrections of its landmarks are computed from.
   const bodice::anatomy::CorrectionRecords& records() const { return records_; }
 
  private:
+  void analyze();
+
   bodice::synth::Body truth_;
+  std::array<std::optional<Vec3>, bodice::body::kLandmarkCount> landmarks_;
+  double stature_m_ = 0.0;
+  std::size_t person_ = 0;
+  int weight_ = 1;
   std::unique_ptr<bodice::anatomy::Skin> skin_;
   std::optional<bodice::anatomy::Extremities> extremities_;
   bodice::anatomy::BodyExtremities tips_;
@@ -50,7 +71,12 @@ class Sample {
   bool adult_ = true, usable_ = false;
 };
 
+using OwnedSamples = std::vector<std::unique_ptr<Sample>>;
+
 /// The usable ones of the drawn bodies.
-std::vector<std::unique_ptr<Sample>> make_samples(const Draw& draw);
+OwnedSamples make_samples(const Draw& draw);
+
+/// The usable ones of the bodies of a data folder, at rest and posed, and of `count` random poses of them.
+OwnedSamples read_samples(const std::filesystem::path& data, std::size_t count);
 
 }  // namespace calibrate

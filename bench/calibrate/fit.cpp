@@ -127,6 +127,7 @@ ordered_json fit_armpit_signature(const Samples& samples) {
     const bodice::geometry::MeshDistance distance({}, sample->skin().mesh);
     const auto& coordinates = sample->coordinates();
     for (int side = 0; side < 2; ++side) {
+      if (!sample->knows(bodice::body::of_side(LandmarkId::kArmpitL, side))) continue;
       const float half = bodice::anatomy::half_chest(coordinates, side);
       add_row(
           as_vector(bodice::anatomy::armpit_measures(coordinates, half)),
@@ -143,6 +144,7 @@ ordered_json fit_perineum_signature(const Samples& samples) {
   for (const auto& sample : samples) {
     const bodice::geometry::MeshDistance distance({}, sample->skin().mesh);
     const auto& coordinates = sample->coordinates();
+    if (!sample->knows(LandmarkId::kPerineum)) continue;
     Eigen::VectorXd features = features_at(*sample, distance, sample->landmark(LandmarkId::kPerineum),
                                            [&](Index v) { return coordinates.perineum_features(v); });
     for (int mirrored = 0; mirrored < 2; ++mirrored) {

@@ -9,7 +9,7 @@
 
 namespace calibrate {
 
-using Samples = std::vector<std::unique_ptr<Sample>>;
+using Samples = std::vector<const Sample*>;
 using nlohmann::ordered_json;
 
 /// Numbers with the digits that single precision holds.

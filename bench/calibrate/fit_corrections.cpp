@@ -13,7 +13,7 @@ using bodice::anatomy::Correction;
 using bodice::anatomy::CorrectionAxis;
 using bodice::anatomy::LandmarkKind;
 
-/// Bodies are left out of the fit in this many parts, one after the other, to choose the ridge.
+/// People are left out of the fit in this many parts, one after the other, to choose the ridge.
 constexpr std::size_t kFolds = 5;
 /// What a squared weight may cost, as a share of a row in units of its measure's spread.
 constexpr std::array kRidges{1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
@@ -23,7 +23,7 @@ constexpr double kElsewhere = 2.0;
 
 /// One correction of one body, in fractions of the body size.
 struct Row {
-  std::size_t body;
+  std::size_t person;
   const Correction* correction;
   Vec3 missing;  ///< from the first estimate to the true landmark
 };
@@ -48,11 +48,11 @@ std::map<std::string, Rows> rows_of(const LandmarkKind& kind, const Samples& sam
     for (const Correction& correction : samples[body]->records().corrections) {
       const bool left = correction.of == kind.id;
       const bool right = kind.paired && correction.of == bodice::body::of_side(kind.id, 1);
-      if (!left && !right) continue;
+      if ((!left && !right) || !samples[body]->knows(correction.of)) continue;
       const Vec3 missing =
           (samples[body]->landmark(correction.of) - correction.first) / samples[body]->size_m();
       if (!missing.allFinite() || missing.norm() > kElsewhere * correction.most) continue;
-      rows[name_of(correction)].push_back({body, &correction, missing});
+      rows[name_of(correction)].push_back({samples[body]->person(), &correction, missing});
     }
   return rows;
 }
@@ -87,12 +87,12 @@ Eigen::VectorXd spreads(const Rows& rows) {
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-/// The weights by all rows but those of bodies in the fold; kFolds: by all.
+/// The weights by all rows but those of people in the fold; kFolds: by all.
 Eigen::VectorXd solve(const Rows& rows, double ridge, std::size_t fold) {
   const auto unknowns = static_cast<int>(factors(*rows.front().correction, 0).size());
   LeastSquares system(unknowns);
   for (const Row& row : rows)
-    if (row.body % kFolds != fold)
+    if (row.person % kFolds != fold)
       for (int k = 0; k < 3; ++k) system.add(factors(*row.correction, k), row.missing[k]);
   return system.solve(ridge * spreads(rows).array().square()).col(0);
 }
@@ -104,13 +104,13 @@ double error(const Row& row, const Eigen::VectorXd& weights) {
   return left.norm();
 }
 
-/// The mean error of bodies that are left out.
+/// The mean error of people that are left out.
 double left_out_error(const Rows& rows, double ridge) {
   double sum = 0.0;
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
     const Eigen::VectorXd weights = solve(rows, ridge, fold);
     for (const Row& row : rows)
-      if (row.body % kFolds == fold) sum += error(row, weights);
+      if (row.person % kFolds == fold) sum += error(row, weights);
   }
   return sum / static_cast<double>(rows.size());
 }
@@ -124,7 +124,7 @@ void add_weights(const Rows& rows, ordered_json& out) {
   for (const Row& row : rows) before += row.missing.norm() / static_cast<double>(rows.size());
   const Correction& first = *rows.front().correction;
   std::printf(
-      "  %s: %zu rows, first estimate %.2f %%, left-out bodies %.2f %% of the body size off, ridge %g\n",
+      "  %s: %zu rows, first estimate %.2f %%, left-out people %.2f %% of the body size off, ridge %g\n",
       name_of(first).c_str(), rows.size(), 100.0 * before, 100.0 * best, ridge);
   const Eigen::VectorXd weights = solve(rows, ridge, kFolds);
   Eigen::Index at = 0;

@@ -25,7 +25,7 @@ Eigen::Vector4d stature_lengths(const Sample& sample) {
   const auto& head = *tips.from_head;
   const Eigen::Vector4d lengths(tips.head_to_feet, tips.feet_apart, tips.hands_apart,
                                 0.5 * static_cast<double>(head[tips.hand[0]] + head[tips.hand[1]]));
-  return lengths / sample.truth().stature_m;
+  return lengths / sample.stature_m();
 }
 
 /// The distances of the ten pairs, as fractions of the stature.
@@ -39,7 +39,7 @@ TemplatePairs pairs_of(const Sample& sample) {
   int p = 0;
   for (std::size_t a = 0; a < tip.size(); ++a)
     for (std::size_t b = a + 1; b < tip.size(); ++b)
-      pairs[p++] = static_cast<double>((*from[a])[tip[b]]) / sample.truth().stature_m;
+      pairs[p++] = static_cast<double>((*from[a])[tip[b]]) / sample.stature_m();
   return pairs;
 }
 

@@ -1,5 +1,6 @@
-// calibrate DIR [--bodies N] [--only NAME]
-// Makes the coefficients of anatomy's landmarks again from made bodies of known truth, and writes each
+// calibrate DIR [--bodies N] [--only NAME,NAME] [--data BODIES]
+// Makes the coefficients of anatomy's landmarks again from made bodies of known truth and, with --data, from
+// those of a data folder, and writes each
 // landmark's to DIR/<name>.json. The same command writes the same files. modules/anatomy/data/README.md
 // states what is made by which command, and how good it is.
 #include <cstdio>
@@ -17,15 +18,20 @@ namespace {
 using bodice::anatomy::LandmarkKind;
 using bodice::anatomy::Recipe;
 using calibrate::ordered_json;
+using calibrate::Samples;
 
 /// Seeds that no test and no other bench makes bodies of.
 constexpr std::uint64_t kFirstSeed = 910000, kFirstStandingSeed = 930000;
 
 /// The values of the command line.
 struct Arguments {
-  std::filesystem::path folder;
+  std::filesystem::path folder, data;
   std::string only;
   std::size_t bodies = 300;
+
+  bool wants(const std::string& name) const {
+    return only.empty() || ("," + only + ",").find("," + name + ",") != std::string::npos;
+  }
 };
 
 Arguments parse(int argc, char** argv) {
@@ -36,6 +42,8 @@ Arguments parse(int argc, char** argv) {
       a.bodies = std::stoull(argv[++i]);
     else if (more && std::strcmp(argv[i], "--only") == 0)
       a.only = argv[++i];
+    else if (more && std::strcmp(argv[i], "--data") == 0)
+      a.data = argv[++i];
     else
       a.folder = argv[i];
   }
@@ -47,16 +55,51 @@ std::string file_of(const LandmarkKind& kind) {
   return std::string(kind.paired ? name.substr(0, name.size() - 2) : name);
 }
 
-ordered_json fit(const LandmarkKind& kind, const calibrate::Samples& samples) {
+/// Bodies of known truth, made or read when they are first needed.
+class Bodies {
+ public:
+  explicit Bodies(const Arguments& arguments) : arguments_(arguments) {}
+
+  /// Made bodies in all poses.
+  Samples posed() {
+    if (posed_.empty()) posed_ = calibrate::make_samples({kFirstSeed, arguments_.bodies, false});
+    return seen(posed_);
+  }
+  /// Made bodies with an upright trunk.
+  Samples standing() {
+    if (standing_.empty()) standing_ = calibrate::make_samples({kFirstStandingSeed, arguments_.bodies, true});
+    return seen(standing_);
+  }
+  /// Made bodies in all poses and, where a data folder is given, as many of its people's.
+  Samples all() {
+    if (!arguments_.data.empty() && read_.empty())
+      read_ = calibrate::read_samples(arguments_.data, arguments_.bodies);
+    Samples both = posed();
+    for (const calibrate::Sample* sample : seen(read_)) both.insert(both.end(), sample->weight(), sample);
+    return both;
+  }
+
+ private:
+  static Samples seen(const calibrate::OwnedSamples& owned) {
+    Samples samples;
+    for (const auto& sample : owned) samples.push_back(sample.get());
+    return samples;
+  }
+
+  const Arguments& arguments_;
+  calibrate::OwnedSamples posed_, standing_, read_;
+};
+
+ordered_json fit(const LandmarkKind& kind, Bodies& bodies) {
   switch (kind.recipe) {
     case Recipe::kSignature:
-      return fit_signature(kind, samples);
+      return fit_signature(kind, bodies.posed());
     case Recipe::kTrunkLevel:
-      return fit_trunk_level(kind, samples);
+      return fit_trunk_level(kind, bodies.standing());
     case Recipe::kLimbLevel:
-      return fit_limb_level(kind, samples);
+      return fit_limb_level(kind, bodies.posed());
     case Recipe::kCorrections:
-      return fit_corrections(kind, samples);
+      return fit_corrections(kind, bodies.all());
     case Recipe::kNone:
       break;
   }
@@ -113,25 +156,20 @@ constexpr OwnFit kOwnFits[] = {{"stature", calibrate::fit_stature},
 int main(int argc, char** argv) {
   const Arguments a = parse(argc, argv);
   if (!std::filesystem::is_directory(a.folder)) {
-    std::fprintf(stderr,
-                 "usage: calibrate DIR [--bodies N] [--only NAME], DIR: an existing folder for the files\n");
+    std::fprintf(
+        stderr,
+        "usage: calibrate DIR [--bodies N] [--only NAME,NAME] [--data BODIES], DIR: an existing folder "
+        "for the files\n");
     return 2;
   }
-  calibrate::Samples posed, standing;
+  Bodies bodies(a);
   for (const auto& [name, fit] : kOwnFits)
-    if (a.only.empty() || a.only == name) {
-      if (posed.empty()) posed = calibrate::make_samples({kFirstSeed, a.bodies, false});
-      if (!make_again(a.folder, name, fit(posed))) return 1;
-    }
+    if (a.wants(name))
+      if (!make_again(a.folder, name, fit(bodies.all()))) return 1;
   for (const LandmarkKind& kind : bodice::anatomy::landmark_kinds()) {
     const std::string name = file_of(kind);
-    if (kind.recipe == Recipe::kNone || (!a.only.empty() && a.only != name)) continue;
-    if (kind.recipe == Recipe::kTrunkLevel && standing.empty())
-      standing = calibrate::make_samples({kFirstStandingSeed, a.bodies, true});
-    if (kind.recipe != Recipe::kTrunkLevel && posed.empty())
-      posed = calibrate::make_samples({kFirstSeed, a.bodies, false});
-    if (!make_again(a.folder, name, fit(kind, kind.recipe == Recipe::kTrunkLevel ? standing : posed)))
-      return 1;
+    if (kind.recipe == Recipe::kNone || !a.wants(name)) continue;
+    if (!make_again(a.folder, name, fit(kind, bodies))) return 1;
   }
   return 0;
 }
