@@ -19,13 +19,14 @@ namespace {
 
 using cluster::Model;
 
-constexpr std::size_t kShardsANode = 16;  // of the plot and the last columns
+/// Shards a node in the plot and in the last columns of the table.
+constexpr std::size_t kShardsANode = 16;
 
 struct Arguments {
   std::string times = BODICE_JOB_SECONDS, plot;
   std::size_t jobs = 1'000'000;
   int cores = 16;
-  double mean_s = 0.0;  ///< that times are scaled to; 0: as they are
+  double mean_s = 0.0;  ///< times are scaled to this mean; 0: as they are
 };
 
 Arguments read(int argc, char** argv) {

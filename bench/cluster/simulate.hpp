@@ -13,9 +13,9 @@ struct Model {
   int cores = 16;            ///< jobs side by side on a node
   std::size_t shards = 1;    ///< tasks of the array
   double start_s = 2.0;      ///< from a free node to the first job of a task
-  double slow_share = 0.0;   ///< of the nodes
-  double slow_factor = 3.0;  ///< how much longer jobs take there
-  double hung_share = 0.0;   ///< of the jobs, which end at their timeout
+  double slow_share = 0.0;   ///< share of the nodes that are slow
+  double slow_factor = 3.0;  ///< how much longer jobs take on a slow node
+  double hung_share = 0.0;   ///< share of the jobs that hang until their timeout
   double timeout_s = 600.0;
   double hours_to_loss = 0.0;  ///< mean time until a node is lost, exponential; 0: never
   double repair_s = 1800.0;    ///< until it is back
@@ -25,9 +25,9 @@ struct Model {
 
 struct Outcome {
   double makespan_s = 0.0;    ///< until the last result
-  double busy_s = 0.0;        ///< of cores, for results
-  double wasted_s = 0.0;      ///< of cores, for unfinished jobs that were lost
-  std::size_t losses = 0;     ///< of nodes that had work
+  double busy_s = 0.0;        ///< seconds of cores for results
+  double wasted_s = 0.0;      ///< seconds of cores for jobs that were lost unfinished
+  std::size_t losses = 0;     ///< times that a node with work was lost
   std::size_t most_seen = 0;  ///< times that any one job began
 };
 

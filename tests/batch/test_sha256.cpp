@@ -1,7 +1,7 @@
 // Published values: FIPS 180-4 examples of NIST.
 #include <doctest/doctest.h>
 
-#include "sha256.hpp"
+#include "manifest/sha256.hpp"
 
 using bodice::batch::Sha256;
 

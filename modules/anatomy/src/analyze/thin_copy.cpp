@@ -30,25 +30,6 @@ constexpr double kAbove = 1.25;
 /// How much a vertex beside the line from a limb's joint to its tip counts against it as the tip.
 constexpr double kBeside = 0.5;
 
-TriMesh largest_component(const TriMesh& mesh) {
-  const geometry::Components components = geometry::connected_components(mesh);
-  TriMesh kept;
-  std::vector<Index> number(mesh.positions.size(), kNoIndex);
-  for (const geometry::Triangle& t : mesh.triangles) {
-    if (components.of_vertex[t[0]] != 0) continue;
-    geometry::Triangle& out = kept.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      Index& n = number[t[k]];
-      if (n == kNoIndex) {
-        n = static_cast<Index>(kept.positions.size());
-        kept.positions.push_back(mesh.positions[t[k]]);
-      }
-      out[k] = n;
-    }
-  }
-  return kept;
-}
-
 /// The part of the copy's skin right below each vertex, where there is one.
 std::vector<std::optional<body::Part>> parts_below(const ThinCopy& thin, const MeshDistance& distance,
                                                    const Anatomy& found, const TriMesh& skin) {
@@ -150,7 +131,8 @@ std::optional<ThinCopy> thin_copy(const engine::Context& context, const TriMesh&
   const auto field = [&](const Vec3& p) { return distance.signed_distance(p) + thin.depth; };
   const TriMesh all = contour(context, geometry::sample_field(context, field, box, thin.cell));
   if (all.empty()) return std::nullopt;
-  auto repaired = geometry::repair(context, largest_component(all));
+  auto repaired =
+      geometry::repair(context, geometry::largest_components(all, geometry::connected_components(all), 1));
   if (!repaired) return std::nullopt;
   thin.mesh = std::move(repaired->mesh);
   return thin;

@@ -13,7 +13,7 @@ namespace bodice::anatomy {
 struct ThinCopy {
   geometry::TriMesh mesh;
   double depth = 0.0;  ///< in the unit of the skin
-  double cell = 0.0;   ///< of the grid that it was contoured on
+  double cell = 0.0;   ///< edge of the cells that it was contoured on
 };
 
 /// Empty where nothing lies so deep, or the body would need too large a grid. Cost: half a second.

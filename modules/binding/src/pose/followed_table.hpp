@@ -27,7 +27,7 @@ struct TableScratch {
   std::vector<TableShare> values;
   std::vector<Change> changes;
   std::vector<geometry::Float4> rest;             ///< h, a, growth, meters; nothing
-  std::vector<float> h, a;                        ///< of the pose, meters
+  std::vector<float> h, a;                        ///< the pose's table, meters
   std::vector<std::uint8_t> burial;               ///< in bytes
   std::vector<geometry::Float4> coarse;           ///< shifts of the coarser table
   std::array<std::vector<float>, 3> wide, shift;  ///< shifts of its rows with all columns, and of all texels
@@ -46,7 +46,7 @@ struct RestTable {
 
 /// The lengths that heights are bounded by.
 struct TableReach {
-  double out_m = 0.0;  ///< of relief at rest
+  double out_m = 0.0;  ///< how far relief reaches outward at rest
 };
 
 /// Writes texels, burial and scales of the posed table, given the changes of its nodes in scratch.changes.

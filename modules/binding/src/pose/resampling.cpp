@@ -111,7 +111,7 @@ void find_coarse_shifts(const Resampling& to, TableScratch& scratch) {
 /// Where texels of one side of a table lie among those of the coarser one.
 struct Between {
   std::int32_t first;
-  float weight;  ///< of the next one
+  float weight;  ///< share of the next texel
 };
 
 BODICE_LANES Between between(int texel, int n) {

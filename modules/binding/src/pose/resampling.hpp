@@ -31,10 +31,10 @@ struct Range {
 struct Resampling {
   int nodes = 0;
   float to_table[9] = {};    ///< by rows
-  float scale = 1.0f;        ///< of the ellipsoid
+  float scale = 1.0f;        ///< scale of the ellipsoid since rest
   float inverse_out = 0.0f;  ///< 1 over the reach of relief at rest, 1/m
   float most_m = 0.0f;       ///< bound on heights
-  Range h, a;                ///< of what was written
+  Range h, a;                ///< range of the values written
 };
 
 /// Finds the shift of each texel: scratch.shift, from scratch.changes. Rows of the coarser table are spread

@@ -15,7 +15,7 @@ struct UnitEllipsoid {
   float least_squared = 0.0f;
   float to_table[9];           ///< by rows
   float longest_m = 0.0f;      ///< what the unit is
-  float height_unit_m = 0.0f;  ///< of a bundle's heights, carried
+  float height_unit_m = 0.0f;  ///< unit of a bundle's heights after carrying
 };
 
 UnitEllipsoid unit_ellipsoid(const CarriedEllipsoid& carried, double step_m) {

@@ -33,4 +33,22 @@ Components connected_components(const TriMesh& mesh) {
   return result;
 }
 
+TriMesh largest_components(const TriMesh& mesh, const Components& components, std::size_t count) {
+  TriMesh kept;
+  std::vector<Index> number(mesh.positions.size(), kNoIndex);
+  for (const Triangle& t : mesh.triangles) {
+    if (components.of_vertex[t[0]] >= count) continue;
+    Triangle& out = kept.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& n = number[t[k]];
+      if (n == kNoIndex) {
+        n = static_cast<Index>(kept.positions.size());
+        kept.positions.push_back(mesh.positions[t[k]]);
+      }
+      out[k] = n;
+    }
+  }
+  return kept;
+}
+
 }  // namespace bodice::geometry

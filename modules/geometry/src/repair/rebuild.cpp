@@ -25,21 +25,10 @@ constexpr double kSmoothing = 0.5;
 
 TriMesh without_small_components(const TriMesh& mesh) {
   const Components components = connected_components(mesh);
-  TriMesh kept;
-  std::vector<Index> number(mesh.positions.size(), kNoIndex);
-  for (const Triangle& t : mesh.triangles) {
-    if (components.area[components.of_vertex[t[0]]] < kSmallest * components.area.front()) continue;
-    Triangle& out = kept.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      Index& n = number[t[k]];
-      if (n == kNoIndex) {
-        n = static_cast<Index>(kept.positions.size());
-        kept.positions.push_back(mesh.positions[t[k]]);
-      }
-      out[k] = n;
-    }
-  }
-  return kept;
+  const auto& area = components.area;
+  const auto kept =
+      std::count_if(area.begin(), area.end(), [&](double one) { return !(one < kSmallest * area.front()); });
+  return largest_components(mesh, components, static_cast<std::size_t>(kept));
 }
 
 /// Moves vertices onto the data where it is near, along its normal: at a rim they would all meet in one line.

@@ -26,7 +26,7 @@ struct Pieces {
   geometry::TriMesh mesh;
   geometry::Components components;
   std::vector<Index> input;                  // #V of the mesh: a vertex of the garment
-  std::vector<std::vector<Index>> triangle;  // of each piece: the numbers of its triangles
+  std::vector<std::vector<Index>> triangle;  // the triangles of each piece, by number
   std::vector<std::vector<Index>> rims;      // chains of vertices
 
   std::size_t count() const { return components.area.size(); }

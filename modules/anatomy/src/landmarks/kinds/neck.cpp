@@ -63,6 +63,7 @@ Vec3 joint_by_lengths(const LandmarkInput& input, const Landmarks& marks) {
   const BodyLengths lengths = body_lengths(input.coordinates);
   std::vector<double> measures(lengths.begin(), lengths.end());
   const bool has_head = input.head.radius > 0.0;  // not where all of it is taken for something else
+  // Where corrections are recorded, this one is, too, although the other one is taken.
   if (input.fused() || !has_head || input.records) {
     const Vec3 by_loop = corrected(input, {LandmarkId::kNeck,
                                            loop,

@@ -27,7 +27,7 @@ struct BatchOptions {
 
 /// Where a batch stands.
 struct BatchProgress {
-  std::size_t lines = 0;   ///< of the whole manifest
+  std::size_t lines = 0;   ///< lines of the whole manifest
   std::size_t total = 0;   ///< jobs of this shard
   std::size_t done = 0;    ///< computed by this run
   std::size_t there = 0;   ///< skipped: the result was there, from another line or an earlier run

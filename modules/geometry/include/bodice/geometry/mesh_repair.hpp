@@ -55,4 +55,8 @@ struct Components {
 };
 Components connected_components(const TriMesh& mesh);
 
+/// The `count` largest components of a mesh, with the vertices that their triangles use, in the order of
+/// these. `components`: those of `mesh`. O(#V + #F).
+TriMesh largest_components(const TriMesh& mesh, const Components& components, std::size_t count);
+
 }  // namespace bodice::geometry

@@ -56,7 +56,7 @@ struct ScanMesh {
 /// The truth about a person in a scan, in meters, y up.
 struct ScanPerson {
   geometry::TriMesh body;                 ///< the clean skin in the scanned pose and position
-  std::vector<body::Landmark> landmarks;  ///< of that skin
+  std::vector<body::Landmark> landmarks;  ///< landmarks of that skin
   double stature_m = 0.0;
 };
 

@@ -73,7 +73,7 @@ struct DrapeReport {
   double ramp_s = 0.0;                          ///< from the bind pose to the clip's first frame
   std::vector<KeptFrame> kept;                  ///< of a body that moves
   std::vector<DrapedGarment> garments;
-  std::optional<FitScale> fit_map;  ///< of the garments' colors, with the option
+  std::optional<FitScale> fit_map;  ///< scale of the garments' colors, where they have one
   std::string fabric;               ///< name of the fabric; dt_s and substeps are those of the run
   double dt_s = 0.0;
   int substeps = 0;

@@ -23,7 +23,7 @@ struct TackedPiece {
 
 /// What holds the pieces of a garment together.
 struct Tacking {
-  std::vector<cloth::Tack> tacks;   ///< of vertices of the garment
+  std::vector<cloth::Tack> tacks;   ///< pairs of vertices of the garment
   std::vector<TackedPiece> pieces;  ///< by piece, then by what it lies on
 };
 

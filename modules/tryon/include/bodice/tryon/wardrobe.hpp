@@ -25,7 +25,7 @@ struct Wardrobe {
   geometry::TriMesh mesh;
   std::vector<geometry::Index> held;
   std::vector<std::size_t> first_vertex;  ///< #garments + 1
-  std::vector<cloth::Tack> tacks;         ///< of add_tacks()
+  std::vector<cloth::Tack> tacks;         ///< what add_tacks() found
 };
 
 /// Joins the garments, in order. Fails with kInvalidArgument, naming garment and element, when a triangle or

@@ -1,4 +1,4 @@
-#include "summary_page.hpp"
+#include "summary/summary_page.hpp"
 
 #include <cstdint>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "log.hpp"
+#include "run/log.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -8,8 +8,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "outcome.hpp"
-#include "result_store.hpp"
+#include "process/outcome.hpp"
+#include "results/result_store.hpp"
 
 namespace bodice::batch {
 namespace {

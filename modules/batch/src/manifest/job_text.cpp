@@ -1,4 +1,4 @@
-#include "job_text.hpp"
+#include "manifest/job_text.hpp"
 
 #include <cmath>
 #include <utility>

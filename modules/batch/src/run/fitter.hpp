@@ -5,9 +5,9 @@
 
 #include <bodice/batch/batch.hpp>
 
-#include "manifest.hpp"
-#include "process.hpp"
-#include "result_store.hpp"
+#include "manifest/manifest.hpp"
+#include "process/process.hpp"
+#include "results/result_store.hpp"
 
 namespace bodice::batch {
 

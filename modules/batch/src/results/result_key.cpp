@@ -1,4 +1,4 @@
-#include "result_key.hpp"
+#include "results/result_key.hpp"
 
 #include <cerrno>
 #include <cstring>
@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "job_text.hpp"
-#include "sha256.hpp"
+#include "manifest/job_text.hpp"
+#include "manifest/sha256.hpp"
 
 namespace bodice::batch {
 namespace {

@@ -1,4 +1,4 @@
-#include "result_store.hpp"
+#include "results/result_store.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -89,7 +89,8 @@ bool ResultStore::has(const std::string& key) const {
 engine::Result<fs::path> ResultStore::begin(const std::string& key) const {
   const fs::path part = out_ / "part" / (own_mark() + key);
   std::error_code failure;
-  fs::remove_all(part, failure);  // of an earlier process with this number
+  // An earlier process with this number may have left it.
+  fs::remove_all(part, failure);
   if (!failure) fs::create_directory(part, failure);
   if (failure) return refused(part, failure);
   return part;

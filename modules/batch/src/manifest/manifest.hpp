@@ -29,8 +29,8 @@ class Manifest {
   Manifest& operator=(Manifest&&) = delete;
   ~Manifest();
 
-  std::size_t lines() const { return lines_; }          ///< of all shards; empty lines are none
-  std::size_t size() const { return entries_.size(); }  ///< of this shard
+  std::size_t lines() const { return lines_; }          ///< jobs of all shards; empty lines are none
+  std::size_t size() const { return entries_.size(); }  ///< jobs of this shard
   std::size_t line_number(std::size_t i) const { return entries_[i].line; }
   /// Whether job i shares its step with job i - 1.
   bool continues(std::size_t i) const { return i > 0 && entries_[i].continues; }
@@ -58,7 +58,7 @@ class Manifest {
   std::filesystem::path file_;
   int descriptor_;
   const Work* work_;
-  std::vector<std::string> columns_;  ///< of a CSV file
+  std::vector<std::string> columns_;  ///< names of a CSV file's columns
   bool is_csv_;
   std::size_t lines_ = 0;
   std::vector<Entry> entries_;

@@ -1,4 +1,4 @@
-#include "manifest.hpp"
+#include "manifest/manifest.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "job_text.hpp"
-#include "sha256.hpp"
+#include "manifest/job_text.hpp"
+#include "manifest/sha256.hpp"
 
 namespace bodice::batch {
 namespace {
@@ -67,7 +67,7 @@ Error unreadable(const fs::path& file, const std::string& why, std::string remed
 
 /// A line while the order is found.
 struct Manifest::Index {
-  std::array<std::uint64_t, 2> share = {};  ///< of jobs that share a step
+  std::array<std::uint64_t, 2> share = {};  ///< key that jobs with one shared step have in common
   Entry entry;
   std::uint32_t first = 0;  ///< line of the first job that shares it
 };

@@ -1,4 +1,4 @@
-#include "fitter.hpp"
+#include "run/fitter.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include <bodice/engine/write_file.hpp>
 
-#include "outcome.hpp"
+#include "process/outcome.hpp"
 
 namespace bodice::batch {
 namespace {

@@ -60,7 +60,7 @@ bool memory_ran_out();
 struct Ending {
   int status = 0;
   double memory_mb = 0.0;  ///< most resident memory
-  double cpu_s = 0.0;      ///< of all cores
+  double cpu_s = 0.0;      ///< seconds of all cores
   bool by_itself() const;
   int signal() const;  ///< 0 where it ended by itself
 };

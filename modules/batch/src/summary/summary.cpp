@@ -10,8 +10,8 @@
 
 #include <bodice/engine/write_file.hpp>
 
-#include "summary_page.hpp"
-#include "summary_rows.hpp"
+#include "summary/summary_page.hpp"
+#include "summary/summary_rows.hpp"
 
 namespace bodice::batch {
 namespace {

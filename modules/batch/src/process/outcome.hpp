@@ -7,7 +7,7 @@
 
 #include <bodice/batch/work.hpp>
 
-#include "process.hpp"
+#include "process/process.hpp"
 
 namespace bodice::batch {
 
@@ -23,7 +23,7 @@ bool may_differ_next_time(Failure failure);
 struct Outcome {
   Failure failure = Failure::kNone;
   bool there = false;  ///< another process had published the result first
-  std::string reason;  ///< of a failure, in a sentence
+  std::string reason;  ///< why it failed, in a sentence
   double seconds = 0.0, cpu_s = 0.0, memory_mb = 0.0;
   nlohmann::json facts = nlohmann::json::object();  ///< seed, warnings, numbers
 };

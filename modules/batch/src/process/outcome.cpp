@@ -1,4 +1,4 @@
-#include "outcome.hpp"
+#include "process/outcome.hpp"
 
 #include <csignal>
 #include <utility>

@@ -6,10 +6,10 @@
 #include <map>
 #include <optional>
 
-#include "fitter.hpp"
-#include "log.hpp"
-#include "outcome.hpp"
-#include "result_key.hpp"
+#include "process/outcome.hpp"
+#include "results/result_key.hpp"
+#include "run/fitter.hpp"
+#include "run/log.hpp"
 
 namespace bodice::batch {
 
@@ -26,7 +26,7 @@ struct Crew {
   pid_t process = -1;
   ChannelEnd channel;
   LineReader reader;
-  std::optional<Outcome> prepared;  ///< of the shared step; absent: not yet
+  std::optional<Outcome> prepared;  ///< how the shared step ended; absent: not yet
   double begin_s = 0.0;
   bool late = false;
   int starts = 0;

@@ -1,4 +1,4 @@
-#include "coordinator.hpp"
+#include "run/coordinator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,8 @@ using nlohmann::json;
 constexpr int kLook_ms = 200;        // between looks at cancellation and deadlines
 constexpr double kPatience_s = 5.0;  // for a fitter to clean up and end
 constexpr std::size_t kNamedFailures = 10;
-constexpr int kDeathsForgiven = 2;  // of a fitter between its jobs, beyond those that --retry allows
+/// How often a fitter may die between its jobs, beyond what --retry allows.
+constexpr int kDeathsForgiven = 2;
 
 }  // namespace
 

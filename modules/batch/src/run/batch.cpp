@@ -5,7 +5,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include "coordinator.hpp"
+#include "run/coordinator.hpp"
 
 namespace bodice::batch {
 namespace {

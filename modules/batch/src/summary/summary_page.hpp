@@ -5,7 +5,7 @@
 
 #include <bodice/batch/summary.hpp>
 
-#include "summary_rows.hpp"
+#include "summary/summary_rows.hpp"
 
 namespace bodice::batch {
 

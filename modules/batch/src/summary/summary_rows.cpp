@@ -1,4 +1,4 @@
-#include "summary_rows.hpp"
+#include "summary/summary_rows.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-#include "outcome.hpp"
+#include "process/outcome.hpp"
 
 namespace bodice::batch {
 namespace {
