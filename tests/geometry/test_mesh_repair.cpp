@@ -230,6 +230,21 @@ TEST_CASE("components are ordered by area") {
   CHECK(components.of_vertex.back() == 2);
 }
 
+TEST_CASE("the largest components keep their triangles and the vertices that these use, and no others") {
+  const TriMesh large = icosphere(2.0, 1), middle = icosphere(0.5, 2), small = sheet(0.1, 0.1, 1, 1);
+  TriMesh mesh = joined(middle, joined(large, small));
+  mesh.positions.push_back(Vec3(7.0, 7.0, 7.0));  // no triangle uses it
+  const Components components = connected_components(mesh);
+  for (const auto& [count, expected] : {std::pair{1, large}, {2, joined(middle, large)}}) {
+    const TriMesh kept = largest_components(mesh, components, static_cast<std::size_t>(count));
+    CHECK(kept.positions.size() == expected.positions.size());
+    REQUIRE(kept.triangles.size() == expected.triangles.size());
+    for (std::size_t t = 0; t < kept.triangles.size(); ++t)
+      for (int k = 0; k < 3; ++k)
+        CHECK(kept.positions[kept.triangles[t][k]] == expected.positions[expected.triangles[t][k]]);
+  }
+}
+
 TEST_CASE(
     "the awkward files are repaired to the counts of vertices, components and handles that they were made "
     "with") {
