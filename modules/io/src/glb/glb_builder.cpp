@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <string_view>
 
 namespace bodice::io {
@@ -14,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "GLB is little-endian: swap bytes on this machine");
 static_assert(sizeof(Vec3f) == 12 && sizeof(geometry::Triangle) == 12);
 
-constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123;
+constexpr int kFloat = 5126, kUnsignedInt = 5125, kUnsignedShort = 5123, kShort = 5122, kByte = 5120;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963, kNoTarget = 0;
 constexpr std::uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
@@ -110,6 +111,13 @@ std::size_t GlbBuilder::add_values(std::span<const float> values, const char* ty
                       values.size() / components, type);
 }
 
+void GlbBuilder::require(const char* extension) {
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    Json& names = document_[list];
+    if (std::find(names.begin(), names.end(), extension) == names.end()) names.push_back(extension);
+  }
+}
+
 std::size_t GlbBuilder::size(const char* array) const {
   return document_.contains(array) ? document_[array].size() : 0;
 }
@@ -117,7 +125,8 @@ std::size_t GlbBuilder::size(const char* array) const {
 std::string GlbBuilder::finish() const {
   Json document = document_;
   document["buffers"] = Json::array({Json{{"byteLength", buffer_.size()}}});
-  std::string text = document.dump();
+  std::string text =
+      document.dump(-1, ' ', false, Json::error_handler_t::replace);  // names need not be UTF-8
   pad_to_four(text, ' ');
   const std::size_t length = 12 + 8 + text.size() + 8 + buffer_.size();
   if (length > std::numeric_limits<std::uint32_t>::max()) return {};
@@ -133,6 +142,60 @@ std::string GlbBuilder::finish() const {
   append_u32(file, kBinaryChunk);
   file += buffer_;
   return file;
+}
+
+std::size_t GlbSparseWriter::add(std::span<const std::array<std::int16_t, 3>> values) {
+  return add_values(values, kShort);
+}
+
+std::size_t GlbSparseWriter::add(std::span<const std::array<std::int8_t, 3>> values) {
+  return add_values(values, kByte);
+}
+
+/// The indices take two bytes where they can.
+Json GlbSparseWriter::indices_of(std::span<const std::uint32_t> listed) {
+  if (elements_ > std::numeric_limits<std::uint16_t>::max())
+    return {{"bufferView", glb_.add_view(listed.data(), listed.size_bytes(), kNoTarget)},
+            {"componentType", kUnsignedInt}};
+  const std::vector<std::uint16_t> small(listed.begin(), listed.end());
+  return {{"bufferView", glb_.add_view(small.data(), 2 * small.size(), kNoTarget)},
+          {"componentType", kUnsignedShort}};
+}
+
+template <class T>
+std::size_t GlbSparseWriter::add_values(std::span<const std::array<T, 3>> values, int component) {
+  constexpr std::array<T, 3> kZero{};
+  std::vector<std::uint32_t> moved;
+  std::array<T, 3> low{}, high{};
+  for (std::size_t i = 0; i < elements_; ++i) {
+    if (values[i] != kZero) moved.push_back(static_cast<std::uint32_t>(i));
+    for (std::size_t k = 0; k < 3; ++k)
+      low[k] = i == 0 ? values[i][k] : std::min(low[k], values[i][k]),
+      high[k] = i == 0 ? values[i][k] : std::max(high[k], values[i][k]);
+  }
+  Json accessor = {{"componentType", component},
+                   {"normalized", true},
+                   {"count", elements_},
+                   {"type", "VEC3"},
+                   {"min", low},
+                   {"max", high}};
+  if (!moved.empty()) {
+    const std::size_t index_bytes = elements_ > std::numeric_limits<std::uint16_t>::max() ? 4 : 2;
+    const bool all = moved.size() * (sizeof kZero + index_bytes) >= elements_ * sizeof kZero;
+    if (all && of_all_.is_null()) {
+      std::vector<std::uint32_t> every(elements_);
+      std::iota(every.begin(), every.end(), 0u);
+      of_all_ = indices_of(every);
+    }
+    std::vector<std::array<T, 3>> packed;
+    for (const std::uint32_t i : moved) packed.push_back(values[i]);
+    const std::span<const std::array<T, 3>> listed = all ? values : std::span<const std::array<T, 3>>(packed);
+    accessor["sparse"] = {
+        {"count", listed.size()},
+        {"indices", all ? of_all_ : indices_of(moved)},
+        {"values", {{"bufferView", glb_.add_view(listed.data(), listed.size_bytes(), kNoTarget)}}}};
+  }
+  return glb_.add("accessors", std::move(accessor));
 }
 
 }  // namespace bodice::io

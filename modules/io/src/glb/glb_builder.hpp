@@ -1,6 +1,7 @@
 // The container of binary glTF: a JSON document, and a buffer that its accessors refer to.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -36,16 +37,39 @@ class GlbBuilder {
   std::size_t size(const char* array) const;
   /// Makes a node a root of the scene.
   void add_to_scene(std::size_t node);
+  /// Names an extension that a reader must know.
+  void require(const char* extension);
 
   /// The whole file, or nothing if it exceeds the 4 GiB that the format allows.
   std::string finish() const;
 
  private:
+  friend class GlbSparseWriter;
   std::size_t add_view(const void* data, std::size_t bytes, int target);
   std::size_t add_accessor(std::size_t view, int component, std::size_t count, const char* type);
 
   Json document_;
   std::string buffer_;
+};
+
+/// Adds accessors of small integers that list only the elements other than zero. Elements of sparse accessors
+/// are packed, where those of others begin at multiples of four bytes: three of 16 bits take 6 bytes, not 8.
+class GlbSparseWriter {
+ public:
+  GlbSparseWriter(std::size_t elements, GlbBuilder& glb) : elements_(elements), glb_(glb) {}
+
+  /// Adds vectors in which the largest integer stands for 1; returns the accessor.
+  std::size_t add(std::span<const std::array<std::int16_t, 3>> values);
+  std::size_t add(std::span<const std::array<std::int8_t, 3>> values);
+
+ private:
+  template <class T>
+  std::size_t add_values(std::span<const std::array<T, 3>> values, int component);
+  Json indices_of(std::span<const std::uint32_t> listed);
+
+  std::size_t elements_;
+  GlbBuilder& glb_;
+  Json of_all_;  ///< the indices of all elements, which accessors share
 };
 
 }  // namespace bodice::io

@@ -1,0 +1,79 @@
+// Based on: Autodesk. 3ds Max SDK, Point Cache 2 file format. 2008. - PC2;
+// NewTek. LightWave SDK, Motion Designer data files. 2001. - MDD
+#include <bodice/io/cloth_cache.hpp>
+
+#include <bit>
+#include <cstdint>
+#include <string>
+
+#include <bodice/engine/write_file.hpp>
+
+namespace bodice::io {
+
+namespace {
+
+/// Appends 32-bit words in one order of bytes.
+class Words {
+ public:
+  Words(std::endian order, std::string& bytes) : swap_(order != std::endian::native), bytes_(bytes) {}
+
+  void add(std::uint32_t word) {
+    const auto native = std::bit_cast<std::array<char, 4>>(word);
+    for (std::size_t k = 0; k < 4; ++k) bytes_.push_back(native[swap_ ? 3 - k : k]);
+  }
+  void add(float value) { add(std::bit_cast<std::uint32_t>(value)); }
+
+ private:
+  bool swap_;
+  std::string& bytes_;
+};
+
+void add_frames(const GarmentTrack& track, const geometry::Frame& frame, Words& words) {
+  for (const auto& points : track.frames)
+    for (const geometry::Vec3& p : points)
+      for (const double v : frame.to_file(p)) words.add(static_cast<float>(v));
+}
+
+std::string pc2(const GarmentTrack& track, const geometry::Frame& frame) {
+  constexpr float kFirstFrame = 0.0f, kFramesASample = 1.0f;
+  constexpr std::uint32_t kVersion = 1;
+  std::string bytes("POINTCACHE2\0", 12);
+  Words words(std::endian::little, bytes);
+  words.add(kVersion);
+  words.add(static_cast<std::uint32_t>(track.mesh.positions.size()));
+  words.add(kFirstFrame);
+  words.add(kFramesASample);
+  words.add(static_cast<std::uint32_t>(track.frames.size()));
+  add_frames(track, frame, words);
+  return bytes;
+}
+
+std::string mdd(const GarmentTrack& track, const geometry::Frame& frame) {
+  std::string bytes;
+  Words words(std::endian::big, bytes);
+  words.add(static_cast<std::uint32_t>(track.frames.size()));
+  words.add(static_cast<std::uint32_t>(track.mesh.positions.size()));
+  for (std::size_t f = 0; f < track.frames.size(); ++f)
+    words.add(track.time_s.empty() ? 0.0f : static_cast<float>(track.time_s[f]));
+  add_frames(track, frame, words);
+  return bytes;
+}
+
+}  // namespace
+
+engine::Result<void> write_cloth_cache(const GarmentTrack& track, const geometry::Frame& frame,
+                                       const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (track.frames.empty())
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         "The garment '" + track.name + "' has no frame to write to '" + file.string() + "'.",
+                         "Keep at least one frame."};
+  if (extension == ".pc2") return engine::write_file(file, pc2(track, frame));
+  if (extension == ".mdd") return engine::write_file(file, mdd(track, frame));
+  return engine::Error{engine::ErrorCode::kInvalidArgument, "'" + file.string() + "' names no point cache.",
+                       "Give NAME.pc2 or NAME.mdd."};
+}
+
+}  // namespace bodice::io

@@ -1,0 +1,145 @@
+#include "import/played/played_skin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace bodice::io {
+
+namespace {
+
+using geometry::Vec3;
+using nlohmann::json;
+
+constexpr std::size_t kMostSets = 64;  // of four weights a vertex
+
+/// The skin's weights, all sets of a vertex one after the other.
+rig::SkinWeights weights_of(const GltfDocument& document, const json& attributes, std::size_t vertices) {
+  std::vector<GltfNumbers> joints, weights;
+  for (std::size_t set = 0; set < kMostSets; ++set) {
+    const auto j = index_at(attributes, ("JOINTS_" + std::to_string(set)).c_str());
+    const auto w = index_at(attributes, ("WEIGHTS_" + std::to_string(set)).c_str());
+    auto joint = j ? document.numbers(*j) : std::nullopt;
+    auto weight = w ? document.numbers(*w) : std::nullopt;
+    if (!joint || !weight || joint->count != vertices || weight->count != vertices ||
+        joint->components != 4 || weight->components != 4)
+      break;
+    joints.push_back(std::move(*joint)), weights.push_back(std::move(*weight));
+  }
+  rig::SkinWeights out;
+  out.first.push_back(0);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    for (std::size_t set = 0; set < joints.size(); ++set)
+      for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
+        if (!(weights[set].values[k] > 0.0)) continue;
+        out.joint.push_back(static_cast<std::uint16_t>(joints[set].values[k]));
+        out.weight.push_back(static_cast<float>(weights[set].values[k]));
+      }
+    out.first.push_back(static_cast<std::uint32_t>(out.joint.size()));
+  }
+  return out;
+}
+
+template <class T>
+rig::Keys<T> keys_of(const GltfDocument& document, const json& sampler) {
+  rig::Keys<T> keys;
+  const auto input = index_at(sampler, "input"), output = index_at(sampler, "output");
+  const auto time = input ? document.numbers(*input) : std::nullopt;
+  const auto value = output ? document.numbers(*output) : std::nullopt;
+  const std::string kind = text_at(sampler, "interpolation");
+  const std::size_t width = std::is_same_v<T, Vec3> ? 3 : 4, each = kind == "CUBICSPLINE" ? 3 : 1;
+  if (!time || !value || value->components != width || value->count != each * time->count) return keys;
+  keys.interpolation = kind == "STEP"          ? rig::Interpolation::kStep
+                       : kind == "CUBICSPLINE" ? rig::Interpolation::kCubic
+                                               : rig::Interpolation::kLinear;
+  keys.time_s = time->values;
+  for (std::size_t i = 0; i < value->count; ++i) {
+    const double* at = value->values.data() + width * i;
+    if constexpr (std::is_same_v<T, Vec3>)
+      keys.value.emplace_back(at[0], at[1], at[2]);
+    else
+      keys.value.emplace_back(at[3], at[0], at[1], at[2]);
+  }
+  return keys;
+}
+
+rig::Clip clip_of(const GltfDocument& document, const std::vector<std::ptrdiff_t>& joint_of_node) {
+  rig::Clip clip;
+  const json& animation = document.element("animations", 0);
+  std::vector<rig::Track> tracks(joint_of_node.size());
+  std::vector<bool> moved(joint_of_node.size(), false);
+  for (const json& channel : array_at(animation, "channels")) {
+    const json& target = channel.contains("target") ? channel["target"] : channel;
+    const auto node = index_at(target, "node"), at = index_at(channel, "sampler");
+    const json& samplers = array_at(animation, "samplers");
+    if (!node || !at || *at >= samplers.size() || *node >= joint_of_node.size() || joint_of_node[*node] < 0)
+      continue;
+    const auto joint = static_cast<std::size_t>(joint_of_node[*node]);
+    rig::Track& track = tracks[joint];
+    track.joint = static_cast<std::uint16_t>(joint), moved[joint] = true;
+    const std::string path = text_at(target, "path");
+    if (path == "translation") track.translation = keys_of<Vec3>(document, samplers[*at]);
+    if (path == "rotation") track.rotation = keys_of<Eigen::Quaterniond>(document, samplers[*at]);
+    if (path == "scale") track.scale = keys_of<Vec3>(document, samplers[*at]);
+  }
+  const auto extend = [&](const auto& keys) {
+    if (!keys.empty()) clip.duration_s = std::max(clip.duration_s, keys.time_s.back());
+  };
+  for (std::size_t j = 0; j < tracks.size(); ++j) {
+    if (!moved[j]) continue;
+    extend(tracks[j].translation), extend(tracks[j].rotation), extend(tracks[j].scale);
+    clip.tracks.push_back(std::move(tracks[j]));
+  }
+  return clip;
+}
+
+}  // namespace
+
+std::optional<rig::Rig> played_rig(const GltfDocument& document, const NodeTree& tree, const json& body_node,
+                                   std::size_t vertices) {
+  const auto skin_at = index_at(body_node, "skin"), mesh_at = index_at(body_node, "mesh");
+  if (!skin_at || !mesh_at) return std::nullopt;
+  const json& skin = document.element("skins", *skin_at);
+  const json& joints = array_at(skin, "joints");
+  const auto inverse_at = index_at(skin, "inverseBindMatrices");
+  const auto inverse = inverse_at ? document.numbers(*inverse_at) : std::nullopt;
+  if (!inverse || inverse->components != 16 || inverse->count < joints.size()) return std::nullopt;
+  rig::Rig rig;
+  std::vector<std::ptrdiff_t> joint_of_node(tree.size(), -1);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!joints[j].is_number_unsigned() || joints[j].get<std::size_t>() >= tree.size()) return std::nullopt;
+    joint_of_node[joints[j].get<std::size_t>()] = static_cast<std::ptrdiff_t>(j);
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto node = joints[j].get<std::size_t>();
+    rig::Joint joint;
+    joint.name = text_at(document.element("nodes", node), "name");
+    joint.local = tree.local(node);
+    if (const std::ptrdiff_t up = tree.parent(node); up >= 0)
+      joint.parent = static_cast<std::int32_t>(joint_of_node[static_cast<std::size_t>(up)]);
+    const Eigen::Matrix4d bind = Eigen::Map<const Eigen::Matrix4d>(inverse->values.data() + 16 * j).inverse();
+    joint.bind = bind.topRows<3>();
+    rig.skeleton.joints.push_back(std::move(joint));
+  }
+  const json& primitives = array_at(document.element("meshes", *mesh_at), "primitives");
+  if (primitives.empty() || !primitives[0].contains("attributes")) return std::nullopt;
+  rig.weights = weights_of(document, primitives[0]["attributes"], vertices);
+  rig.clips.push_back(clip_of(document, joint_of_node));
+  if (!rig::put_parents_first(rig) || !rig::mend(rig, vertices)) return std::nullopt;
+  return rig;
+}
+
+std::vector<std::vector<Vec3>> played_frames(const engine::Context& context, const rig::Rig& rig,
+                                             std::span<const Vec3> rest, std::span<const double> time_s) {
+  std::vector<rig::Affine> world(rig.skeleton.joints.size()), skinning(world.size());
+  std::vector<std::vector<Vec3>> frames;
+  for (const double time : time_s) {
+    rig::joint_matrices(rig.skeleton, rig.clips.front(), time, world);
+    rig::skinning_matrices(rig.skeleton, world, skinning);
+    frames.emplace_back(rest.size());
+    rig::skin_linear(context, rest, rig.weights, skinning, frames.back());
+  }
+  return frames;
+}
+
+}  // namespace bodice::io
