@@ -81,6 +81,54 @@ def large_skins_are_thinned():
     check_mesh(data, data["skin"], [data["skin"]["positions"]], "a thinned skin")
 
 
+def pages_of_files():
+    """What was saved gives the page that --html gave, and states what it does not hold."""
+    run("fit", "body.obj", "--tier", "relief", "--max-ellipsoids", "20", "-o", "q.bodice", "--glb", "q.glb",
+        "--report", "q.json", "--html", "q.html", "-q")
+    run("report", "q.json", "q.glb", "q.bodice", "-o", "files.html", "-q")
+    then, now = read("q.html"), read("files.html")
+    for key in ["title", "tier", "hash", "gap_mm", "parts", "colors", "warnings", "stages", "report", "ellipsoids"]:
+        check(then[key] == now[key], f"{key} is another one in the page of files")
+    for a, b in zip(then["landmarks"], now["landmarks"]):
+        check(a["name"] == b["name"] and max(abs(p - q) for p, q in zip(a["at"], b["at"])) < 1e-9, "landmarks")
+    check(then["skin"]["part"] == now["skin"]["part"], "parts of the skin")
+    at = [numbers(page["skin"]["error"], "h") for page in (then, now)]
+    check(len(at[0]) == len(at[1]) and max(abs(p - q) for p, q in zip(*at)) <= 1, "errors differ by over 0.01 mm")
+    check(now["lacks"] == [], f"{now['lacks']}")
+
+    run("report", "q.bodice", "-o", "proxy.html", "-q")
+    data = read("proxy.html")
+    check("skin" not in data and "surface" in data and len(data["lacks"]) == 2, f"a proxy alone: {data['lacks']}")
+    run("report", "q.bodice", "--body", "body.obj", "-o", "body.html", "-q")
+    data = read("body.html")
+    check(data["skin"]["error"] == now["skin"]["error"], "errors of --body")
+
+    run("report", "w.glb", "w.json", "-o", "walk.html", "-q")
+    then, now = read("w.html"), read("walk.html")
+    for key in ["drape", "stages"]: check(then[key] == now[key], f"{key} of a walk")
+    check(max(abs(a - b) for a, b in zip(then["times"], now["times"])) < 1e-6, "times of a walk")
+    for name in ["cloth", "skin"]:
+        a, b = ((data[name][0] if name == "cloth" else data[name])["frames"] for data in (then, now))
+        check(len(a) == len(b) == 4, f"{name}: {len(b)} frames of 4")
+        apart = max(abs(p - q) for one, other in zip(a, b)
+                    for p, q in zip(points_of(then, one), points_of(now, other)))
+        check(apart < 1e-4, f"{name}: frames of files are {apart} m off")
+    check(len(now["lacks"]) == 1 and "colored" in now["lacks"][0], f"{now['lacks']}")
+
+
+def refusals():
+    check("two runs" in run("report", "q.bodice", "w.glb", "-o", "none.html", code=2), "files of two runs")
+    check("two reports" in run("report", "q.json", "w.json", "-o", "none.html", code=2), "two reports")
+    os.makedirs("empty")
+    check("no result" in run("report", "empty", "-o", "none.html", code=1), "an empty folder")
+    check("does not exist" in run("report", "nowhere", "-o", "none.html", code=1), "a file that is not there")
+    check("would overwrite" in run("report", "q.html", "-o", "q.html", code=2), "the output is an input")
+    check("already" in run("report", "q.glb", "--body", "body.obj", "-o", "none.html", code=2), "two skins")
+    said = run("report", "body.obj", "-o", "none.html", code=1)
+    check(said.count("\n") == 1, f"a body in place of a run: {said}")
+    check(not os.path.exists("none.html"), "a page was left behind")
+
+
 def main():
     shutil.rmtree(SCRATCH, ignore_errors=True)
     os.makedirs(SCRATCH)
@@ -88,6 +136,8 @@ def main():
     errors_are_those_of_queries()
     drapes_move()
     large_skins_are_thinned()
+    pages_of_files()
+    refusals()
     check("folder" in run("fit", "--html", "no/such/page.html", code=1), "a folder that does not exist")
     check("extension" in run("fit", "--html", "page.txt", code=2), "an extension that is not a page's")
     print("pages:", "failed" if failures else "passed")

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   add_rig_command(app, exit_code);
   add_query_command(app, exit_code);
   add_export_command(app, exit_code);
+  add_report_command(app, exit_code);
   add_batch_command(app, exit_code);
   add_bench_command(app, exit_code, argv[0]);
   try {

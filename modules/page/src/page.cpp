@@ -25,6 +25,7 @@ constexpr std::size_t kMostVertices = 60000;
 /// Bytes of positions over time, from which base64 makes a third more.
 constexpr std::size_t kMostFrameBytes = std::size_t{4} << 20;
 constexpr double kSurfaceCellsAStature = 120.0;
+constexpr double kSurfaceCellsAlone = 240.0;  // where there is no skin to look at
 
 /// Signed distances of the skin to the proxy in hundredths of a millimeter: positive where the proxy falls
 /// short.
@@ -87,18 +88,7 @@ Json json_of(const std::vector<engine::StageTime>& stages) {
   return list;
 }
 
-void add_body(const engine::Context& context, const tryon::PreparedBody& body, const ThinMesh& thin,
-              const Cube& cube, Json& data) {
-  const geometry::TriMesh& mesh = body.skin.input.skin;
-  const std::vector<Vec3> points = chosen(mesh.positions, thin.vertex);
-  std::vector<std::uint8_t> part;
-  for (const geometry::Index v : thin.vertex)
-    part.push_back(static_cast<std::uint8_t>(body.skin.anatomy.part[v]));
-  data["skin"] = {{"positions", packed_positions(points, cube)},
-                  {"triangles", packed_triangles(thin.triangles)},
-                  {"part", packed(part)},
-                  {"error", packed(errors_of(context, body.fit.proxy, points))},
-                  {"vertices", mesh.positions.size()}};
+void add_parts(const PageSubject& subject, Json& data) {
   data["parts"] = Json::array(), data["colors"] = Json::array();
   for (int p = 0; p < body::kPartCount; ++p) {
     const auto color = io::part_color(static_cast<body::Part>(p));
@@ -106,20 +96,39 @@ void add_body(const engine::Context& context, const tryon::PreparedBody& body, c
     data["colors"].push_back({color[0], color[1], color[2]});
   }
   data["landmarks"] = Json::array();
-  for (const body::Landmark& l : body.skin.anatomy.landmarks)
-    if (l.confidence > 0.0)
-      data["landmarks"].push_back(
-          {{"name", body::name(l.id)}, {"at", {l.position.x(), l.position.y(), l.position.z()}}});
+  for (const NamedPoint& l : subject.landmarks)
+    data["landmarks"].push_back({{"name", l.name}, {"at", {l.position.x(), l.position.y(), l.position.z()}}});
 }
 
-void add_proxy(const engine::Context& context, const proxy::BodyProxy& proxy, const Cube& cube, Json& data) {
+void add_skin(const engine::Context& context, const io::Scene& scene, const ThinMesh& thin, const Cube& cube,
+              Json& data) {
+  if (!scene.body) return;
+  const std::vector<Vec3> points = chosen(scene.body->positions, thin.vertex);
+  data["skin"] = {{"positions", packed_positions(points, cube)},
+                  {"triangles", packed_triangles(thin.triangles)},
+                  {"vertices", scene.body->positions.size()}};
+  if (!scene.part.empty()) {
+    std::vector<std::uint8_t> part;
+    for (const geometry::Index v : thin.vertex) part.push_back(static_cast<std::uint8_t>(scene.part[v]));
+    data["skin"]["part"] = packed(part);
+  }
+  if (scene.proxy) data["skin"]["error"] = packed(errors_of(context, *scene.proxy, points));
+}
+
+void add_ellipsoids(std::span<const proxy::ProxyEllipsoid> ellipsoids, Json& data) {
+  if (ellipsoids.empty()) return;
   std::vector<geometry::Ellipsoid> shapes;
   std::vector<std::uint8_t> part;
-  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids())
+  for (const proxy::ProxyEllipsoid& e : ellipsoids)
     shapes.push_back(e.shape), part.push_back(static_cast<std::uint8_t>(e.part));
   data["ellipsoids"] = {{"shapes", packed_ellipsoids(shapes)}, {"part", packed(part)}};
-  if (proxy.relief().empty()) return;
-  const auto surface = proxy::proxy_surface(context, proxy, proxy.stature_m() / kSurfaceCellsAStature);
+}
+
+/// The surface shows what ellipsoids do not: the relief, and without a skin the whole.
+void add_surface(const engine::Context& context, const io::Scene& scene, const Cube& cube, Json& data) {
+  if (!scene.proxy || (scene.proxy->relief().empty() && scene.body)) return;
+  const double cells = scene.body ? kSurfaceCellsAStature : kSurfaceCellsAlone;
+  const auto surface = proxy::proxy_surface(context, *scene.proxy, scene.proxy->stature_m() / cells);
   if (surface && !surface->mesh.empty())
     data["surface"] = {{"positions", packed_positions(surface->mesh.positions, cube)},
                        {"triangles", packed_triangles(surface->mesh.triangles)}};
@@ -140,19 +149,36 @@ void add_frames(const io::Scene& scene, const std::vector<std::size_t>& shown, c
   if (!scene.body_frames.empty())
     for (const std::size_t f : shown)
       data["skin"]["frames"].push_back(packed_positions(chosen(scene.body_frames[f], thin.vertex), cube));
-  if (!scene.proxy_frames.empty())
+  if (!scene.proxy_frames.empty() && data.contains("ellipsoids"))
     for (const std::size_t f : shown)
       data["ellipsoids"]["frames"].push_back(packed_ellipsoids(scene.proxy_frames[f]));
 }
 
-void add_drape(const tryon::DrapeReport& drape, Json& data) {
-  Json penetration = Json::array(), kept = Json::array();
-  for (const double depth_m : drape.penetration_of_frame_m) penetration.push_back(1e3 * depth_m);
-  for (const tryon::KeptFrame& f : drape.kept)
-    kept.push_back({f.time_s, 1e3 * f.proxy_error.error_m.mean, 1e3 * f.penetration_max_m});
-  data["drape"] = {{"penetration", penetration},        {"kept", kept},
-                   {"worst", drape.worst_frame},        {"dt", drape.dt_s},
-                   {"frame_ms", drape.frame_ms_median}, {"fabric", drape.fabric}};
+void add_drape(const DrapeCurves& drape, Json& data) {
+  Json kept = Json::array();
+  for (const KeptError& f : drape.kept) kept.push_back({f.time_s, f.proxy_error_mm, f.penetration_mm});
+  data["drape"] = {{"penetration", drape.penetration_mm},
+                   {"kept", kept},
+                   {"worst", drape.worst_frame},
+                   {"dt", drape.dt_s}};
+}
+
+/// A cube around all that moves, and all that does not.
+Cube cube_of(const io::Scene& scene, std::span<const proxy::ProxyEllipsoid> ellipsoids,
+             const std::vector<std::size_t>& shown) {
+  std::vector<Vec3> still;
+  if (scene.body) still = scene.body->positions;
+  for (const proxy::ProxyEllipsoid& e : ellipsoids) {
+    const geometry::Box box = geometry::bounding_box(e.shape);
+    still.push_back(box.low), still.push_back(box.high);
+  }
+  if (still.empty() && !scene.garments.empty()) still = scene.garments.front().mesh.positions;
+  Cube cube = cube_around(still);
+  for (const std::size_t f : shown) {
+    for (const io::GarmentTrack& garment : scene.garments) cube = cube_around(garment.frames[f], &cube);
+    if (!scene.body_frames.empty()) cube = cube_around(scene.body_frames[f], &cube);
+  }
+  return cube;
 }
 
 /// Replaces a mark of the template, which stands in it once.
@@ -172,41 +198,36 @@ std::string safe_in_html(const std::string& json) {
   return out;
 }
 
+Json data_of(const engine::Context& context, const PageSubject& subject, const io::Scene& scene,
+             std::span<const proxy::ProxyEllipsoid> ellipsoids) {
+  const ThinMesh thin = scene.body ? thinned(*scene.body, kMostVertices) : ThinMesh{};
+  const std::vector<std::size_t> shown = frames_shown(scene, thin.vertex.size());
+  const Cube cube = cube_of(scene, ellipsoids, shown);
+  Json data = {{"title", subject.title}, {"tier", subject.tier}, {"hash", subject.hash}};
+  if (subject.gap_mean_mm && subject.gap_p95_mm) data["gap_mm"] = {*subject.gap_mean_mm, *subject.gap_p95_mm};
+  data["cube"] = {cube.low.x(), cube.low.y(), cube.low.z(), cube.size_m};
+  add_parts(subject, data);
+  add_skin(context, scene, thin, cube, data);
+  add_ellipsoids(ellipsoids, data);
+  add_surface(context, scene, cube, data);
+  add_frames(scene, shown, thin, cube, data);
+  if (subject.drape) add_drape(*subject.drape, data);
+  data["warnings"] = json_of(subject.warnings), data["stages"] = json_of(subject.stages);
+  data["lacks"] = subject.lacks;
+  data["report"] = subject.report;
+  return data;
+}
+
 }  // namespace
 
-std::string page_html(const engine::Context& context, const tryon::PreparedBody& body,
-                      const PageContent& content) {
+std::string page_html(const engine::Context& context, const PageSubject& subject) {
   static const io::Scene kNothing;
-  const io::Scene& scene = content.scene ? *content.scene : kNothing;
-  const ThinMesh thin = thinned(body.skin.input.skin, kMostVertices);
-  const std::vector<std::size_t> shown = frames_shown(scene, thin.vertex.size());
-  Cube cube = cube_around(body.skin.input.skin.positions);
-  for (const std::size_t f : shown) {
-    for (const io::GarmentTrack& garment : scene.garments) cube = cube_around(garment.frames[f], &cube);
-    if (!scene.body_frames.empty()) cube = cube_around(scene.body_frames[f], &cube);
-  }
-  Json data;
-  data["title"] =
-      body.skin.input.file.empty() ? "the built-in body" : body.skin.input.file.filename().string();
-  data["tier"] = proxy::name(body.fit.proxy.tier());
-  data["hash"] = engine::hex64(body.fit.proxy.hash());
-  data["gap_mm"] = {1e3 * body.fit.accuracy.gap_m.mean, 1e3 * body.fit.accuracy.gap_m.p95};
-  data["cube"] = {cube.low.x(), cube.low.y(), cube.low.z(), cube.size_m};
-  add_body(context, body, thin, cube, data);
-  add_proxy(context, body.fit.proxy, cube, data);
-  add_frames(scene, shown, thin, cube, data);
-  std::vector<engine::Warning> warnings = body.all_warnings();
-  std::vector<engine::StageTime> stages = body.all_stages();
-  if (content.drape) {
-    add_drape(*content.drape, data);
-    warnings.insert(warnings.end(), content.drape->warnings.begin(), content.drape->warnings.end());
-    stages.insert(stages.end(), content.drape->stages.begin(), content.drape->stages.end());
-  }
-  data["warnings"] = json_of(warnings), data["stages"] = json_of(stages);
-  data["report"] = content.report;
+  const io::Scene& scene = subject.scene ? *subject.scene : kNothing;
+  const auto ellipsoids = scene.proxy ? scene.proxy->ellipsoids() : subject.ellipsoids;
+  const Json data = data_of(context, subject, scene, ellipsoids);
   std::string page(kPage);
   put(page, "<!--style-->", std::string(kStyle));
-  put(page, "<!--still-->", still_svg(body.fit.proxy));
+  put(page, "<!--still-->", still_svg(ellipsoids));
   put(page, "<!--data-->", safe_in_html(data.dump(-1, ' ', true, Json::error_handler_t::replace)));
   put(page, "<!--script-->", std::string(kScene) + std::string(kPanel));
   return page;

@@ -31,10 +31,10 @@ std::string ellipse(const proxy::ProxyEllipsoid& e) {
 
 }  // namespace
 
-std::string still_svg(const proxy::BodyProxy& proxy) {
+std::string still_svg(std::span<const proxy::ProxyEllipsoid> ellipsoids) {
   std::vector<const proxy::ProxyEllipsoid*> order;
   geometry::Box box;
-  for (const proxy::ProxyEllipsoid& e : proxy.ellipsoids()) {
+  for (const proxy::ProxyEllipsoid& e : ellipsoids) {
     order.push_back(&e);
     const geometry::Box own = geometry::bounding_box(e.shape);
     box.extend(own.low), box.extend(own.high);

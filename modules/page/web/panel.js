@@ -1,14 +1,18 @@
 // The panel.
 $('title').textContent = data.title;
 document.title = 'bodice: ' + data.title;
-$('facts').textContent = `${data.skin.vertices.toLocaleString('en')} vertices, ${new Uint8Array(bytes(data.ellipsoids.part)).length} ellipsoids of tier ${data.tier}. ` +
-  `Gap ${data.gap_mm[0].toFixed(2)} mm on average, 95 % within ${data.gap_mm[1].toFixed(2)} mm.`;
+const counts = [];
+if (skin) counts.push(`${skin.vertices.toLocaleString('en')} vertices`);
+if (data.ellipsoids) counts.push(`${bytes(data.ellipsoids.part).byteLength} ellipsoids`);
+$('facts').textContent = counts.join(', ') + (data.tier ? ` of tier ${data.tier}` : '') + '.' +
+  (data.gap_mm ? ` Gap ${data.gap_mm[0].toFixed(2)} mm on average, 95 % within ${data.gap_mm[1].toFixed(2)} mm.` : '');
+for (const sentence of data.lacks) { const p = document.createElement('p'); p.className = 'small'; p.textContent = sentence; $('lacks').append(p); }
 $('least').textContent = `-${limit} mm`;
 $('most').textContent = `+${limit} mm`;
-const notes = [];
-if (data.skin.vertices > error.length) notes.push(`thinned to ${error.length.toLocaleString('en')} vertices`);
+const notes = [], kept = skin ? bytes(skin.positions).byteLength / 6 : 0;
+if (skin && skin.vertices > kept) notes.push(`thinned to ${kept.toLocaleString('en')} vertices`);
 if (data.left_out) notes.push(`${data.left_out} kept frames left out`);
-if (data.skin.frames) notes.push('colors are those of the pose at rest');
+if (skin && skin.frames && error) notes.push('colors are those of the pose at rest');
 if (large) $('note').textContent = notes.join('; ');
 function box(name, on, change) {
   const text = document.createElement('label'), input = document.createElement('input');
@@ -19,10 +23,18 @@ function box(name, on, change) {
   $('show').append(text);
 }
 for (const [name, mesh] of Object.entries(meshes)) box(name, mesh.on, on => { mesh.on = on; });
-box('landmarks', false, on => { showLandmarks = on; });
-for (const radio of document.querySelectorAll('[name=by]'))
-  radio.onchange = () => { meshes.skin.colors = skinColors(radio.value); meshes.skin.dirty = true; $('legend').hidden = radio.value !== 'error'; $('legend').style.display = radio.value === 'error' ? '' : 'none'; draw(); };
+if (data.landmarks.length) box('landmarks', false, on => { showLandmarks = on; });
+const showLegend = by => { $('legend').style.display = by === 'error' && meshes.skin.on ? '' : 'none'; };
+$('by').hidden = !skin;
+$('errors').hidden = !error;
+if (!error) $('legend').style.display = 'none';
+for (const radio of document.querySelectorAll('[name=by]')) {
+  radio.checked = radio.value === skinBy;
+  radio.parentElement.hidden = radio.value === 'error' && !error || radio.value === 'part' && !part;
+  radio.onchange = () => { meshes.skin.colors = skinColors(radio.value); meshes.skin.dirty = true; showLegend(radio.value); draw(); };
+}
 
+$('spent').hidden = !data.stages.length;
 const total = data.stages.reduce((sum, s) => sum + s[1], 0) || 1;
 for (const [name, ms] of data.stages) {
   const row = document.createElement('div'), bar = document.createElement('i');
@@ -46,7 +58,7 @@ function lookAt(name) {
   const mark = data.landmarks.find(l => l.name === name);
   center = home.slice(); zoom = 1;
   if (mark) { center = mark.at.slice(); zoom = 4; }
-  else if (which.length) {
+  else if (which.length && part) {
     const at = meshes.skin.frames[Math.min(frame, meshes.skin.frames.length - 1)](), sum = [0, 0, 0];
     let count = 0;
     part.forEach((p, v) => { if (which.includes(p)) { for (let k = 0; k < 3; ++k) sum[k] += at[3 * v + k]; ++count; } });
@@ -65,11 +77,11 @@ function download(name, type, make) {
   $('files').append(link);
 }
 if (data.report) download('report.json', 'application/json', () => data.report);
-download('errors.csv', 'text/csv', () => {
-  const at = positions(data.skin.positions);
-  return 'x_m,y_m,z_m,part,error_mm\n' + Array.from(error, (e, v) => `${at[3 * v].toFixed(5)},${at[3 * v + 1].toFixed(5)},${at[3 * v + 2].toFixed(5)},${data.parts[part[v]]},${e / 100}`).join('\n') + '\n';
+if (error) download('errors.csv', 'text/csv', () => {
+  const at = positions(skin.positions);
+  return 'x_m,y_m,z_m,part,error_mm\n' + Array.from(error, (e, v) => `${at[3 * v].toFixed(5)},${at[3 * v + 1].toFixed(5)},${at[3 * v + 2].toFixed(5)},${part ? data.parts[part[v]] : ''},${e / 100}`).join('\n') + '\n';
 });
-if (data.drape) download('frames.csv', 'text/csv', () => 'frame,penetration_mm\n' + data.drape.penetration.map((d, f) => `${f + 1},${d}`).join('\n') + '\n');
+if (data.drape && data.drape.penetration.length) download('frames.csv', 'text/csv', () => 'frame,penetration_mm\n' + data.drape.penetration.map((d, f) => `${f + 1},${d}`).join('\n') + '\n');
 
 // Charts.
 function chart(id) {
@@ -82,6 +94,7 @@ function chart(id) {
   return {context, w: c.clientWidth, h: c.clientHeight, ink};
 }
 function histogram() {
+  if (!error) return;
   const {context, w, h, ink} = chart('histogram'), bins = new Array(41).fill(0), top = 1.5 * limit;
   for (const e of error) ++bins[Math.round(Math.max(-1, Math.min(1, e / 100 / top)) * 20) + 20];
   const most = Math.max(...bins), width = w / bins.length;
@@ -99,6 +112,7 @@ function histogram() {
 function curve() {
   if (!data.drape || $('time').hidden) return;
   const {context, w, h, ink} = chart('curve'), d = data.drape.penetration, kept = data.drape.kept;
+  if (!d.length && kept.length < 2) return;
   const most = Math.max(1e-3, ...d, ...kept.map(k => k[1])), y = v => h - 6 - v / most * (h - 22), left = 4, right = w - 4;
   // Frames count from 1; the kept ones begin before the first.
   const across = share => left + (right - left) * share, last = kept.length ? kept[kept.length - 1][0] - kept[0][0] || 1 : 1;
@@ -113,7 +127,7 @@ function curve() {
   context.fillStyle = '#b3261e';
   if (worst) { context.beginPath(); context.arc(across(worst / d.length), y(d[worst - 1]), 4, 0, 7); context.fill(); }
   context.fillStyle = ink;
-  context.fillText((worst ? `deepest particle in the skin, up to ${Math.max(...d).toFixed(2)} mm; worst frame ${worst} marked` : 'no particle is inside the skin in any frame') +
+  context.fillText((!d.length ? '' : worst ? `deepest particle in the skin, up to ${Math.max(...d).toFixed(2)} mm; worst frame ${worst} marked` : 'no particle is inside the skin in any frame') +
     (kept.length > 1 ? `; error of the posed proxy (blue), up to ${Math.max(...kept.map(k => k[1])).toFixed(2)} mm` : ''), left, 11);
   context.strokeStyle = ink; context.lineWidth = 1;
   const now = across(shareOfTime());

@@ -23,17 +23,20 @@ function normals(at, triangles) {
 }
 
 // Colors. Blue: the proxy reaches beyond the skin; red: the skin reaches beyond the proxy.
-const error = new Int16Array(bytes(data.skin.error)), part = new Uint8Array(bytes(data.skin.part));
-const sizes = Float32Array.from(error, e => Math.abs(e) / 100).sort();
+const skin = data.skin || null;
+const error = skin && skin.error ? new Int16Array(bytes(skin.error)) : null;
+const part = skin && skin.part ? new Uint8Array(bytes(skin.part)) : null;
+const sizes = Float32Array.from(error || [], e => Math.abs(e) / 100).sort();
 const share = q => sizes[Math.min(sizes.length - 1, Math.floor(q * sizes.length))] || 0;
 const limit = Math.max(0.1, Number(share(0.98).toPrecision(1)));
 function ramp(mm) {
   const t = Math.max(-1, Math.min(1, mm / limit)), k = Math.abs(t), end = t < 0 ? [.13, .4, .8] : [.8, .2, .16];
   return end.map(c => .92 + (c - .92) * k);
 }
+const skinBy = error ? 'error' : part ? 'part' : 'plain';
 function skinColors(by) {
-  const out = new Float32Array(3 * error.length);
-  for (let v = 0; v < error.length; ++v)
+  const count = bytes(skin.positions).byteLength / 6, out = new Float32Array(3 * count);
+  for (let v = 0; v < count; ++v)
     out.set(by === 'error' ? ramp(error[v] / 100) : by === 'part' ? data.colors[part[v]] : [.82, .7, .62], 3 * v);
   return out;
 }
@@ -61,18 +64,18 @@ const meshes = {};
 function addMesh(name, frames, triangles, colors, on) { meshes[name] = {frames, triangles, colors, on, dirty: true}; }
 const times = data.times || [];
 const frameOf = (item, decode, first) => item.frames ? item.frames.map(f => () => decode(f)) : [() => decode(first)];
-addMesh('skin', frameOf(data.skin, positions, data.skin.positions), new Uint32Array(bytes(data.skin.triangles)), skinColors('error'), true);
-{
+if (skin) addMesh('skin', frameOf(skin, positions, skin.positions), new Uint32Array(bytes(skin.triangles)), skinColors(skinBy), true);
+if (data.ellipsoids) {
   const owner = new Uint8Array(bytes(data.ellipsoids.part)), triangles = [], colors = [];
   owner.forEach((p, e) => {
     for (const t of sphereTriangles) triangles.push(t + e * sphere.length);
     for (const _ of sphere) colors.push(...data.colors[p]);
   });
-  addMesh('ellipsoids', frameOf(data.ellipsoids, ellipsoidMesh, data.ellipsoids.shapes), new Uint32Array(triangles), new Float32Array(colors), false);
+  addMesh('ellipsoids', frameOf(data.ellipsoids, ellipsoidMesh, data.ellipsoids.shapes), new Uint32Array(triangles), new Float32Array(colors), !skin && !data.surface);
 }
 if (data.surface) {
   const at = positions(data.surface.positions);
-  addMesh("relief's surface", [() => at], new Uint32Array(bytes(data.surface.triangles)), flat(at.length / 3, [.5, .68, .6]), false);
+  addMesh("proxy's surface", [() => at], new Uint32Array(bytes(data.surface.triangles)), flat(at.length / 3, [.5, .68, .6]), !skin);
 }
 (data.cloth || []).forEach((cloth, i) => {
   const triangles = new Uint32Array(bytes(cloth.triangles)), first = positions(cloth.frames[0]);
@@ -89,7 +92,7 @@ const start = {yaw: .5, pitch: .1, zoom: 1, focus: null};
 let {yaw, pitch, zoom, focus} = start, frame = 0, playing = false;
 let center = [lowX + side / 2, lowY + side / 2, lowZ + side / 2];
 {
-  const at = meshes.skin.frames[0](), low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
+  const first = meshes.skin || Object.values(meshes)[0], at = first ? first.frames[0]() : center, low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
   at.forEach((v, i) => { low[i % 3] = Math.min(low[i % 3], v); high[i % 3] = Math.max(high[i % 3], v); });
   center = low.map((v, k) => (v + high[k]) / 2);
 }

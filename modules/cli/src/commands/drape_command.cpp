@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -12,11 +13,12 @@ engine::Result<void> drape(const DrapeCommand& command) {
   Run run(o);
   std::vector<FileOption> garments;
   for (const std::string& file : command.garments) garments.push_back({"GARMENT", file});
-  if (auto ok = run.check_files(
-          {{"-o", command.output, {".glb"}}, {"--contact-sheet", command.contact_sheet, {".png"}}},
-          std::move(garments));
-      !ok)
-    return ok;
+  std::vector<FileOption> outputs = {{"-o", command.output, {".glb"}},
+                                     {"--contact-sheet", command.contact_sheet, {".png"}}};
+  const std::size_t worn_count = std::max<std::size_t>(1, command.garments.size());
+  for (std::size_t k = 0; !command.cache.empty() && k < worn_count; ++k)
+    outputs.push_back({"--cache", cache_file(command, k), {".pc2", ".mdd"}});
+  if (auto ok = run.check_files(std::move(outputs), std::move(garments)); !ok) return ok;
   auto skin = read_body(run, command);
   if (!skin) return std::move(skin).error();
   auto motion = find_motion(run, command, *skin);
@@ -120,6 +122,11 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
       ->group("Output")
       ->capture_default_str();
   sub.add_option("--contact-sheet", command.contact_sheet, "write a PNG with a view of every kept frame")
+      ->check(not_empty())
+      ->group("Output");
+  sub.add_option("--cache", command.cache,
+                 "positions of the cloth at the kept frames as a point cache for Blender, Maya and others "
+                 "(.pc2 or .mdd), in the input's unit and axes; a second garment goes to NAME_2")
       ->check(not_empty())
       ->group("Output");
   sub.add_option("--fit-map", command.fit_map,

@@ -205,8 +205,8 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
       ->group("Output");
   sub->add_option(
          "--glb", command->common.glb,
-         "body by part and ellipsoids, those of relief without their tables, for any glTF viewer; in the "
-         "body's own units and axes")
+         "body by part and ellipsoids, those of relief without their tables, for any glTF viewer; meshes "
+         "are in the body's own units and axes, and a root node turns them to meters, y up")
       ->check(not_empty())
       ->group("Output");
   sub->add_option("--surface", command->surface,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <bodice/io/cloth_cache.hpp>
 #include <bodice/tryon/place_garment.hpp>
 #include <bodice/tryon/wearing.hpp>
 
@@ -70,6 +71,11 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
       return saved;
     written.push_back(command.contact_sheet);
   }
+  for (std::size_t k = 0; !command.cache.empty() && k < scene.garments.size(); ++k) {
+    const std::string file = cache_file(command, k);
+    if (auto saved = io::write_cloth_cache(scene.garments[k], scene.frame, file); !saved) return saved;
+    written.push_back(file);
+  }
   return run.write_page(dressed.body, scene, &draped.report, written);
 }
 
@@ -107,6 +113,13 @@ engine::Result<tryon::DrapeOptions> drape_options(const DrapeCommand& command, c
 }
 
 }  // namespace
+
+std::string cache_file(const DrapeCommand& command, std::size_t k) {
+  std::filesystem::path file = command.cache;
+  if (k > 0)
+    file.replace_filename(file.stem().string() + "_" + std::to_string(k + 1) + file.extension().string());
+  return file.string();
+}
 
 engine::Result<tryon::SegmentedSkin> read_body(Run& run, const DrapeCommand& command) {
   return command.moves() ? run.segment_rigged() : run.segment();

@@ -21,7 +21,7 @@ struct DrapeCommand {
   std::optional<double> thickness_mm;
   std::optional<int> frames;
   bool no_picture = false;
-  std::string contact_sheet, fit_map;
+  std::string contact_sheet, fit_map, cache;
   std::string thumbnail;  ///< a small picture of the end, for lists of results; no option gives it
   int sheet_columns = 8;
   tryon::MotionChoice motion;
@@ -29,6 +29,9 @@ struct DrapeCommand {
 
   bool moves() const { return !motion.motion.empty(); }
 };
+
+/// The point cache of garment `k`: the first has the given name, the others _2, _3, ... before the extension.
+std::string cache_file(const DrapeCommand& command, std::size_t k);
 
 /// Adds all options of `drape` but its callback, which runs it.
 void add_drape_options(CLI::App& sub, DrapeCommand& command);

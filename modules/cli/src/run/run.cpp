@@ -90,7 +90,8 @@ engine::Result<void> Run::write_page(const tryon::PreparedBody& body, const io::
                                      const tryon::DrapeReport* drape, std::vector<std::string>& written) {
   if (options_.html.empty()) return {};
   const std::string text = page::page_html(
-      context_, body, {.scene = &scene, .drape = drape, .report = report(body, drape, false)});
+      context_,
+      page::subject_of(body, {.scene = &scene, .drape = drape, .report = report(body, drape, false)}));
   if (auto done = engine::write_file(options_.html, std::string_view(text)); !done) return done;
   written.push_back(options_.html);
   return {};

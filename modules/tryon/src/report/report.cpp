@@ -18,6 +18,12 @@ std::string_view axis_name(geometry::Axis axis) {
   return kNames[static_cast<int>(axis)];
 }
 
+Json all_mm(std::span<const double> meters) {
+  Json list = Json::array();
+  for (const double m : meters) list.push_back(mm(m));
+  return list;
+}
+
 Json spread_mm(const fitting::Spread& s) {
   return {{"mean", mm(s.mean)}, {"p95", mm(s.p95)}, {"max", mm(s.max)}};
 }
@@ -140,6 +146,7 @@ Json drape_json(const DrapeReport& d) {
             {"max_mm", mm(d.penetration_max_m)},
             {"end_mm", mm(d.penetration_end_m)},
             {"worst_frame", d.worst_frame},
+            {"of_frame_mm", all_mm(d.penetration_of_frame_m)},
             {"pierced_area_percent", d.pierced_share * 100.0}}},
           {"inside_union", d.inside_union},
           {"stretch", {{"p95", d.stretch_p95}, {"max", d.stretch_max}}},
