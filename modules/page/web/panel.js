@@ -45,20 +45,35 @@ for (const [name, ms] of data.stages) {
 }
 $('warned').hidden = !data.warnings.length;
 for (const warning of data.warnings) {
-  const item = document.createElement('li'), link = document.createElement('button');
-  link.textContent = warning.text;
-  link.title = 'look there';
-  link.onclick = () => lookAt(warning.part);
-  item.append(link);
+  const item = document.createElement('li');
+  const place = placeOf(warning);
+  if (place) {
+    const link = document.createElement('button');
+    link.textContent = warning.text;
+    link.title = 'look at ' + place;
+    link.onclick = () => lookAt(place);
+    item.append(link);
+  } else {
+    item.textContent = warning.text;
+  }
   $('warnings').append(item);
+}
+function partsOf(name) {
+  return data.parts.map((p, i) => name && part && (p === name || p.startsWith(name) || name.includes(p)) ? i : -1).filter(i => i >= 0);
+}
+// The landmark or part that a warning is about, or that its text names.
+function placeOf(warning) {
+  const names = [...data.landmarks.map(l => l.name), ...data.parts];
+  if (warning.part && (names.includes(warning.part) || partsOf(warning.part).length)) return warning.part;
+  return part ? warning.text.split(/[^a-z_]+/).find(word => word.includes('_') && names.includes(word)) : undefined;
 }
 // A warning leads to the middle of its part, or of the first part whose name holds it.
 function lookAt(name) {
-  const which = data.parts.map((p, i) => name && (p === name || p.startsWith(name) || name.includes(p)) ? i : -1).filter(i => i >= 0);
+  const which = partsOf(name);
   const mark = data.landmarks.find(l => l.name === name);
   center = home.slice(); zoom = 1;
   if (mark) { center = mark.at.slice(); zoom = 4; }
-  else if (which.length && part) {
+  else if (which.length) {
     const at = meshes.skin.frames[Math.min(frame, meshes.skin.frames.length - 1)](), sum = [0, 0, 0];
     let count = 0;
     part.forEach((p, v) => { if (which.includes(p)) { for (let k = 0; k < 3; ++k) sum[k] += at[3 * v + k]; ++count; } });
@@ -107,13 +122,14 @@ function histogram() {
   context.fillStyle = ink;
   context.fillText(`-${top.toFixed(1)}`, 0, h - 2);
   context.fillText('0', w / 2 - 3, h - 2);
-  context.fillText(`+${top.toFixed(1)}`, w - 28, h - 2);
+  context.textAlign = 'right';
+  context.fillText(`+${top.toFixed(1)}`, w, h - 2);
 }
 function curve() {
   if (!data.drape || $('time').hidden) return;
   const {context, w, h, ink} = chart('curve'), d = data.drape.penetration, kept = data.drape.kept;
   if (!d.length && kept.length < 2) return;
-  const most = Math.max(1e-3, ...d, ...kept.map(k => k[1])), y = v => h - 6 - v / most * (h - 22), left = 4, right = w - 4;
+  const most = Math.max(1e-3, ...d, ...kept.map(k => k[1])), y = v => h - 4 - v / most * (h - 10), left = 4, right = w - 4;
   // Frames count from 1; the kept ones begin before the first.
   const across = share => left + (right - left) * share, last = kept.length ? kept[kept.length - 1][0] - kept[0][0] || 1 : 1;
   const line = (points, color) => {
@@ -126,12 +142,28 @@ function curve() {
   const worst = data.drape.worst;
   context.fillStyle = '#b3261e';
   if (worst) { context.beginPath(); context.arc(across(worst / d.length), y(d[worst - 1]), 4, 0, 7); context.fill(); }
-  context.fillStyle = ink;
-  context.fillText((!d.length ? '' : worst ? `deepest particle in the skin, up to ${Math.max(...d).toFixed(2)} mm; worst frame ${worst} marked` : 'no particle is inside the skin in any frame') +
-    (kept.length > 1 ? `; error of the posed proxy (blue), up to ${Math.max(...kept.map(k => k[1])).toFixed(2)} mm` : ''), left, 11);
   context.strokeStyle = ink; context.lineWidth = 1;
   const now = across(shareOfTime());
-  context.beginPath(); context.moveTo(now, 14); context.lineTo(now, h); context.stroke();
+  context.beginPath(); context.moveTo(now, 2); context.lineTo(now, h); context.stroke();
+}
+// What the curves are, and a button that leads to the worst frame.
+function caption() {
+  if (!data.drape) return;
+  const d = data.drape.penetration, kept = data.drape.kept, worst = data.drape.worst;
+  const add = (tag, text, kind) => { const e = document.createElement(tag); e.textContent = text; if (kind) e.className = kind; $('caption').append(e, ' '); return e; };
+  if (d.length && !worst) add('span', 'No particle is inside the skin in any frame.');
+  if (worst && d.length) {
+    add('span', `Deepest particle in the skin: up to ${Math.max(...d).toFixed(2)} mm,`);
+    const jump = add('button', `frame ${worst}`);
+    jump.title = 'show the worst frame';
+    jump.onclick = () => { play(false); show(frameNear(worst / d.length)); };
+  }
+  if (kept.length > 1) add('span', `Error of the posed proxy: up to ${Math.max(...kept.map(k => k[1])).toFixed(2)} mm.`, 'blue');
+}
+// The frame of the page that is nearest to a share of the time.
+function frameNear(share) {
+  const at = times.map(t => Math.abs((t - times[0]) / (times[times.length - 1] - times[0]) - share));
+  return at.indexOf(Math.min(...at));
 }
 const shareOfTime = () => times.length > 1 && times[times.length - 1] > times[0] ? (times[frame] - times[0]) / (times[times.length - 1] - times[0]) : 0;
 
@@ -158,6 +190,7 @@ if (times.length > 1) {
   $('scrub').max = times.length - 1;
   $('scrub').oninput = () => { play(false); show(Number($('scrub').value)); };
   $('play').onclick = () => play(!playing);
+  caption();
   show(times.length - 1);
 }
 
@@ -200,3 +233,4 @@ const all = () => { histogram(); curve(); draw(); };
 addEventListener('resize', all);
 all();
 if (large) document.body.dataset.ready = 'yes';
+document.body.dataset.ms = Math.round(performance.now());

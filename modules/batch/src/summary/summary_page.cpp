@@ -1,10 +1,9 @@
 #include "summary/summary_page.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-
-#include <bodice/engine/message.hpp>
 
 namespace bodice::batch {
 namespace {
@@ -17,13 +16,17 @@ constexpr std::size_t kFailuresShown = 1000;
 constexpr const char* kHead = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>bodice batch</title><style>
-body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 75em; padding: 0 1em; color: #223; }
+:root { color-scheme: light dark; --ink: #223; --paper: #fff; --line: #dde; --soft: #667; --bad: #a22; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e6eaf0; --paper: #171c22; --line: #36404c; --soft: #9aa4b2; --bad: #ff8a80; } }
+body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 75em; padding: 0 1em; color: var(--ink); background: var(--paper); }
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: .2em .8em .2em 0; vertical-align: top; }
-tr { border-top: 1px solid #dde; } .why { color: #a22; }
+tr { border-top: 1px solid var(--line); } .why { color: var(--bad); overflow-wrap: anywhere; }
 .results { display: grid; grid-template-columns: repeat(auto-fill, minmax(13em, 1fr)); gap: 1em; }
-.results a { display: block; border: 1px solid #dde; border-radius: 6px; padding: .6em; color: inherit; text-decoration: none; }
-.results img { display: block; width: 100%; background: #f4f5f8; } .results b { font-size: 1.1em; }
-small { color: #667; display: block; overflow-wrap: anywhere; }
+.results a { display: block; border: 1px solid var(--line); border-radius: 6px; padding: .6em; color: inherit; text-decoration: none; }
+.results a:hover { border-color: var(--soft); }
+/* Pictures of fits have two views side by side: the left one fills the frame, as that of a drape does. */
+.results img { display: block; width: 100%; aspect-ratio: 2 / 3; object-fit: cover; object-position: left; } .results b { font-size: 1.1em; }
+small { color: var(--soft); display: block; overflow-wrap: anywhere; }
 </style></head><body>
 )";
 
@@ -96,11 +99,18 @@ void add_failures(const Summary& summary, std::size_t failed, std::string& page)
   if (shown < failed) page += "<p>failures.jsonl has all of them.</p>\n";
 }
 
+/// Two digits behind the point, in any locale.
+std::string millimeters(double mm) {
+  const auto hundredths = static_cast<long long>(std::llround(100.0 * mm));
+  const std::string rest = std::to_string(hundredths % 100);
+  return std::to_string(hundredths / 100) + (rest.size() < 2 ? ".0" : ".") + rest;
+}
+
 void add_result(const fs::path& out, const Row& row, std::string& page) {
   const json about = row.about();
   const std::string folder = about.value("folder", "");
   page += "<a href=\"" + escaped(folder) + "/\">" + picture(out / folder / kThumbnail) + "<b>" +
-          engine::message(row.error_mm) + " mm</b> line " + std::to_string(row.line);
+          millimeters(row.error_mm) + " mm</b> line " + std::to_string(row.line);
   if (const std::size_t warnings = about.value("warnings", json::array()).size())
     page += ", " + std::to_string(warnings) + (warnings == 1 ? " warning" : " warnings");
   page += "<small>" + escaped(words_of(about)) + "</small></a>\n";
@@ -116,7 +126,8 @@ std::string summary_page(const fs::path& out, const Summary& summary, const Summ
   page +=
       "<h2>Results, the largest error first</h2>\n<p>The error is the deepest point of cloth inside the skin "
       "in "
-      "any frame; of a fit alone, the largest distance from the proxy to the skin.";
+      "any frame; of a fit alone, the largest distance from the proxy to the skin. "
+      "<code>bodice report FOLDER -o page.html</code> makes a page of a result.";
   if (counts.done > kShownOnPage)
     page += " The first " + std::to_string(kShownOnPage) + " are here; summary.csv has all.";
   page += "</p>\n<div class=results>\n";
