@@ -45,7 +45,7 @@ TEST_CASE("a summary has failures first, then the largest error, in tables and o
   CHECK(page.find("The body is corrupt") != std::string::npos);
   CHECK(page.find("a,&lt;b&gt;.obj") != std::string::npos);
   CHECK(page.find("<b>.obj") == std::string::npos);
-  CHECK(page.find("5 mm") < page.find("4 mm"));
+  CHECK(page.find(">5.00 mm") < page.find(">4.00 mm"));
   CHECK(folder.read(folder / "out/failures.jsonl").find("\"line\":3") != std::string::npos);
 }
 
