@@ -54,6 +54,18 @@ engine::Result<void> obey(const std::string& wish, const fs::path& counter) {
   return {};
 }
 
+}  // namespace
+
+std::vector<fs::path> FakeWork::files_beside(const fs::path& file) const {
+  std::vector<fs::path> files;
+  std::ifstream text(file);
+  for (std::string line; std::getline(text, line);)
+    if (line.starts_with("+ ")) files.push_back(file.parent_path() / line.substr(2));
+  return files;
+}
+
+namespace {
+
 class FakePrepared : public batch::PreparedJobs {
  public:
   explicit FakePrepared(const FakeWork& work) : work_(work) {}

@@ -27,6 +27,8 @@ class FakeWork : public bodice::batch::Work {
 
   std::string version() const override { return of_version; }
   bool is_file(const std::string& name, const std::string&) const override { return name == "body"; }
+  /// A file's `+ NAME` lines name files beside it.
+  std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file) const override;
   std::string shared(const bodice::batch::Job& job) const override {
     return job.value("body") + "|" + job.value("prepare");
   }

@@ -58,6 +58,27 @@ TEST_CASE("a result is named by the bytes of files, the values and the version, 
   CHECK(folder.results().size() == 3);
 }
 
+TEST_CASE(
+    "a result is named by the files beside a file, too, and a job without one of them fails by its name") {
+  BatchFolder folder({R"({"n": 1, "body": "a.gltf"})"});
+  folder.write("a.gltf", "one body\n+ a.bin\n+ b.bin");
+  folder.write("a.bin", "its points");
+  folder.write("b.bin", "its weights");
+  REQUIRE(folder.run().ok());
+  CHECK(folder.results().size() == 1);
+  CHECK(folder.run()->end.there == 1);
+  folder.write("b.bin", "other weights");
+  CHECK(folder.run()->end.done == 1);
+  CHECK(folder.results().size() == 2);
+  std::filesystem::remove(folder / "a.bin");
+  const auto without = folder.run();
+  REQUIRE(without.ok());
+  CHECK(without->end.failed == 1);
+  const auto log = folder.log(without->log);
+  CHECK(log.begin()->second["reason"].get<std::string>().find("a.bin' cannot be opened") !=
+        std::string::npos);
+}
+
 TEST_CASE("jobs that share a body take its step once, wherever they stand in the manifest") {
   Lines lines;
   for (int n = 0; n < 12; ++n)

@@ -46,6 +46,19 @@ void check_unknown(const std::filesystem::path& file) {
 
 }  // namespace
 
+TEST_CASE("the buffers of a glTF document are files beside it, and other files have none") {
+  const TempFolder folder;
+  const auto beside = io::files_beside(folder.write("a.gltf", R"({"asset": {"version": "2.0"}, "buffers": [
+      {"byteLength": 4, "uri": "a%20b.bin"}, {"byteLength": 4, "uri": "data:;base64,AAAAAA=="},
+      {"byteLength": 4}, {"byteLength": 4, "uri": "sub/c.bin"}]})"));
+  REQUIRE(beside.size() == 2);
+  CHECK(beside[0] == folder.path() / "a b.bin");
+  CHECK(beside[1] == folder.path() / "sub/c.bin");
+  for (const Content& content : all_formats())
+    CHECK(io::files_beside(folder.write("a." + std::string(content.extension), content.bytes)).empty());
+  CHECK(io::files_beside(folder.path() / "missing.gltf").empty());
+}
+
 TEST_CASE("a mesh is read by its content under the extension of any other format") {
   const TempFolder folder;
   for (const Content& content : all_formats())

@@ -42,7 +42,7 @@ Error refused(const std::filesystem::path& file, const std::string& why, ErrorCo
 
 }  // namespace
 
-engine::Result<std::string> FileHashes::of(const std::filesystem::path& file) {
+engine::Result<FileHashes::Known> FileHashes::look_up(const std::filesystem::path& file, const Work* work) {
   // A pipe would be waited for, and a device read without end: neither may hold up a batch.
   const Descriptor open(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status = {};
@@ -51,10 +51,10 @@ engine::Result<std::string> FileHashes::of(const std::filesystem::path& file) {
   if (!S_ISREG(status.st_mode)) return refused(file, "is not a file", ErrorCode::kUnreadable);
   if (known_.size() >= kMostKnown) known_.clear();
   Known& known = known_[file.string()];
-  const Known now{status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec, ""};
+  const Known now{status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec, "", {}};
   if (!known.hash.empty() && known.size == now.size && known.seconds == now.seconds &&
       known.nanoseconds == now.nanoseconds)
-    return known.hash;
+    return known;
   known = now;
   Sha256 hash;
   std::vector<std::byte> chunk(std::size_t{1} << 18);
@@ -63,7 +63,20 @@ engine::Result<std::string> FileHashes::of(const std::filesystem::path& file) {
     hash.add(std::span<const std::byte>(chunk.data(), static_cast<std::size_t>(count)));
   }
   known.hash = hex(hash.finish());
-  return known.hash;
+  if (work) known.beside = work->files_beside(file);
+  return known;
+}
+
+engine::Result<std::string> FileHashes::of(const std::filesystem::path& file, const Work& work) {
+  auto whole = look_up(file, &work);
+  if (!whole) return std::move(whole).error();
+  std::string hashes = whole->hash;
+  for (const std::filesystem::path& part : whole->beside) {
+    auto known = look_up(part, nullptr);
+    if (!known) return std::move(known).error();
+    hashes += ' ' + known->hash;
+  }
+  return hashes;
 }
 
 engine::Result<std::string> result_key(const Job& job, const Work& work, FileHashes& files) {
@@ -71,7 +84,7 @@ engine::Result<std::string> result_key(const Job& job, const Work& work, FileHas
   for (auto& [name, values] : by_content.values)
     for (std::string& value : values) {
       if (!work.is_file(name, value)) continue;
-      auto hash = files.of(value);
+      auto hash = files.of(value, work);
       if (!hash) return std::move(hash).error();
       value = "sha256 " + hash.value();
     }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <bodice/engine/stage_timer.hpp>
+#include <bodice/io/import.hpp>
 #include <bodice/proxy/base_pose.hpp>
 #include <bodice/rigging/motion.hpp>
 
@@ -122,6 +123,10 @@ bool DrapeWork::is_file(const std::string& name, const std::string& value) const
   if (name == kGarmentKey) return !garment_kinds().contains(value);
   if (name == "motion") return !rigging::motion_from_name(value);
   return name == "profile" && value.ends_with(".json");
+}
+
+std::vector<fs::path> DrapeWork::files_beside(const fs::path& file) const {
+  return io::files_beside(file);
 }
 
 std::string DrapeWork::shared(const batch::Job& job) const {

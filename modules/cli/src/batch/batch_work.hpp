@@ -17,6 +17,7 @@ class DrapeWork : public batch::Work {
 
   std::string version() const override;
   bool is_file(const std::string& name, const std::string& value) const override;
+  std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file) const override;
   std::string shared(const batch::Job& job) const override;
   engine::Result<void> check(const batch::Job& job) const override;
   engine::Result<std::unique_ptr<batch::PreparedJobs>> prepare(const batch::Job& first) override;

@@ -39,6 +39,8 @@ class Work {
   virtual std::string version() const = 0;
   /// Whether this value of this name is the name of a file to read. Such files count by their content.
   virtual bool is_file(const std::string& name, const std::string& value) const = 0;
+  /// The files that hold a part of this one, beside it. They count by their content, too.
+  virtual std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file) const = 0;
   /// Jobs with the same text share what prepare() gives.
   virtual std::string shared(const Job& job) const = 0;
   /// Fails where the job cannot be run as it is written. Reads no files.

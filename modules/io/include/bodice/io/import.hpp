@@ -55,4 +55,9 @@ engine::Result<ImportedMesh> import_body(const engine::Context& context, const s
 engine::Result<ImportedMesh> import_garment(const engine::Context& context, const std::filesystem::path& file,
                                             const geometry::Frame& body_frame);
 
+/// The files beside this one that hold part of it, in its order: the buffers of a glTF document, whether they
+/// are there or not. None for every other format, and for data inside of the document. Reads the document
+/// alone.
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file);
+
 }  // namespace bodice::io

@@ -80,14 +80,19 @@ GltfText split_glb(std::string file) {
   return text;
 }
 
+std::optional<std::filesystem::path> file_of_uri(std::string_view uri, const std::filesystem::path& folder) {
+  if (uri.starts_with("data:")) return std::nullopt;
+  return folder / decode_percent(uri);
+}
+
 std::string load_uri(std::string_view uri, const std::filesystem::path& folder) {
-  if (uri.starts_with("data:")) {
+  const std::optional<std::filesystem::path> file = file_of_uri(uri, folder);
+  if (!file) {
     const std::size_t comma = uri.find(',');
     return comma == std::string_view::npos ? "" : decode_base64(uri.substr(comma + 1));
   }
-  const std::filesystem::path file = folder / decode_percent(uri);
   std::error_code error;  // a device or a pipe has no end
-  return std::filesystem::is_regular_file(file, error) ? read_text(file) : "";
+  return std::filesystem::is_regular_file(*file, error) ? read_text(*file) : "";
 }
 
 }  // namespace bodice::io
