@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -38,15 +39,27 @@ proxy::BodyProxy apart(double scale = 1.0, const Vec3& offset = Vec3::Zero()) {
 constexpr double kPi = 3.14159265358979323846;
 const double kApartVolume = 4.0 / 3.0 * kPi * (0.2 * 0.3 * 0.5 + 0.1 * 0.1 * 0.1);
 
-/// Whether each undirected edge is used as often as its reverse, as in a closed, wound mesh.
+/// Whether each edge has two triangles, one in each direction.
 bool is_closed(const geometry::TriMesh& mesh) {
-  std::map<std::pair<geometry::Index, geometry::Index>, int> balance;
+  std::map<std::pair<geometry::Index, geometry::Index>, int> uses;
   for (const geometry::Triangle& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const geometry::Index a = t[k], b = t[(k + 1) % 3];
-      balance[std::minmax(a, b)] += a < b ? 1 : -1;
+    for (std::size_t k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
+  return std::ranges::all_of(uses, [&](const auto& edge) {
+    const auto reverse = uses.find({edge.first.second, edge.first.first});
+    return edge.second == 1 && reverse != uses.end();
+  });
+}
+
+/// The mesh as programs load it that merge vertices at one position.
+geometry::TriMesh merged(const geometry::TriMesh& mesh) {
+  std::map<std::array<double, 3>, geometry::Index> first;
+  geometry::TriMesh out = mesh;
+  for (geometry::Triangle& t : out.triangles)
+    for (geometry::Index& v : t) {
+      const Vec3& p = mesh.positions[v];
+      v = first.emplace(std::array{p.x(), p.y(), p.z()}, v).first->second;
     }
-  return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
+  return out;
 }
 
 }  // namespace
@@ -114,6 +127,31 @@ TEST_CASE(
   }
   CHECK(geometry::signed_volume(surface->mesh) ==
         doctest::Approx(size.prod() * inside / (kSide * kSide * kSide)).epsilon(0.001));
+}
+
+TEST_CASE("proxy surface: where it touches itself within a cell, every edge still has two triangles") {
+  constexpr double cell_m = 0.02;
+  std::size_t touching = 0;
+  for (int k = 0; k < 24; ++k) {  // rows of balls whose gaps are near a cell's diagonal, in many directions
+    proxy::BodyProxy::Data data;
+    data.stature_m = 1.7;
+    const Vec3 step = Vec3(std::cos(k), std::sin(1.7 * k), std::cos(2.3 * k) + 0.1).normalized();
+    for (int ball = 0; ball < 12; ++ball) {
+      proxy::ProxyEllipsoid e;
+      e.shape.radii = Vec3::Constant(0.03);
+      e.shape.center = ball * (0.06 + 0.001 * ball) * step;
+      data.ellipsoids.push_back(e);
+    }
+    const auto surface = proxy::proxy_surface({}, made(data), cell_m);
+    REQUIRE(surface.ok());
+    CHECK(is_closed(surface->mesh));
+    CHECK(is_closed(merged(surface->mesh)));
+    CHECK(surface->normals.size() == surface->mesh.positions.size());
+    CHECK(surface->owner.size() == surface->mesh.positions.size());
+    for (std::size_t v = 0; v < surface->mesh.positions.size(); ++v)
+      touching += std::abs(proxy::proxy_distance(made(data), surface->mesh.positions[v]).distance) > 0.01 * cell_m;
+  }
+  CHECK(touching > 0);
 }
 
 TEST_CASE("proxy surface: it includes the margin, and its bits do not depend on the workers") {

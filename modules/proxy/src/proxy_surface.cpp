@@ -8,6 +8,7 @@
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/split_pinches.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
 #include "crossed_cells.hpp"
@@ -21,6 +22,7 @@ constexpr std::size_t kGrain = 64;    // distances a block; each takes some micr
 constexpr int kSteps = 2;             // steps down the gradient
 constexpr double kSettled = 1e-3;     // distance to the surface at which a vertex is done, in cells
 constexpr double kLongestMove = 0.5;  // of a vertex, in cells, so that the vertices of a cell stay near it
+constexpr double kPinchShare = 0.02;  // of an edge, by which sheets that touch are set apart
 constexpr int kSeedsPerSide = 9;      // seeds an ellipsoid, along each side of the octahedral map
 
 /// Points on or near the surface of each ellipsoid, from which the search for crossed cells starts.
@@ -110,6 +112,14 @@ void span_faces(const CrossedCells& cells, geometry::TriMesh& mesh) {
     }
 }
 
+/// Sheets that pass through one cell have had one vertex there.
+void separate_sheets(ProxySurface& surface) {
+  for (const Index vertex : geometry::split_pinches(surface.mesh, kPinchShare)) {
+    surface.normals.push_back(Vec3(surface.normals[vertex]));
+    surface.owner.push_back(std::uint32_t{surface.owner[vertex]});
+  }
+}
+
 engine::Error unusable_cell(double cell_m) {
   return {engine::ErrorCode::kInvalidArgument,
           engine::message("A surface in cells of ", cell_m, " m cannot be made of this proxy."),
@@ -132,6 +142,7 @@ engine::Result<ProxySurface> surface_of(const engine::Context& context, const Bo
   if (!cells.find(context, seeds_of(context, proxy), distance)) return unusable_cell(cell_m);
   place_vertices(context, proxy, cells, cell_m, surface);
   span_faces(cells, surface.mesh);
+  separate_sheets(surface);
   return surface;
 }
 

@@ -20,8 +20,8 @@ struct ProxySurface {
 
 /// The zero set of proxy_distance(), sampled on a cubic lattice of `cell_m`. What is thinner than a cell may
 /// be missed, and creases are rounded within a cell; other vertices lie within a thousandth of a cell of the
-/// surface. Every edge is shared by an even number of triangles: by two, except where the surface touches
-/// itself within a cell. A proxy without ellipsoids has no surface. The bits do not depend on the number of
+/// surface. Every edge is shared by two triangles; where the surface touches itself within a cell, its sheets
+/// are set apart by a fiftieth of a cell. A proxy without ellipsoids has no surface. The bits do not depend on the number of
 /// workers. Fails with kInvalidArgument if the cell is not positive, or so small that the surface takes
 /// millions of them, and with kCanceled.
 /// Cost: two or three scalar distances a vertex. A body of 89 ellipsoids with relief, at a three-hundredth of
