@@ -47,6 +47,8 @@ def write_all():
     run("drape", "body.obj", "skirt.obj", "--motion", "walk", "--frames", "20", "-o", "walk.glb", *few)
     run("drape", "body.obj", "skirt.obj", "--frames", "400", "--keep", "400", "-o", "long.glb", *few)
     run("export", "bound.json", "--to", "vrm", "-o", "bound.gltf", "-q")
+    run("export", "bound.json", "--to", "convex", "-o", "bound_convex.gltf", "-q")
+    run("export", "p.json", "--to", "convex", "-o", "convex.gltf", "-q")
     return [file for file in sorted(os.listdir(".")) if file.endswith((".glb", ".gltf"))]
 
 
@@ -64,7 +66,7 @@ def main():
                           env=dict(os.environ, NODE_PATH=os.path.abspath(folder) if os.path.isabs(folder) else folder))
     check(done.returncode == 0, done.stderr)
     reports = [json.loads(line) for line in done.stdout.splitlines()]
-    check(len(reports) == len(files) >= 8, f"{len(reports)} reports of {len(files)} files")
+    check(len(reports) == len(files) >= 10, f"{len(reports)} reports of {len(files)} files")
     for report in reports:
         issues = report["issues"]
         print(f"{report['file']}: {issues['numErrors']} errors, {issues['numWarnings']} warnings, "

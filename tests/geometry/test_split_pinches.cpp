@@ -18,7 +18,8 @@ void add_box(const Vec3& low, std::map<std::array<double, 3>, Index>& index, Tri
     if (fresh) mesh.positions.push_back(p);
     return found->second;
   };
-  constexpr int kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  constexpr int kQuads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& q : kQuads) {
     mesh.triangles.push_back({vertex(q[0]), vertex(q[1]), vertex(q[2])});
     mesh.triangles.push_back({vertex(q[0]), vertex(q[2]), vertex(q[3])});
@@ -55,7 +56,8 @@ TEST_CASE("boxes that touch along edges of a checkerboard become edge-manifold a
   for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
     const Vec3& p = mesh.positions[v];
     CHECK(distinct.insert({p.x(), p.y(), p.z()}).second);
-    const Index from = v < before.positions.size() ? static_cast<Index>(v) : original[v - before.positions.size()];
+    const Index from =
+        v < before.positions.size() ? static_cast<Index>(v) : original[v - before.positions.size()];
     CHECK((p - before.positions[from]).norm() <= 0.01 * 1.5);
   }
 }

@@ -132,7 +132,7 @@ TEST_CASE(
 TEST_CASE("proxy surface: where it touches itself within a cell, every edge still has two triangles") {
   constexpr double cell_m = 0.02;
   std::size_t touching = 0;
-  for (int k = 0; k < 24; ++k) {  // rows of balls whose gaps are near a cell's diagonal, in many directions
+  for (int k = 0; k < 24; ++k) {  // rows of balls with gaps near a cell's diagonal, in many directions
     proxy::BodyProxy::Data data;
     data.stature_m = 1.7;
     const Vec3 step = Vec3(std::cos(k), std::sin(1.7 * k), std::cos(2.3 * k) + 0.1).normalized();
@@ -149,7 +149,8 @@ TEST_CASE("proxy surface: where it touches itself within a cell, every edge stil
     CHECK(surface->normals.size() == surface->mesh.positions.size());
     CHECK(surface->owner.size() == surface->mesh.positions.size());
     for (std::size_t v = 0; v < surface->mesh.positions.size(); ++v)
-      touching += std::abs(proxy::proxy_distance(made(data), surface->mesh.positions[v]).distance) > 0.01 * cell_m;
+      touching +=
+          std::abs(proxy::proxy_distance(made(data), surface->mesh.positions[v]).distance) > 0.01 * cell_m;
   }
   CHECK(touching > 0);
 }

@@ -16,6 +16,7 @@ constexpr std::array<FormatFacts, kFormatCount> kFacts = {{
     {"vrm", ".gltf", ShapeKind::kCapsule, false, true},
     {"mujoco", ".xml", ShapeKind::kCapsule, true, false},
     {"sdformat", ".sdf", ShapeKind::kCapsule, true, false},
+    {"convex", ".gltf", ShapeKind::kTaperedCapsule, false, false, ".obj"},
 }};
 
 }  // namespace
@@ -56,6 +57,8 @@ engine::Result<std::string> text_of(Format format, const proxy::BodyProxy& proxy
       return mujoco_text(proxy);
     case Format::kSdformat:
       return sdformat_text(proxy);
+    case Format::kConvex:
+      return std::string();
   }
   return engine::Error{engine::ErrorCode::kInternal, "An export format has no writer.", ""};
 }

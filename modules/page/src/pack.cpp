@@ -34,20 +34,6 @@ ThinMesh clustered(const geometry::TriMesh& mesh, double cell_m) {
 
 }  // namespace
 
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 Cube cube_around(std::span<const Vec3> points, const Cube* with) {
   geometry::Box box = geometry::bounding_box(points);
   if (with) box.extend(with->low), box.extend(with->low + Vec3::Constant(with->size_m));
@@ -75,7 +61,7 @@ std::string packed_colors(std::span<const std::array<float, 3>> colors) {
 }
 
 std::string packed_triangles(std::span<const geometry::Triangle> triangles) {
-  return base64(std::as_bytes(triangles));
+  return engine::base64(std::as_bytes(triangles));
 }
 
 ThinMesh thinned(const geometry::TriMesh& mesh, std::size_t most) {

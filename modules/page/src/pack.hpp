@@ -7,16 +7,14 @@
 #include <string>
 #include <vector>
 
+#include <bodice/engine/base64.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace bodice::page {
 
-/// RFC 4648, with padding.
-std::string base64(std::span<const std::byte> bytes);
-
 template <class T>
 std::string packed(const std::vector<T>& values) {
-  return base64(std::as_bytes(std::span<const T>(values)));
+  return engine::base64(std::as_bytes(std::span<const T>(values)));
 }
 
 /// Positions in a cube, 16 bits a coordinate.

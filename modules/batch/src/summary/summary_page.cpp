@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <span>
+
+#include <bodice/engine/base64.hpp>
 
 namespace bodice::batch {
 namespace {
@@ -51,24 +54,12 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string base64(const std::string& bytes) {
-  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : kDigits[group >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
-
 std::string picture(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   if (bytes.empty()) return "";
-  return "<img alt=\"\" src=\"data:image/png;base64," + base64(bytes) + "\">";
+  return "<img alt=\"\" src=\"data:image/png;base64," + engine::base64(std::as_bytes(std::span(bytes))) +
+         "\">";
 }
 
 /// The job as its line has it: "body a.obj, garment b.obj".

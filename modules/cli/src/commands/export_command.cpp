@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include <bodice/colliders/convex_pieces.hpp>
 #include <bodice/colliders/formats.hpp>
 #include <bodice/colliders/reduce.hpp>
 #include <bodice/engine/executor.hpp>
@@ -21,6 +22,7 @@ namespace {
 
 /// Cells of the surface that stands for the skin where no body is given.
 constexpr double kReferenceCells = 200.0;
+constexpr std::string_view kConvex = "convex";
 
 struct ExportCommand {
   std::string proxy, format, output, body, report, shapes;
@@ -30,7 +32,8 @@ struct ExportCommand {
 
 /// A collider and what it costs.
 struct Reduced {
-  std::vector<colliders::PlainShape> shapes;  ///< empty where ellipsoids are written
+  std::vector<colliders::PlainShape> shapes;   ///< empty where ellipsoids or pieces are written
+  std::vector<colliders::ConvexPiece> pieces;  ///< of --to convex
   colliders::ReductionCost cost;
   std::string what;  ///< "32 capsules", "89 ellipsoids"
 };
@@ -60,6 +63,14 @@ engine::Result<Reduced> reduce(const engine::Context& context, const ExportComma
     reduced.what = engine::message(proxy.ellipsoids().size(), " ellipsoids");
     return reduced;
   }
+  if (command.format == kConvex) {
+    auto pieces = colliders::convex_pieces(context, proxy, points, command.count);
+    if (!pieces) return std::move(pieces).error();
+    reduced.pieces = std::move(pieces).value();
+    reduced.cost = colliders::cost_of_pieces(context, proxy, points, reduced.pieces);
+    reduced.what = engine::message(reduced.pieces.size(), " convex pieces");
+    return reduced;
+  }
   const auto kind = command.shapes.empty() ? colliders::ShapeKind::kCapsule
                                            : *colliders::shape_kind_from_name(command.shapes);
   auto shapes = colliders::reduce(context, proxy, points, kind, command.count);
@@ -87,17 +98,36 @@ void print_cost(const ExportCommand& command, const Reduced& reduced) {
       row("  " + std::string(body::kPartNames[p]), reduced.cost.of_part[p]);
 }
 
+engine::Result<std::string> text_of(const ExportCommand& command, const proxy::BodyProxy& proxy,
+                                    const Reduced& reduced) {
+  if (command.format != kConvex)
+    return colliders::text_of(*colliders::format_from_name(command.format), proxy, reduced.shapes);
+  return extension_of(command.output) == ".obj" ? colliders::convex_obj(proxy, reduced.pieces)
+                                                : colliders::convex_gltf(proxy, reduced.pieces);
+}
+
+std::vector<std::string> extensions_of(const colliders::FormatFacts& facts) {
+  std::vector<std::string> extensions{std::string(facts.extension)};
+  if (!facts.other_extension.empty()) extensions.emplace_back(facts.other_extension);
+  return extensions;
+}
+
+engine::Result<void> check_shapes(const ExportCommand& command, const colliders::FormatFacts& facts) {
+  if (command.shapes.empty() || (!facts.takes_ellipsoids && command.format != kConvex)) return {};
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       "--shapes " + command.shapes + ": " + command.format + " takes " +
+                           (facts.takes_ellipsoids ? "ellipsoids." : "convex pieces."),
+                       "Leave --shapes out."};
+}
+
 engine::Result<void> export_colliders(const ExportCommand& command) {
   const colliders::Format format = *colliders::format_from_name(command.format);
   const colliders::FormatFacts& facts = colliders::facts(format);
-  const FileOption outputs[] = {{"-o", command.output, {std::string(facts.extension)}},
+  const FileOption outputs[] = {{"-o", command.output, extensions_of(facts)},
                                 {"--report", command.report, {".json"}}};
   const FileOption inputs[] = {{"PROXY", command.proxy}, {"--body", command.body}};
   if (auto ok = check_outputs(outputs, inputs); !ok) return ok;
-  if (facts.takes_ellipsoids && !command.shapes.empty())
-    return engine::Error{engine::ErrorCode::kInvalidArgument,
-                         "--shapes " + command.shapes + ": " + command.format + " takes ellipsoids.",
-                         "Leave --shapes out."};
+  if (auto ok = check_shapes(command, facts); !ok) return ok;
   const auto both = proxy::load_with_bases(command.proxy);
   if (!both) return both.error();
   if (const auto possible = colliders::text_of(format, both->proxy, {}); !possible) return possible.error();
@@ -106,7 +136,7 @@ engine::Result<void> export_colliders(const ExportCommand& command) {
   context.executor = executor.get();
   const auto reduced = reduce(context, command, facts, both->proxy);
   if (!reduced) return reduced.error();
-  const auto text = colliders::text_of(format, both->proxy, reduced->shapes);
+  const auto text = text_of(command, both->proxy, *reduced);
   if (!text) return text.error();
   if (auto done = engine::write_file(command.output, std::string_view(*text)); !done) return done;
   if (!command.report.empty()) {
@@ -134,13 +164,13 @@ void add_export_command(CLI::App& app, int& exit_code) {
   sub->add_option("--to", command->format, "what reads the file")->check(CLI::IsMember(formats))->required();
   sub->add_option("-o,--output", command->output,
                   "the file: .json for unity and unreal, .tscn for godot, .gltf for vrm, .xml for mujoco, "
-                  ".sdf for sdformat")
+                  ".sdf for sdformat, .gltf or .obj for convex")
       ->check(not_empty())
       ->required();
   sub->add_option("--shapes", command->shapes,
-                  "spheres, capsules (the default), or tapered capsules (unity, unreal)")
+                  "spheres, capsules (the default), or tapered capsules (unity, unreal); not for convex")
       ->check(CLI::IsMember({"spheres", "capsules", "tapered"}));
-  sub->add_option("--count", command->count, "at most so many shapes (default: 32)")
+  sub->add_option("--count", command->count, "at most so many shapes or pieces (default: 32)")
       ->check(whole(1, colliders::kMaxShapes));
   sub->add_option("--body", command->body,
                   "the body that the proxy was fitted to: shapes are then fitted to its skin and measured "
@@ -150,7 +180,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
   sub->add_flag("-q,--quiet", command->quiet, "print errors only");
   sub->footer(
       "Shapes carry the names of the rig's joints where the proxy is bound to one; mujoco and sdformat take\n"
-      "the ellipsoids themselves.\n"
+      "the ellipsoids themselves, and convex is closed convex meshes for anything else.\n"
       "Example: bodice export proxy.json --to unity --body body.obj -o colliders.json");
   sub->callback([command, &exit_code] {
     const auto done = export_colliders(*command);

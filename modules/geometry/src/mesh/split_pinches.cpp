@@ -86,7 +86,8 @@ std::vector<Index> split_pinches(TriMesh& mesh, double share) {
         mesh.positions.push_back(center), original.push_back(vertex);
       }
       Vec3 mean = Vec3::Zero();
-      for (const LinkEdge& edge : fans[f]) mean += mesh.positions[edge.from] / static_cast<double>(fans[f].size());
+      for (const LinkEdge& edge : fans[f])
+        mean += mesh.positions[edge.from] / static_cast<double>(fans[f].size());
       mesh.positions[copy] = center + share * (mean - center);
       for (const LinkEdge& edge : fans[f])
         for (Index& corner : mesh.triangles[edge.triangle])

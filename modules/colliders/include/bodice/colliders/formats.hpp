@@ -12,9 +12,9 @@
 namespace bodice::colliders {
 
 /// A form that some engine reads. README.md has the axes and units of each.
-enum class Format : std::uint8_t { kUnity, kUnreal, kGodot, kVrm, kMujoco, kSdformat };
+enum class Format : std::uint8_t { kUnity, kUnreal, kGodot, kVrm, kMujoco, kSdformat, kConvex };
 
-inline constexpr int kFormatCount = 6;
+inline constexpr int kFormatCount = 7;
 
 /// What a format is called and what it can hold.
 struct FormatFacts {
@@ -23,13 +23,15 @@ struct FormatFacts {
   ShapeKind richest = ShapeKind::kCapsule;
   bool takes_ellipsoids = false;  ///< in place of plain shapes
   bool needs_rig = false;
+  std::string_view other_extension = "";  ///< of a second form of the same, if there is one
 };
 
 const FormatFacts& facts(Format format);
 std::optional<Format> format_from_name(std::string_view text);
 
 /// The text of a file. `shapes` is not read where the format takes ellipsoids. Fails with kInvalidArgument
-/// where the format needs a rig and the proxy is bound to none, or cannot hold a shape.
+/// where the format needs a rig and the proxy is bound to none, or cannot hold a shape. For kConvex it is
+/// empty: convex_pieces.hpp makes those files.
 engine::Result<std::string> text_of(Format format, const proxy::BodyProxy& proxy,
                                     std::span<const PlainShape> shapes);
 
