@@ -88,6 +88,11 @@ function(bodice_define_build_flags)
   set(guard "SHELL:${include_first} \"${PROJECT_SOURCE_DIR}/.cmake/require_ieee_math.hpp\"")
   target_compile_options(bodice_build_flags INTERFACE
     "$<$<NOT:$<BOOL:$<TARGET_PROPERTY:BODICE_GUARD_IS_PRECOMPILED>>>:${guard}>")
+  # x86 code is for processors without fused multiply-add, apart from kernels, which ask for it. ARM and WebAssembly
+  # compilers would fuse whatever they can, and fits would differ from machine to machine.
+  if((EMSCRIPTEN OR CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64|ARM64)$") AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    target_compile_options(bodice_build_flags INTERFACE -ffp-contract=off)
+  endif()
   if(NOT PROJECT_IS_TOP_LEVEL)
     return()
   endif()

@@ -1,6 +1,13 @@
 // The instruction sets that the kernels are compiled for. It must come before the first header of Highway.
 #pragma once
 
+// All 64-bit ARM processors have NEON, and the kernels use nothing beyond it, so there is nothing to choose
+// at run time. Highway reserves its name HWY_NEON for processors with AES: the build allows the compiler AES
+// as well, and a test shows that no such instruction is in the kernels. Without the choice, g++ needs no
+// target pragmas, under which it cannot inline the implicit members of structures of vectors.
+#if defined(__aarch64__)
+#define HWY_COMPILE_ONLY_STATIC
+#endif
 // A machine with an instruction set between these uses the next lower one. So do machines above AVX3, which
 // have the bits below HWY_AVX3. Scalable vectors are excluded because they cannot be members of structures.
 #define HWY_DISABLED_TARGETS \

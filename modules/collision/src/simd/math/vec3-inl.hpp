@@ -36,6 +36,12 @@ struct V3 {
 HWY_INLINE V all(float value) {
   return hn::Set(f, value);
 }
+// Later releases of Highway have several targets of NEON, and a name for all of them.
+#ifdef HWY_ALL_NEON
+constexpr bool kIsNeon = (HWY_TARGET & HWY_ALL_NEON) != 0;
+#else
+constexpr bool kIsNeon = HWY_TARGET == HWY_NEON;
+#endif
 // Division and square root occupy a vector unit ten times as long as an estimate and a Newton step, which is
 // exact to two roundings. v must be in [1e-37, 1e37].
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
@@ -58,11 +64,11 @@ HWY_INLINE V newton_inverse_sqrt(V v, V r) {
 /// 1 / sqrt(v) with relative error kEstimate, for bounds.
 HWY_INLINE V estimated_inverse_sqrt(V v) {
   const V r = hn::ApproximateReciprocalSqrt(v);
-  return HWY_TARGET == HWY_NEON ? newton_inverse_sqrt(v, r) : r;  // 8 bits at first instead of 12
+  return kIsNeon ? newton_inverse_sqrt(v, r) : r;  // 8 bits at first instead of 12
 }
 HWY_INLINE V estimated_reciprocal(V v) {
   const V r = hn::ApproximateReciprocal(v);
-  return HWY_TARGET == HWY_NEON ? hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f))) : r;
+  return kIsNeon ? hn::Mul(r, hn::NegMulAdd(v, r, all(2.0f))) : r;
 }
 HWY_INLINE V reciprocal(V v) {
   const V r = estimated_reciprocal(v);
