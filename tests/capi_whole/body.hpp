@@ -13,7 +13,7 @@ namespace capi_test {
 
 /// Throws what the suite cannot go on without.
 inline void must(bodice_status status) {
-  REQUIRE_MESSAGE(status == BODICE_OK, bodice_last_error());
+  REQUIRE_MESSAGE(status == BODICE_OK, std::string(bodice_last_error()));
 }
 
 inline bodice::Context make_context(int workers = 2) {

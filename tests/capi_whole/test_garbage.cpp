@@ -106,6 +106,9 @@ TEST_CASE("capi: null handles are refused, and released without harm") {
   CHECK(bodice_session_poll(nullptr, &number) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_session_dress(nullptr, nullptr, 0) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_session_play(nullptr, "walk", nullptr) == BODICE_INVALID_ARGUMENT);
+  CHECK(bodice_session_pause(nullptr) == BODICE_INVALID_ARGUMENT);
+  CHECK(bodice_session_resume(nullptr) == BODICE_INVALID_ARGUMENT);
+  CHECK(bodice_session_seek(nullptr, 0.0, 0.0) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_session_step(nullptr, 0.0, nullptr) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_session_get_positions(nullptr, nullptr, 0) == BODICE_INVALID_ARGUMENT);
   CHECK(bodice_session_get_proxy(nullptr, &proxy) == BODICE_INVALID_ARGUMENT);

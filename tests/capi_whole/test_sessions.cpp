@@ -2,43 +2,14 @@
 #include <cmath>
 #include <thread>
 
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/drape.hpp>
 
-#include "capi_whole/body.hpp"
+#include "capi_whole/dressed.hpp"
 
 using namespace capi_test;
 using namespace bodice;
 
 namespace {
-
-/// A made body and a skirt cut to it.
-struct Dressed {
-  synth::Body body = make_body();
-  tryon::SegmentedSkin skin;
-  synth::Garment skirt;
-
-  Dressed() {
-    auto input = tryon::repair_body({}, body.mesh);
-    skin = std::move(tryon::segment_mesh({}, std::move(*input), {})).value();
-    auto made = synth::make_garment({},
-                                    {.mesh = skin.input.skin,
-                                     .part = skin.anatomy.part,
-                                     .landmarks = skin.anatomy.landmarks,
-                                     .stature_m = skin.anatomy.stature_m},
-                                    {.kind = synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
-    REQUIRE(made);
-    skirt = std::move(made).value();
-  }
-  bodice_garment garment(const bodice_mesh& mesh) const {
-    bodice_garment worn = bodice_default_garment();
-    worn.name = "skirt";
-    worn.mesh = &mesh;
-    worn.held = skirt.pinned.data();
-    worn.held_count = skirt.pinned.size();
-    return worn;
-  }
-};
 
 /// Runs a session of its own context to the end of its preparation and thirty steps on; the hash of its
 /// cloth.

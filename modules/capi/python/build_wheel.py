@@ -38,7 +38,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None) 
     info = f"bodice-{version()}.dist-info"
     built = library()
     files = {f"bodice/{source.name}": source.read_bytes() for source in sorted((HERE / "bodice").iterdir())
-             if source.suffix == ".py" or source.name == "py.typed"}
+             if source.suffix in (".py", ".pyi") or source.name == "py.typed"}
     files[f"bodice/{library_name(built)}"] = built.read_bytes()
     files[f"{info}/METADATA"] = (
         f"Metadata-Version: 2.1\nName: bodice\nVersion: {version()}\nLicense: MIT\nRequires-Python: >=3.9\n"

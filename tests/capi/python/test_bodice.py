@@ -133,6 +133,10 @@ class Distances(unittest.TestCase):
         points, losses = collision_loss.descend(self.body, targets + 0.01, targets)
         self.assertLess(losses[-1], 0.5 * losses[0])
         self.assertGreater((truth(targets) < 0).sum(), 2 * (truth(points) < -0.001).sum())
+        page = collision_loss.page(self.body, targets + 0.01, points, losses)
+        inside = int((self.body.signed_distance(points) < 0.0).sum())
+        self.assertIn(f"after: {inside} of {len(points)} points inside", page)
+        self.assertEqual(page.count("<circle"), 2 * len(points))
 
     def test_other_threads_run_during_a_call(self):
         many = np.repeat(self.points, 400, axis=0)

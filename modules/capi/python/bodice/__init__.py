@@ -8,6 +8,8 @@
     body.landmarks["elbow_l"], body.measurements["waist"], body.parts
     body.pose(matrices)                              # (joints, 3, 4) or (joints, 4, 4), of a bound proxy
     positions, report = body.drape(garment_vertices, garment_faces)
+    ticket = bodice.begin_fit(vertices, faces)       # beside the frames: ticket.done, ticket.result()
+    session = bodice.Session(moves=True)             # frames of cloth on a body that walks
 
 Arrays of numpy are read and written where they are, float32 and float64, with any strides; the interpreter's lock is
 released meanwhile. Each failure raises bodice.Error with one sentence and its remedy.
@@ -20,10 +22,13 @@ from typing import Union
 
 from . import _library as _c
 from ._body import Body, Contacts, Error, Exact
-from ._skin import FittedBody, Progress, Skin, built_in, fit, load_skin
+from ._rig import Rig
+from ._session import Session
+from ._skin import FittedBody, Garment, Progress, Skin, built_in, fit, load_skin
+from ._ticket import Ticket, begin_fit
 
-__all__ = ["Body", "Contacts", "Error", "Exact", "FittedBody", "Progress", "Skin", "build", "built_in", "fit", "load",
-           "load_skin", "loads"]
+__all__ = ["Body", "Contacts", "Error", "Exact", "FittedBody", "Garment", "Progress", "Rig", "Session", "Skin", "Ticket",
+           "begin_fit", "build", "built_in", "fit", "load", "load_skin", "loads"]
 
 
 def build() -> str:

@@ -125,15 +125,8 @@ class Body:
     def pose(self, matrices: Union[np.ndarray, Sequence], dt: float = 0.0) -> None:
         """Poses a bound proxy: (joints, 3, 4) or (joints, 4, 4), joint space to world, in the order of `joints`. Of a
         proxy that is not bound: a matrix an ellipsoid, from rest to the world. `dt`: seconds since the last pose."""
-        matrices = np.asarray(matrices)
-        if matrices.dtype not in (np.float32, np.float64):
-            matrices = matrices.astype(np.float64)
-        if matrices.ndim != 3 or matrices.shape[1:] not in ((3, 4), (4, 4)):
-            raise Error(f"The matrices have the shape {matrices.shape}. Pass (joints, 3, 4) or (joints, 4, 4).")
-        matrices = np.ascontiguousarray(matrices)
-        pose = _c.defaults(_c.Pose)
-        pose.matrices, pose.count = matrices.ctypes.data, len(matrices)
-        pose.scalar, pose.layout, pose.dt_s = _c.scalar_of(matrices), int(matrices.shape[1] == 4), dt
+        pose, _kept = _c.pose(matrices)
+        pose.dt_s = dt
         move = _c.library.bodice_collider_pose if self.joints else _c.library.bodice_collider_move
         _c.check(move(self._collider, ctypes.byref(pose)))
 

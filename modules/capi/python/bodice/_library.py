@@ -6,15 +6,12 @@ import ctypes
 import ctypes.util
 import os
 import pathlib
-from ctypes import c_double, c_float, c_int32, c_size_t, c_ssize_t, c_uint32, c_uint64, c_void_p
+from ctypes import c_double, c_int32, c_size_t, c_uint32, c_void_p
 
 import numpy as np
 
-PARTS = 15
-LANDMARKS = 28
-MEASUREMENTS = 26
-NO_ELLIPSOID = 0xFFFFFFFF
-ABI = 1
+from ._structures import *  # noqa: F403: the structures and constants of bodice.h
+from ._structures import ABI, ContextOptions, Garment, Mesh, Particles, Pose, Scalars, Vectors
 
 
 class Error(ValueError):
@@ -22,141 +19,18 @@ class Error(ValueError):
 
 
 def _open() -> ctypes.CDLL:
-    here = pathlib.Path(__file__)
-    beside = [here.with_name(f"lib{name}.so") for name in ("bodice", "bodice_frame")]
-    for name in (os.environ.get("BODICE_LIBRARY"), *(str(file) for file in beside if file.exists()),
-                 ctypes.util.find_library("bodice"), ctypes.util.find_library("bodice_frame")):
-        if name:
-            return ctypes.CDLL(name)
+    if os.environ.get("BODICE_LIBRARY"):
+        return ctypes.CDLL(os.environ["BODICE_LIBRARY"])
+    for name in ("bodice", "bodice_frame"):
+        beside = pathlib.Path(__file__).with_name(f"lib{name}.so")
+        for file in (str(beside) if beside.exists() else None, f"lib{name}.so.{ABI}", ctypes.util.find_library(name)):
+            try:
+                if file:
+                    return ctypes.CDLL(file)
+            except OSError:  # not where the loader looks
+                continue
     raise ImportError("libbodice is not found. Install bodice, or name the file in BODICE_LIBRARY.")
 
-
-class Head(ctypes.Structure):
-    _fields_ = [("struct_size", c_uint32), ("cookie", c_uint32)]
-
-
-class Vectors(ctypes.Structure):
-    _fields_ = [("x", c_void_p), ("y", c_void_p), ("z", c_void_p), ("stride", c_ssize_t), ("scalar", c_int32),
-                ("reserved", c_int32)]
-
-
-class Scalars(ctypes.Structure):
-    _fields_ = [("data", c_void_p), ("stride", c_ssize_t), ("scalar", c_int32), ("reserved", c_int32)]
-
-
-class ContextOptions(ctypes.Structure):
-    kind = 1
-    _fields_ = [("head", Head), ("abi", c_uint32), ("workers", c_int32), ("host", c_void_p), ("log_level", c_int32),
-                ("reserved", c_int32), ("log", c_void_p), ("allocate", c_void_p), ("release", c_void_p),
-                ("now_ns", c_void_p), ("enqueue", c_void_p), ("finish", c_void_p), ("tasks_in_flight", c_int32),
-                ("reserved2", c_int32)]
-
-
-class ProxyInfo(ctypes.Structure):
-    kind = 2
-    _fields_ = [("head", Head), ("ellipsoids", c_uint32), ("joints", c_uint32), ("tier", c_int32),
-                ("reserved", c_int32), ("stature_m", c_double), ("margin_m", c_double), ("hash", c_uint64),
-                ("bytes", c_uint64)]
-
-
-class Pose(ctypes.Structure):
-    kind = 3
-    _fields_ = [("head", Head), ("matrices", c_void_p), ("stride", c_ssize_t), ("count", c_uint32),
-                ("scalar", c_int32), ("layout", c_int32), ("tables", c_int32), ("dt_s", c_double)]
-
-
-class Particles(ctypes.Structure):
-    kind = 4
-    _fields_ = [("head", Head), ("count", c_size_t), ("index", c_void_p), ("elements", c_size_t),
-                ("position", Vectors), ("velocity", Vectors), ("safe", Vectors), ("inverse_mass", Scalars),
-                ("mask", c_void_p), ("mask_stride", c_ssize_t), ("space", c_int32), ("reserved", c_int32)]
-
-
-class ContactArrays(ctypes.Structure):
-    kind = 5
-    _fields_ = [("head", Head), ("contact", c_void_p), ("contact_stride", c_ssize_t), ("distance", Scalars),
-                ("point", Vectors), ("normal", Vectors), ("ellipsoid", c_void_p), ("part", c_void_p)]
-
-
-class QueryOptions(ctypes.Structure):
-    kind = 6
-    _fields_ = [("head", Head), ("within_m", c_float), ("first_order", c_int32)]
-
-
-class ResolveOptions(ctypes.Structure):
-    kind = 7
-    _fields_ = [("head", Head), ("thickness_m", c_float), ("friction", c_float), ("max_push_m", c_float),
-                ("blend_m", c_float), ("paper", c_int32), ("reserved", c_int32)]
-
-
-class ContactReport(ctypes.Structure):
-    kind = 8
-    _fields_ = [("head", Head), ("contacts", c_uint64), ("contacts_by_part", c_uint64 * PARTS),
-                ("unresolved", c_uint64), ("pending", c_uint64), ("pinched", c_uint64), ("not_finite", c_uint64),
-                ("pinned", c_uint64), ("deepest_m", c_float), ("reserved", c_int32)]
-
-
-class Mesh(ctypes.Structure):
-    kind = 9
-    _fields_ = [("head", Head), ("position", Vectors), ("vertices", c_size_t), ("index", c_void_p),
-                ("triangles", c_size_t), ("index_bytes", c_int32), ("reserved", c_int32)]
-
-
-class SkinOptions(ctypes.Structure):
-    kind = 11
-    _fields_ = [("head", Head), ("rig", c_void_p), ("find_rig", c_int32), ("reserved", c_int32),
-                ("progress", c_void_p), ("host", c_void_p)]
-
-
-class SkinInfo(ctypes.Structure):
-    kind = 12
-    _fields_ = [("head", Head), ("stature_m", c_double), ("up", c_double * 3), ("vertices", c_uint32),
-                ("triangles", c_uint32), ("input_vertices", c_uint32), ("joints", c_uint32), ("warnings", c_uint32),
-                ("reserved", c_uint32)]
-
-
-class FitOptions(ctypes.Structure):
-    kind = 13
-    _fields_ = [("head", Head), ("tier", c_int32), ("max_ellipsoids", c_int32), ("target_error_m", c_double),
-                ("budget_us", c_double), ("time_budget_s", c_double), ("covering", c_int32), ("bind", c_int32),
-                ("progress", c_void_p), ("host", c_void_p)]
-
-
-class FitReport(ctypes.Structure):
-    kind = 14
-    _fields_ = [("head", Head), ("gap_mean_m", c_double), ("gap_p95_m", c_double), ("gap_max_m", c_double),
-                ("interior_covered", c_double), ("skin_outside", c_double), ("skin_outside_depth_m", c_double),
-                ("seconds", c_double), ("ellipsoids", c_uint32), ("warnings", c_uint32)]
-
-
-class Garment(ctypes.Structure):
-    kind = 15
-    _fields_ = [("head", Head), ("name", ctypes.c_char_p), ("mesh", c_void_p), ("held", c_void_p),
-                ("held_count", c_size_t)]
-
-
-class DrapeOptions(ctypes.Structure):
-    kind = 18
-    _fields_ = [("head", Head), ("frames", c_int32), ("substeps", c_int32), ("dt_s", c_double),
-                ("thickness_m", c_double), ("fabric", ctypes.c_char_p), ("motion", ctypes.c_char_p),
-                ("progress", c_void_p), ("host", c_void_p)]
-
-
-class DrapeReport(ctypes.Structure):
-    kind = 19
-    _fields_ = [("head", Head), ("hash", c_uint64), ("penetration_over_1mm", c_uint64),
-                ("penetration_end_m", c_double), ("penetration_max_m", c_double), ("stretch_p95", c_double),
-                ("thickness_m", c_double), ("frame_ms", c_double)]
-
-
-#: The type of a progress hook.
-PROGRESS = ctypes.CFUNCTYPE(c_int32, c_void_p, ctypes.c_char_p)
-#: bodice_landmark as numpy has it.
-LANDMARK = np.dtype([("position", np.float64, 3), ("confidence", np.float64), ("vertex", np.uint32),
-                     ("reserved", np.int32)])
-#: bodice_ellipsoid as numpy has it.
-ELLIPSOID = np.dtype([("center", np.float64, 3), ("axes", np.float64, (3, 3)), ("radii", np.float64, 3),
-                      ("part", np.int32), ("bone", np.int32)])
 
 library = _open()
 _is_whole = hasattr(library, "bodice_fit")  # else it is libbodice_frame
@@ -199,11 +73,28 @@ def _declare() -> None:
         "bodice_measurement_name": [c_int32],
         "bodice_fit": [c_void_p] * 5,
         "bodice_drape": [c_void_p] * 4 + [c_size_t] + [c_void_p] * 3,
+        "bodice_fit_begin": [c_void_p] * 5,
+        "bodice_ticket_poll": [c_void_p] * 2,
+        "bodice_ticket_cancel": [c_void_p],
+        "bodice_ticket_take": [c_void_p] * 4,
+        "bodice_session_create": [c_void_p] * 3,
+        "bodice_session_submit": [c_void_p] * 2,
+        "bodice_session_submit_file": [c_void_p, ctypes.c_char_p],
+        "bodice_session_poll": [c_void_p] * 2,
+        "bodice_session_dress": [c_void_p] * 2 + [c_size_t],
+        "bodice_session_play": [c_void_p, ctypes.c_char_p, ctypes.c_char_p],
+        "bodice_session_pause": [c_void_p],
+        "bodice_session_resume": [c_void_p],
+        "bodice_session_seek": [c_void_p, c_double, c_double],
+        "bodice_session_step": [c_void_p, c_double, c_void_p],
+        "bodice_session_get_positions": [c_void_p, c_void_p, c_size_t],
+        "bodice_session_get_proxy": [c_void_p] * 2,
+        "bodice_session_get_hash": [c_void_p] * 2,
     }
     handles = ["context", "proxy", "collider", "workspace", "exact"]
     if _is_whole:
         arguments.update(whole_arguments)
-        handles.append("skin")
+        handles += ["skin", "ticket", "session"]
         for name in ("bodice_skin_warning", "bodice_landmark_name", "bodice_measurement_name"):
             getattr(library, name).restype = ctypes.c_char_p
     for name, types in arguments.items():
@@ -256,6 +147,21 @@ def whole(name: str):
     return getattr(library, name)
 
 
+def garments(worn):
+    """An array of bodice_garment for a sequence of Garment, and what must be kept as long as it is used."""
+    array, kept = (Garment * len(worn))(), []
+    for value, one in zip(array, worn):
+        ctypes.memmove(ctypes.byref(value), ctypes.byref(defaults(Garment)), ctypes.sizeof(Garment))
+        shape, arrays = mesh(as_points(one.vertices), one.faces)
+        held = np.ascontiguousarray([] if one.held is None else one.held, np.uint32)
+        name = one.name.encode()
+        value.name, value.mesh = name, ctypes.cast(ctypes.pointer(shape), c_void_p)
+        if len(held):
+            value.held, value.held_count = held.ctypes.data, len(held)
+        kept += [shape, arrays, held, name]
+    return array, kept
+
+
 def make_context(workers: int) -> Handle:
     options = defaults(ContextOptions)
     options.workers = workers
@@ -305,6 +211,20 @@ def particles(points: np.ndarray) -> Particles:
     if len(points):
         value.position = vectors(points)
     return value
+
+
+def pose(matrices) -> tuple:
+    """A bodice_pose of (joints, 3, 4) or (joints, 4, 4) matrices, and what must be kept as long as it is used."""
+    matrices = np.asarray(matrices)
+    if matrices.dtype not in (np.float32, np.float64):
+        matrices = matrices.astype(np.float64)
+    if matrices.ndim != 3 or matrices.shape[1:] not in ((3, 4), (4, 4)):
+        raise Error(f"The matrices have the shape {matrices.shape}. Pass (joints, 3, 4) or (joints, 4, 4).")
+    matrices = np.ascontiguousarray(matrices)
+    value = defaults(Pose)
+    value.matrices, value.count = matrices.ctypes.data, len(matrices)
+    value.scalar, value.layout = scalar_of(matrices), int(matrices.shape[1] == 4)
+    return value, matrices
 
 
 def mesh(points: np.ndarray, faces):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import dataclasses
 import os
 from typing import Callable, Dict, List, Optional, Tuple, Union
 
@@ -10,6 +11,7 @@ import numpy as np
 
 from . import _library as _c
 from ._body import Body
+from ._rig import Rig
 
 #: Called with the name of the stage now and then, on any thread; true cancels.
 Progress = Callable[[str], object]
@@ -39,16 +41,41 @@ class Hook:
         _c.check(status)
 
 
+def skin_options(rig: Optional[Rig], find_rig: bool):
+    """A bodice_skin_options, and what must be kept as long as it is used."""
+    options, kept = _c.defaults(_c.SkinOptions), None
+    options.find_rig = int(find_rig)
+    if rig is not None:
+        kept = rig._structure()
+        options.rig = ctypes.cast(ctypes.pointer(kept[0]), ctypes.c_void_p)
+    return options, kept
+
+
+def tier_number(tier: Optional[str]) -> int:
+    if tier is not None and tier not in TIERS:
+        raise _c.Error(f"There is no tier {tier!r}. Give one of {', '.join(TIERS)}.")
+    return -1 if tier is None else TIERS.index(tier)
+
+
+def fit_options(tier: Optional[str], target_error: Optional[float], max_ellipsoids: Optional[int],
+                budget_us: Optional[float]):
+    options = _c.defaults(_c.FitOptions)
+    options.tier, options.max_ellipsoids = tier_number(tier), max_ellipsoids or 0
+    options.target_error_m, options.budget_us = target_error or 0.0, budget_us or 0.0
+    return options
+
+
 class Skin:
     """The repaired mesh of a body with its landmarks and parts. Any pose and up axis; coordinates are meters.
 
-    `vertices` (n, 3), `faces` (m, 3). `find_rig`: the body gets a skeleton, and its proxies follow it."""
+    `vertices` (n, 3), `faces` (m, 3). `rig`: the bones of the program, which its proxies follow; `find_rig`: the body
+    gets a skeleton for that."""
 
-    def __init__(self, vertices: np.ndarray, faces: np.ndarray, *, find_rig: bool = False, workers: int = 0,
-                 progress: Optional[Progress] = None):
+    def __init__(self, vertices: np.ndarray, faces: np.ndarray, *, rig: Optional[Rig] = None, find_rig: bool = False,
+                 workers: int = 0, progress: Optional[Progress] = None):
         points = _c.as_points(vertices)
-        mesh, self._kept = _c.mesh(points, faces)
-        self._make(_c.whole("bodice_skin_from_mesh"), (ctypes.byref(mesh),), find_rig, workers, progress)
+        mesh, _kept = _c.mesh(points, faces)
+        self._make(_c.whole("bodice_skin_from_mesh"), (ctypes.byref(mesh),), find_rig, workers, progress, rig)
 
     @classmethod
     def _by(cls, name: str, arguments: tuple, find_rig: bool, workers: int, progress: Optional[Progress]) -> "Skin":
@@ -56,13 +83,21 @@ class Skin:
         skin._make(_c.whole(name), arguments, find_rig, workers, progress)
         return skin
 
-    def _make(self, create, arguments, find_rig, workers, progress) -> None:
-        self._context = _c.make_context(workers)
-        options = _c.defaults(_c.SkinOptions)
-        options.find_rig = int(find_rig)
+    def _make(self, create, arguments, find_rig, workers, progress, rig=None) -> None:
+        context = _c.make_context(workers)
+        options, _kept = skin_options(rig, find_rig)
         hook = Hook(options, progress)
-        self._skin = _c.Handle("bodice_skin", create, self._context, *arguments, ctypes.byref(options),
-                               check=hook.check)
+        self._adopt(context, _c.Handle("bodice_skin", create, context, *arguments, ctypes.byref(options),
+                                       check=hook.check))
+
+    @classmethod
+    def _owning(cls, context: "_c.Handle", handle: ctypes.c_void_p) -> "Skin":
+        skin = cls.__new__(cls)
+        skin._adopt(context, _c.Handle.owning("bodice_skin", handle))
+        return skin
+
+    def _adopt(self, context: "_c.Handle", skin: "_c.Handle") -> None:
+        self._context, self._skin = context, skin
         info = _c.defaults(_c.SkinInfo)
         _c.check(_c.library.bodice_skin_get_info(self._skin, ctypes.byref(info)))
         #: Height of the body as if it stood upright, meters; unit vector from feet to head.
@@ -131,17 +166,22 @@ class Skin:
             progress: Optional[Progress] = None) -> "FittedBody":
         """Fits a proxy. `tier`: "paper", "solid", "tight" or "relief" (default); `target_error`: wanted mean gap to the
         skin, meters; `budget_us`: wanted time of a query of 10,000 points."""
-        if tier is not None and tier not in TIERS:
-            raise _c.Error(f"There is no tier {tier!r}. Give one of {', '.join(TIERS)}.")
-        options, report = _c.defaults(_c.FitOptions), _c.defaults(_c.FitReport)
-        options.tier = -1 if tier is None else TIERS.index(tier)
-        options.target_error_m, options.budget_us = target_error or 0.0, budget_us or 0.0
-        options.max_ellipsoids = max_ellipsoids or 0
+        options, report = fit_options(tier, target_error, max_ellipsoids, budget_us), _c.defaults(_c.FitReport)
         hook = Hook(options, progress)
         proxy = ctypes.c_void_p()
         hook.check(_c.library.bodice_fit(self._context, self._skin, ctypes.byref(options), ctypes.byref(proxy),
                                          ctypes.byref(report)))
         return FittedBody(self._context, _c.Handle.owning("bodice_proxy", proxy), self, _c.as_dict(report))
+
+
+@dataclasses.dataclass
+class Garment:
+    """A garment in the coordinates of its body, meters, y up."""
+
+    vertices: np.ndarray  #: (n, 3)
+    faces: np.ndarray  #: (m, 3)
+    held: Optional[np.ndarray] = None  #: vertices that stay with the body, such as a waistband
+    name: str = "garment"  #: for messages
 
 
 class FittedBody(Body):
@@ -162,23 +202,25 @@ class FittedBody(Body):
 
     def drape(self, vertices: np.ndarray, faces: np.ndarray, held: Optional[np.ndarray] = None, *,
               frames: int = 120, dt: float = 1.0 / 60.0, fabric: str = "cotton", motion: Optional[str] = None,
+              tack: Optional[float] = None, find_position: bool = False, hold: bool = False,
               progress: Optional[Progress] = None) -> Tuple[np.ndarray, Dict[str, float]]:
         """Drapes a garment (meters, y up, worn by this body at rest); `held`: vertices that stay with the body.
-        `motion` ("walk", "sit", a file, ...) needs a skin with a rig. Returns the positions (n, 3) at the end, and the
-        numbers of the drape: see bodice_drape_report."""
+        `motion` ("walk", "sit", a file, ...) needs a skin with a rig. `tack`: pieces of the garment this near to each
+        other stay together, meters (0.006; 0: none do). `find_position`: unit, axes and position of the garment are found.
+        `hold`: where nothing is held, it is held as a wearer does, a skirt by its waistband. Returns the positions
+        (n, 3) at the end, and the numbers of the drape: see bodice_drape_report."""
         points = _c.as_points(vertices)
-        mesh, kept = _c.mesh(points, faces)
-        garment, options = _c.defaults(_c.Garment), _c.defaults(_c.DrapeOptions)
-        garment.mesh = ctypes.cast(ctypes.pointer(mesh), ctypes.c_void_p)
-        if held is not None and len(held):
-            held = np.ascontiguousarray(held, np.uint32)
-            garment.held, garment.held_count = held.ctypes.data, len(held)
+        worn, _kept = _c.garments([Garment(points, faces, held)])
+        options = _c.defaults(_c.DrapeOptions)
+        options.find_position, options.hold = int(find_position), int(hold)
+        if tack is not None:
+            options.tack_m = tack
         options.frames, options.dt_s, options.fabric = frames, dt, fabric.encode()
         options.motion = motion.encode() if motion else None
         hook, report = Hook(options, progress), _c.defaults(_c.DrapeReport)
         out = np.empty((len(points), 3))
         to = _c.vectors(out)
-        hook.check(_c.library.bodice_drape(self._context, self.skin._skin, self._proxy, ctypes.byref(garment), 1,
+        hook.check(_c.library.bodice_drape(self._context, self.skin._skin, self._proxy, worn, 1,
                                            ctypes.byref(options), ctypes.byref(to), ctypes.byref(report)))
         return out, _c.as_dict(report)
 
@@ -197,8 +239,9 @@ def built_in(female: bool = True, stature: float = 1.68, *, find_rig: bool = Fal
 
 def fit(vertices: np.ndarray, faces: np.ndarray, tier: Optional[str] = None, *,
         target_error: Optional[float] = None, max_ellipsoids: Optional[int] = None, budget_us: Optional[float] = None,
-        find_rig: bool = False, workers: int = 0, progress: Optional[Progress] = None) -> FittedBody:
+        rig: Optional[Rig] = None, find_rig: bool = False, workers: int = 0,
+        progress: Optional[Progress] = None) -> FittedBody:
     """From a mesh to a body: Skin(vertices, faces).fit(...). 1 to 3 seconds; tier "solid" takes half a second."""
-    skin = Skin(vertices, faces, find_rig=find_rig, workers=workers, progress=progress)
+    skin = Skin(vertices, faces, rig=rig, find_rig=find_rig, workers=workers, progress=progress)
     return skin.fit(tier, target_error=target_error, max_ellipsoids=max_ellipsoids, budget_us=budget_us,
                     progress=progress)

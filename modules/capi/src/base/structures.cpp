@@ -43,6 +43,7 @@ void set_defaults(bodice_drape_options& options) {
   options.frames = 120;
   options.substeps = 16;
   options.dt_s = 1.0 / 60.0;
+  options.tack_m = 0.006;
 }
 template <class T>
 void set_defaults(T&) {}

@@ -1,6 +1,8 @@
 // Whole drapes.
 #include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/place_garment.hpp>
 #include <bodice/tryon/rigged_body.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 #include "base/handles.hpp"
 #include "base/structures.hpp"
@@ -22,7 +24,11 @@ Outcome read_options(const bodice_drape_options& given, tryon::DrapeOptions& out
   if (!(given.thickness_m >= 0.0 && given.thickness_m <= 0.1))
     return invalid("bodice_drape_options.thickness_m is " + std::to_string(given.thickness_m) + ".",
                    "Give 0 to 0.1 meters; 0 finds it.");
+  if (!(given.tack_m >= 0.0 && given.tack_m <= 0.1))
+    return invalid("bodice_drape_options.tack_m is " + std::to_string(given.tack_m) + ".",
+                   "Give 0 to 0.1 meters; 0 tacks nothing.");
   BODICE_CHECK(capi::read_fabric(given.fabric, out.fabric));
+  out.tack_m = given.tack_m;
   out.frames = given.frames;
   out.kept_frames = 2;
   out.dt_s = given.dt_s;
@@ -30,6 +36,8 @@ Outcome read_options(const bodice_drape_options& given, tryon::DrapeOptions& out
   if (given.thickness_m > 0.0) out.thickness_m = given.thickness_m;
   return {};
 }
+
+static_assert(tryon::kTackWithin_m == 0.006, "the default of bodice_drape_options.tack_m states it");
 
 bodice_drape_report as_c(const tryon::DrapeReport& from) {
   auto report = capi::with_defaults<bodice_drape_report>();
@@ -41,6 +49,21 @@ bodice_drape_report as_c(const tryon::DrapeReport& from) {
   report.thickness_m = from.thickness_m;
   report.frame_ms = from.frame_ms_median;
   return report;
+}
+
+/// Puts garments on the body as the options ask for; what was changed goes to the log.
+Outcome wear(const engine::Context& context, const tryon::SegmentedSkin& skin,
+             const bodice_drape_options& options, std::vector<tryon::WornGarment>& worn) {
+  for (tryon::WornGarment& garment : worn) {
+    if (options.find_position) {
+      auto placed = tryon::place_garment(context, {*skin.distance, skin.input.skin, skin.anatomy.stature_m},
+                                         garment.name, garment.mesh);
+      if (!placed) return placed.error();
+      if (*placed) context.warn((*placed)->message + " " + (*placed)->remedy);
+    }
+    if (options.hold && garment.held.empty()) garment.held = tryon::held_vertices(garment.mesh, skin);
+  }
+  return {};
 }
 
 /// The last kept positions of all garments, garment after garment.
@@ -86,6 +109,7 @@ bodice_status bodice_drape(const bodice_context* context, const bodice_skin* ski
       wanted.motion = &motion.emplace(std::move(found).value());
     }
     progress.stage("drape");
+    BODICE_CHECK(wear(progress.context(), body.skin, options, worn));
     auto draped = tryon::drape(progress.context(), body, worn, wanted);
     if (!draped) return draped.error();
     for (const engine::Warning& warning : draped->report.warnings)

@@ -126,6 +126,34 @@ bodice_status bodice_session_play(bodice_session* session, const char* motion, c
   });
 }
 
+bodice_status bodice_session_pause(bodice_session* session) {
+  return capi::guarded([&]() -> Outcome {
+    BODICE_CHECK(capi::check_handle(session, "The session"));
+    session->session.pause();
+    return {};
+  });
+}
+
+bodice_status bodice_session_resume(bodice_session* session) {
+  return capi::guarded([&]() -> Outcome {
+    BODICE_CHECK(capi::check_handle(session, "The session"));
+    session->session.resume();
+    return {};
+  });
+}
+
+bodice_status bodice_session_seek(bodice_session* session, double time_s, double ramp_s) {
+  return capi::guarded([&]() -> Outcome {
+    BODICE_CHECK(capi::check_handle(session, "The session"));
+    if (!(std::isfinite(time_s) && time_s >= 0.0 && std::isfinite(ramp_s) && ramp_s >= 0.0))
+      return invalid("The session cannot seek to " + std::to_string(time_s) + " s over " +
+                         std::to_string(ramp_s) + " s.",
+                     "Give seconds, zero or more.");
+    session->session.seek(time_s, ramp_s);
+    return {};
+  });
+}
+
 bodice_status bodice_session_step(bodice_session* session, double dt_s, bodice_step_report* report) {
   return capi::guarded([&]() -> Outcome {
     BODICE_CHECK(capi::check_handle(session, "The session"));

@@ -71,6 +71,13 @@ BODICE_EXPERIMENTAL bodice_status bodice_session_dress(bodice_session* session,
  * names one of the file; null: its first. Needs `moves`. A motion that is not found fails a later poll. */
 BODICE_EXPERIMENTAL bodice_status bodice_session_play(bodice_session* session, const char* motion,
                                                       const char* clip);
+/** Frames go on, but the body stays in its pose until bodice_session_resume(). */
+BODICE_EXPERIMENTAL bodice_status bodice_session_pause(bodice_session* session);
+BODICE_EXPERIMENTAL bodice_status bodice_session_resume(bodice_session* session);
+/** Moves to a second of the motion, over `ramp_s` seconds so that garments can follow; zero jumps. Does
+ * nothing while nothing is played. Fails with BODICE_INVALID_ARGUMENT for a number that is not finite or
+ * below zero. */
+BODICE_EXPERIMENTAL bodice_status bodice_session_seek(bodice_session* session, double time_s, double ramp_s);
 
 /** What a step did. */
 typedef struct bodice_step_report {
@@ -114,6 +121,11 @@ typedef struct bodice_drape_options {
   const char* motion; /**< as in bodice_session_play(); null: the body stands still */
   int32_t (*progress)(void* host, const char* stage); /**< as in bodice_skin_options */
   void* host;                                         /**< passed to progress */
+  double tack_m; /**< pieces of a garment this near to each other stay together; default 0.006, 0: none do */
+  int32_t find_position; /**< 1: unit, axes and position of each garment are found by where the body is;
+                            default 0 */
+  int32_t hold; /**< 1: garments without held vertices are held as a wearer does, a skirt by its waistband;
+                   default 0 */
 } bodice_drape_options;
 
 BODICE_INLINE bodice_drape_options bodice_default_drape_options(void) {
