@@ -1,0 +1,15 @@
+#ifndef BODICE_HAS_JSON
+namespace bodice::proxy {
+
+engine::Result<BodyProxy> from_json(std::string_view) {
+  return engine::Error{
+      engine::ErrorCode::kUnreadable, "These bytes are no proxy in the binary form.",
+      "Compile bodice_frame.cpp where <nlohmann/json.hpp> is found, or write it with -o FILE.bodice."};
+}
+
+std::string to_json(const BodyProxy&) {
+  throw std::runtime_error("this build writes no JSON");
+}
+
+}  // namespace bodice::proxy
+#endif
