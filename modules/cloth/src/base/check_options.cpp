@@ -34,6 +34,8 @@ engine::Result<void> check(const SolverOptions& o) {
   if (auto good = check_count("iterations", o.iterations, kMaxIterations); !good) return good;
   if (!(o.thickness_m >= 0.0 && o.thickness_m <= kMostMeters))
     return bad(engine::message("thickness_m is ", o.thickness_m), "Give meters, 0 to 1e9.");
+  if (!(o.layer_gap_m >= 0.0 && o.layer_gap_m <= kMostMeters))
+    return bad(engine::message("layer_gap_m is ", o.layer_gap_m), "Give meters, 0 to 1e9.");
   if (o.certify_m && !(*o.certify_m > 0.0 && *o.certify_m <= kMostMeters))
     return bad(engine::message("certify_m is ", *o.certify_m), "Give meters above zero, up to 1e9, or none.");
   if (!(o.budget_us >= 0.0)) return bad(engine::message("budget_us is ", o.budget_us), "Give zero or more.");

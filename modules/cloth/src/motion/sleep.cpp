@@ -23,17 +23,14 @@ bool stays(const Particles& p, std::size_t i, const Point& anchor) {
   return dx * dx + dy * dy + dz * dz < kTremble_m * kTremble_m;
 }
 
-// Finds the speeds of the particles [begin, end) over the frame; returns the largest one.
-float find_speeds(const Particles& p, std::size_t begin, std::size_t end, float per_s, Sleep& sleep) {
-  float fastest = 0.0f;
+// Finds the speeds of the particles [begin, end) over the frame.
+void find_speeds(const Particles& p, std::size_t begin, std::size_t end, float per_s, Sleep& sleep) {
   for (std::size_t i = begin; i < end; ++i) {
     const float dx = p.x[i] - sleep.start_x[i], dy = p.y[i] - sleep.start_y[i],
                 dz = p.z[i] - sleep.start_z[i];
     sleep.speed[i] = std::sqrt(dx * dx + dy * dy + dz * dz) * per_s;
     sleep.stays[i] = stays(p, i, sleep.anchor[i]);
-    fastest = std::max(fastest, sleep.speed[i]);
   }
-  return fastest;
 }
 
 bool woken(const Ring& ring, std::size_t i, const Sleep& sleep) {
@@ -61,13 +58,11 @@ void begin_sleep_frame(const Particles& p, std::size_t begin, std::size_t end, S
   std::copy(p.z.begin() + first, p.z.begin() + last, sleep.start_z.begin() + first);
 }
 
-float end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& p,
-                      Sleep& sleep) {
+void end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& p,
+                     Sleep& sleep) {
   const auto per_s = static_cast<float>(1.0 / frame_s);
-  const float fastest = engine::ordered_reduce(
-      context, p.count(), reduce_grain(p.count()), 0.0f,
-      [&](std::size_t begin, std::size_t end) { return find_speeds(p, begin, end, per_s, sleep); },
-      [](float a, float b) { return std::max(a, b); });
+  engine::parallel_for(context, p.count(), kParticleGrain,
+                       [&](std::size_t begin, std::size_t end) { find_speeds(p, begin, end, per_s, sleep); });
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const bool quiet = (sleep.speed[i] < kSlow_m_s || sleep.stays[i]) && !woken(ring, i, sleep);
@@ -76,7 +71,6 @@ float end_sleep_frame(const engine::Context& context, const Ring& ring, double f
       if (sleeps(sleep, i)) p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
     }
   });
-  return fastest;
 }
 
 void wake_all(Sleep& sleep) {

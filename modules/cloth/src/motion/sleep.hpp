@@ -32,9 +32,9 @@ bool sleeps(const Sleep& sleep, std::size_t particle);
 void begin_sleep_frame(const Particles& particles, std::size_t begin, std::size_t end, Sleep& sleep);
 
 /// Finds the speeds of the frame, puts quiet particles to sleep, and wakes those that a neighbor or the body
-/// moves. Returns the largest speed.
-float end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& particles,
-                      Sleep& sleep);
+/// moves.
+void end_sleep_frame(const engine::Context& context, const Ring& ring, double frame_s, Particles& particles,
+                     Sleep& sleep);
 
 /// Wakes all particles.
 void wake_all(Sleep& sleep);

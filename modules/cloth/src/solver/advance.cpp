@@ -42,6 +42,10 @@ bool load_points(const Sleep& sleep, std::size_t begin, std::size_t end, Particl
   return changed;
 }
 
+bool touches_itself(const Plan& plan, const State& s) {
+  return s.options.self_collision && !(plan.limits & kNoSelfContact);
+}
+
 void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
   Particles& p = s.particles;
   update_air(context, s.options.environment, s.options.seed, s.time_s, p, s.air);
@@ -52,8 +56,10 @@ void begin_frame(const engine::Context& context, const Plan& plan, State& s) {
   });
   if (changed.load()) update_weights(context, p, s.coarse);
   aim_pins(s.pins, plan.simulated_s, p);
-  if (s.options.self_collision && !(plan.limits & kNoSelfContact))
-    find_close_pairs(context, s.ring, p, s.self);
+  if (touches_itself(plan, s))
+    begin_self_contact(context, p, s.self);
+  else
+    s.self.sided = false, forget_pairs(s.self);
 }
 
 void solve_block(std::size_t block, bool bend, float inverse_h2, Patch& patch, State& s) {
@@ -111,22 +117,35 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
     solve_threads(s.threads, p.point);
   }
   solve_coarse(context, s.coarse, p);
-  if (s.options.self_collision && !(plan.limits & kNoSelfContact))
-    push_apart(context, s.contacts.touching, static_cast<float>(s.fabric.friction), plan.substep_s, s.self,
-               p);
-  return limits | resolve_body_contacts(context, collider, s.options, static_cast<float>(s.fabric.friction),
-                                        {plan.substep_s, share(substep, plan)}, s.contacts, p);
+  const auto friction = static_cast<float>(s.fabric.friction);
+  const SelfSubstep with_itself = {plan.substep_s, static_cast<float>(plan.simulated_s), friction,
+                                   s.contacts.touching};
+  if (touches_itself(plan, s)) push_apart(context, with_itself, s.self, p);
+  limits |= resolve_body_contacts(context, collider, s.options, friction,
+                                  {plan.substep_s, share(substep, plan)}, s.contacts, p);
+  if (touches_itself(plan, s)) hold_apart(context, with_itself, s.self, p);
+  return limits;
+}
+
+// Proves faces to be out of the body, which moves some of them once more.
+void end_contact(const engine::Context& context, const collision::Collider& collider, const Plan& plan,
+                 State& s) {
+  end_contact_frame(context, collider, s.options, s.contacts, s.particles);
+  if (s.options.certify_m && touches_itself(plan, s))
+    hold_apart(context,
+               {plan.substep_s, static_cast<float>(plan.simulated_s), static_cast<float>(s.fabric.friction),
+                s.contacts.touching},
+               s.self, s.particles);
 }
 
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {
   const Environment& e = s.options.environment;
   Particles& p = s.particles;
   settle_pins(s.pins, p);
-  const float fastest_m_s = end_sleep_frame(context, s.ring, plan.simulated_s, p, s.sleep);
+  end_sleep_frame(context, s.ring, plan.simulated_s, p, s.sleep);
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) p.point[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};
   });
-  s.self.travel_m += plan.simulated_s * static_cast<double>(fastest_m_s);
   if (e.gust > 0.0 && e.wind_m_s != Vec3::Zero()) wake_all(s.sleep);  // gusts never end
   s.time_s += plan.simulated_s;
 }
@@ -168,9 +187,9 @@ FrameReport advance(const engine::Context& context, const collision::Collider* c
                       s.particles, s.contacts);
   for (int substep = 0; substep < plan.substeps; ++substep)
     report.limits |= run_substep(context, collider, plan, substep, s);
-  if (plan.substeps > 0 && collider != nullptr)
-    end_contact_frame(context, *collider, s.options, s.contacts, s.particles);
+  if (plan.substeps > 0 && collider != nullptr) end_contact(context, *collider, plan, s);
   report_contacts(s.contacts, report);
+  report.layers = report_self_contact(s.self);
   if (plan.substeps > 0) end_frame(context, plan, s);
   measure(context, s, report);
   report.frame_us = 1e-3 * static_cast<double>(context.clock->now_ns() - start_ns);

@@ -16,10 +16,6 @@ constexpr double kCoarseSlack = 0.25;
 // meter across, which is within the radius of fingers.
 constexpr float kCcdThreshold = 0.1f;
 
-// The distance that layers keep, a fraction of the median edge. Below 0.71 a particle passes through the
-// middle of a quad.
-constexpr double kSelfRadius = 0.75;
-
 // Puts the particles in Morton order and updates the map from vertices.
 void reorder(WeldedGarment& garment) {
   const std::vector<Index> order = morton_order(garment.mesh.positions);
@@ -70,7 +66,7 @@ std::vector<Vec3> reported_positions(const geometry::TriMesh& garment, const geo
   return out;
 }
 
-// The garment's edges and its threads: along both, cloth holds together and layers do not push each other.
+// The garment's edges and its threads: along both, cloth holds together.
 Topology with_threads(Topology topology, std::span<const Thread> threads) {
   for (const Thread& t : threads)
     topology.edges.push_back({std::min(t.a, t.b), std::max(t.a, t.b), 0.0, false});
@@ -107,7 +103,8 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   update_weights({}, s.particles, s.coarse);  // later whenever a particle falls asleep or wakes
   s.air = make_air(mesh);
   s.ring = make_ring(mesh, together);
-  s.self = make_self_contact(s.particles, s.ring, kSelfRadius * welded->median_edge_m);
+  if (options.self_collision)
+    s.self = make_self_contact(mesh, s.particles, options.layer_gap_m, welded->median_edge_m);
   s.sleep = make_sleep(s.particles.count());
   s.contacts = make_contacts(s.particles.count(),
                              make_face_contact(mesh, topology, options, welded->median_edge_m, s.particles));

@@ -13,10 +13,10 @@
 #include "constraints/stretch.hpp"
 #include "constraints/tacks.hpp"
 #include "contact/body_contact.hpp"
-#include "contact/self_contact.hpp"
 #include "motion/aerodynamics.hpp"
 #include "motion/pins.hpp"
 #include "motion/sleep.hpp"
+#include "selfcontact/self_contact.hpp"
 #include "solver/quality_controller.hpp"
 
 namespace bodice::cloth {

@@ -1,0 +1,168 @@
+#include "selfcontact/contacts.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+constexpr float kNever_m = std::numeric_limits<float>::infinity();
+constexpr std::size_t kMovesATask = 256;
+constexpr int kPushes = 2;             // sweeps over the contacts of a substep
+constexpr float kRounding = 1.00001f;  // travel is rounded upward
+
+// Parts nearer than this have no normal, a tenth of a micrometer: what a file has at the same point.
+constexpr float kTouching_m = 1e-7f;
+
+// The least distance to keep, a share of the gap, of parts that are nearer at rest.
+constexpr float kLeastOfGap = 0.05f;
+
+// A particle on the body counts as so many times heavier against another layer. The body undoes its part of
+// the push, and the outer layer would sink into the inner one.
+constexpr float kTouchingMass = 8.0f;
+
+float gap_of(const ContactSource& source, const Pair& pair) {
+  const float at_rest = std::sqrt(closest(pair.edges, corners_of(pair.particle, source.rest)).length2);
+  return std::clamp(at_rest, kLeastOfGap * source.search.gap_m, source.search.gap_m);
+}
+
+// Looks at the pairs of a group that may be too near once its leaves moved by `step_m` against each other.
+void refresh_group(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
+  std::vector<PairContact>& contacts = task.contacts[group.inside];
+  group.next_m = group.find_m, group.fresh = true;
+  for (std::uint32_t k = group.begin; k < group.end; ++k) {
+    Pair& pair = task.pairs[k];
+    pair.contact = kNoContact;
+    if (!(pair.until_m > group.travel_m + step_m)) {
+      const PairContact contact = contact_of(source, pair);
+      pair.until_m = contact.gap_m > 0.0f ? group.travel_m + contact.apart_m - contact.gap_m : kNever_m;
+      if (pair.until_m < group.travel_m + step_m) {
+        pair.contact = static_cast<std::uint32_t>(contacts.size());
+        contacts.push_back(contact);
+      }
+    }
+    group.next_m = std::min(group.next_m, pair.until_m);
+  }
+}
+
+// Pushes a pair apart; returns whether it was too near.
+bool push_pair(const PairContact& c, const PairPush& how, std::span<Point> at) {
+  Float4 now[4], apart = splat(0.0f), slid = splat(0.0f);
+  for (int k = 0; k < 4; ++k) {
+    now[k] = load(at[c.particle[k]]);
+    apart += c.weight[k] * now[k];
+    slid += c.weight[k] * (now[k] - load(how.before[c.particle[k]]));
+  }
+  const float push = std::min(c.gap_m, c.apart_m + how.recovery_m) - dot(apart, c.normal);
+  if (!(push > 0.0f)) return false;
+  float yielding[4], all = kTinyWeight;
+  for (int k = 0; k < 4; ++k) {
+    yielding[k] = c.weight[k] * now[k][3] * (how.touching[c.particle[k]] ? 1.0f / kTouchingMass : 1.0f);
+    all += c.weight[k] * yielding[k];
+  }
+  const Float4 tangent = xyz(slid - dot(slid, c.normal) * c.normal);
+  const float slip = std::sqrt(dot(tangent, tangent) + kTinyLength2);
+  const float held = std::min(1.0f, how.friction * push / slip);
+  const Float4 correction = (push * c.normal - held * tangent) / all;
+  for (int k = 0; k < 4; ++k) store(at[c.particle[k]], now[k] + yielding[k] * correction);
+  return true;
+}
+
+// Calls visit(first, last) for the tasks of each block, blocks in parallel.
+template <class Visit>
+void for_each_block(const engine::Context& context, const ContactMesh& mesh,
+                    const std::vector<PairTask>& tasks, Visit&& visit) {
+  const auto first_of = [&](std::size_t block) {
+    return std::ranges::partition_point(
+        tasks, [&](const PairTask& task) { return mesh.block[task.first_leaf] < block; });
+  };
+  engine::parallel_for(context, mesh.blocks, 1,
+                       [&](std::size_t block, std::size_t) { visit(first_of(block), first_of(block + 1)); });
+}
+
+}  // namespace
+
+void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
+                std::span<const Point> now, std::vector<LeafMove>& moves) {
+  engine::parallel_for(context, mesh.leaves(), kMovesATask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      const Float4 far = splat(kNever_m);
+      LeafMove m = {far, -far, far, -far};
+      for (const Index i : mesh.particles_of(leaf)) {
+        const Float4 at = load(before[i]), move = load(now[i]) - at;
+        m.at_low = min(m.at_low, at), m.at_high = max(m.at_high, at);
+        m.low = min(m.low, move), m.high = max(m.high, move);
+      }
+      moves[leaf] = {xyz(m.at_low), xyz(m.at_high), xyz(m.low), xyz(m.high)};
+    }
+  });
+}
+
+PairContact contact_of(const ContactSource& source, Pair& pair) {
+  const Closest c = closest(pair.edges, corners_of(pair.particle, source.search.at));
+  const float apart_m = std::sqrt(c.length2);
+  if (!(apart_m > kTouching_m)) pair.gap_m = 0.0f;
+  if (pair.gap_m == kUnsettled && apart_m < source.search.gap_m) pair.gap_m = gap_of(source, pair);
+  PairContact contact{.weight = c.weight,
+                      .normal = c.apart / (apart_m + kTouching_m * kTouching_m),
+                      .particle = {},
+                      .apart_m = apart_m,
+                      .gap_m = pair.gap_m == kUnsettled ? source.search.gap_m : pair.gap_m,
+                      .edges = pair.edges};
+  std::ranges::copy(pair.particle, contact.particle);
+  return contact;
+}
+
+void keep_pairs(const ContactSource& source, float step_m, PairGroup& group, PairTask& task) {
+  if (!(group.travel_m + step_m > group.find_m)) return;
+  PairSearch search = source.search;
+  search.slack_m = std::max(search.slack_m, kRounding * step_m), search.step_m = step_m;
+  group.fresh = false;
+  const LeafMove &a = source.moves[group.leaf[0]], &b = source.moves[group.leaf[1]];
+  const Float4 apart = max(splat(0.0f), max(a.at_low - b.at_high, b.at_low - a.at_high));
+  const float room_m = std::sqrt(dot(apart, apart)) - search.gap_m;
+  if (room_m > search.slack_m)
+    clear_pairs(room_m, group, task);
+  else
+    find_pairs(source.mesh, search, group, task);
+}
+
+void refresh_contacts(const engine::Context& context, const ContactSource& source,
+                      std::vector<PairTask>& tasks) {
+  engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
+    PairTask& task = tasks[t];
+    for (auto& contacts : task.contacts) contacts.clear();
+    tidy(task);
+    for (PairGroup& group : task.groups) {
+      const float step_m = source.step_of(group);
+      group.fresh = false;
+      keep_pairs(source, step_m, group, task);
+      if (!(group.next_m > group.travel_m + step_m)) refresh_group(source, step_m, group, task);
+    }
+  });
+}
+
+void push_contacts(const engine::Context& context, const ContactMesh& mesh, const PairPush& how,
+                   const std::vector<PairTask>& tasks, std::span<Point> at) {
+  for (int sweep = 0; sweep < kPushes; ++sweep) {
+    std::atomic<bool> pushed{false};
+    const auto push_all = [&](const PairTask& task, bool inside) {
+      bool any_pushed = false;
+      for (const PairContact& c : task.contacts[inside]) any_pushed = push_pair(c, how, at) || any_pushed;
+      if (any_pushed) pushed.store(true, std::memory_order_relaxed);
+    };
+    for_each_block(context, mesh, tasks, [&](auto first, auto last) {
+      for (; first != last; ++first) push_all(*first, true);
+    });
+    for (const PairTask& task : tasks) push_all(task, false);
+    if (!pushed.load()) return;
+  }
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,29 @@
+// Quick proofs that parts of the cloth stay apart: of two triangles by a plane, of a patch by its normals.
+#pragma once
+
+#include "selfcontact/closest.hpp"
+#include "selfcontact/contact_mesh.hpp"
+
+namespace bodice::cloth {
+
+/// The corners of two triangles.
+struct FacePair {
+  Float4 a[3], b[3];      ///< meters
+  int shared[3][2] = {};  ///< corners of a and b that are the same particle
+  int common = 0;         ///< number of those
+};
+
+FacePair face_pair(const Face& a, const Face& b, std::span<const Point> at);
+
+/// Whether a plane proves that parts without a common particle are farther apart than `reach_m`. Triangles
+/// with a common edge are taken for no slivers.
+bool are_clear(const FacePair& pair, float reach_m);
+
+/// Whether two joined leaves (are_joined()) are so flat that they cannot touch each other: all normals are
+/// within an angle of their mean.
+/// Based on: Pascal Volino, Nadia Magnenat-Thalmann. Efficient Self-Collision Detection on Smoothly
+/// Discretized Surface Animations using Geometrical Shape Regularity. 1994. Differs: outlines are not tested,
+/// because a flat patch of so few triangles does not wind around itself.
+bool are_flat(const ContactMesh& mesh, std::size_t leaf, std::size_t other, std::span<const Point> at);
+
+}  // namespace bodice::cloth

@@ -1,0 +1,196 @@
+#include "selfcontact/pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "selfcontact/face_pair.hpp"
+#include "selfcontact/near_faces.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+constexpr std::size_t kLeavesATask = 32;
+// A flat patch stays flat while its particles move against each other by less than this share of its
+// triangles' least height: their normals turn by about as many radians.
+constexpr float kTurnOfWidth = 0.25f;
+// Room for pairs at first, of all tasks and of each, so that few frames need more; unused room costs nothing.
+constexpr std::size_t kPairsAtFirst = 65536, kFewPairs = 2048;
+// Pairs out of use that a task keeps besides half as many as are in use.
+constexpr std::size_t kUnused = 256;
+
+// Whether two triangles of a sorted list cross.
+bool do_cross(std::span<const Tangle> tangles, std::uint32_t a, std::uint32_t b) {
+  return std::ranges::binary_search(tangles, Tangle{std::min(a, b), std::max(a, b)});
+}
+
+bool has(const Face& f, Index i) {
+  return f.particle[0] == i || f.particle[1] == i || f.particle[2] == i;
+}
+
+// Whether a triangle of all of these `count` particles crosses one of the others'.
+bool is_tangled(const ContactMesh& mesh, const Pair& pair, std::span<const Tangle> tangles) {
+  const int split = pair.edges ? 2 : 1;
+  const auto holds = [&](std::uint32_t face, int begin, int end) {
+    for (int k = begin; k < end; ++k)
+      if (!has(mesh.faces[face], pair.particle[k])) return false;
+    return true;
+  };
+  for (const std::uint32_t a : mesh.star_of(pair.particle[0])) {
+    if (!holds(a, 0, split)) continue;
+    for (const std::uint32_t b : mesh.star_of(pair.particle[split]))
+      if (holds(b, split, 4) && do_cross(tangles, a, b)) return true;
+  }
+  return false;
+}
+
+// A search between two leaves.
+struct LeafPair {
+  const ContactMesh& mesh;
+  const PairSearch& search;
+  float reach_m;
+  PairTask& task;
+
+  // Two edges are not near if their middles are farther apart than half of their lengths and the reach.
+  bool are_far(const Corners& c) const {
+    const Float4 a = c.at[1] - c.at[0], b = c.at[3] - c.at[2], apart = c.at[0] + c.at[1] - c.at[2] - c.at[3];
+    const float far_m = std::sqrt(dot(a, a)) + std::sqrt(dot(b, b)) + 2.0f * reach_m;
+    return dot(apart, apart) > far_m * far_m;
+  }
+
+  void offer(const Pair& pair) {
+    const Corners corners = corners_of(pair.particle, search.at);
+    if (pair.edges && are_far(corners)) return;
+    if (closest(pair.edges, corners).length2 > reach_m * reach_m) return;
+    if (!search.tangles.empty() && is_tangled(mesh, pair, search.tangles)) return;
+    task.pairs.push_back(pair);
+  }
+
+  void offer_particles(const Face& of, const Face& face) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const Index i = of.particle[k];
+      if ((of.particles >> k & 1u) == 0 || has(face, i)) continue;
+      offer({.particle = {i, face.particle[0], face.particle[1], face.particle[2]}});
+    }
+  }
+
+  void offer_edges(const Face& a, const Face& b) {
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((a.edges >> k & 1u) == 0) continue;
+      const Index p = a.particle[k], q = a.particle[(k + 1) % 3];
+      for (unsigned l = 0; l < 3; ++l) {
+        const Index r = b.particle[l], s = b.particle[(l + 1) % 3];
+        if ((b.edges >> l & 1u) == 0 || p == r || p == s || q == r || q == s) continue;
+        offer({.particle = {p, q, r, s}, .edges = true});
+      }
+    }
+  }
+
+  void visit(const Face& a, const Face& b) {
+    if (are_clear(face_pair(a, b, search.at), reach_m)) return;
+    offer_particles(a, b);
+    offer_particles(b, a);
+    offer_edges(a, b);
+  }
+};
+
+// A group of two leaves that is listed for the first time.
+PairGroup new_group(const ContactMesh& mesh, const SweepTree& tree, std::size_t leaf, std::size_t other,
+                    float gap_m) {
+  const float room_m = distance(tree.node[tree.width + leaf], tree.node[tree.width + other]) - gap_m;
+  return {.leaf = {static_cast<std::uint32_t>(leaf), static_cast<std::uint32_t>(other)},
+          .next_m = room_m,
+          .find_m = room_m,
+          .joined = are_joined(mesh, leaf, other),
+          .inside = mesh.block[leaf] == mesh.block[other] && mesh.block[leaf] != kNoBlock};
+}
+
+// Lists the groups of a task; those that it had keep their pairs.
+void list_groups(const ContactMesh& mesh, const SweepTree& tree, float reach_m, float gap_m, PairTask& task) {
+  std::swap(task.groups, task.groups_before);
+  task.groups.clear(), task.used = 0;
+  auto before = task.groups_before.begin();
+  for (std::size_t first = task.first_leaf; first < task.last_leaf; first += kLeavesTogether) {
+    const std::size_t last = std::min(first + kLeavesTogether, task.last_leaf);
+    for_each_near_leaf(tree, first, last, reach_m, task.near, [&](std::size_t leaf, std::size_t other) {
+      const std::pair<std::size_t, std::size_t> wanted(leaf, other);
+      const auto leaves = [](const PairGroup& g) {
+        return std::pair<std::size_t, std::size_t>(g.leaf[0], g.leaf[1]);
+      };
+      while (before != task.groups_before.end() && leaves(*before) < wanted) ++before;
+      const bool known = before != task.groups_before.end() && leaves(*before) == wanted;
+      task.groups.push_back(known ? *before : new_group(mesh, tree, leaf, other, gap_m));
+      task.groups.back().fresh = false;
+      task.used += task.groups.back().end - task.groups.back().begin;
+    });
+  }
+}
+
+}  // namespace
+
+std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
+  std::vector<PairTask> tasks;
+  for (std::size_t leaf = 0; leaf < mesh.leaves(); ++leaf) {
+    if (tasks.empty() || mesh.block[tasks.back().first_leaf] != mesh.block[leaf] ||
+        leaf - tasks.back().first_leaf == kLeavesATask) {
+      tasks.emplace_back();
+      tasks.back().first_leaf = leaf;
+    }
+    tasks.back().last_leaf = leaf + 1;
+  }
+  const std::size_t pairs = std::max(kFewPairs, kPairsAtFirst / tasks.size());
+  for (PairTask& task : tasks) {
+    task.pairs.reserve(pairs), task.spare.reserve(pairs);
+    task.groups.reserve(pairs / 2), task.groups_before.reserve(pairs / 2), task.near.reserve(pairs / 2);
+    task.crossing.reserve(pairs / 4);
+    for (auto& contacts : task.contacts) contacts.reserve(pairs / 4);
+  }
+  return tasks;
+}
+
+void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
+                 float reach_m, float gap_m, std::vector<PairTask>& tasks) {
+  engine::parallel_for(context, tasks.size(), 1, [&](std::size_t task, std::size_t) {
+    list_groups(mesh, tree, reach_m, gap_m, tasks[task]);
+  });
+}
+
+void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& group, PairTask& task) {
+  task.used -= group.end - group.begin;
+  group.begin = static_cast<std::uint32_t>(task.pairs.size());
+  const float turn_m = kTurnOfWidth * std::min(mesh.width_m[group.leaf[0]], mesh.width_m[group.leaf[1]]);
+  const bool flat =
+      group.joined && turn_m > search.step_m && are_flat(mesh, group.leaf[0], group.leaf[1], search.at);
+  if (!flat) {
+    LeafPair leaves{mesh, search, search.gap_m + search.slack_m, task};
+    for_each_near_face(mesh, search.at, group.leaf[0], group.leaf[1], leaves.reach_m,
+                       [&](std::uint32_t a, std::uint32_t b) { leaves.visit(mesh.faces[a], mesh.faces[b]); });
+  }
+  group.end = static_cast<std::uint32_t>(task.pairs.size());
+  task.used += group.end - group.begin;
+  for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].until_m = group.travel_m;
+  group.find_m = group.travel_m + (flat ? std::min(turn_m, search.slack_m) : search.slack_m);
+  group.next_m = group.begin == group.end ? group.find_m : group.travel_m;
+}
+
+void clear_pairs(float room_m, PairGroup& group, PairTask& task) {
+  task.used -= group.end - group.begin;
+  group.begin = group.end = 0;
+  group.next_m = group.find_m = group.travel_m + room_m;
+}
+
+void tidy(PairTask& task) {
+  if (task.pairs.size() <= kUnused + task.used + task.used / 2) return;
+  std::vector<Pair>& pairs = task.spare;
+  pairs.clear();
+  for (PairGroup& group : task.groups) {
+    const auto begin = static_cast<std::uint32_t>(pairs.size());
+    pairs.insert(pairs.end(), task.pairs.begin() + group.begin, task.pairs.begin() + group.end);
+    group.begin = begin, group.end = static_cast<std::uint32_t>(pairs.size());
+  }
+  std::swap(task.pairs, pairs);
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,104 @@
+// The pairs of parts of the cloth that may touch: a particle and a triangle, or two edges. Leaves of
+// triangles that may come near each other are listed ahead of a stretch of motion; for each two of them,
+// their pairs are found anew once the leaves have moved against each other.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bodice/engine/context.hpp>
+
+#include "selfcontact/closest.hpp"
+#include "selfcontact/sweep_tree.hpp"
+
+namespace bodice::cloth {
+
+inline constexpr std::uint32_t kNoContact = ~std::uint32_t{0};
+inline constexpr float kUnsettled = -1.0f;
+
+/// Two parts of the cloth without a common particle.
+struct Pair {
+  Index particle[4];                   ///< those of A, then those of B (Corners)
+  float until_m = 0.0f;                ///< travel of its group up to which it is farther apart than its gap
+  float gap_m = kUnsettled;            ///< the distance to keep; kUnsettled: not known yet, 0: left out
+  std::uint32_t contact = kNoContact;  ///< its contact in this substep, where its group is fresh
+  bool edges = false;
+};
+
+/// Two leaves and their pairs.
+struct PairGroup {
+  std::uint32_t leaf[2];
+  std::uint32_t begin = 0, end = 0;  ///< in the pairs of the task
+  float travel_m = 0.0f;  ///< bounds how far one leaf's parts moved against the other's since it was listed
+  float next_m = 0.0f;    ///< travel up to which none of its pairs is nearer than its gap
+  float find_m = 0.0f;    ///< travel up to which it has no other pairs that may be
+  bool joined = false;    ///< are_joined()
+  bool inside = false;    ///< whether all of its particles are in one block
+  bool fresh = false;     ///< whether its pairs' contacts are those of this substep
+};
+
+/// A pair that is near in this substep.
+struct PairContact {
+  Float4 weight;  ///< Closest::weight when the substep began
+  Float4 normal;  ///< from B to A then, of length 1
+  Index particle[4];
+  float apart_m;  ///< distance then
+  float gap_m;    ///< distance to keep
+  bool edges;
+};
+
+/// A pair of triangles that cross.
+struct Tangle {
+  std::uint32_t a = 0, b = 0;  ///< a < b: indices into ContactMesh::faces
+
+  auto operator<=>(const Tangle&) const = default;
+};
+
+/// What one worker handles: consecutive leaves of one block with those from their own on.
+struct PairTask {
+  std::size_t first_leaf = 0, last_leaf = 0;
+  std::vector<PairGroup> groups, groups_before;  ///< by leaf, then by the other leaf; those before the search
+  std::vector<std::uint32_t> near;               ///< room for a search
+  std::vector<Pair> pairs;                       ///< of all groups, and some that are no longer used
+  std::vector<Pair> spare;                       ///< room for the same, for tidy()
+  std::size_t used = 0;                          ///< number of pairs in use
+  std::vector<PairContact> contacts[2];          ///< of groups across blocks, and of those inside
+  std::vector<Tangle> tangles;
+  std::vector<std::uint32_t> crossing;  ///< pairs that would cross in this substep
+};
+
+/// The tasks of a garment.
+std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh);
+
+/// Lists the groups of all leaves that come nearer than `reach_m` on the sweeps of the tree. They have no
+/// pairs yet, and need none until they moved by their distance, less the gap; groups that were listed before
+/// keep theirs. The same for any number of workers.
+void find_groups(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
+                 float reach_m, float gap_m, std::vector<PairTask>& tasks);
+
+/// What pairs are looked for.
+struct PairSearch {
+  float gap_m = 0.0f;
+  float slack_m = 0.0f;             ///< how far leaves may move against each other until pairs are found anew
+  float step_m = 0.0f;              ///< how far they move in this substep
+  std::span<const Point> at;        ///< #P: positions
+  std::span<const Tangle> tangles;  ///< sorted; pairs of parts of crossing triangles are left out
+};
+
+/// Finds the pairs of a group that may be nearer than the gap before its leaves have moved by the slack.
+void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& group, PairTask& task);
+
+/// Drops the pairs of a group with leaves that are `room_m` farther apart than the gap.
+void clear_pairs(float room_m, PairGroup& group, PairTask& task);
+
+/// Removes pairs that are no longer used, where these are many.
+void tidy(PairTask& task);
+
+/// The corners of a pair.
+inline Corners corners_of(const Index (&particle)[4], std::span<const Point> at) {
+  return {{xyz(load(at[particle[0]])), xyz(load(at[particle[1]])), xyz(load(at[particle[2]])),
+           xyz(load(at[particle[3]]))}};
+}
+
+}  // namespace bodice::cloth

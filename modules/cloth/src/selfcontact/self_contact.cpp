@@ -1,0 +1,200 @@
+#include "selfcontact/self_contact.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+#include "selfcontact/tangles.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+// The gap is at most this share of the median edge: with a larger one, smooth cloth would consist of pairs.
+constexpr double kMostOfEdge = 0.25;
+// The least gap, of the median edge, for a thickness of zero: floats need some room to distinguish sides.
+constexpr double kLeastOfEdge = 0.002;
+// How far leaves move against each other until their pairs are found anew, and how much nearer than expected
+// two of them may come until leaves are, shares of the median edge. More means longer lists, less more
+// searches.
+constexpr double kSlackOfEdge = 0.2, kSpareOfEdge = 1.0;
+
+// The speed at which layers that begin too close move apart: a fold's width in a few frames.
+constexpr float kRecovery_m_s = 0.1f;
+// The speed at which triangles that cross are drawn apart.
+constexpr float kUntangle_m_s = 0.3f;
+
+// Shares of the spare distance that particles may use before and after contacts moved them; two of them may
+// use both halves against each other.
+constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
+
+// Share of a substep's velocity in the one that is expected: sweeps leave some tremble, which averages out.
+constexpr float kSmoothing = 0.25f;
+
+// After so many rounds all particles move together.
+constexpr int kMostRounds = 16;
+
+// Whether a particle at `at` left its expected path by more than `most_m`, `since_s` after the search.
+bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
+            const SelfContact& s) {
+  const float share = std::min(1.0f, since_s / s.ahead_s), most2 = most_m * most_m;
+  std::atomic<bool> far{false};
+  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    bool any_far = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 off = xyz(load(at[i]) - load(s.found[i]) - share * load(s.ahead[i]));
+      any_far = any_far || !(dot(off, off) <= most2);
+    }
+    if (any_far) far.store(true, std::memory_order_relaxed);
+  });
+  return far.load();
+}
+
+// Expects that particles go on as they did, for a frame; or, if they do not, that they go to `at` and stay.
+void look_ahead(const engine::Context& context, const SelfSubstep& substep, const Point* at, SelfContact& s) {
+  s.ahead_s = at ? substep.length_s : std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
+  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      s.found[i] = s.before[i];
+      store(s.ahead[i], xyz(at ? load(at[i]) - load(s.before[i]) : s.ahead_s * load(s.drift[i])));
+    }
+  });
+}
+
+// Lists the groups of particles on the paths that are expected.
+void search(const engine::Context& context, SelfContact& s) {
+  refit(context, s.mesh, s.found, s.ahead, s.tree);
+  if (!s.sided || !s.tangles.empty()) find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
+  s.searched = s.sided = true;
+  find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
+  ++s.report.searches;
+}
+
+// Searches unless the groups of the last search still do for particles at `at`.
+void keep_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
+                 float used, SelfContact& s) {
+  const auto stray = [&] { return strays(context, at, s.since_s + substep.length_s, used * s.spare_m, s); };
+  if (s.searched && !stray()) return;
+  look_ahead(context, substep, nullptr, s);
+  if (stray()) look_ahead(context, substep, at.data(), s);
+  search(context, s);
+}
+
+ContactSource source_of(const SelfContact& s) {
+  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.tangles}, s.rest, s.moves};
+}
+
+// Adds the substep's velocities to the smoothed ones.
+void follow_drift(const engine::Context& context, float substep_s, SelfContact& s) {
+  engine::parallel_for(context, s.drift.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 drift = load(s.drift[i]), now = (load(s.now[i]) - load(s.before[i])) / substep_s;
+      store(s.drift[i], drift + kSmoothing * (now - drift));
+    }
+  });
+}
+
+void copy_points(const engine::Context& context, const Particles& p, std::vector<Point>& to) {
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) to[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};
+  });
+}
+
+PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
+  return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.touching};
+}
+
+// The number of pairs that would cross before the particles are at `now`.
+std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, SelfContact& s) {
+  keep_groups(context, substep, s.now, kUsedAfter, s);
+  find_moves(context, s.mesh, s.before, s.now, s.moves);
+  return find_crossing(context, source_of(s), s.now, s.tasks);
+}
+
+// Moves particles in zones until no pair would cross.
+void zone(const engine::Context& context, const SelfSubstep& substep, const Particles& p, SelfContact& s) {
+  for (int round = 0; round <= kMostRounds; ++round) {
+    if (count_crossing(context, substep, s) == 0) break;
+    if (round < kMostRounds)
+      join_zones(s.tasks, p, s.before, s.now, s.zones);
+    else
+      join_all(p, s.before, s.now, s.zones);
+  }
+  s.report.held += s.zones.members.size();
+  clear_zones(s.zones);
+}
+
+// Copies the points that moved to the particles' positions, and lets them have that speed.
+void take_points(float substep_s, std::span<const Point> at, Particles& p) {
+  for (std::size_t i = 0; i < p.count(); ++i) {
+    const float dx = at[i].x - p.x[i], dy = at[i].y - p.y[i], dz = at[i].z - p.z[i];
+    if (dx == 0.0f && dy == 0.0f && dz == 0.0f) continue;
+    p.x[i] = at[i].x, p.y[i] = at[i].y, p.z[i] = at[i].z;
+    p.vx[i] += dx / substep_s, p.vy[i] += dy / substep_s, p.vz[i] += dz / substep_s;
+  }
+}
+
+}  // namespace
+
+SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p, double gap_m,
+                              double median_edge_m) {
+  SelfContact s;
+  s.gap_m = static_cast<float>(std::clamp(gap_m, kLeastOfEdge * median_edge_m, kMostOfEdge * median_edge_m));
+  s.slack_m = static_cast<float>(kSlackOfEdge * median_edge_m);
+  s.spare_m = static_cast<float>(kSpareOfEdge * median_edge_m);
+  s.mesh = make_contact_mesh(mesh);
+  s.tree = make_sweep_tree(s.mesh);
+  s.tasks = make_pair_tasks(s.mesh);
+  s.zones = make_zones(p.count());
+  s.moves.resize(s.mesh.leaves());
+  for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
+  for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
+  return s;
+}
+
+void forget_pairs(SelfContact& s) {
+  s.searched = false;
+  for (PairTask& task : s.tasks) task.groups.clear(), task.pairs.clear();
+}
+
+void begin_self_contact(const engine::Context& context, const Particles& p, SelfContact& s) {
+  s.report = {};
+  if (s.origin != p.origin) forget_pairs(s);
+  s.origin = p.origin;
+  if (!s.tangles.empty()) forget_pairs(s);  // triangles that came apart have sides again
+  copy_points(context, p, s.before);
+}
+
+SelfContactReport report_self_contact(const SelfContact& s) {
+  SelfContactReport report = s.report;
+  report.crossing = s.tangles.size();
+  for (const PairTask& task : s.tasks) report.pairs += task.used;
+  return report;
+}
+
+void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
+  keep_groups(context, substep, p.point, kUsedBefore, s);
+  find_moves(context, s.mesh, s.before, p.point, s.moves);
+  refresh_contacts(context, source_of(s), s.tasks);
+  push_contacts(context, s.mesh, push_of(substep, s), s.tasks, p.point);
+  untangle(s.mesh, s.tangles, kUntangle_m_s * substep.length_s, p.point);
+}
+
+void hold_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
+  copy_points(context, p, s.now);
+  if (count_crossing(context, substep, s) > 0) {
+    push_contacts(context, s.mesh, push_of(substep, s), s.tasks, s.now);
+    zone(context, substep, p, s);
+    take_points(substep.length_s, s.now, p);
+  }
+  for (PairTask& task : s.tasks)
+    for (PairGroup& group : task.groups)
+      group.travel_m += relative_move(s.moves[group.leaf[0]], s.moves[group.leaf[1]]);
+  s.since_s += substep.length_s;
+  follow_drift(context, substep.length_s, s);
+  std::swap(s.before, s.now);
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,73 @@
+// Contact of the cloth with itself: particles with triangles, and edges with edges. What does not cross when
+// a substep begins does not cross when it ends: pairs that may touch are known ahead of the motion
+// (pairs.hpp), pushed apart to their gap (contacts.hpp), and held back where they would cross after all
+// (zones.hpp). What crosses when the simulation begins is drawn apart (tangles.hpp).
+// Based on: Anka He Chen, Jerry Hsu, Ziheng Liu, Miles Macklin, Yin Yang, Cem Yuksel. Offset Geometric
+// Contact. 2025. - section 4 (a bound on displacements keeps what is free of crossings so, without continuous
+// tests) Differs: the bound is on how far a particle leaves the straight path that is expected of it, so that
+// cloth that moves with a body is searched no more often than cloth at rest; past the bound, pairs are found
+// anew.
+#pragma once
+
+#include <vector>
+
+#include <bodice/cloth/solver.hpp>
+#include <bodice/engine/context.hpp>
+
+#include "selfcontact/contacts.hpp"
+#include "selfcontact/zones.hpp"
+
+namespace bodice::cloth {
+
+/// The state of self-contact.
+struct SelfContact {
+  float gap_m = 0.0f;    ///< distance that layers keep, unless they were closer at rest
+  float slack_m = 0.0f;  ///< how far leaves may move against each other until their pairs are found anew
+  float spare_m = 0.0f;  ///< how much nearer than expected leaves may come until groups are found anew
+  ContactMesh mesh;
+  SweepTree tree;
+  std::vector<PairTask> tasks;
+  std::vector<Tangle> tangles;      ///< triangles that cross since the simulation began
+  std::vector<Point> rest;          ///< #P: positions at rest, meters, in the particles' first frame
+  std::vector<Point> before, now;   ///< #P: positions when the substep began, and at its end
+  std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then
+  std::vector<Point> drift;         ///< #P: smoothed velocities, meters a second
+  std::vector<LeafMove> moves;      ///< #leaves
+  Zones zones;
+  float ahead_s = 0.0f, since_s = 0.0f;  ///< the time of these displacements; that since the search
+  Vec3 origin = Vec3::Zero();            ///< that of the particles' frame at the last search
+  bool searched = false;                 ///< whether there was a search that may still hold
+  bool sided = false;                    ///< whether it is known what crosses
+  SelfContactReport report;              ///< of this frame
+};
+
+/// The state for a welded garment at rest.
+SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& particles, double gap_m,
+                              double median_edge_m);
+
+/// Forgets all pairs, so that they are found anew.
+void forget_pairs(SelfContact& self);
+
+/// Begins a frame. Pairs are found anew where the particles' local frame has changed.
+void begin_self_contact(const engine::Context& context, const Particles& particles, SelfContact& self);
+
+/// What a substep does with layers that touch.
+struct SelfSubstep {
+  float length_s = 0.0f, frame_s = 0.0f;
+  float friction = 0.0f;
+  std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
+};
+
+/// Pushes layers apart after constraints moved the points of the particles. The same bits for any number of
+/// workers; allocates nothing once warm.
+void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& self,
+                Particles& particles);
+
+/// What happened since the frame began.
+SelfContactReport report_self_contact(const SelfContact& self);
+
+/// Ends a substep: holds back what would cross on its path from where it began to the particles' positions.
+void hold_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& self,
+                Particles& particles);
+
+}  // namespace bodice::cloth

@@ -1,0 +1,50 @@
+#include "selfcontact/sweep_tree.hpp"
+
+#include <bit>
+
+#include <bodice/engine/parallel.hpp>
+
+namespace bodice::cloth {
+namespace {
+
+constexpr float kFar_m = 1e30f;
+constexpr std::size_t kFitsATask = 128;
+
+Sweep empty_sweep() {
+  const Float4 far = {kFar_m, kFar_m, kFar_m, 0.0f};
+  return {far, -far, splat(0.0f), splat(0.0f)};
+}
+
+void fit_leaf(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> at,
+              std::span<const Point> move, SweepTree& tree) {
+  Sweep all = empty_sweep();
+  all.move_low = all.low, all.move_high = all.high;
+  for (const Index i : mesh.particles_of(leaf)) {
+    const Float4 p = xyz(load(at[i])), m = xyz(load(move[i]));
+    add({p, p, m, m}, all);
+  }
+  tree.node[tree.width + leaf] = all;
+}
+
+}  // namespace
+
+SweepTree make_sweep_tree(const ContactMesh& mesh) {
+  SweepTree tree;
+  tree.width = std::bit_ceil(mesh.leaves());
+  tree.node.assign(2 * tree.width, empty_sweep());
+  return tree;
+}
+
+void refit(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> at,
+           std::span<const Point> move, SweepTree& tree) {
+  engine::parallel_for(context, mesh.leaves(), kFitsATask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf) fit_leaf(mesh, leaf, at, move, tree);
+  });
+  for (std::size_t k = tree.width; k-- > 1;) {
+    tree.node[k] = tree.node[2 * k];
+    const Sweep& right = tree.node[2 * k + 1];
+    if (right.low[0] <= right.high[0]) add(right, tree.node[k]);  // else there is nothing in it
+  }
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,122 @@
+#include "selfcontact/tangles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+#include "selfcontact/near_faces.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+// Where an edge nearly lies in the plane of a triangle, the gradient is taken as at this sine.
+constexpr float kLeastSine = 0.2f;
+
+Float4 at_particle(std::span<const Point> at, Index i) {
+  return xyz(load(at[i]));
+}
+
+// Where an edge passes through a triangle: weights of its ends and of the triangle's corners.
+struct Passage {
+  bool passes = false;
+  float edge[2], face[3];
+};
+
+Passage passage(Float4 p, Float4 q, Float4 a, Float4 b, Float4 c) {
+  const Float4 normal = cross(b - a, c - a), along = q - p;
+  const float from = dot(normal, p - a), to = dot(normal, q - a);
+  if (!(from * to < 0.0f)) return {};
+  const float wa = dot(along, cross(b - p, c - p)), wb = dot(along, cross(c - p, a - p)),
+              wc = dot(along, cross(a - p, b - p));
+  const bool inside = (wa > 0.0f && wb > 0.0f && wc > 0.0f) || (wa < 0.0f && wb < 0.0f && wc < 0.0f);
+  if (!inside) return {};
+  const float all = wa + wb + wc, t = from / (from - to);
+  return {true, {1.0f - t, t}, {wa / all, wb / all, wc / all}};
+}
+
+bool contains(const Face& f, Index i) {
+  return f.particle[0] == i || f.particle[1] == i || f.particle[2] == i;
+}
+
+// Calls visit(k, passage) for each edge k of `of` that passes through `face`, those with common particles
+// excepted.
+template <class Visit>
+void for_each_passage(const Face& of, const Face& face, std::span<const Point> at, Visit&& visit) {
+  for (unsigned k = 0; k < 3; ++k) {
+    const Index p = of.particle[k], q = of.particle[(k + 1) % 3];
+    if (contains(face, p) || contains(face, q)) continue;
+    const Passage through = passage(at_particle(at, p), at_particle(at, q), at_particle(at, face.particle[0]),
+                                    at_particle(at, face.particle[1]), at_particle(at, face.particle[2]));
+    if (through.passes) visit(k, through);
+  }
+}
+
+bool cross_each_other(const Face& a, const Face& b, std::span<const Point> at) {
+  bool found = false;
+  for_each_passage(a, b, at, [&](unsigned, const Passage&) { found = true; });
+  for_each_passage(b, a, at, [&](unsigned, const Passage&) { found = true; });
+  return found;
+}
+
+// Moves the edge k of `of` along the line of crossing into `of`, as seen from the triangle that it passes.
+void pull_through(const Face& of, unsigned k, const Face& face, const Passage& passage, float step_m,
+                  std::span<Point> at) {
+  const Index p = of.particle[k], q = of.particle[(k + 1) % 3];
+  const Float4 from = at_particle(at, p), a = at_particle(at, face.particle[0]);
+  const Float4 edge = unit(at_particle(at, q) - from),
+               inward = at_particle(at, of.particle[(k + 2) % 3]) - from;
+  const Float4 normal =
+      unit(cross(at_particle(at, face.particle[1]) - a, at_particle(at, face.particle[2]) - a));
+  Float4 line = unit(cross(normal, cross(edge, inward)));
+  if (dot(line, inward - dot(inward, edge) * edge) < 0.0f) line = -line;
+  const float sine = dot(edge, normal);
+  const float bounded = std::copysign(std::max(std::abs(sine), kLeastSine), sine);
+  const Float4 gradient = line - (dot(edge, line) / bounded) * normal;
+  const Index particle[5] = {p, q, face.particle[0], face.particle[1], face.particle[2]};
+  const float weight[5] = {passage.edge[0], passage.edge[1], -passage.face[0], -passage.face[1],
+                           -passage.face[2]};
+  float all = kTinyWeight;
+  for (int i = 0; i < 5; ++i) all += weight[i] * weight[i] * at[particle[i]].weight;
+  for (int i = 0; i < 5; ++i) {
+    Point& point = at[particle[i]];
+    store(point, load(point) + (step_m * weight[i] * point.weight / all) * xyz(gradient));
+  }
+}
+
+void search_tangles(const ContactMesh& mesh, const SweepTree& tree, std::span<const Point> at,
+                    PairTask& task) {
+  task.tangles.clear();
+  for (std::size_t first = task.first_leaf; first < task.last_leaf; first += kLeavesTogether) {
+    const std::size_t last = std::min(first + kLeavesTogether, task.last_leaf);
+    for_each_near_leaf(tree, first, last, 0.0f, task.near, [&](std::size_t leaf, std::size_t other) {
+      for_each_near_face(mesh, at, leaf, other, 0.0f, [&](std::uint32_t a, std::uint32_t b) {
+        if (cross_each_other(mesh.faces[a], mesh.faces[b], at))
+          task.tangles.push_back({std::min(a, b), std::max(a, b)});
+      });
+    });
+  }
+}
+
+}  // namespace
+
+void find_tangles(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
+                  std::span<const Point> at, std::vector<PairTask>& tasks, std::vector<Tangle>& tangles) {
+  engine::parallel_for(context, tasks.size(), 1,
+                       [&](std::size_t task, std::size_t) { search_tangles(mesh, tree, at, tasks[task]); });
+  tangles.clear();
+  for (const PairTask& task : tasks) tangles.insert(tangles.end(), task.tangles.begin(), task.tangles.end());
+  std::ranges::sort(tangles);
+}
+
+void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, float step_m,
+              std::span<Point> at) {
+  for (const Tangle& t : tangles) {
+    const Face &a = mesh.faces[t.a], &b = mesh.faces[t.b];
+    for_each_passage(a, b, at, [&](unsigned k, const Passage& p) { pull_through(a, k, b, p, step_m, at); });
+    for_each_passage(b, a, at, [&](unsigned k, const Passage& p) { pull_through(b, k, a, p, step_m, at); });
+  }
+}
+
+}  // namespace bodice::cloth

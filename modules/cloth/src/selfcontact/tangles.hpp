@@ -1,0 +1,22 @@
+// Triangles that cross each other when the simulation begins, and how they come apart. Their contacts have no
+// sides yet; where an edge passes through a triangle, the two are moved so that the line along which the
+// surfaces cross becomes shorter, until it is gone.
+// Based on: Pascal Volino, Nadia Magnenat-Thalmann. Resolving Surface Collisions through Intersection Contour
+// Minimization. 2006. - section 3
+// Differs: the gradient is that of the triangles' own piece of the line, without its neighbors'.
+#pragma once
+
+#include <vector>
+
+#include "selfcontact/pairs.hpp"
+
+namespace bodice::cloth {
+
+/// Finds all pairs of triangles that cross at positions `at`, sorted. The boxes of `tree` fit these.
+void find_tangles(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
+                  std::span<const Point> at, std::vector<PairTask>& tasks, std::vector<Tangle>& tangles);
+
+/// Moves the triangles of all tangles by about `step_m` each, where they still cross.
+void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, float step_m, std::span<Point> at);
+
+}  // namespace bodice::cloth

@@ -1,0 +1,121 @@
+#include "selfcontact/zones.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include <bodice/engine/parallel.hpp>
+
+namespace bodice::cloth {
+namespace {
+
+// A pair that nears by less than this share of its distance cannot cross; the rest is for rounding.
+constexpr float kSafe = 0.8f;
+
+// What remains of a pair's distance after a substep at least: this share of it, or of its gap.
+constexpr float kKept = 0.2f, kKeptOfGap = 0.02f;
+
+// A zone with a pin moves as the pin, up to the rounding of floats.
+constexpr float kPinOfZone = 1e7f;
+
+bool would_cross(const PairContact& c, const ContactSource& source, std::span<const Point> now) {
+  const float least_m = std::min(kKept * c.apart_m, kKeptOfGap * c.gap_m);
+  const Corners to = corners_of(c.particle, now);
+  if (separation(c.edges, to, c.normal) > least_m) return false;
+  const Corners from = corners_of(c.particle, source.search.at);
+  Corners by;
+  for (int k = 0; k < 4; ++k) by.at[k] = to.at[k] - from.at[k];
+  return may_meet(c.edges, from, by, least_m);
+}
+
+void find_crossing_in(const ContactSource& source, std::span<const Point> now, PairGroup& group,
+                      PairTask& task) {
+  const float step_m = source.step_of(group);
+  keep_pairs(source, step_m, group, task);
+  if (group.next_m > group.travel_m + step_m) return;
+  for (std::uint32_t k = group.begin; k < group.end; ++k) {
+    Pair& pair = task.pairs[k];
+    if (pair.until_m > group.travel_m + step_m) continue;
+    const bool known = group.fresh && pair.contact != kNoContact;
+    const PairContact contact = known ? task.contacts[group.inside][pair.contact] : contact_of(source, pair);
+    if (!(contact.gap_m > 0.0f) || step_m < kSafe * contact.apart_m) continue;
+    if (would_cross(contact, source, now)) task.crossing.push_back(k);
+  }
+}
+
+Index root_of(Index i, std::vector<Index>& parent) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+// Adds a particle to the zones, as one of its own.
+void enter(Index i, std::span<const Point> before, std::span<const Point> now, Zones& z) {
+  if (z.parent[i] != geometry::kNoIndex) return;
+  z.parent[i] = i;
+  z.members.push_back(i);
+  Point wanted;
+  store(wanted, load(now[i]) - load(before[i]));
+  z.wanted.push_back(wanted);
+}
+
+void move_zones(const Particles& p, std::span<const Point> before, std::span<Point> now, Zones& z) {
+  for (const Index i : z.members) z.moved[i] = splat(0.0f);
+  for (std::size_t k = 0; k < z.members.size(); ++k) {
+    const Index i = z.members[k];
+    const float mass = p.inverse_mass[i] > 0.0f ? p.mass[i] : kPinOfZone * p.mass[i];
+    Float4 moved = load(z.wanted[k]);
+    moved[3] = 1.0f;
+    z.moved[root_of(i, z.parent)] += mass * moved;
+  }
+  for (const Index i : z.members) {
+    if (p.inverse_mass[i] == 0.0f) continue;
+    const Float4 moved = z.moved[root_of(i, z.parent)];
+    store(now[i], load(before[i]) + xyz(moved / moved[3]));
+  }
+}
+
+}  // namespace
+
+Zones make_zones(std::size_t particles) {
+  Zones z;
+  z.parent.assign(particles, geometry::kNoIndex);
+  z.moved.resize(particles);
+  z.members.reserve(particles), z.wanted.reserve(particles);
+  return z;
+}
+
+std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
+                          std::span<const Point> now, std::vector<PairTask>& tasks) {
+  engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
+    tasks[t].crossing.clear();
+    tidy(tasks[t]);
+    for (PairGroup& group : tasks[t].groups) find_crossing_in(source, now, group, tasks[t]);
+  });
+  return std::transform_reduce(tasks.begin(), tasks.end(), std::size_t{0}, std::plus<>(),
+                               [](const PairTask& task) { return task.crossing.size(); });
+}
+
+void join_zones(const std::vector<PairTask>& tasks, const Particles& p, std::span<const Point> before,
+                std::span<Point> now, Zones& z) {
+  for (const PairTask& task : tasks)
+    for (const std::uint32_t k : task.crossing) {
+      const Index(&particle)[4] = task.pairs[k].particle;
+      for (const Index i : particle) enter(i, before, now, z);
+      for (const Index i : particle) z.parent[root_of(i, z.parent)] = root_of(particle[0], z.parent);
+    }
+  move_zones(p, before, now, z);
+}
+
+void join_all(const Particles& p, std::span<const Point> before, std::span<Point> now, Zones& z) {
+  for (Index i = 0; i < p.count(); ++i) {
+    enter(i, before, now, z);
+    z.parent[root_of(i, z.parent)] = root_of(0, z.parent);
+  }
+  move_zones(p, before, now, z);
+}
+
+void clear_zones(Zones& z) {
+  for (const Index i : z.members) z.parent[i] = geometry::kNoIndex;
+  z.members.clear(), z.wanted.clear();
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,41 @@
+// Impact zones: the last resort for parts that would cross in a substep. All particles of such pairs move
+// together instead, by the mean of their displacements, so that nothing among them comes nearer.
+// Based on: David Harmon, Etienne Vouga, Rasmus Tamstorf, Eitan Grinspun. Robust Treatment of Simultaneous
+// Collisions. 2008. - section 1 (rigid impact zones; Xavier Provot. 1997)
+// Differs: zones move straight, because a turn within a substep is small. Pairs are tested by planes first.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/particles.hpp"
+#include "selfcontact/contacts.hpp"
+
+namespace bodice::cloth {
+
+/// The zones of a substep.
+struct Zones {
+  std::vector<Index> parent;   ///< #P: union-find; a particle of no zone is its own parent
+  std::vector<Index> members;  ///< particles of zones
+  std::vector<Float4> moved;   ///< #P: at a zone's root: mass times displacement, and mass
+  std::vector<Point> wanted;   ///< as members: their displacements before they joined a zone
+};
+
+Zones make_zones(std::size_t particles);
+
+/// Lists the pairs that would cross on their paths to `now`, by task; returns their number.
+std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
+                          std::span<const Point> now, std::vector<PairTask>& tasks);
+
+/// Joins the particles of the pairs that would cross, and moves all zones: writes their members' positions to
+/// `now`. Pins stay where they are; a zone with some moves as these do.
+void join_zones(const std::vector<PairTask>& tasks, const Particles& particles, std::span<const Point> before,
+                std::span<Point> now, Zones& zones);
+
+/// Moves the whole garment by its mean displacement.
+void join_all(const Particles& particles, std::span<const Point> before, std::span<Point> now, Zones& zones);
+
+/// Forgets all zones.
+void clear_zones(Zones& zones);
+
+}  // namespace bodice::cloth
