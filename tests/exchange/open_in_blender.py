@@ -12,15 +12,15 @@ from program_check import check, failures, run
 
 SCRATCH = sys.argv[2]
 # Blender takes its Python's modules from beside the python3 that it finds, which must be Debian's.
-SYSTEM = dict(os.environ, PATH="/usr/bin:/bin")
+SYSTEM = dict(os.environ, PATH="/usr/bin:/bin", BODICE_PROGRAM=os.path.abspath(sys.argv[1]))
 
 
-def in_blender(blender, glb, cache):
+def in_blender(blender, script, *arguments):
     done = subprocess.run([blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python",
-                           os.path.join(HERE, "in_blender.py"), "--", glb, cache],
+                           os.path.join(HERE, script), "--", *arguments],
                           capture_output=True, text=True, timeout=200, env=SYSTEM)
     lines = [line for line in done.stdout.splitlines() if line.startswith("FOUND ")]
-    check(done.returncode == 0 and len(lines) == 1, f"Blender failed on {glb}:\n{done.stdout}\n{done.stderr}")
+    check(done.returncode == 0 and len(lines) == 1, f"Blender failed in {script}:\n{done.stdout}\n{done.stderr}")
     return json.loads(lines[0][6:]) if lines else None
 
 
@@ -29,7 +29,7 @@ def y_up(points):
 
 
 def compare(blender, name, glb_file, cache):
-    found = in_blender(blender, os.path.abspath(glb_file), os.path.abspath(cache))
+    found = in_blender(blender, "in_blender.py", os.path.abspath(glb_file), os.path.abspath(cache))
     if not found: return
     glb = Glb(glb_file)
     frames = len(glb.primitive("cloth")["targets"])
@@ -42,6 +42,35 @@ def compare(blender, name, glb_file, cache):
     check(found["extras"] == {key: node["extras"][key] for key in found["extras"]}, f"{name}: extras")
     check(most_apart(y_up(found["cached"]), glb.points("cloth", frames - 1)) < 1e-4,
           f"{name}: {cache} ends {most_apart(y_up(found['cached']), glb.points('cloth', frames - 1))} m elsewhere")
+
+
+def addon(blender):
+    """The add-on fits, shows and bakes: its ellipsoids hold the skin as the proxy does, and the cloth moves."""
+    file = os.path.join(os.environ["BODICE_ROOT"], "modules", "colliders", "blender", "bodice_addon.py")
+    found = in_blender(blender, "addon_in_blender.py", file, os.path.abspath("body.obj"), os.path.abspath("skirt.obj"))
+    if not found: return
+    check("Select garments" in (found["refused"] or ""), f"a bake without a garment: {found['refused']}")
+    check(found["fit"] == found["bake"] == ["FINISHED"], f"{found['fit']}, {found['bake']}")
+    inverse = [inverted(m) for m in found["ellipsoids"]]
+    outside = sum(min(sum(v * v for v in transformed(m, p)) for m in inverse) > 1.01 for p in found["skin"][::7])
+    check(outside < 0.03 * len(found["skin"][::7]), f"{outside} points of the skin are outside of all ellipsoids")
+    first, last = found["frames"]
+    check(len(first) == len(found["before"]), "vertices of the garment")
+    check(most_apart(first, found["before"]) < 0.05, f"the first frame is {most_apart(first, found['before'])} m off")
+    check(0.001 < most_apart(last, found["before"]) < 0.3, f"the cloth moved {most_apart(last, found['before'])} m")
+
+
+def transformed(m, p): return [sum(m[r][k] * p[k] for k in range(3)) + m[r][3] for r in range(3)]
+
+
+def inverted(m):
+    """Of an affine map: Cramer's rule."""
+    (a, b, c, _), (d, e, f, _), (g, h, i, _) = m[:3]
+    det = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    rows = [[(e * i - f * h) / det, (c * h - b * i) / det, (b * f - c * e) / det],
+            [(f * g - d * i) / det, (a * i - c * g) / det, (c * d - a * f) / det],
+            [(d * h - e * g) / det, (b * g - a * h) / det, (a * e - b * d) / det]]
+    return [row + [-sum(row[k] * m[k][3] for k in range(3))] for row in rows]
 
 
 def main():
@@ -62,6 +91,7 @@ def main():
     run("drape", "body.obj", "skirt.obj", "--frames", "160", "--keep", "160", "-o", "long.glb", "--cache", "long.mdd", *few)
     check(Glb("long.glb").document.get("extensionsRequired"), "the long drape is not quantized")
     compare(blender, "small integers", "long.glb", "long.mdd")
+    addon(blender)
     print("Blender:", "failed" if failures else "passed")
     return 1 if failures else 0
 
