@@ -4,9 +4,49 @@
 #include <bodice_test/executors.hpp>
 
 #include "face_fixtures.hpp"
+#include "faces/face_contact.hpp"
 
 using namespace bodice;
 using namespace bodice_test;
+
+namespace {
+
+/// Whether a sample at the middle of an edge from a to b would be pushed.
+bool middle_is_pushed(std::span<const geometry::Ellipsoid> shapes, const Vec3& a, const Vec3& b) {
+  const collision::Collider body = collider_of(shapes);
+  const auto contact = [&](const Vec3& at) {
+    const Eigen::Vector3f p = (at - body.origin()).cast<float>();
+    return body.query({p.x(), p.y(), p.z()});
+  };
+  cloth::FaceContact faces;
+  faces.rules.keep_m = static_cast<float>(kThickness_m), faces.rules.spacing_m = 0.01f;
+  faces.nearest = {contact(a), contact(b)};
+  const Vec3 middle = 0.5 * (a + b);
+  const collision::Contact here = contact(middle);
+  cloth::FaceSample sample;
+  sample.particle[1] = sample.particle[2] = 1;
+  sample.weight[0] = sample.weight[1] = 0.5f;
+  for (int axis = 0; axis < 3; ++axis) {
+    sample.at[axis] = static_cast<float>(middle[axis] - body.origin()[axis]);
+    sample.normal[axis] = here.normal[axis];
+  }
+  sample.distance_m = here.signed_distance;
+  return cloth::is_on_its_side(sample, faces);
+}
+
+}  // namespace
+
+TEST_CASE("face contact: a sample is pushed between two toes, and not through a limb") {
+  const std::vector<geometry::Ellipsoid> toes = {ellipsoid(Vec3(-0.01, 1, 0), Vec3(0.008, 0.008, 0.03)),
+                                                 ellipsoid(Vec3(0.01, 1, 0), Vec3(0.008, 0.008, 0.03))};
+  // From the side of one toe that faces the other, into that one: the surfaces oppose each other over the
+  // gap.
+  CHECK(middle_is_pushed(toes, Vec3(-0.0025, 1.001, 0), Vec3(0.0075, 1.001, 0)));
+  // Through a toe, from its left to just before its right side; and along one side.
+  const std::span<const geometry::Ellipsoid> toe(toes.data(), 1);
+  CHECK(!middle_is_pushed(toe, Vec3(-0.019, 1.001, 0), Vec3(0.009, 1.001, 0)));
+  CHECK(middle_is_pushed(toe, Vec3(-0.01, 1.009, -0.01), Vec3(-0.01, 1.0085, 0.01)));
+}
 
 TEST_CASE("face contact: a tight sleeve of long edges keeps the thickness everywhere, without it they cut") {
   for (const bool on : {true, false}) {

@@ -187,11 +187,13 @@ std::uint64_t push_all(const engine::Context& context, const FaceSubstep& subste
 
 bool is_on_its_side(const FaceSample& s, const FaceContact& f) {
   const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
-  const Float4 normal = vector_of(s.normal);
+  const Float4 normal = vector_of(s.normal), surface = vector_of(s.at) - s.distance_m * normal;
   for (int c = 0; c < 3; ++c) {
     const collision::Contact& corner = f.nearest[s.particle[c]];
     const bool near = corner.signed_distance < f.rules.keep_m + f.rules.spacing_m;
-    if (weight[c] > 0.0f && near && dot3(normal, vector_of(corner.normal)) < 0.0f) return false;
+    if (!(weight[c] > 0.0f) || !near || dot3(normal, vector_of(corner.normal)) >= 0.0f) continue;
+    // A surface ahead faces the sample's own across a gap; one behind is the other side of a limb.
+    if (!(dot3(normal, vector_of(corner.point) - surface) > 0.0f)) return false;
   }
   return true;
 }

@@ -42,8 +42,9 @@ struct FaceContact {
 };
 
 /// Whether a sample inside the body would be pushed toward the side that its particles lie on. Where a
-/// triangle spans a fold or cuts a limb, the closest surface may be on the other side of the limb; there only
-/// the particles, which know their paths, are moved out.
+/// triangle cuts a limb, the closest surface may be on the other side of the limb: it opposes the surface
+/// below a particle, and that one lies behind it. There only the particles, which know their paths, are moved
+/// out. Between two toes the surfaces oppose each other as well, but each lies ahead of the other.
 bool is_on_its_side(const FaceSample& sample, const FaceContact& faces);
 
 /// The contact of this garment at rest with a body, at the thickness of the options.
