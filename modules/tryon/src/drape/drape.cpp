@@ -18,6 +18,7 @@
 #include "garment/misplaced_garments.hpp"
 #include "measure/fit_warnings.hpp"
 #include "motion/moving_body.hpp"
+#include "motion/moving_thickness.hpp"
 
 namespace bodice::tryon {
 namespace {
@@ -48,14 +49,26 @@ double ramp_s(const engine::Context& context, const DrapeOptions& options, const
                         : suggested_ramp_s(context, *options.motion, body.skin.input.skin.positions);
 }
 
-cloth::SolverOptions solver_options(const engine::Context& context, const DrapeOptions& options,
-                                    const PreparedBody& body, const geometry::TriMesh& garments) {
-  const proxy::BodyProxy& proxy = body.fit.proxy;
+/// What is not given is known of the body at rest and, where it moves, of the clip's poses.
+engine::Result<double> thickness_m(const engine::Context& context, const DrapeOptions& options,
+                                   const PreparedBody& body, const geometry::TriMesh& garments) {
+  if (options.thickness_m) return *options.thickness_m;
+  const double at_rest_m =
+      known_thickness_m(context, garments, *body.skin.distance, collision::Collider(body.fit.proxy));
+  if (!options.motion) return at_rest_m;
+  const auto moving_m = moving_thickness_m(context, garments, body, *options.motion);
+  if (!moving_m) return moving_m.error();
+  return std::max(at_rest_m, *moving_m);
+}
+
+engine::Result<cloth::SolverOptions> solver_options(const engine::Context& context,
+                                                    const DrapeOptions& options, const PreparedBody& body,
+                                                    const geometry::TriMesh& garments) {
+  const auto thickness = thickness_m(context, options, body, garments);
+  if (!thickness) return thickness.error();
   cloth::SolverOptions solver = options.solver;
-  solver.thickness_m = options.thickness_m ? *options.thickness_m
-                                           : known_thickness_m(context, garments, *body.skin.distance,
-                                                               collision::Collider(proxy));
-  if (proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
+  solver.thickness_m = *thickness;
+  if (body.fit.proxy.tier() == proxy::Tier::kPaper) solver.response = collision::Response::kPaper;
   return solver;
 }
 
@@ -234,13 +247,14 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   const auto tacked = add_tacks(context, garments, options.tack_m, *all);
   const auto fabric = fabric_or_cotton(options.fabric);
   if (!fabric) return fabric.error();
-  const cloth::SolverOptions settings = solver_options(context, options, body, all->mesh);
-  auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, settings, all->tacks);
+  const auto settings = solver_options(context, options, body, all->mesh);
+  if (!settings) return settings.error();
+  auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, *settings, all->tacks);
   if (!solver) return std::move(solver).error();
 
   DrapeResult result;
   DrapeReport& report = result.report;
-  report = describe(garments, options, settings, *fabric);
+  report = describe(garments, options, *settings, *fabric);
   for (std::size_t g = 0; g < garments.size(); ++g) report.garments[g].tacked = tacked[g];
   report.particles = solver->particles();
   report.ramp_s = ramp_s(context, options, body);
@@ -251,7 +265,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
   Drape drape(context, options, *all, *solver, *bodies, recorder, result);
   std::optional<engine::StageTimer> timer(std::in_place, context, report.stages, "drape");
-  drape.hold(settings.thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
+  drape.hold(settings->thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
   if (auto done = drape.ramp(); !done) return std::move(done).error();
   if (auto done = drape.run(progress); !done) return std::move(done).error();
   drape.measure_garments(garments, body, *fabric);

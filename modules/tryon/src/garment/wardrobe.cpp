@@ -1,21 +1,11 @@
 #include <bodice/tryon/wardrobe.hpp>
 
-#include <algorithm>
-
 #include <bodice/engine/message.hpp>
-#include <bodice/engine/parallel.hpp>
 
 #include "garment/check_garment.hpp"
 
 namespace bodice::tryon {
 namespace {
-
-constexpr double kHalfCloth_m = 0.5e-3;
-constexpr double kLeastThickness_m = 1e-3;  // rounding, and the linear distances of cloth's contact
-constexpr double kMostThickness_m = 8e-3;   // a wider gap is visible
-constexpr double kErrorQuantile = 0.99;
-constexpr double kNearSkin_m = 0.05;  // vertices farther away do not come to rest on the skin below them
-constexpr std::size_t kGrain = 256;   // vertices a block: about a millisecond of closest points
 
 engine::Result<void> check(const WornGarment& garment, std::size_t number) {
   const std::string name = garment.name.empty() ? engine::message("Garment ", number) : garment.name;
@@ -63,26 +53,6 @@ std::vector<std::vector<TackedPiece>> add_tacks(const engine::Context& context,
 engine::Result<cloth::Fabric> fabric_or_cotton(const std::optional<cloth::Fabric>& fabric) {
   if (fabric) return *fabric;
   return cloth::find_fabric("cotton");
-}
-
-double known_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
-                         const geometry::MeshDistance& skin, const collision::Collider& collider) {
-  const std::vector<geometry::Vec3>& at = garment.positions;
-  std::vector<float> missed_m(at.size(), 0.0f);
-  engine::parallel_for(context, at.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!at[i].allFinite()) continue;
-      const geometry::Vec3 below = skin.closest_point(at[i]).point;
-      if ((below - at[i]).norm() > kNearSkin_m) continue;
-      const Eigen::Vector3f local = (below - collider.origin()).cast<float>();
-      missed_m[i] = std::max(0.0f, collider.query({local.x(), local.y(), local.z()}).signed_distance);
-    }
-  });
-  if (missed_m.empty()) return kLeastThickness_m;
-  const auto rank = static_cast<std::ptrdiff_t>(kErrorQuantile * static_cast<double>(missed_m.size() - 1));
-  std::nth_element(missed_m.begin(), missed_m.begin() + rank, missed_m.end());
-  return std::clamp(kHalfCloth_m + double{missed_m[static_cast<std::size_t>(rank)]}, kLeastThickness_m,
-                    kMostThickness_m);
 }
 
 std::vector<geometry::Vec3> held_positions(const Wardrobe& wardrobe, const collision::Collider& collider,

@@ -25,7 +25,9 @@ struct DrapeOptions {
   /// Its thickness_m is not used (thickness_m below is), and for a proxy of tier paper neither is its
   /// response, which is the paper's. Two sweeps keep the stretch of cotton under 5 % at 95 %.
   cloth::SolverOptions solver = {.substeps = 16, .iterations = 2};
-  std::optional<double> thickness_m;  ///< distance between cloth and skin; absent: known_thickness_m()
+  /// Distance between cloth and skin; absent: known_thickness_m(), and on a body that moves the most of it
+  /// and of the same over poses of the clip.
+  std::optional<double> thickness_m;
   /// What moves the body; null: it stands still. Garments are put on in the bind pose; a ramp that is not
   /// part of the result brings them to the clip's first frame. Frame k then shows second k dt_s of the clip.
   const BodyMotion* motion = nullptr;

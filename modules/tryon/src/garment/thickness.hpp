@@ -1,0 +1,27 @@
+// What the distance that cloth keeps is made from: known_thickness_m() for bodies at rest and in motion.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <bodice/collision/collider.hpp>
+#include <bodice/engine/context.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+namespace bodice::tryon {
+
+/// The closest points of the skin to the vertices of a garment at rest that may come to lie on it; vertices
+/// far off are left out.
+std::vector<geometry::Vec3> skin_below(const engine::Context& context, const geometry::TriMesh& garment,
+                                       const geometry::MeshDistance& skin);
+
+/// How far points of the skin stand out of the collider, meters; zero where they do not.
+void find_missed(const engine::Context& context, const collision::Collider& collider,
+                 std::span<const geometry::Vec3> skin, std::span<float> missed_m);
+
+/// Half a cloth and the 99th percentile of what was missed, at least 1 mm and at most 8. `missed_m` has a
+/// zero for each vertex that was left out.
+double thickness_for(std::vector<float> missed_m);
+
+}  // namespace bodice::tryon

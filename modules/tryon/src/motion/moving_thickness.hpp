@@ -1,0 +1,18 @@
+// The distance that cloth keeps from a body that moves.
+#pragma once
+
+#include <bodice/engine/context.hpp>
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/tryon/motion.hpp>
+#include <bodice/tryon/prepare.hpp>
+
+namespace bodice::tryon {
+
+/// As known_thickness_m(), but where the skin below the garment stands out of the posed proxy, in poses
+/// spread over the clip. Skin that another part of the body covers does not stand out. Fails where a pose is
+/// refused. Cost: a closest point of the skin a vertex, and in each pose a query a vertex.
+engine::Result<double> moving_thickness_m(const engine::Context& context, const geometry::TriMesh& garment,
+                                          const PreparedBody& body, const BodyMotion& motion);
+
+}  // namespace bodice::tryon
