@@ -44,15 +44,15 @@ BODICE_LANES void load(const Integer* lanes, Vector& to) {
 
 /// Four vectors by components as four lanes by components, and back.
 BODICE_LANES void transpose(geometry::Float4 (&v)[4]) {
-  using geometry::Float4, geometry::Int4;
-  const Float4 a = __builtin_shuffle(v[0], v[2], Int4{0, 4, 1, 5});
-  const Float4 b = __builtin_shuffle(v[1], v[3], Int4{0, 4, 1, 5});
-  const Float4 c = __builtin_shuffle(v[0], v[2], Int4{2, 6, 3, 7});
-  const Float4 d = __builtin_shuffle(v[1], v[3], Int4{2, 6, 3, 7});
-  v[0] = __builtin_shuffle(a, b, Int4{0, 4, 1, 5});
-  v[1] = __builtin_shuffle(a, b, Int4{2, 6, 3, 7});
-  v[2] = __builtin_shuffle(c, d, Int4{0, 4, 1, 5});
-  v[3] = __builtin_shuffle(c, d, Int4{2, 6, 3, 7});
+  using geometry::Float4;
+  const Float4 a = __builtin_shufflevector(v[0], v[2], 0, 4, 1, 5);
+  const Float4 b = __builtin_shufflevector(v[1], v[3], 0, 4, 1, 5);
+  const Float4 c = __builtin_shufflevector(v[0], v[2], 2, 6, 3, 7);
+  const Float4 d = __builtin_shufflevector(v[1], v[3], 2, 6, 3, 7);
+  v[0] = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  v[1] = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  v[2] = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  v[3] = __builtin_shufflevector(c, d, 2, 6, 3, 7);
 }
 
 }  // namespace bodice::binding

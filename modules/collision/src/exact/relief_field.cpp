@@ -64,7 +64,9 @@ TableValue read_table(const ReliefTables& relief, const BakedTable& table, const
   const auto [texel, u, v, half] = cell_of(table, w);
   const std::uint8_t* upper = relief.texels.data() + table.first_byte + 2 * texel;
   const std::uint8_t* lower = upper + 2 * table.nodes;
-  auto read = [&](int byte, double& value, double& gx, double& gy) {
+  // Clang 14 does not capture the names of a decomposition by themselves.
+  const auto read = [upper, lower, u = u, v = v, half = half](int byte, double& value, double& gx,
+                                                              double& gy) {
     const double p00 = upper[byte], p10 = upper[byte + 2], p01 = lower[byte], p11 = lower[byte + 2];
     value = (1 - v) * ((1 - u) * p00 + u * p10) + v * ((1 - u) * p01 + u * p11);
     gx = half * ((1 - v) * (p10 - p00) + v * (p11 - p01));
