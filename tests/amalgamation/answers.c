@@ -143,6 +143,7 @@ int main(int argc, char **argv) {
   static struct answers mine;
   size_t size;
   void *bytes;
+  int status;
   if (argc < 4) return 2;
   bytes = read_all(argv[1], &size);
   ask(bytes, size, &mine);
@@ -153,6 +154,7 @@ int main(int argc, char **argv) {
     return 0;
   }
   bytes = read_all(argv[3], &size);
-  if (size != sizeof mine) return 1;
-  return compare(&mine, (const struct answers *)bytes, argc > 4 ? atof(argv[4]) : 2e-6);
+  status = size == sizeof mine ? compare(&mine, (const struct answers *)bytes, argc > 4 ? atof(argv[4]) : 2e-6) : 1;
+  free(bytes);
+  return status;
 }

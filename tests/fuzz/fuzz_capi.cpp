@@ -52,7 +52,7 @@ class Draw {
   bool rarely() { return bytes_.next() % 16 == 1; }
   std::int32_t number() {
     const int high = bytes_.next();
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(high) << (bytes_.next() % 25)) - 3;
+    return static_cast<std::int32_t>((static_cast<std::uint32_t>(high) << (bytes_.next() % 25)) - 3u);
   }
   float real() {
     static constexpr float kOdd[] = {0.0f,  -0.0f, 1e-30f, 1e30f, std::numeric_limits<float>::infinity(),
