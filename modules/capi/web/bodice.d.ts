@@ -1,0 +1,84 @@
+// The types of the package; lengths are meters.
+export class BodiceError extends Error {}
+
+export type Tier = 'paper' | 'solid' | 'tight' | 'relief';
+export type Numbers = ArrayLike<number>;
+export interface LoadOptions {
+  /** The bytes of bodice_wasm.wasm; absent: read from beside bodice.mjs. */
+  wasm?: Uint8Array | ArrayBuffer;
+}
+export function load(options?: LoadOptions): Promise<Bodice>;
+
+export interface Bodice {
+  /** One line about the library: version, ABI, compiler, instruction set. */
+  readonly build: string;
+  readonly partNames: string[];
+  /** A proxy as `bodice fit -o body.bodice` writes it, or Body.toBytes(). */
+  loadProxy(bytes: Uint8Array | ArrayBuffer): Body;
+  /** The exact signed distance of points to a closed mesh in double precision, to judge a proxy by: 3 numbers a vertex
+   * and point, 3 indices a triangle. */
+  exactDistance(positions: Numbers, faces: Numbers, points: Numbers): Float64Array;
+}
+
+interface Owned {
+  /** Releases the memory now; otherwise it goes some time after the object. */
+  destroy(): void;
+}
+
+export interface Ellipsoid {
+  center: number[];
+  /** Three unit vectors. */
+  axes: number[][];
+  radii: number[];
+  part: number;
+}
+
+export interface QueryOptions {
+  /** Contacts beyond this distance are not looked for: their distance is +Infinity. */
+  within?: number;
+  /** To first order, in half of the time. */
+  fast?: boolean;
+}
+
+export interface Contacts {
+  /** Negative inside. */
+  distance: Float32Array;
+  point: Float32Array;
+  /** Outward, unit length: the gradient of the distance. */
+  normal: Float32Array;
+  /** -1 without a contact. */
+  ellipsoid: Int32Array;
+  /** 255 without a contact. */
+  part: Uint8Array;
+}
+
+/** A body proxy, at rest or in a pose. */
+export interface Body extends Owned {
+  readonly tier: Tier;
+  readonly stature: number;
+  /** 16 hexadecimal digits. */
+  readonly hash: string;
+  readonly joints: string[];
+  readonly ellipsoids: Ellipsoid[];
+  toBytes(): Uint8Array;
+  /** 12 numbers: joint space to body space in the pose that the proxy was bound in, row after row. */
+  bindMatrix(joint: number): Float64Array;
+  /** Poses a bound proxy: 12 numbers a joint, joint space to world; `dt`: seconds since the last pose. */
+  pose(matrices: Numbers, dt?: number): void;
+  signedDistance(points: Numbers, options?: QueryOptions): Float32Array;
+  contacts(points: Numbers, options?: QueryOptions): Contacts;
+  /** Room for particles in the memory of the library, so that frames copy nothing. */
+  particles(count: number): Particles;
+  /** Moves particles out that are inside or nearer than the thickness, and corrects their velocities; those of inverse
+   * mass 0 stay. Returns the number of contacts. */
+  resolve(particles: Particles, options?: {thickness?: number; friction?: number}): number;
+}
+
+/** Views end where the library's memory grows, as in a fit: take them anew in each frame. */
+export interface Particles extends Owned {
+  readonly count: number;
+  readonly positions: Float32Array;
+  readonly velocities: Float32Array;
+  /** 1 at first. */
+  readonly inverseMass: Float32Array;
+}

@@ -1,0 +1,124 @@
+// Opens the package's page in headless Chromium: drops a proxy and its body in centimeters on it, turns the body, and
+// looks at the pictures. Every file comes from this machine.
+import assert from 'node:assert/strict';
+import {spawn} from 'node:child_process';
+import {createServer} from 'node:http';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import path from 'node:path';
+
+const root = process.env.BODICE_WEB, scratch = process.env.BODICE_SCRATCH;
+const TYPES = {'.html': 'text/html', '.css': 'text/css', '.mjs': 'text/javascript', '.wasm': 'application/wasm'};
+const asked = [];
+const server = createServer((request, response) => {
+  asked.push(request.url);
+  try {
+    const file = path.join(root, path.normalize(new URL(request.url, 'http://h').pathname));
+    response.setHeader('Content-Type', TYPES[path.extname(file)] ?? 'application/octet-stream');
+    response.end(readFileSync(file));
+  } catch {
+    response.statusCode = 404;
+    response.end();
+  }
+});
+await new Promise(done => server.listen(0, '127.0.0.1', done));
+const home = `http://127.0.0.1:${server.address().port}`;
+
+const profile = mkdtempSync(path.join(tmpdir(), 'bodice-page-'));
+const browser = spawn('chromium', ['--headless=new', '--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+                                   '--window-size=1280,800', `--user-data-dir=${profile}`, '--remote-debugging-pipe'],
+                      {stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe']});
+const answers = new Map(), events = [];
+let last = 0, rest = '';
+browser.stdio[4].on('data', data => {
+  const messages = (rest + data).split('\0');
+  rest = messages.pop();
+  for (const message of messages.map(text => JSON.parse(text)))
+    message.id ? answers.get(message.id)(message) : events.push(message);
+});
+const ask = (method, params = {}, sessionId = undefined) => new Promise((done, fail) => {
+  answers.set(++last, ({result, error}) => error ? fail(new Error(`${method}: ${error.message}`)) : done(result));
+  browser.stdio[3].write(JSON.stringify({id: last, method, params, sessionId}) + '\0');
+});
+
+async function run() {
+  const {targetId} = await ask('Target.createTarget', {url: 'about:blank'});
+  const {sessionId} = await ask('Target.attachToTarget', {targetId, flatten: true});
+  const page = (method, params) => ask(method, params, sessionId);
+  const evaluate = async expression => {
+    const {result, exceptionDetails} = await page('Runtime.evaluate', {expression, awaitPromise: true, returnByValue: true});
+    if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
+    return result.value;
+  };
+  const state = async (wanted, seconds = 120) => {
+    for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise(r => setTimeout(r, 100))) {
+      const text = await evaluate('document.getElementById("state").textContent');
+      if (wanted.test(text)) return text;
+    }
+    throw new Error(`the page never said ${wanted}: ${await evaluate('document.getElementById("state").textContent')}`);
+  };
+  const picture = async name => {
+    await evaluate('new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))');
+    const {data} = await page('Page.captureScreenshot', {format: 'png'});
+    writeFileSync(path.join(scratch, `${name}.png`), data, 'base64');
+    return data;
+  };
+  const drop = (files, encoded = false) => evaluate(`{
+    const transfer = new DataTransfer();
+    for (const [name, text] of Object.entries(${JSON.stringify(files)}))
+      transfer.items.add(new File([${encoded} ? Uint8Array.from(atob(text), c => c.charCodeAt(0)) : text], name));
+    document.getElementById('stage').dispatchEvent(new DragEvent('drop', {dataTransfer: transfer, bubbles: true}));
+  }`);
+
+  await page('Page.enable');
+  await page('Runtime.enable');
+  await page('Log.enable');
+  await page('Page.navigate', {url: `${home}/page/index.html`});
+  await state(/^Ready/);
+  const obj = readFileSync(path.join(scratch, 'surface.obj'), 'utf8');
+  const centimeters = obj.replace(/^v (\S+) (\S+) (\S+).*$/gm, (_, ...xyz) => 'v ' + xyz.slice(0, 3).map(x => 100 * x).join(' '));
+  await drop({'surface.obj': centimeters});
+  assert.match(await state(/proxy first/), /bodice fit/);
+  const proxy = readFileSync(path.join(scratch, 'native.bodice')).toString('base64');
+  await drop({'body.bodice': proxy}, true);
+  await state(/^The proxy/);
+  const ellipsoids = await picture('page_ellipsoids');
+  await drop({'surface.obj': centimeters});
+  await state(/^The body/);
+  const numbers = await evaluate('document.getElementById("numbers").innerText');
+  assert.match(numbers, /centimeters/);
+  assert.match(numbers, /stature\s+1[67]\d\.\d cm/);
+  const gap = Number(numbers.match(/mean\s+([\d.]+) mm/)[1]);
+  assert.ok(gap < 1, `the mean distance is ${gap} mm`);
+
+  const painted = () => evaluate(`{
+    const gl = document.getElementById('view').getContext('webgl'), w = gl.drawingBufferWidth, h = gl.drawingBufferHeight;
+    const all = new Uint8Array(4 * w * h);
+    gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, all);
+    let count = 0;
+    for (let i = 3; i < all.length; i += 4) count += all[i] > 0;
+    count / (w * h);
+  }`);
+  const front = await picture('page_error');
+  assert.notEqual(front, ellipsoids);
+  const share = await painted();
+  assert.ok(share > 0.04 && share < 0.6, `${share} of the view is painted`);
+  for (const [type, x] of [['mousePressed', 300], ['mouseMoved', 500], ['mouseReleased', 500]])
+    await page('Input.dispatchMouseEvent', {type, x, y: 400, button: 'left', buttons: 1, clickCount: 1});
+  assert.notEqual(await picture('page_turned'), front);
+  await evaluate(`document.querySelector('input[value=both]').click()`);
+  assert.notEqual(await picture('page_both'), front);
+  const errors = events.filter(e => e.method === 'Runtime.exceptionThrown' ||
+      e.method === 'Log.entryAdded' && e.params.entry.level === 'error' && !/favicon/.test(e.params.entry.url ?? ''));
+  assert.deepEqual(errors.map(e => JSON.stringify(e.params)), []);
+  console.log(`page: the body is ${gap} mm from its proxy; ${new Set(asked).size} files from this machine`);
+}
+
+try {
+  await run();
+} finally {
+  browser.kill();
+  server.close();
+  await new Promise(done => browser.exitCode !== null ? done() : browser.on('exit', done));
+  rmSync(profile, {recursive: true, force: true, maxRetries: 5});
+}
