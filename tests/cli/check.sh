@@ -135,8 +135,9 @@ expect 1 "a motion file that does not exist" "$bodice" drape --motion nowhere.bv
 prints "nowhere.bvh"
 absent none.glb
 expect 0 "a skirt on a body that walks" "$bodice" drape --vertices 3000 --tier solid --motion walk --frames 4 --keep 3 \
-  --substeps 4 -o walk.glb --report walk.json --contact-sheet walk_sheet.png --fit-map strain -q
+  --substeps 4 -o walk.glb --report walk.json --film-strip walk_strip.png --contact-sheet walk_sheet.png --fit-map strain -q
 exists walk.glb
+exists walk_strip.png
 exists walk_sheet.png
 for key in '"ramp_s"' '"kept"' '"proxy_error_mm"' '"over_half_mm_cm2"' '"overlapped_cm2"' '"fit_map"'; do
   grep -q "$key" walk.json || { echo "FAILED: no $key in the report"; failures=$((failures + 1)); }
@@ -184,6 +185,13 @@ for file in m.json m.yaml; do
   expect 0 "a number in $file" grep -q 'waist_over_bust_line"*: [0-9]' $file
 done
 refused fit body.obj --measurements m.txt
+grep -q '^  height: 1[0-9][0-9]\.' m.yaml || { echo "FAILED: no height in centimeters"; failures=$((failures + 1)); }
+expect 0 "regions and a heat map" "$bodice" fit body.obj --tier solid --segmentation seg.json --heat-map heat.png
+prints "heat map"
+exists heat.png
+expect 0 "six regions" grep -q '"left_arm":\[[0-9].*"face_internal"' seg.json
+refused fit --segmentation none.json; prints "OBJ"
+absent none.json
 expect 0 "a budget of time" "$bodice" fit body.obj --budget-us 90 --region-of skirt.obj
 prints "10,000 particles near the skin take"
 for budget in 1e-9 50; do

@@ -27,8 +27,8 @@ class PreparedBodies : public batch::PreparedJobs {
     if (!command) return std::move(command).error();
     CommonOptions& o = command->common;
     o.threads = threads_;
-    for (std::string* file :
-         {&o.labels, &o.html, &o.picture, &o.trace, &command->contact_sheet, &command->cache})
+    for (std::string* file : {&o.labels, &o.html, &o.picture, &o.trace, &command->contact_sheet,
+                              &command->film_strip, &command->cache})
       if (!file->empty()) *file = (folder / *file).string();
     o.report = (folder / "report.json").string();
     command->output = (folder / "drape.glb").string();

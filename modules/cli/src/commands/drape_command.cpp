@@ -14,7 +14,8 @@ engine::Result<void> drape(const DrapeCommand& command) {
   std::vector<FileOption> garments;
   for (const std::string& file : command.garments) garments.push_back({"GARMENT", file});
   std::vector<FileOption> outputs = {{"-o", command.output, {".glb"}},
-                                     {"--contact-sheet", command.contact_sheet, {".png"}}};
+                                     {"--contact-sheet", command.contact_sheet, {".png"}},
+                                     {"--film-strip", command.film_strip, {".png"}}};
   const std::size_t worn_count = std::max<std::size_t>(1, command.garments.size());
   for (std::size_t k = 0; !command.cache.empty() && k < worn_count; ++k)
     outputs.push_back({"--cache", cache_file(command, k), {".pc2", ".mdd"}});
@@ -122,6 +123,10 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
       ->group("Output")
       ->capture_default_str();
   sub.add_option("--contact-sheet", command.contact_sheet, "write a PNG with a view of every kept frame")
+      ->check(not_empty())
+      ->group("Output");
+  sub.add_option("--film-strip", command.film_strip,
+                 "write a PNG with eight moments of the motion in one row")
       ->check(not_empty())
       ->group("Output");
   sub.add_option("--cache", command.cache,

@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <memory>
 
-#include <bodice/anatomy/measure.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/engine/write_file.hpp>
@@ -10,10 +9,10 @@
 #include <bodice/io/obj.hpp>
 #include <bodice/proxy/base_pose.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
-#include <bodice/tryon/measurements.hpp>
 #include <bodice/tryon/reach.hpp>
 
 #include "options/validators.hpp"
+#include "output/body_files.hpp"
 #include "output/query_speed.hpp"
 #include "run/prepared_poses.hpp"
 #include "run/run.hpp"
@@ -23,7 +22,7 @@ namespace {
 
 struct FitCommand {
   CommonOptions common;
-  std::string output, surface, measurements;
+  std::string output, surface, measurements, segmentation, heat_map;
   std::optional<double> surface_mm;
   bool exact_region = false;
   bool no_rig = false;
@@ -93,11 +92,12 @@ engine::Result<proxy::ProxySurface> surface_for(const FitCommand& command, const
   return proxy::proxy_surface(context, proxy, cell_m);
 }
 
-engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, const std::string& file) {
-  const body::Measurements measurements = anatomy::measure(skin.input.skin, skin.anatomy);
-  const std::string text = extension_of(file) == ".json" ? tryon::measurements_json(measurements)
-                                                         : tryon::measurements_yaml(measurements);
-  return engine::write_file(file, std::string_view(text));
+/// Indices of vertices are known of OBJ alone.
+engine::Result<void> check_segmentation(const FitCommand& command) {
+  if (command.segmentation.empty() || extension_of(command.common.body) == ".obj") return {};
+  return engine::Error{engine::ErrorCode::kInvalidArgument,
+                       "--segmentation lists the vertices of an OBJ body, and BODY is none.",
+                       "Give BODY as OBJ."};
 }
 
 engine::Result<void> write_outputs(const FitCommand& command, Run& run, const tryon::PreparedBody& body,
@@ -128,6 +128,18 @@ engine::Result<void> write_outputs(const FitCommand& command, Run& run, const tr
     if (auto saved = write_measurements(body.skin, command.measurements); !saved) return saved;
     written.push_back(command.measurements);
   }
+  if (!command.segmentation.empty()) {
+    if (auto saved = write_segmentation(run.context(), body.skin, command.segmentation); !saved) return saved;
+    written.push_back(command.segmentation);
+  }
+  if (!command.heat_map.empty()) {
+    const auto limit_m = write_heat_map(run.context(), body, command.heat_map);
+    if (!limit_m) return limit_m.error();
+    if (!command.common.quiet && !command.common.json)
+      std::printf("heat map    blue: the proxy %g mm beyond the skin; red: the skin %g mm beyond the proxy\n",
+                  1e3 * *limit_m, 1e3 * *limit_m);
+    written.push_back(command.heat_map);
+  }
   return run.write_page(body, scene, nullptr, written);
 }
 
@@ -143,9 +155,12 @@ engine::Result<void> fit(const FitCommand& command) {
   Run run(o);
   if (auto ok = run.check_files({{"-o", command.output, {".json", ".bodice"}},
                                  {"--surface", command.surface, {".obj"}},
-                                 {"--measurements", command.measurements, {".json", ".yaml", ".yml"}}});
+                                 {"--measurements", command.measurements, {".json", ".yaml", ".yml"}},
+                                 {"--segmentation", command.segmentation, {".json"}},
+                                 {"--heat-map", command.heat_map, {".png"}}});
       !ok)
     return ok;
+  if (auto ok = check_segmentation(command); !ok) return ok;
   auto skin = command.prepare.any() ? run.segment_rigged() : run.segment();
   if (!skin) return std::move(skin).error();
   if (auto ok = check_surface_cell(command, skin->anatomy.stature_m); !ok) return ok;
@@ -219,9 +234,20 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
       ->check(above_zero())
       ->needs("--surface")
       ->group("Output");
-  sub->add_option("--measurements", command->measurements,
-                  "26 body measurements for garments in millimeters and degrees (.json or .yaml), for a body "
-                  "that stands with its arms away from the trunk")
+  sub->add_option(
+         "--measurements", command->measurements,
+         "26 body measurements for garments, for a body that stands with its arms away from the trunk: "
+         ".json in millimeters, or .yaml in centimeters as GarmentCode reads them")
+      ->check(not_empty())
+      ->group("Output");
+  sub->add_option(
+         "--segmentation", command->segmentation,
+         "the vertices of an OBJ body in six regions (arms, legs, body, what is inside), as GarmentCode "
+         "reads them (.json)")
+      ->check(not_empty())
+      ->group("Output");
+  sub->add_option("--heat-map", command->heat_map,
+                  "the skin from two sides, colored by the proxy's error (PNG)")
       ->check(not_empty())
       ->group("Output");
   sub->add_flag(

@@ -42,6 +42,39 @@ engine::Result<std::vector<tryon::WornGarment>> make_garment(const Run& run, con
       {.name = command.made, .mesh = std::move(garment->mesh), .held = std::move(held)}};
 }
 
+/// The mean distance between the vertices of two frames, meters.
+double apart(std::span<const geometry::Vec3> a, std::span<const geometry::Vec3> b) {
+  double sum = 0.0;
+  for (std::size_t v = 0; v < a.size(); ++v) sum += (a[v] - b[v]).norm();
+  return a.empty() ? 0.0 : sum / static_cast<double>(a.size());
+}
+
+/// The kept frame that differs most from both the first and the last; the middle one where nothing moves.
+std::size_t frame_between(const io::Scene& scene) {
+  const auto moved = [&](std::size_t f, std::size_t g) {
+    double most = 0.0;
+    for (const io::GarmentTrack& track : scene.garments)
+      most = std::max(most, apart(track.frames[f], track.frames[g]));
+    return scene.body_frames.empty() ? most
+                                     : std::max(most, apart(scene.body_frames[f], scene.body_frames[g]));
+  };
+  const std::size_t last = scene.garments.front().frames.size() - 1;
+  std::size_t best = last / 2;
+  double most = std::min(moved(best, 0), moved(best, last));
+  for (std::size_t f = 1; f < last; ++f)
+    if (const double least = std::min(moved(f, 0), moved(f, last)); least > most) most = least, best = f;
+  return best;
+}
+
+/// At most so many of the kept frames, evenly spread, with the first and the last.
+std::vector<std::size_t> spread_frames(std::size_t kept) {
+  constexpr std::size_t kMost = 8;
+  std::vector<std::size_t> frames;
+  const std::size_t count = std::min(kept, kMost);
+  for (std::size_t i = 0; i < count; ++i) frames.push_back(count < 2 ? 0 : i * (kept - 1) / (count - 1));
+  return frames;
+}
+
 engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const DressedBody& dressed,
                                    tryon::DrapeResult draped, std::vector<std::string>& written) {
   io::Scene scene = scene_of(dressed.body);
@@ -52,8 +85,8 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
   if (auto saved = io::write_glb(scene, command.output); !saved) return saved;
   written.push_back(command.output);
   if (const std::string& picture = command.common.picture; !picture.empty()) {
-    const std::size_t kept = scene.garments.front().frames.size();
-    const std::size_t frames[] = {0, (kept - 1) / 2, kept - 1};
+    const std::size_t last = scene.garments.front().frames.size() - 1;
+    const std::size_t frames[] = {0, frame_between(scene), last};
     if (auto saved = io::write_picture(scene, frames, picture); !saved) return saved;
     written.push_back(picture);
   }
@@ -70,6 +103,14 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
         !saved)
       return saved;
     written.push_back(command.contact_sheet);
+  }
+  if (!command.film_strip.empty()) {
+    const std::vector<std::size_t> frames = spread_frames(scene.garments.front().frames.size());
+    if (auto saved = io::write_contact_sheet(scene, frames, static_cast<int>(frames.size()),
+                                             command.film_strip, {.width = 240, .height = 360});
+        !saved)
+      return saved;
+    written.push_back(command.film_strip);
   }
   for (std::size_t k = 0; !command.cache.empty() && k < scene.garments.size(); ++k) {
     const std::string file = cache_file(command, k);

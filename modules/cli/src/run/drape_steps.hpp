@@ -21,7 +21,7 @@ struct DrapeCommand {
   std::optional<double> thickness_mm;
   std::optional<int> frames;
   bool no_picture = false;
-  std::string contact_sheet, fit_map, cache;
+  std::string contact_sheet, film_strip, fit_map, cache;
   std::string thumbnail;  ///< a small picture of the end, for lists of results; no option gives it
   int sheet_columns = 8;
   tryon::MotionChoice motion;

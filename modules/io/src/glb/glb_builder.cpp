@@ -162,39 +162,47 @@ Json GlbSparseWriter::indices_of(std::span<const std::uint32_t> listed) {
           {"componentType", kUnsignedShort}};
 }
 
+namespace {
+
+/// An accessor of integers that stand for -1 to 1, with its bounds and no data yet.
+template <class T>
+Json small_accessor(std::span<const std::array<T, 3>> values, int component) {
+  std::array<T, 3> low = values.front(), high = low;
+  for (const std::array<T, 3>& value : values)
+    for (std::size_t k = 0; k < 3; ++k)
+      low[k] = std::min(low[k], value[k]), high[k] = std::max(high[k], value[k]);
+  return {{"componentType", component},
+          {"normalized", true},
+          {"count", values.size()},
+          {"type", "VEC3"},
+          {"min", low},
+          {"max", high}};
+}
+
+}  // namespace
+
 template <class T>
 std::size_t GlbSparseWriter::add_values(std::span<const std::array<T, 3>> values, int component) {
-  constexpr std::array<T, 3> kZero{};
+  using Value = std::array<T, 3>;
+  Json accessor = small_accessor(values, component);
   std::vector<std::uint32_t> moved;
-  std::array<T, 3> low{}, high{};
-  for (std::size_t i = 0; i < elements_; ++i) {
-    if (values[i] != kZero) moved.push_back(static_cast<std::uint32_t>(i));
-    for (std::size_t k = 0; k < 3; ++k)
-      low[k] = i == 0 ? values[i][k] : std::min(low[k], values[i][k]),
-      high[k] = i == 0 ? values[i][k] : std::max(high[k], values[i][k]);
+  for (std::size_t i = 0; i < elements_; ++i)
+    if (values[i] != Value{}) moved.push_back(static_cast<std::uint32_t>(i));
+  if (moved.empty()) return glb_.add("accessors", std::move(accessor));
+  const std::size_t index_bytes = elements_ > std::numeric_limits<std::uint16_t>::max() ? 4 : 2;
+  const bool all = moved.size() * (sizeof(Value) + index_bytes) >= elements_ * sizeof(Value);
+  if (all && of_all_.is_null()) {
+    std::vector<std::uint32_t> every(elements_);
+    std::iota(every.begin(), every.end(), 0u);
+    of_all_ = indices_of(every);
   }
-  Json accessor = {{"componentType", component},
-                   {"normalized", true},
-                   {"count", elements_},
-                   {"type", "VEC3"},
-                   {"min", low},
-                   {"max", high}};
-  if (!moved.empty()) {
-    const std::size_t index_bytes = elements_ > std::numeric_limits<std::uint16_t>::max() ? 4 : 2;
-    const bool all = moved.size() * (sizeof kZero + index_bytes) >= elements_ * sizeof kZero;
-    if (all && of_all_.is_null()) {
-      std::vector<std::uint32_t> every(elements_);
-      std::iota(every.begin(), every.end(), 0u);
-      of_all_ = indices_of(every);
-    }
-    std::vector<std::array<T, 3>> packed;
-    for (const std::uint32_t i : moved) packed.push_back(values[i]);
-    const std::span<const std::array<T, 3>> listed = all ? values : std::span<const std::array<T, 3>>(packed);
-    accessor["sparse"] = {
-        {"count", listed.size()},
-        {"indices", all ? of_all_ : indices_of(moved)},
-        {"values", {{"bufferView", glb_.add_view(listed.data(), listed.size_bytes(), kNoTarget)}}}};
-  }
+  std::vector<Value> packed;
+  for (const std::uint32_t i : moved) packed.push_back(values[i]);
+  const std::span<const Value> listed = all ? values : std::span<const Value>(packed);
+  accessor["sparse"] = {
+      {"count", listed.size()},
+      {"indices", all ? of_all_ : indices_of(moved)},
+      {"values", {{"bufferView", glb_.add_view(listed.data(), listed.size_bytes(), kNoTarget)}}}};
   return glb_.add("accessors", std::move(accessor));
 }
 

@@ -10,31 +10,37 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// In millimeters or degrees, to a hundredth.
-double shown(const body::Measurements& measurements, body::MeasurementId id) {
-  const double factor = is_angle(id) ? 180.0 / std::numbers::pi : 1e3;
-  return std::round(measurements[id] * factor * 100.0) / 100.0;
+struct LengthUnit {
+  const char* name;
+  double in_a_meter, digits;  ///< what a value is rounded by
+};
+constexpr LengthUnit kMillimeters = {"mm", 1e3, 100.0}, kCentimeters = {"cm", 1e2, 1000.0};
+
+/// In the unit, to a hundredth of a millimeter, or in degrees.
+double shown(const body::Measurements& measurements, body::MeasurementId id, const LengthUnit& unit) {
+  if (is_angle(id)) return std::round(measurements[id] * 180.0 / std::numbers::pi * 100.0) / 100.0;
+  return std::round(measurements[id] * unit.in_a_meter * unit.digits) / unit.digits;
 }
 
-Json as_json(const body::Measurements& measurements) {
+Json as_json(const body::Measurements& measurements, const LengthUnit& unit) {
   Json values = Json::object();
   for (int i = 0; i < body::kMeasurementCount; ++i) {
     const auto id = static_cast<body::MeasurementId>(i);
-    const double value = shown(measurements, id);
+    const double value = shown(measurements, id, unit);
     values[std::string(body::name(id))] = std::isfinite(value) ? Json(value) : Json();
   }
-  return {{"units", {{"length", "mm"}, {"angle", "degree"}}}, {"body", values}};
+  return {{"units", {{"length", unit.name}, {"angle", "degree"}}}, {"body", values}};
 }
 
 }  // namespace
 
 std::string measurements_json(const body::Measurements& measurements) {
-  return as_json(measurements).dump(2) + "\n";
+  return as_json(measurements, kMillimeters).dump(2) + "\n";
 }
 
 std::string measurements_yaml(const body::Measurements& measurements) {
   std::string text;
-  const Json json = as_json(measurements);
+  const Json json = as_json(measurements, kCentimeters);
   for (const auto& [group, members] : json.items()) {
     text += group + ":\n";
     for (const auto& [name, value] : members.items())

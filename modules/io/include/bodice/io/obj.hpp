@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/frame.hpp>
@@ -12,5 +13,9 @@ namespace bodice::io {
 /// back. The file appears whole or not at all. Fails with kWriteFailed.
 engine::Result<void> write_obj(const geometry::TriMesh& mesh, const std::filesystem::path& file,
                                const geometry::Frame& frame = {});
+
+/// The positions of an OBJ file as they stand there, one a line `v`, used or not. Fails with kNotFound where
+/// the file cannot be read, and with kUnreadable where it has no vertex or one that is no three numbers.
+engine::Result<std::vector<geometry::Vec3>> read_obj_positions(const std::filesystem::path& file);
 
 }  // namespace bodice::io

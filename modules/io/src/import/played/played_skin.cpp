@@ -93,6 +93,34 @@ rig::Clip clip_of(const GltfDocument& document, const std::vector<std::ptrdiff_t
   return clip;
 }
 
+/// The joint of each node, -1 where it is none; empty where a joint is no node.
+std::vector<std::ptrdiff_t> joints_by_node(const json& joints, std::size_t nodes) {
+  std::vector<std::ptrdiff_t> joint_of_node(nodes, -1);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (!joints[j].is_number_unsigned() || joints[j].get<std::size_t>() >= nodes) return {};
+    joint_of_node[joints[j].get<std::size_t>()] = static_cast<std::ptrdiff_t>(j);
+  }
+  return joint_of_node;
+}
+
+/// The joints in the order of the skin. Precondition: joints_by_node() of them, and a matrix each.
+rig::Skeleton skeleton_of(const GltfDocument& document, const NodeTree& tree, const json& joints,
+                          const std::vector<std::ptrdiff_t>& joint_of_node, const GltfNumbers& inverse) {
+  rig::Skeleton skeleton;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const auto node = joints[j].get<std::size_t>();
+    rig::Joint joint;
+    joint.name = text_at(document.element("nodes", node), "name");
+    joint.local = tree.local(node);
+    if (const std::ptrdiff_t up = tree.parent(node); up >= 0)
+      joint.parent = static_cast<std::int32_t>(joint_of_node[static_cast<std::size_t>(up)]);
+    const Eigen::Matrix4d bind = Eigen::Map<const Eigen::Matrix4d>(inverse.values.data() + 16 * j).inverse();
+    joint.bind = bind.topRows<3>();
+    skeleton.joints.push_back(std::move(joint));
+  }
+  return skeleton;
+}
+
 }  // namespace
 
 std::optional<rig::Rig> played_rig(const GltfDocument& document, const NodeTree& tree, const json& body_node,
@@ -104,25 +132,12 @@ std::optional<rig::Rig> played_rig(const GltfDocument& document, const NodeTree&
   const auto inverse_at = index_at(skin, "inverseBindMatrices");
   const auto inverse = inverse_at ? document.numbers(*inverse_at) : std::nullopt;
   if (!inverse || inverse->components != 16 || inverse->count < joints.size()) return std::nullopt;
-  rig::Rig rig;
-  std::vector<std::ptrdiff_t> joint_of_node(tree.size(), -1);
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (!joints[j].is_number_unsigned() || joints[j].get<std::size_t>() >= tree.size()) return std::nullopt;
-    joint_of_node[joints[j].get<std::size_t>()] = static_cast<std::ptrdiff_t>(j);
-  }
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto node = joints[j].get<std::size_t>();
-    rig::Joint joint;
-    joint.name = text_at(document.element("nodes", node), "name");
-    joint.local = tree.local(node);
-    if (const std::ptrdiff_t up = tree.parent(node); up >= 0)
-      joint.parent = static_cast<std::int32_t>(joint_of_node[static_cast<std::size_t>(up)]);
-    const Eigen::Matrix4d bind = Eigen::Map<const Eigen::Matrix4d>(inverse->values.data() + 16 * j).inverse();
-    joint.bind = bind.topRows<3>();
-    rig.skeleton.joints.push_back(std::move(joint));
-  }
+  const std::vector<std::ptrdiff_t> joint_of_node = joints_by_node(joints, tree.size());
   const json& primitives = array_at(document.element("meshes", *mesh_at), "primitives");
-  if (primitives.empty() || !primitives[0].contains("attributes")) return std::nullopt;
+  if (joint_of_node.empty() || primitives.empty() || !primitives[0].contains("attributes"))
+    return std::nullopt;
+  rig::Rig rig;
+  rig.skeleton = skeleton_of(document, tree, joints, joint_of_node, *inverse);
   rig.weights = weights_of(document, primitives[0]["attributes"], vertices);
   rig.clips.push_back(clip_of(document, joint_of_node));
   if (!rig::put_parents_first(rig) || !rig::mend(rig, vertices)) return std::nullopt;

@@ -11,7 +11,7 @@ namespace bodice::tryon {
 /// hundredth; null where one could not be taken.
 std::string measurements_json(const body::Measurements& measurements);
 
-/// The same as YAML.
+/// The same as YAML in centimeters, which GarmentCode reads as it stands.
 std::string measurements_yaml(const body::Measurements& measurements);
 
 }  // namespace bodice::tryon
