@@ -1,11 +1,15 @@
 // What does the C interface cost beside the C++ call, with particles as hosts have them? One thread, a made
 // body, 10,000 particles within 30 mm of the skin. The two are measured in turns; the fastest of many calls
 // counts.
-//   embedding [PARTICLES] [ROUNDS]
+//   embedding [PARTICLES] [ROUNDS] [FOLDER]
+// With a folder, proxies and particles are written there, and distances alone are measured, for other
+// languages to compare with: rows.py does that.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <vector>
 
 #include <bodice.hpp>
@@ -56,7 +60,25 @@ void print(const char* what, const Fastest& t) {
               100.0 * (t.soa_us / t.cpp_us - 1.0), t.aos_us, 100.0 * (t.aos_us / t.cpp_us - 1.0));
 }
 
-void measure(const char* name, const synth::Body& body, proxy::Tier tier, std::size_t count, int rounds) {
+void write(const std::filesystem::path& file, const void* bytes, std::size_t size) {
+  std::ofstream(file, std::ios::binary)
+      .write(static_cast<const char*>(bytes), static_cast<std::streamsize>(size));
+}
+
+/// Distances alone of particles as structures in the world, which is what other languages ask for.
+void measure_distances(const char* name, const ::bodice::Collider& collider, ::bodice::Particles& aos,
+                       ::bodice::Workspace& workspace, int rounds) {
+  std::vector<float> distance(aos.count);
+  bodice_contacts out = bodice_default_contacts();
+  out.distance = {distance.data(), 0, BODICE_FLOAT, 0};
+  double least_us = 1e300;
+  for (int round = 0; round < rounds; ++round)
+    least_us = std::min(least_us, microseconds([&] { collider.query(aos, workspace, out); }));
+  std::printf("distances %s %.1f\n", name, least_us);
+}
+
+void measure(const char* name, const synth::Body& body, proxy::Tier tier, std::size_t count, int rounds,
+             const char* folder) {
   const engine::Context engine_context;
   const auto fit = fitting::fit(engine_context, {body.mesh, body.part, body.stature_m}, {.tier = tier});
   if (!fit) std::exit((std::puts(fit.error().sentence().c_str()), 1));
@@ -79,6 +101,11 @@ void measure(const char* name, const synth::Body& body, proxy::Tier tier, std::s
   bodice_contacts out = bodice_default_contacts();
   out.contact = reinterpret_cast<bodice_contact*>(contacts.data());
 
+  if (folder) {
+    write(std::filesystem::path(folder) / (std::string(name) + ".bodice"), bytes.data(), bytes.size());
+    write(std::filesystem::path(folder) / "points.f32", start.xyz.data(), start.xyz.size() * sizeof(float));
+    return measure_distances(name, *collider, aos, *c_aos, rounds);
+  }
   Fastest query, resolve;
   for (int round = 0; round < rounds; ++round) {
     query.cpp_us = std::min(
@@ -107,8 +134,10 @@ int main(int argc, char** argv) {
   const auto body = synth::make_body(engine::Context{}, {});
   if (!body) return std::puts(body.error().sentence().c_str()), 1;
   std::printf("%s; %zu particles, microseconds a call\n\n", bodice_build(), count);
-  std::puts(
-      "| proxy, call | C++, packed | C, the same arrays | C, structures in the world |\n|---|---|---|---|");
-  measure("tight", *body, proxy::Tier::kTight, count, rounds);
-  measure("relief", *body, proxy::Tier::kRelief, count, rounds);
+  const char* folder = argc > 3 ? argv[3] : nullptr;
+  if (!folder)
+    std::puts(
+        "| proxy, call | C++, packed | C, the same arrays | C, structures in the world |\n|---|---|---|---|");
+  measure("tight", *body, proxy::Tier::kTight, count, rounds, folder);
+  measure("relief", *body, proxy::Tier::kRelief, count, rounds, folder);
 }
