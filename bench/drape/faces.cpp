@@ -67,20 +67,23 @@ tryon::ClothInside inside(const engine::Context& context, const geometry::MeshDi
 }
 
 void print_head() {
-  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s\n", "", "", "parti-", "ms", "thick",
-              "cm2", "cm2", "cm2", "gap mm at start", "gap mm at end", "stretch", "stretch");
-  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s\n", "garment", "body", "cles", "median",
-              "mm", "start", "inside", "overlap", "median    95 %", "median    95 %", "p95 %", "max %");
+  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s %11s\n", "", "", "parti-", "ms", "thick",
+              "cm2", "cm2", "cm2", "gap mm at start", "gap mm at end", "stretch", "stretch", "crossings");
+  std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s %11s\n", "garment", "body", "cles",
+              "median", "mm", "start", "inside", "overlap", "median    95 %", "median    95 %", "p95 %",
+              "max %", "start   end");
 }
 
 void print_row(const std::string& name, const char* body, const Row& row, double bar_cm2) {
   const bool walks = body[0] == 'w';
   const double inside = walks ? row.worst_cm2 : row.end_cm2;
   const tryon::DrapeReport& r = row.report;
-  std::printf("%-36s %-5s %6zu %6.2f %8.2f %8.2f %8.2f %8.2f %7.1f %7.1f %7.1f %7.1f %8.2f %8.1f",
+  std::printf("%-36s %-5s %6zu %6.2f %8.2f %8.2f %8.2f %8.2f %7.1f %7.1f %7.1f %7.1f %8.2f %8.1f %5zu %5zu",
               name.c_str(), body, r.particles, r.frame_ms_median, 1e3 * r.thickness_m, row.start_cm2, inside,
               row.overlapped_cm2, 1e3 * row.start.median, 1e3 * row.start.p95, 1e3 * row.end.median,
-              1e3 * row.end.p95, 1e2 * r.stretch_p95, 1e2 * r.stretch_max);
+              1e3 * row.end.p95, 1e2 * r.stretch_p95, 1e2 * r.stretch_max, r.crossings_start,
+              r.crossings_end);
+  if (r.crossings_end > 0) std::printf("  MISSED crossings");
   if (inside > bar_cm2) std::printf("  MISSED inside");
   const bool tight = !walks && row.start.median < kTight_m;
   if (tight && (1e3 * row.end.median > kGapMedian_mm || 1e3 * row.end.p95 > kGap95_mm))

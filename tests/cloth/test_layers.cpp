@@ -127,3 +127,18 @@ TEST_CASE("layers: the same bits for any number of workers") {
   const std::uint64_t hash = play(scene, layered(true), 1).hash;
   for (const int workers : {2, 3, 7}) CHECK(play(scene, layered(true), workers).hash == hash);
 }
+
+TEST_CASE("layers: two sheets that cross at a corner when they begin come apart, and then stay so") {
+  LayerScene scene;
+  scene.body = {ellipsoid(Vec3(0, -5.0, 0), Vec3::Constant(0.1))};
+  append(surface(12, 12, false, [](double u, double v) { return Vec3(0.3 * u, 0.0, 0.3 * v); }), scene.mesh);
+  append(
+      surface(12, 12, false,
+              [](double u, double v) { return Vec3(0.3 * u + 0.01, 0.02 - 0.05 * u * v, 0.3 * v + 0.01); }),
+      scene.mesh);
+  scene.frames = 120;
+  const LayerOutcome out = play(scene, layered(true));
+  CHECK(out.start > 10);
+  CHECK(out.end == 0);
+  CHECK(out.report.layers.crossing == 0);
+}

@@ -117,6 +117,13 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
       ->check(CLI::IsMember({"auto", "off"}) | between(0.0, 100.0))
       ->group("Garment")
       ->capture_default_str();
+  sub.add_option(
+         "--order", command.drape.order,
+         "names of garment files without their endings, from the body outward, separated by commas: each "
+         "is laid over those before it (shirt,trousers tucks the shirt in)")
+      ->delimiter(',')
+      ->needs(garments)
+      ->group("Garment");
   add_motion_options(sub, command);
   sub.add_option("-o,--output", command.output, "body, ellipsoids and moving cloth, .glb for any glTF viewer")
       ->check(not_empty())

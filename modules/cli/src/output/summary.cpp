@@ -58,6 +58,9 @@ void add_drape(std::string& text, const tryon::DrapeReport& d) {
            d.penetration_over_1mm, d.penetration_max_m * 1e3, d.worst_frame, d.pierced_share * 100.0);
   add_line(text, "cloth       stretch %.1f %% at 95 %%, median speed %.1f mm/s, %zu inside the proxy%s",
            d.stretch_p95 * 100.0, d.median_speed_m_s * 1e3, d.inside_union, d.finite ? "" : ", NOT FINITE");
+  if (d.crossings_start + d.crossings_end > 0)
+    add_line(text, "layers      %zu pairs of triangles of the cloth cross at the start, %zu at the end",
+             d.crossings_start, d.crossings_end);
   for (const tryon::DrapedGarment& garment : d.garments)
     for (const tryon::TackedPiece& p : garment.tacked)
       add_line(text, "tacked      %s: piece %zu to piece %zu at %zu points", garment.name.c_str(), p.piece,

@@ -66,7 +66,7 @@ void look_ahead(const engine::Context& context, const SelfSubstep& substep, cons
 // Lists the groups of particles on the paths that are expected.
 void search(const engine::Context& context, SelfContact& s) {
   refit(context, s.mesh, s.found, s.ahead, s.tree);
-  if (!s.sided || !s.tangles.empty()) find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
+  if (!s.sided) find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
   s.searched = s.sided = true;
   find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
   ++s.report.searches;
@@ -163,8 +163,8 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   s.report = {};
   if (s.origin != p.origin) forget_pairs(s);
   s.origin = p.origin;
-  if (!s.tangles.empty()) forget_pairs(s);  // triangles that came apart have sides again
   copy_points(context, p, s.before);
+  if (follow_tangles(s.mesh, s.before, s.tangles, s.tangles_before)) forget_pairs(s);
 }
 
 SelfContactReport report_self_contact(const SelfContact& s) {

@@ -27,6 +27,7 @@ struct SelfContact {
   ContactMesh mesh;
   SweepTree tree;
   std::vector<PairTask> tasks;
+  std::vector<Tangle> tangles_before;
   std::vector<Tangle> tangles;      ///< triangles that cross since the simulation began
   std::vector<Point> rest;          ///< #P: positions at rest, meters, in the particles' first frame
   std::vector<Point> before, now;   ///< #P: positions when the substep began, and at its end

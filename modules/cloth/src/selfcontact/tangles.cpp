@@ -110,6 +110,24 @@ void find_tangles(const engine::Context& context, const ContactMesh& mesh, const
   std::ranges::sort(tangles);
 }
 
+bool follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vector<Tangle>& tangles,
+                    std::vector<Tangle>& room) {
+  std::swap(tangles, room);
+  tangles.clear();
+  for (const Tangle& t : room)
+    for (const Index i : mesh.faces[t.a].particle)
+      for (const Index j : mesh.faces[t.b].particle)
+        for (const std::uint32_t a : mesh.star_of(i))
+          for (const std::uint32_t b : mesh.star_of(j))
+            if (a != b) tangles.push_back({std::min(a, b), std::max(a, b)});
+  std::ranges::sort(tangles);
+  const auto repeated = std::ranges::unique(tangles);
+  tangles.erase(repeated.begin(), repeated.end());
+  std::erase_if(tangles,
+                [&](const Tangle& t) { return !cross_each_other(mesh.faces[t.a], mesh.faces[t.b], at); });
+  return tangles != room;
+}
+
 void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, float step_m,
               std::span<Point> at) {
   for (const Tangle& t : tangles) {

@@ -16,6 +16,11 @@ namespace bodice::cloth {
 void find_tangles(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
                   std::span<const Point> at, std::vector<PairTask>& tasks, std::vector<Tangle>& tangles);
 
+/// Updates the tangles after some motion; true if they changed. Looks at the neighbors of those that there
+/// were, because only there contacts have no sides. `room` has what they were.
+bool follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vector<Tangle>& tangles,
+                    std::vector<Tangle>& room);
+
 /// Moves the triangles of all tangles by about `step_m` each, where they still cross.
 void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, float step_m, std::span<Point> at);
 

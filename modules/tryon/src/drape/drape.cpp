@@ -10,12 +10,15 @@
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
+#include <bodice/geometry/crossings.hpp>
+#include <bodice/tryon/layers.hpp>
 #include <bodice/tryon/penetration.hpp>
 
 #include "drape/drape_report.hpp"
 #include "drape/recorder.hpp"
 #include "garment/garment_reach.hpp"
 #include "garment/misplaced_garments.hpp"
+#include "measure/crossings.hpp"
 #include "measure/fit_warnings.hpp"
 #include "motion/moving_body.hpp"
 #include "motion/moving_thickness.hpp"
@@ -24,6 +27,8 @@ namespace bodice::tryon {
 namespace {
 
 using geometry::Vec3;
+
+constexpr double kLayersOfGap = 2.0;  // garments are laid over others at so many gaps
 
 engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body) {
   const auto bad = [](std::string what, std::string remedy) {
@@ -257,6 +262,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report = describe(garments, options, *settings, *fabric);
   for (std::size_t g = 0; g < garments.size(); ++g) report.garments[g].tacked = tacked[g];
   report.particles = solver->particles();
+  report.crossings_start = geometry::find_crossings(all->mesh.positions, all->mesh.triangles).size();
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
   auto bodies = make_bodies(body, options.motion != nullptr);
@@ -269,6 +275,9 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   if (auto done = drape.ramp(); !done) return std::move(done).error();
   if (auto done = drape.run(progress); !done) return std::move(done).error();
   drape.measure_garments(garments, body, *fabric);
+  report.crossings_end = measure_crossings(
+      *all, garments, drape.positions(),
+      {moving.skin(context), body.skin.anatomy.part, moving.distance(context)}, report.warnings);
   timer.reset();
 
   report.pierced_share =
@@ -291,8 +300,12 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
 engine::Result<DrapeResult> drape(const engine::Context& context, const PreparedBody& body,
                                   const std::vector<WornGarment>& garments, const DrapeOptions& options,
                                   const Progress& progress) {
-  return engine::catch_canceled("The drape",
-                                [&] { return simulate(context, body, garments, options, progress); });
+  return engine::catch_canceled("The drape", [&]() -> engine::Result<DrapeResult> {
+    if (options.order.empty()) return simulate(context, body, garments, options, progress);
+    const auto ordered = order_layers(context, *body.skin.distance, options.order, garments,
+                                      kLayersOfGap * options.solver.layer_gap_m);
+    return ordered ? simulate(context, body, *ordered, options, progress) : ordered.error();
+  });
 }
 
 }  // namespace bodice::tryon

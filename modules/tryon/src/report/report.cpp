@@ -149,6 +149,7 @@ Json drape_json(const DrapeReport& d) {
             {"of_frame_mm", all_mm(d.penetration_of_frame_m)},
             {"pierced_area_percent", d.pierced_share * 100.0}}},
           {"inside_union", d.inside_union},
+          {"crossings", {{"start", d.crossings_start}, {"end", d.crossings_end}}},
           {"stretch", {{"p95", d.stretch_p95}, {"max", d.stretch_max}}},
           {"median_speed_mm_s", mm(d.median_speed_m_s)},
           {"finite", d.finite},

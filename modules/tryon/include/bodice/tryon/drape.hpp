@@ -35,6 +35,9 @@ struct DrapeOptions {
   bool loop = false;             ///< after its end the clip starts over; else its last frame holds
   /// Pieces of a garment that lie this near to each other at the start stay together; 0: none do.
   double tack_m = kTackWithin_m;
+  /// Names of garments from the body outward: each is laid over those before it (order_layers()); empty: they
+  /// stay as they are.
+  std::vector<std::string> order;
   std::optional<FitMap> fit_map;  ///< colors the garments by how they fit at the last frame
 };
 
@@ -65,8 +68,9 @@ struct DrapeReport {
   double penetration_end_m = 0.0;        ///< deepest particle at the last frame
   double thickness_m = 0.0;              ///< distance that particles kept from the proxy
   int worst_frame = 0;
-  std::vector<double> penetration_of_frame_m;   ///< deepest particle of each frame, #frames
-  double pierced_share = 0.0;                   ///< share of the cloth's area inside the skin at the end
+  std::vector<double> penetration_of_frame_m;  ///< deepest particle of each frame, #frames
+  double pierced_share = 0.0;                  ///< share of the cloth's area inside the skin at the end
+  std::size_t crossings_start = 0, crossings_end = 0;  ///< pairs of triangles of the cloth that cross
   std::size_t inside_union = 0;                 ///< particles inside the proxy at the end: count_inside()
   double stretch_p95 = 0.0, stretch_max = 0.0;  ///< edge strain at the end
   double median_speed_m_s = 0.0;                ///< at the end

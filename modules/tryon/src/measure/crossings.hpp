@@ -1,0 +1,26 @@
+// Cloth that passes through cloth.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/tryon/wardrobe.hpp>
+
+namespace bodice::tryon {
+
+/// A skin with the parts of its vertices.
+struct LabeledSkinView {
+  const geometry::TriMesh& mesh;
+  const std::vector<body::Part>& part;
+  const geometry::MeshDistance& distance;
+};
+
+/// The pairs of triangles of all garments that cross at `positions`; a warning names their number, the
+/// garments and the part of the body of the first. Cost: find_crossings().
+std::size_t measure_crossings(const Wardrobe& all, const std::vector<WornGarment>& garments,
+                              std::span<const geometry::Vec3> positions, const LabeledSkinView& skin,
+                              std::vector<engine::Warning>& warnings);
+
+}  // namespace bodice::tryon
