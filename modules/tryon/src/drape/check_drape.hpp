@@ -1,0 +1,11 @@
+// Whether the options of a drape are in their ranges.
+#pragma once
+
+#include <bodice/tryon/drape.hpp>
+
+namespace bodice::tryon {
+
+/// Fails with kInvalidArgument, naming the option and its range.
+engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body);
+
+}  // namespace bodice::tryon
