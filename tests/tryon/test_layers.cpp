@@ -18,7 +18,7 @@ tryon::WornGarment tube(const char* name, Radius&& radius) {
   tryon::WornGarment garment{.name = name, .mesh = {}, .held = {}};
   for (Index j = 0; j <= kRows; ++j)
     for (Index i = 0; i < kAround; ++i) {
-      const double angle = 6.283185307179586 * i / kAround, r = radius(angle);
+      const double angle = 6.283185307179586 * i / kAround, r = radius(angle + 0.4 * j);
       garment.mesh.positions.emplace_back(r * std::cos(angle), 0.3 * j / kRows - 0.15, r * std::sin(angle));
     }
   for (Index j = 0; j < kRows; ++j)
@@ -46,7 +46,7 @@ struct Layers {
   const geometry::MeshDistance skin{context, bodice_test::cylinder(0.3, 1.0, 48, 10)};
   std::vector<tryon::WornGarment> garments = {
       tube("shirt", [](double) { return 0.35; }),
-      tube("trousers", [](double angle) { return 0.35 + 0.01 * std::sin(3.0 * angle); })};
+      tube("trousers", [](double angle) { return 0.35 + 0.01 * std::sin(3.0 * angle + 0.1); })};
 };
 
 }  // namespace
