@@ -126,6 +126,41 @@ cmp -s triangle.obj kept.obj && cmp -s p.json kept.obj || { echo "FAILED: an inp
 for file in same.json a.json b.obj g.obj d.glb; do absent $file; done
 rm p.json
 
+# Things that are no person, and props beside a body.
+box() { # box FILE X Y Z WIDTH
+  awk -v x="$2" -v y="$3" -v z="$4" -v w="$5" 'BEGIN {
+    for (k = 0; k < 8; ++k) print "v", x + w * (k % 2), y + w * (int(k / 2) % 2), z + w * int(k / 4)
+    print "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6" }' >"$1"
+}
+box stool.obj 25 0 -20 40
+refused fit --shape any
+refused fit stool.obj --shape chair
+refused drape --shape any
+expect 1 "a box is no person" "$bodice" fit stool.obj -o p.json
+absent p.json
+expect 0 "a box as a thing" "$bodice" fit stool.obj --shape any --unit cm --tier solid -o p.json --report stool.json
+prints "0.400 m tall"
+for key in '"shape": "any"' '"part_1"' '"landmarks": \[\]'; do
+  grep -q "$key" stool.json || { echo "FAILED: no $key in the report of a thing"; failures=$((failures + 1)); }
+done
+grep -q '"part":"part_1"' p.json || { echo "FAILED: no part_1 in the proxy of a thing"; failures=$((failures + 1)); }
+expect 0 "no unit is a warning" "$bodice" fit stool.obj --shape any --tier solid
+prints "read in meters"
+expect 1 "a thing has no measurements" "$bodice" fit stool.obj --shape any --measurements m.json
+one_line
+absent m.json
+rm p.json
+box stool_m.obj 0.3 0 -0.2 0.4
+expect 0 "a skirt beside a stool" "$bodice" drape --vertices 3000 --tier solid --frames 2 --substeps 4 \
+  --prop stool_m.obj -o prop.glb --report prop.json --no-picture
+prints "stool_m.obj"
+grep -qa '"prop"' prop.glb || { echo "FAILED: no prop in the GLB"; failures=$((failures + 1)); }
+grep -q '"props"' prop.json || { echo "FAILED: no props in the report"; failures=$((failures + 1)); }
+expect 1 "a prop that does not exist" "$bodice" drape --vertices 3000 --tier solid --prop nowhere.obj -o none.glb
+prints "nowhere.obj"
+absent none.glb
+refused drape --prop stool_m.obj -o stool_m.obj
+
 # A body that moves under its garment.
 refused drape --motion ""
 refused drape --clip walk

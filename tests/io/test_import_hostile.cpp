@@ -61,6 +61,27 @@ TEST_CASE("a file that is no mesh is refused in one sentence with a remedy") {
   }
 }
 
+TEST_CASE("a GLB with chunks that would end beyond the file is refused before any of it is allocated") {
+  const TempFolder folder;
+  const auto word = [](std::uint32_t value) {
+    return std::string{static_cast<char>(value & 255u), static_cast<char>(value >> 8 & 255u),
+                       static_cast<char>(value >> 16 & 255u), static_cast<char>(value >> 24)};
+  };
+  const std::string json = R"({"asset":{"version":"2.0"}}  )";
+  const std::uint32_t huge = 2'200'000'000;
+  const auto file = [&](std::uint32_t all, std::uint32_t first, const std::string& more) {
+    return "glTF" + word(2) + word(all) + word(first) + "JSON" + json + more;
+  };
+  const auto length = static_cast<std::uint32_t>(json.size());
+  const std::string files[] = {file(huge + 20, huge, ""), file(20 + length, huge, ""),
+                               file(28 + length, length, word(huge) + std::string("BIN\0", 4))};
+  for (const std::string& bytes : files) {
+    const auto path = folder.write("huge.glb", bytes);
+    check_error(path, engine::ErrorCode::kUnreadable);
+    CHECK(io::import_body(kContext, path).error().message.find("GLB") != std::string::npos);
+  }
+}
+
 TEST_CASE("points and lines alone are no body") {
   const TempFolder folder;
   check_error(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1 2 3\nl 1 2\n"),

@@ -62,21 +62,22 @@ TEST_CASE("data that cannot be a proxy are refused, and the ellipsoid is named")
   using Damage = std::function<void(BodyProxy::Data&)>;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
-  const Damage damages[] = {[=](auto& d) { d.ellipsoids[3].shape.center[0] = nan; },
-                            [=](auto& d) { d.ellipsoids[3].shape.center[2] = inf; },
-                            [](auto& d) { d.ellipsoids[3].shape.radii[1] = 0.0; },
-                            [](auto& d) { d.ellipsoids[3].shape.radii[1] = -1.0; },
-                            [=](auto& d) { d.ellipsoids[3].shape.radii[1] = nan; },
-                            [](auto& d) { d.ellipsoids[3].shape.axes(0, 0) += 1e-4; },
-                            [](auto& d) { d.ellipsoids[3].shape.axes.col(0) *= -1.0; },
-                            [=](auto& d) { d.ellipsoids[3].shape.axes(1, 1) = nan; },
-                            [](auto& d) { d.ellipsoids[3].part = static_cast<bodice::body::Part>(15); },
-                            [](auto& d) { d.ellipsoids[3].bone = -2; },
-                            [](auto& d) { d.relief[3].nodes_per_side = 1; },
-                            [](auto& d) { d.relief[3].nodes_per_side = 5000; },
-                            [](auto& d) { d.relief[3] = {8, 0, 0, 0, 0, 0xffffffffu}; },
-                            [](auto& d) { d.relief[3] = {0, 0, 0, 0, 0, 0xffffffffu}; },
-                            [=](auto& d) { d.relief[3].h_scale_m = static_cast<float>(nan); }};
+  const Damage damages[] = {
+      [=](auto& d) { d.ellipsoids[3].shape.center[0] = nan; },
+      [=](auto& d) { d.ellipsoids[3].shape.center[2] = inf; },
+      [](auto& d) { d.ellipsoids[3].shape.radii[1] = 0.0; },
+      [](auto& d) { d.ellipsoids[3].shape.radii[1] = -1.0; },
+      [=](auto& d) { d.ellipsoids[3].shape.radii[1] = nan; },
+      [](auto& d) { d.ellipsoids[3].shape.axes(0, 0) += 1e-4; },
+      [](auto& d) { d.ellipsoids[3].shape.axes.col(0) *= -1.0; },
+      [=](auto& d) { d.ellipsoids[3].shape.axes(1, 1) = nan; },
+      [](auto& d) { d.ellipsoids[3].part = static_cast<bodice::body::Part>(bodice::body::kAllPartCount); },
+      [](auto& d) { d.ellipsoids[3].bone = -2; },
+      [](auto& d) { d.relief[3].nodes_per_side = 1; },
+      [](auto& d) { d.relief[3].nodes_per_side = 5000; },
+      [](auto& d) { d.relief[3] = {8, 0, 0, 0, 0, 0xffffffffu}; },
+      [](auto& d) { d.relief[3] = {0, 0, 0, 0, 0, 0xffffffffu}; },
+      [=](auto& d) { d.relief[3].h_scale_m = static_cast<float>(nan); }};
   for (const Damage& damage : damages) {
     auto data = sample_data(3);
     damage(data);

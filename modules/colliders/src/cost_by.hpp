@@ -39,7 +39,7 @@ ReductionCost cost_by(const engine::Context& context, const proxy::BodyProxy& pr
     for (std::size_t p = begin; p < end; ++p) gap[p] = std::abs(distance(points.position[p]));
   });
   Weighted whole;
-  std::array<Weighted, body::kPartCount> of_part;
+  std::array<Weighted, body::kAllPartCount> of_part;
   for (std::size_t p = 0; p < gap.size(); ++p) {
     if (!(points.area[p] > 0.0)) continue;
     whole.emplace_back(gap[p], points.area[p]);

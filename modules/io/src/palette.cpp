@@ -26,9 +26,31 @@ constexpr std::array<std::array<float, 3>, body::kPartCount> kColors = {{
     {0.62f, 0.56f, 0.14f},  // calf_r
 }};
 
+/// Shades of wood and slate, so that a thing beside a body stands out from it.
+constexpr std::array<std::array<float, 3>, body::kThingPartCount> kThingColors = {{
+    {0.62f, 0.50f, 0.40f},
+    {0.45f, 0.52f, 0.58f},
+    {0.78f, 0.68f, 0.56f},
+    {0.33f, 0.38f, 0.44f},
+    {0.52f, 0.40f, 0.31f},
+    {0.64f, 0.70f, 0.74f},
+    {0.70f, 0.58f, 0.42f},
+    {0.42f, 0.46f, 0.44f},
+    {0.56f, 0.46f, 0.42f},
+    {0.54f, 0.60f, 0.62f},
+    {0.84f, 0.76f, 0.66f},
+    {0.38f, 0.32f, 0.29f},
+    {0.74f, 0.64f, 0.60f},
+    {0.48f, 0.56f, 0.52f},
+    {0.66f, 0.54f, 0.34f},
+    {0.30f, 0.34f, 0.34f},
+}};
+
 }  // namespace
 
 std::span<const float, 3> part_color(body::Part part) {
+  if (body::is_of_thing(part))
+    return kThingColors[static_cast<std::size_t>(part) - static_cast<std::size_t>(body::Part::kThing)];
   return kColors[static_cast<std::size_t>(part)];
 }
 

@@ -102,6 +102,11 @@ engine::Result<void> check_scene(const Scene& scene) {
   if (scene.body && !scene.part.empty() && scene.part.size() != scene.body->positions.size())
     return invalid("The body has " + std::to_string(scene.body->positions.size()) + " vertices but " +
                    std::to_string(scene.part.size()) + " parts.");
+  for (const StillThing& thing : scene.things)
+    if (!thing.mesh || !valid_mesh(*thing.mesh) ||
+        (!thing.part.empty() && thing.part.size() != thing.mesh->positions.size()))
+      return invalid("The thing '" + thing.name +
+                     "' is empty, not finite or without a part for each vertex.");
   for (const auto& frame : scene.body_frames)
     if (!scene.body || frame.size() != scene.body->positions.size() || !all_finite(frame))
       return invalid("The body has a frame that is not finite or not of its vertices.");
@@ -119,6 +124,8 @@ geometry::Box scene_box(const Scene& scene) {
   geometry::Box box;
   if (scene.body)
     for (const Vec3& p : scene.body->positions) box.extend(p);
+  for (const StillThing& thing : scene.things)
+    for (const Vec3& p : thing.mesh->positions) box.extend(p);
   for (const auto& frame : scene.body_frames)
     for (const Vec3& p : frame) box.extend(p);
   if (scene.proxy && scene.proxy_frames.empty())

@@ -90,7 +90,7 @@ Json json_of(const std::vector<engine::StageTime>& stages) {
 
 void add_parts(const PageSubject& subject, Json& data) {
   data["parts"] = Json::array(), data["colors"] = Json::array();
-  for (int p = 0; p < body::kPartCount; ++p) {
+  for (int p = 0; p < body::kAllPartCount; ++p) {
     const auto color = io::part_color(static_cast<body::Part>(p));
     data["parts"].push_back(body::name(static_cast<body::Part>(p)));
     data["colors"].push_back({color[0], color[1], color[2]});

@@ -47,7 +47,7 @@ Fault check_header(const BodyProxy::Data& data) {
 }
 
 Fault check_ellipsoid(const ProxyEllipsoid& e, const std::string& which) {
-  if (static_cast<int>(e.part) >= body::kPartCount) return fault(which + " has an unknown part");
+  if (static_cast<int>(e.part) >= body::kAllPartCount) return fault(which + " has an unknown part");
   if (e.bone < kNoBone) return fault(which + " has a negative bone");
   for (int k = 0; k < 3; ++k) {
     if (!bounded(std::abs(e.shape.center[k]), 0.0, kLargest_m))

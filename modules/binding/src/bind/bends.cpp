@@ -20,7 +20,7 @@ constexpr double radians(double degrees) {
   return degrees / 180.0 * std::numbers::pi;
 }
 
-using PartWeights = std::array<double, body::kPartCount>;
+using PartWeights = std::array<double, body::kAllPartCount>;
 
 /// For each joint how much of each part it carries with the joints below it, 0 to 1.
 std::vector<PartWeights> carried_parts(const SkinnedBody& body, std::span<const Part> part) {
@@ -47,7 +47,7 @@ std::vector<PartWeights> carried_parts(const SkinnedBody& body, std::span<const 
 /// The last joint of the hierarchy that carries a part.
 std::optional<std::size_t> joint_of(const std::vector<PartWeights>& carried, Part part) {
   std::optional<std::size_t> found;
-  double least = 2.0 * body::kPartCount;
+  double least = 2.0 * body::kAllPartCount;
   for (std::size_t j = 0; j < carried.size(); ++j) {
     if (carried[j][static_cast<std::size_t>(part)] < kCarries) continue;
     double sum = 0.0;
@@ -61,8 +61,8 @@ std::optional<std::size_t> joint_of(const std::vector<PartWeights>& carried, Par
 
 /// The middle of each part's vertices.
 std::vector<Vec3> centroids(const SkinnedBody& body, std::span<const Part> part) {
-  std::vector<Vec3> sum(body::kPartCount, Vec3::Zero());
-  std::vector<double> count(body::kPartCount, 0.0);
+  std::vector<Vec3> sum(body::kAllPartCount, Vec3::Zero());
+  std::vector<double> count(body::kAllPartCount, 0.0);
   for (std::size_t v = 0; v < part.size(); ++v) {
     const auto p = static_cast<std::size_t>(part[v]);
     sum[p] += body.skin.positions[v];
@@ -89,7 +89,7 @@ std::optional<Mat3> turn_of(const Bend& bend, const Vec3& head, const Vec3& midd
 Limbs::Limbs(const SkinnedBody& body, std::span<const Part> part)
     : skeleton_(body.skeleton), centroid_(centroids(body, part)) {
   const std::vector<PartWeights> carried = carried_parts(body, part);
-  for (std::size_t p = 0; p < body::kPartCount; ++p)
+  for (std::size_t p = 0; p < body::kAllPartCount; ++p)
     joint_.push_back(joint_of(carried, static_cast<Part>(p)));
   directions_.up = Vec3::UnitY();
   directions_.left = centroid(Part::kThighL) - centroid(Part::kThighR);

@@ -28,7 +28,7 @@ class Contacts:
 class Body:
     """A body proxy, at rest or in a pose. Queries of one body may overlap on several threads; poses must not."""
 
-    part_names: Tuple[str, ...] = tuple(_c.library.bodice_part_name(i).decode() for i in range(_c.PARTS))
+    part_names: Tuple[str, ...] = tuple(_c.library.bodice_part_name(i).decode() for i in range(_c.ALL_PARTS))
 
     def __init__(self, data: bytes, workers: int = 1):
         context = _c.make_context(workers)

@@ -8,6 +8,7 @@ from ctypes import c_double, c_float, c_int32, c_size_t, c_ssize_t, c_uint32, c_
 import numpy as np
 
 PARTS = 15
+ALL_PARTS = 31
 LANDMARKS = 28
 MEASUREMENTS = 26
 NO_ELLIPSOID = 0xFFFFFFFF
@@ -94,7 +95,7 @@ class Rig(ctypes.Structure):
 
 class SkinOptions(ctypes.Structure):
     kind = 11
-    _fields_ = [("head", Head), ("rig", c_void_p), ("find_rig", c_int32), ("reserved", c_int32),
+    _fields_ = [("head", Head), ("rig", c_void_p), ("find_rig", c_int32), ("shape", c_int32),
                 ("progress", c_void_p), ("host", c_void_p)]
 
 

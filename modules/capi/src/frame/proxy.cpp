@@ -136,7 +136,7 @@ bodice_status bodice_proxy_get_bind(const bodice_proxy* handle, uint32_t joint, 
 }
 
 const char* bodice_part_name(int32_t part) {
-  static_assert(BODICE_PARTS == body::kPartCount);
+  static_assert(BODICE_PARTS == body::kPartCount && BODICE_ALL_PARTS == body::kAllPartCount);
   // The engine's names are string literals, which end with a zero.
-  return part >= 0 && part < BODICE_PARTS ? body::name(static_cast<body::Part>(part)).data() : nullptr;
+  return part >= 0 && part < BODICE_ALL_PARTS ? body::name(static_cast<body::Part>(part)).data() : nullptr;
 }

@@ -110,6 +110,9 @@ const char* bodice_measurement_name(int32_t measurement) {
 bodice_status bodice_skin_get_measurements(const bodice_skin* skin, double* values, size_t capacity) {
   return capi::guarded([&]() -> Outcome {
     BODICE_CHECK(capi::check_handle(skin, "The skin"));
+    if (skin->skin.input.shape == io::Shape::kAny)
+      return capi::invalid("The skin was made with BODICE_SHAPE_ANY, which has no measurements.",
+                           "Make it with BODICE_SHAPE_PERSON to measure a person.");
     const body::Measurements taken = anatomy::measure(skin->skin.input.skin, skin->skin.anatomy);
     return copy(std::span<const double>(taken.value), values, capacity, "measurements",
                 [](double value) { return value; });

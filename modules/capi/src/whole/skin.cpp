@@ -23,8 +23,18 @@ namespace {
 
 constexpr double kLeastStature_m = 0.3, kMostStature_m = 3.0;
 
+/// The shape of the options, of which there are two.
+Outcome read_shape(const bodice_skin_options& options, io::Shape& out) {
+  if (options.shape != BODICE_SHAPE_PERSON && options.shape != BODICE_SHAPE_ANY)
+    return invalid("bodice_skin_options.shape is " + std::to_string(options.shape) + ".",
+                   "Give BODICE_SHAPE_PERSON or BODICE_SHAPE_ANY.");
+  out = options.shape == BODICE_SHAPE_ANY ? io::Shape::kAny : io::Shape::kPerson;
+  return {};
+}
+
 /// Whether the coordinates can be meters; another unit would only show in cloth that behaves oddly.
 Outcome check_size(const tryon::SegmentedSkin& skin) {
+  if (skin.input.shape == io::Shape::kAny) return {};
   const double stature = skin.anatomy.stature_m;
   if (stature >= kLeastStature_m && stature <= kMostStature_m) return {};
   return invalid("The body is " + std::to_string(stature) + " high, and coordinates are meters.",
@@ -48,7 +58,11 @@ Outcome attach(rig::Rig given, tryon::SegmentedSkin& skin) {
 Outcome read_body(const bodice_mesh* mesh, const bodice_skin_options& options, HostBody& out) {
   BODICE_CHECK(read_mesh(mesh, out.mesh));
   out.find_rig = options.find_rig != 0;
+  BODICE_CHECK(read_shape(options, out.shape));
   if (!options.rig) return {};
+  if (out.shape == io::Shape::kAny)
+    return invalid("bodice_skin_options has a rig and BODICE_SHAPE_ANY.",
+                   "Pass the rig with a person, or leave it null.");
   return read_rig(options.rig, out.mesh.positions.size(), out.rig.emplace());
 }
 
@@ -57,6 +71,7 @@ Outcome make_skin(const engine::Context& context, Progress& progress, HostBody b
   progress.stage("repair");
   auto input = tryon::repair_body(context, body.mesh);
   if (!input) return input.error();
+  input->shape = body.shape;
   progress.stage("segment");
   auto skin = tryon::segment_mesh(context, std::move(input).value(), {});
   if (!skin) return skin.error();
@@ -91,7 +106,8 @@ bodice_status bodice_skin_from_mesh(const bodice_context* context, const bodice_
 
 namespace {
 
-/// Segments a body that brings its own bones, by `segment(context)`; `source` is where bones are looked for.
+/// Segments a body that brings its own bones, by `segment(context, options)`; `source` is where bones are
+/// looked for.
 template <class Segment>
 Outcome make(const bodice_context* context, const bodice_skin_options* given, const tryon::BodySource& source,
              bodice_skin** out, Segment segment) {
@@ -101,9 +117,11 @@ Outcome make(const bodice_context* context, const bodice_skin_options* given, co
   if (options.rig)
     return invalid("bodice_skin_options.rig is set for a body that is not a mesh of the program.",
                    "Leave it null: such a body brings its own bones.");
+  tryon::SegmentOptions segment_options;
+  BODICE_CHECK(capi::read_shape(options, segment_options.import.shape));
   capi::Progress progress(context->state->engine_context(), options.progress, options.host);
   progress.stage("segment");
-  engine::Result<tryon::SegmentedSkin> skin = segment(progress.context());
+  engine::Result<tryon::SegmentedSkin> skin = segment(progress.context(), segment_options);
   if (!skin) return skin.error();
   if (options.find_rig) {
     progress.stage("rig");
@@ -121,9 +139,10 @@ bodice_status bodice_skin_from_file(const bodice_context* context, const char* p
     BODICE_CHECK(capi::begin_result(out, "the skin"));
     if (!path) return invalid("The path is null.", "Pass the name of a body file.");
     const std::filesystem::path file = std::u8string_view(reinterpret_cast<const char8_t*>(path));
-    return make(context, options, tryon::BodyFile{file}, out, [&](const engine::Context& engine_context) {
-      return tryon::segment_file(engine_context, file, {});
-    });
+    return make(context, options, tryon::BodyFile{file}, out,
+                [&](const engine::Context& engine_context, const tryon::SegmentOptions& segment_options) {
+                  return tryon::segment_file(engine_context, file, segment_options);
+                });
   });
 }
 
@@ -136,9 +155,10 @@ bodice_status bodice_skin_built_in(const bodice_context* context, int32_t female
                      "Give 1.2 to 2.2 meters.");
     const synth::BodyOptions body{.sex = female ? body::Sex::kFemale : body::Sex::kMale,
                                   .stature_m = stature_m};
-    return make(context, options, body, out, [&](const engine::Context& engine_context) {
-      return tryon::segment_builtin(engine_context, body, {});
-    });
+    return make(context, options, body, out,
+                [&](const engine::Context& engine_context, const tryon::SegmentOptions& segment_options) {
+                  return tryon::segment_builtin(engine_context, body, segment_options);
+                });
   });
 }
 

@@ -26,6 +26,7 @@ struct HostBody {
   geometry::TriMesh mesh;
   std::optional<rig::Rig> rig;  ///< weights of the mesh's vertices
   bool find_rig = false;
+  io::Shape shape = io::Shape::kPerson;
 };
 
 /// Copies body and bones; names the element at fault.

@@ -13,6 +13,7 @@ engine::Result<void> drape(const DrapeCommand& command) {
   Run run(o);
   std::vector<FileOption> garments;
   for (const std::string& file : command.garments) garments.push_back({"GARMENT", file});
+  for (const std::string& file : command.props) garments.push_back({"--prop", file});
   std::vector<FileOption> outputs = {{"-o", command.output, {".glb"}},
                                      {"--contact-sheet", command.contact_sheet, {".png"}},
                                      {"--film-strip", command.film_strip, {".png"}}};
@@ -28,7 +29,10 @@ engine::Result<void> drape(const DrapeCommand& command) {
   if (!worn) return std::move(worn).error();
   auto body = fit_body(run, std::move(skin).value(), command.moves());
   if (!body) return std::move(body).error();
-  DressedBody dressed{std::move(body).value(), std::move(motion).value(), std::move(worn).value()};
+  auto props = read_props(run, command, *body);
+  if (!props) return std::move(props).error();
+  DressedBody dressed{std::move(body).value(), std::move(motion).value(), std::move(worn).value(),
+                      std::move(props).value()};
   std::vector<std::string> written;
   const auto report = drape_and_write(run, command, dressed, written);
   if (!report) return report.error();
@@ -123,6 +127,13 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
          "is laid over those before it (shirt,trousers tucks the shirt in)")
       ->delimiter(',')
       ->needs(garments)
+      ->group("Garment");
+  sub.add_option(
+         "--prop", command.props,
+         "a thing that stands still beside the body, such as its chair: a mesh in the body's coordinates "
+         "and unit, which the cloth meets; may be given several times")
+      ->check(not_empty())
+      ->allow_extra_args(false)
       ->group("Garment");
   add_motion_options(sub, command);
   sub.add_option("-o,--output", command.output, "body, ellipsoids and moving cloth, .glb for any glTF viewer")

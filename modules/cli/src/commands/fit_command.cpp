@@ -150,6 +150,22 @@ engine::Result<proxy::BasePoses> make_bases(const engine::Context& context, cons
   return prepare_poses(context, body, command.prepare, body.fit.warnings);
 }
 
+engine::Error not_of_any(const char* option, const char* what) {
+  return {engine::ErrorCode::kInvalidArgument,
+          engine::message(option, " does not go with --shape any, which has no ", what, "."),
+          engine::message("Leave ", option, " out.")};
+}
+
+/// Refuses what only a person has.
+engine::Result<void> check_shape(const FitCommand& command) {
+  if (command.common.shape != "any") return {};
+  if (!command.measurements.empty()) return not_of_any("--measurements", "measurements");
+  if (!command.segmentation.empty()) return not_of_any("--segmentation", "regions of a body");
+  if (!command.prepare.poses.empty()) return not_of_any("--poses", "poses");
+  if (command.prepare.any()) return not_of_any("--motion", "motions");
+  return {};
+}
+
 engine::Result<void> fit(const FitCommand& command) {
   const CommonOptions& o = command.common;
   Run run(o);
@@ -161,6 +177,7 @@ engine::Result<void> fit(const FitCommand& command) {
       !ok)
     return ok;
   if (auto ok = check_segmentation(command); !ok) return ok;
+  if (auto ok = check_shape(command); !ok) return ok;
   auto skin = command.prepare.any() ? run.segment_rigged() : run.segment();
   if (!skin) return std::move(skin).error();
   if (auto ok = check_surface_cell(command, skin->anatomy.stature_m); !ok) return ok;
@@ -207,6 +224,18 @@ void add_pose_options(CLI::App& sub, FitCommand& c) {
       ->check(not_empty())
       ->needs(motion)
       ->group(group);
+}
+
+void add_shape_option(CLI::App& sub, FitCommand& c) {
+  sub.add_option(
+         "--shape", c.common.shape,
+         "person, or any: a chair, a mannequin's torso, a dog, a hand; all of the file is fitted, without "
+         "landmarks, with parts by clusters of its surface, and in meters if neither the file nor --unit "
+         "gives a unit")
+      ->check(CLI::IsMember({"person", "any"}))
+      ->needs("BODY")
+      ->group("Input")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -256,6 +285,7 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
       ->group("Output");
   add_pose_options(*sub, *command);
   add_common_options(*sub, command->common);
+  add_shape_option(*sub, *command);
   sub->add_flag(
          "--region-exact", command->exact_region,
          "fit the whole body and keep the ellipsoids that the garment of --region-of can reach: any "

@@ -246,6 +246,7 @@ engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {
   if (o.up != "auto") options.import.up = static_cast<geometry::Axis>(o.up[0] - 'x');
   if (!o.mesh.empty()) options.import.mesh = o.mesh;
   options.import.person = o.person;
+  if (o.shape == "any") options.import.shape = io::Shape::kAny;
   options.force = o.force;
   auto profile = proportions(o);
   if (!profile) return std::move(profile).error();

@@ -19,7 +19,7 @@ inline constexpr int kExitOk = 0, kExitFailed = 1, kExitUsage = 2;
 /// Input, fit and output. Paths are empty when the option was not given.
 struct CommonOptions {
   std::string body;  ///< a file; empty: the built-in body
-  std::string up = "auto", unit = "auto", mesh, profile = "ansur2";
+  std::string up = "auto", unit = "auto", mesh, profile = "ansur2", shape = "person";
   int person = 1;
   bool force = false;
 

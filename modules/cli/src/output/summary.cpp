@@ -32,9 +32,12 @@ void add_clusters(std::string& text, const fitting::FitResult& fit) {
 void add_body(std::string& text, const tryon::PreparedBody& body, bool cropped) {
   const io::ImportedMesh& input = body.skin.input;
   const fitting::FitResult& fit = body.fit;
-  add_line(text, "body        %s%s%s: %zu vertices, %zu triangles, unit %s, %.3f m tall", input.file.c_str(),
-           input.mesh.empty() ? "" : ", mesh ", input.mesh.c_str(), input.skin.positions.size(),
-           input.skin.triangles.size(), input.unit.c_str(), body.skin.anatomy.stature_m);
+  const bool any = input.shape == io::Shape::kAny;
+  const double height_m =
+      any ? geometry::bounding_box(input.skin.positions).size().y() : body.skin.anatomy.stature_m;
+  add_line(text, "%-12s%s%s%s: %zu vertices, %zu triangles, unit %s, %.3f m tall", any ? "thing" : "body",
+           input.file.c_str(), input.mesh.empty() ? "" : ", mesh ", input.mesh.c_str(),
+           input.skin.positions.size(), input.skin.triangles.size(), input.unit.c_str(), height_m);
   add_line(text, "proxy       tier %s: %zu ellipsoids, %.1f KB", proxy::name(fit.proxy.tier()).data(),
            fit.proxy.ellipsoids().size(), static_cast<double>(fit.proxy.bytes()) / 1024.0);
   add_line(text, "accuracy    from its surface to the skin %.2f mm mean, %.2f mm at 95 %%, up to %.1f mm%s",
@@ -61,6 +64,13 @@ void add_drape(std::string& text, const tryon::DrapeReport& d) {
   if (d.crossings_start + d.crossings_end > 0)
     add_line(text, "layers      %zu pairs of triangles of the cloth cross at the start, %zu at the end",
              d.crossings_start, d.crossings_end);
+  for (const tryon::PropReport& p : d.props)
+    add_line(text,
+             "prop        %s: %zu ellipsoids, %.2f mm mean; %zu particles deeper than 1 mm in it at the end; "
+             "deepest "
+             "ever %.2f mm (frame %d)",
+             p.name.c_str(), p.ellipsoids, p.accuracy.gap_m.mean * 1e3, p.over_1mm, p.deepest_m * 1e3,
+             p.worst_frame);
   for (const tryon::DrapedGarment& garment : d.garments)
     for (const tryon::TackedPiece& p : garment.tacked)
       add_line(text, "tacked      %s: piece %zu to piece %zu at %zu points", garment.name.c_str(), p.piece,

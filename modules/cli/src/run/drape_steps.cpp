@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/io/cloth_cache.hpp>
 #include <bodice/tryon/place_garment.hpp>
 #include <bodice/tryon/wearing.hpp>
@@ -78,6 +79,10 @@ std::vector<std::size_t> spread_frames(std::size_t kept) {
 engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const DressedBody& dressed,
                                    tryon::DrapeResult draped, std::vector<std::string>& written) {
   io::Scene scene = scene_of(dressed.body);
+  if (draped.proxy) scene.proxy = &*draped.proxy;
+  for (const tryon::PreparedBody& prop : dressed.props)
+    scene.things.push_back({scene.things.empty() ? "prop" : engine::message("prop_", scene.things.size() + 1),
+                            &prop.skin.input.skin, prop.skin.anatomy.part});
   scene.rig = dressed.motion ? &dressed.motion->rig : nullptr;
   scene.proxy_frames = draped.proxy_frames;
   scene.garments = std::move(draped.garments);
@@ -193,11 +198,28 @@ engine::Result<tryon::PreparedBody> fit_body(Run& run, tryon::SegmentedSkin skin
                : tryon::fit_proxy(run.context(), std::move(skin), *options, progress);
 }
 
+engine::Result<std::vector<tryon::PreparedBody>> read_props(Run& run, const DrapeCommand& command,
+                                                            tryon::PreparedBody& body) {
+  std::vector<tryon::PreparedBody> props;
+  for (const std::string& file : command.props) {
+    auto prop =
+        tryon::read_prop(run.context(), file, body, fit_options(command.common), run.progress().callback());
+    if (!prop) return std::move(prop).error();
+    for (engine::Warning warning : prop->all_warnings()) {
+      warning.message = file + ": " + warning.message;
+      body.fit.warnings.push_back(std::move(warning));
+    }
+    props.push_back(std::move(prop).value());
+  }
+  return props;
+}
+
 engine::Result<tryon::DrapeReport> drape_and_write(Run& run, const DrapeCommand& command,
                                                    DressedBody& dressed, std::vector<std::string>& written) {
   tryon::BodyMotion* const motion = dressed.motion ? &*dressed.motion : nullptr;
-  const auto options = drape_options(command, dressed.body.skin.input.frame, motion);
+  auto options = drape_options(command, dressed.body.skin.input.frame, motion);
   if (!options) return options.error();
+  options->props = dressed.props;
   auto draped = tryon::drape(run.context(), dressed.body, dressed.worn, *options, run.progress().callback());
   if (!draped) return std::move(draped).error();
   tryon::DrapeReport report = draped->report;

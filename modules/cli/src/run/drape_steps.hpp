@@ -14,7 +14,7 @@ namespace bodice::cli {
 /// The options of `drape`.
 struct DrapeCommand {
   CommonOptions common;
-  std::vector<std::string> garments;
+  std::vector<std::string> garments, props;
   std::string made = "skirt", output = "drape.glb", hold = "auto", position = "auto", tack = "auto",
               fabric = "cotton";
   std::vector<double> wind_m_s;
@@ -50,11 +50,16 @@ engine::Result<std::vector<tryon::WornGarment>> dress(const Run& run, const Drap
 /// Fits the proxy; `bound`: to the skin's rig, if it has one.
 engine::Result<tryon::PreparedBody> fit_body(Run& run, tryon::SegmentedSkin skin, bool bound);
 
-/// A body with what it wears.
+/// The things of --prop, fitted like the body. Their warnings are added to the body's.
+engine::Result<std::vector<tryon::PreparedBody>> read_props(Run& run, const DrapeCommand& command,
+                                                            tryon::PreparedBody& body);
+
+/// A body with what it wears and what stands beside it.
 struct DressedBody {
   tryon::PreparedBody body;
   std::optional<tryon::BodyMotion> motion;
   std::vector<tryon::WornGarment> worn;
+  std::vector<tryon::PreparedBody> props = {};
 };
 
 /// Drapes, and writes GLB, pictures and page as the options name them; their files are added to `written`.

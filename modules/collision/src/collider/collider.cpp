@@ -90,7 +90,7 @@ ResolveOptions sanitized(ResolveOptions options) {
 
 void ContactReport::add(const ContactReport& other) {
   contacts += other.contacts;
-  for (int i = 0; i < body::kPartCount; ++i) contacts_by_part[i] += other.contacts_by_part[i];
+  for (int i = 0; i < body::kAllPartCount; ++i) contacts_by_part[i] += other.contacts_by_part[i];
   unresolved += other.unresolved;
   pending += other.pending;
   wrong_side += other.wrong_side;

@@ -38,7 +38,7 @@ engine::Result<void> check_options(const FitOptions& options) {
   if (auto good = check_thresholds(options); !good) return good;
   if (options.time_budget_s && !(*options.time_budget_s >= 0.0))
     return bad("time_budget_s is negative or NaN.", "Give seconds.");
-  if ((options.parts & ((1u << body::kPartCount) - 1)) == 0)
+  if ((options.parts & ((1u << body::kAllPartCount) - 1)) == 0)
     return bad("No part is selected.", "Set at least one bit of parts.");
   return {};
 }
@@ -67,8 +67,9 @@ engine::Result<void> check_input(const LabeledSkin& skin, const FitOptions& opti
     if (!skin.mesh.positions[v].allFinite())
       return bad("Vertex " + std::to_string(v) + " is not finite.",
                  "Repair the mesh first (geometry::repair).");
-    if (static_cast<int>(skin.part[v]) >= body::kPartCount)
-      return bad("Vertex " + std::to_string(v) + " has an unknown part.", "Use the 15 values of body::Part.");
+    if (static_cast<int>(skin.part[v]) >= body::kAllPartCount)
+      return bad("Vertex " + std::to_string(v) + " has an unknown part.",
+                 "Use the parts that body::name() has a name for.");
   }
   for (std::size_t t = 0; t < skin.mesh.triangles.size(); ++t)
     for (const geometry::Index v : skin.mesh.triangles[t])

@@ -19,10 +19,10 @@ constexpr int kTorso = static_cast<int>(body::Part::kTorsoUL);  // names the reg
 constexpr int kLeastForSixSeeds = 20;  // ellipsoids of the body; with fewer the torso starts as one cluster
 
 /// The part that names the region of each part.
-using Homes = std::array<int, body::kPartCount>;
+using Homes = std::array<int, body::kAllPartCount>;
 
 /// The homes of all parts, joined until the parts that occur have at most `most` regions.
-Homes homes(const std::array<bool, body::kPartCount>& occurs, int most) {
+Homes homes(const std::array<bool, body::kAllPartCount>& occurs, int most) {
   using body::Part;
   constexpr std::array<std::pair<Part, Part>, 9> kJoin = {{{Part::kForearmL, Part::kUpperArmL},
                                                            {Part::kForearmR, Part::kUpperArmR},
@@ -34,10 +34,10 @@ Homes homes(const std::array<bool, body::kPartCount>& occurs, int most) {
                                                            {Part::kThighL, Part::kTorsoUL},
                                                            {Part::kThighR, Part::kTorsoUL}}};
   Homes home{};
-  for (int p = 0; p < body::kPartCount; ++p) home[p] = body::is_torso(static_cast<Part>(p)) ? kTorso : p;
+  for (int p = 0; p < body::kAllPartCount; ++p) home[p] = body::is_torso(static_cast<Part>(p)) ? kTorso : p;
   const auto regions = [&] {
     std::uint32_t used = 0;
-    for (int p = 0; p < body::kPartCount; ++p)
+    for (int p = 0; p < body::kAllPartCount; ++p)
       if (occurs[p]) used |= 1u << home[p];
     return std::popcount(used);
   };
@@ -45,20 +45,23 @@ Homes homes(const std::array<bool, body::kPartCount>& occurs, int most) {
     if (regions() <= most) break;
     std::replace(home.begin(), home.end(), static_cast<int>(from), static_cast<int>(to));
   }
+  // The parts of a thing are sorted by area: the smallest ones join the largest.
+  for (int p = body::kAllPartCount - 1; p > static_cast<int>(Part::kThing) && regions() > most; --p)
+    home[p] = static_cast<int>(Part::kThing);
   return home;
 }
 
 std::vector<Vec3> part_means(const Items& items, const Region& region) {
-  std::array<Vec3, body::kPartCount> sum;
+  std::array<Vec3, body::kAllPartCount> sum;
   sum.fill(Vec3::Zero());
-  std::array<double, body::kPartCount> weight{};
+  std::array<double, body::kAllPartCount> weight{};
   for (const Index i : region.items) {
     const int p = static_cast<int>(items.part[i]);
     sum[p] += items.weight[i] * items.where[i];
     weight[p] += items.weight[i];
   }
   std::vector<Vec3> means;
-  for (int p = 0; p < body::kPartCount; ++p)
+  for (int p = 0; p < body::kAllPartCount; ++p)
     if (weight[p] > 0.0) means.push_back(sum[p] / weight[p]);
   return means;
 }
@@ -96,16 +99,16 @@ Items triangle_items(const engine::Context& context, const LabeledSkin& skin) {
 }
 
 std::vector<Region> make_regions(const Items& items, int most) {
-  std::array<bool, body::kPartCount> occurs{};
+  std::array<bool, body::kAllPartCount> occurs{};
   for (const body::Part part : items.part) occurs[static_cast<int>(part)] = true;
   const Homes home = homes(occurs, most);
-  std::array<Region, body::kPartCount> all;
+  std::array<Region, body::kAllPartCount> all;
   for (Index i = 0; i < items.where.size(); ++i)
     all[home[static_cast<int>(items.part[i])]].items.push_back(i);
-  for (int p = 0; p < body::kPartCount; ++p)
+  for (int p = 0; p < body::kAllPartCount; ++p)
     if (occurs[p]) all[home[p]].parts |= 1u << p;
   std::vector<Region> regions;
-  for (int p = 0; p < body::kPartCount; ++p) {
+  for (int p = 0; p < body::kAllPartCount; ++p) {
     Region& region = all[p];
     if (region.items.empty()) continue;
     region.torso = p == kTorso;

@@ -27,9 +27,9 @@ engine::Result<proxy::BodyProxy> enclose_checked(const engine::Context& context,
   // The gap is centimeters anyway, so that a volume within a percent of the least will do.
   const MveeOptions loose{.volume_tolerance = 1e-2, .min_radius_m = kLeastRadius * skin.stature_m};
   const std::vector<std::uint32_t> bits = holders(skin);
-  std::vector<std::vector<Vec3>> points(body::kPartCount);
-  std::vector<geometry::Ellipsoid> shapes(body::kPartCount);
-  engine::parallel_for(context, body::kPartCount, 1, [&](std::size_t part, std::size_t) {
+  std::vector<std::vector<Vec3>> points(body::kAllPartCount);
+  std::vector<geometry::Ellipsoid> shapes(body::kAllPartCount);
+  engine::parallel_for(context, body::kAllPartCount, 1, [&](std::size_t part, std::size_t) {
     if (!(parts & 1u << part)) return;
     for (std::size_t v = 0; v < bits.size(); ++v)
       if (bits[v] & 1u << part) points[part].push_back(skin.mesh.positions[v]);

@@ -19,7 +19,7 @@ constexpr double kCautious = 1.35;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();  // error of a cluster never fitted
 
 body::Part majority_part(const Items& items, std::span<const Index> members) {
-  std::array<std::size_t, body::kPartCount> votes{};
+  std::array<std::size_t, body::kAllPartCount> votes{};
   for (const Index i : members) ++votes[static_cast<int>(items.part[i])];
   return static_cast<body::Part>(std::max_element(votes.begin(), votes.end()) - votes.begin());
 }

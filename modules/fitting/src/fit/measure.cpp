@@ -169,7 +169,7 @@ Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& p
   });
   Measured result;
   result.accuracy.gap_m = gaps(probes, proxy, -1);
-  for (int part = 0; part < body::kPartCount; ++part) result.gap_of_part[part] = gaps(probes, proxy, part);
+  for (int part = 0; part < body::kAllPartCount; ++part) result.gap_of_part[part] = gaps(probes, proxy, part);
   measure_skin(context, proxy, skin, parts, tolerance_m, result.accuracy);
   measure_interior(context, proxy, skin, distance, parts, result.accuracy);
   return result;

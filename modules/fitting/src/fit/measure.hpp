@@ -15,7 +15,7 @@ using geometry::Vec3;
 /// Accuracy of the whole proxy and of each part.
 struct Measured {
   FitAccuracy accuracy;
-  std::array<Spread, body::kPartCount> gap_of_part{};
+  std::array<Spread, body::kAllPartCount> gap_of_part{};
 };
 
 /// Samples the proxy's surface, the skin of the wanted parts, and the interior. Deterministic, parallel.

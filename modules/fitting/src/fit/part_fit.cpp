@@ -20,7 +20,7 @@ struct Nearest {
   std::size_t ellipsoid = 0;
 };
 
-using OfParts = std::array<std::vector<std::size_t>, body::kPartCount>;
+using OfParts = std::array<std::vector<std::size_t>, body::kAllPartCount>;
 
 std::vector<Nearest> find_nearest(const engine::Context& context, const LabeledSkin& skin,
                                   std::span<const proxy::ProxyEllipsoid> ellipsoids, const OfParts& of_part) {
@@ -54,7 +54,7 @@ std::vector<PartFit> part_fits(const engine::Context& context, const LabeledSkin
                                std::uint32_t parts) {
   const std::vector<proxy::ProxyEllipsoid>& ellipsoids = fitted.ellipsoids;
   std::vector<double> sum(ellipsoids.size(), 0.0), count(ellipsoids.size(), 0.0);
-  std::array<PartFit, body::kPartCount> all{};
+  std::array<PartFit, body::kAllPartCount> all{};
   OfParts of_part;
   for (std::size_t k = 0; k < ellipsoids.size(); ++k)
     of_part[static_cast<int>(ellipsoids[k].part)].push_back(k);
@@ -66,7 +66,7 @@ std::vector<PartFit> part_fits(const engine::Context& context, const LabeledSkin
     count[nearest[v].ellipsoid] += 1.0;
   }
   std::vector<PartFit> result;
-  for (int part = 0; part < body::kPartCount; ++part) {
+  for (int part = 0; part < body::kAllPartCount; ++part) {
     PartFit& fit = all[part];
     if (fit.vertices == 0 || !((parts >> part) & 1u)) continue;
     fit.part = static_cast<body::Part>(part);

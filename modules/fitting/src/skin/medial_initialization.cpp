@@ -15,12 +15,13 @@ using Balls = std::vector<InscribedBall>;
 
 /// Allocates by greedy highest averages: each ellipsoid goes to the part with the most demand for each it
 /// has.
-std::array<int, body::kPartCount> share(const std::array<double, body::kPartCount>& demand_of, int count) {
-  std::array<int, body::kPartCount> given{};
+std::array<int, body::kAllPartCount> share(const std::array<double, body::kAllPartCount>& demand_of,
+                                           int count) {
+  std::array<int, body::kAllPartCount> given{};
   for (int n = 0; n < count; ++n) {
     int best = 0;
     double most = 0.0;
-    for (int p = 0; p < body::kPartCount; ++p) {
+    for (int p = 0; p < body::kAllPartCount; ++p) {
       const double need = given[p] == 0 && demand_of[p] > 0.0 ? 1e300 : demand_of[p] / (given[p] + 0.5);
       if (need > most) most = need, best = p;
     }
@@ -92,8 +93,8 @@ std::vector<proxy::ProxyEllipsoid> medial_initialization(const engine::Context& 
                                                          const SkinSource& source, int count) {
   const LabeledSkin& skin = source.skin;
   const std::size_t samples = std::clamp<std::size_t>(40 * static_cast<std::size_t>(count), 1500, 12000);
-  std::array<Balls, body::kPartCount> of_part;
-  std::array<double, body::kPartCount> demand_of{};
+  std::array<Balls, body::kAllPartCount> of_part;
+  std::array<double, body::kAllPartCount> demand_of{};
   const SkinSource whole{skin, kAllParts, source.buried};
   for (const InscribedBall& b : inscribed_balls(context, whole, samples, 3)) {
     of_part[static_cast<int>(b.part)].push_back(b);
@@ -108,13 +109,13 @@ std::vector<proxy::ProxyEllipsoid> medial_initialization(const engine::Context& 
   const auto wanted = [&](int p) { return ((source.parts >> p) & 1u) != 0; };
   auto given = share(demand_of, count);
   int ours = 0;
-  for (int p = 0; p < body::kPartCount; ++p) {
+  for (int p = 0; p < body::kAllPartCount; ++p) {
     if (!wanted(p)) demand_of[p] = given[p] = 0;
     ours += given[p];
   }
   if (ours == 0) given = share(demand_of, 1);  // count is smaller than the number of parts
   std::vector<proxy::ProxyEllipsoid> ellipsoids;
-  for (int p = 0; p < body::kPartCount; ++p) {
+  for (int p = 0; p < body::kAllPartCount; ++p) {
     if (given[p] == 0) continue;
     const auto more = ellipsoids_from_balls(context, of_part[p], given[p], skin.stature_m);
     ellipsoids.insert(ellipsoids.end(), more.begin(), more.end());

@@ -44,10 +44,10 @@ void grow_balls(PartSkin& part, double stature_m) {
 
 std::vector<PartSkin> sample_parts(const engine::Context& context, const LabeledSkin& skin,
                                    const std::vector<Region>& regions, std::size_t count) {
-  std::array<std::size_t, body::kPartCount> region_of;
+  std::array<std::size_t, body::kAllPartCount> region_of;
   region_of.fill(regions.size());
   for (std::size_t r = 0; r < regions.size(); ++r)
-    for (int p = 0; p < body::kPartCount; ++p)
+    for (int p = 0; p < body::kAllPartCount; ++p)
       if ((regions[r].parts >> p) & 1u) region_of[p] = r;
   std::vector<PartSkin> parts(regions.size());
   for (const geometry::SurfaceSample& s : geometry::sample_surface(skin.mesh, count, 3)) {

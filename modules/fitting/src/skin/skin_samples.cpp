@@ -68,7 +68,7 @@ double shrink_ball(const geometry::MeshDistance& distance, const Vec3& p, const 
 
 SkinSource make_skin_source(const engine::Context& context, const LabeledSkin& skin, std::uint32_t parts) {
   std::uint32_t torso = 0;
-  for (int p = 0; p < body::kPartCount; ++p)
+  for (int p = 0; p < body::kAllPartCount; ++p)
     if (body::is_torso(static_cast<body::Part>(p))) torso |= 1u << p;
   if (parts & torso) parts |= torso;
   return {skin, parts, buried_triangles(context, skin.mesh, *skin.distance, skin.stature_m)};

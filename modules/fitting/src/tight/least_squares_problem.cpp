@@ -269,8 +269,8 @@ Neighborhood LeastSquaresProblem::around(std::span<const std::uint32_t> ellipsoi
   return found;
 }
 
-std::vector<std::array<std::uint32_t, body::kPartCount>> LeastSquaresProblem::skin_of_each() const {
-  std::vector<std::array<std::uint32_t, body::kPartCount>> held(ellipsoids_);
+std::vector<std::array<std::uint32_t, body::kAllPartCount>> LeastSquaresProblem::skin_of_each() const {
+  std::vector<std::array<std::uint32_t, body::kAllPartCount>> held(ellipsoids_);
   for (std::size_t i = 0; i < owner_.size(); ++i)
     if (!one_sided_[i] && std::fabs(target_[i]) < kSkin && distance_[owner_[i]] < loss_.far)
       ++held[ellipsoid_of_pair_[owner_[i]]][static_cast<std::size_t>(part_[i])];

@@ -61,7 +61,7 @@ class LeastSquaresProblem {
   /// distance to the nearest of the other ellipsoids.
   Neighborhood around(std::span<const std::uint32_t> ellipsoids, std::span<const Nearest3> ranked) const;
   /// #E: the number of samples within 5 mm of the skin that an ellipsoid owns, by part.
-  std::vector<std::array<std::uint32_t, body::kPartCount>> skin_of_each() const;
+  std::vector<std::array<std::uint32_t, body::kAllPartCount>> skin_of_each() const;
   /// #E: the fall of the cost since remember() over the samples that the ellipsoid owned then or owns now.
   std::vector<double> gains() const;
   /// #E: the normal equations of each ellipsoid over the samples that it owns.

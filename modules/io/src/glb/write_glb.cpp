@@ -32,6 +32,7 @@ class SceneWriter {
     animations_.emplace_back();
     animations_.back().name = "drape";
     if (scene_.body) add_body();
+    for (const StillThing& thing : scene_.things) add_thing(thing);
     if (scene_.proxy) add_ellipsoids();
     for (std::size_t k = 0; k < scene_.garments.size(); ++k)
       add_garment(scene_, k, space_, glb_, animations_.front());
@@ -50,20 +51,31 @@ class SceneWriter {
     Json attributes = {{"POSITION", glb_.add_positions(space_.to_file(body.positions))},
                        {"NORMAL", glb_.add_vectors(space_.normals_of(body))}};
     if (scene_.rig) add_skin_attributes(scene_.rig->weights, glb_, attributes);
-    if (!scene_.part.empty()) {
-      std::vector<Vec3f> colors;
-      colors.reserve(scene_.part.size());
-      for (const body::Part part : scene_.part) colors.push_back(to_linear(part_color(part)));
-      attributes["COLOR_0"] = glb_.add_vectors(colors);
-    }
-    const Vec3f base = scene_.part.empty() ? to_linear(std::span(kSkin)) : Vec3f(Vec3f::Ones());
-    const Json primitive = {{"attributes", attributes},
-                            {"indices", glb_.add_triangles(body.triangles)},
-                            {"material", add_material("skin", base, 1.0f, false, glb_)}};
-    Json node = {{"name", "body"},
-                 {"mesh", glb_.add("meshes", {{"name", "body"}, {"primitives", {primitive}}})}};
+    Json node = painted("body", "skin", body, scene_.part, std::move(attributes));
     if (scene_.rig) node["skin"] = add_rig();
     space_.add_top_node(std::move(node), glb_);
+  }
+
+  void add_thing(const StillThing& thing) {
+    Json attributes = {{"POSITION", glb_.add_positions(space_.to_file(thing.mesh->positions))},
+                       {"NORMAL", glb_.add_vectors(space_.normals_of(*thing.mesh))}};
+    space_.add_top_node(painted(thing.name, "thing", *thing.mesh, thing.part, std::move(attributes)), glb_);
+  }
+
+  /// A node with a mesh in the colors of its parts, if it has any.
+  Json painted(const std::string& name, const char* material, const geometry::TriMesh& mesh,
+               std::span<const body::Part> part, Json attributes) {
+    if (!part.empty()) {
+      std::vector<Vec3f> colors;
+      colors.reserve(part.size());
+      for (const body::Part each : part) colors.push_back(to_linear(part_color(each)));
+      attributes["COLOR_0"] = glb_.add_vectors(colors);
+    }
+    const Vec3f base = part.empty() ? to_linear(std::span(kSkin)) : Vec3f(Vec3f::Ones());
+    const Json primitive = {{"attributes", attributes},
+                            {"indices", glb_.add_triangles(mesh.triangles)},
+                            {"material", add_material(material, base, 1.0f, false, glb_)}};
+    return {{"name", name}, {"mesh", glb_.add("meshes", {{"name", name}, {"primitives", {primitive}}})}};
   }
 
   /// Returns the skin. The first clip shares its animation with the garments.
@@ -85,7 +97,7 @@ class SceneWriter {
     for (Vec3f& p : points) p.normalize();
     const Json attributes = {{"POSITION", glb_.add_positions(points)}, {"NORMAL", glb_.add_vectors(points)}};
     const std::size_t indices = glb_.add_triangles(sphere.triangles);
-    std::array<std::size_t, body::kPartCount> mesh_of, count_of{};
+    std::array<std::size_t, body::kAllPartCount> mesh_of, count_of{};
     mesh_of.fill(kNone);
     Json children = Json::array();
     for (std::size_t k = 0; k < scene_.proxy->ellipsoids().size(); ++k) {

@@ -65,8 +65,11 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   load.stop();
 
   engine::StageTimer check(context, out.stages, "check");
-  auto chosen = choose_body(context, *scene, options.mesh, options.person);
+  const bool any = options.shape == Shape::kAny;
+  auto chosen =
+      any ? choose_all(*scene, options.mesh) : choose_body(context, *scene, options.mesh, options.person);
   if (!chosen) return in_file(chosen.error(), file);
+  out.shape = options.shape;
   out.mesh = chosen->name;
   out.warnings = std::move(chosen->warnings);
   out.input_vertices = chosen->shape.positions.size();
@@ -76,8 +79,12 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   if (!repaired) return in_file(repaired.error(), file);
   // A skin with weights stays as it is: they are those of its vertices.
   if (!scene->rig.has_bones)
-    if (auto closed = close_skin(context, chosen->shape, *repaired)) *repaired = std::move(*closed);
-  DetectedFrame detected = detect_frame(repaired->mesh, options, scene->meters_per_unit, scene->up);
+    if (auto closed = close_skin(context, chosen->shape, *repaired)) {
+      *repaired = std::move(closed->repaired);
+      out.made_up = std::move(closed->made_up);
+    }
+  DetectedFrame detected =
+      (any ? frame_of_thing : detect_frame)(repaired->mesh, options, scene->meters_per_unit, scene->up);
   out.frame = detected.frame;
   out.unit = std::move(detected.unit);
   out.up_found_by_extents = detected.up_found_by_extents;

@@ -29,6 +29,14 @@ Actor surface_actor(const proxy::BodyProxy& proxy, const proxy::ProxySurface& su
 
 }  // namespace
 
+void add_things(const Scene& scene, std::vector<Actor>& actors) {
+  for (const StillThing& thing : scene.things) {
+    actors.push_back(make_actor(*thing.mesh, to_linear(part_color(body::Part::kThing)), false));
+    for (std::size_t v = 0; v < thing.part.size(); ++v)
+      actors.back().colors[v] = to_linear(part_color(thing.part[v]));
+  }
+}
+
 Actor body_actor(const Scene& scene, SkinColor color, const std::size_t* frame) {
   const bool moves = frame && !scene.body_frames.empty();
   const Vec3f skin = to_linear(std::span(kSkin));

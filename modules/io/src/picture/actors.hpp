@@ -19,6 +19,9 @@ void add_ellipsoids(const proxy::BodyProxy& proxy, bool shades, std::vector<Acto
 /// Adds the proxy's surface if the scene has it, else its ellipsoids.
 void add_proxy(const Scene& scene, std::vector<Actor>& actors);
 
+/// Adds the things beside the body in the colors of their parts.
+void add_things(const Scene& scene, std::vector<Actor>& actors);
+
 /// Adds all garments at a kept frame. Precondition: every garment has it.
 void add_garments(const Scene& scene, std::size_t frame, std::vector<Actor>& actors);
 

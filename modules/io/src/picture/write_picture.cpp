@@ -42,6 +42,7 @@ std::vector<Actor> actors_of(const Scene& scene, const std::size_t* frame, const
   if (show_proxy) add_proxy(scene, actors);
   if (scene.body && !show_proxy)
     actors.push_back(body_actor(scene, garments ? SkinColor::kPlain : SkinColor::kByPart, frame));
+  if (!show_proxy) add_things(scene, actors);
   if (garments) add_garments(scene, *frame, actors);
   return actors;
 }

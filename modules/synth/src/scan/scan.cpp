@@ -9,6 +9,7 @@
 #include <bodice/geometry/contour.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/synth/body.hpp>
+#include <bodice/synth/thing.hpp>
 
 #include "scan/camera.hpp"
 #include "scan/flaws.hpp"
@@ -110,20 +111,8 @@ class Scanner {
     add("scan", std::move(scan));
   }
 
-  /// The point under the seat of a sitting body.
-  Vec3 seat() const {
-    double low = 1e9;
-    Vec3 pelvis = Vec3::Zero();
-    for (const Joint& joint : body_.joints)
-      if (joint.name == "pelvis") pelvis = joint.position;
-    for (const Vec3& p : body_.mesh.positions)
-      if (std::hypot(p.x() - pelvis.x(), p.z() - pelvis.z()) < 0.15) low = std::min(low, p.y());
-    return {pelvis.x(), low, pelvis.z() + 0.08};
-  }
-
   void sit_on_chair() {
-    TriMesh boards;
-    for (const Box& part : chair(seat() - Vec3(0.0, 0.003, 0.0))) append(box_mesh(part, 0.04), boards);
+    TriMesh boards = make_chair(seat_of(body_) - Vec3(0.0, 0.003, 0.0), 0.04);
     if (kind_ == ScanKind::kChairBeside) {
       add("body", body_.mesh);
       add("chair", std::move(boards));
@@ -186,7 +175,7 @@ class Scanner {
     } else if (kind_ == ScanKind::kFloorJoined) {
       boxes = {{{-0.8, -0.03, -0.8}, {0.8, 0.006, 0.8}}};
     } else if (kind_ == ScanKind::kChairFused) {
-      boxes = chair(seat() + Vec3(0.0, 0.01, 0.0));
+      boxes = chair(seat_of(body_) + Vec3(0.0, 0.01, 0.0));
     } else if (kind_ == ScanKind::kBunAndHem) {
       const Vec3 bun = crown - Vec3(0.0, 0.02, 0.07), hem(0.0, 0.52 * body_.stature_m, 0.0);
       with([bun, hem, alone](const Vec3& p) {

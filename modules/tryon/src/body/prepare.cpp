@@ -9,6 +9,7 @@
 
 #include "body/append.hpp"
 #include "body/load_body.hpp"
+#include "body/refine_thing.hpp"
 #include "body/segment_tasks.hpp"
 
 namespace bodice::tryon {
@@ -18,6 +19,20 @@ using geometry::MeshDistance;
 
 void report(const Progress& progress, std::string_view stage, double fraction) {
   if (progress) progress(stage, fraction);
+}
+
+engine::Result<SegmentedSkin> segment_as_it_is(const engine::Context& context, io::ImportedMesh input,
+                                               const SegmentOptions& options, const Progress& progress) {
+  report(progress, "segment", 0.0);
+  engine::GraphBuilder builder;
+  auto mesh = builder.input<io::ImportedMesh>("body");
+  auto skin = add_segment_tasks(builder, mesh, options);
+  if (!skin) return std::move(skin).error();
+  auto graph = std::move(builder).build();
+  if (!graph) return std::move(graph).error();
+  graph->set(mesh, std::move(input));
+  if (auto run = graph->run(context); !run) return std::move(run).error();
+  return std::move(*graph->take(*skin));
 }
 
 engine::Result<SegmentedSkin> segment_source(const engine::Context& context, const BodySource& source,
@@ -47,7 +62,9 @@ engine::Result<SegmentedSkin> segment_file(const engine::Context& context, const
   report(progress, "load", 0.0);
   auto input = io::import_rigged_body(context, file, options.import);
   if (!input) return std::move(input).error();
-  auto skin = segment_mesh(context, std::move(input->body), options, progress);
+  // The weights of a rig are those of the file's vertices.
+  auto skin =
+      (input->rig ? segment_as_it_is : segment_mesh)(context, std::move(input->body), options, progress);
   if (skin && input->rig) skin->rig = std::make_shared<const rig::Rig>(std::move(input->rig).value());
   if (skin && !input->rig && input->rig.error().code != engine::ErrorCode::kNotFound)
     skin->warnings.push_back({"rig-not-usable", "", input->rig.error().message, input->rig.error().remedy});
@@ -61,16 +78,8 @@ engine::Result<SegmentedSkin> segment_builtin(const engine::Context& context, co
 
 engine::Result<SegmentedSkin> segment_mesh(const engine::Context& context, io::ImportedMesh input,
                                            const SegmentOptions& options, const Progress& progress) {
-  report(progress, "segment", 0.0);
-  engine::GraphBuilder builder;
-  auto mesh = builder.input<io::ImportedMesh>("body");
-  auto skin = add_segment_tasks(builder, mesh, options);
-  if (!skin) return std::move(skin).error();
-  auto graph = std::move(builder).build();
-  if (!graph) return std::move(graph).error();
-  graph->set(mesh, std::move(input));
-  if (auto run = graph->run(context); !run) return std::move(run).error();
-  return std::move(*graph->take(*skin));
+  if (input.shape == io::Shape::kAny) refine_thing(input);
+  return segment_as_it_is(context, std::move(input), options, progress);
 }
 
 fitting::LabeledSkin labeled(const SegmentedSkin& skin) {

@@ -94,6 +94,10 @@ engine::Result<void> give_rig(const engine::Context& context, const BodySource& 
     skin.rig = std::make_shared<const rig::Rig>(std::move(rig).value());
     return {};
   }
+  if (skin.input.shape == io::Shape::kAny)
+    return of_body({engine::ErrorCode::kInvalidArgument, "A thing without bones has no joints to find.",
+                    "Give a file with a skeleton, or read it as a person."},
+                   skin.input);
   auto found = rigging::make_rig(context, skin.input.skin, skin.anatomy);
   if (!found) return of_body(std::move(found).error(), skin.input);
   skin.rig = std::make_shared<const rig::Rig>(std::move(found->rig));

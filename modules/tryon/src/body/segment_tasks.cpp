@@ -4,9 +4,11 @@
 #include <string_view>
 #include <utility>
 
+#include <bodice/anatomy/thing.hpp>
 #include <bodice/engine/stage_timer.hpp>
 
 #include "body/load_body.hpp"
+#include "body/made_up.hpp"
 #include "body/stand_upright.hpp"
 
 namespace bodice::tryon {
@@ -44,6 +46,7 @@ std::shared_ptr<SegmentedSkin> join_skin(const engine::Context& context, const i
   append(skin->stages, anatomy.stages);
   append(skin->stages, field.stages);
   append(skin->warnings, anatomy.warnings);
+  warn_of_made_up(mesh, anatomy, skin->warnings);
   drop_repeated_holes(skin->warnings);
   if (stand_upright(skin->input, skin->anatomy))
     skin->distance = std::make_shared<const MeshDistance>(context, skin->input.skin);
@@ -62,7 +65,8 @@ engine::Result<engine::Output<std::shared_ptr<SegmentedSkin>>> add_segment_tasks
       "anatomy",
       [known = anatomy::Options{.profile = *profile, .force = options.force}](
           const engine::Context& context, const io::ImportedMesh& body) -> engine::Result<anatomy::Anatomy> {
-        auto found = anatomy::analyze(context, body.skin, known);
+        auto found = body.shape == io::Shape::kAny ? anatomy::analyze_thing(context, body.skin)
+                                                   : anatomy::analyze(context, body.skin, known);
         if (!found) return of_body(std::move(found).error(), body);
         return found;
       },

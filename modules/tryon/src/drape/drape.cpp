@@ -66,8 +66,8 @@ struct Bodies {
   MovingBody met, judged;
 };
 
-engine::Result<Bodies> make_bodies(const PreparedBody& body, bool moves) {
-  auto met = MovingBody::make(body.skin, body.fit.proxy, moves);
+engine::Result<Bodies> make_bodies(const PreparedBody& body, const proxy::BodyProxy& with_props, bool moves) {
+  auto met = MovingBody::make(body.skin, with_props, moves);
   if (!met) return std::move(met).error();
   auto judged = MovingBody::make(body.skin, body.fit.proxy, moves);
   if (!judged) return std::move(judged).error();
@@ -136,6 +136,7 @@ class Drape {
       report.finite = report.finite && step.finite;
       const Penetration depth = penetration(context_, body_.distance(context_), positions_);
       add_frame(frame, depth, report);
+      add_frame(context_, frame, positions_, options_.props, report.props);
       add_cloth(step, report);
       offer(frame, depth);
       if (progress) progress("drape", static_cast<double>(frame) / options_.frames);
@@ -248,7 +249,14 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.crossings_start = geometry::find_crossings(all->mesh.positions, all->mesh.triangles).size();
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
-  auto bodies = make_bodies(body, options.motion != nullptr);
+  if (!options.props.empty()) {
+    auto joined = with_props(body.fit.proxy, options.props);
+    if (!joined) return std::move(joined).error();
+    result.proxy = std::move(joined).value();
+    report.props = describe(options.props);
+  }
+  const proxy::BodyProxy& met = result.proxy ? *result.proxy : body.fit.proxy;
+  auto bodies = make_bodies(body, met, options.motion != nullptr);
   if (!bodies) return std::move(bodies).error();
   MovingBody& moving = bodies->met;
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
@@ -265,9 +273,10 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
 
   report.pierced_share =
       pierced_share(context, moving.distance(context), drape.positions(), all->mesh.triangles);
-  report.inside_union =
-      moving.moves() ? count_inside(context, body.fit.proxy, moving.poser()->posed(), drape.positions())
-                     : count_inside(context, body.fit.proxy, drape.positions());
+  add_cloth(context, drape.positions(), all->mesh.triangles, options.props, report.props);
+  report.inside_union = moving.moves()
+                            ? count_inside(context, met, moving.poser()->posed(), drape.positions())
+                            : count_inside(context, met, drape.positions());
   report.hash = solver->hash();
   report.warnings.insert(report.warnings.end(), solver->warnings().begin(), solver->warnings().end());
   result.garments = recorder.take();

@@ -58,14 +58,14 @@ struct Tube {
 };
 
 /// The mean girth of each part. The halves of a ring of the torso both have the ring's.
-std::array<double, body::kPartCount> girths_of(const geometry::TriMesh& skin,
-                                               std::span<const body::Part> part) {
+std::array<double, body::kAllPartCount> girths_of(const geometry::TriMesh& skin,
+                                                  std::span<const body::Part> part) {
   const auto whole = [](body::Part p) { return body::is_torso(p) ? std::min(p, body::mirrored(p)) : p; };
-  std::array<Tube, body::kPartCount> tubes;
+  std::array<Tube, body::kAllPartCount> tubes;
   for (const geometry::Triangle& t : skin.triangles)
     tubes[static_cast<std::size_t>(whole(part[t[0]]))].add(skin.positions[t[0]], skin.positions[t[1]],
                                                            skin.positions[t[2]]);
-  std::array<double, body::kPartCount> girths{};
+  std::array<double, body::kAllPartCount> girths{};
   for (std::size_t p = 0; p < girths.size(); ++p)
     girths[p] = tubes[static_cast<std::size_t>(whole(static_cast<body::Part>(p)))].girth_m();
   return girths;
@@ -111,10 +111,10 @@ std::vector<PartEase> measure_ease(const engine::Context& context, const geometr
                     longest_strain(rest, now, corners), part_at(skin, part, below)};
     }
   });
-  const std::array<double, body::kPartCount> girths = girths_of(skin, part);
+  const std::array<double, body::kAllPartCount> girths = girths_of(skin, part);
   std::vector<PartEase> eases;
   std::vector<Middle> on_part;
-  for (int k = 0; k < body::kPartCount; ++k) {
+  for (int k = 0; k < body::kAllPartCount; ++k) {
     on_part.clear();
     for (const Middle& m : middles)
       if (m.area_m2 > 0.0 && m.part == static_cast<body::Part>(k)) on_part.push_back(m);

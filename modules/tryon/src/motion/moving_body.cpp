@@ -1,6 +1,9 @@
 #include "motion/moving_body.hpp"
 
+#include <algorithm>
+
 #include <bodice/engine/message.hpp>
+#include <bodice/proxy/add_things.hpp>
 
 namespace bodice::tryon {
 
@@ -15,13 +18,17 @@ engine::Result<MovingBody> MovingBody::make(const SegmentedSkin& skin, const pro
                          "Read a body that has one, or give it one with tryon::give_rig()."};
   auto poser = binding::Poser::make(proxy);
   if (!poser) return std::move(poser).error();
-  if (poser->joints() != skin.rig->skeleton.joints.size())
+  const std::size_t joints = skin.rig->skeleton.joints.size();
+  const bool has_still =
+      poser->joints() == joints + 1 && proxy.binding()->joint_names.back() == proxy::kStillJoint;
+  if (poser->joints() != joints && !has_still)
     return engine::Error{engine::ErrorCode::kInvalidArgument,
-                         engine::message("The body's rig has ", skin.rig->skeleton.joints.size(),
-                                         " joints, but its proxy is bound to ", poser->joints(), "."),
+                         engine::message("The body's rig has ", joints, " joints, but its proxy is bound to ",
+                                         poser->joints(), "."),
                          "Bind the proxy to the rig that moves the skin."};
   moving.poser_.emplace(std::move(poser).value());
-  moving.skinning_.assign(moving.poser_->joints(), rig::identity());
+  moving.skinning_.assign(joints, rig::identity());
+  if (has_still) moving.with_still_.assign(joints + 1, rig::identity());
   moving.posed_ = skin.input.skin;
   moving.is_skinned_ = true;
   return moving;
@@ -30,7 +37,12 @@ engine::Result<MovingBody> MovingBody::make(const SegmentedSkin& skin, const pro
 engine::Result<void> MovingBody::pose(const engine::Context& context, std::span<const rig::Affine> joints,
                                       double dt_s, const binding::PoseOptions& options) {
   if (!moves()) return {};
-  if (auto posed = poser_->pose(context, joints, options); !posed) return posed;
+  std::span<const rig::Affine> all = joints;
+  if (!with_still_.empty() && joints.size() + 1 == with_still_.size()) {
+    std::ranges::copy(joints, with_still_.begin());
+    all = with_still_;
+  }
+  if (auto posed = poser_->pose(context, all, options); !posed) return posed;
   if (!collider_.pose(poser_->posed(), dt_s))
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
                          "In this pose the body has no shape that a collider takes.",

@@ -47,6 +47,7 @@ class MovingBody {
   collision::Collider collider_;
   std::optional<binding::Poser> poser_;
   std::vector<rig::Affine> skinning_;               // #J
+  std::vector<rig::Affine> with_still_;             // #J + 1; empty without things on proxy::kStillJoint
   geometry::TriMesh posed_;                         // empty where the body stands still
   bool is_skinned_ = false;                         // whether posed_ is of the pose in force
   std::optional<geometry::MeshDistance> distance_;  // of posed_, built at the first call

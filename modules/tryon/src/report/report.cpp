@@ -28,6 +28,18 @@ Json spread_mm(const fitting::Spread& s) {
   return {{"mean", mm(s.mean)}, {"p95", mm(s.p95)}, {"max", mm(s.max)}};
 }
 
+/// The share of the skin's area that closes holes of the file.
+double made_up_percent(const io::ImportedMesh& input) {
+  if (input.made_up.empty()) return 0.0;
+  double all = 0.0, made_up = 0.0;
+  for (std::size_t t = 0; t < input.skin.triangles.size(); ++t) {
+    const double area = area_vector(input.skin, t).norm();
+    all += area;
+    for (const geometry::Index v : input.skin.triangles[t]) made_up += input.made_up[v] ? area / 3.0 : 0.0;
+  }
+  return all > 0.0 ? 100.0 * made_up / all : 0.0;
+}
+
 Json input_json(const io::ImportedMesh& input) {
   return {{"file", input.file.string()},
           {"mesh", input.mesh},
@@ -39,18 +51,43 @@ Json input_json(const io::ImportedMesh& input) {
           {"dropped", input.repair.dropped_vertices},
           {"dropped_triangles", input.repair.dropped_triangles},
           {"components", input.repair.components},
-          {"boundary_edges", input.repair.boundary_edges}};
+          {"boundary_edges", input.repair.boundary_edges},
+          {"made_up_percent", made_up_percent(input)}};
 }
 
-Json parts_json(const fitting::FitResult& fit) {
+bool is_thing(const SegmentedSkin& skin) {
+  return skin.input.shape == io::Shape::kAny;
+}
+
+Json vector_json(const geometry::Vec3& v) {
+  return {v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};
+}
+
+/// Where a part lies, in the file's units and axes: the middle and the size of its box.
+void add_box(const SegmentedSkin& skin, body::Part part, Json& line) {
+  geometry::Box box;
+  for (std::size_t v = 0; v < skin.anatomy.part.size(); ++v)
+    if (skin.anatomy.part[v] == part) box.extend(skin.input.frame.to_file(skin.input.skin.positions[v]));
+  line["center"] = vector_json(box.center());
+  line["size"] = vector_json(box.size());
+}
+
+/// A person's stature, or how high a thing is as it stands.
+double height_m(const SegmentedSkin& skin) {
+  return is_thing(skin) ? geometry::bounding_box(skin.input.skin.positions).size().y()
+                        : skin.anatomy.stature_m;
+}
+
+Json parts_json(const PreparedBody& body) {
   Json parts = Json::array();
-  for (const fitting::PartFit& part : fit.parts) {
+  for (const fitting::PartFit& part : body.fit.parts) {
     Json line = {
         {"name", body::name(part.part)}, {"vertices", part.vertices}, {"ellipsoids", part.ellipsoids}};
     if (const auto& e = part.cluster_error)
       line["cluster_error_mm"] = {{"mean", mm(e->mean_m)}, {"max", mm(e->max_m)}};
     line["radial_error_mm"] = {{"mean", mm(part.radial_error_mean_m)}, {"max", mm(part.radial_error_max_m)}};
     line["gap_mm"] = spread_mm(part.gap_m);
+    if (is_thing(body.skin)) add_box(body.skin, part.part, line);
     parts.push_back(std::move(line));
   }
   return parts;
@@ -58,6 +95,7 @@ Json parts_json(const fitting::FitResult& fit) {
 
 Json landmarks_json(const SegmentedSkin& skin) {
   Json landmarks = Json::array();
+  if (is_thing(skin)) return landmarks;
   for (const body::Landmark& landmark : skin.anatomy.landmarks) {
     const geometry::Vec3 p = skin.input.frame.to_file(landmark.position);
     landmarks.push_back({{"name", body::name(landmark.id)},
@@ -132,6 +170,21 @@ Json kept_json(std::span<const KeptFrame> frames) {
   return list;
 }
 
+Json props_json(std::span<const PropReport> props) {
+  Json list = Json::array();
+  for (const PropReport& p : props)
+    list.push_back({{"name", p.name},
+                    {"ellipsoids", p.ellipsoids},
+                    {"gap_mm", spread_mm(p.accuracy.gap_m)},
+                    {"penetration",
+                     {{"count_over_1mm", p.over_1mm},
+                      {"max_mm", mm(p.deepest_m)},
+                      {"end_mm", mm(p.end_m)},
+                      {"worst_frame", p.worst_frame},
+                      {"pierced_area_percent", p.pierced_share * 100.0}}}});
+  return list;
+}
+
 Json drape_json(const DrapeReport& d) {
   return {{"garments", garments_json(d.garments)},
           {"fabric", d.fabric},
@@ -172,7 +225,8 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
   Json report = {{"program", run.program},
                  {"command", run.command},
                  {"input", input_json(body.skin.input)},
-                 {"height_m", body.skin.anatomy.stature_m},
+                 {"shape", is_thing(body.skin) ? "any" : "person"},
+                 {"height_m", height_m(body.skin)},
                  {"tier", proxy::name(fit.proxy.tier())},
                  {"threads", run.threads},
                  {"seed", run.seed},
@@ -180,12 +234,13 @@ std::string report_json(const PreparedBody& body, const DrapeReport* drape, cons
                  {"ellipsoids", fit.proxy.ellipsoids().size()},
                  {"bytes", fit.proxy.bytes()},
                  {"mu_mm", {{"torso", mm(fit.mu_torso_m)}, {"limbs", mm(fit.mu_limbs_m)}}},
-                 {"parts", parts_json(fit)},
+                 {"parts", parts_json(body)},
                  {"landmarks", landmarks_json(body.skin)},
                  {"accuracy", accuracy},
                  {"warnings", warnings},
                  {"stages", stages}};
   if (drape) report["drape"] = drape_json(*drape);
+  if (drape && !drape->props.empty()) report["drape"]["props"] = props_json(drape->props);
   if (drape && drape->fit_map) report["drape"]["fit_map"] = fit_map_json(*drape->fit_map);
   if (drape && !drape->kept.empty()) {
     report["drape"]["ramp_s"] = drape->ramp_s;

@@ -1,4 +1,4 @@
-// The 15 parts of a body and their names.
+// The 15 parts of a body, those of things that are no body, and their names.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 namespace bodice::body {
 
 /// A part of the body. Left and right are the body's own. The letters after kTorso are upper, middle or
-/// lower, then left or right. A forearm includes the hand, a calf the foot, the head the neck.
+/// lower, then left or right. A forearm includes the hand, a calf the foot, the head the neck. From kThing on
+/// there are kThingPartCount parts of a thing, by falling area.
 enum class Part : std::uint8_t {
   kHead,
   kTorsoUL,
@@ -26,31 +27,45 @@ enum class Part : std::uint8_t {
   kThighR,
   kCalfL,
   kCalfR,
+  kThing,
 };
 
-inline constexpr int kPartCount = 15;
+inline constexpr int kPartCount = 15;                               ///< of a body
+inline constexpr int kThingPartCount = 16;                          ///< of a thing, at most
+inline constexpr int kAllPartCount = kPartCount + kThingPartCount;  ///< of bodies and things
 
-inline constexpr std::array<std::string_view, kPartCount> kPartNames = {
+inline constexpr std::array<std::string_view, kAllPartCount> kPartNames = {
     "head",        "torso_ul",  "torso_ur",  "torso_ml", "torso_mr", "torso_ll", "torso_lr", "upper_arm_l",
-    "upper_arm_r", "forearm_l", "forearm_r", "thigh_l",  "thigh_r",  "calf_l",   "calf_r"};
+    "upper_arm_r", "forearm_l", "forearm_r", "thigh_l",  "thigh_r",  "calf_l",   "calf_r",   "part_1",
+    "part_2",      "part_3",    "part_4",    "part_5",   "part_6",   "part_7",   "part_8",   "part_9",
+    "part_10",     "part_11",   "part_12",   "part_13",  "part_14",  "part_15",  "part_16"};
 
 constexpr std::string_view name(Part part) {
   return kPartNames[static_cast<int>(part)];
 }
 
 constexpr std::optional<Part> part_from_name(std::string_view text) {
-  for (int i = 0; i < kPartCount; ++i)
+  for (int i = 0; i < kAllPartCount; ++i)
     if (kPartNames[i] == text) return static_cast<Part>(i);
   return std::nullopt;
+}
+
+/// Part number `index` of a thing, from 0.
+constexpr Part thing_part(int index) {
+  return static_cast<Part>(static_cast<int>(Part::kThing) + index);
+}
+
+constexpr bool is_of_thing(Part part) {
+  return part >= Part::kThing;
 }
 
 constexpr bool is_torso(Part part) {
   return part >= Part::kTorsoUL && part <= Part::kTorsoLR;
 }
 
-/// The same part on the other side; the head is its own mirror.
+/// The same part on the other side; the head is its own mirror, as is each part of a thing.
 constexpr Part mirrored(Part part) {
-  if (part == Part::kHead) return part;
+  if (part == Part::kHead || is_of_thing(part)) return part;
   const int i = static_cast<int>(part) - 1;
   return static_cast<Part>((i ^ 1) + 1);
 }

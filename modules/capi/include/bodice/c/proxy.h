@@ -72,6 +72,8 @@ BODICE_STABLE bodice_status bodice_proxy_get_bind(const bodice_proxy* proxy, uin
 
 /** Number of parts of a body, and the name of one, such as "forearm_l"; null if there is no such part. */
 enum { BODICE_PARTS = 15 };
+/** The same with the parts of things that are no person, "part_1" to "part_16". */
+enum { BODICE_ALL_PARTS = 31 };
 BODICE_STABLE const char* bodice_part_name(int32_t part);
 
 #ifdef __cplusplus

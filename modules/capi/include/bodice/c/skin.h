@@ -34,12 +34,18 @@ BODICE_INLINE bodice_rig bodice_default_rig(void) {
   return rig;
 }
 
+/** What a mesh is read as: a person, or anything else: a chair, a dog, a hand. */
+enum { BODICE_SHAPE_PERSON = 0, BODICE_SHAPE_ANY = 1 };
+
 /** How a mesh becomes a skin. */
 typedef struct bodice_skin_options {
   bodice_head head;
   const bodice_rig* rig; /**< the bones that move the body; null: none, or those of the file */
   int32_t find_rig;      /**< 1: a body without bones gets a skeleton and weights; default 0 */
-  int32_t reserved;
+  /** BODICE_SHAPE_PERSON (default), or BODICE_SHAPE_ANY: the whole mesh, without landmarks and with the parts
+   * "part_1" to "part_16"; a file without a unit is in meters. Skins of anything can be fitted and queried,
+   * but neither measured nor rigged. */
+  int32_t shape;
   /** Called now and then with the name of the stage, from any thread, never twice at a time; any value but 0
    * cancels. May be null. */
   int32_t (*progress)(void* host, const char* stage);

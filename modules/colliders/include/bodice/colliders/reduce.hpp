@@ -45,7 +45,7 @@ struct SurfaceError {
 /// The error of the whole collider, and of each part's skin.
 struct ReductionCost {
   SurfaceError whole;
-  std::array<SurfaceError, body::kPartCount> of_part;
+  std::array<SurfaceError, body::kAllPartCount> of_part;
 };
 
 /// The cost of shapes: a point's distance is its least signed distance to any of them, as engines have it.

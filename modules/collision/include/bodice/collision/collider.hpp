@@ -87,7 +87,7 @@ struct ResolveOptions {
 /// Counts of what a response did to a set of particles; add() merges those of two sets.
 struct ContactReport {
   std::uint64_t contacts = 0;
-  std::uint64_t contacts_by_part[body::kPartCount] = {};
+  std::uint64_t contacts_by_part[body::kAllPartCount] = {};
   std::uint64_t unresolved = 0;      ///< still inside at the end; zero but for kPaper
   std::uint64_t pending = 0;         ///< held back by max_push_m before they are out
   std::uint64_t pinched = 0;         ///< put midway where two surfaces leave less room than the thickness

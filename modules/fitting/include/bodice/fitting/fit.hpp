@@ -33,8 +33,8 @@ struct FittedPart {
   std::span<const proxy::ProxyEllipsoid> ellipsoids;
 };
 
-/// A bit for each part: the whole body.
-inline constexpr std::uint32_t kAllParts = (1u << body::kPartCount) - 1;
+/// A bit for each part of bodies and things: the whole skin.
+inline constexpr std::uint32_t kAllParts = (1u << body::kAllPartCount) - 1;
 
 /// What a fit should reach, and what it may spend on that. The defaults give tier relief with 89 ellipsoids.
 struct FitOptions {

@@ -2,6 +2,7 @@
 // meshes, its unit and axes are found, and its vertices are welded.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,8 +18,17 @@ namespace bodice::io {
 /// A unit of length of a file; kAuto finds it.
 enum class Unit { kAuto, kMeter, kDecimeter, kCentimeter, kMillimeter, kInch, kFoot };
 
+/// What a file is read as: a person that is looked for in it, or a thing, which is all of it.
+enum class Shape { kPerson, kAny };
+
 /// What the caller knows about a body file; the rest is found.
 struct ImportOptions {
+  /// With kAny nothing is guessed by a person's size and shape: all meshes are taken, the unit is the given
+  /// one, else the file's, else meters, with a warning; up is the given axis, else the file's, else y.
+  Shape shape = Shape::kPerson;
+  /// With kAny: unit and axes of another file with the same coordinates; `unit` and `up` are not
+  /// read.
+  std::optional<geometry::Frame> frame;
   Unit unit = Unit::kAuto;  ///< a given unit is kept, with a warning where the body has no person's size
   std::optional<geometry::Axis> up;  ///< absent: as the file states, else by shape
   std::optional<std::string> mesh;   ///< name of the body's mesh; absent: chosen by shape
@@ -28,9 +38,10 @@ struct ImportOptions {
 /// A repaired mesh in meters, y up, and its relation to the file.
 struct ImportedMesh {
   std::filesystem::path file;
-  std::string mesh;       ///< name of the chosen mesh or group
-  std::string unit;       ///< "m", "cm", ...; "unknown" with a warning when none fits
-  geometry::Frame frame;  ///< maps the file's coordinates to the skin's
+  Shape shape = Shape::kPerson;  ///< what it is analyzed as
+  std::string mesh;              ///< name of the chosen mesh or group
+  std::string unit;              ///< "m", "cm", ...; "unknown" with a warning when none fits
+  geometry::Frame frame;         ///< maps the file's coordinates to the skin's
   /// Whether neither the caller nor the file gave the up axis; landmarks may correct it.
   bool up_found_by_extents = false;
   geometry::TriMesh skin;  ///< the repaired mesh, meters, y up
@@ -38,6 +49,8 @@ struct ImportedMesh {
   /// FBX and Collada are split by corner when they are read; there they are those of the chosen meshes, in
   /// order of first use.
   std::vector<geometry::Index> vertex_of_input;
+  /// #V: 1 where the file has no skin and the vertex closes a hole; empty where the skin was not rebuilt.
+  std::vector<std::uint8_t> made_up;
   geometry::RepairReport repair;
   std::size_t input_vertices = 0, input_triangles = 0;
   std::vector<engine::Warning> warnings;

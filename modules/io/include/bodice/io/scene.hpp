@@ -28,6 +28,13 @@ struct GarmentTrack {
   std::vector<std::array<float, 3>> colors;
 };
 
+/// A thing that stands still beside the body.
+struct StillThing {
+  std::string name;                         ///< "prop", "prop_2", ...
+  const geometry::TriMesh* mesh = nullptr;  ///< meters, y up
+  std::span<const body::Part> part;         ///< #V, or empty
+};
+
 /// What an output shows. It refers to data that must outlive it; all members are optional.
 struct Scene {
   const geometry::TriMesh* body = nullptr;
@@ -41,20 +48,22 @@ struct Scene {
   const proxy::ProxySurface* surface = nullptr;  ///< the proxy's; pictures show it in place of ellipsoids
   std::span<const geometry::Vec3> landmarks;     ///< points that write_stages_picture() marks
   std::vector<GarmentTrack> garments;
+  std::vector<StillThing> things;
   geometry::Frame frame;  ///< unit and axes of the output: those of the input; not used with a rig
   /// Moves the body: write_glb() writes skeleton, weights and clips, in meters, y up.
   const rig::Rig* rig = nullptr;
 };
 
-/// The color of a part, sRGB 0..1. The 15 colors are distinct, for color-blind people as far as 15 can be.
+/// The color of a part, sRGB 0..1. Those of a body's 15 parts are distinct, for color-blind people as far as
+/// 15 can be; parts of things are brown and gray.
 std::span<const float, 3> part_color(body::Part part);
 
-/// Writes binary glTF 2.0 with nodes `body`, `ellipsoids`, `cloth`, `cloth_2`... The cloth's frames are morph
-/// targets with normals; an animation of their weights plays them, linear in between. Ellipsoids that move
-/// have keys of their nodes at the same times. With a rig the body is
-/// skinned by the nodes of its joints, each clip is an animation, and the garments' frames play in the first
-/// one, at their own times. Fails with kInvalidArgument for a scene that cannot be drawn or with parts that
-/// do not fit together, and with kWriteFailed.
+/// Writes binary glTF 2.0 with nodes `body`, `prop`, `ellipsoids`, `cloth`, `cloth_2`... The cloth's frames
+/// are morph targets with normals; an animation of their weights plays them, linear in between. Ellipsoids
+/// that move have keys of their nodes at the same times. With a rig the body is skinned by the nodes of its
+/// joints, each clip is an animation, and the garments' frames play in the first one, at their own times.
+/// Fails with kInvalidArgument for a scene that cannot be drawn or with parts that do not fit together, and
+/// with kWriteFailed.
 engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file);
 
 /// Size and content of a picture.

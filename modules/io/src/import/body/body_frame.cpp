@@ -193,4 +193,29 @@ DetectedFrame detect_frame(const geometry::TriMesh& body, const ImportOptions& o
   return detected;
 }
 
+DetectedFrame frame_of_thing(const geometry::TriMesh& thing, const ImportOptions& options,
+                             std::optional<double> meters_per_unit, std::optional<Axis> up) {
+  DetectedFrame detected;
+  if (options.frame) {
+    detected.frame = *options.frame;
+    detected.unit = unit_name(detected.frame.meters_per_unit);
+    return detected;
+  }
+  detected.frame.up = options.up ? *options.up : up.value_or(Axis::kY);
+  detected.frame.meters_per_unit = meters_per_unit.value_or(1.0);
+  for (const NamedUnit& unit : kUnits)
+    if (unit.unit == options.unit) detected.frame.meters_per_unit = unit.meters;
+  detected.unit = unit_name(detected.frame.meters_per_unit);
+  if (options.unit == Unit::kAuto && !meters_per_unit) {
+    const double longest_m = geometry::bounding_box(thing.positions).size().maxCoeff();
+    detected.warnings.push_back(
+        {"unit-assumed", "",
+         engine::message("The file states no unit; it was read in meters, in which it "
+                         "is ",
+                         longest_m, " m long."),
+         "If that is wrong, give the unit (program: --unit)."});
+  }
+  return detected;
+}
+
 }  // namespace bodice::io

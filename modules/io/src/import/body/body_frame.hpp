@@ -24,6 +24,10 @@ struct DetectedFrame {
 DetectedFrame detect_frame(const geometry::TriMesh& body, const ImportOptions& options,
                            std::optional<double> meters_per_unit, std::optional<geometry::Axis> up);
 
+/// The same of a thing; its shape shows neither: what is not given is meters, with a warning, and y up.
+DetectedFrame frame_of_thing(const geometry::TriMesh& thing, const ImportOptions& options,
+                             std::optional<double> meters_per_unit, std::optional<geometry::Axis> up);
+
 /// The axis along which a body stands, by its extents, its mirror symmetry and its soles. Where the shape
 /// does not decide, it is y.
 geometry::Axis up_axis_of(const geometry::TriMesh& body);

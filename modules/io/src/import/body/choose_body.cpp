@@ -226,6 +226,13 @@ engine::Result<std::vector<std::size_t>> pieces_of_person(const engine::Context&
 
 }  // namespace
 
+engine::Result<ChosenBody> choose_all(const FileScene& scene, const std::optional<std::string>& wanted) {
+  if (!wanted) return take_all(scene);
+  const auto meshes = named(scene, *wanted);
+  if (!meshes) return meshes.error();
+  return take_all(*meshes);
+}
+
 engine::Result<ChosenBody> choose_body(const engine::Context& context, const FileScene& scene,
                                        const std::optional<std::string>& wanted, int person) {
   if (wanted) {

@@ -19,6 +19,9 @@ struct ChosenBody {
   std::vector<engine::Warning> warnings;
 };
 
+/// All meshes of a file, or with `wanted` those of that name, as one thing. Fails with kNotFound.
+engine::Result<ChosenBody> choose_all(const FileScene& scene, const std::optional<std::string>& wanted);
+
 /// Chooses by shape: the piece with the most closed skin, and what continues it. Names are a hint only. If
 /// `wanted` is given, the meshes of that name are taken instead. `person` counts the bodies of a file from 1.
 /// Fails with kNotFound or kUnusableGeometry.

@@ -91,6 +91,15 @@ std::vector<Index> map_vertices(const engine::Context& context, const TriMesh& i
   return map;
 }
 
+/// #V of the closed skin: whether a vertex of the rebuilt one that is not on the data became it.
+std::vector<std::uint8_t> made_up_vertices(const geometry::RebuiltSurface& rebuilt,
+                                           const RepairedMesh& closed) {
+  std::vector<std::uint8_t> made_up(closed.mesh.positions.size(), 0);
+  for (std::size_t v = 0; v < rebuilt.measured.size(); ++v)
+    if (const Index to = closed.vertex_of_input[v]; to != kNoIndex && !rebuilt.measured[v]) made_up[to] = 1;
+  return made_up;
+}
+
 /// What the repair warned of, but for the state of a surface that is no more.
 std::vector<engine::Warning> kept_warnings(const geometry::RepairReport& report) {
   std::vector<engine::Warning> kept = report.warnings;
@@ -112,8 +121,8 @@ engine::Warning rebuilt_warning(std::size_t pieces, std::size_t open_edges, doub
 
 }  // namespace
 
-std::optional<RepairedMesh> close_skin(const engine::Context& context, const TriMesh& input,
-                                       const RepairedMesh& repaired) {
+std::optional<ClosedSkin> close_skin(const engine::Context& context, const TriMesh& input,
+                                     const RepairedMesh& repaired) {
   if (repaired.mesh.triangles.size() < kFewestTriangles) return std::nullopt;
   if (openness(repaired.mesh) < kNearlyClosed) return std::nullopt;
   const TriMesh surface = outward(input, repaired);
@@ -124,6 +133,7 @@ std::optional<RepairedMesh> close_skin(const engine::Context& context, const Tri
   if (rebuilt.mesh.empty() || rebuilt.measured_share < kLeastMeasured) return std::nullopt;
   auto closed = geometry::repair(context, rebuilt.mesh);
   if (!closed) return std::nullopt;
+  std::vector<std::uint8_t> made_up = made_up_vertices(rebuilt, *closed);
   RepairedMesh out = std::move(*closed);
   out.vertex_of_input = map_vertices(context, input, repaired, out.mesh);
   out.triangle_of_input.assign(input.triangles.size(), kNoIndex);
@@ -133,7 +143,7 @@ std::optional<RepairedMesh> close_skin(const engine::Context& context, const Tri
   out.report.warnings = kept_warnings(repaired.report);
   out.report.warnings.push_back(
       rebuilt_warning(repaired.report.components, repaired.report.boundary_edges, rebuilt.measured_share));
-  return out;
+  return ClosedSkin{std::move(out), std::move(made_up)};
 }
 
 }  // namespace bodice::io

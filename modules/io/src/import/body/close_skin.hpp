@@ -1,6 +1,7 @@
 // One closed skin for bodies that files give in patches, in pieces or with large holes.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -10,12 +11,17 @@
 
 namespace bodice::io {
 
+/// A closed skin, and which of its vertices the file does not have.
+struct ClosedSkin {
+  geometry::RepairedMesh repaired;
+  std::vector<std::uint8_t> made_up;  ///< #V
+};
+
 /// Makes a closed skin of what repair() made of `input`, if that is not nearly closed already. The result
 /// maps input vertices to the nearest vertex of the new skin, and its warnings state how much of it the file
 /// does not have. Empty where nothing has to be done, or nothing can be. O(n log n), below a second for a
 /// body.
-std::optional<geometry::RepairedMesh> close_skin(const engine::Context& context,
-                                                 const geometry::TriMesh& input,
-                                                 const geometry::RepairedMesh& repaired);
+std::optional<ClosedSkin> close_skin(const engine::Context& context, const geometry::TriMesh& input,
+                                     const geometry::RepairedMesh& repaired);
 
 }  // namespace bodice::io

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 
@@ -57,6 +58,33 @@ bool has_ply_header(std::istream& stream) {
   return false;
 }
 
+std::uint32_t little_endian(const unsigned char* bytes) {
+  return bytes[0] | bytes[1] << 8u | bytes[2] << 16u | static_cast<std::uint32_t>(bytes[3]) << 24u;
+}
+
+/// Whether the chunks of a GLB file of version 2 end within it; true for what is no such file. assimp
+/// allocates what a chunk claims to have before it reads it.
+bool has_whole_chunks(std::istream& stream, std::uint64_t size) {
+  unsigned char head[12];
+  stream.clear();
+  stream.seekg(0);
+  const auto read = [&](unsigned count) {
+    stream.read(reinterpret_cast<char*>(head), count);
+    return stream.gcount() == static_cast<std::streamsize>(count);
+  };
+  if (!read(12) || std::string_view(reinterpret_cast<const char*>(head), 4) != "glTF") return true;
+  if (little_endian(head + 4) != 2) return true;
+  if (little_endian(head + 8) > size) return false;
+  std::uint64_t at = 12;
+  while (at + 8 <= size) {
+    stream.seekg(static_cast<std::streamoff>(at));
+    if (!read(8)) return false;
+    at += 8 + std::uint64_t{little_endian(head)};
+    if (at > size) return false;
+  }
+  return true;
+}
+
 template <class Visit>
 void for_each_line(std::string_view text, Visit&& visit) {
   while (!text.empty()) {
@@ -98,6 +126,10 @@ engine::Result<void> check_readable(const std::filesystem::path& file) {
     return engine::Error{engine::ErrorCode::kUnreadable, name + " is empty.", "Export the mesh again."};
   if (format_of(file) == Format::kPly && !has_ply_header(stream))
     return engine::Error{engine::ErrorCode::kUnreadable, name + " has no whole PLY header.",
+                         "It may be cut off: export the mesh again."};
+  if (!has_whole_chunks(stream, std::filesystem::file_size(file, error)))
+    return engine::Error{engine::ErrorCode::kUnreadable,
+                         name + " is a GLB with a header that states more bytes than the file has.",
                          "It may be cut off: export the mesh again."};
   return {};
 }

@@ -12,6 +12,7 @@
 #include <bodice/tryon/judge_frame.hpp>
 #include <bodice/tryon/motion.hpp>
 #include <bodice/tryon/prepare.hpp>
+#include <bodice/tryon/prop.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
 namespace bodice::tryon {
@@ -38,6 +39,9 @@ struct DrapeOptions {
   /// Names of garments from the body outward: each is laid over those before it (order_layers()); empty: they
   /// stay as they are.
   std::vector<std::string> order;
+  /// Things beside the body that the garments meet, as they stand; they must outlive the drape. A body that
+  /// moves passes through them.
+  std::span<const PreparedBody> props = {};
   std::optional<FitMap> fit_map;  ///< colors the garments by how they fit at the last frame
 };
 
@@ -79,6 +83,7 @@ struct DrapeReport {
   double ramp_s = 0.0;                          ///< from the bind pose to the clip's first frame
   std::vector<KeptFrame> kept;                  ///< of a body that moves
   std::vector<DrapedGarment> garments;
+  std::vector<PropReport> props;
   std::optional<FitScale> fit_map;  ///< scale of the garments' colors, where they have one
   std::string fabric;               ///< name of the fabric; dt_s and substeps are those of the run
   double dt_s = 0.0;
@@ -92,6 +97,7 @@ struct DrapeResult {
   std::vector<io::GarmentTrack> garments;
   std::vector<std::vector<geometry::Vec3>> body_frames;  ///< skin of a body that moves at each kept frame, #V
   std::vector<std::vector<geometry::Ellipsoid>> proxy_frames;  ///< its ellipsoids at each kept frame, #E
+  std::optional<proxy::BodyProxy> proxy;  ///< of body and props, which the cloth met; absent without props
   DrapeReport report;
 };
 

@@ -1,0 +1,90 @@
+#include <bodice/tryon/prop.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <bodice/proxy/add_things.hpp>
+#include <bodice/tryon/penetration.hpp>
+
+namespace bodice::tryon {
+namespace {
+
+/// The options of a prop's fit: the body's tier, and no more than the body's fit was given.
+fitting::FitOptions prop_options(const PreparedBody& body, const fitting::FitOptions& of_body) {
+  fitting::FitOptions options;
+  options.tier = body.fit.proxy.tier();
+  options.target_error_m = of_body.target_error_m;
+  options.max_ellipsoids = of_body.max_ellipsoids;
+  options.time_budget_s = of_body.time_budget_s;
+  // A query's time goes with the number of ellipsoids around, not with that of all.
+  if (of_body.budget_us) options.max_ellipsoids = static_cast<int>(body.fit.proxy.ellipsoids().size());
+  return options;
+}
+
+engine::Result<PreparedBody> fit_beside(const engine::Context& context, SegmentedSkin skin,
+                                        const PreparedBody& body, const fitting::FitOptions& options,
+                                        const Progress& progress) {
+  skin.rig.reset();
+  // Tables of one proxy have one reach, which goes with the stature.
+  skin.anatomy.stature_m = body.fit.proxy.stature_m();
+  return fit_proxy(context, std::move(skin), prop_options(body, options), progress);
+}
+
+}  // namespace
+
+engine::Result<PreparedBody> read_prop(const engine::Context& context, const std::filesystem::path& file,
+                                       const PreparedBody& body, const fitting::FitOptions& options,
+                                       const Progress& progress) {
+  SegmentOptions segment;
+  segment.import.shape = io::Shape::kAny;
+  segment.import.frame = body.skin.input.frame;
+  auto skin = segment_file(context, file, segment, progress);
+  if (!skin) return std::move(skin).error();
+  return fit_beside(context, std::move(skin).value(), body, options, progress);
+}
+
+engine::Result<PreparedBody> make_prop(const engine::Context& context, const geometry::TriMesh& mesh,
+                                       const PreparedBody& body, const fitting::FitOptions& options) {
+  auto input = repair_body(context, mesh);
+  if (!input) return std::move(input).error();
+  input->shape = io::Shape::kAny;
+  auto skin = segment_mesh(context, std::move(input).value(), {});
+  if (!skin) return std::move(skin).error();
+  return fit_beside(context, std::move(skin).value(), body, options, {});
+}
+
+engine::Result<proxy::BodyProxy> with_props(const proxy::BodyProxy& body,
+                                            std::span<const PreparedBody> props) {
+  std::vector<proxy::BodyProxy> things;
+  for (const PreparedBody& prop : props) things.push_back(prop.fit.proxy);
+  return proxy::add_things(body, things);
+}
+
+std::vector<PropReport> describe(std::span<const PreparedBody> props) {
+  std::vector<PropReport> reports;
+  for (const PreparedBody& prop : props)
+    reports.push_back({.name = prop.skin.input.file.string(),
+                       .ellipsoids = prop.fit.proxy.ellipsoids().size(),
+                       .accuracy = prop.fit.accuracy});
+  return reports;
+}
+
+void add_frame(const engine::Context& context, int frame, std::span<const geometry::Vec3> positions,
+               std::span<const PreparedBody> props, std::vector<PropReport>& reports) {
+  for (std::size_t i = 0; i < props.size(); ++i) {
+    const Penetration depth = penetration(context, *props[i].skin.distance, positions);
+    PropReport& report = reports[i];
+    if (depth.deepest_m > report.deepest_m) report.deepest_m = depth.deepest_m, report.worst_frame = frame;
+    report.end_m = depth.deepest_m;
+    report.over_1mm = depth.over_1mm;
+  }
+}
+
+void add_cloth(const engine::Context& context, std::span<const geometry::Vec3> positions,
+               std::span<const geometry::Triangle> triangles, std::span<const PreparedBody> props,
+               std::vector<PropReport>& reports) {
+  for (std::size_t i = 0; i < props.size(); ++i)
+    reports[i].pierced_share = pierced_share(context, *props[i].skin.distance, positions, triangles);
+}
+
+}  // namespace bodice::tryon

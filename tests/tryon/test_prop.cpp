@@ -1,0 +1,135 @@
+// Things beside a body in a drape: a figure that sits on a chair, and one that sits down on it.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include <bodice/binding/poser.hpp>
+#include <bodice/proxy/add_things.hpp>
+#include <bodice/proxy/posed_proxy.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
+#include <bodice/synth/thing.hpp>
+#include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/report.hpp>
+#include <bodice/tryon/rigged_body.hpp>
+#include <bodice_test/executors.hpp>
+#include <bodice_test/shapes.hpp>
+
+using namespace bodice;
+using geometry::Vec3;
+
+namespace {
+
+constexpr int kVertices = 4500;
+
+tryon::PreparedBody made_body(const engine::Context& context, synth::Pose pose, proxy::Tier tier) {
+  auto skin = tryon::segment_builtin(context, {.pose = pose, .vertices = kVertices}, {});
+  REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
+  auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = tier});
+  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
+  return std::move(body).value();
+}
+
+tryon::PreparedBody made_prop(const engine::Context& context, const geometry::TriMesh& mesh,
+                              const tryon::PreparedBody& body) {
+  auto prop = tryon::make_prop(context, mesh, body, {});
+  REQUIRE_MESSAGE(prop.ok(), prop.error().sentence());
+  return std::move(prop).value();
+}
+
+/// A level cloth around a point, held by nothing.
+tryon::WornGarment sheet_over(const Vec3& point, double width_m, int cells) {
+  geometry::TriMesh sheet = bodice_test::sheet(width_m, width_m, cells, cells);
+  for (Vec3& p : sheet.positions) p += point;
+  return {.name = "sheet", .mesh = std::move(sheet)};
+}
+
+}  // namespace
+
+TEST_CASE("cloth falls onto a prop beside the body, and through where it would be without it") {
+  for (const proxy::Tier tier : {proxy::Tier::kSolid, proxy::Tier::kRelief}) {
+    CAPTURE(std::string(proxy::name(tier)));
+    const engine::Context context;
+    const tryon::PreparedBody body = made_body(context, synth::Pose::kA, tier);
+    const Vec3 seat(1.2, 0.45, 0.0);
+    const tryon::PreparedBody chair = made_prop(context, synth::make_chair(seat, 0.03), body);
+    const tryon::WornGarment cloth = sheet_over(seat + Vec3(0.0, 0.06, 0.05), 0.3, 20);
+    const auto alone = tryon::drape(context, body, {cloth}, {.frames = 40});
+    const auto with = tryon::drape(context, body, {cloth}, {.frames = 40, .props = {&chair, 1}});
+    REQUIRE(alone.ok());
+    REQUIRE_MESSAGE(with.ok(), with.error().sentence());
+    double lowest_alone = 1e9, lowest_with = 1e9;
+    for (const Vec3& p : alone->garments[0].frames.back()) lowest_alone = std::min(lowest_alone, p.y());
+    for (const Vec3& p : with->garments[0].frames.back()) lowest_with = std::min(lowest_with, p.y());
+    CHECK(lowest_alone < 0.3);
+    CHECK(lowest_with > 0.445);
+    CHECK(alone->report.props.empty());
+    CHECK_FALSE(alone->proxy.has_value());
+    REQUIRE(with->report.props.size() == 1);
+    const tryon::PropReport& report = with->report.props[0];
+    CHECK(report.over_1mm == 0);
+    CHECK(report.pierced_share == 0.0);
+    CHECK(with->report.inside_union == 0);
+    CHECK(with->proxy->ellipsoids().size() ==
+          body.fit.proxy.ellipsoids().size() + chair.fit.proxy.ellipsoids().size());
+    // The report's depth is that of the boards by their formula.
+    const synth::Thing boards = synth::make_thing({}, synth::ThingKind::kChair, 0.03);
+    double deepest = 0.0;
+    for (const Vec3& p : with->garments[0].frames.back())
+      deepest = std::max(deepest, -boards.distance(p - Vec3(seat.x(), 0.0, seat.z())));
+    CHECK(report.end_m == doctest::Approx(deepest).epsilon(1e-6));
+    const auto json = nlohmann::json::parse(tryon::report_json(body, &with->report, {}));
+    CHECK(json["drape"]["props"][0]["ellipsoids"] == report.ellipsoids);
+  }
+}
+
+TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far from it") {
+  const engine::Context context;
+  const tryon::PreparedBody body = made_body(context, synth::Pose::kA, proxy::Tier::kSolid);
+  const std::uint64_t hash = body.fit.proxy.hash();
+  const tryon::PreparedBody far = made_prop(context, synth::make_chair({4.0, 0.45, 0.0}, 0.03), body);
+  const tryon::WornGarment cloth = sheet_over({0.0, 1.75, 0.0}, 0.5, 16);
+  const auto alone = tryon::drape(context, body, {cloth}, {.frames = 10});
+  const auto with = tryon::drape(context, body, {cloth}, {.frames = 10, .props = {&far, 1}});
+  REQUIRE(alone.ok());
+  REQUIRE(with.ok());
+  CHECK(body.fit.proxy.hash() == hash);
+  double apart = 0.0;
+  for (std::size_t i = 0; i < cloth.mesh.positions.size(); ++i)
+    apart =
+        std::max(apart, (alone->garments[0].frames.back()[i] - with->garments[0].frames.back()[i]).norm());
+  CHECK(apart < 1e-4);
+}
+
+TEST_CASE("a prop stays where it is while the joints of the body move") {
+  const engine::Context context;
+  auto skin = tryon::segment_builtin(context, {.vertices = kVertices}, {});
+  REQUIRE(skin.ok());
+  REQUIRE(tryon::give_rig(context, synth::BodyOptions{.vertices = kVertices}, *skin).ok());
+  auto body = tryon::fit_bound_proxy(context, std::move(skin).value(), {.tier = proxy::Tier::kRelief});
+  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
+  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.5, 0.45, 0.0}, 0.03), *body);
+  const auto all = tryon::with_props(body->fit.proxy, {&chair, 1});
+  REQUIRE_MESSAGE(all.ok(), all.error().sentence());
+  CHECK(all->binding()->joint_names.back() == proxy::kStillJoint);
+
+  auto poser = binding::Poser::make(*all), own = binding::Poser::make(body->fit.proxy);
+  REQUIRE(poser.ok());
+  REQUIRE(own.ok());
+  std::vector<rig::Affine> joints(body->fit.proxy.binding()->bind);
+  const Vec3 by(0.0, 0.0, -0.4);
+  for (rig::Affine& joint : joints) joint.col(3) += by;
+  REQUIRE(own->pose(context, joints).ok());
+  joints.push_back(rig::identity());
+  REQUIRE(poser->pose(context, joints).ok());
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 p(1.5 + 0.3 * std::sin(1.1 * i), 0.5 + 0.5 * std::sin(1.7 * i), 0.3 * std::sin(2.3 * i));
+    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), p).distance ==
+          doctest::Approx(proxy::proxy_distance(chair.fit.proxy, p).distance).epsilon(1e-9));
+    const Vec3 q(0.3 * std::sin(1.1 * i), 0.9 + 0.9 * std::sin(1.7 * i), -0.4 + 0.3 * std::sin(2.3 * i));
+    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
+          doctest::Approx(proxy::posed_proxy_distance(body->fit.proxy, own->posed(), q).distance)
+              .epsilon(1e-9));
+  }
+}
