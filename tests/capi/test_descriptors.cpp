@@ -186,7 +186,9 @@ TEST_CASE("capi: null in place of any handle or result is refused") {
   bodice_collider_destroy(nullptr);
   bodice_workspace_destroy(nullptr);
   CHECK(bodice_part_name(-1) == nullptr);
-  CHECK(bodice_part_name(BODICE_PARTS) == nullptr);
+  CHECK(std::string(bodice_part_name(BODICE_PARTS)) == "part_1");
+  CHECK(std::string(bodice_part_name(BODICE_ALL_PARTS - 1)) == "part_16");
+  CHECK(bodice_part_name(BODICE_ALL_PARTS) == nullptr);
   CHECK(std::string(bodice_part_name(0)) == "head");
   CHECK(bodice_proxy_joint_name(f.proxy.get(), 0) == nullptr);
   CHECK(std::string(bodice_status_name(99)) == "not a status of bodice");

@@ -65,6 +65,35 @@ TEST_CASE("capi: a mesh in memory becomes the skin that C++ makes of it") {
   CHECK(bodice_skin_warning(skin.get(), info->warnings) == nullptr);
 }
 
+TEST_CASE("capi: what is no person is a skin with parts of its own, if it is wanted") {
+  geometry::TriMesh tetrahedron;
+  tetrahedron.positions = {{0, 0, 0}, {50, 0, 0}, {0, 50, 0}, {0, 0, 50}};
+  tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  const Context context = make_context();
+  MeshArrays arrays(tetrahedron);
+  bodice_skin_options options = bodice_default_skin_options();
+  CHECK(options.shape == BODICE_SHAPE_PERSON);
+  options.shape = 2;
+  CHECK(Skin::from_mesh(context, arrays.mesh(), options).status() == BODICE_INVALID_ARGUMENT);
+  options.shape = BODICE_SHAPE_ANY;
+  auto made = Skin::from_mesh(context, arrays.mesh(), options);
+  REQUIRE_MESSAGE(made, bodice_last_error());
+  const Skin skin = std::move(*made);
+  const auto info = skin.info();
+  REQUIRE(info);
+  std::vector<std::uint8_t> part(info->vertices);
+  must(bodice_skin_get_parts(skin.get(), part.data(), part.size()));
+  for (const std::uint8_t each : part) CHECK((each >= BODICE_PARTS && each < BODICE_ALL_PARTS));
+  double value = 0.0;
+  CHECK(bodice_skin_get_measurements(skin.get(), &value, 1) == BODICE_INVALID_ARGUMENT);
+  bodice_landmark mark;
+  must(bodice_skin_get_landmarks(skin.get(), &mark, 1));
+  CHECK(mark.confidence == 0.0);
+  bodice_fit_options fit = bodice_default_fit_options();
+  fit.tier = BODICE_SOLID;
+  CHECK(skin.fit(context, fit));
+}
+
 TEST_CASE("capi: centimeters and what is no body are refused with a remedy") {
   const synth::Body body = make_body();
   const Context context = make_context();

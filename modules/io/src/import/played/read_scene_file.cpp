@@ -21,7 +21,7 @@ using nlohmann::json;
 body::Part part_colored(const Vec3& linear) {
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
-  for (int p = 0; p < body::kPartCount; ++p) {
+  for (int p = 0; p < body::kAllPartCount; ++p) {
     const Vec3 color = to_linear(part_color(static_cast<body::Part>(p))).cast<double>();
     const double apart = (color - linear).squaredNorm();
     if (apart < least) least = apart, best = p;
