@@ -146,11 +146,11 @@ done
 grep -q '"part":"part_1"' p.json || { echo "FAILED: no part_1 in the proxy of a thing"; failures=$((failures + 1)); }
 expect 0 "no unit is a warning" "$bodice" fit stool.obj --shape any --tier solid
 prints "read in meters"
-expect 1 "a thing has no measurements" "$bodice" fit stool.obj --shape any --measurements m.json
+refused fit stool.obj --shape any --measurements m.json
 one_line
 absent m.json
 rm p.json
-box stool_m.obj 0.3 0 -0.2 0.4
+box stool_m.obj 0.6 0 -0.2 0.4
 expect 0 "a skirt beside a stool" "$bodice" drape --vertices 3000 --tier solid --frames 2 --substeps 4 \
   --prop stool_m.obj -o prop.glb --report prop.json --no-picture
 prints "stool_m.obj"

@@ -74,7 +74,7 @@ TEST_CASE("tables stay those of their ellipsoids, beyond the blend to the bit") 
   CHECK(from_binary(to_binary(all))->hash() == all.hash());
 }
 
-TEST_CASE("things of another tier, stature or margin are refused") {
+TEST_CASE("things without the tables, the stature or the margin of the body are refused") {
   const BodyProxy body = made(sample_data(8));
   const auto refused = [&](auto change) {
     BodyProxy::Data data = beside(body.data(), 9, 1.0, true);
@@ -86,5 +86,9 @@ TEST_CASE("things of another tier, stature or margin are refused") {
   CHECK_FALSE(refused([](BodyProxy::Data&) {}));
   CHECK(refused([](BodyProxy::Data& d) { d.stature_m *= 1.1; }));
   CHECK(refused([](BodyProxy::Data& d) { d.margin_m += 1e-4; }));
-  CHECK(refused([](BodyProxy::Data& d) { d.tier = Tier::kTight; }));
+  CHECK(refused([](BodyProxy::Data& d) {
+    d.tier = Tier::kTight;
+    d.relief.clear();
+    d.texels.clear();
+  }));
 }

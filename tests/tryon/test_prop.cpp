@@ -84,6 +84,19 @@ TEST_CASE("cloth falls onto a prop beside the body, and through where it would b
   }
 }
 
+TEST_CASE("a garment that begins inside a prop is refused with the depth") {
+  const engine::Context context;
+  const tryon::PreparedBody body = made_body(context, synth::Pose::kA, proxy::Tier::kSolid);
+  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.2, 0.45, 0.0}, 0.03), body);
+  CHECK(chair.fit.proxy.tier() == proxy::Tier::kTight);
+  CHECK(chair.fit.accuracy.gap_m.mean < 0.004);
+  const auto through = sheet_over({1.2, 0.43, 0.0}, 0.3, 10);  // in the middle of the seat's 4 cm
+  const auto refused = tryon::drape(context, body, {through}, {.frames = 2, .props = {&chair, 1}});
+  REQUIRE_FALSE(refused.ok());
+  CHECK(refused.error().code == engine::ErrorCode::kUnusableGeometry);
+  CHECK(refused.error().message.find("20 mm") != std::string::npos);
+}
+
 TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far from it") {
   const engine::Context context;
   const tryon::PreparedBody body = made_body(context, synth::Pose::kA, proxy::Tier::kSolid);

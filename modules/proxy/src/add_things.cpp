@@ -9,12 +9,14 @@ namespace {
 engine::Error unlike(const char* what, std::size_t thing) {
   return {engine::ErrorCode::kInvalidArgument,
           "Thing " + std::to_string(thing + 1) + " has another " + what + " than the body.",
-          "Fit it with the body's tier, and with the body's stature for its scale."};
+          "Fit it with the body's stature for its scale."};
 }
 
 engine::Result<void> check_alike(const BodyProxy& body, const BodyProxy& thing, std::size_t index) {
-  if (thing.tier() != body.tier() || thing.relief().empty() != body.relief().empty())
-    return unlike("tier", index);
+  if (thing.relief().empty() != body.relief().empty())
+    return engine::Error{engine::ErrorCode::kInvalidArgument,
+                         "Of the body and thing " + std::to_string(index + 1) + " only one has relief.",
+                         "Fit both with tier relief, or neither."};
   if (thing.stature_m() != body.stature_m()) return unlike("stature", index);
   if (thing.margin_m() != body.margin_m()) return unlike("margin", index);
   return {};

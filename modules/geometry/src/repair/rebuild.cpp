@@ -66,6 +66,21 @@ void smooth_made_up(RebuiltSurface& out) {
   }
 }
 
+/// Puts the border of the grid outside. Sheets that lie on each other wind around a region that reaches
+/// beyond them all, and a contour that runs into the border is open.
+void close_border(FieldGrid& grid) {
+  const auto [nx, ny, nz] = grid.nodes;
+  const auto put_outside = [&](std::size_t x, std::size_t y, std::size_t z) {
+    float& value = grid.value[grid.index(x, y, z)];
+    if (!(value > 0.0f)) value = static_cast<float>(grid.cell_m);
+  };
+  for (std::size_t z = 0; z < nz; ++z)
+    for (std::size_t y = 0; y < ny; ++y) {
+      const bool face = z == 0 || y == 0 || z + 1 == nz || y + 1 == ny;
+      for (std::size_t x = 0; x < nx; x += face || nx < 2 ? 1 : nx - 1) put_outside(x, y, z);
+    }
+}
+
 double measured_share(const RebuiltSurface& surface) {
   double all = 0.0, measured = 0.0;
   for (std::size_t t = 0; t < surface.mesh.triangles.size(); ++t) {
@@ -81,7 +96,8 @@ double measured_share(const RebuiltSurface& surface) {
 RebuiltSurface rebuild(const engine::Context& context, const TriMesh& surface, double cell_m) {
   const MeshDistance data(context, surface);
   RebuiltSurface out;
-  const FieldGrid grid = sample_inside(context, data, bounding_box(surface.positions), cell_m);
+  FieldGrid grid = sample_inside(context, data, bounding_box(surface.positions), cell_m);
+  close_border(grid);
   const TriMesh all = contour(context, grid);
   if (all.empty()) return out;
   out.mesh = without_small_components(all);

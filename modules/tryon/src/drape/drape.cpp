@@ -21,6 +21,7 @@
 #include "garment/misplaced_garments.hpp"
 #include "measure/crossings.hpp"
 #include "measure/fit_warnings.hpp"
+#include "measure/prop_start.hpp"
 #include "motion/moving_body.hpp"
 #include "motion/moving_thickness.hpp"
 
@@ -250,6 +251,8 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
   if (!options.props.empty()) {
+    if (auto clear = check_start(context, all->mesh.positions, options.props); !clear)
+      return std::move(clear).error();
     auto joined = with_props(body.fit.proxy, options.props);
     if (!joined) return std::move(joined).error();
     result.proxy = std::move(joined).value();

@@ -3,16 +3,23 @@
 #include <algorithm>
 #include <utility>
 
+#include <bodice/engine/message.hpp>
 #include <bodice/proxy/add_things.hpp>
 #include <bodice/tryon/penetration.hpp>
+
+#include "measure/prop_start.hpp"
 
 namespace bodice::tryon {
 namespace {
 
-/// The options of a prop's fit: the body's tier, and no more than the body's fit was given.
+/// A garment may touch a prop at the start, but not reach deeper into it.
+constexpr double kTouches_m = 0.005;
+
+/// The options of a prop's fit: no more than the body's fit was given. Boards need the tiers that are fitted
+/// to the surface: an ellipsoid that encloses a seat rises by centimeters above it.
 fitting::FitOptions prop_options(const PreparedBody& body, const fitting::FitOptions& of_body) {
   fitting::FitOptions options;
-  options.tier = body.fit.proxy.tier();
+  options.tier = body.fit.proxy.relief().empty() ? proxy::Tier::kTight : proxy::Tier::kRelief;
   options.target_error_m = of_body.target_error_m;
   options.max_ellipsoids = of_body.max_ellipsoids;
   options.time_budget_s = of_body.time_budget_s;
@@ -67,6 +74,23 @@ std::vector<PropReport> describe(std::span<const PreparedBody> props) {
                        .ellipsoids = prop.fit.proxy.ellipsoids().size(),
                        .accuracy = prop.fit.accuracy});
   return reports;
+}
+
+engine::Result<void> check_start(const engine::Context& context, std::span<const geometry::Vec3> positions,
+                                 std::span<const PreparedBody> props) {
+  for (const PreparedBody& prop : props) {
+    const double deepest_m = penetration(context, *prop.skin.distance, positions).deepest_m;
+    if (deepest_m > kTouches_m)
+      return engine::Error{
+          engine::ErrorCode::kUnusableGeometry,
+          engine::message("A garment begins up to ", 1e3 * deepest_m, " mm inside the prop ",
+                          prop.skin.input.file.empty() ? "that was given" : prop.skin.input.file.string(),
+                          "."),
+          "Begin with a body that stands apart from the prop and moves onto it (program: --motion), or move "
+          "the "
+          "prop."};
+  }
+  return {};
 }
 
 void add_frame(const engine::Context& context, int frame, std::span<const geometry::Vec3> positions,

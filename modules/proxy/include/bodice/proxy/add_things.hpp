@@ -15,8 +15,8 @@ inline constexpr std::string_view kStillJoint = "still";
 /// The ellipsoids and tables of a body, then those of the things where they are. The distance of the result
 /// is the least of all; with relief, distances are blended where a body's ellipsoid and a thing's are within
 /// the blend of each other. A bound body stays bound, and has kStillJoint as one joint more. Fails with
-/// kInvalidArgument unless tier, stature and margin are the body's: fit the things with the stature of the
-/// body. O(size of all).
+/// kInvalidArgument unless stature, margin and having tables are the body's: fit the things with the stature
+/// of the body. O(size of all).
 engine::Result<BodyProxy> add_things(const BodyProxy& body, std::span<const BodyProxy> things);
 
 }  // namespace bodice::proxy

@@ -11,9 +11,9 @@
 
 namespace bodice::tryon {
 
-/// Reads a thing in the unit, axes and coordinates of the body's file and fits it as io::Shape::kAny, with
-/// the body's tier and to the body's scale. Of `options` the number of ellipsoids, the target error and the
-/// time budget are used. Fails as segment_file() and fit_proxy() do.
+/// Reads a thing in the unit, axes and coordinates of the body's file and fits it as io::Shape::kAny: with
+/// tier relief where the body has it, else tight, and to the body's scale. Of `options` the number of
+/// ellipsoids, the target error and the time budget are used. Fails as segment_file() and fit_proxy() do.
 engine::Result<PreparedBody> read_prop(const engine::Context& context, const std::filesystem::path& file,
                                        const PreparedBody& body, const fitting::FitOptions& options,
                                        const Progress& progress = {});
