@@ -153,7 +153,7 @@ engine::Result<proxy::BasePoses> make_bases(const engine::Context& context, cons
 engine::Error not_of_any(const char* option, const char* what) {
   return {engine::ErrorCode::kInvalidArgument,
           engine::message(option, " does not go with --shape any, which has no ", what, "."),
-          engine::message("Leave ", option, " out.")};
+          "Leave it out."};
 }
 
 /// Refuses what only a person has.
@@ -161,9 +161,8 @@ engine::Result<void> check_shape(const FitCommand& command) {
   if (command.common.shape != "any") return {};
   if (!command.measurements.empty()) return not_of_any("--measurements", "measurements");
   if (!command.segmentation.empty()) return not_of_any("--segmentation", "regions of a body");
-  if (!command.prepare.poses.empty()) return not_of_any("--poses", "poses");
-  if (command.prepare.any()) return not_of_any("--motion", "motions");
-  return {};
+  if (!command.prepare.any()) return {};
+  return not_of_any(command.prepare.poses.empty() ? "--motion" : "--poses", "joints to bend");
 }
 
 engine::Result<void> fit(const FitCommand& command) {
@@ -227,11 +226,10 @@ void add_pose_options(CLI::App& sub, FitCommand& c) {
 }
 
 void add_shape_option(CLI::App& sub, FitCommand& c) {
-  sub.add_option(
-         "--shape", c.common.shape,
-         "person, or any: a chair, a mannequin's torso, a dog, a hand; all of the file is fitted, without "
-         "landmarks, with parts by clusters of its surface, and in meters if neither the file nor --unit "
-         "gives a unit")
+  sub.add_option("--shape", c.common.shape,
+                 "person, or any: a chair, a torso, a dog, a hand; all of the file is fitted, without "
+                 "landmarks, with "
+                 "parts by clusters of its surface, in meters if neither the file nor --unit gives a unit")
       ->check(CLI::IsMember({"person", "any"}))
       ->needs("BODY")
       ->group("Input")

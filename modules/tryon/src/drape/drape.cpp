@@ -250,14 +250,8 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   report.crossings_start = geometry::find_crossings(all->mesh.positions, all->mesh.triangles).size();
   report.ramp_s = ramp_s(context, options, body);
   warn_of_misplaced(garments, body, report.warnings);
-  if (!options.props.empty()) {
-    if (auto clear = check_start(context, all->mesh.positions, options.props); !clear)
-      return std::move(clear).error();
-    auto joined = with_props(body.fit.proxy, options.props);
-    if (!joined) return std::move(joined).error();
-    result.proxy = std::move(joined).value();
-    report.props = describe(options.props);
-  }
+  if (auto met = meet_props(context, all->mesh.positions, body, options.props, result); !met)
+    return std::move(met).error();
   const proxy::BodyProxy& met = result.proxy ? *result.proxy : body.fit.proxy;
   auto bodies = make_bodies(body, met, options.motion != nullptr);
   if (!bodies) return std::move(bodies).error();

@@ -93,6 +93,18 @@ engine::Result<void> check_start(const engine::Context& context, std::span<const
   return {};
 }
 
+engine::Result<void> meet_props(const engine::Context& context, std::span<const geometry::Vec3> positions,
+                                const PreparedBody& body, std::span<const PreparedBody> props,
+                                DrapeResult& result) {
+  if (props.empty()) return {};
+  if (auto clear = check_start(context, positions, props); !clear) return clear;
+  auto joined = with_props(body.fit.proxy, props);
+  if (!joined) return std::move(joined).error();
+  result.proxy = std::move(joined).value();
+  result.report.props = describe(props);
+  return {};
+}
+
 void add_frame(const engine::Context& context, int frame, std::span<const geometry::Vec3> positions,
                std::span<const PreparedBody> props, std::vector<PropReport>& reports) {
   for (std::size_t i = 0; i < props.size(); ++i) {

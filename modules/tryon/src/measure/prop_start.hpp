@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include <bodice/tryon/prop.hpp>
+#include <bodice/tryon/drape.hpp>
 
 namespace bodice::tryon {
 
@@ -10,5 +10,10 @@ namespace bodice::tryon {
 /// without being torn.
 engine::Result<void> check_start(const engine::Context& context, std::span<const geometry::Vec3> positions,
                                  std::span<const PreparedBody> props);
+
+/// Checks the start and joins the props to the body's proxy, for the cloth and the report of a drape.
+engine::Result<void> meet_props(const engine::Context& context, std::span<const geometry::Vec3> positions,
+                                const PreparedBody& body, std::span<const PreparedBody> props,
+                                DrapeResult& result);
 
 }  // namespace bodice::tryon
