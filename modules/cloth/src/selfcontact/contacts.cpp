@@ -42,7 +42,7 @@ void refresh_group(const ContactSource& source, float step_m, PairGroup& group, 
     if (!(pair.until_m > group.travel_m + step_m)) {
       const PairContact contact = contact_of(source, pair);
       pair.until_m = contact.gap_m > 0.0f ? group.travel_m + contact.apart_m - contact.gap_m : kNever_m;
-      if (pair.until_m < group.travel_m + step_m) {
+      if (pair.until_m < group.travel_m + step_m && !is_pressed(contact, source.body)) {
         pair.contact = static_cast<std::uint32_t>(contacts.size());
         contacts.push_back(contact);
       }
@@ -87,6 +87,16 @@ void for_each_block(const engine::Context& context, const ContactMesh& mesh,
 }
 
 }  // namespace
+
+bool is_pressed(const PairContact& c, const BodyPush& body) {
+  const int split = c.edges ? 2 : 1;
+  float toward[2] = {0.0f, 0.0f};  // how far the body pushed A and B against the normal and along it
+  for (int k = 0; k < 4; ++k) {
+    if (!body.touching[c.particle[k]]) return false;
+    toward[k >= split] -= c.weight[k] * dot(load(body.by[c.particle[k]]), c.normal);
+  }
+  return toward[0] > 0.0f && toward[1] > 0.0f;
+}
 
 void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
                 std::span<const Point> now, std::vector<LeafMove>& moves) {

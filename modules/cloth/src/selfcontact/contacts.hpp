@@ -32,11 +32,16 @@ struct ContactSource {
   PairSearch search;                ///< at the positions when the substep began
   std::span<const Point> rest;      ///< #P: positions at rest
   std::span<const LeafMove> moves;  ///< #leaves: in this substep
+  BodyPush body;                    ///< in the substep before
 
   float step_of(const PairGroup& group) const {
     return relative_move(moves[group.leaf[0]], moves[group.leaf[1]]);
   }
 };
+
+/// Whether the body presses the two parts of a pair toward each other from both sides, as an arm and the
+/// flank do. It decides where these particles are: layers held apart there would go into the skin.
+bool is_pressed(const PairContact& contact, const BodyPush& body);
 
 /// Finds the displacements from `before` to `now`, by leaf.
 void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,

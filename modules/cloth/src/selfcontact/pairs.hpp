@@ -17,6 +17,12 @@ namespace bodice::cloth {
 inline constexpr std::uint32_t kNoContact = ~std::uint32_t{0};
 inline constexpr float kUnsettled = -1.0f;
 
+/// How the body pushed the particles in the last substep.
+struct BodyPush {
+  std::span<const std::uint8_t> touching;  ///< #P: whether it did
+  std::span<const Point> by;               ///< #P: displacement, where it did
+};
+
 /// Two parts of the cloth without a common particle.
 struct Pair {
   Index particle[4];                   ///< those of A, then those of B (Corners)
@@ -66,6 +72,7 @@ struct PairTask {
   std::vector<PairContact> contacts[2];          ///< of groups across blocks, and of those inside
   std::vector<Tangle> tangles;
   std::vector<std::uint32_t> crossing;  ///< pairs that would cross in this substep
+  bool pressed = false;                 ///< whether the body pressed a pair through each other in this frame
 };
 
 /// The tasks of a garment.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -82,8 +83,8 @@ void keep_groups(const engine::Context& context, const SelfSubstep& substep, std
   search(context, s);
 }
 
-ContactSource source_of(const SelfContact& s) {
-  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.tangles}, s.rest, s.moves};
+ContactSource source_of(const SelfSubstep& substep, const SelfContact& s) {
+  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.tangles}, s.rest, s.moves, substep.body};
 }
 
 // Adds the substep's velocities to the smoothed ones.
@@ -103,14 +104,14 @@ void copy_points(const engine::Context& context, const Particles& p, std::vector
 }
 
 PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
-  return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.touching};
+  return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.body.touching};
 }
 
 // The number of pairs that would cross before the particles are at `now`.
 std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, SelfContact& s) {
   keep_groups(context, substep, s.now, kUsedAfter, s);
   find_moves(context, s.mesh, s.before, s.now, s.moves);
-  return find_crossing(context, source_of(s), s.now, s.tasks);
+  return find_crossing(context, source_of(substep, s), s.now, s.tasks);
 }
 
 // Moves particles in zones until no pair would cross.
@@ -134,6 +135,13 @@ void take_points(float substep_s, std::span<const Point> at, Particles& p) {
     p.x[i] = at[i].x, p.y[i] = at[i].y, p.z[i] = at[i].z;
     p.vx[i] += dx / substep_s, p.vy[i] += dy / substep_s, p.vz[i] += dz / substep_s;
   }
+}
+
+// Whether the body pressed layers through each other since this was last called.
+bool were_pressed(SelfContact& s) {
+  bool any = false;
+  for (PairTask& task : s.tasks) any |= std::exchange(task.pressed, false);
+  return any;
 }
 
 }  // namespace
@@ -165,6 +173,7 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   s.origin = p.origin;
   copy_points(context, p, s.before);
   if (follow_tangles(s.mesh, s.before, s.tangles, s.tangles_before)) forget_pairs(s);
+  if (were_pressed(s)) forget_pairs(s), s.sided = false;
 }
 
 SelfContactReport report_self_contact(const SelfContact& s) {
@@ -177,9 +186,9 @@ SelfContactReport report_self_contact(const SelfContact& s) {
 void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
   keep_groups(context, substep, p.point, kUsedBefore, s);
   find_moves(context, s.mesh, s.before, p.point, s.moves);
-  refresh_contacts(context, source_of(s), s.tasks);
+  refresh_contacts(context, source_of(substep, s), s.tasks);
   push_contacts(context, s.mesh, push_of(substep, s), s.tasks, p.point);
-  untangle(s.mesh, s.tangles, kUntangle_m_s * substep.length_s, p.point);
+  untangle(s.mesh, s.tangles, substep.body, kUntangle_m_s * substep.length_s, p.point);
 }
 
 void hold_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {

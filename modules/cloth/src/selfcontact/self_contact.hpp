@@ -56,7 +56,7 @@ void begin_self_contact(const engine::Context& context, const Particles& particl
 struct SelfSubstep {
   float length_s = 0.0f, frame_s = 0.0f;
   float friction = 0.0f;
-  std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
+  BodyPush body;
 };
 
 /// Pushes layers apart after constraints moved the points of the particles. The same bits for any number of

@@ -85,6 +85,16 @@ void pull_through(const Face& of, unsigned k, const Face& face, const Passage& p
   }
 }
 
+// The body's push of a triangle, zero where it does not push all of its corners.
+Float4 push_of(const Face& f, const BodyPush& body) {
+  Float4 push = splat(0.0f);
+  for (const Index i : f.particle) {
+    if (!body.touching[i]) return splat(0.0f);
+    push += xyz(load(body.by[i]));
+  }
+  return push;
+}
+
 void search_tangles(const ContactMesh& mesh, const SweepTree& tree, std::span<const Point> at,
                     PairTask& task) {
   task.tangles.clear();
@@ -128,10 +138,11 @@ bool follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vec
   return tangles != room;
 }
 
-void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, float step_m,
+void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const BodyPush& body, float step_m,
               std::span<Point> at) {
   for (const Tangle& t : tangles) {
     const Face &a = mesh.faces[t.a], &b = mesh.faces[t.b];
+    if (dot(push_of(a, body), push_of(b, body)) < 0.0f) continue;
     for_each_passage(a, b, at, [&](unsigned k, const Passage& p) { pull_through(a, k, b, p, step_m, at); });
     for_each_passage(b, a, at, [&](unsigned k, const Passage& p) { pull_through(b, k, a, p, step_m, at); });
   }

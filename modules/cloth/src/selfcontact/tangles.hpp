@@ -21,7 +21,9 @@ void find_tangles(const engine::Context& context, const ContactMesh& mesh, const
 bool follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vector<Tangle>& tangles,
                     std::vector<Tangle>& room);
 
-/// Moves the triangles of all tangles by about `step_m` each, where they still cross.
-void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, float step_m, std::span<Point> at);
+/// Moves the triangles of all tangles by about `step_m` each, where they still cross. Those that the
+/// body presses together from both sides stay.
+void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const BodyPush& body, float step_m,
+              std::span<Point> at);
 
 }  // namespace bodice::cloth

@@ -38,7 +38,11 @@ void find_crossing_in(const ContactSource& source, std::span<const Point> now, P
     const bool known = group.fresh && pair.contact != kNoContact;
     const PairContact contact = known ? task.contacts[group.inside][pair.contact] : contact_of(source, pair);
     if (!(contact.gap_m > 0.0f) || step_m < kSafe * contact.apart_m) continue;
-    if (would_cross(contact, source, now)) task.crossing.push_back(k);
+    if (!would_cross(contact, source, now)) continue;
+    if (is_pressed(contact, source.body))
+      task.pressed = true;
+    else
+      task.crossing.push_back(k);
   }
 }
 

@@ -118,8 +118,10 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
   }
   solve_coarse(context, s.coarse, p);
   const auto friction = static_cast<float>(s.fabric.friction);
-  const SelfSubstep with_itself = {plan.substep_s, static_cast<float>(plan.simulated_s), friction,
-                                   s.contacts.touching};
+  const SelfSubstep with_itself = {plan.substep_s,
+                                   static_cast<float>(plan.simulated_s),
+                                   friction,
+                                   {s.contacts.touching, s.contacts.pushed}};
   if (touches_itself(plan, s)) push_apart(context, with_itself, s.self, p);
   limits |= resolve_body_contacts(context, collider, s.options, friction,
                                   {plan.substep_s, share(substep, plan)}, s.contacts, p);
@@ -133,8 +135,10 @@ void end_contact(const engine::Context& context, const collision::Collider& coll
   end_contact_frame(context, collider, s.options, s.contacts, s.particles);
   if (s.options.certify_m && touches_itself(plan, s))
     hold_apart(context,
-               {plan.substep_s, static_cast<float>(plan.simulated_s), static_cast<float>(s.fabric.friction),
-                s.contacts.touching},
+               {plan.substep_s,
+                static_cast<float>(plan.simulated_s),
+                static_cast<float>(s.fabric.friction),
+                {s.contacts.touching, s.contacts.pushed}},
                s.self, s.particles);
 }
 
