@@ -23,19 +23,18 @@ endfunction()
 
 # Half of a small file's compile time goes into Eigen and the standard library. Our own build reads them once, as
 # precompiled headers. Compiler caches pass over files that use one, so a compiler launcher switches them off, and
-# so do sanitizers: their builds then show that each file includes what it uses. So do warnings as errors: to g++ 12 a
-# precompiled standard library is no system header, and it warns falsely of `"text" + std::string` (GCC bug 105651).
+# so do sanitizers: their builds then show that each file includes what it uses.
 set(precompile OFF)
 if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_CXX_COMPILER_LAUNCHER
-   AND NOT BODICE_SANITIZE AND NOT BODICE_WARNINGS_AS_ERRORS)
+   AND NOT BODICE_SANITIZE)
   set(precompile ON)
 endif()
 option(BODICE_PRECOMPILE "Precompile heavy headers (our own build with g++)" ${precompile})
 
-# bodice_precompile(<target> [FROM <other>]): precompiles what most files include, or takes what <other> has
-# precompiled with the same flags. Where there is no <other>, nothing is precompiled.
+# bodice_precompile(<target> [FROM <other>] [AND <headers...>]): precompiles what most files include, and these headers, or
+# takes what <other> has precompiled with the same flags. Where there is no <other>, nothing is precompiled.
 function(bodice_precompile target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FROM" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "FROM" "AND")
   if(NOT BODICE_PRECOMPILE OR (arg_FROM AND NOT TARGET ${arg_FROM}))
     return()
   endif()
@@ -47,7 +46,7 @@ function(bodice_precompile target)
   endif()
   target_precompile_headers(${target} PRIVATE "${PROJECT_SOURCE_DIR}/.cmake/require_ieee_math.hpp"
     <Eigen/Geometry> <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <memory> <numeric>
-    <optional> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector>)
+    <optional> <span> <sstream> <string> <string_view> <unordered_map> <utility> <vector> ${arg_AND})
 endfunction()
 
 # Most of a small file's compile time goes into headers and templates that its neighbors need as well. As one file, a

@@ -22,7 +22,7 @@ struct bodice_exact {
 
 namespace {
 
-constexpr std::size_t kBlock = 64;  ///< particles a task: about half a millisecond
+constexpr std::size_t kExactATask = 64;  ///< particles a task: about half a millisecond
 
 /// The contact of one particle; none if it is not finite.
 geometry::SurfacePoint closest(const geometry::MeshDistance& distance, const double (&at)[3]) {
@@ -85,7 +85,7 @@ bodice_status bodice_exact_query(const bodice_exact* exact, const bodice_particl
     capi::HostContacts to;
     BODICE_CHECK(capi::read_contacts(contacts, host.count, to));
     if (to.part) return invalid("A mesh has no parts to write.", "Leave bodice_contacts.part null.");
-    engine::parallel_for(exact->context->engine_context(), host.count, kBlock,
+    engine::parallel_for(exact->context->engine_context(), host.count, kExactATask,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t i = begin; i < end; ++i) {
                              double at[3];

@@ -17,7 +17,7 @@ static_assert(sizeof(bodice_contact) == sizeof(collision::Contact) &&
               "the engine writes contacts into arrays of the host");
 static_assert(BODICE_NO_ELLIPSOID == collision::kNoEllipsoid);
 
-constexpr std::size_t kBlock = 4096;  ///< contacts that one task copies
+constexpr std::size_t kContactsATask = 4096;  ///< contacts that one task copies
 constexpr std::uint8_t kNoPart = 255;
 
 void write_one(const EngineContacts& from, std::size_t i, const HostContacts& to) {
@@ -64,7 +64,7 @@ Outcome read_contacts(const bodice_contacts* given, std::size_t count, HostConta
 }
 
 void write_contacts(const engine::Context& context, const EngineContacts& from, const HostContacts& to) {
-  engine::parallel_for(context, from.count, kBlock, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, from.count, kContactsATask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) write_one(from, i, to);
   });
 }

@@ -11,7 +11,7 @@
 namespace bodice::capi {
 namespace {
 
-constexpr std::size_t kBlock = 4096;  ///< particles that one task copies: some ten microseconds
+constexpr std::size_t kParticlesATask = 4096;  ///< particles that one task copies: some ten microseconds
 
 /// Calls work(component of a vector as Scalar, axis) with the type that the host has.
 template <class Work>
@@ -134,7 +134,7 @@ void EngineParticles::copy_in(const StridedVectors& from, bool is_position, floa
                            is_position ? origin_[2] : 0.0};
   with_scalar(from.is_double, [&](auto scalar) {
     using Scalar = decltype(scalar);
-    engine::parallel_for(context_, engine_.count, kBlock, [&](std::size_t begin, std::size_t end) {
+    engine::parallel_for(context_, engine_.count, kParticlesATask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t e = element(i);
         to[0][i] = inward(from.x.get<Scalar>(e), shift[0]);

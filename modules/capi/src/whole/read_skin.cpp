@@ -24,7 +24,7 @@ Outcome copy(std::span<const From> from, To* to, std::size_t capacity, const cha
   return {};
 }
 
-bodice_landmark as_c(const body::Landmark& landmark) {
+bodice_landmark landmark_as_c(const body::Landmark& landmark) {
   return {{landmark.position.x(), landmark.position.y(), landmark.position.z()},
           landmark.confidence,
           landmark.vertex,
@@ -96,7 +96,7 @@ bodice_status bodice_skin_get_landmarks(const bodice_skin* skin, bodice_landmark
   return capi::guarded([&]() -> Outcome {
     BODICE_CHECK(capi::check_handle(skin, "The skin"));
     return copy(std::span<const body::Landmark>(skin->skin.anatomy.landmarks), landmarks, capacity,
-                "landmarks", as_c);
+                "landmarks", landmark_as_c);
   });
 }
 
