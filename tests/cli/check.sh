@@ -220,7 +220,10 @@ for file in m.json m.yaml; do
   expect 0 "a number in $file" grep -q 'waist_over_bust_line"*: [0-9]' $file
 done
 refused fit body.obj --measurements m.txt
-grep -q '^  height: 1[0-9][0-9]\.' m.yaml || { echo "FAILED: no height in centimeters"; failures=$((failures + 1)); }
+expect 0 "millimeters" grep -q '^  height: 1[0-9][0-9][0-9]\.' m.yaml
+expect 0 "measurements for GarmentCode" "$bodice" fit body.obj --tier paper --measurements m.yaml --measurements-unit cm
+expect 0 "centimeters" grep -q '^  height: 1[0-9][0-9]\.' m.yaml
+refused fit body.obj --measurements m.yaml --measurements-unit furlong
 expect 0 "regions and a heat map" "$bodice" fit body.obj --tier solid --segmentation seg.json --heat-map heat.png
 prints "heat map"
 exists heat.png

@@ -28,11 +28,22 @@ TEST_CASE("measurements are written in millimeters and degrees, and null where t
   CHECK(json["body"]["hips"].is_null());
 }
 
-TEST_CASE("the YAML form holds the same names as the JSON form, and lengths in centimeters") {
-  const auto json = nlohmann::json::parse(tryon::measurements_json(two_known()));
-  const std::string yaml = tryon::measurements_yaml(two_known());
+TEST_CASE("lengths in centimeters are those in millimeters, and angles stay") {
+  using enum tryon::TailorUnit;
+  const auto json = nlohmann::json::parse(tryon::measurements_json(two_known(), kCentimeter));
+  CHECK(json["units"]["length"] == "cm");
+  CHECK(json["body"]["waist"].get<double>() == doctest::Approx(71.235));
+  const std::string yaml = tryon::measurements_yaml(two_known(), kCentimeter);
   CHECK(yaml.find("units:\n  length: cm\n") == 0);
   CHECK(yaml.find("\n  waist: 71.235\n") != std::string::npos);
+  CHECK(yaml.find("\n  shoulder_incl: 30.0\n") != std::string::npos);
+}
+
+TEST_CASE("the YAML form holds the same names and numbers as the JSON form") {
+  const auto json = nlohmann::json::parse(tryon::measurements_json(two_known()));
+  const std::string yaml = tryon::measurements_yaml(two_known());
+  CHECK(yaml.find("units:\n  length: mm\n") == 0);
+  CHECK(yaml.find("\n  waist: 712.35\n") != std::string::npos);
   CHECK(yaml.find("\n  shoulder_incl: 30.0\n") != std::string::npos);
   for (const auto& [name, value] : json["body"].items()) {
     CAPTURE(name);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <memory>
 
 #include <bodice/engine/message.hpp>
@@ -23,6 +24,7 @@ namespace {
 struct FitCommand {
   CommonOptions common;
   std::string output, surface, measurements, segmentation, heat_map;
+  tryon::TailorUnit tailor_unit = tryon::TailorUnit::kMillimeter;
   std::optional<double> surface_mm;
   bool exact_region = false;
   bool no_rig = false;
@@ -125,7 +127,8 @@ engine::Result<void> write_outputs(const FitCommand& command, Run& run, const tr
     written.push_back(command.surface);
   }
   if (!command.measurements.empty()) {
-    if (auto saved = write_measurements(body.skin, command.measurements); !saved) return saved;
+    if (auto saved = write_measurements(body.skin, command.tailor_unit, command.measurements); !saved)
+      return saved;
     written.push_back(command.measurements);
   }
   if (!command.segmentation.empty()) {
@@ -263,9 +266,16 @@ void add_fit_command(CLI::App& app, int& exit_code, const std::vector<std::strin
       ->group("Output");
   sub->add_option(
          "--measurements", command->measurements,
-         "26 body measurements for garments, for a body that stands with its arms away from the trunk: "
-         ".json in millimeters, or .yaml in centimeters as GarmentCode reads them")
+         "26 body measurements for garments, for a body that stands with its arms away from the trunk "
+         "(.json or .yaml)")
       ->check(not_empty())
+      ->group("Output");
+  const std::map<std::string, tryon::TailorUnit> units = {{"mm", tryon::TailorUnit::kMillimeter},
+                                                          {"cm", tryon::TailorUnit::kCentimeter}};
+  sub->add_option("--measurements-unit", command->tailor_unit,
+                  "mm, or cm as the body files of GarmentCode (default: mm)")
+      ->transform(CLI::CheckedTransformer(units))
+      ->needs("--measurements")
       ->group("Output");
   sub->add_option(
          "--segmentation", command->segmentation,

@@ -12,10 +12,11 @@
 
 namespace bodice::cli {
 
-engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, const std::string& file) {
+engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, tryon::TailorUnit unit,
+                                        const std::string& file) {
   const body::Measurements measurements = anatomy::measure(skin.input.skin, skin.anatomy);
-  const std::string text = extension_of(file) == ".json" ? tryon::measurements_json(measurements)
-                                                         : tryon::measurements_yaml(measurements);
+  const std::string text = extension_of(file) == ".json" ? tryon::measurements_json(measurements, unit)
+                                                         : tryon::measurements_yaml(measurements, unit);
   return engine::write_file(file, std::string_view(text));
 }
 

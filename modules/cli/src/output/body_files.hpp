@@ -3,12 +3,14 @@
 
 #include <string>
 
+#include <bodice/tryon/measurements.hpp>
 #include <bodice/tryon/prepare.hpp>
 
 namespace bodice::cli {
 
 /// Measurements, JSON or YAML by the file's extension.
-engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, const std::string& file);
+engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, tryon::TailorUnit unit,
+                                        const std::string& file);
 
 /// The vertices of the OBJ that the skin came from, by region.
 engine::Result<void> write_segmentation(const engine::Context& context, const tryon::SegmentedSkin& skin,

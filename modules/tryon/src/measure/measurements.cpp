@@ -16,6 +16,10 @@ struct LengthUnit {
 };
 constexpr LengthUnit kMillimeters = {"mm", 1e3, 100.0}, kCentimeters = {"cm", 1e2, 1000.0};
 
+const LengthUnit& length_unit(TailorUnit unit) {
+  return unit == TailorUnit::kMillimeter ? kMillimeters : kCentimeters;
+}
+
 /// In the unit, to a hundredth of a millimeter, or in degrees.
 double shown(const body::Measurements& measurements, body::MeasurementId id, const LengthUnit& unit) {
   if (is_angle(id)) return std::round(measurements[id] * 180.0 / std::numbers::pi * 100.0) / 100.0;
@@ -34,13 +38,13 @@ Json as_json(const body::Measurements& measurements, const LengthUnit& unit) {
 
 }  // namespace
 
-std::string measurements_json(const body::Measurements& measurements) {
-  return as_json(measurements, kMillimeters).dump(2) + "\n";
+std::string measurements_json(const body::Measurements& measurements, TailorUnit unit) {
+  return as_json(measurements, length_unit(unit)).dump(2) + "\n";
 }
 
-std::string measurements_yaml(const body::Measurements& measurements) {
+std::string measurements_yaml(const body::Measurements& measurements, TailorUnit unit) {
   std::string text;
-  const Json json = as_json(measurements, kCentimeters);
+  const Json json = as_json(measurements, length_unit(unit));
   for (const auto& [group, members] : json.items()) {
     text += group + ":\n";
     for (const auto& [name, value] : members.items())

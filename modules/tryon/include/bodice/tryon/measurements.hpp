@@ -7,11 +7,16 @@
 
 namespace bodice::tryon {
 
-/// A JSON object: `units` and under `body` each measurement by name, in millimeters or degrees, to a
-/// hundredth; null where one could not be taken.
-std::string measurements_json(const body::Measurements& measurements);
+/// The unit of the lengths in such a text. GarmentCode reads centimeters.
+enum class TailorUnit { kMillimeter, kCentimeter };
 
-/// The same as YAML in centimeters, which GarmentCode reads as it stands.
-std::string measurements_yaml(const body::Measurements& measurements);
+/// A JSON object: `units` and under `body` each measurement by name, in the unit, to a hundredth of a
+/// millimeter, or in degrees, to a hundredth; null where one could not be taken.
+std::string measurements_json(const body::Measurements& measurements,
+                              TailorUnit unit = TailorUnit::kMillimeter);
+
+/// The same as YAML.
+std::string measurements_yaml(const body::Measurements& measurements,
+                              TailorUnit unit = TailorUnit::kMillimeter);
 
 }  // namespace bodice::tryon
