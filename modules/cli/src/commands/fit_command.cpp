@@ -6,7 +6,6 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/engine/write_file.hpp>
-#include <bodice/fitting/cost_model.hpp>
 #include <bodice/io/obj.hpp>
 #include <bodice/proxy/base_pose.hpp>
 #include <bodice/proxy/proxy_surface.hpp>
@@ -43,31 +42,6 @@ engine::Result<void> crop(const CommonOptions& o, const engine::Context& context
         std::ranges::count(body.fit.proxy.ellipsoids(), part.part, &proxy::ProxyEllipsoid::part));
   std::erase_if(body.fit.parts, [](const fitting::PartFit& part) { return part.ellipsoids == 0; });
   return {};
-}
-
-constexpr double kApart = 1.2;  // factor by which bodies differ from the cost model on its machine
-
-/// Whether another budget gives another proxy. It does not where the number of ellipsoids is at its bounds,
-/// now or with the advised budget.
-bool is_useful(double advised_us, const CommonOptions& o, const proxy::BodyProxy& proxy) {
-  constexpr int kFewest = 16;  // the least number that a budget gives: fewer take as long
-  const double predicted_us =
-      fitting::predicted_frame_us(proxy.tier(), static_cast<int>(proxy.ellipsoids().size()));
-  const proxy::Tier fastest = o.tier.empty() ? proxy::Tier::kTight : proxy.tier();
-  return predicted_us < kApart * *o.budget_us && *o.budget_us < kApart * predicted_us &&
-         advised_us >= fitting::predicted_frame_us(fastest, kFewest);
-}
-
-/// Prints the measured time of a query. The fit kept the budget by a cost model, so that results repeat.
-void print_speed(const CommonOptions& o, const tryon::PreparedBody& body) {
-  const double budget_us = *o.budget_us;
-  const double us = query_us(body.fit.proxy, body.skin.input.skin);
-  std::printf("speed       10,000 particles near the skin take %.0f us here, on one thread (budget %g)", us,
-              budget_us);
-  const double advised_us = budget_us * budget_us / us;
-  if ((us > kApart * budget_us || kApart * us < budget_us) && is_useful(advised_us, o, body.fit.proxy))
-    std::printf("; if this machine is idle, --budget-us %.0f gives that time here", advised_us);
-  std::putchar('\n');
 }
 
 constexpr double kCellsAStature = 300.0, kFewestCells = 10.0;
@@ -199,7 +173,8 @@ engine::Result<void> fit(const FitCommand& command) {
   std::vector<std::string> written;
   if (auto done = write_outputs(command, run, *body, *bases, written); !done) return done;
   auto done = run.finish(*body, nullptr, written, command.exact_region);
-  if (done && o.budget_us && !o.quiet && !o.json) print_speed(o, *body);
+  if (done && o.budget_us && !o.quiet && !o.json)
+    print_speed(o.tier, *o.budget_us, body->fit.proxy, body->skin.input.skin);
   return done;
 }
 
