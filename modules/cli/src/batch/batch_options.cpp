@@ -58,6 +58,10 @@ engine::Result<void> add_option(const CLI::App& options, const std::string& key,
   if (option->get_expected_max() == 0) return add_flag(key, values, words);
   if (option->get_group() == "Output")
     if (auto ok = check_output(key, values); !ok) return ok;
+  if (option->get_items_expected_max() > 1 && option->get_delimiter() != ',') {
+    for (const std::string& value : values) words.push_back(option_name(key) + "=" + value);
+    return {};
+  }
   std::string value;
   for (const std::string& part : values) value += (value.empty() ? "" : ",") + part;
   if (values.size() != 1 && option->get_delimiter() != ',')

@@ -119,7 +119,7 @@ std::string DrapeWork::version() const {
 }
 
 bool DrapeWork::is_file(const std::string& name, const std::string& value) const {
-  if (name == kBodyKey || name == "region_of") return true;
+  if (name == kBodyKey || name == "region_of" || name == "prop") return true;
   if (name == kGarmentKey) return !garment_kinds().contains(value);
   if (name == "motion") return !rigging::motion_from_name(value);
   return name == "profile" && value.ends_with(".json");
