@@ -30,7 +30,8 @@ void fit_leaf(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> 
 
 SweepTree make_sweep_tree(const ContactMesh& mesh) {
   SweepTree tree;
-  tree.width = std::bit_ceil(mesh.leaves());
+  tree.leaves = mesh.leaves();
+  tree.width = std::bit_ceil(tree.leaves);
   tree.node.assign(2 * tree.width, empty_sweep());
   return tree;
 }

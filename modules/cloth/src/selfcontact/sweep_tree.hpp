@@ -22,6 +22,7 @@ struct Sweep {
 
 /// The hierarchy: node 1 is the root, and the children of node k are 2k and 2k + 1.
 struct SweepTree {
+  std::size_t leaves = 0;   ///< of the garment; the tree's others are empty
   std::size_t width = 1;    ///< leaves of the whole tree, a power of two; leaf k is node width + k
   std::vector<Sweep> node;  ///< #nodes
 };
@@ -64,7 +65,9 @@ void for_each_near_leaf(const SweepTree& tree, const Sweep& own, std::size_t fir
     const std::size_t node = stack[--size];
     if (!may_be_near(own, tree.node[node], reach)) continue;
     if (node >= tree.width) {
-      if (node - tree.width >= first) visit(node - tree.width);
+      // A position that is not a number is near everything, an empty leaf included.
+      const std::size_t leaf = node - tree.width;
+      if (leaf >= first && leaf < tree.leaves) visit(leaf);
       continue;
     }
     stack[size++] = 2 * node + 1;
