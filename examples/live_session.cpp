@@ -11,27 +11,10 @@
 #include <cstdio>
 #include <thread>
 
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/session.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 using namespace bodice;
-
-namespace {
-
-/// A skirt cut to the first body that the session shows.
-engine::Result<tryon::WornGarment> skirt_for(const engine::Context& context,
-                                             const tryon::SegmentedSkin& skin) {
-  auto made = synth::make_garment(context,
-                                  {.mesh = skin.input.skin,
-                                   .part = skin.anatomy.part,
-                                   .landmarks = skin.anatomy.landmarks,
-                                   .stature_m = skin.anatomy.stature_m},
-                                  {.kind = synth::GarmentKind::kSkirt});
-  if (!made) return std::move(made).error();
-  return tryon::WornGarment{.name = "skirt", .mesh = std::move(made->mesh), .held = std::move(made->pinned)};
-}
-
-}  // namespace
 
 int main() {
   const auto workers = engine::make_tbb_executor();
@@ -47,7 +30,7 @@ int main() {
     std::this_thread::sleep_until(next_display += std::chrono::microseconds(16667));  // a display's 60 Hz
     const tryon::FrameOutcome outcome = session.frame(1.0 / 60.0);
     if (outcome.has_body && !dressed) {
-      auto skirt = skirt_for(context, *session.body()->skin);
+      auto skirt = tryon::make_garment(context, *session.body()->skin);
       if (!skirt) return std::printf("%s\n", skirt.error().sentence().c_str()), 1;
       if (auto worn = session.dress({*skirt}); !worn)
         return std::printf("%s\n", worn.error().sentence().c_str()), 1;

@@ -9,25 +9,12 @@
 #include <cstdio>
 #include <thread>
 
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/session.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 using namespace bodice;
 
 namespace {
-
-/// A skirt cut to the body that the session shows.
-engine::Result<tryon::WornGarment> skirt_for(const engine::Context& context,
-                                             const tryon::SegmentedSkin& skin) {
-  auto made = synth::make_garment(context,
-                                  {.mesh = skin.input.skin,
-                                   .part = skin.anatomy.part,
-                                   .landmarks = skin.anatomy.landmarks,
-                                   .stature_m = skin.anatomy.stature_m},
-                                  {.kind = synth::GarmentKind::kSkirt});
-  if (!made) return std::move(made).error();
-  return tryon::WornGarment{.name = "skirt", .mesh = std::move(made->mesh), .held = std::move(made->pinned)};
-}
 
 int failed(const engine::Error& error) {
   return std::printf("%s\n", error.sentence().c_str()), 1;
@@ -46,7 +33,7 @@ int main() {
   const engine::Ticket ready = session.submit(synth::BodyOptions{.vertices = 4500});
   if (const auto prepared = ready.wait(); !prepared) return failed(prepared.error());
   session.frame(0.0);  // a boundary, at which the body is taken
-  auto skirt = skirt_for(context, *session.body()->skin);
+  auto skirt = tryon::make_garment(context, *session.body()->skin);
   if (!skirt) return failed(skirt.error());
   if (auto worn = session.dress({*skirt}); !worn) return failed(worn.error());
 

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <vector>
 
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/drape.hpp>
 
 using namespace bodice;
@@ -34,15 +33,9 @@ int main(int argc, char** argv) {
   auto body =
       value_or_exit(tryon::fit_proxy(context, value_or_exit(std::move(skin)), {.tier = proxy::Tier::kTight}));
   const anatomy::Anatomy& anatomy = body.skin.anatomy;
-  auto skirt = value_or_exit(synth::make_garment(context,
-                                                 {.mesh = body.skin.input.skin,
-                                                  .part = anatomy.part,
-                                                  .landmarks = anatomy.landmarks,
-                                                  .stature_m = anatomy.stature_m},
-                                                 {.kind = synth::GarmentKind::kSkirt}));
-  auto draped = value_or_exit(tryon::drape(
-      context, body, {{.name = "skirt", .mesh = std::move(skirt.mesh), .held = std::move(skirt.pinned)}},
-      {.frames = 60, .kept_frames = 2}));
+  auto skirt = value_or_exit(tryon::make_garment(context, body.skin));
+  auto draped =
+      value_or_exit(tryon::drape(context, body, {std::move(skirt)}, {.frames = 60, .kept_frames = 2}));
 
   std::vector<geometry::Vec3> landmarks;
   for (const body::Landmark& landmark : anatomy.landmarks) landmarks.push_back(landmark.position);

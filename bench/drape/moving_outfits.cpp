@@ -84,13 +84,9 @@ tryon::WornGarment make_garment(const engine::Context& context, const std::strin
                                 const tryon::SegmentedSkin& skin) {
   if (kind == "tshirt") return {.name = kind, .mesh = cut_from_skin(skin, kShirt, kShirtEase_m), .held = {}};
   if (kind == "bodysuit") return {.name = kind, .mesh = cut_from_skin(skin, kSuit, kSuitEase_m), .held = {}};
-  synth::Garment made = or_exit(synth::make_garment(context,
-                                                    {.mesh = skin.input.skin,
-                                                     .part = skin.anatomy.part,
-                                                     .landmarks = skin.anatomy.landmarks,
-                                                     .stature_m = skin.anatomy.stature_m},
-                                                    {.kind = synth::GarmentKind::kSkirt}));
-  return {.name = kind, .mesh = std::move(made.mesh), .held = std::move(made.pinned)};
+  tryon::WornGarment skirt = or_exit(tryon::make_garment(context, skin));
+  skirt.name = kind;
+  return skirt;
 }
 
 tryon::WornGarment read_garment(const engine::Context& context, const std::filesystem::path& file,

@@ -12,9 +12,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/judge_frame.hpp>
 #include <bodice/tryon/session.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 #include <bench_support/or_exit.hpp>
 #include <bench_support/origin.hpp>
@@ -48,17 +48,6 @@ std::vector<Vec3> widened(const tryon::SegmentedSkin& skin, const std::vector<Ve
   return positions;
 }
 
-tryon::WornGarment skirt_of(const engine::Context& context, const tryon::SegmentedSkin& skin, double edge_m) {
-  synth::Garment made =
-      bench::or_exit(synth::make_garment(context,
-                                         {.mesh = skin.input.skin,
-                                          .part = skin.anatomy.part,
-                                          .landmarks = skin.anatomy.landmarks,
-                                          .stature_m = skin.anatomy.stature_m},
-                                         {.kind = synth::GarmentKind::kSkirt, .edge_length_m = edge_m}));
-  return {.name = "skirt", .mesh = std::move(made.mesh), .held = std::move(made.pinned)};
-}
-
 /// A session with the skirt on, after its first second.
 class Dressed {
  public:
@@ -73,7 +62,8 @@ class Dressed {
     frame();
     skin_ = session_->body()->skin;
     normals_ = geometry::vertex_normals(skin_->input.skin);
-    bench::or_exit(session_->dress({skirt_of(context, *skin_, 1e-3 * arguments.edge_mm)}));
+    bench::or_exit(session_->dress(
+        {bench::or_exit(tryon::make_garment(context, *skin_, {.edge_length_m = 1e-3 * arguments.edge_mm}))}));
     for (int i = 0; i < 60; ++i) frame();
   }
 

@@ -15,8 +15,8 @@
 #include <vector>
 
 #include <bodice/io/scene.hpp>
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/session.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 using namespace bodice;
 
@@ -26,19 +26,6 @@ constexpr double kFrame_s = 1.0 / 60.0;
 constexpr int kFramesAfter = 90;   ///< frames shown once a body is ready
 constexpr int kPictureEvery = 15;  ///< frames from picture to picture
 constexpr int kMostFrames = 7200;  ///< two minutes: a body that takes longer does not come
-
-/// The skirt of the first body; every body wears it.
-engine::Result<tryon::WornGarment> skirt_for(const engine::Context& context,
-                                             const tryon::SegmentedSkin& skin) {
-  auto made = synth::make_garment(context,
-                                  {.mesh = skin.input.skin,
-                                   .part = skin.anatomy.part,
-                                   .landmarks = skin.anatomy.landmarks,
-                                   .stature_m = skin.anatomy.stature_m},
-                                  {.kind = synth::GarmentKind::kSkirt});
-  if (!made) return std::move(made).error();
-  return tryon::WornGarment{.name = "skirt", .mesh = std::move(made->mesh), .held = std::move(made->pinned)};
-}
 
 /// The mean distance of the skin's vertices from the live proxy, millimeters.
 double error_mm(const engine::Context& context, const tryon::Session& session) {
@@ -140,7 +127,7 @@ class Host {
     board_.add(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
     if (!outcome.has_body) session_.pipeline().run_pending();  // for an executor without a worker to spare
     if (outcome.has_body && !garment_) {
-      auto skirt = skirt_for(context_, *session_.body()->skin);
+      auto skirt = tryon::make_garment(context_, *session_.body()->skin);
       if (!skirt) return std::move(skirt).error();
       garment_ = std::move(skirt).value();
       if (auto worn = session_.dress({*garment_}); !worn) return worn;

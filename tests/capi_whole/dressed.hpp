@@ -1,8 +1,8 @@
 // A made body and a skirt cut to it.
 #pragma once
 
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/prepare.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 #include "capi_whole/body.hpp"
 
@@ -12,18 +12,12 @@ namespace capi_test {
 struct Dressed {
   bodice::synth::Body body = make_body();
   bodice::tryon::SegmentedSkin skin;
-  bodice::synth::Garment skirt;
+  bodice::tryon::WornGarment skirt;
 
   Dressed() {
     auto input = bodice::tryon::repair_body({}, body.mesh);
     skin = std::move(bodice::tryon::segment_mesh({}, std::move(*input), {})).value();
-    auto made =
-        bodice::synth::make_garment({},
-                                    {.mesh = skin.input.skin,
-                                     .part = skin.anatomy.part,
-                                     .landmarks = skin.anatomy.landmarks,
-                                     .stature_m = skin.anatomy.stature_m},
-                                    {.kind = bodice::synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
+    auto made = bodice::tryon::make_garment({}, skin, {.edge_length_m = 0.03});
     REQUIRE(made);
     skirt = std::move(made).value();
   }
@@ -31,8 +25,8 @@ struct Dressed {
     bodice_garment worn = bodice_default_garment();
     worn.name = "skirt";
     worn.mesh = &mesh;
-    worn.held = skirt.pinned.data();
-    worn.held_count = skirt.pinned.size();
+    worn.held = skirt.held.data();
+    worn.held_count = skirt.held.size();
     return worn;
   }
 };

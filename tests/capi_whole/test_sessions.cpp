@@ -101,7 +101,7 @@ TEST_CASE("capi: a drape ends where that of C++ does, whatever the arrays") {
 
   const auto same = tryon::fit_proxy({}, dressed.skin, {.tier = proxy::Tier::kSolid});
   REQUIRE(same);
-  const auto expected = tryon::drape({}, *same, {{"skirt", dressed.skirt.mesh, dressed.skirt.pinned}},
+  const auto expected = tryon::drape({}, *same, {{"skirt", dressed.skirt.mesh, dressed.skirt.held}},
                                      {.frames = 10, .fabric = *cloth::find_fabric("denim")});
   REQUIRE(expected);
   CHECK(report.hash == expected->report.hash);

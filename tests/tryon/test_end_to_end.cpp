@@ -31,14 +31,9 @@ tryon::PreparedBody prepare(const engine::Context& context, proxy::Tier tier) {
 }
 
 tryon::WornGarment skirt_for(const engine::Context& context, const tryon::SegmentedSkin& skin) {
-  auto garment = synth::make_garment(context,
-                                     {.mesh = skin.input.skin,
-                                      .part = skin.anatomy.part,
-                                      .landmarks = skin.anatomy.landmarks,
-                                      .stature_m = skin.anatomy.stature_m},
-                                     {.kind = synth::GarmentKind::kSkirt});
+  auto garment = tryon::make_garment(context, skin, {.kind = synth::GarmentKind::kSkirt});
   REQUIRE_MESSAGE(garment.ok(), garment.error().sentence());
-  return {.name = "skirt", .mesh = std::move(garment->mesh), .held = std::move(garment->pinned)};
+  return std::move(garment).value();
 }
 
 }  // namespace
@@ -137,12 +132,7 @@ TEST_CASE("a skirt is held at its waistband, a tunic is not held") {
   for (const geometry::Index v : held) lowest = std::min(lowest, skirt.mesh.positions[v].y());
   CHECK(lowest > 0.5 * skin->anatomy.stature_m);
 
-  const auto tunic = synth::make_garment(context,
-                                         {.mesh = skin->input.skin,
-                                          .part = skin->anatomy.part,
-                                          .landmarks = skin->anatomy.landmarks,
-                                          .stature_m = skin->anatomy.stature_m},
-                                         {.kind = synth::GarmentKind::kTunic});
+  const auto tunic = tryon::make_garment(context, *skin, {.kind = synth::GarmentKind::kTunic});
   REQUIRE_MESSAGE(tunic.ok(), tunic.error().sentence());
   CHECK(tryon::held_vertices(tunic->mesh, *skin).empty());
 }

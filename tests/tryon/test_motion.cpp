@@ -9,9 +9,9 @@
 #include <string>
 
 #include <bodice/binding/poser.hpp>
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/rigged_body.hpp>
+#include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
 
 using namespace bodice;
@@ -93,15 +93,9 @@ Walker walker(const engine::Context& context, const char* motion, proxy::Tier ti
   REQUIRE_MESSAGE(found.ok(), found.error().sentence());
   CHECK(warnings.empty());
   const tryon::SegmentedSkin& skin = *rigged;
-  auto garment = synth::make_garment(context,
-                                     {.mesh = skin.input.skin,
-                                      .part = skin.anatomy.part,
-                                      .landmarks = skin.anatomy.landmarks,
-                                      .stature_m = skin.anatomy.stature_m},
-                                     {.kind = synth::GarmentKind::kSkirt});
+  auto garment = tryon::make_garment(context, skin, {.kind = synth::GarmentKind::kSkirt});
   REQUIRE_MESSAGE(garment.ok(), garment.error().sentence());
-  std::vector<tryon::WornGarment> worn{
-      {.name = "skirt", .mesh = std::move(garment->mesh), .held = std::move(garment->pinned)}};
+  std::vector<tryon::WornGarment> worn{std::move(garment).value()};
   auto body = tryon::fit_bound_proxy(context, std::move(rigged).value(), {.tier = tier});
   REQUIRE_MESSAGE(body.ok(), body.error().sentence());
   return {std::move(body).value(), std::move(found).value(), std::move(worn)};

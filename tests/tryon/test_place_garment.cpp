@@ -4,9 +4,9 @@
 #include <functional>
 
 #include <bodice/synth/body.hpp>
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/place_garment.hpp>
 #include <bodice/tryon/prepare.hpp>
+#include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
 
 using namespace bodice;
@@ -23,12 +23,7 @@ struct Dressed {
     auto made = tryon::segment_builtin({}, {.vertices = 4500}, {});
     REQUIRE(made.ok());
     skin = std::move(made).value();
-    auto garment = synth::make_garment({},
-                                       {.mesh = skin.input.skin,
-                                        .part = skin.anatomy.part,
-                                        .landmarks = skin.anatomy.landmarks,
-                                        .stature_m = skin.anatomy.stature_m},
-                                       {.kind = synth::GarmentKind::kTunic});
+    auto garment = tryon::make_garment({}, skin, {.kind = synth::GarmentKind::kTunic});
     REQUIRE(garment.ok());
     tunic = std::move(garment->mesh);
   }

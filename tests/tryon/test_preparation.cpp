@@ -8,8 +8,8 @@
 
 #include <bodice/engine/random.hpp>
 #include <bodice/engine/trace.hpp>
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/preparation.hpp>
+#include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
 
 using namespace bodice;
@@ -36,12 +36,7 @@ std::vector<std::uint64_t> proxies_of(const engine::Context& context, proxy::Tie
 }
 
 geometry::TriMesh skirt_on(const tryon::SegmentedSkin& skin) {
-  auto garment = synth::make_garment({},
-                                     {.mesh = skin.input.skin,
-                                      .part = skin.anatomy.part,
-                                      .landmarks = skin.anatomy.landmarks,
-                                      .stature_m = skin.anatomy.stature_m},
-                                     {.kind = synth::GarmentKind::kSkirt});
+  auto garment = tryon::make_garment({}, skin, {.kind = synth::GarmentKind::kSkirt});
   REQUIRE(garment.ok());
   return std::move(garment->mesh);
 }

@@ -11,9 +11,9 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/sampling.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
-#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/prepare.hpp>
 #include <bodice/tryon/reach.hpp>
+#include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
 
 using namespace bodice;
@@ -33,12 +33,7 @@ struct Dressed {
 Dressed dress() {
   auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
   REQUIRE(skin.ok());
-  auto cut = synth::make_garment({},
-                                 {.mesh = skin->input.skin,
-                                  .part = skin->anatomy.part,
-                                  .landmarks = skin->anatomy.landmarks,
-                                  .stature_m = skin->anatomy.stature_m},
-                                 {.kind = synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
+  auto cut = tryon::make_garment({}, *skin, {.kind = synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
   REQUIRE(cut.ok());
   Dressed dressed{std::move(*skin), std::move(cut->mesh), {}, {}};
   engine::Random random(7);

@@ -60,14 +60,14 @@ def sources():
                 seen.add(found[0])
                 see(*found)
 
-    todo = [file for file, layer in files.items() if layer in WHOLE and re.search(WHOLE[layer], str(file))]
-    while todo:
-        file = todo.pop()
+    pending = [file for file, layer in files.items() if layer in WHOLE and re.search(WHOLE[layer], str(file))]
+    while pending:
+        file = pending.pop()
         if file in wanted:
             continue
         wanted.add(file)
         see(file, files[file])
-        todo += [other for other, header in first.items() if header in seen and other not in wanted]
+        pending += [other for other, header in first.items() if header in seen and other not in wanted]
     return [(file, layer) for file, layer in files.items() if file in wanted]
 
 

@@ -9,7 +9,7 @@
 #error "bodice_frame.cpp is being compiled with -ffast-math or a part of it: remove that flag for this file"
 #endif
 #if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"  // of vectors in parameters, which nothing outside of this file has
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are parameters inside of this file alone
 #endif
 #include "bodice_frame.h"
 

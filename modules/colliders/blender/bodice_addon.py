@@ -149,6 +149,12 @@ def play(garment, mesh_file, cache):
     modifier.forward_axis, modifier.up_axis = "POS_Y", "POS_Z"
 
 
+def refused(operator, sentence):
+    """Shows why an operator did nothing."""
+    operator.report({"ERROR"}, sentence)
+    return {"CANCELLED"}
+
+
 class Fit(bpy.types.Operator):
     bl_idname, bl_label = "bodice.fit", "Fit ellipsoids"
     bl_description = "Fits ellipsoids to the active mesh and shows them"
@@ -157,12 +163,10 @@ class Fit(bpy.types.Operator):
     def execute(self, context):
         body, scene = context.active_object, context.scene
         if body is None or body.type != "MESH":
-            self.report({"ERROR"}, "Select the body, a mesh.")
-            return {"CANCELLED"}
+            return refused(self, "Select the body, a mesh.")
         try: fit(body, scene.bodice_tier)
         except RuntimeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return refused(self, str(error))
         return {"FINISHED"}
 
 
@@ -175,12 +179,10 @@ class Bake(bpy.types.Operator):
         body, scene = context.active_object, context.scene
         garments = [o for o in context.selected_objects if o.type == "MESH" and o != body]
         if body is None or body.type != "MESH" or not garments:
-            self.report({"ERROR"}, "Select garments, then the body last.")
-            return {"CANCELLED"}
+            return refused(self, "Select garments, then the body last.")
         try: drape = bake(body, garments, scene.bodice_frames, scene.bodice_fabric)
         except RuntimeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return refused(self, str(error))
         self.report({"INFO"}, f"Deepest in the skin: {drape['penetration']['max_mm']:.1f} mm")
         return {"FINISHED"}
 

@@ -33,7 +33,7 @@ struct ExportCommand {
 /// A collider and what it costs.
 struct Reduced {
   std::vector<colliders::PlainShape> shapes;   ///< empty where ellipsoids or pieces are written
-  std::vector<colliders::ConvexPiece> pieces;  ///< of --to convex
+  std::vector<colliders::ConvexPiece> pieces;  ///< what --to convex writes
   colliders::ReductionCost cost;
   std::string what;  ///< "32 capsules", "89 ellipsoids"
 };

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include <bodice/io/obj.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 #include "options/garment_kinds.hpp"
 #include "options/validators.hpp"
@@ -30,7 +31,7 @@ engine::Result<void> make(const MakeCommand& command) {
     written.push_back(body_out);
   }
   if (!command.garment.empty()) {
-    auto garment = make_garment_for(run.context(), *skin, command.kind);
+    auto garment = tryon::make_garment(run.context(), *skin, {.kind = garment_kinds().at(command.kind)});
     if (!garment) return std::move(garment).error();
     if (auto saved = io::write_obj(garment->mesh, command.garment, frame); !saved) return saved;
     written.push_back(command.garment);

@@ -35,12 +35,10 @@ engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const
 
 engine::Result<std::vector<tryon::WornGarment>> make_garment(const Run& run, const DrapeCommand& command,
                                                              const tryon::SegmentedSkin& skin) {
-  auto garment = make_garment_for(run.context(), skin, command.made);
+  auto garment = tryon::make_garment(run.context(), skin, {.kind = garment_kinds().at(command.made)});
   if (!garment) return std::move(garment).error();
-  std::vector<geometry::Index> held;
-  if (command.hold == "auto") held = std::move(garment->pinned);
-  return std::vector<tryon::WornGarment>{
-      {.name = command.made, .mesh = std::move(garment->mesh), .held = std::move(held)}};
+  if (command.hold != "auto") garment->held.clear();
+  return std::vector<tryon::WornGarment>{std::move(garment).value()};
 }
 
 /// The mean distance between the vertices of two frames, meters.

@@ -31,9 +31,9 @@ struct Corners {
 
 /// The closest points of parts A and B.
 struct Closest {
-  Float4 weight = {};    ///< of the corners: those of A sum to 1, those of B to -1
+  Float4 weight = {};    ///< shares of the corners: A's sum to 1, B's to -1
   Float4 apart = {};     ///< from the point of B to that of A, meters
-  float length2 = 0.0f;  ///< of `apart`, square meters
+  float length2 = 0.0f;  ///< the square of the length of `apart`, square meters
 };
 
 /// The closest points of the particle at[0] and the triangle of the others.

@@ -32,7 +32,7 @@ struct ContactSource {
   PairSearch search;                ///< at the positions when the substep began
   std::span<const Point> rest;      ///< #P: positions at rest
   std::span<const LeafMove> moves;  ///< #leaves: in this substep
-  BodyPush body;                    ///< in the substep before
+  BodyPush body;                    ///< what the body did in the substep before
 
   float step_of(const PairGroup& group) const {
     return relative_move(moves[group.leaf[0]], moves[group.leaf[1]]);

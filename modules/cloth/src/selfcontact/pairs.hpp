@@ -35,7 +35,7 @@ struct Pair {
 /// Two leaves and their pairs.
 struct PairGroup {
   std::uint32_t leaf[2];
-  std::uint32_t begin = 0, end = 0;  ///< in the pairs of the task
+  std::uint32_t begin = 0, end = 0;  ///< its range in PairTask::pairs
   float travel_m = 0.0f;  ///< bounds how far one leaf's parts moved against the other's since it was listed
   float next_m = 0.0f;    ///< travel up to which none of its pairs is nearer than its gap
   float find_m = 0.0f;    ///< travel up to which it has no other pairs that may be
@@ -66,10 +66,10 @@ struct PairTask {
   std::size_t first_leaf = 0, last_leaf = 0;
   std::vector<PairGroup> groups, groups_before;  ///< by leaf, then by the other leaf; those before the search
   std::vector<std::uint32_t> near;               ///< room for a search
-  std::vector<Pair> pairs;                       ///< of all groups, and some that are no longer used
+  std::vector<Pair> pairs;                       ///< what all groups have, and some that are no longer used
   std::vector<Pair> spare;                       ///< room for the same, for tidy()
   std::size_t used = 0;                          ///< number of pairs in use
-  std::vector<PairContact> contacts[2];          ///< of groups across blocks, and of those inside
+  std::vector<PairContact> contacts[2];          ///< [0]: groups across blocks, [1]: groups inside
   std::vector<Tangle> tangles;
   std::vector<std::uint32_t> crossing;  ///< pairs that would cross in this substep
   bool pressed = false;                 ///< whether the body pressed a pair through each other in this frame

@@ -4,9 +4,9 @@
 // (zones.hpp). What crosses when the simulation begins is drawn apart (tangles.hpp).
 // Based on: Anka He Chen, Jerry Hsu, Ziheng Liu, Miles Macklin, Yin Yang, Cem Yuksel. Offset Geometric
 // Contact. 2025. - section 4 (a bound on displacements keeps what is free of crossings so, without continuous
-// tests) Differs: the bound is on how far a particle leaves the straight path that is expected of it, so that
-// cloth that moves with a body is searched no more often than cloth at rest; past the bound, pairs are found
-// anew.
+// tests)
+// Differs: the bound is on how far a particle leaves the straight path that is expected of it, so that cloth
+// that moves with a body is searched no more often than cloth at rest; past the bound, pairs are found anew.
 #pragma once
 
 #include <vector>
@@ -28,7 +28,7 @@ struct SelfContact {
   SweepTree tree;
   std::vector<PairTask> tasks;
   std::vector<Tangle> tangles_before;
-  std::vector<Tangle> tangles;      ///< triangles that cross since the simulation began
+  std::vector<Tangle> tangles;      ///< triangles that cross: their contacts have no sides
   std::vector<Point> rest;          ///< #P: positions at rest, meters, in the particles' first frame
   std::vector<Point> before, now;   ///< #P: positions when the substep began, and at its end
   std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then

@@ -1,8 +1,8 @@
 // A bounding volume hierarchy over the leaves of a garment. Its boxes also bound how their contents move.
 // What moves alike stays as far apart as it was, however fast, so that few parts of a walking body's garment
 // come near each other.
-// Based on: Christer Ericson. Real-Time Collision
-// Detection. 2005. - sections 5.5.8 (moving boxes), 6.3 (hierarchies)
+// Based on: Christer Ericson. Real-Time Collision Detection. 2005. - sections 5.5.8 (moving boxes),
+// 6.3 (hierarchies)
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct Sweep {
 
 /// The hierarchy: node 1 is the root, and the children of node k are 2k and 2k + 1.
 struct SweepTree {
-  std::size_t leaves = 0;   ///< of the garment; the tree's others are empty
+  std::size_t leaves = 0;   ///< how many the garment has; the tree's others are empty
   std::size_t width = 1;    ///< leaves of the whole tree, a power of two; leaf k is node width + k
   std::vector<Sweep> node;  ///< #nodes
 };

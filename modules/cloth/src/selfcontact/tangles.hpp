@@ -1,6 +1,6 @@
-// Triangles that cross each other when the simulation begins, and how they come apart. Their contacts have no
-// sides yet; where an edge passes through a triangle, the two are moved so that the line along which the
-// surfaces cross becomes shorter, until it is gone.
+// Triangles that cross when the simulation begins, or because the body pressed them together, and how they
+// come apart. Their contacts have no sides; where an edge passes through a triangle, the two are moved so
+// that the line along which the surfaces cross becomes shorter, until it is gone.
 // Based on: Pascal Volino, Nadia Magnenat-Thalmann. Resolving Surface Collisions through Intersection Contour
 // Minimization. 2006. - section 3
 // Differs: the gradient is that of the triangles' own piece of the line, without its neighbors'.

@@ -100,6 +100,13 @@ FrameShare share(int substep, const Plan& plan) {
   return {static_cast<float>(substep) / all, static_cast<float>(substep + 1) / all};
 }
 
+SelfSubstep self_substep(const Plan& plan, const State& s) {
+  return {plan.substep_s,
+          static_cast<float>(plan.simulated_s),
+          static_cast<float>(s.fabric.friction),
+          {s.contacts.touching, s.contacts.pushed}};
+}
+
 std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
                           const Plan& plan, int substep, State& s) {
   Particles& p = s.particles;
@@ -117,13 +124,9 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
     solve_threads(s.threads, p.point);
   }
   solve_coarse(context, s.coarse, p);
-  const auto friction = static_cast<float>(s.fabric.friction);
-  const SelfSubstep with_itself = {plan.substep_s,
-                                   static_cast<float>(plan.simulated_s),
-                                   friction,
-                                   {s.contacts.touching, s.contacts.pushed}};
+  const SelfSubstep with_itself = self_substep(plan, s);
   if (touches_itself(plan, s)) push_apart(context, with_itself, s.self, p);
-  limits |= resolve_body_contacts(context, collider, s.options, friction,
+  limits |= resolve_body_contacts(context, collider, s.options, with_itself.friction,
                                   {plan.substep_s, share(substep, plan)}, s.contacts, p);
   if (touches_itself(plan, s)) hold_apart(context, with_itself, s.self, p);
   return limits;
@@ -134,12 +137,7 @@ void end_contact(const engine::Context& context, const collision::Collider& coll
                  State& s) {
   end_contact_frame(context, collider, s.options, s.contacts, s.particles);
   if (s.options.certify_m && touches_itself(plan, s))
-    hold_apart(context,
-               {plan.substep_s,
-                static_cast<float>(plan.simulated_s),
-                static_cast<float>(s.fabric.friction),
-                {s.contacts.touching, s.contacts.pushed}},
-               s.self, s.particles);
+    hold_apart(context, self_substep(plan, s), s.self, s.particles);
 }
 
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {

@@ -72,6 +72,17 @@ void mark_band(const geometry::TriMesh& mesh, const std::vector<Index>& rim, dou
 
 }  // namespace
 
+engine::Result<WornGarment> make_garment(const engine::Context& context, const SegmentedSkin& skin,
+                                         const synth::GarmentOptions& options) {
+  const synth::SegmentedBody body{.mesh = skin.input.skin,
+                                  .part = skin.anatomy.part,
+                                  .landmarks = skin.anatomy.landmarks,
+                                  .stature_m = skin.anatomy.stature_m};
+  auto made = synth::make_garment(context, body, options);
+  if (!made) return std::move(made).error();
+  return WornGarment{std::string(name(options.kind)), std::move(made->mesh), std::move(made->pinned)};
+}
+
 std::vector<Index> held_vertices(const geometry::TriMesh& garment, const SegmentedSkin& body) {
   const auto welded = geometry::repair({}, garment, {.orient = false, .drop_fins = false});
   if (!welded) return {};

@@ -30,9 +30,9 @@ enum class Part : std::uint8_t {
   kThing,
 };
 
-inline constexpr int kPartCount = 15;                               ///< of a body
-inline constexpr int kThingPartCount = 16;                          ///< of a thing, at most
-inline constexpr int kAllPartCount = kPartCount + kThingPartCount;  ///< of bodies and things
+inline constexpr int kPartCount = 15;                               ///< how many parts a body has
+inline constexpr int kThingPartCount = 16;                          ///< how many a thing has at most
+inline constexpr int kAllPartCount = kPartCount + kThingPartCount;  ///< how many values there are
 
 inline constexpr std::array<std::string_view, kAllPartCount> kPartNames = {
     "head",        "torso_ul",  "torso_ur",  "torso_ml", "torso_mr", "torso_ll", "torso_lr", "upper_arm_l",

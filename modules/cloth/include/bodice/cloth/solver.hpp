@@ -95,7 +95,9 @@ struct SelfContactReport {
   std::size_t pairs = 0;     ///< pairs of particle and triangle, or of two edges, that may touch
   std::size_t searches = 0;  ///< how often they were found anew
   std::size_t held = 0;      ///< particles that were held back from a crossing, summed over the substeps
-  std::size_t crossing = 0;  ///< pairs of triangles that still cross, of those that did at the start
+  /// Pairs of triangles that cross, of those that did at the start or that the body pressed through each
+  /// other.
+  std::size_t crossing = 0;
 };
 
 /// The state of a garment after a frame, and what the frame took.

@@ -1,8 +1,10 @@
 #include "import/played/played_skin.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
+#include <utility>
+
+#include "import/source/gltf_skin.hpp"
 
 namespace bodice::io {
 
@@ -11,56 +13,22 @@ namespace {
 using geometry::Vec3;
 using nlohmann::json;
 
-constexpr std::size_t kMostSets = 64;  // of four weights a vertex
-
 /// The skin's weights, all sets of a vertex one after the other.
 rig::SkinWeights weights_of(const GltfDocument& document, const json& attributes, std::size_t vertices) {
-  std::vector<GltfNumbers> joints, weights;
-  for (std::size_t set = 0; set < kMostSets; ++set) {
-    const auto j = index_at(attributes, ("JOINTS_" + std::to_string(set)).c_str());
-    const auto w = index_at(attributes, ("WEIGHTS_" + std::to_string(set)).c_str());
-    auto joint = j ? document.numbers(*j) : std::nullopt;
-    auto weight = w ? document.numbers(*w) : std::nullopt;
-    if (!joint || !weight || joint->count != vertices || weight->count != vertices ||
-        joint->components != 4 || weight->components != 4)
-      break;
-    joints.push_back(std::move(*joint)), weights.push_back(std::move(*weight));
-  }
+  std::vector<std::vector<std::pair<std::uint16_t, float>>> of_vertex(vertices);
+  const auto add = [&](std::uint32_t vertex, double joint, double weight) {
+    if (vertex < vertices && weight > 0.0)
+      of_vertex[vertex].emplace_back(static_cast<std::uint16_t>(joint), static_cast<float>(weight));
+  };
+  std::size_t set = 0;
+  while (set < kMostWeightSets && visit_weights(document, attributes, set, add)) ++set;
   rig::SkinWeights out;
   out.first.push_back(0);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    for (std::size_t set = 0; set < joints.size(); ++set)
-      for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
-        if (!(weights[set].values[k] > 0.0)) continue;
-        out.joint.push_back(static_cast<std::uint16_t>(joints[set].values[k]));
-        out.weight.push_back(static_cast<float>(weights[set].values[k]));
-      }
+  for (const auto& listed : of_vertex) {
+    for (const auto& [joint, weight] : listed) out.joint.push_back(joint), out.weight.push_back(weight);
     out.first.push_back(static_cast<std::uint32_t>(out.joint.size()));
   }
   return out;
-}
-
-template <class T>
-rig::Keys<T> keys_of(const GltfDocument& document, const json& sampler) {
-  rig::Keys<T> keys;
-  const auto input = index_at(sampler, "input"), output = index_at(sampler, "output");
-  const auto time = input ? document.numbers(*input) : std::nullopt;
-  const auto value = output ? document.numbers(*output) : std::nullopt;
-  const std::string kind = text_at(sampler, "interpolation");
-  const std::size_t width = std::is_same_v<T, Vec3> ? 3 : 4, each = kind == "CUBICSPLINE" ? 3 : 1;
-  if (!time || !value || value->components != width || value->count != each * time->count) return keys;
-  keys.interpolation = kind == "STEP"          ? rig::Interpolation::kStep
-                       : kind == "CUBICSPLINE" ? rig::Interpolation::kCubic
-                                               : rig::Interpolation::kLinear;
-  keys.time_s = time->values;
-  for (std::size_t i = 0; i < value->count; ++i) {
-    const double* at = value->values.data() + width * i;
-    if constexpr (std::is_same_v<T, Vec3>)
-      keys.value.emplace_back(at[0], at[1], at[2]);
-    else
-      keys.value.emplace_back(at[3], at[0], at[1], at[2]);
-  }
-  return keys;
 }
 
 rig::Clip clip_of(const GltfDocument& document, const std::vector<std::ptrdiff_t>& joint_of_node) {
@@ -78,9 +46,9 @@ rig::Clip clip_of(const GltfDocument& document, const std::vector<std::ptrdiff_t
     rig::Track& track = tracks[joint];
     track.joint = static_cast<std::uint16_t>(joint), moved[joint] = true;
     const std::string path = text_at(target, "path");
-    if (path == "translation") track.translation = keys_of<Vec3>(document, samplers[*at]);
-    if (path == "rotation") track.rotation = keys_of<Eigen::Quaterniond>(document, samplers[*at]);
-    if (path == "scale") track.scale = keys_of<Vec3>(document, samplers[*at]);
+    if (path == "translation") read_keys(document, samplers[*at], track.translation);
+    if (path == "rotation") read_keys(document, samplers[*at], track.rotation);
+    if (path == "scale") read_keys(document, samplers[*at], track.scale);
   }
   const auto extend = [&](const auto& keys) {
     if (!keys.empty()) clip.duration_s = std::max(clip.duration_s, keys.time_s.back());

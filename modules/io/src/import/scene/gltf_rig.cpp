@@ -2,65 +2,13 @@
 #include "import/scene/gltf_rig.hpp"
 
 #include <algorithm>
-#include <map>
 #include <string>
+
+#include "import/source/gltf_skin.hpp"
 
 namespace bodice::io {
 
-namespace {
-
 using nlohmann::json;
-
-constexpr std::size_t kMostSets = 64;  // of four weights a vertex
-
-/// Adds the weights of one set, JOINTS_n and WEIGHTS_n; false if there is no such set.
-bool add_set(const GltfDocument& document, const json& attributes, std::size_t set,
-             std::vector<FileBone>& bones) {
-  const auto joints_at = index_at(attributes, ("JOINTS_" + std::to_string(set)).c_str());
-  const auto weights_at = index_at(attributes, ("WEIGHTS_" + std::to_string(set)).c_str());
-  if (!joints_at || !weights_at) return false;
-  const auto joints = document.numbers(*joints_at), weights = document.numbers(*weights_at);
-  if (!joints || !weights || joints->components != 4 || weights->components != 4 ||
-      joints->count != weights->count)
-    return false;
-  for (std::size_t i = 0; i < weights->values.size(); ++i) {
-    const double joint = joints->values[i];
-    if (weights->values[i] != 0.0 && joint >= 0.0 && joint < static_cast<double>(bones.size()))
-      bones[static_cast<std::size_t>(joint)].weights.emplace_back(static_cast<std::uint32_t>(i / 4),
-                                                                  static_cast<float>(weights->values[i]));
-  }
-  return true;
-}
-
-rig::Interpolation interpolation_of(const json& sampler) {
-  const std::string name = text_at(sampler, "interpolation");
-  if (name == "STEP") return rig::Interpolation::kStep;
-  return name == "CUBICSPLINE" ? rig::Interpolation::kCubic : rig::Interpolation::kLinear;
-}
-
-rig::Vec3 make(const double* at, rig::Vec3) {
-  return {at[0], at[1], at[2]};
-}
-Eigen::Quaterniond make(const double* at, const Eigen::Quaterniond&) {
-  return {at[3], at[0], at[1], at[2]};
-}
-
-/// The keys of a sampler; false if its times and values do not fit together.
-template <class T>
-bool read_keys(const GltfNumbers& time, const GltfNumbers& value, rig::Interpolation interpolation,
-               std::size_t components, rig::Keys<T>& keys) {
-  const std::size_t per_key = interpolation == rig::Interpolation::kCubic ? 3 : 1;
-  if (time.components != 1 || value.components != components || value.count != per_key * time.count)
-    return false;
-  keys.interpolation = interpolation;
-  keys.time_s = time.values;
-  keys.value.clear();
-  for (std::size_t i = 0; i < value.count; ++i)
-    keys.value.push_back(make(value.values.data() + i * components, T()));
-  return true;
-}
-
-}  // namespace
 
 std::optional<GltfRig> GltfRig::match(GltfDocument document, const SceneNodes& nodes) {
   GltfRig rig;
@@ -120,8 +68,12 @@ std::vector<FileBone> GltfRig::bones(std::uint32_t scene_node, std::size_t primi
   const auto attributes = primitives[primitive].find("attributes");
   std::vector<FileBone> bones = bones_of_skin(document_.element("skins", *skin));
   if (attributes == primitives[primitive].end() || bones.empty()) return bones;
+  const auto add = [&](std::uint32_t vertex, double joint, double weight) {
+    if (weight != 0.0 && joint >= 0.0 && joint < static_cast<double>(bones.size()))
+      bones[static_cast<std::size_t>(joint)].weights.emplace_back(vertex, static_cast<float>(weight));
+  };
   std::size_t set = 0;
-  while (set < kMostSets && add_set(document_, *attributes, set, bones)) ++set;
+  while (set < kMostWeightSets && visit_weights(document_, *attributes, set, add)) ++set;
   return bones;
 }
 
@@ -133,20 +85,19 @@ void GltfRig::add_track(const json& channel, const json& animation, FileClip& cl
   if (path != "translation" && path != "rotation" && path != "scale") return;  // weights of morph targets
   const json& samplers = array_at(animation, "samplers");
   const json sampler = at && *at < samplers.size() ? samplers[*at] : json();
-  const auto time_at = index_at(sampler, "input"), value_at = index_at(sampler, "output");
-  const auto time = time_at ? document_.numbers(*time_at) : std::nullopt;
-  const auto value = value_at ? document_.numbers(*value_at) : std::nullopt;
   auto track = std::find_if(clip.tracks.begin(), clip.tracks.end(),
                             [&](const auto& other) { return other.first == scene_node_[*node]; });
   if (track == clip.tracks.end()) track = clip.tracks.insert(track, {scene_node_[*node], {}});
-  const rig::Interpolation how = interpolation_of(sampler);
   rig::Track& keys = track->second;
-  const bool read = time && value &&
-                    (path == "rotation"
-                         ? read_keys(*time, *value, how, 4, keys.rotation)
-                         : read_keys(*time, *value, how, 3, path == "scale" ? keys.scale : keys.translation));
-  if (!read) clip.flaw = "a channel's keys are missing or do not match their times";
-  if (read && !time->values.empty()) clip.duration_s = std::max(clip.duration_s, time->values.back());
+  const auto read = [&](auto& of_path) {
+    if (!read_keys(document_, sampler, of_path))
+      clip.flaw = "a channel's keys are missing or do not match their times";
+    else if (!of_path.empty())
+      clip.duration_s = std::max(clip.duration_s, of_path.time_s.back());
+  };
+  if (path == "translation") read(keys.translation);
+  if (path == "rotation") read(keys.rotation);
+  if (path == "scale") read(keys.scale);
 }
 
 std::vector<FileClip> GltfRig::clips() const {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include <bodice/body/landmark.hpp>
 #include <bodice/body/part.hpp>
@@ -13,6 +15,11 @@ namespace bodice::synth {
 
 /// The kind of a made garment.
 enum class GarmentKind { kSkirt, kTunic, kPoncho, kTube };
+
+constexpr std::string_view name(GarmentKind kind) {
+  constexpr std::string_view kNames[] = {"skirt", "tunic", "poncho", "tube"};
+  return kNames[static_cast<int>(kind)];
+}
 
 /// The body that a garment is made for: a skin with a part a vertex, and its landmarks.
 struct SegmentedBody {

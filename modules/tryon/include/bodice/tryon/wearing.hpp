@@ -1,12 +1,19 @@
-// Finds the vertices by which a body holds a garment.
+// Garments that are made for a body, and the vertices by which it holds one.
 #pragma once
 
 #include <vector>
 
 #include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/synth/garment.hpp>
 #include <bodice/tryon/prepare.hpp>
+#include <bodice/tryon/wardrobe.hpp>
 
 namespace bodice::tryon {
+
+/// A garment cut to this skin, named by its kind; the body holds it by its waistband, if it has one. Fails
+/// and costs as synth::make_garment().
+engine::Result<WornGarment> make_garment(const engine::Context& context, const SegmentedSkin& skin,
+                                         const synth::GarmentOptions& options = {});
 
 /// The vertices that the wearer holds. A piece that reaches above the armpits rests on the shoulders and
 /// needs none. A lower one (a skirt, trousers) is held by its waistband, the boundary loop closest to the
