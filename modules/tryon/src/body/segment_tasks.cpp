@@ -7,6 +7,7 @@
 #include <bodice/anatomy/thing.hpp>
 #include <bodice/engine/stage_timer.hpp>
 
+#include "body/append.hpp"
 #include "body/load_body.hpp"
 #include "body/made_up.hpp"
 #include "body/stand_upright.hpp"
