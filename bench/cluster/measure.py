@@ -1,29 +1,33 @@
-"""How many jobs an hour does a batch of made bodies by two garments do, what does it spend outside of fits and drapes,
-and does its memory stay flat?
+"""How many jobs an hour does a batch of made bodies by garments do, what does it spend outside of fits and drapes, and
+does its memory stay flat?
 
-    python3 bench/cluster/measure.py build/release/bodice FOLDER [--bodies 1000] [--jobs 2] [--job JSON] [--turns N]
+    python3 bench/cluster/measure.py build/release/bodice FOLDER [--bodies 1000] [--jobs 2] [--job JSON] [--each JSON]
+        [--turns N [--against PROGRAM]]
 
-Writes FOLDER/job_seconds.txt (seconds of a core, a job a line, its share of the fit included: what the simulation
-draws from), memory.csv and memory.svg (all processes of the batch; what they share counts once), and prints the rest.
---turns N runs the first 20 bodies N times each with one job and with --jobs side by side, in turns: the throughput of
-both, on a machine that others use as well.
+Each body gets a job for each combination of the values of --each, two garments if it is left out. Writes
+FOLDER/job_seconds.txt (seconds of a core, a job a line, its share of the fit included: what the simulation draws from),
+memory.csv and memory.svg (all processes of the batch; what they share counts once), and prints the rest.
+--turns N runs N times other bodies, each with one job and with --jobs side by side, in turns, and by the other
+program too: throughput and share outside, on a machine that others use as well.
 """
 import argparse
+import itertools
 import json
+import math
 import os
 import statistics
 import subprocess
 import sys
 import time
 
-GARMENTS = ("skirt", "tunic")
+TWO_GARMENTS = '{"garment": ["skirt", "tunic"]}'
 
 
-def write_manifest(file, bodies, first, options):
+def write_manifest(file, bodies, first, options, each):
     with open(file, "w", encoding="utf-8") as manifest:
         for seed in range(first, first + bodies):
-            for garment in GARMENTS:
-                manifest.write(json.dumps({"seed": seed, "garment": garment, **options}) + "\n")
+            for values in itertools.product(*each.values()):
+                manifest.write(json.dumps({"seed": seed, **dict(zip(each, values)), **options}) + "\n")
 
 
 def descendants(process):
@@ -56,10 +60,13 @@ def run(program, manifest, out, jobs):
     """Runs a batch, and returns its seconds, its log and samples of memory."""
     begin, samples = time.time(), []
     batch = subprocess.Popen([program, "batch", manifest, "--out", out, "--jobs", str(jobs), "-q"])
-    while batch.poll() is None:
+    while batch.returncode is None:
         processes = descendants(batch.pid)
         samples.append((time.time() - begin, proportional_mb(processes), proportional_mb([batch.pid])))
-        time.sleep(0.2 if len(samples) < 100 else 2.0)
+        try:
+            batch.wait(0.2 if len(samples) < 100 else 2.0)  # returns at the end, which `took` counts exactly
+        except subprocess.TimeoutExpired:
+            pass
     took = time.time() - begin
     if batch.returncode != 0:
         sys.exit("measure: a job failed")
@@ -90,16 +97,26 @@ def plot(samples, file):
         svg.write("\n".join(parts))
 
 
-def report(took, log, samples, jobs, folder):
-    share = len(GARMENTS)
+def seconds_inside(log, share):
+    """Of fits and drapes; `share`: jobs that share a fit."""
+    return sum(line["numbers"]["drape_s"] + line["numbers"]["dress_s"] + line["shared_seconds"] / share for line in log)
+
+
+def outside_percent(took, log, jobs, share):
+    """All but fits and drapes, waiting for the disk and for the last job included, of the time of the jobs' cores."""
+    return 100 * (1 - seconds_inside(log, share) / (jobs * took))
+
+
+def report(took, log, samples, jobs, share, folder):
     cpu = [line["cpu_seconds"] + line["shared_cpu_seconds"] / share for line in log]
-    inside = sum(line["numbers"]["drape_s"] + line["numbers"]["dress_s"] + line["shared_seconds"] / share for line in log)
+    inside = seconds_inside(log, share)
     outside = sum(line["seconds"] for line in log) + sum(line["shared_seconds"] for line in log) / share - inside
     print(f"{len(log)} jobs, {jobs} side by side: {took:.0f} s, {3600 * len(log) / took:.0f} an hour")
     print(f"a job: {statistics.mean(cpu):.3f} s of a core with its share of the fit, {statistics.median(cpu):.3f} in the "
           f"median, {max(cpu):.3f} at most: {3600 / statistics.mean(cpu):.0f} jobs an hour a core")
     print(f"written and drawn: {100 * outside / (outside + inside):.2f} % of the jobs' time")
     print(f"between jobs: {100 * (1 - (inside + outside) / (jobs * took)):.2f} % of the time of {jobs} jobs side by side")
+    print(f"outside of fits and drapes, all in all: {outside_percent(took, log, jobs, share):.2f} %")
     quarter = len(samples) // 4
     early, late = ([total for _, total, _ in part] for part in (samples[quarter:2 * quarter], samples[-quarter:]))
     print(f"memory: {statistics.mean(early):.1f} MB in the second quarter, {statistics.mean(late):.1f} in the last, "
@@ -113,32 +130,48 @@ def report(took, log, samples, jobs, folder):
     plot(samples, folder + "/memory.svg")
 
 
+def take_turns(arguments, manifest, options, each, share):
+    programs = [program for program in (arguments.against, arguments.program) if program]
+    variants = [(program, jobs) for program in programs for jobs in sorted({1, arguments.jobs})]
+    rates, outside = {variant: [] for variant in variants}, {variant: [] for variant in variants}
+    for turn in range(arguments.turns):
+        write_manifest(manifest, arguments.bodies, 1 + arguments.bodies * turn, options, each)
+        for number, (program, jobs) in enumerate(variants):
+            took, log, _ = run(program, manifest, f"{arguments.folder}/turn{turn}-{number}", jobs)
+            rates[program, jobs].append(3600 * len(log) / took)
+            outside[program, jobs].append(outside_percent(took, log, jobs, share))
+    for program, jobs in variants:
+        print(f"{program}, {jobs} side by side: {statistics.median(rates[program, jobs]):.0f} jobs an hour (median of "
+              f"{arguments.turns} turns); outside of fits and drapes "
+              + ", ".join(f"{percent:.2f}" for percent in sorted(outside[program, jobs])) + " %")
+    for program in programs:
+        ratios = sorted(b / a for a, b in zip(rates[program, 1], rates[program, arguments.jobs]))
+        print(f"{program}, {arguments.jobs} side by side against 1, turn by turn: "
+              + ", ".join(f"{ratio:.2f}" for ratio in ratios))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("folder")
-    parser.add_argument("--bodies", type=int, default=1000)
+    parser.add_argument("--bodies", type=int, help="default: 1000, or 20 a turn")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--job", default="{}", help="more names of each job, as '{\"frames\": 30}'")
+    parser.add_argument("--each", default=TWO_GARMENTS, help="names and lists of values, as '{\"fabric\": [\"silk\"]}'")
     parser.add_argument("--turns", type=int, default=0)
+    parser.add_argument("--against", help="another program, for turns")
     arguments = parser.parse_args()
+    arguments.bodies = arguments.bodies or (20 if arguments.turns else 1000)
     os.makedirs(arguments.folder, exist_ok=True)
     options, manifest = json.loads(arguments.job), arguments.folder + "/jobs.jsonl"
+    each = json.loads(arguments.each)
+    share = math.prod(len(values) for values in each.values())
     if arguments.turns:
-        rates = {1: [], arguments.jobs: []}
-        for turn in range(arguments.turns):
-            write_manifest(manifest, 20, 1 + 20 * turn, options)
-            for jobs in rates:
-                took, log, _ = run(arguments.program, manifest, f"{arguments.folder}/turn{turn}-{jobs}", jobs)
-                rates[jobs].append(3600 * len(log) / took)
-        ratios = [b / a for a, b in zip(*rates.values())]
-        for jobs, each in rates.items():
-            print(f"{jobs} side by side: {statistics.median(each):.0f} jobs an hour (median of {len(each)} turns)")
-        print("ratio, turn by turn: " + ", ".join(f"{ratio:.2f}" for ratio in sorted(ratios)))
+        take_turns(arguments, manifest, options, each, share)
         return
-    write_manifest(manifest, arguments.bodies, 1, options)
+    write_manifest(manifest, arguments.bodies, 1, options, each)
     took, log, samples = run(arguments.program, manifest, arguments.folder + "/out", arguments.jobs)
-    report(took, log, samples, arguments.jobs, arguments.folder)
+    report(took, log, samples, arguments.jobs, share, arguments.folder)
 
 
 if __name__ == "__main__":

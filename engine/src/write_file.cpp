@@ -5,6 +5,7 @@
 #include <string>
 #include <system_error>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace bodice::engine {
@@ -14,6 +15,9 @@ namespace fs = std::filesystem;
 
 /// The number of writers in this process that may write one file at a time; leftovers of killed ones count.
 constexpr int kMostBeside = 1000;
+
+/// How many UnflushedWrites live on this thread.
+thread_local int unflushed = 0;
 
 Error write_error(const fs::path& file, const std::string& why, std::string remedy) {
   return {ErrorCode::kWriteFailed, "'" + file.string() + "' could not be written: " + why + ".",
@@ -54,7 +58,7 @@ Result<void> replace(const fs::path& file, std::span<const std::byte> bytes) {
   fs::path beside;
   std::FILE* const stream = open_beside(file, beside);
   if (!stream) return refused(file, last_error());
-  std::error_code failure = put(stream, bytes, true), ignored;
+  std::error_code failure = put(stream, bytes, unflushed == 0), ignored;
   const fs::file_status old = fs::status(file, ignored);
   if (fs::exists(old)) fs::permissions(beside, old.permissions(), ignored);  // the readers stay the same
   if (!failure) fs::rename(beside, file, failure);
@@ -71,7 +75,33 @@ Result<void> write_through(const fs::path& file, std::span<const std::byte> byte
   return {};
 }
 
+std::error_code flush(const fs::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return last_error();
+  const std::error_code failure = ::fsync(descriptor) == 0 ? std::error_code() : last_error();
+  ::close(descriptor);
+  return failure;
+}
+
 }  // namespace
+
+UnflushedWrites::UnflushedWrites() {
+  ++unflushed;
+}
+
+UnflushedWrites::~UnflushedWrites() {
+  --unflushed;
+}
+
+Result<void> flush_files(const fs::path& folder) {
+  std::error_code failure;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
+    if (entry->is_regular_file(failure) && !failure)
+      if (const std::error_code file = flush(entry->path())) return refused(entry->path(), file);
+  if (!failure) failure = flush(folder);
+  if (failure) return refused(folder, failure);
+  return {};
+}
 
 Result<void> write_file(const fs::path& file, std::span<const std::byte> bytes) {
   if (!file.has_filename()) return write_error(file, "the name is empty", "Name a file.");

@@ -79,6 +79,21 @@ def check_results():
             check(same(f"workers/{about['folder']}/{file}", f"{folder[line]}/{file}"), f"two workers: line {line}")
 
 
+def check_props():
+    """A box beside the body is met as in a single command, and counts by its content."""
+    corners = "".join(f"v {0.6 + 0.4 * x} {0.4 * y} {-0.2 + 0.4 * z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1))
+    write("box.obj", corners + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")
+    manifest("props.jsonl", [dict(SMALL, prop="box.obj"), dict(SMALL, prop=["box.obj", "box.obj"]), dict(SMALL)])
+    run("batch", "props.jsonl", "--out", "props", "-q")
+    folders = {line: "props/" + about["folder"] for line, about in log_of("props").items()}
+    report = json.load(open(folders[1] + "/report.json"))
+    check(len(report["drape"]["props"]) == 1, "one prop is not one")
+    check(len(json.load(open(folders[2] + "/report.json"))["drape"]["props"]) == 2, "two props are not two")
+    check(not same(folders[1] + "/drape.glb", folders[3] + "/drape.glb"), "a prop changes nothing")
+    run(*report["command"][1:], "-o", "a.glb", "-q")
+    check(same("a.glb", folders[1] + "/drape.glb"), "a prop is met otherwise than by itself")
+
+
 def check_faults():
     write("corrupt.obj", "v 0 0 0\nv 1 0 0\nv nonsense\nf 1 2 900\n")
     manifest("faults.jsonl", [
@@ -129,7 +144,7 @@ def check_stop():
 shutil.rmtree(SCRATCH, ignore_errors=True)
 os.makedirs(SCRATCH)
 os.chdir(SCRATCH)
-for each in (check_results, check_faults, check_usage, check_stop):
+for each in (check_results, check_props, check_faults, check_usage, check_stop):
     each()
 print(f"{len(failures)} failed" if failures else "all checks of batches passed")
 sys.exit(bool(failures))

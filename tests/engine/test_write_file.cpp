@@ -150,3 +150,22 @@ TEST_CASE("a pipe is written to, not replaced by a file") {
   REQUIRE(bytes > 0);
   CHECK(std::string(received, static_cast<std::size_t>(bytes)) == "through the pipe");
 }
+
+TEST_CASE("files that are flushed later are whole, and a folder is flushed or named") {
+  const TempFolder folder;
+  fs::create_directory(folder / "inner");
+  {
+    const UnflushedWrites until_later;
+    REQUIRE(write_file(folder / "a.txt", "first").ok());
+    REQUIRE(write_file(folder / "a.txt", "second").ok());
+    CHECK_FALSE(write_file(folder / "missing/a.txt", "text").ok());
+    CHECK_FALSE(write_file(folder / "inner", "text").ok());
+  }
+  CHECK(content(folder / "a.txt") == "second");
+  CHECK(entries(folder / ".") == 2);
+  CHECK(flush_files(folder / ".").ok());
+  const auto missing = flush_files(folder / "missing");
+  REQUIRE_FALSE(missing.ok());
+  CHECK(missing.error().code == ErrorCode::kWriteFailed);
+  CHECK(missing.error().message.find("missing") != std::string::npos);
+}

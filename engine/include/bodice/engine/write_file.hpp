@@ -18,4 +18,18 @@ namespace bodice::engine {
 Result<void> write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& file, std::string_view text);
 
+/// While one lives, write_file() on its thread does not wait for the disk. For files of a folder that
+/// is not visible yet: flush_files() makes up for it, in another process if need be, before it appears.
+class UnflushedWrites {
+ public:
+  UnflushedWrites();
+  ~UnflushedWrites();
+  UnflushedWrites(const UnflushedWrites&) = delete;
+  UnflushedWrites& operator=(const UnflushedWrites&) = delete;
+};
+
+/// Waits until the folder and the files in it, not those in its folders, are on the disk. Fails with
+/// kWriteFailed.
+Result<void> flush_files(const std::filesystem::path& folder);
+
 }  // namespace bodice::engine

@@ -98,6 +98,7 @@ engine::Result<fs::path> ResultStore::begin(const std::string& key) const {
 
 engine::Result<bool> ResultStore::publish(const fs::path& part, const std::string& key) const {
   const fs::path folder = out_ / folder_of(key);
+  if (auto flushed = engine::flush_files(part); !flushed) return std::move(flushed).error();
   std::error_code failure;
   fs::create_directory(folder.parent_path(), failure);
   if (!failure) {

@@ -23,8 +23,8 @@ class ResultStore {
 
   /// A folder to write a result into, which no other process uses. Fails with kWriteFailed.
   engine::Result<std::filesystem::path> begin(const std::string& key) const;
-  /// Makes it the result. Returns false, and removes it, where another process was first. Fails with
-  /// kWriteFailed.
+  /// Makes it the result once its files are on the disk. Returns false, and removes it, where another process
+  /// was first. Fails with kWriteFailed.
   engine::Result<bool> publish(const std::filesystem::path& part, const std::string& key) const;
   static void discard(const std::filesystem::path& part);
   /// Removes what ended processes of this machine left in OUT/part.

@@ -50,9 +50,12 @@ engine::Result<BatchResult> Coordinator::run() {
 }
 
 int Coordinator::busy() const {
-  int count = 0;
-  for (const Crew& crew : crews_) count += (crew.prepared ? 0 : 1) + static_cast<int>(crew.running.size());
-  return count;
+  int computing = 0, waiting = 0;
+  for (const Crew& crew : crews_) {
+    computing += crew.prepared ? 0 : 1;
+    for (const auto& [line, task] : crew.running) ++(task.computed ? waiting : computing);
+  }
+  return computing + std::max(0, waiting - most_jobs_);
 }
 
 void Coordinator::fill() {
@@ -86,7 +89,7 @@ std::optional<Task> Coordinator::next_task(Crew& crew) {
 bool Coordinator::give_next(Crew& crew) {
   auto task = next_task(crew);
   if (!task) return false;
-  ++task->attempts;
+  ++task->attempts, task->computed = false;
   const std::string command = context_.manifest.address(task->index) + " " + task->key;
   send_line(crew.channel.descriptor(), command);  // if it is gone, bury() finds the job among the running
   crew.running[task->job.line] = std::move(*task);
@@ -187,6 +190,8 @@ void Coordinator::hear(Crew& crew, const json& message) {
   }
   const auto found = crew.running.find(message.value("line", std::size_t{0}));
   if (found == crew.running.end()) return;
+  found->second.computed = message.contains("computed");
+  if (found->second.computed) return;
   Task task = std::move(found->second);
   crew.running.erase(found);
   finish(std::move(task), outcome_from(message.at("outcome")), crew);

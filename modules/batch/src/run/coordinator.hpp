@@ -19,6 +19,7 @@ struct Task {
   Job job;
   std::string key;
   int attempts = 0;
+  bool computed = false;  ///< its result waits for the disk alone
 };
 
 /// A fitter and the jobs that share its step.
@@ -51,6 +52,8 @@ class Coordinator {
   void start(Crew& crew);
   std::optional<Task> next_task(Crew& crew);
   std::optional<Task> examine(std::size_t index);
+  /// Jobs and shared steps that take a core. Results that wait for the disk take none, up to as many as there
+  /// may be jobs: a slow disk must not collect them.
   int busy() const;
 
   void wait();

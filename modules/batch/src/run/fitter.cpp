@@ -19,16 +19,18 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// A job in a process of its own.
+/// A job in a process of its own, and then its result in another one that waits for the disk.
 struct Running {
   pid_t process = -1;
   ChannelEnd channel;
   LineReader reader;
   std::size_t line = 0;
+  std::string key;
   fs::path part;
   double begin_s = 0.0;
   std::optional<Outcome> outcome;  ///< as the process sent it
   bool late = false;
+  bool computed = false;  ///< its result is being published
 };
 
 class Fitter {
@@ -43,7 +45,8 @@ class Fitter {
     if (prepared.failure != Failure::kNone) return;
     while (listen()) {
     }
-    for (Running& job : running_) ::kill(job.process, SIGKILL);
+    for (Running& job : running_)
+      if (!job.computed) ::kill(job.process, SIGKILL);
     for (Running& job : running_) wait_for(job.process), ResultStore::discard(job.part);
   }
 
@@ -82,7 +85,7 @@ class Fitter {
     double left_s = -1.0;
     if (context_.options.timeout_s > 0.0)
       for (const Running& job : running_)
-        if (!job.late) {
+        if (!job.late && !job.computed) {
           const double job_left_s = std::max(0.0, deadline_s(job) - now_s());
           left_s = left_s < 0.0 ? job_left_s : std::min(left_s, job_left_s);
         }
@@ -95,7 +98,8 @@ class Fitter {
   void stop_late_jobs() {
     if (context_.options.timeout_s <= 0.0) return;
     for (Running& job : running_)
-      if (!job.late && now_s() >= deadline_s(job)) job.late = true, ::kill(job.process, SIGKILL);
+      if (!job.late && !job.computed && now_s() >= deadline_s(job))
+        job.late = true, ::kill(job.process, SIGKILL);
   }
 
   /// Reads what a job sends. Returns false when its process has ended.
@@ -107,38 +111,48 @@ class Fitter {
 
   void start(const std::string& command) {
     const std::size_t space = command.rfind(' ');
-    const std::string key = command.substr(space + 1);
     const auto job = context_.manifest.read_at(command.substr(0, space));
     Running running;
+    running.key = command.substr(space + 1);
     const std::size_t number = command.rfind(' ', space - 1);
     running.line = std::strtoull(command.c_str() + number, nullptr, 10);
-    auto part = context_.store.begin(std::to_string(running.line) + "." + key);
+    auto part = context_.store.begin(std::to_string(running.line) + "." + running.key);
     if (!job || !part) return report(running, outcome_of(job ? part.error() : job.error()));
     running.part = part.value();
-    Channel channel = make_channel();
     running.begin_s = now_s();
-    running.process = ::fork();
-    if (running.process == 0) {
-      channel.ours.close();
-      run_job(*job, key, running.part, channel.theirs, parent_of_jobs_);
-    }
-    if (running.process < 0) {
-      ResultStore::discard(running.part);
-      return report(running, {.failure = Failure::kKilled,
-                              .reason = "The system refused another process: there may be too many."});
-    }
-    running.channel = std::move(channel.ours);
+    if (!fork_for(running, [&] { return compute(*job, running); }))
+      return fail(running, {.failure = Failure::kKilled,
+                            .reason = "The system refused another process: there may be too many."});
     running_.push_back(std::move(running));
   }
 
-  [[noreturn]] void run_job(const Job& job, const std::string& key, const fs::path& part,
-                            const ChannelEnd& channel, pid_t parent) {
-    become_child(parent);
-    Outcome outcome = guarded(limit_mb(), [&] { return run(job, part); });
-    if (outcome.failure == Failure::kNone) publish(job, key, part, outcome);
-    if (outcome.failure != Failure::kNone) ResultStore::discard(part);
-    send_line(channel.descriptor(), one_line(json_of(outcome)));
-    ::_exit(0);
+  /// Starts a process that sends what `attempt` gives. Returns false where the system refuses one.
+  template <class Attempt>
+  bool fork_for(Running& job, Attempt attempt) {
+    Channel channel = make_channel();
+    job.process = ::fork();
+    if (job.process == 0) {
+      channel.ours.close();
+      become_child(parent_of_jobs_);
+      send_line(channel.theirs.descriptor(), one_line(json_of(attempt())));
+      ::_exit(0);
+    }
+    job.channel = std::move(channel.ours);
+    job.reader = {};
+    return job.process > 0;
+  }
+
+  /// Runs the job and leaves all files of its result in the part, not yet on the disk.
+  Outcome compute(const Job& job, const Running& running) {
+    const engine::UnflushedWrites until_published;
+    Outcome outcome = guarded(limit_mb(), [&] { return run(job, running.part); });
+    if (outcome.failure != Failure::kNone) return outcome;
+    json about = {{"key", running.key}, {"version", context_.work.version()}, {"job", job.values}};
+    about.update(outcome.facts);
+    const std::string text = about.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+    if (auto done = engine::write_file(running.part / "job.json", std::string_view(text)); !done)
+      return outcome_of(done.error());
+    return outcome;
   }
 
   Outcome run(const Job& job, const fs::path& part) {
@@ -149,21 +163,13 @@ class Fitter {
     return outcome;
   }
 
-  /// Adds job.json to the result, and makes it visible.
-  void publish(const Job& job, const std::string& key, const fs::path& part, Outcome& outcome) {
-    json about = {{"key", key}, {"version", context_.work.version()}, {"job", job.values}};
-    about.update(outcome.facts);
-    const std::string text = about.dump(1, ' ', false, json::error_handler_t::replace) + "\n";
-    auto done = engine::write_file(part / "job.json", std::string_view(text));
-    if (!done) {
-      outcome = outcome_of(done.error());
-      return;
-    }
-    auto published = context_.store.publish(part, key);
-    if (!published)
-      outcome = outcome_of(published.error());
-    else
-      outcome.there = !published.value();
+  /// Waits for the disk, and makes the result visible.
+  Outcome publish(const Running& job) const {
+    auto published = context_.store.publish(job.part, job.key);
+    if (!published) return outcome_of(published.error());
+    Outcome outcome = *job.outcome;
+    outcome.there = !published.value();
+    return outcome;
   }
 
   void finish(std::list<Running>::iterator job) {
@@ -172,12 +178,35 @@ class Fitter {
       job->outcome =
           job->late ? outcome_of_timeout(context_.options.timeout_s) : outcome_of(ending, limit_mb());
       job->outcome->seconds = now_s() - job->begin_s;
-      ResultStore::discard(job->part);
     }
-    job->outcome->memory_mb = ending.memory_mb;
-    job->outcome->cpu_s = ending.cpu_s;
-    report(*job, *job->outcome);
+    if (!job->computed) {
+      job->outcome->memory_mb = ending.memory_mb;
+      job->outcome->cpu_s = ending.cpu_s;
+      if (job->outcome->failure == Failure::kNone && start_to_publish(*job)) return;
+    }
+    if (job->outcome->failure == Failure::kNone)
+      report(*job, *job->outcome);
+    else
+      fail(*job, *job->outcome);
     running_.erase(job);
+  }
+
+  /// The disk is waited for in a process of its own, beside the next job. Returns false where it was waited
+  /// for in this one, since the system refuses another.
+  bool start_to_publish(Running& job) {
+    job.computed = true;
+    if (!fork_for(job, [&] { return publish(job); })) {
+      job.outcome = publish(job);
+      return false;
+    }
+    job.outcome.reset();
+    send_line(channel_.descriptor(), one_line({{"line", job.line}, {"computed", true}}));
+    return true;
+  }
+
+  void fail(const Running& job, const Outcome& outcome) {
+    ResultStore::discard(job.part);
+    report(job, outcome);
   }
 
   void report(const Running& job, const Outcome& outcome) {

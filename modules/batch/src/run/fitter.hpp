@@ -20,8 +20,9 @@ struct FitterContext {
 };
 
 /// The first message of a fitter is the outcome of the shared step. Then each line "ADDRESS KEY", with the
-/// address of Manifest::address(), starts a job, and {"line": ..., "outcome": ...} reports its end; the line
-/// "end" kills the running jobs and ends the fitter. Never returns. Called in a process that was forked for
+/// address of Manifest::address(), starts a job. {"line": ..., "computed": true} reports that its result
+/// waits for the disk alone, and {"line": ..., "outcome": ...} its end. The line "end" kills jobs that
+/// compute, publishes the others and ends the fitter. Never returns. Called in a process that was forked for
 /// it.
 [[noreturn]] void serve(const FitterContext& context, const Job& first, ChannelEnd channel, pid_t parent);
 

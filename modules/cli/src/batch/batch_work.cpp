@@ -17,6 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double kMm = 1e3;  // in a meter
 
+double seconds_of(const std::vector<engine::StageTime>& stages) {
+  double ms = 0.0;
+  for (const engine::StageTime& stage : stages) ms += stage.ms;
+  return 1e-3 * ms;
+}
+
 /// A body with its proxy, which each job dresses in a process of its own.
 class PreparedBodies : public batch::PreparedJobs {
  public:
@@ -79,8 +85,14 @@ class PreparedBodies : public batch::PreparedJobs {
       return dress(run, command, body_.skin);
     }();
     if (!worn) return std::move(worn).error();
+    auto props = [&] {
+      const engine::StageTimer timer(run.context(), stages, "props");
+      return read_props(run, command, body_);
+    }();
+    if (!props) return std::move(props).error();
     // This process is for one job: what it moves out of the body, no other job misses.
-    DressedBody dressed{std::move(body_), std::move(motion).value(), std::move(worn).value()};
+    DressedBody dressed{std::move(body_), std::move(motion).value(), std::move(worn).value(),
+                        std::move(props).value()};
     std::vector<std::string> written;
     const auto report = drape_and_write(run, command, dressed, written);
     body_ = std::move(dressed.body);
@@ -93,8 +105,8 @@ class PreparedBodies : public batch::PreparedJobs {
                           {"over_1mm", static_cast<double>(report->penetration_over_1mm)},
                           {"stretch_p95_percent", 100.0 * report->stretch_p95},
                           {"frame_ms", report->frame_ms_median},
-                          {"dress_s", 1e-3 * stages.front().ms},
-                          {"drape_s", 1e-3 * report->stages.front().ms},
+                          {"dress_s", seconds_of(stages)},
+                          {"drape_s", seconds_of(report->stages)},
                           {"error_mm", kMm * report->penetration_max_m}});
     return run.finish(body_, &*report, written);
   }

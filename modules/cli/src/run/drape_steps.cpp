@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <bodice/engine/message.hpp>
+#include <bodice/engine/stage_timer.hpp>
 #include <bodice/io/cloth_cache.hpp>
 #include <bodice/tryon/place_garment.hpp>
 #include <bodice/tryon/wearing.hpp>
@@ -218,9 +219,15 @@ engine::Result<tryon::DrapeReport> drape_and_write(Run& run, const DrapeCommand&
   auto options = drape_options(command, dressed.body.skin.input.frame, motion);
   if (!options) return options.error();
   options->props = dressed.props;
-  auto draped = tryon::drape(run.context(), dressed.body, dressed.worn, *options, run.progress().callback());
+  std::vector<engine::StageTime> whole;
+  auto draped = [&] {
+    const engine::StageTimer timer(run.context(), whole, "drape with set-up");
+    return tryon::drape(run.context(), dressed.body, dressed.worn, *options, run.progress().callback());
+  }();
   if (!draped) return std::move(draped).error();
   tryon::DrapeReport report = draped->report;
+  for (const engine::StageTime& stage : report.stages) whole.front().ms -= stage.ms;
+  report.stages.push_back({"set-up and judging", whole.front().ms});
   if (motion) motion->rig.clips = {motion->clip};
   if (auto done = write_outputs(run, command, dressed, std::move(draped).value(), written); !done)
     return std::move(done).error();
