@@ -20,7 +20,8 @@ def begin(scratch):
     os.chdir(scratch)
     with open("jobs.jsonl", "w", encoding="utf-8") as manifest:
         for n in range(JOBS):
-            job = {"seed": n // 2, "vertices": 2000, "tier": "paper", "garment": ["skirt", "poncho"][n % 2], "frames": 20}
+            job = {"seed": n // 2, "vertices": 2000, "tier": "paper", "garment": "poncho", "fabric": ["cotton", "silk"][n % 2],
+                   "frames": 12}
             manifest.write(json.dumps(job) + "\n")
     begin_s = time.time()
     run("batch", "jobs.jsonl", "--out", "alone", "-q")

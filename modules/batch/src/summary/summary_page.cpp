@@ -24,7 +24,7 @@ constexpr const char* kHead = R"(<!DOCTYPE html>
 body { font: 15px/1.5 system-ui, sans-serif; margin: 2em auto; max-width: 75em; padding: 0 1em; color: var(--ink); background: var(--paper); }
 table { border-collapse: collapse; width: 100%; } td, th { text-align: left; padding: .2em .8em .2em 0; vertical-align: top; }
 tr { border-top: 1px solid var(--line); } .why { color: var(--bad); overflow-wrap: anywhere; }
-.results { display: grid; grid-template-columns: repeat(auto-fill, minmax(13em, 1fr)); gap: 1em; }
+.results { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(13em, 42vw), 1fr)); gap: 1em; }
 .results a { display: block; border: 1px solid var(--line); border-radius: 6px; padding: .6em; color: inherit; text-decoration: none; }
 .results a:hover { border-color: var(--soft); }
 /* Pictures of fits have two views side by side: the left one fills the frame, as that of a drape does. */
