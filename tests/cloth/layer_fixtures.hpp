@@ -62,7 +62,7 @@ struct LayerScene {
 /// What came of a scene.
 struct LayerOutcome {
   std::size_t start = 0, worst = 0, end = 0;  ///< pairs of triangles that cross
-  double stretch_p95 = 0.0;
+  double deepest_m = 0.0;                     ///< of the particles inside the body
   std::uint64_t hash = 0;
   cloth::FrameReport report;
 };
@@ -88,8 +88,10 @@ inline LayerOutcome play(const LayerScene& scene, cloth::SolverOptions how, int 
       solver.move_pins(targets);
     }
     out.report = solver.step(context, collider, kFrame_s);
+    const std::vector<Vec3> at = positions(solver, scene.mesh.positions.size());
+    for (const Vec3& p : at) out.deepest_m = std::max(out.deepest_m, -distance(body, p));
     if (!how.self_collision && frame % 5 != 0) continue;  // some frames suffice without self-contact
-    out.end = crossings(scene.mesh, positions(solver, scene.mesh.positions.size()));
+    out.end = crossings(scene.mesh, at);
     out.worst = std::max(out.worst, out.end);
   }
   out.hash = solver.hash();

@@ -80,7 +80,6 @@ void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& co
   if (p.inverse_mass[i] == 0.0f) restore_pin(p, i, contact.inverse_h);
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
   if (!s.touching[i]) return;
-  s.pushed[i] = {p.x[i] - before.x, p.y[i] - before.y, p.z[i] - before.z, 0.0f};
   if (contact.paper()) return;
   const float share = contact.share.end - contact.share.begin;
   friction_and_velocity(p, i, share * load(s.motion.by[i]), share * load(s.motion.ahead[i]), contact.friction,
@@ -144,7 +143,6 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 ContactState make_contacts(std::size_t particles, FaceContact faces) {
   ContactState s;
   s.touching.assign(particles, 0);
-  s.pushed.resize(particles);
   s.clearance = make_clearance_cache(particles);
   s.motion.by.resize(particles), s.motion.ahead.resize(particles);
   s.patch.resize(engine::block_count(particles, kPatch));

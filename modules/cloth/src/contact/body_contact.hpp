@@ -25,7 +25,6 @@ struct ContactPatch {
 /// The state of body contact.
 struct ContactState {
   std::vector<std::uint8_t> touching;  ///< #P: whether the collider moved the particle in the last substep
-  std::vector<Point> pushed;           ///< #P: by how much, where it did
   std::vector<ContactPatch> patch;     ///< #P / kPatch
   ClearanceCache clearance;
   BodyMotion motion;

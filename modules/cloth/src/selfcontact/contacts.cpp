@@ -8,6 +8,8 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "base/tolerances.hpp"
+#include "contact/last_word.hpp"
+#include "selfcontact/loose.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -22,6 +24,10 @@ constexpr float kTouching_m = 1e-7f;
 
 // The least distance to keep, a share of the gap, of parts that are nearer at rest.
 constexpr float kLeastOfGap = 0.05f;
+
+// A push moves no particle by more than so many times its own length: where only a far end of an edge can be
+// moved, that would fly off.
+constexpr float kMostLever = 4.0f;
 
 // A particle on the body counts as so many times heavier against another layer. The body undoes its part of
 // the push, and the outer layer would sink into the inner one.
@@ -42,7 +48,9 @@ void refresh_group(const ContactSource& source, float step_m, PairGroup& group, 
     if (!(pair.until_m > group.travel_m + step_m)) {
       const PairContact contact = contact_of(source, pair);
       pair.until_m = contact.gap_m > 0.0f ? group.travel_m + contact.apart_m - contact.gap_m : kNever_m;
-      if (pair.until_m < group.travel_m + step_m && !is_pressed(contact, source.body)) {
+      if (are_loose(pair.particle, pair.edges, source.loose)) {
+        pair.until_m = std::min(pair.until_m, group.travel_m);  // it is looked at again when it no longer is
+      } else if (pair.until_m < group.travel_m + step_m) {
         pair.contact = static_cast<std::uint32_t>(contacts.size());
         contacts.push_back(contact);
       }
@@ -61,16 +69,22 @@ bool push_pair(const PairContact& c, const PairPush& how, std::span<Point> at) {
   }
   const float push = std::min(c.gap_m, c.apart_m + how.recovery_m) - dot(apart, c.normal);
   if (!(push > 0.0f)) return false;
-  float yielding[4], all = kTinyWeight;
+  float yielding[4], all = kTinyWeight, most = 0.0f;
   for (int k = 0; k < 4; ++k) {
     yielding[k] = c.weight[k] * now[k][3] * (how.touching[c.particle[k]] ? 1.0f / kTouchingMass : 1.0f);
     all += c.weight[k] * yielding[k];
+    most = std::max(most, std::abs(yielding[k]));
   }
+  all = std::max(all, most / kMostLever);
   const Float4 tangent = xyz(slid - dot(slid, c.normal) * c.normal);
   const float slip = std::sqrt(dot(tangent, tangent) + kTinyLength2);
   const float held = std::min(1.0f, how.friction * push / slip);
   const Float4 correction = (push * c.normal - held * tangent) / all;
-  for (int k = 0; k < 4; ++k) store(at[c.particle[k]], now[k] + yielding[k] * correction);
+  for (int k = 0; k < 4; ++k) {
+    const Index i = c.particle[k];
+    const Float4 to = now[k] + yielding[k] * correction;
+    store(at[i], how.guard.empty() ? to : guarded(to, how.resolved[i], how.guard[i]));
+  }
   return true;
 }
 
@@ -87,16 +101,6 @@ void for_each_block(const engine::Context& context, const ContactMesh& mesh,
 }
 
 }  // namespace
-
-bool is_pressed(const PairContact& c, const BodyPush& body) {
-  const int split = c.edges ? 2 : 1;
-  float toward[2] = {0.0f, 0.0f};  // how far the body pushed A and B against the normal and along it
-  for (int k = 0; k < 4; ++k) {
-    if (!body.touching[c.particle[k]]) return false;
-    toward[k >= split] -= c.weight[k] * dot(load(body.by[c.particle[k]]), c.normal);
-  }
-  return toward[0] > 0.0f && toward[1] > 0.0f;
-}
 
 void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
                 std::span<const Point> now, std::vector<LeafMove>& moves) {
@@ -156,6 +160,13 @@ void refresh_contacts(const engine::Context& context, const ContactSource& sourc
       if (!(group.next_m > group.travel_m + step_m)) refresh_group(source, step_m, group, task);
     }
   });
+}
+
+bool push_held(const PairPush& how, const std::vector<PairTask>& tasks, std::span<Point> at) {
+  bool any_pushed = false;
+  for (const PairTask& task : tasks)
+    for (const PairContact& c : task.held) any_pushed = push_pair(c, how, at) || any_pushed;
+  return any_pushed;
 }
 
 void push_contacts(const engine::Context& context, const ContactMesh& mesh, const PairPush& how,

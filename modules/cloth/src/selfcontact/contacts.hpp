@@ -29,19 +29,15 @@ inline float relative_move(const LeafMove& a, const LeafMove& b) {
 /// What contacts of a substep are made from.
 struct ContactSource {
   const ContactMesh& mesh;
-  PairSearch search;                ///< at the positions when the substep began
-  std::span<const Point> rest;      ///< #P: positions at rest
-  std::span<const LeafMove> moves;  ///< #leaves: in this substep
-  BodyPush body;                    ///< what the body did in the substep before
+  PairSearch search;                    ///< at the positions when the substep began
+  std::span<const Point> rest;          ///< #P: positions at rest
+  std::span<const LeafMove> moves;      ///< #leaves: in this substep
+  std::span<const std::uint8_t> loose;  ///< #P: pairs with two parts of which any is loose have no contact
 
   float step_of(const PairGroup& group) const {
     return relative_move(moves[group.leaf[0]], moves[group.leaf[1]]);
   }
 };
-
-/// Whether the body presses the two parts of a pair toward each other from both sides, as an arm and the
-/// flank do. It decides where these particles are: layers held apart there would go into the skin.
-bool is_pressed(const PairContact& contact, const BodyPush& body);
 
 /// Finds the displacements from `before` to `now`, by leaf.
 void find_moves(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> before,
@@ -64,11 +60,17 @@ struct PairPush {
   float recovery_m = 0.0f;                 ///< how far parts that are too near move apart in a substep
   std::span<const Point> before;           ///< #P
   std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
+  /// #P, or empty: what keeps particles from sinking into the body (contact/last_word.hpp).
+  std::span<const Point> resolved, guard;
 };
 
 /// Pushes the parts of all contacts apart: those inside blocks in parallel, because blocks share no particle,
 /// then those across. The same for any number of workers.
 void push_contacts(const engine::Context& context, const ContactMesh& mesh, const PairPush& how,
                    const std::vector<PairTask>& tasks, std::span<Point> at);
+
+/// Pushes the parts of the tasks' held pairs apart, once, one after the other; returns whether any was too
+/// near.
+bool push_held(const PairPush& how, const std::vector<PairTask>& tasks, std::span<Point> at);
 
 }  // namespace bodice::cloth

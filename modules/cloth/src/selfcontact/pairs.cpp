@@ -21,29 +21,8 @@ constexpr std::size_t kPairsAtFirst = 65536, kFewPairs = 2048;
 // Pairs out of use that a task keeps besides half as many as are in use.
 constexpr std::size_t kUnused = 256;
 
-// Whether two triangles of a sorted list cross.
-bool do_cross(std::span<const Tangle> tangles, std::uint32_t a, std::uint32_t b) {
-  return std::ranges::binary_search(tangles, Tangle{std::min(a, b), std::max(a, b)});
-}
-
 bool has(const Face& f, Index i) {
   return f.particle[0] == i || f.particle[1] == i || f.particle[2] == i;
-}
-
-// Whether a triangle of all of these `count` particles crosses one of the others'.
-bool is_tangled(const ContactMesh& mesh, const Pair& pair, std::span<const Tangle> tangles) {
-  const int split = pair.edges ? 2 : 1;
-  const auto holds = [&](std::uint32_t face, int begin, int end) {
-    for (int k = begin; k < end; ++k)
-      if (!has(mesh.faces[face], pair.particle[k])) return false;
-    return true;
-  };
-  for (const std::uint32_t a : mesh.star_of(pair.particle[0])) {
-    if (!holds(a, 0, split)) continue;
-    for (const std::uint32_t b : mesh.star_of(pair.particle[split]))
-      if (holds(b, split, 4) && do_cross(tangles, a, b)) return true;
-  }
-  return false;
 }
 
 // A search between two leaves.
@@ -64,7 +43,6 @@ struct LeafPair {
     const Corners corners = corners_of(pair.particle, search.at);
     if (pair.edges && are_far(corners)) return;
     if (closest(pair.edges, corners).length2 > reach_m * reach_m) return;
-    if (!search.tangles.empty() && is_tangled(mesh, pair, search.tangles)) return;
     task.pairs.push_back(pair);
   }
 
@@ -144,7 +122,8 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
   for (PairTask& task : tasks) {
     task.pairs.reserve(pairs), task.spare.reserve(pairs);
     task.groups.reserve(pairs / 2), task.groups_before.reserve(pairs / 2), task.near.reserve(pairs / 2);
-    task.crossing.reserve(pairs / 4);
+    for (auto* list : {&task.crossing, &task.pressed}) list->reserve(pairs / 4);
+    task.held.reserve(pairs / 4);
     for (auto& contacts : task.contacts) contacts.reserve(pairs / 4);
   }
   return tasks;

@@ -17,12 +17,6 @@ namespace bodice::cloth {
 inline constexpr std::uint32_t kNoContact = ~std::uint32_t{0};
 inline constexpr float kUnsettled = -1.0f;
 
-/// How the body pushed the particles in the last substep.
-struct BodyPush {
-  std::span<const std::uint8_t> touching;  ///< #P: whether it did
-  std::span<const Point> by;               ///< #P: displacement, where it did
-};
-
 /// Two parts of the cloth without a common particle.
 struct Pair {
   Index particle[4];                   ///< those of A, then those of B (Corners)
@@ -72,7 +66,8 @@ struct PairTask {
   std::vector<PairContact> contacts[2];          ///< [0]: groups across blocks, [1]: groups inside
   std::vector<Tangle> tangles;
   std::vector<std::uint32_t> crossing;  ///< pairs that would cross in this substep
-  bool pressed = false;                 ///< whether the body pressed a pair through each other in this frame
+  std::vector<std::uint32_t> pressed;   ///< pairs that cross, because none of their particles can be moved
+  std::vector<PairContact> held;        ///< contacts of all pairs that would have crossed in it
 };
 
 /// The tasks of a garment.
@@ -87,10 +82,9 @@ void find_groups(const engine::Context& context, const ContactMesh& mesh, const 
 /// What pairs are looked for.
 struct PairSearch {
   float gap_m = 0.0f;
-  float slack_m = 0.0f;             ///< how far leaves may move against each other until pairs are found anew
-  float step_m = 0.0f;              ///< how far they move in this substep
-  std::span<const Point> at;        ///< #P: positions
-  std::span<const Tangle> tangles;  ///< sorted; pairs of parts of crossing triangles are left out
+  float slack_m = 0.0f;       ///< how far leaves may move against each other until pairs are found anew
+  float step_m = 0.0f;        ///< how far they move in this substep
+  std::span<const Point> at;  ///< #P: positions
 };
 
 /// Finds the pairs of a group that may be nearer than the gap before its leaves have moved by the slack.

@@ -34,8 +34,13 @@ constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
 // Share of a substep's velocity in the one that is expected: sweeps leave some tremble, which averages out.
 constexpr float kSmoothing = 0.25f;
 
-// After so many rounds all particles move together.
-constexpr int kMostRounds = 16;
+// Pairs that would cross are pushed apart in so many rounds at most, of so many sweeps.
+constexpr int kHeldRounds = 6, kHeldSweeps = 4;
+// After so many rounds of zones, pairs that the body presses from both sides may cross; after so many, all
+// particles move together.
+constexpr int kFirmRounds = 4, kMostRounds = 16;
+// How often particles that sink into the body are guarded against it, before layers cross.
+constexpr int kGuardings = 4;
 
 // Whether a particle at `at` left its expected path by more than `most_m`, `since_s` after the search.
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
@@ -67,7 +72,10 @@ void look_ahead(const engine::Context& context, const SelfSubstep& substep, cons
 // Lists the groups of particles on the paths that are expected.
 void search(const engine::Context& context, SelfContact& s) {
   refit(context, s.mesh, s.found, s.ahead, s.tree);
-  if (!s.sided) find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
+  if (!s.sided) {
+    find_tangles(context, s.mesh, s.tree, s.found, s.tasks, s.tangles);
+    loosen(s.mesh, s.tangles, s.loose);
+  }
   s.searched = s.sided = true;
   find_groups(context, s.mesh, s.tree, s.gap_m + s.spare_m, s.gap_m, s.tasks);
   ++s.report.searches;
@@ -83,8 +91,8 @@ void keep_groups(const engine::Context& context, const SelfSubstep& substep, std
   search(context, s);
 }
 
-ContactSource source_of(const SelfSubstep& substep, const SelfContact& s) {
-  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before, s.tangles}, s.rest, s.moves, substep.body};
+ContactSource source_of(const SelfContact& s) {
+  return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before}, s.rest, s.moves, s.loose.state};
 }
 
 // Adds the substep's velocities to the smoothed ones.
@@ -104,20 +112,34 @@ void copy_points(const engine::Context& context, const Particles& p, std::vector
 }
 
 PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
-  return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.body.touching};
+  return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.touching, {}, {}};
 }
 
 // The number of pairs that would cross before the particles are at `now`.
-std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, SelfContact& s) {
+std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room,
+                           SelfContact& s) {
   keep_groups(context, substep, s.now, kUsedAfter, s);
   find_moves(context, s.mesh, s.before, s.now, s.moves);
-  return find_crossing(context, source_of(substep, s), s.now, s.tasks);
+  for (PairTask& task : s.tasks) task.held.clear();
+  return find_crossing(context, source_of(s), s.now, s.zones.guard, room, s.tasks);
+}
+
+// Pushes pairs that would cross apart until none would; returns whether that succeeded.
+bool part_pairs(const engine::Context& context, const SelfSubstep& substep, SelfContact& s) {
+  const PairPush how = {0.0f, 0.0f, s.before, substep.touching, s.zones.resolved, s.zones.guard};
+  for (int round = 0; round < kHeldRounds; ++round) {
+    if (count_crossing(context, substep, Room::kAmple, s) == 0) return true;
+    for (int sweep = 0; sweep < kHeldSweeps; ++sweep)
+      if (!push_held(how, s.tasks, s.now)) break;
+  }
+  return false;
 }
 
 // Moves particles in zones until no pair would cross.
 void zone(const engine::Context& context, const SelfSubstep& substep, const Particles& p, SelfContact& s) {
   for (int round = 0; round <= kMostRounds; ++round) {
-    if (count_crossing(context, substep, s) == 0) break;
+    const Room room = round < kFirmRounds ? Room::kAmple : Room::kScarce;
+    if (count_crossing(context, substep, room, s) == 0) break;
     if (round < kMostRounds)
       join_zones(s.tasks, p, s.before, s.now, s.zones);
     else
@@ -125,6 +147,36 @@ void zone(const engine::Context& context, const SelfSubstep& substep, const Part
   }
   s.report.held += s.zones.members.size();
   clear_zones(s.zones);
+}
+
+// Guards the particles that sank into the body since contact with it was resolved; returns whether there are
+// any.
+bool guard_moved(const engine::Context& context, const ResolvedBody& body, SelfContact& s) {
+  s.moved.clear();
+  for (Index i = 0; i < s.now.size(); ++i) {
+    const Float4 by = load(s.now[i]) - load(s.zones.resolved[i]);
+    if (dot(by, by) > 0.0f) s.moved.push_back(i);
+  }
+  return guard_sunk(context, body, s.moved, s.zones.resolved, s.now, s.zones.guard);
+}
+
+// Lets nothing cross, except where the body leaves no room for that: particles that sank into it are moved
+// outward only, and those that sink all the same are put back, so that the body has the last word.
+void part(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
+          const Particles& p, SelfContact& s) {
+  std::ranges::copy(s.now, s.zones.resolved.begin());
+  std::ranges::fill(s.zones.guard, Point{});
+  for (int round = 0; round <= kGuardings; ++round) {
+    if (!part_pairs(context, substep, s)) zone(context, substep, p, s);
+    if (!guard_moved(context, body, s)) return;
+    for (const Index i : s.moved)
+      store(s.now[i], guarded(load(s.now[i]), s.zones.resolved[i], s.zones.guard[i]));
+  }
+  for (const Index i : s.moved)
+    if (s.zones.guard[i].weight > 0.0f) s.now[i] = s.zones.resolved[i];
+  count_crossing(context, substep, Room::kScarce, s);
+  for (PairTask& task : s.tasks)
+    task.pressed.insert(task.pressed.end(), task.crossing.begin(), task.crossing.end());
 }
 
 // Copies the points that moved to the particles' positions, and lets them have that speed.
@@ -135,13 +187,6 @@ void take_points(float substep_s, std::span<const Point> at, Particles& p) {
     p.x[i] = at[i].x, p.y[i] = at[i].y, p.z[i] = at[i].z;
     p.vx[i] += dx / substep_s, p.vy[i] += dy / substep_s, p.vz[i] += dz / substep_s;
   }
-}
-
-// Whether the body pressed layers through each other since this was last called.
-bool were_pressed(SelfContact& s) {
-  bool any = false;
-  for (PairTask& task : s.tasks) any |= std::exchange(task.pressed, false);
-  return any;
 }
 
 }  // namespace
@@ -156,7 +201,9 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.tree = make_sweep_tree(s.mesh);
   s.tasks = make_pair_tasks(s.mesh);
   s.zones = make_zones(p.count());
+  s.loose = make_loose(p.count());
   s.moves.resize(s.mesh.leaves());
+  s.moved.reserve(p.count());
   for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
   return s;
@@ -172,8 +219,8 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   if (s.origin != p.origin) forget_pairs(s);
   s.origin = p.origin;
   copy_points(context, p, s.before);
-  if (follow_tangles(s.mesh, s.before, s.tangles, s.tangles_before)) forget_pairs(s);
-  if (were_pressed(s)) forget_pairs(s), s.sided = false;
+  follow_tangles(s.mesh, s.before, s.tangles, s.tangles_before);
+  loosen(s.mesh, s.tangles, s.loose);
 }
 
 SelfContactReport report_self_contact(const SelfContact& s) {
@@ -186,18 +233,19 @@ SelfContactReport report_self_contact(const SelfContact& s) {
 void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
   keep_groups(context, substep, p.point, kUsedBefore, s);
   find_moves(context, s.mesh, s.before, p.point, s.moves);
-  refresh_contacts(context, source_of(substep, s), s.tasks);
+  refresh_contacts(context, source_of(s), s.tasks);
   push_contacts(context, s.mesh, push_of(substep, s), s.tasks, p.point);
-  untangle(s.mesh, s.tangles, substep.body, kUntangle_m_s * substep.length_s, p.point);
+  untangle(s.mesh, s.tangles, substep.touching, kUntangle_m_s * substep.length_s, p.point);
 }
 
-void hold_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
+void hold_apart(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
+                SelfContact& s, Particles& p) {
   copy_points(context, p, s.now);
-  if (count_crossing(context, substep, s) > 0) {
-    push_contacts(context, s.mesh, push_of(substep, s), s.tasks, s.now);
-    zone(context, substep, p, s);
+  if (count_crossing(context, substep, Room::kAmple, s) > 0) {
+    part(context, substep, body, p, s);
     take_points(substep.length_s, s.now, p);
   }
+  if (add_pressed(s.mesh, s.tasks, s.now, s.tangles)) loosen(s.mesh, s.tangles, s.loose);
   for (PairTask& task : s.tasks)
     for (PairGroup& group : task.groups)
       group.travel_m += relative_move(s.moves[group.leaf[0]], s.moves[group.leaf[1]]);

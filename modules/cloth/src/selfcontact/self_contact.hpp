@@ -14,7 +14,9 @@
 #include <bodice/cloth/solver.hpp>
 #include <bodice/engine/context.hpp>
 
+#include "contact/last_word.hpp"
 #include "selfcontact/contacts.hpp"
+#include "selfcontact/loose.hpp"
 #include "selfcontact/zones.hpp"
 
 namespace bodice::cloth {
@@ -28,9 +30,11 @@ struct SelfContact {
   SweepTree tree;
   std::vector<PairTask> tasks;
   std::vector<Tangle> tangles_before;
-  std::vector<Tangle> tangles;      ///< triangles that cross: their contacts have no sides
+  std::vector<Tangle> tangles;      ///< triangles that cross
+  Loose loose;                      ///< particles near these, which contact leaves alone
   std::vector<Point> rest;          ///< #P: positions at rest, meters, in the particles' first frame
   std::vector<Point> before, now;   ///< #P: positions when the substep began, and at its end
+  std::vector<Index> moved;         ///< particles that were moved after contact with the body
   std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then
   std::vector<Point> drift;         ///< #P: smoothed velocities, meters a second
   std::vector<LeafMove> moves;      ///< #leaves
@@ -56,7 +60,7 @@ void begin_self_contact(const engine::Context& context, const Particles& particl
 struct SelfSubstep {
   float length_s = 0.0f, frame_s = 0.0f;
   float friction = 0.0f;
-  BodyPush body;
+  std::span<const std::uint8_t> touching;  ///< #P: whether the body pushed the particle in the substep before
 };
 
 /// Pushes layers apart after constraints moved the points of the particles. The same bits for any number of
@@ -68,7 +72,8 @@ void push_apart(const engine::Context& context, const SelfSubstep& substep, Self
 SelfContactReport report_self_contact(const SelfContact& self);
 
 /// Ends a substep: holds back what would cross on its path from where it began to the particles' positions.
-void hold_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& self,
-                Particles& particles);
+/// Particles that would lie deeper in `body` for that stay, and layers cross there.
+void hold_apart(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
+                SelfContact& self, Particles& particles);
 
 }  // namespace bodice::cloth

@@ -77,22 +77,20 @@ void pull_through(const Face& of, unsigned k, const Face& face, const Passage& p
   const Index particle[5] = {p, q, face.particle[0], face.particle[1], face.particle[2]};
   const float weight[5] = {passage.edge[0], passage.edge[1], -passage.face[0], -passage.face[1],
                            -passage.face[2]};
-  float all = kTinyWeight;
-  for (int i = 0; i < 5; ++i) all += weight[i] * weight[i] * at[particle[i]].weight;
+  float all = kTinyWeight, most = 0.0f;
+  for (int i = 0; i < 5; ++i) {
+    const float yielding = std::abs(weight[i]) * at[particle[i]].weight;
+    all += std::abs(weight[i]) * yielding, most = std::max(most, yielding);
+  }
+  all = std::max(all, most);
   for (int i = 0; i < 5; ++i) {
     Point& point = at[particle[i]];
     store(point, load(point) + (step_m * weight[i] * point.weight / all) * xyz(gradient));
   }
 }
 
-// The body's push of a triangle, zero where it does not push all of its corners.
-Float4 push_of(const Face& f, const BodyPush& body) {
-  Float4 push = splat(0.0f);
-  for (const Index i : f.particle) {
-    if (!body.touching[i]) return splat(0.0f);
-    push += xyz(load(body.by[i]));
-  }
-  return push;
+bool lies_on_body(const Face& f, std::span<const std::uint8_t> touching) {
+  return touching[f.particle[0]] || touching[f.particle[1]] || touching[f.particle[2]];
 }
 
 void search_tangles(const ContactMesh& mesh, const SweepTree& tree, std::span<const Point> at,
@@ -120,7 +118,25 @@ void find_tangles(const engine::Context& context, const ContactMesh& mesh, const
   std::ranges::sort(tangles);
 }
 
-bool follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vector<Tangle>& tangles,
+bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, std::span<const Point> at,
+                 std::vector<Tangle>& tangles) {
+  const std::size_t before = tangles.size();
+  for (const PairTask& task : tasks)
+    for (const std::uint32_t k : task.pressed) {
+      const Pair& pair = task.pairs[k];
+      for (const std::uint32_t a : mesh.star_of(pair.particle[0]))
+        for (const std::uint32_t b : mesh.star_of(pair.particle[pair.edges ? 2 : 1]))
+          if (a != b && cross_each_other(mesh.faces[a], mesh.faces[b], at))
+            tangles.push_back({std::min(a, b), std::max(a, b)});
+    }
+  if (tangles.size() == before) return false;
+  std::ranges::sort(tangles);
+  const auto repeated = std::ranges::unique(tangles);
+  tangles.erase(repeated.begin(), repeated.end());
+  return true;
+}
+
+void follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vector<Tangle>& tangles,
                     std::vector<Tangle>& room) {
   std::swap(tangles, room);
   tangles.clear();
@@ -135,14 +151,13 @@ bool follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vec
   tangles.erase(repeated.begin(), repeated.end());
   std::erase_if(tangles,
                 [&](const Tangle& t) { return !cross_each_other(mesh.faces[t.a], mesh.faces[t.b], at); });
-  return tangles != room;
 }
 
-void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const BodyPush& body, float step_m,
-              std::span<Point> at) {
+void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles,
+              std::span<const std::uint8_t> touching, float step_m, std::span<Point> at) {
   for (const Tangle& t : tangles) {
     const Face &a = mesh.faces[t.a], &b = mesh.faces[t.b];
-    if (dot(push_of(a, body), push_of(b, body)) < 0.0f) continue;
+    if (lies_on_body(a, touching) && lies_on_body(b, touching)) continue;
     for_each_passage(a, b, at, [&](unsigned k, const Passage& p) { pull_through(a, k, b, p, step_m, at); });
     for_each_passage(b, a, at, [&](unsigned k, const Passage& p) { pull_through(b, k, a, p, step_m, at); });
   }

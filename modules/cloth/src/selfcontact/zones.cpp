@@ -5,6 +5,9 @@
 
 #include <bodice/engine/parallel.hpp>
 
+#include "contact/last_word.hpp"
+#include "selfcontact/loose.hpp"
+
 namespace bodice::cloth {
 namespace {
 
@@ -14,8 +17,29 @@ constexpr float kSafe = 0.8f;
 // What remains of a pair's distance after a substep at least: this share of it, or of its gap.
 constexpr float kKept = 0.2f, kKeptOfGap = 0.02f;
 
+// The distance that pairs which would cross are pushed apart to, a share of their gap.
+constexpr float kHeldOfGap = 0.1f;
+
+// Sweeps over the guarded particles of zones.
+constexpr int kLifts = 3;
+
 // A zone with a pin moves as the pin, up to the rounding of floats.
 constexpr float kPinOfZone = 1e7f;
+
+// Whether a pair must not cross. A part is backed by a pin or by the body behind it.
+bool can_be_parted(const PairContact& c, std::span<const Point> now, std::span<const Point> guard,
+                   Room room) {
+  if (room == Room::kAmple)
+    return std::ranges::any_of(c.particle, [&](Index i) { return now[i].weight > 0.0f; });
+  const int split = c.edges ? 2 : 1;
+  bool backed[2] = {false, false};
+  for (int k = 0; k < 4; ++k) {
+    const Index i = c.particle[k];
+    const float along = dot(load(guard[i]), k < split ? -c.normal : c.normal);
+    backed[k >= split] = backed[k >= split] || !(now[i].weight > 0.0f) || along > 0.0f;
+  }
+  return !(backed[0] && backed[1]);
+}
 
 bool would_cross(const PairContact& c, const ContactSource& source, std::span<const Point> now) {
   const float least_m = std::min(kKept * c.apart_m, kKeptOfGap * c.gap_m);
@@ -27,8 +51,8 @@ bool would_cross(const PairContact& c, const ContactSource& source, std::span<co
   return may_meet(c.edges, from, by, least_m);
 }
 
-void find_crossing_in(const ContactSource& source, std::span<const Point> now, PairGroup& group,
-                      PairTask& task) {
+void find_crossing_in(const ContactSource& source, std::span<const Point> now, std::span<const Point> guard,
+                      Room room, PairGroup& group, PairTask& task) {
   const float step_m = source.step_of(group);
   keep_pairs(source, step_m, group, task);
   if (group.next_m > group.travel_m + step_m) return;
@@ -38,11 +62,14 @@ void find_crossing_in(const ContactSource& source, std::span<const Point> now, P
     const bool known = group.fresh && pair.contact != kNoContact;
     const PairContact contact = known ? task.contacts[group.inside][pair.contact] : contact_of(source, pair);
     if (!(contact.gap_m > 0.0f) || step_m < kSafe * contact.apart_m) continue;
-    if (!would_cross(contact, source, now)) continue;
-    if (is_pressed(contact, source.body))
-      task.pressed = true;
-    else
-      task.crossing.push_back(k);
+    if (are_loose(pair.particle, pair.edges, source.loose) || !would_cross(contact, source, now)) continue;
+    if (!can_be_parted(contact, now, guard, room)) {
+      task.pressed.push_back(k);
+      continue;
+    }
+    task.crossing.push_back(k);
+    task.held.push_back(contact);
+    task.held.back().gap_m *= kHeldOfGap;
   }
 }
 
@@ -61,19 +88,35 @@ void enter(Index i, std::span<const Point> before, std::span<const Point> now, Z
   z.wanted.push_back(wanted);
 }
 
+// Moves zones so far out of the body that none of their guarded particles sinks, if that is possible.
+void lift_zones(std::span<const Point> before, Zones& z) {
+  for (int sweep = 0; sweep < kLifts; ++sweep)
+    for (const Index i : z.members) {
+      if (z.guard[i].weight == 0.0f) continue;
+      Float4& moved = z.moved[root_of(i, z.parent)];
+      const Float4 to = xyz(load(before[i])) + moved;
+      moved += xyz(guarded(to, z.resolved[i], z.guard[i]) - to);
+    }
+}
+
 void move_zones(const Particles& p, std::span<const Point> before, std::span<Point> now, Zones& z) {
   for (const Index i : z.members) z.moved[i] = splat(0.0f);
   for (std::size_t k = 0; k < z.members.size(); ++k) {
     const Index i = z.members[k];
-    const float mass = p.inverse_mass[i] > 0.0f ? p.mass[i] : kPinOfZone * p.mass[i];
+    const float mass = now[i].weight > 0.0f ? p.mass[i] : kPinOfZone * p.mass[i];
     Float4 moved = load(z.wanted[k]);
     moved[3] = 1.0f;
     z.moved[root_of(i, z.parent)] += mass * moved;
   }
+  for (const Index i : z.members)
+    if (root_of(i, z.parent) == i) z.moved[i] = xyz(z.moved[i] / z.moved[i][3]);
+  lift_zones(before, z);
   for (const Index i : z.members) {
-    if (p.inverse_mass[i] == 0.0f) continue;
-    const Float4 moved = z.moved[root_of(i, z.parent)];
-    store(now[i], load(before[i]) + xyz(moved / moved[3]));
+    const float weight = now[i].weight;
+    if (!(weight > 0.0f)) continue;
+    const Float4 to = xyz(load(before[i])) + z.moved[root_of(i, z.parent)];
+    store(now[i], guarded(to, z.resolved[i], z.guard[i]));
+    now[i].weight = weight;
   }
 }
 
@@ -82,17 +125,18 @@ void move_zones(const Particles& p, std::span<const Point> before, std::span<Poi
 Zones make_zones(std::size_t particles) {
   Zones z;
   z.parent.assign(particles, geometry::kNoIndex);
-  z.moved.resize(particles);
+  z.moved.resize(particles), z.resolved.resize(particles), z.guard.resize(particles);
   z.members.reserve(particles), z.wanted.reserve(particles);
   return z;
 }
 
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
-                          std::span<const Point> now, std::vector<PairTask>& tasks) {
+                          std::span<const Point> now, std::span<const Point> guard, Room room,
+                          std::vector<PairTask>& tasks) {
   engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
-    tasks[t].crossing.clear();
+    tasks[t].crossing.clear(), tasks[t].pressed.clear();
     tidy(tasks[t]);
-    for (PairGroup& group : tasks[t].groups) find_crossing_in(source, now, group, tasks[t]);
+    for (PairGroup& group : tasks[t].groups) find_crossing_in(source, now, guard, room, group, tasks[t]);
   });
   return std::transform_reduce(tasks.begin(), tasks.end(), std::size_t{0}, std::plus<>(),
                                [](const PairTask& task) { return task.crossing.size(); });

@@ -15,17 +15,24 @@ namespace bodice::cloth {
 
 /// The zones of a substep.
 struct Zones {
-  std::vector<Index> parent;   ///< #P: union-find; a particle of no zone is its own parent
-  std::vector<Index> members;  ///< particles of zones
-  std::vector<Float4> moved;   ///< #P: at a zone's root: mass times displacement, and mass
-  std::vector<Point> wanted;   ///< as members: their displacements before they joined a zone
+  std::vector<Index> parent;           ///< #P: union-find; a particle of no zone is its own parent
+  std::vector<Index> members;          ///< particles of zones
+  std::vector<Float4> moved;           ///< #P: at a zone's root: mass times displacement, and mass
+  std::vector<Point> wanted;           ///< as members: their displacements before they joined a zone
+  std::vector<Point> resolved, guard;  ///< #P: what keeps particles from sinking (contact/last_word.hpp)
 };
 
 Zones make_zones(std::size_t particles);
 
-/// Lists the pairs that would cross on their paths to `now`, by task; returns their number.
+/// Where there is room, pairs may cross only if none of their particles can be moved; where it is scarce,
+/// also if the body or pins press their parts together from both sides.
+enum class Room : std::uint8_t { kAmple, kScarce };
+
+/// Lists the pairs that would cross on their paths to `now`, by task, and apart from them those that may;
+/// returns the number of the former. A particle cannot be moved if it has no weight at `now`.
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
-                          std::span<const Point> now, std::vector<PairTask>& tasks);
+                          std::span<const Point> now, std::span<const Point> guard, Room room,
+                          std::vector<PairTask>& tasks);
 
 /// Joins the particles of the pairs that would cross, and moves all zones: writes their members' positions to
 /// `now`. Pins stay where they are; a zone with some moves as these do.

@@ -101,10 +101,12 @@ FrameShare share(int substep, const Plan& plan) {
 }
 
 SelfSubstep self_substep(const Plan& plan, const State& s) {
-  return {plan.substep_s,
-          static_cast<float>(plan.simulated_s),
-          static_cast<float>(s.fabric.friction),
-          {s.contacts.touching, s.contacts.pushed}};
+  return {plan.substep_s, static_cast<float>(plan.simulated_s), static_cast<float>(s.fabric.friction),
+          s.contacts.touching};
+}
+
+ResolvedBody resolved_body(const collision::Collider* collider, const FrameShare& share, const State& s) {
+  return {collider, &s.contacts.motion, static_cast<float>(s.options.thickness_m), 1.0f - share.end};
 }
 
 std::uint32_t run_substep(const engine::Context& context, const collision::Collider* collider,
@@ -128,7 +130,8 @@ std::uint32_t run_substep(const engine::Context& context, const collision::Colli
   if (touches_itself(plan, s)) push_apart(context, with_itself, s.self, p);
   limits |= resolve_body_contacts(context, collider, s.options, with_itself.friction,
                                   {plan.substep_s, share(substep, plan)}, s.contacts, p);
-  if (touches_itself(plan, s)) hold_apart(context, with_itself, s.self, p);
+  if (touches_itself(plan, s))
+    hold_apart(context, with_itself, resolved_body(collider, share(substep, plan), s), s.self, p);
   return limits;
 }
 
@@ -137,7 +140,7 @@ void end_contact(const engine::Context& context, const collision::Collider& coll
                  State& s) {
   end_contact_frame(context, collider, s.options, s.contacts, s.particles);
   if (s.options.certify_m && touches_itself(plan, s))
-    hold_apart(context, self_substep(plan, s), s.self, s.particles);
+    hold_apart(context, self_substep(plan, s), resolved_body(&collider, {}, s), s.self, s.particles);
 }
 
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {

@@ -1,0 +1,58 @@
+#include "contact/last_word.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include <bodice/engine/parallel.hpp>
+
+namespace bodice::cloth {
+namespace {
+
+// The share of the thickness that layers which hold each other apart may take.
+constexpr float kYieldedThickness = 0.25f;
+constexpr float kFar_m = std::numeric_limits<float>::infinity();
+constexpr std::size_t kSunkGrain = 128;  // particles a task
+
+// Positions of particles, in the body's pose at the end of the frame, and their distances from it.
+struct Probe {
+  float x[kSunkGrain], y[kSunkGrain], z[kSunkGrain];
+  collision::Contact contact[kSunkGrain];
+
+  void query(const ResolvedBody& body, std::span<const Index> particles, std::span<const Point> at,
+             float within_m) {
+    for (std::size_t k = 0; k < particles.size(); ++k) {
+      const Index i = particles[k];
+      const Float4 p = load(at[i]) + body.remaining * load(body.motion->ahead[i]);
+      x[k] = p[0], y[k] = p[1], z[k] = p[2];
+    }
+    const engine::Context alone{.executor = &engine::inline_executor()};
+    body.collider->query(alone, {.count = particles.size(), .x = x, .y = y, .z = z},
+                         {contact, particles.size()}, {.within_m = within_m});
+  }
+};
+
+}  // namespace
+
+bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::span<const Index> moved,
+                std::span<const Point> resolved, std::span<const Point> now, std::span<Point> guard) {
+  if (body.collider == nullptr) return false;
+  const float yielded_m = kYieldedThickness * body.thickness_m;
+  std::atomic<bool> any{false};
+  engine::parallel_for(context, moved.size(), kSunkGrain, [&](std::size_t begin, std::size_t end) {
+    const std::span<const Index> some = moved.subspan(begin, end - begin);
+    Probe from, to;
+    to.query(body, some, now, body.thickness_m);
+    from.query(body, some, resolved, kFar_m);
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      const float allowed_m = std::min(from.contact[k].signed_distance, body.thickness_m) - yielded_m;
+      if (!(to.contact[k].signed_distance < allowed_m)) continue;
+      const float* const normal = from.contact[k].normal;
+      guard[some[k]] = {normal[0], normal[1], normal[2], 1.0f};
+      any.store(true, std::memory_order_relaxed);
+    }
+  });
+  return any.load();
+}
+
+}  // namespace bodice::cloth

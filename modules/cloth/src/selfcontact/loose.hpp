@@ -1,0 +1,32 @@
+// Which particles layers may pass. Where the body left no room, or where the simulation began crossed, layers
+// are on each other's wrong side, and contact would keep them there. So particles near triangles that cross
+// are loose: contact does not act between them, until the line of crossing that they passed is gone.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "selfcontact/pairs.hpp"
+
+namespace bodice::cloth {
+
+/// The particles that are loose.
+struct Loose {
+  std::vector<std::uint8_t> state;    ///< #P: not zero if it is
+  std::vector<Index> list, released;  ///< those; and room for the same
+};
+
+Loose make_loose(std::size_t particles);
+
+/// Loosens the corners of all triangles that cross and their neighbors. Those that were loose stay so if
+/// others join them to these, because they passed the line along which the triangles cross.
+void loosen(const ContactMesh& mesh, std::span<const Tangle> tangles, Loose& loose);
+
+/// Whether both parts of a pair have loose particles.
+inline bool are_loose(const Index (&particle)[4], bool edges, std::span<const std::uint8_t> loose) {
+  const bool first = loose[particle[0]] || (edges && loose[particle[1]]);
+  return first && (loose[particle[2]] || loose[particle[3]] || (!edges && loose[particle[1]]));
+}
+
+}  // namespace bodice::cloth
