@@ -59,6 +59,7 @@ void add_leaf(const geometry::TriMesh& mesh, const Joints& joints, const std::ve
       met.push_back(i);
     }
     out.faces.push_back(face);
+    out.leaf_of.push_back(static_cast<std::uint32_t>(out.width_m.size()));
   }
   std::ranges::sort(met);
   const auto repeated = std::ranges::unique(met);

@@ -36,6 +36,7 @@ struct ContactMesh {
   std::vector<float> width_m;                 ///< #leaves: the least height of its triangles at rest
   std::vector<std::uint32_t> star_begin;      ///< #P + 1, offsets into star
   std::vector<std::uint32_t> star;            ///< the triangles of each particle
+  std::vector<std::uint32_t> leaf_of;         ///< #faces: the leaf of each triangle
   std::vector<bool> simple;                   ///< #P: whether its triangles are one fan
   std::size_t blocks = 0;
 

@@ -124,7 +124,7 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
     task.groups.reserve(pairs / 2), task.groups_before.reserve(pairs / 2), task.near.reserve(pairs / 2);
     for (auto* list : {&task.crossing, &task.pressed}) list->reserve(pairs / 4);
     task.held.reserve(pairs / 4);
-    for (auto& contacts : task.contacts) contacts.reserve(pairs / 4);
+    for (auto& contacts : task.contacts) contacts.reserve(pairs);
   }
   return tasks;
 }

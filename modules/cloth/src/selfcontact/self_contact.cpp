@@ -31,6 +31,9 @@ constexpr float kUntangle_m_s = 0.3f;
 // use both halves against each other.
 constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
 
+// Share of what a particle may stray that it uses at most when a search begins.
+constexpr float kOnPath = 0.9f;
+
 // Share of a substep's velocity in the one that is expected: sweeps leave some tremble, which averages out.
 constexpr float kSmoothing = 0.25f;
 
@@ -58,13 +61,19 @@ bool strays(const engine::Context& context, std::span<const Point> at, float sin
   return far.load();
 }
 
-// Expects that particles go on as they did, for a frame; or, if they do not, that they go to `at` and stay.
-void look_ahead(const engine::Context& context, const SelfSubstep& substep, const Point* at, SelfContact& s) {
-  s.ahead_s = at ? substep.length_s : std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
+// Expects that particles go on as they did, for a frame; and those that are at `at`, farther from there than
+// `most_m`, that they stray no more than that. Constraints may pull one far that contact then puts back.
+void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
+                float most_m, SelfContact& s) {
+  s.ahead_s = std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
+  const float share = substep.length_s / s.ahead_s;
   engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      const Float4 path = xyz(load(at[i]) - load(s.before[i])), expected = xyz(s.ahead_s * load(s.drift[i])),
+                   off = path - share * expected;
       s.found[i] = s.before[i];
-      store(s.ahead[i], xyz(at ? load(at[i]) - load(s.before[i]) : s.ahead_s * load(s.drift[i])));
+      const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
+      store(s.ahead[i], expected + (1.0f - kept) / share * off);
     }
   });
 }
@@ -84,10 +93,9 @@ void search(const engine::Context& context, SelfContact& s) {
 // Searches unless the groups of the last search still do for particles at `at`.
 void keep_groups(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
                  float used, SelfContact& s) {
-  const auto stray = [&] { return strays(context, at, s.since_s + substep.length_s, used * s.spare_m, s); };
-  if (s.searched && !stray()) return;
-  look_ahead(context, substep, nullptr, s);
-  if (stray()) look_ahead(context, substep, at.data(), s);
+  const float most_m = used * s.spare_m;
+  if (s.searched && !strays(context, at, s.since_s + substep.length_s, most_m, s)) return;
+  look_ahead(context, substep, at, kOnPath * most_m, s);
   search(context, s);
 }
 
@@ -115,35 +123,50 @@ PairPush push_of(const SelfSubstep& substep, const SelfContact& s) {
   return {substep.friction, kRecovery_m_s * substep.length_s, s.before, substep.touching, {}, {}};
 }
 
-// The number of pairs that would cross before the particles are at `now`.
-std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room,
+// The number of pairs that would cross before the particles are at `now`. `again` in the same substep, only
+// parts that moved since are looked at.
+std::size_t count_crossing(const engine::Context& context, const SelfSubstep& substep, Room room, bool again,
                            SelfContact& s) {
+  const std::size_t searches = s.report.searches;
   keep_groups(context, substep, s.now, kUsedAfter, s);
   find_moves(context, s.mesh, s.before, s.now, s.moves);
-  for (PairTask& task : s.tasks) task.held.clear();
-  return find_crossing(context, source_of(s), s.now, s.zones.guard, room, s.tasks);
+  const bool all = !again || s.report.searches != searches;
+  const std::span<const std::uint8_t> moved = all ? std::span<const std::uint8_t>{} : s.moved_leaves;
+  const std::size_t count =
+      find_crossing(context, source_of(s), {s.now, s.zones.guard, moved, room}, s.tasks);
+  std::ranges::fill(s.moved_leaves, std::uint8_t{0});
+  return count;
 }
 
-// Pushes pairs that would cross apart until none would; returns whether that succeeded.
+// Notes that particles were moved.
+void note_moved(std::span<const Index> particles, SelfContact& s) {
+  for (const Index i : particles)
+    for (const std::uint32_t face : s.mesh.star_of(i)) s.moved_leaves[s.mesh.leaf_of[face]] = 1;
+}
+
+// Pushes the pairs that would cross apart until none would; returns whether that succeeded.
 bool part_pairs(const engine::Context& context, const SelfSubstep& substep, SelfContact& s) {
   const PairPush how = {0.0f, 0.0f, s.before, substep.touching, s.zones.resolved, s.zones.guard};
   for (int round = 0; round < kHeldRounds; ++round) {
-    if (count_crossing(context, substep, Room::kAmple, s) == 0) return true;
+    for (const PairTask& task : s.tasks)
+      for (const PairContact& c : task.held) note_moved(c.particle, s);
     for (int sweep = 0; sweep < kHeldSweeps; ++sweep)
       if (!push_held(how, s.tasks, s.now)) break;
+    if (count_crossing(context, substep, Room::kAmple, true, s) == 0) return true;
   }
   return false;
 }
 
-// Moves particles in zones until no pair would cross.
+// Moves the particles of pairs that would cross in zones until none would.
 void zone(const engine::Context& context, const SelfSubstep& substep, const Particles& p, SelfContact& s) {
   for (int round = 0; round <= kMostRounds; ++round) {
-    const Room room = round < kFirmRounds ? Room::kAmple : Room::kScarce;
-    if (count_crossing(context, substep, room, s) == 0) break;
     if (round < kMostRounds)
       join_zones(s.tasks, p, s.before, s.now, s.zones);
     else
       join_all(p, s.before, s.now, s.zones);
+    note_moved(s.zones.members, s);
+    const Room room = round + 1 < kFirmRounds ? Room::kAmple : Room::kScarce;
+    if (count_crossing(context, substep, room, true, s) == 0) break;
   }
   s.report.held += s.zones.members.size();
   clear_zones(s.zones);
@@ -166,15 +189,18 @@ void part(const engine::Context& context, const SelfSubstep& substep, const Reso
           const Particles& p, SelfContact& s) {
   std::ranges::copy(s.now, s.zones.resolved.begin());
   std::ranges::fill(s.zones.guard, Point{});
+  bool crossing = true;
   for (int round = 0; round <= kGuardings; ++round) {
-    if (!part_pairs(context, substep, s)) zone(context, substep, p, s);
+    if (crossing && !part_pairs(context, substep, s)) zone(context, substep, p, s);
     if (!guard_moved(context, body, s)) return;
     for (const Index i : s.moved)
       store(s.now[i], guarded(load(s.now[i]), s.zones.resolved[i], s.zones.guard[i]));
+    note_moved(s.moved, s);
+    crossing = count_crossing(context, substep, Room::kAmple, true, s) > 0;
   }
   for (const Index i : s.moved)
     if (s.zones.guard[i].weight > 0.0f) s.now[i] = s.zones.resolved[i];
-  count_crossing(context, substep, Room::kScarce, s);
+  count_crossing(context, substep, Room::kScarce, false, s);
   for (PairTask& task : s.tasks)
     task.pressed.insert(task.pressed.end(), task.crossing.begin(), task.crossing.end());
 }
@@ -202,7 +228,7 @@ SelfContact make_self_contact(const geometry::TriMesh& mesh, const Particles& p,
   s.tasks = make_pair_tasks(s.mesh);
   s.zones = make_zones(p.count());
   s.loose = make_loose(p.count());
-  s.moves.resize(s.mesh.leaves());
+  s.moves.resize(s.mesh.leaves()), s.moved_leaves.resize(s.mesh.leaves());
   s.moved.reserve(p.count());
   for (auto* points : {&s.rest, &s.before, &s.now, &s.found, &s.ahead, &s.drift}) points->resize(p.count());
   for (std::size_t i = 0; i < p.count(); ++i) s.rest[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
@@ -241,7 +267,7 @@ void push_apart(const engine::Context& context, const SelfSubstep& substep, Self
 void hold_apart(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
                 SelfContact& s, Particles& p) {
   copy_points(context, p, s.now);
-  if (count_crossing(context, substep, Room::kAmple, s) > 0) {
+  if (count_crossing(context, substep, Room::kAmple, false, s) > 0) {
     part(context, substep, body, p, s);
     take_points(substep.length_s, s.now, p);
   }

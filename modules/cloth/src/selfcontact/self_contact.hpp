@@ -30,11 +30,12 @@ struct SelfContact {
   SweepTree tree;
   std::vector<PairTask> tasks;
   std::vector<Tangle> tangles_before;
-  std::vector<Tangle> tangles;      ///< triangles that cross
-  Loose loose;                      ///< particles near these, which contact leaves alone
-  std::vector<Point> rest;          ///< #P: positions at rest, meters, in the particles' first frame
-  std::vector<Point> before, now;   ///< #P: positions when the substep began, and at its end
-  std::vector<Index> moved;         ///< particles that were moved after contact with the body
+  std::vector<Tangle> tangles;             ///< triangles that cross
+  Loose loose;                             ///< particles near these, which contact leaves alone
+  std::vector<Point> rest;                 ///< #P: positions at rest, meters, in the particles' first frame
+  std::vector<Point> before, now;          ///< #P: positions when the substep began, and at its end
+  std::vector<std::uint8_t> moved_leaves;  ///< #leaves: those with particles that were, since the last search
+  std::vector<Index> moved;                ///< particles that were moved after contact with the body
   std::vector<Point> found, ahead;  ///< #P: positions at the last search, and displacements expected then
   std::vector<Point> drift;         ///< #P: smoothed velocities, meters a second
   std::vector<LeafMove> moves;      ///< #leaves

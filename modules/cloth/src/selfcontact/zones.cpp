@@ -27,16 +27,15 @@ constexpr int kLifts = 3;
 constexpr float kPinOfZone = 1e7f;
 
 // Whether a pair must not cross. A part is backed by a pin or by the body behind it.
-bool can_be_parted(const PairContact& c, std::span<const Point> now, std::span<const Point> guard,
-                   Room room) {
-  if (room == Room::kAmple)
-    return std::ranges::any_of(c.particle, [&](Index i) { return now[i].weight > 0.0f; });
+bool can_be_parted(const PairContact& c, const CrossingSearch& how) {
+  if (how.room == Room::kAmple)
+    return std::ranges::any_of(c.particle, [&](Index i) { return how.now[i].weight > 0.0f; });
   const int split = c.edges ? 2 : 1;
   bool backed[2] = {false, false};
   for (int k = 0; k < 4; ++k) {
     const Index i = c.particle[k];
-    const float along = dot(load(guard[i]), k < split ? -c.normal : c.normal);
-    backed[k >= split] = backed[k >= split] || !(now[i].weight > 0.0f) || along > 0.0f;
+    const float along = dot(load(how.guard[i]), k < split ? -c.normal : c.normal);
+    backed[k >= split] = backed[k >= split] || !(how.now[i].weight > 0.0f) || along > 0.0f;
   }
   return !(backed[0] && backed[1]);
 }
@@ -51,19 +50,33 @@ bool would_cross(const PairContact& c, const ContactSource& source, std::span<co
   return may_meet(c.edges, from, by, least_m);
 }
 
-void find_crossing_in(const ContactSource& source, std::span<const Point> now, std::span<const Point> guard,
-                      Room room, PairGroup& group, PairTask& task) {
+// The contact of a pair when the substep began, which is found once.
+const PairContact& known_contact(const ContactSource& source, const PairGroup& group, Pair& pair,
+                                 PairTask& task) {
+  std::vector<PairContact>& contacts = task.contacts[group.inside];
+  if (pair.contact == kNoContact) {
+    pair.contact = static_cast<std::uint32_t>(contacts.size());
+    contacts.push_back(contact_of(source, pair));
+  }
+  return contacts[pair.contact];
+}
+
+void find_crossing_in(const ContactSource& source, const CrossingSearch& how, PairGroup& group,
+                      PairTask& task) {
   const float step_m = source.step_of(group);
   keep_pairs(source, step_m, group, task);
   if (group.next_m > group.travel_m + step_m) return;
+  if (!group.fresh)
+    for (std::uint32_t k = group.begin; k < group.end; ++k) task.pairs[k].contact = kNoContact;
+  group.fresh = true;
   for (std::uint32_t k = group.begin; k < group.end; ++k) {
     Pair& pair = task.pairs[k];
     if (pair.until_m > group.travel_m + step_m) continue;
-    const bool known = group.fresh && pair.contact != kNoContact;
-    const PairContact contact = known ? task.contacts[group.inside][pair.contact] : contact_of(source, pair);
+    if (are_loose(pair.particle, pair.edges, source.loose)) continue;
+    const PairContact& contact = known_contact(source, group, pair, task);
     if (!(contact.gap_m > 0.0f) || step_m < kSafe * contact.apart_m) continue;
-    if (are_loose(pair.particle, pair.edges, source.loose) || !would_cross(contact, source, now)) continue;
-    if (!can_be_parted(contact, now, guard, room)) {
+    if (!would_cross(contact, source, how.now)) continue;
+    if (!can_be_parted(contact, how)) {
       task.pressed.push_back(k);
       continue;
     }
@@ -131,12 +144,14 @@ Zones make_zones(std::size_t particles) {
 }
 
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
-                          std::span<const Point> now, std::span<const Point> guard, Room room,
-                          std::vector<PairTask>& tasks) {
+                          const CrossingSearch& how, std::vector<PairTask>& tasks) {
   engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
-    tasks[t].crossing.clear(), tasks[t].pressed.clear();
-    tidy(tasks[t]);
-    for (PairGroup& group : tasks[t].groups) find_crossing_in(source, now, guard, room, group, tasks[t]);
+    PairTask& task = tasks[t];
+    task.crossing.clear(), task.held.clear();
+    if (how.moved.empty()) task.pressed.clear(), tidy(task);
+    for (PairGroup& group : task.groups)
+      if (how.moved.empty() || how.moved[group.leaf[0]] || how.moved[group.leaf[1]])
+        find_crossing_in(source, how, group, task);
   });
   return std::transform_reduce(tasks.begin(), tasks.end(), std::size_t{0}, std::plus<>(),
                                [](const PairTask& task) { return task.crossing.size(); });

@@ -28,11 +28,19 @@ Zones make_zones(std::size_t particles);
 /// also if the body or pins press their parts together from both sides.
 enum class Room : std::uint8_t { kAmple, kScarce };
 
-/// Lists the pairs that would cross on their paths to `now`, by task, and apart from them those that may;
-/// returns the number of the former. A particle cannot be moved if it has no weight at `now`.
+/// Where pairs that would cross are looked for.
+struct CrossingSearch {
+  std::span<const Point> now;    ///< #P: where paths end; a particle without weight cannot be moved
+  std::span<const Point> guard;  ///< #P: as Zones::guard
+  std::span<const std::uint8_t>
+      moved;  ///< #leaves: whether its particles moved since the last search; or empty
+  Room room = Room::kAmple;
+};
+
+/// Lists the pairs that would cross on their paths, by task, and apart from them those that may; returns the
+/// number of the former. Only leaves that moved are looked at, where that is given.
 std::size_t find_crossing(const engine::Context& context, const ContactSource& source,
-                          std::span<const Point> now, std::span<const Point> guard, Room room,
-                          std::vector<PairTask>& tasks);
+                          const CrossingSearch& how, std::vector<PairTask>& tasks);
 
 /// Joins the particles of the pairs that would cross, and moves all zones: writes their members' positions to
 /// `now`. Pins stay where they are; a zone with some moves as these do.
