@@ -66,7 +66,7 @@ struct PairTask {
   std::vector<PairContact> contacts[2];          ///< [0]: groups across blocks, [1]: groups inside
   std::vector<Tangle> tangles;
   std::vector<std::uint32_t> crossing;  ///< pairs that would cross in this substep
-  std::vector<std::uint32_t> pressed;   ///< pairs that cross, because none of their particles can be moved
+  std::vector<std::uint32_t> pressed;   ///< pairs that would, and may, because nothing can part them
   std::vector<PairContact> held;        ///< contacts of all pairs that would have crossed in it
 };
 

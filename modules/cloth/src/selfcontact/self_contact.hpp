@@ -1,7 +1,8 @@
 // Contact of the cloth with itself: particles with triangles, and edges with edges. What does not cross when
 // a substep begins does not cross when it ends: pairs that may touch are known ahead of the motion
 // (pairs.hpp), pushed apart to their gap (contacts.hpp), and held back where they would cross after all
-// (zones.hpp). What crosses when the simulation begins is drawn apart (tangles.hpp).
+// (zones.hpp). Where the body leaves no room for that, they cross until it does (contact/last_word.hpp,
+// loose.hpp). What crosses when the simulation begins is drawn apart (tangles.hpp).
 // Based on: Anka He Chen, Jerry Hsu, Ziheng Liu, Miles Macklin, Yin Yang, Cem Yuksel. Offset Geometric
 // Contact. 2025. - section 4 (a bound on displacements keeps what is free of crossings so, without continuous
 // tests)
