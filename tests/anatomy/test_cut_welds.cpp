@@ -12,7 +12,7 @@ using body::LandmarkId;
 
 namespace {
 
-engine::Result<anatomy::Anatomy> analyze(const geometry::TriMesh& mesh) {
+engine::Result<anatomy::Anatomy> analyze_welded(const geometry::TriMesh& mesh) {
   return anatomy::analyze({}, mesh, {*body::find_profile("ansur2")});
 }
 
@@ -26,7 +26,7 @@ TEST_CASE("limbs that are welded are cut apart: parts and landmarks are right, w
   for (const geometry::TriMesh& welded : {left, made::fused(*truth, left, Part::kForearmR, Part::kThighR),
                                           made::fused(*truth, truth->mesh, Part::kCalfL, Part::kCalfR),
                                           made::fused(*truth, truth->mesh, Part::kThighL, Part::kThighR)}) {
-    const auto found = analyze(welded);
+    const auto found = analyze_welded(welded);
     REQUIRE(found.ok());
     CHECK(std::any_of(found->warnings.begin(), found->warnings.end(),
                       [](const engine::Warning& w) { return w.code == "limbs-cut"; }));
@@ -44,7 +44,7 @@ TEST_CASE("webs of 18 mm that no cut undoes are refused with a sentence that nam
   REQUIRE(scan.ok());
   geometry::TriMesh skin = scan->meshes[0].shape;
   for (geometry::Vec3& p : skin.positions) p = scan->frame.to_inside(p);
-  const auto found = analyze(skin);
+  const auto found = analyze_welded(skin);
   REQUIRE(!found.ok());
   CHECK(found.error().code == engine::ErrorCode::kUnusableGeometry);
   CHECK(found.error().message.find("a hand touches a leg") != std::string::npos);

@@ -22,7 +22,7 @@ geometry::TriMesh skin_of(ThingKind kind, double edge_m) {
   return std::move(repaired->mesh);
 }
 
-anatomy::Anatomy analyzed(const geometry::TriMesh& skin) {
+anatomy::Anatomy analyzed_thing(const geometry::TriMesh& skin) {
   auto found = anatomy::analyze_thing({}, skin);
   REQUIRE_MESSAGE(found.ok(), found.error().sentence());
   REQUIRE(found->part.size() == skin.positions.size());
@@ -52,7 +52,7 @@ const std::vector<Vec3> kLegsAndBack = {
 
 TEST_CASE("each leg of a chair of boards is a part, and so is each loose piece of a thing") {
   const geometry::TriMesh skin = skin_of(ThingKind::kChair, 0.03);
-  const anatomy::Anatomy found = analyzed(skin);
+  const anatomy::Anatomy found = analyzed_thing(skin);
   std::set<Part> of_leg[4];
   for (std::size_t v = 0; v < skin.positions.size(); ++v) {
     const Vec3& p = skin.positions[v];
@@ -74,7 +74,7 @@ TEST_CASE("each leg of a chair of boards is a part, and so is each loose piece o
     for (geometry::Index& v : moved) v += static_cast<geometry::Index>(vertices);
     pair.triangles.push_back(moved);
   }
-  const anatomy::Anatomy two = analyzed(pair);
+  const anatomy::Anatomy two = analyzed_thing(pair);
   for (std::size_t v = 0; v < vertices; ++v)
     for (std::size_t w = vertices; w < 2 * vertices; ++w) REQUIRE(two.part[v] != two.part[w]);
 }
@@ -82,13 +82,13 @@ TEST_CASE("each leg of a chair of boards is a part, and so is each loose piece o
 TEST_CASE("limbs of things in one skin are parts of their own") {
   SUBCASE("the legs and the back of a chair") {
     const geometry::TriMesh skin = skin_of(ThingKind::kJoined, 0.015);
-    CHECK(parts_at(skin, analyzed(skin), kLegsAndBack) == 5);
+    CHECK(parts_at(skin, analyzed_thing(skin), kLegsAndBack) == 5);
   }
   SUBCASE("the paws, the nose and the tail of a dog") {
     const geometry::TriMesh skin = skin_of(ThingKind::kDog, 0.015);
     const std::vector<Vec3> ends = {{-0.09, 0.0, -0.26}, {0.09, 0.0, -0.26}, {-0.09, 0.0, 0.26},
                                     {0.09, 0.0, 0.26},   {0.0, 0.74, 0.73},  {0.0, 0.72, -0.65}};
-    CHECK(parts_at(skin, analyzed(skin), ends) == 6);
+    CHECK(parts_at(skin, analyzed_thing(skin), ends) == 6);
   }
   SUBCASE("the fingers and the thumb of a hand") {
     const geometry::TriMesh skin = skin_of(ThingKind::kHand, 0.002);
@@ -97,13 +97,13 @@ TEST_CASE("limbs of things in one skin are parts of their own") {
                                     {-0.0115, 0.17, 0.0},
                                     {-0.034, 0.16, 0.0},
                                     {0.06, 0.075, 0.005}};
-    CHECK(parts_at(skin, analyzed(skin), tips) == 5);
+    CHECK(parts_at(skin, analyzed_thing(skin), tips) == 5);
   }
 }
 
 TEST_CASE("parts are numbered by falling area and known by name") {
   const geometry::TriMesh skin = skin_of(ThingKind::kDog, 0.02);
-  const anatomy::Anatomy found = analyzed(skin);
+  const anatomy::Anatomy found = analyzed_thing(skin);
   std::vector<double> area(body::kAllPartCount, 0.0);
   for (std::size_t t = 0; t < skin.triangles.size(); ++t)
     for (const geometry::Index v : skin.triangles[t])
@@ -118,18 +118,18 @@ TEST_CASE("parts are numbered by falling area and known by name") {
 
 TEST_CASE("the scale of a thing is that of a person with as much skin") {
   // A cube of half a meter has 1.5 m2; 1.65 is 1.70 m squared over 1.75 m2.
-  CHECK(analyzed(skin_of(ThingKind::kCube, 0.05)).stature_m == doctest::Approx(std::sqrt(1.65 * 1.5)));
+  CHECK(analyzed_thing(skin_of(ThingKind::kCube, 0.05)).stature_m == doctest::Approx(std::sqrt(1.65 * 1.5)));
   const auto person = synth::make_body({}, {.stature_m = 1.7, .mass_kg = 66.0});
   REQUIRE(person.ok());
-  CHECK(analyzed(person->mesh).stature_m == doctest::Approx(1.7).epsilon(0.06));
+  CHECK(analyzed_thing(person->mesh).stature_m == doctest::Approx(1.7).epsilon(0.06));
 }
 
 TEST_CASE("parts do not depend on size or workers, and the scale goes with the size") {
   const geometry::TriMesh skin = skin_of(ThingKind::kJoined, 0.02);
-  const anatomy::Anatomy found = analyzed(skin);
+  const anatomy::Anatomy found = analyzed_thing(skin);
   geometry::TriMesh larger = skin;
   for (Vec3& p : larger.positions) p *= 1024.0;  // a power of two changes no digit
-  const anatomy::Anatomy scaled = analyzed(larger);
+  const anatomy::Anatomy scaled = analyzed_thing(larger);
   CHECK(scaled.part == found.part);
   CHECK(scaled.stature_m == 1024.0 * found.stature_m);
   const auto threads = bodice_test::make_threads(3);
@@ -139,7 +139,7 @@ TEST_CASE("parts do not depend on size or workers, and the scale goes with the s
 }
 
 TEST_CASE("no landmark of a thing is found, and a sheet is refused") {
-  for (const body::Landmark& mark : analyzed(skin_of(ThingKind::kCube, 0.1)).landmarks)
+  for (const body::Landmark& mark : analyzed_thing(skin_of(ThingKind::kCube, 0.1)).landmarks)
     CHECK(mark.confidence == 0.0);
   geometry::TriMesh sheet{{{0, 0, 5}, {1, 0, 5}, {1, 1, 5}, {0, 1, 5}}, {{0, 1, 2}, {0, 2, 3}}};
   const auto refused = anatomy::analyze_thing({}, sheet);
@@ -159,7 +159,7 @@ TEST_CASE("more loose pieces than there are parts share them") {
   }
   auto repaired = geometry::repair({}, beads);
   REQUIRE(repaired.ok());
-  const anatomy::Anatomy found = analyzed(repaired->mesh);
+  const anatomy::Anatomy found = analyzed_thing(repaired->mesh);
   CHECK(std::set<Part>(found.part.begin(), found.part.end()).size() == body::kThingPartCount);
   for (const Part part : found.part) CHECK(body::is_of_thing(part));
 }

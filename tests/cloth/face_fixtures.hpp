@@ -15,7 +15,6 @@ namespace collision = bodice::collision;
 namespace geometry = bodice::geometry;
 namespace proxy = bodice::proxy;
 
-inline constexpr double kFrame_s = 1.0 / 60.0;
 inline constexpr double kThickness_m = 1.5e-3;
 /// How much nearer than the thickness a point between samples may be: twice the sag that contact allows,
 /// which is an eighth of the thickness, because particles lie on the body and not exactly at the thickness.

@@ -14,6 +14,8 @@ using bodice::geometry::Index;
 using bodice::geometry::TriMesh;
 using bodice::geometry::Vec3;
 
+inline constexpr double kFrame_s = 1.0 / 60.0;
+
 /// A flat sheet of nx * nz quads, each cut in two with alternating diagonals, from `corner` along x and z.
 inline TriMesh sheet(int nx, int nz, double width, double depth, const Vec3& corner) {
   TriMesh mesh;

@@ -16,7 +16,7 @@ using namespace bodice_test;
 
 namespace {
 
-constexpr double kThickness_m = 0.004;
+constexpr double kReach_m = 0.004;
 constexpr std::size_t kClusters = 40,
                       kCount = kClusters * cloth::kCluster - 13;  // the last cluster is not full
 
@@ -87,7 +87,7 @@ TEST_CASE(
     cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
     // The result holds for any expected travel: some particles travel farther than all but the last of these.
     const double expected_m = std::array{0.0, 0.01, 0.05, 0.2, 1.0}[seed - 1];
-    cloth::begin_clearance_frame({}, &body, kThickness_m, expected_m, untouched, p, clearance);
+    cloth::begin_clearance_frame({}, &body, kReach_m, expected_m, untouched, p, clearance);
     std::vector<bool> may(kClusters, false);
     for (std::uint64_t substep = 0; substep < 16; ++substep) {
       travel(random, substep, p);
@@ -98,7 +98,7 @@ TEST_CASE(
         may[c] = now;
         clear += !now;
         for (std::size_t i = begin; i < end; ++i) {
-          const bool reached = distance_m(all, p.world(i)) < kThickness_m;
+          const bool reached = distance_m(all, p.world(i)) < kReach_m;
           in_reach += reached;
           if (reached) REQUIRE(now);
         }
@@ -113,7 +113,7 @@ TEST_CASE("clearance cache: without a body at rest every cluster may touch") {
   const collision::Collider body = body_of(shapes());
   cloth::Particles p = scatter(engine::Random(3), body.origin() + Vec3::Constant(9.0));
   cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
-  cloth::begin_clearance_frame({}, nullptr, kThickness_m, 1.0, {}, p, clearance);
+  cloth::begin_clearance_frame({}, nullptr, kReach_m, 1.0, {}, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance));
 }
@@ -127,7 +127,7 @@ TEST_CASE(
   std::vector<std::uint8_t> touching = untouched;
   touching[2 * cloth::kCluster - 1] = 1;
   cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
-  cloth::begin_clearance_frame({}, &body, kThickness_m, 1.0, touching, p, clearance);
+  cloth::begin_clearance_frame({}, &body, kReach_m, 1.0, touching, p, clearance);
   for (std::size_t c = 0; c + 1 < kClusters; ++c)
     CHECK(cloth::may_touch(p, c * cloth::kCluster, (c + 1) * cloth::kCluster, clearance) == (c == 1));
 }
@@ -160,14 +160,14 @@ TEST_CASE("clearance cache: a particle that touches is not missed where relief i
     for (std::size_t i = 0; i < kCount;
          ++i) {  // a cluster is at one point, up to 6 mm beyond touching the ball
       const std::uint64_t cluster = i / cloth::kCluster;
-      const double height_m = kRadius_m + kThickness_m + 0.006 * random.uniform_at(40000 + cluster);
+      const double height_m = kRadius_m + kReach_m + 0.006 * random.uniform_at(40000 + cluster);
       const Vec3 at = height_m * random_point(random, 9000 + cluster, 1.0).normalized() +
                       random_point(random, 50000 + i, 1e-4);
       p.x[i] = static_cast<float>(at[0]), p.y[i] = static_cast<float>(at[1]),
       p.z[i] = static_cast<float>(at[2]);
     }
     cloth::ClearanceCache clearance = cloth::make_clearance_cache(kCount);
-    cloth::begin_clearance_frame({}, &body, kThickness_m, 0.01, untouched, p, clearance);
+    cloth::begin_clearance_frame({}, &body, kReach_m, 0.01, untouched, p, clearance);
     p.old_x = p.x, p.old_y = p.y, p.old_z = p.z;
     for (std::size_t i = 0; i < kCount; ++i) {
       const Vec3 by = random_point(random, 100000 + i / cloth::kCluster, 5e-4);
@@ -178,7 +178,7 @@ TEST_CASE("clearance cache: a particle that touches is not missed where relief i
       const std::size_t begin = c * cloth::kCluster, end = std::min(begin + cloth::kCluster, kCount);
       bool reached = false;
       for (std::size_t i = begin; i < end; ++i)
-        reached |= double{body.query({p.x[i], p.y[i], p.z[i]}).signed_distance} < kThickness_m;
+        reached |= double{body.query({p.x[i], p.y[i], p.z[i]}).signed_distance} < kReach_m;
       const bool may = cloth::may_touch(p, begin, end, clearance);
       clear += !may;
       in_reach += reached;

@@ -11,8 +11,6 @@ using namespace bodice_test;
 
 namespace {
 
-constexpr double kFrame_s = 1.0 / 60.0;
-
 // The period of a triangle that swings freely about its pinned edge along x: its third corner is a point
 // pendulum.
 double measured_period(double length, double start_angle, double step_s) {

@@ -12,8 +12,6 @@ using namespace bodice_test;
 
 namespace {
 
-constexpr double kFrame_s = 1.0 / 60.0;
-
 cloth::Fabric undamped(double friction) {
   cloth::Fabric fabric = cotton();
   fabric.damping_per_s = 0.0;

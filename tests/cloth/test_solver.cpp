@@ -14,8 +14,6 @@ using namespace bodice_test;
 
 namespace {
 
-constexpr double kFrame_s = 1.0 / 60.0;
-
 cloth::SolverOptions windy() {
   cloth::SolverOptions options;
   options.environment.wind_m_s = Vec3(3, 0, 1);

@@ -9,13 +9,11 @@
 #include <bodice/engine/task_graph.hpp>
 #include <bodice_test/executors.hpp>
 
+#include "numbered.hpp"
+
 using namespace bodice::engine;
 
 namespace {
-
-std::string numbered(std::string text, std::uint64_t number) {
-  return text.append(std::to_string(number));
-}
 
 Result<int> halve(const Context&, const int& value) {
   if (value % 2 == 0) return value / 2;

@@ -7,13 +7,11 @@
 #include <bodice/engine/task_graph.hpp>
 #include <bodice_test/executors.hpp>
 
+#include "numbered.hpp"
+
 using namespace bodice::engine;
 
 namespace {
-
-std::string numbered(std::string text, std::uint64_t number) {
-  return text.append(std::to_string(number));
-}
 
 std::string build_error(GraphBuilder&& builder) {
   auto graph = std::move(builder).build();

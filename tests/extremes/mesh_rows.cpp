@@ -38,7 +38,7 @@ std::optional<TriMesh> repaired(const MeshCase& c, std::string& wrong) {
   return found->mesh;
 }
 
-std::string check_distance(const TriMesh& mesh) {
+std::string check_mesh_distance(const TriMesh& mesh) {
   const geometry::MeshDistance distance({}, mesh);
   const double size = size_of(mesh), far = geometry::bounding_box(mesh.positions).center().norm();
   for (std::size_t t = 0; t < std::min<std::size_t>(mesh.triangles.size(), 50); ++t) {
@@ -68,7 +68,7 @@ std::string check_geodesics(const TriMesh& mesh, geodesic::Method method) {
   return {};
 }
 
-std::string check_anatomy(const TriMesh& mesh) {
+std::string check_anatomy_of_mesh(const TriMesh& mesh) {
   const auto found = anatomy::analyze({}, mesh, {.profile = body::find_profile("ansur2").value()});
   if (!found.ok()) return check_refusal(found);
   if (!std::isfinite(found->stature_m) || found->part.size() != mesh.positions.size()) return "not finite";
@@ -128,7 +128,7 @@ std::string check_cloth(const TriMesh& mesh, double dt_s) {
 }
 
 template <class Check>
-void add(std::vector<Row>& rows, const MeshCase& c, const char* algorithm, Check check) {
+void add_mesh_row(std::vector<Row>& rows, const MeshCase& c, const char* algorithm, Check check) {
   rows.push_back({algorithm, c.name, [&c, check] {
                     std::string wrong;
                     const auto mesh = repaired(c, wrong);
@@ -141,19 +141,19 @@ void add(std::vector<Row>& rows, const MeshCase& c, const char* algorithm, Check
 std::vector<Row> mesh_rows() {
   std::vector<Row> rows;
   for (const MeshCase& c : bodice_test::extreme_meshes()) {
-    add(rows, c, "repair", [](const TriMesh&) { return ""; });
-    add(rows, c, "MeshDistance", check_distance);
+    add_mesh_row(rows, c, "repair", [](const TriMesh&) { return ""; });
+    add_mesh_row(rows, c, "MeshDistance", check_mesh_distance);
     for (const auto& [name, method] :
          {std::pair("geodesics, edges", geodesic::Method::kEdges),
           std::pair("geodesics, unfolded", geodesic::Method::kUnfolded),
           std::pair("geodesics, fast marching", geodesic::Method::kFastMarching)})
-      add(rows, c, name, [method = method](const TriMesh& m) { return check_geodesics(m, method); });
-    add(rows, c, "anatomy::analyze", check_anatomy);
-    add(rows, c, "enclose_parts", check_parts);
+      add_mesh_row(rows, c, name, [method = method](const TriMesh& m) { return check_geodesics(m, method); });
+    add_mesh_row(rows, c, "anatomy::analyze", check_anatomy_of_mesh);
+    add_mesh_row(rows, c, "enclose_parts", check_parts);
     for (const auto& [name, tier] :
          {std::pair("fit, paper", proxy::Tier::kPaper), std::pair("fit, solid", proxy::Tier::kSolid),
           std::pair("fit, tight", proxy::Tier::kTight), std::pair("fit, relief", proxy::Tier::kRelief)})
-      add(rows, c, name, [tier = tier](const TriMesh& m) { return check_fit(m, tier); });
+      add_mesh_row(rows, c, name, [tier = tier](const TriMesh& m) { return check_fit(m, tier); });
     // Garments are not repaired here, because the solver welds them itself.
     for (const double dt_s : {0.0, 1.0 / 60.0, 1.0})
       rows.push_back({"cloth, dt " + std::to_string(dt_s) + " s", c.name,

@@ -24,10 +24,6 @@ using geometry::Mat3;
 using geometry::Vec3;
 using proxy::JointMatrix;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kHalfTurn_rad = 3.14159265358979323846;
-
 /// A body with a rig and its proxy, at a size and a distance from the origin.
 struct Bound {
   synth::Body body;

@@ -15,9 +15,6 @@ namespace {
 using namespace bodice;
 using geometry::Vec3;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kHalfTurn_rad = 3.14159265358979323846;
 constexpr double kLink_m = 0.1;
 
 /// A chain of joints up the y axis, with one vertex bound to each.

@@ -117,10 +117,10 @@ proxy::BodyProxy proxy_of(const Union& u) {
 }
 
 /// Random points, every center, and each of them twice; NaN and Inf at the third and fourth position.
-struct Cloud {
+struct UnionCloud {
   std::vector<float> x, y, z, vx, vy, vz;
 
-  Cloud(const Union& u, const Vec3& origin) {
+  UnionCloud(const Union& u, const Vec3& origin) {
     engine::Random random(9);
     const Vec3 middle = u.shapes.empty() ? Vec3(Vec3::Zero()) : u.shapes[0].center;
     for (std::size_t i = 0; i < kRandomPoints; ++i) add(middle + in_cube(random, u.size_m) - origin);
@@ -150,7 +150,7 @@ double tolerance_m(const Union& u) {
 }
 
 /// Checks that a contact distance selects contacts and changes none.
-std::string check_within(const collision::Collider& collider, Cloud& cloud,
+std::string check_within(const collision::Collider& collider, UnionCloud& cloud,
                          const std::vector<collision::Contact>& all) {
   std::vector<float> distances;
   for (const collision::Contact& c : all) distances.push_back(c.signed_distance);
@@ -171,7 +171,7 @@ std::string check_within(const collision::Collider& collider, Cloud& cloud,
 std::string check_query(const Union& u) {
   const auto proxy = proxy_of(u);
   const collision::Collider collider(proxy);
-  Cloud cloud(u, collider.origin());
+  UnionCloud cloud(u, collider.origin());
   std::vector<collision::Contact> contacts(cloud.x.size());
   collider.query({}, cloud.particles(), contacts);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -194,7 +194,7 @@ std::string check_query(const Union& u) {
 std::string check_first_order(const Union& u) {
   const auto proxy = proxy_of(u);
   const collision::Collider collider(proxy);
-  Cloud cloud(u, collider.origin());
+  UnionCloud cloud(u, collider.origin());
   std::vector<collision::Contact> contacts(cloud.x.size());
   collider.query({}, cloud.particles(), contacts, {.accuracy = collision::Accuracy::kFirstOrder});
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -222,7 +222,7 @@ std::string check_resolve(const Union& u, collision::Response response, double d
   std::vector<Ellipsoid> shapes;
   for (const auto& e : proxy.ellipsoids()) shapes.push_back(e.shape);
   if (dt_s >= 0.0) collider.move_to(shapes, dt_s);
-  Cloud cloud(u, collider.origin());
+  UnionCloud cloud(u, collider.origin());
   const auto report = collider.resolve({}, cloud.particles(), {.response = response});
   if (u.shapes.empty()) return expect(report.contacts == 0, "contacts without ellipsoids");
   if (report.not_finite != 2) return "counted " + std::to_string(report.not_finite) + " as not finite";
@@ -242,7 +242,7 @@ std::string check_one(const Union& u) {
   const collision::Collider collider(proxy_of(u));
   const auto none = collider.resolve({}, collision::Particles{}, {});
   if (none.contacts != 0 || none.not_finite != 0) return "contacts of no particle";
-  Cloud cloud(u, collider.origin());
+  UnionCloud cloud(u, collider.origin());
   auto one = cloud.particles();
   one.count = 1;
   const auto report = collider.resolve({}, one, {});

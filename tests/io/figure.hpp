@@ -5,12 +5,16 @@
 #include <string_view>
 #include <vector>
 
+#include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
 namespace io_test {
 
 using bodice::geometry::TriMesh;
 using bodice::geometry::Vec3;
+
+inline const bodice::engine::Context kContext;  ///< one worker, no log
+inline constexpr const char* kIdentity = "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
 
 /// A closed body-like surface: 1.7 m tall, standing on y = 0, 642 vertices, about 1.9 m2, wider at the top,
 /// mirror-symmetric in x but not in z.

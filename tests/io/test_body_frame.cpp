@@ -13,8 +13,6 @@ using bodice_test::TempFolder;
 
 namespace {
 
-const engine::Context kContext;
-
 io::ImportedMesh import_obj(const TriMesh& mesh, const io::ImportOptions& options = {}) {
   const TempFolder folder;
   auto result = io::import_body(kContext, folder.write("a.obj", to_obj({{"", mesh}})), options);

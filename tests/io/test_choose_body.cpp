@@ -17,8 +17,6 @@ using bodice_test::TempFolder;
 
 namespace {
 
-const engine::Context kContext;
-
 engine::Result<io::ImportedMesh> import_groups(const std::vector<NamedMesh>& groups,
                                                std::optional<std::string> mesh = {}) {
   const TempFolder folder;

@@ -17,8 +17,6 @@ using bodice_test::TempFolder;
 
 namespace {
 
-constexpr const char* kIdentity = "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
-
 struct Content {
   const char* extension;
   std::string bytes;

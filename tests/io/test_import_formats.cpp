@@ -12,8 +12,6 @@ using bodice_test::TempFolder;
 
 namespace {
 
-const engine::Context kContext;
-
 /// Imports a body and checks that it is the figure, in meters and y up.
 io::ImportedMesh import_figure(const std::filesystem::path& file, double tolerance_m = 2e-6) {
   auto result = io::import_body(kContext, file);
@@ -28,7 +26,6 @@ io::ImportedMesh import_figure(const std::filesystem::path& file, double toleran
   return std::move(*result);
 }
 
-constexpr const char* kIdentity = "[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]";
 /// The column-major matrix from z up to y up, as Blender writes it.
 constexpr const char* kTurned = "[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1]";
 

@@ -10,9 +10,7 @@ using namespace bodice;
 using namespace io_test;
 using bodice_test::TempFolder;
 
-namespace {
-const engine::Context kContext;
-}
+namespace {}
 
 TEST_CASE("a garment is all its meshes together, in the body's frame, as it was wound") {
   const TempFolder folder;

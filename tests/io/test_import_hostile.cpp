@@ -12,8 +12,6 @@ using bodice_test::TempFolder;
 
 namespace {
 
-const engine::Context kContext;
-
 /// Checks that the error names the file, and has a sentence and a remedy.
 void check_error(const std::filesystem::path& file, engine::ErrorCode code) {
   CAPTURE(file);

@@ -12,8 +12,6 @@ using bodice_test::TempFolder;
 
 namespace {
 
-const engine::Context kContext;
-
 bool has_code(const io::ImportedMesh& read, std::string_view code) {
   for (const engine::Warning& warning : read.warnings)
     if (warning.code == code) return true;

@@ -19,8 +19,6 @@ using bodice_test::TempFolder;
 
 namespace {
 
-const engine::Context kContext;
-
 std::string content(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};

@@ -20,7 +20,7 @@ using bodice_test::TempFolder;
 
 namespace {
 
-constexpr double kFloats_m = 2e-6;  // of positions up to 2 m
+constexpr double kFloatsOfPositions_m = 2e-6;  // of positions up to 2 m
 
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   REQUIRE(a.size() == b.size());
@@ -54,7 +54,7 @@ TEST_CASE("a scene of any unit and axes comes back from its GLB in meters, y up"
       }
     fixture.scene.proxy_frames = moves;
     const io::SceneFile back = read_back(fixture.scene, folder);
-    CHECK(farthest(back.body.positions, fixture.body.positions) < kFloats_m);
+    CHECK(farthest(back.body.positions, fixture.body.positions) < kFloatsOfPositions_m);
     CHECK(back.body.triangles == fixture.body.triangles);
     CHECK(back.part == fixture.part);
     CHECK(back.body_frames.empty());
@@ -65,11 +65,11 @@ TEST_CASE("a scene of any unit and axes comes back from its GLB in meters, y up"
       CHECK(back.ellipsoids[k].part == fixture.proxies.front().ellipsoids()[k].part);
       for (std::size_t f = 0; f < 3; ++f) {
         const geometry::Ellipsoid &now = back.ellipsoid_frames[f][k], &then = moves[f][k];
-        CHECK((now.center - then.center).norm() < kFloats_m);
+        CHECK((now.center - then.center).norm() < kFloatsOfPositions_m);
         const auto moment = [](const geometry::Ellipsoid& e) {
           return geometry::Mat3(e.axes * e.radii.cwiseAbs2().asDiagonal() * e.axes.transpose());
         };
-        CHECK((moment(now) - moment(then)).norm() < kFloats_m);
+        CHECK((moment(now) - moment(then)).norm() < kFloatsOfPositions_m);
       }
     }
     REQUIRE(back.garments.size() == 1);
@@ -78,7 +78,7 @@ TEST_CASE("a scene of any unit and axes comes back from its GLB in meters, y up"
     CHECK(now.time_s == then.time_s);
     REQUIRE(now.frames.size() == then.frames.size());
     for (std::size_t f = 0; f < then.frames.size(); ++f)
-      CHECK(farthest(now.frames[f], then.frames[f]) < kFloats_m);
+      CHECK(farthest(now.frames[f], then.frames[f]) < kFloatsOfPositions_m);
   }
 }
 
@@ -104,8 +104,8 @@ TEST_CASE("frames that take many bytes come back from small integers within half
   double worst = 0.0;
   for (std::size_t f = 0; f < count; ++f)
     worst = std::max(worst, farthest(back.garments[0].frames[f], track.frames[f]));
-  CHECK(worst < std::sqrt(3.0) / 65534.0 + kFloats_m);  // displacements below 1 m
-  CHECK(worst > 1e-6);                                  // floats would be nearer
+  CHECK(worst < std::sqrt(3.0) / 65534.0 + kFloatsOfPositions_m);  // displacements below 1 m
+  CHECK(worst > 1e-6);                                             // floats would be nearer
   CHECK(std::filesystem::file_size(folder / "scene.glb") < 8 * count * first.size() / 2 + 60 * first.size());
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("a skinned body comes back at the times of its garments as the rig pos
   fixture.scene.part = {};
   fixture.scene.proxy = nullptr;
   const io::SceneFile back = read_back(fixture.scene, folder);
-  CHECK(farthest(back.body.positions, fixture.body.positions) < kFloats_m);
+  CHECK(farthest(back.body.positions, fixture.body.positions) < kFloatsOfPositions_m);
   CHECK(back.part.empty());
   const std::vector<double>& times = fixture.scene.garments[0].time_s;
   REQUIRE(back.body_frames.size() == times.size());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <Eigen/Geometry>
 
 #include <bodice/engine/random.hpp>
@@ -37,6 +39,13 @@ inline bodice::proxy::BodyProxy::Data sample_data(std::uint64_t seed, int ellips
           {static_cast<std::uint8_t>(random.below(256)), static_cast<std::uint8_t>(random.below(256))});
   }
   return data;
+}
+
+/// The proxy of data that are valid.
+inline bodice::proxy::BodyProxy made(bodice::proxy::BodyProxy::Data data) {
+  auto proxy = bodice::proxy::BodyProxy::make(std::move(data));
+  REQUIRE_MESSAGE(proxy.ok(), proxy.error().sentence());
+  return std::move(proxy).value();
 }
 
 }  // namespace bodice_test

@@ -14,15 +14,10 @@
 
 using namespace bodice::proxy;
 using bodice::geometry::Vec3;
+using bodice_test::made;
 using bodice_test::sample_data;
 
 namespace {
-
-BodyProxy made(BodyProxy::Data data) {
-  auto proxy = BodyProxy::make(std::move(data));
-  REQUIRE_MESSAGE(proxy.ok(), proxy.error().sentence());
-  return std::move(proxy).value();
-}
 
 /// Sample data of the stature and margin of another, moved by `x` along the first axis.
 BodyProxy::Data beside(const BodyProxy::Data& body, std::uint64_t seed, double x, bool relief) {

@@ -13,15 +13,10 @@
 #include "sample_proxy.hpp"
 
 using namespace bodice;
+using bodice_test::made;
 using geometry::Vec3;
 
 namespace {
-
-proxy::BodyProxy made(proxy::BodyProxy::Data data) {
-  auto result = proxy::BodyProxy::make(std::move(data));
-  REQUIRE(result.ok());
-  return *result;
-}
 
 /// An ellipsoid of radii 20, 30, 50 cm and a ball of 10 cm that does not touch it, times `scale`.
 proxy::BodyProxy apart(double scale = 1.0, const Vec3& offset = Vec3::Zero()) {

@@ -18,7 +18,7 @@ namespace {
 using namespace bodice;
 using geometry::Vec3;
 
-rigging::FoundRig rigged(const geometry::TriMesh& skin) {
+rigging::FoundRig rigged_real(const geometry::TriMesh& skin) {
   const auto found = anatomy::analyze({}, skin, {*body::find_profile("ansur2")});
   REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
   auto result = rigging::make_rig({}, skin, *found);
@@ -42,7 +42,7 @@ TEST_CASE("joints of real bodies are found within centimeters") {
     CAPTURE(name);
     const auto body = io::import_body({}, *file);
     REQUIRE(body.ok());
-    const rig::Rig found = rigged(body->skin).rig;
+    const rig::Rig found = rigged_real(body->skin).rig;
     auto json_file = *file;
     std::ifstream stream(json_file.replace_extension(".json"));
     const auto truth = nlohmann::json::parse(stream)["joints"];
@@ -98,7 +98,7 @@ TEST_CASE("the found rig of a real body follows its clip near the true skin") {
     REQUIRE(truth.ok());
     REQUIRE(truth->rig.ok());
     const rig::Rig& own = *truth->rig;
-    const rig::Rig found = rigged(truth->body.skin).rig;
+    const rig::Rig found = rigged_real(truth->body.skin).rig;
     posed::SkinError all;
     std::vector<rig::Affine> world(own.skeleton.joints.size()), skinning(world.size());
     geometry::TriMesh skin = truth->body.skin;
@@ -129,7 +129,7 @@ TEST_CASE("a scan that sits on the floor with its heels and toes up walks on tha
   if (!file) return;
   const auto body = io::import_body({}, *file);
   REQUIRE(body.ok());
-  const rig::Rig found = rigged(body->skin).rig;
+  const rig::Rig found = rigged_real(body->skin).rig;
   const double floor_m = geometry::bounding_box(body->skin.positions).low.y();
   const rig::Clip clip = posed::made_clip(found.skeleton, rigging::Motion::kWalk, {.floor_m = floor_m});
   std::vector<rig::Affine> skinning(found.skeleton.joints.size());
@@ -143,7 +143,7 @@ TEST_CASE("a scan that sits on the floor with its heels and toes up walks on tha
   }
 }
 
-TEST_CASE("a scan with hands grown to the thighs has a warning before it is rigged") {
+TEST_CASE("a scan with hands grown to the thighs has a warning before it is rigged_real") {
   const auto file = bodice_test::data_file("awkward/m_avg_armsdown_fused.obj");
   if (!file) return;
   const auto body = io::import_body({}, *file);

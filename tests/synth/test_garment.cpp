@@ -6,23 +6,18 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/synth/body.hpp>
 
+#include "garment_kinds.hpp"
+#include "made_body.hpp"
 #include "mesh_facts.hpp"
 
 namespace {
 
 using namespace bodice;
+using bodice_test::kAllKinds;
+using bodice_test::made;
 using geometry::Vec3;
 using synth::GarmentKind;
 using synth::Pose;
-
-constexpr std::array kAllKinds = {GarmentKind::kSkirt, GarmentKind::kTunic, GarmentKind::kPoncho,
-                                  GarmentKind::kTube};
-
-synth::Body made(const synth::BodyOptions& options) {
-  auto body = synth::make_body({}, options);
-  REQUIRE(body.ok());
-  return std::move(body).value();
-}
 
 synth::SegmentedBody segmented(const synth::Body& body) {
   return {body.mesh, body.part, body.landmarks, body.stature_m};

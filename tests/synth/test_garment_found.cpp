@@ -11,16 +11,15 @@
 #include <bodice_test/data.hpp>
 #include <bodice_test/read_mesh.hpp>
 
+#include "garment_kinds.hpp"
 #include "mesh_facts.hpp"
 
 namespace {
 
 using namespace bodice;
+using bodice_test::kAllKinds;
 using geometry::Vec3;
 using synth::GarmentKind;
-
-constexpr std::array kAllKinds = {GarmentKind::kSkirt, GarmentKind::kTunic, GarmentKind::kPoncho,
-                                  GarmentKind::kTube};
 
 anatomy::Anatomy found(const geometry::TriMesh& mesh) {
   auto anatomy = anatomy::analyze({}, mesh, {body::find_profile("ansur2").value()});

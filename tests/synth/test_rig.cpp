@@ -7,17 +7,14 @@
 #include <bodice/body/joint.hpp>
 #include <bodice/rig/rig.hpp>
 
+#include "made_body.hpp"
+
 namespace {
 
 using namespace bodice;
+using bodice_test::made;
 using geometry::Vec3;
 using synth::Pose;
-
-synth::Body made(const synth::BodyOptions& options) {
-  auto body = synth::make_body({}, options);
-  REQUIRE_MESSAGE(body.ok(), (body.ok() ? "" : body.error().sentence()));
-  return std::move(body).value();
-}
 
 /// The weight of one vertex for all joints with this ending of their name.
 float weight_of(const synth::Body& body, std::size_t v, std::string_view end) {

@@ -15,11 +15,11 @@ using geometry::Vec3;
 namespace {
 
 /// A made body in a made tunic.
-struct Dressed {
+struct InTunic {
   tryon::SegmentedSkin skin;
   geometry::TriMesh tunic;
 
-  Dressed() {
+  InTunic() {
     auto made = tryon::segment_builtin({}, {.vertices = 4500}, {});
     REQUIRE(made.ok());
     skin = std::move(made).value();
@@ -47,7 +47,7 @@ struct Dressed {
 }  // namespace
 
 TEST_CASE("placement: a garment on its body stays to the bit, without a word") {
-  const Dressed dressed;
+  const InTunic dressed;
   geometry::TriMesh mesh = dressed.tunic;
   const auto placed = dressed.put_on(mesh);
   REQUIRE(placed.ok());
@@ -56,7 +56,7 @@ TEST_CASE("placement: a garment on its body stays to the bit, without a word") {
 }
 
 TEST_CASE("placement: another unit or another axis up is found, and the warning names it") {
-  const Dressed dressed;
+  const InTunic dressed;
   struct Case {
     double units;
     bool z_up;
@@ -77,7 +77,7 @@ TEST_CASE("placement: another unit or another axis up is found, and the warning 
 }
 
 TEST_CASE("placement: a garment 12 or 20 cm in front of its body is moved back onto it") {
-  const Dressed dressed;
+  const InTunic dressed;
   for (const double off_m : {0.12, 0.2}) {
     geometry::TriMesh mesh = dressed.changed([&](const Vec3& p) { return Vec3(p + Vec3(0.0, 0.0, off_m)); });
     const auto placed = dressed.put_on(mesh);
@@ -89,7 +89,7 @@ TEST_CASE("placement: a garment 12 or 20 cm in front of its body is moved back o
 }
 
 TEST_CASE("placement: what lies nowhere near the body in any unit is refused, with size and distance") {
-  const Dressed dressed;
+  const InTunic dressed;
   geometry::TriMesh mesh = dressed.changed([](const Vec3& p) { return Vec3(p + Vec3(40.0, 0.0, 0.0)); });
   const auto placed = dressed.put_on(mesh);
   REQUIRE(!placed.ok());

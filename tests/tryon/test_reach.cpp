@@ -23,19 +23,19 @@ namespace {
 
 constexpr double kMargin_m = 0.05;
 
-struct Dressed {
+struct Skirted {
   tryon::SegmentedSkin skin;
   geometry::TriMesh skirt;
   std::vector<Vec3> points;      ///< points within half the margin of the skirt
   std::vector<double> depths_m;  ///< the true signed distance of each
 };
 
-Dressed dress() {
+Skirted dress() {
   auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
   REQUIRE(skin.ok());
   auto cut = tryon::make_garment({}, *skin, {.kind = synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
   REQUIRE(cut.ok());
-  Dressed dressed{std::move(*skin), std::move(cut->mesh), {}, {}};
+  Skirted dressed{std::move(*skin), std::move(cut->mesh), {}, {}};
   engine::Random random(7);
   for (const Vec3& p : dressed.skirt.positions)
     for (int k = 0; k < 4; ++k) {
@@ -47,8 +47,8 @@ Dressed dress() {
   return dressed;
 }
 
-const Dressed& dressed() {
-  static const Dressed made = dress();  // made once for all cases
+const Skirted& dressed() {
+  static const Skirted made = dress();  // made once for all cases
   return made;
 }
 

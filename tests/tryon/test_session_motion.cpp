@@ -48,7 +48,7 @@ double height_of_left_knee(const tryon::Session& session) {
   return low;
 }
 
-std::uint64_t run_deterministic(engine::Executor& executor) {
+std::uint64_t hash_of_squats(engine::Executor& executor) {
   const engine::Context context{.executor = &executor};
   tryon::SessionOptions options = moving(proxy::Tier::kRelief);
   options.fit.max_ellipsoids = 24;
@@ -213,7 +213,7 @@ TEST_CASE("with refits behind the frames a run repeats to the bit, whatever the 
   for (const int workers : {1, 2, 3, 7}) {
     CAPTURE(workers);
     const auto executor = bodice_test::make_threads(workers);
-    const std::uint64_t hash = run_deterministic(*executor);
+    const std::uint64_t hash = hash_of_squats(*executor);
     if (first == 0) first = hash;
     CHECK(hash == first);
   }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include <bodice/engine/text.hpp>
+#include <bodice/geometry/smallest_turn.hpp>
 
 #include "bone_frame.hpp"
 
@@ -43,7 +44,7 @@ void add_unreal_shape(const PlainShape& local, const BoneFrame& frame, Json& geo
     geometry["SphereElems"].push_back(std::move(shape));
     return;
   }
-  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), a - b);
+  const Eigen::Quaterniond turn = geometry::smallest_turn(Vec3::UnitZ(), a - b);
   shape["Rotation"] = {
       {"X", tidy(turn.x())}, {"Y", tidy(turn.y())}, {"Z", tidy(turn.z())}, {"W", tidy(turn.w())}};
   shape["Length"] = tidy((a - b).norm());

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include <bodice/engine/text.hpp>
+#include <bodice/geometry/smallest_turn.hpp>
 
 #include "bone_frame.hpp"
 
@@ -44,10 +45,9 @@ std::string godot_resource(const PlainShape& local, std::size_t index) {
 }
 
 std::string godot_shape_node(const PlainShape& local, std::size_t index, const std::string& parent) {
-  const Mat3 axes =
-      is_sphere(local)
-          ? Mat3(Mat3::Identity())
-          : Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), local.b - local.a).toRotationMatrix();
+  const Mat3 axes = is_sphere(local)
+                        ? Mat3(Mat3::Identity())
+                        : geometry::smallest_turn(Vec3::UnitY(), local.b - local.a).toRotationMatrix();
   return "[node name=\"shape_" + std::to_string(index + 1) + "\" type=\"CollisionShape3D\" parent=\"" +
          parent + "\"]\ntransform = " + godot_transform(axes, 0.5 * (local.a + local.b)) +
          "\nshape = SubResource(\"" + std::to_string(index + 1) + "\")\n\n";

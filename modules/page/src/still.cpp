@@ -15,15 +15,15 @@ namespace {
 
 /// One ellipsoid's shadow along z: its covariance is the upper left of A diag(r^2) A^T.
 std::string ellipse(const proxy::ProxyEllipsoid& e) {
-  const geometry::Mat3 shape =
-      e.shape.axes * e.shape.radii.cwiseAbs2().asDiagonal() * e.shape.axes.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(Eigen::Matrix2d(shape.topLeftCorner<2, 2>()));
-  const Eigen::Vector2d radii = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  const Eigen::Vector2d axis = solver.eigenvectors().col(1);
+  geometry::Mat3 shape = e.shape.axes * e.shape.radii.cwiseAbs2().asDiagonal() * e.shape.axes.transpose();
+  shape.row(2).setZero(), shape.col(2).setZero();  // adds an eigenvalue of 0, which is the least
+  const Eigen::SelfAdjointEigenSolver<geometry::Mat3> solver(shape);
+  const geometry::Vec3 radii = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const geometry::Vec3 axis = solver.eigenvectors().col(2);
   const double turn_deg = -std::atan2(axis.y(), axis.x()) * 180.0 / std::numbers::pi;
   const auto color = io::part_color(e.part);
   const auto channel = [&](std::size_t k) { return static_cast<int>(255.0f * color[k]); };
-  return engine::message("<ellipse rx='", 1e3 * radii[1], "' ry='", 1e3 * radii[0], "' transform='translate(",
+  return engine::message("<ellipse rx='", 1e3 * radii[2], "' ry='", 1e3 * radii[1], "' transform='translate(",
                          std::lround(1e3 * e.shape.center.x()), ",", -std::lround(1e3 * e.shape.center.y()),
                          ") rotate(", turn_deg, ")' fill='rgb(", channel(0), ",", channel(1), ",", channel(2),
                          ")'/>");

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include <bodice/geometry/smallest_turn.hpp>
+
 namespace bodice::rig {
 
 namespace {
@@ -76,7 +78,7 @@ Quaterniond between_directions(const RestFrames& source, const RestFrames& targe
   const Vec3 to = source.position[match.source_of[next]] - source.position[match.source_of[joint]];
   const Vec3 from = target.position[next] - target.position[joint];
   if (!(to.norm() > 0.0) || !(from.norm() > 0.0)) return Quaterniond::Identity();
-  return Quaterniond::FromTwoVectors(from, facing * to);
+  return geometry::smallest_turn(from, facing * to);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <bodice/geometry/smallest_turn.hpp>
+
 namespace bodice::rigging {
 namespace {
 
@@ -21,12 +23,8 @@ Mat3 frame_of(const Vec3& across, const Vec3& upward) {
   return frame;
 }
 
-Mat3 smallest_turn(const Vec3& from, const Vec3& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
-}
-
 Mat3 bone_frame(const Mat3& carrier, const Vec3& along) {
-  return smallest_turn(-carrier.col(1), along) * carrier;
+  return geometry::smallest_turn(-carrier.col(1), along).toRotationMatrix() * carrier;
 }
 
 Mat3 upper_arm_frame(const Mat3& chest, const Vec3& along, double sign) {

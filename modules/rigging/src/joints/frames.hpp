@@ -14,9 +14,6 @@ using geometry::Vec3;
 /// parallel.
 Mat3 frame_of(const Vec3& across, const Vec3& upward);
 
-/// The smallest rotation that takes one direction to another.
-Mat3 smallest_turn(const Vec3& from, const Vec3& to);
-
 /// The frame of a bone that runs along -y of its frame: `carrier` turned as little as possible.
 Mat3 bone_frame(const Mat3& carrier, const Vec3& along);
 

@@ -1,4 +1,6 @@
 // Pelvis, spine, neck, head and clavicles.
+#include <bodice/geometry/smallest_turn.hpp>
+
 #include "joints/found_joints.hpp"
 #include "joints/offsets.hpp"
 #include "posture/turns.hpp"
@@ -30,7 +32,7 @@ void find_head(const SkinCurves& skin, const Mat3& chest_axes, FoundJoints& join
       neck + offsets::kHeadShare * (crown - neck) +
       h * (offsets::kHeadUp * chest_axes.col(1) + offsets::kHeadFront * chest_axes.col(2));
   const Vec3 upright = chest * about_x(offsets::kHeadLean_deg) * Vec3::UnitY();
-  const Mat3 head = smallest_turn(upright, (crown - neck).normalized()) * chest;
+  const Mat3 head = geometry::smallest_turn(upright, (crown - neck).normalized()).toRotationMatrix() * chest;
   joints.axes(JointId::kHead) = head;
   joints.axes(JointId::kNeck) = between(chest, head, 0.5);
   joints.tip(JointId::kHead) = crown;
