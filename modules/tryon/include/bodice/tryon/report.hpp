@@ -21,7 +21,7 @@ struct RunInfo {
 };
 
 /// The report of a run as one JSON object, indented, with positions in the input's units and axes.
-/// modules/tryon/README.md explains its fields. `drape` may be null.
+/// modules/tryon/REPORT.md explains its fields. `drape` may be null.
 std::string report_json(const PreparedBody& body, const DrapeReport* drape, const RunInfo& run);
 
 /// The labels of the skin: a line `x y z part` for each welded vertex, in the input's units and axes.
