@@ -61,34 +61,34 @@ engine::Result<cloth::SolverOptions> solver_options(const engine::Context& conte
   return solver;
 }
 
-/// The body that the cloth meets, of which tables beyond the garments' reach stay as at rest; and the whole
-/// of it, which the report judges.
-struct Bodies {
+/// The cloth, and the body twice: the one that the cloth meets, of which tables beyond the garments' reach
+/// stay as at rest; and the whole of it, which the report judges.
+struct Scene {
+  const Wardrobe& all;
+  cloth::Solver& solver;
   MovingBody met, judged;
 };
 
-engine::Result<Bodies> make_bodies(const PreparedBody& body, const proxy::BodyProxy& with_props, bool moves) {
+engine::Result<Scene> make_scene(const Wardrobe& all, cloth::Solver& solver, const PreparedBody& body,
+                                 const proxy::BodyProxy& with_props, bool moves) {
   auto met = MovingBody::make(body.skin, with_props, moves);
   if (!met) return std::move(met).error();
   auto judged = MovingBody::make(body.skin, body.fit.proxy, moves);
   if (!judged) return std::move(judged).error();
-  return Bodies{std::move(met).value(), std::move(judged).value()};
+  return Scene{all, solver, std::move(met).value(), std::move(judged).value()};
 }
 
 /// A drape in progress: cloth, body, and what is recorded of them.
 class Drape {
  public:
-  Drape(const engine::Context& context, const DrapeOptions& options, const Wardrobe& all,
-        cloth::Solver& solver, Bodies& bodies, Recorder& recorder, DrapeResult& result)
+  Drape(const engine::Context& context, const DrapeOptions& options, Scene& scene, Recorder& recorder,
+        DrapeResult& result)
       : context_(context),
         options_(options),
-        all_(all),
-        solver_(solver),
-        body_(bodies.met),
-        judged_(bodies.judged),
+        scene_(scene),
         recorder_(recorder),
         result_(result),
-        positions_(all.mesh.positions),
+        positions_(scene.all.mesh.positions),
         reach_(positions_) {
     if (!options.motion) return;
     player_.emplace(*options.motion, result.report.ramp_s,
@@ -98,11 +98,11 @@ class Drape {
 
   /// Puts pins on the body where it stands, in the bind pose.
   void hold(double thickness_m, const rig::SkinWeights* skin_weights, const PreparedBody& body) {
-    held_ = held_positions(all_, body_.collider(), thickness_m);
+    held_ = held_positions(scene_.all, scene_.met.collider(), thickness_m);
     if (skin_weights)
       held_weights_ = attach_to_skin(body.skin.input.skin, *body.skin.distance, *skin_weights, held_);
     posed_ = held_;
-    solver_.move_pins(posed_);
+    scene_.solver.move_pins(posed_);
   }
 
   /// Brings a body that moves from the bind pose to the clip's first frame.
@@ -114,8 +114,8 @@ class Drape {
       context_.cancel.check();
       if (auto posed = pose(-ramp_s * (1.0 - static_cast<double>(step) / steps), ramp_s / steps); !posed)
         return posed;
-      solver_.step(context_, body_.collider(), ramp_s / steps);
-      solver_.positions(positions_);
+      scene_.solver.step(context_, scene_.met.collider(), ramp_s / steps);
+      scene_.solver.positions(positions_);
     }
     return {};
   }
@@ -124,18 +124,19 @@ class Drape {
   engine::Result<void> run(const Progress& progress) {
     DrapeReport& report = result_.report;
     std::vector<double> frame_ms;
-    solver_.positions(positions_);
-    offer(0, body_.moves() ? penetration(context_, body_.distance(context_), positions_) : Penetration{});
+    scene_.solver.positions(positions_);
+    offer(0, scene_.met.moves() ? penetration(context_, scene_.met.distance(context_), positions_)
+                                : Penetration{});
     for (int frame = 1; frame <= options_.frames; ++frame) {
       context_.cancel.check();
       const std::int64_t begin_ns = context_.clock->now_ns();
       if (auto posed = pose(frame * options_.dt_s, options_.dt_s); !posed) return posed;
-      const cloth::FrameReport step = solver_.step(context_, body_.collider(), options_.dt_s);
+      const cloth::FrameReport step = scene_.solver.step(context_, scene_.met.collider(), options_.dt_s);
       frame_ms.push_back(static_cast<double>(context_.clock->now_ns() - begin_ns) * 1e-6);
 
-      solver_.positions(positions_);
+      scene_.solver.positions(positions_);
       report.finite = report.finite && step.finite;
-      const Penetration depth = penetration(context_, body_.distance(context_), positions_);
+      const Penetration depth = penetration(context_, scene_.met.distance(context_), positions_);
       add_frame(frame, depth, report);
       add_frame(context_, frame, positions_, options_.props, report.props);
       add_cloth(step, report);
@@ -154,14 +155,14 @@ class Drape {
     for (std::size_t g = 0; g < garments.size(); ++g) {
       const WornGarment& garment = garments[g];
       const std::span<const Vec3> now =
-          positions().subspan(all_.first_vertex[g], garment.mesh.positions.size());
+          positions().subspan(scene_.all.first_vertex[g], garment.mesh.positions.size());
       std::vector<PartEase>& ease = result_.report.garments[g].ease;
-      ease = measure_ease(context_, body_.skin(context_), body.skin.anatomy.part, body_.distance(context_),
-                          garment.mesh, now);
+      ease = measure_ease(context_, scene_.met.skin(context_), body.skin.anatomy.part,
+                          scene_.met.distance(context_), garment.mesh, now);
       const std::vector<PartEase> start =
           measure_ease(context_, body.skin.input.skin, body.skin.anatomy.part, *body.skin.distance,
                        garment.mesh, garment.mesh.positions);
-      warn_of_fit({garment, start, ease, now, body.skin.anatomy.up, !body_.moves()}, fabric,
+      warn_of_fit({garment, start, ease, now, body.skin.anatomy.up, !scene_.met.moves()}, fabric,
                   result_.report.warnings);
     }
   }
@@ -171,11 +172,11 @@ class Drape {
              std::vector<io::GarmentTrack>& tracks) {
     for (std::size_t g = 0; g < garments.size(); ++g) {
       const std::span<const Vec3> now =
-          positions().subspan(all_.first_vertex[g], garments[g].mesh.positions.size());
-      tracks[g].colors =
-          fit_colors(scale.map == FitMap::kEase ? ease_of_vertices(context_, body_.distance(context_), now)
-                                                : strain_of_vertices(garments[g].mesh, now),
-                     scale);
+          positions().subspan(scene_.all.first_vertex[g], garments[g].mesh.positions.size());
+      tracks[g].colors = fit_colors(scale.map == FitMap::kEase
+                                        ? ease_of_vertices(context_, scene_.met.distance(context_), now)
+                                        : strain_of_vertices(garments[g].mesh, now),
+                                    scale);
     }
   }
 
@@ -183,41 +184,39 @@ class Drape {
   static constexpr double kRampStep_s = 1.0 / 60.0;
 
   engine::Result<void> pose(double time_s, double dt_s) {
-    if (!body_.moves()) return {};
+    if (!scene_.met.moves()) return {};
     player_->joints(time_s, joints_);
-    if (auto posed = body_.pose(context_, joints_, dt_s, {.within = reach_.boxes(positions_)}); !posed)
+    if (auto posed = scene_.met.pose(context_, joints_, dt_s, {.within = reach_.boxes(positions_)}); !posed)
       return engine::Error{posed.error().code,
                            engine::message("At second ", time_s, " of the clip '", options_.motion->clip.name,
                                            "': ", posed.error().message),
                            posed.error().remedy};
-    body_.carry(held_, held_weights_, posed_);
-    solver_.move_pins(posed_);
+    scene_.met.carry(held_, held_weights_, posed_);
+    scene_.solver.move_pins(posed_);
     return {};
   }
 
   void offer(int frame, const Penetration& depth) {
     const double time_s = frame * options_.dt_s;
-    if (!recorder_.offer(frame, positions_, time_s) || !body_.moves()) return;
+    if (!recorder_.offer(frame, positions_, time_s) || !scene_.met.moves()) return;
     // What the cloth's own body took in this frame is taken here as well.
-    static_cast<void>(judged_.pose(context_, joints_, 0.0));
-    const geometry::MeshDistance& skin = body_.distance(context_);
-    result_.body_frames.push_back(body_.skin(context_).positions);
-    result_.proxy_frames.push_back(body_.poser()->posed().shapes);
+    static_cast<void>(scene_.judged.pose(context_, joints_, 0.0));
+    const geometry::MeshDistance& skin = scene_.met.distance(context_);
+    result_.body_frames.push_back(scene_.met.skin(context_).positions);
+    result_.proxy_frames.push_back(scene_.met.poser()->posed().shapes);
     result_.report.kept.push_back(
         {.time_s = time_s,
-         .proxy_error =
-             measure_proxy_error(context_, judged_.collider(), body_.skin(context_), skin, kNearSkin_m),
+         .proxy_error = measure_proxy_error(context_, scene_.judged.collider(), scene_.met.skin(context_),
+                                            skin, kNearSkin_m),
          .penetration_max_m = depth.deepest_m,
-         .inside = cloth_inside(context_, skin, positions_, all_.mesh.triangles, kVisibleDepth_m)});
+         .inside = cloth_inside(context_, skin, positions_, scene_.all.mesh.triangles, kVisibleDepth_m)});
   }
 
   static constexpr double kNearSkin_m = 0.03, kVisibleDepth_m = 0.5e-3;
 
   const engine::Context& context_;
   const DrapeOptions& options_;
-  const Wardrobe& all_;
-  cloth::Solver& solver_;
-  MovingBody &body_, &judged_;
+  Scene& scene_;
   Recorder& recorder_;
   DrapeResult& result_;
   std::optional<MotionPlayer> player_;  // of a body that moves
@@ -253,11 +252,11 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   if (auto met = meet_props(context, all->mesh.positions, body, options.props, result); !met)
     return std::move(met).error();
   const proxy::BodyProxy& met = result.proxy ? *result.proxy : body.fit.proxy;
-  auto bodies = make_bodies(body, met, options.motion != nullptr);
-  if (!bodies) return std::move(bodies).error();
-  MovingBody& moving = bodies->met;
+  auto scene = make_scene(*all, *solver, body, met, options.motion != nullptr);
+  if (!scene) return std::move(scene).error();
+  MovingBody& moving = scene->met;
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
-  Drape drape(context, options, *all, *solver, *bodies, recorder, result);
+  Drape drape(context, options, *scene, recorder, result);
   std::optional<engine::StageTimer> timer(std::in_place, context, report.stages, "drape");
   drape.hold(settings->thickness_m, options.motion ? &options.motion->rig.weights : nullptr, body);
   if (auto done = drape.ramp(); !done) return std::move(done).error();
