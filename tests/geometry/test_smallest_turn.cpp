@@ -29,7 +29,7 @@ TEST_CASE("the smallest turn takes one direction to the other by the angle betwe
     const double aside = std::pow(10.0, random.uniform(-8.0, 1.0));
     const Vec3 to = (i % 2 ? 1.0 : -1.0) * from.normalized() + aside * any_vector(random);
     const Eigen::Quaterniond turn = geometry::smallest_turn(from, to);
-    CHECK(turn.norm() == doctest::Approx(1.0));
+    CHECK(turn.norm() == doctest::Approx(1.0).epsilon(1e-7));
     CHECK((turn * from.normalized() - to.normalized()).norm() < 1e-7);
     const double angle = 2.0 * std::atan2(turn.vec().norm(), turn.w());
     CHECK(angle == doctest::Approx(angle_between(from, to)).epsilon(1e-6));
