@@ -17,27 +17,6 @@ namespace {
 /// assimp's post-processing asserts, and so aborts, on damaged meshes.
 constexpr unsigned kNoSteps = 0;
 
-bool reads(std::string_view importer, Format format) {
-  switch (format) {
-    case Format::kObj:
-      return importer == "Wavefront Object Importer";
-    case Format::kPly:
-      return importer == "Stanford Polygon Library (PLY) Importer";
-    case Format::kStl:
-      return importer == "Stereolithography (STL) Importer";
-    case Format::kGltf:
-    case Format::kGlb:
-      return importer == "glTF2 Importer";
-    case Format::kFbx:
-      return importer == "Autodesk FBX Importer";
-    case Format::kCollada:
-    case Format::kColladaArchive:
-      return importer == "Collada Importer";
-    default:
-      return false;
-  }
-}
-
 /// Opens one file by another name: assimp looks at extensions even where one reader is left.
 class Renamed final : public Assimp::DefaultIOSystem {
  public:
@@ -59,7 +38,7 @@ class Renamed final : public Assimp::DefaultIOSystem {
 AssimpReader::AssimpReader(Format format) : format_(format) {
   std::vector<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer_.GetImporterCount(); ++i)
-    if (!reads(importer_.GetImporterInfo(i)->mName, format)) others.push_back(importer_.GetImporter(i));
+    if (reader_of(format) != importer_.GetImporterInfo(i)->mName) others.push_back(importer_.GetImporter(i));
   for (Assimp::BaseImporter* other : others) {
     importer_.UnregisterLoader(other);  // it is the caller's from here on
     delete other;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,31 @@ constexpr std::size_t kEdge = 1 << 16;
 /// exporters add words of their own.
 constexpr int kObjLines = 400;
 constexpr double kObjShare = 0.5;
+
+/// What is known of a format but for its mark: the usual extension, and assimp's name of the reader, empty
+/// where assimp is not to read it.
+struct Traits {
+  Format format;
+  std::string_view extension, reader;
+};
+
+constexpr Traits kTraits[] = {{Format::kUnknown, "", ""},
+                              {Format::kObj, "obj", "Wavefront Object Importer"},
+                              {Format::kPly, "ply", "Stanford Polygon Library (PLY) Importer"},
+                              {Format::kStl, "stl", "Stereolithography (STL) Importer"},
+                              {Format::kGltf, "gltf", "glTF2 Importer"},
+                              {Format::kGlb, "glb", "glTF2 Importer"},
+                              {Format::kFbx, "fbx", "Autodesk FBX Importer"},
+                              {Format::kCollada, "dae", "Collada Importer"},
+                              {Format::kColladaArchive, "zae", "Collada Importer"},
+                              {Format::kBvh, "bvh", ""}};
+
+/// The row of a format; a format without one is unknown.
+const Traits& traits_of(Format format) {
+  const auto row = std::find_if(std::begin(kTraits), std::end(kTraits),
+                                [&](const Traits& traits) { return traits.format == format; });
+  return row != std::end(kTraits) ? *row : kTraits[0];
+}
 
 struct Content {
   std::string head, tail;
@@ -140,9 +166,11 @@ Format format_of(const std::filesystem::path& file) {
 }
 
 std::string_view extension_of(Format format) {
-  constexpr std::array<std::string_view, 10> kExtensions = {"",    "obj", "ply", "stl", "gltf",
-                                                            "glb", "fbx", "dae", "zae", "bvh"};
-  return kExtensions[static_cast<std::size_t>(format)];
+  return traits_of(format).extension;
+}
+
+std::string_view reader_of(Format format) {
+  return traits_of(format).reader;
 }
 
 }  // namespace bodice::io

@@ -17,4 +17,7 @@ Format format_of(const std::filesystem::path& file);
 /// The usual extension of a format, without the dot; empty for kUnknown.
 std::string_view extension_of(Format format);
 
+/// The name that assimp gives to its reader of a format; empty where assimp is not to read it.
+std::string_view reader_of(Format format);
+
 }  // namespace bodice::io
