@@ -84,7 +84,8 @@ bodice_status bodice_skin_get_parts(const bodice_skin* skin, uint8_t* part, size
 }
 
 const char* bodice_landmark_name(int32_t landmark) {
-  static_assert(BODICE_LANDMARKS == body::kLandmarkCount);
+  static_assert(BODICE_LANDMARKS == body::kLandmarkCount,
+                "c/skin.h counts the landmarks of body/landmark.hpp");
   // The names of the engine are string literals, which end with a zero.
   return landmark >= 0 && landmark < BODICE_LANDMARKS
              ? body::kLandmarkNames[static_cast<std::size_t>(landmark)].data()

@@ -201,10 +201,14 @@ void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i
     state.safe = state.path_start(owner);
   }
   ParticleReport one;
-  if (options.response == Response::kPaper)
-    one = resolve_paper(field, clearance_m, state);
-  else
-    one = resolve_closest_point(field, relief, clearance_m, options, state);
+  switch (options.response) {
+    case Response::kPaper:
+      one = resolve_paper(field, clearance_m, state);
+      break;
+    case Response::kClosestPoint:
+      one = resolve_closest_point(field, relief, clearance_m, options, state);
+      break;
+  }
   if (one.outcome == Outcome::kClear) return;
   store(state, particles, i);
   count(one, part[one.ellipsoid], report);

@@ -1,4 +1,4 @@
-// Both responses for one particle in double precision: the definition that the kernels follow. The kernels
+// The responses for one particle in double precision: the definition that the kernels follow. The kernels
 // settle common cases in floats and leave the rest to this.
 #pragma once
 
