@@ -11,7 +11,7 @@ namespace {
 
 // The share of the thickness that layers which hold each other apart may take.
 constexpr float kYieldedThickness = 0.25f;
-constexpr float kFar_m = std::numeric_limits<float>::infinity();
+constexpr float kAnyDistance_m = std::numeric_limits<float>::infinity();
 constexpr std::size_t kSunkGrain = 128;  // particles a task
 
 // Positions of particles, in the body's pose at the end of the frame, and their distances from it.
@@ -43,7 +43,7 @@ bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::s
     const std::span<const Index> some = moved.subspan(begin, end - begin);
     Probe from, to;
     to.query(body, some, now, body.thickness_m);
-    from.query(body, some, resolved, kFar_m);
+    from.query(body, some, resolved, kAnyDistance_m);
     for (std::size_t k = 0; k < some.size(); ++k) {
       const float allowed_m = std::min(from.contact[k].signed_distance, body.thickness_m) - yielded_m;
       if (!(to.contact[k].signed_distance < allowed_m)) continue;
