@@ -14,14 +14,14 @@ constexpr double kTrunk_m = 0.12, kArm_m = 0.05, kEase_m = 0.003, kApart_m = 0.0
 /// The arm moves in by 30 mm and `in_m` more, and out again, within a second. The tubes begin at the height
 /// `top_m`; their upper rims are pinned, that of the sleeve to the arm.
 LayerScene arm_against_trunk(double in_m, double top_m, double length_m) {
-  constexpr int kAroundTrunk = 40, kAroundArm = 20, kRows = 12;
+  constexpr int kAroundTrunk = 40, kAroundArm = 20, kTubeRows = 12;
   const double arm_x = kTrunk_m + kApart_m + kArm_m;
   LayerScene scene;
   scene.body = {ellipsoid(Vec3(0, 1, 0), Vec3(kTrunk_m, 0.5, kTrunk_m)),
                 ellipsoid(Vec3(arm_x, 1, 0), Vec3(kArm_m, 0.5, kArm_m))};
   const auto add_tube = [&](int columns, double x, double radius) {
     const auto first = static_cast<Index>(scene.mesh.positions.size());
-    append(surface(columns, kRows, true,
+    append(surface(columns, kTubeRows, true,
                    [&](double u, double v) {
                      return Vec3(around(u, radius + kEase_m, top_m - length_m * v) + Vec3(x, 0, 0));
                    }),
