@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <bodice/tryon/drape.hpp>
+#include <bodice/tryon/wearing.hpp>
 
 using namespace bodice;
 
