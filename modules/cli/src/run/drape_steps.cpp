@@ -225,9 +225,9 @@ engine::Result<tryon::DrapeReport> drape_and_write(Run& run, const DrapeCommand&
     return tryon::drape(run.context(), dressed.body, dressed.worn, *options, run.progress().callback());
   }();
   if (!draped) return std::move(draped).error();
+  for (const engine::StageTime& stage : draped->report.stages) whole.front().ms -= stage.ms;
+  draped->report.stages.push_back({"set-up and judging", whole.front().ms});
   tryon::DrapeReport report = draped->report;
-  for (const engine::StageTime& stage : report.stages) whole.front().ms -= stage.ms;
-  report.stages.push_back({"set-up and judging", whole.front().ms});
   if (motion) motion->rig.clips = {motion->clip};
   if (auto done = write_outputs(run, command, dressed, std::move(draped).value(), written); !done)
     return std::move(done).error();
