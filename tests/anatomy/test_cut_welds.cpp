@@ -5,18 +5,11 @@
 
 #include <bodice/synth/scan.hpp>
 
+#include "analyzed.hpp"
 #include "made.hpp"
 
 using namespace bodice;
 using body::LandmarkId;
-
-namespace {
-
-engine::Result<anatomy::Anatomy> analyze_welded(const geometry::TriMesh& mesh) {
-  return anatomy::analyze({}, mesh, {*body::find_profile("ansur2")});
-}
-
-}  // namespace
 
 TEST_CASE("limbs that are welded are cut apart: parts and landmarks are right, with a warning") {
   using body::Part;
@@ -26,15 +19,14 @@ TEST_CASE("limbs that are welded are cut apart: parts and landmarks are right, w
   for (const geometry::TriMesh& welded : {left, made::fused(*truth, left, Part::kForearmR, Part::kThighR),
                                           made::fused(*truth, truth->mesh, Part::kCalfL, Part::kCalfR),
                                           made::fused(*truth, truth->mesh, Part::kThighL, Part::kThighR)}) {
-    const auto found = analyze_welded(welded);
-    REQUIRE(found.ok());
-    CHECK(std::any_of(found->warnings.begin(), found->warnings.end(),
+    const anatomy::Anatomy found = analyzed(welded);
+    CHECK(std::any_of(found.warnings.begin(), found.warnings.end(),
                       [](const engine::Warning& w) { return w.code == "limbs-cut"; }));
-    CHECK(made::agreement(*truth, found->part) > 0.95);
-    CHECK(found->stature_m == doctest::Approx(truth->stature_m).epsilon(0.015));
+    CHECK(made::agreement(*truth, found.part) > 0.95);
+    CHECK(found.stature_m == doctest::Approx(truth->stature_m).epsilon(0.015));
     for (int i = 0; i <= static_cast<int>(LandmarkId::kToeR); ++i) {
       CAPTURE(i);
-      CHECK(made::error(*truth, *found, static_cast<LandmarkId>(i)) < 0.03);
+      CHECK(made::error(*truth, found, static_cast<LandmarkId>(i)) < 0.03);
     }
   }
 }
@@ -44,7 +36,7 @@ TEST_CASE("webs of 18 mm that no cut undoes are refused with a sentence that nam
   REQUIRE(scan.ok());
   geometry::TriMesh skin = scan->meshes[0].shape;
   for (geometry::Vec3& p : skin.positions) p = scan->frame.to_inside(p);
-  const auto found = analyze_welded(skin);
+  const auto found = anatomy::analyze({}, skin, {*body::find_profile("ansur2")});
   REQUIRE(!found.ok());
   CHECK(found.error().code == engine::ErrorCode::kUnusableGeometry);
   CHECK(found.error().message.find("a hand touches a leg") != std::string::npos);

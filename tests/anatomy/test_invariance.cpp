@@ -5,6 +5,7 @@
 #include <bodice_test/data.hpp>
 #include <bodice_test/read_mesh.hpp>
 
+#include "analyzed.hpp"
 #include "made.hpp"
 #include "remesh.hpp"
 
@@ -23,12 +24,6 @@ constexpr double kSameForTailors = 0.015;
 
 double same(LandmarkId id) {
   return id > LandmarkId::kToeR ? kSameForTailors : kSame;
-}
-
-anatomy::Anatomy analyzed(const TriMesh& mesh) {
-  auto found = anatomy::analyze({}, mesh, {*body::find_profile("ansur2")});
-  REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
-  return std::move(found.value());
 }
 
 template <class Back>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analyzed.hpp"
 #include "made.hpp"
 
 namespace {
@@ -13,12 +14,6 @@ using body::LandmarkId;
 using body::Sex;
 using geometry::Vec3;
 using synth::Pose;
-
-anatomy::Anatomy landmarks_of(const synth::Body& truth) {
-  auto found = anatomy::analyze({}, truth.mesh, {body::find_profile("ansur2").value()});
-  if (!found.ok()) FAIL(found.error().sentence());
-  return std::move(*found);
-}
 
 bool warns(const anatomy::Anatomy& found, const std::string& code, const std::string& part) {
   return std::any_of(found.warnings.begin(), found.warnings.end(),
@@ -65,7 +60,7 @@ TEST_CASE("legs that are drawn up alone do not take a heavy body's perineum alon
   for (int seed = 1; seed <= kBodies; ++seed) {
     const auto truth =
         heavy_in_any_pose(static_cast<std::uint64_t>(seed), 42.0, seed % 2 ? Sex::kFemale : Sex::kMale);
-    const double error = made::error(truth, landmarks_of(truth), LandmarkId::kPerineum);
+    const double error = made::error(truth, analyzed(truth.mesh), LandmarkId::kPerineum);
     CHECK(error < 0.04);
     sum += error;
   }
@@ -76,7 +71,7 @@ TEST_CASE("the fold below a heavy seat is not taken for the perineum in front of
   for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
     auto truth = heavy_in_any_pose(2, 46.0, sex);
     draw_out_seat(truth);
-    CHECK(made::error(truth, landmarks_of(truth), LandmarkId::kPerineum) < 0.04);  // .061 in the fold
+    CHECK(made::error(truth, analyzed(truth.mesh), LandmarkId::kPerineum) < 0.04);  // .061 in the fold
   }
 }
 
@@ -122,7 +117,7 @@ TEST_CASE("heavy thighs and seats: the perineum is where the floor of the trunk 
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    CHECK(made::error(*truth, landmarks_of(*truth), LandmarkId::kPerineum) < 0.025);
+    CHECK(made::error(*truth, analyzed(truth->mesh), LandmarkId::kPerineum) < 0.025);
   }
 }
 
@@ -144,7 +139,7 @@ TEST_CASE("a hand held over the head takes no part in the crown") {
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    CHECK(made::error(*truth, landmarks_of(*truth), LandmarkId::kCrown) < 0.025);
+    CHECK(made::error(*truth, analyzed(truth->mesh), LandmarkId::kCrown) < 0.025);
   }
 }
 
@@ -166,7 +161,7 @@ TEST_CASE("an elbow that is raised beside a heavy neck is not the head") {
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    const auto found = landmarks_of(*truth);
+    const auto found = analyzed(truth->mesh);
     CHECK(made::error(*truth, found, LandmarkId::kCrown) < 0.04);
     CHECK(made::error(*truth, found, LandmarkId::kNeck) < 0.04);
     CHECK(made::agreement(*truth, found.part) > 0.95);
@@ -182,7 +177,7 @@ TEST_CASE("an armpit that another vertex nearly equals is right, or doubted in a
                                            .seed = 229,
                                            .childhood = 0.97649311484419643});
   REQUIRE(truth.ok());
-  const anatomy::Anatomy found = landmarks_of(*truth);
+  const anatomy::Anatomy found = analyzed(truth->mesh);
   CHECK((made::error(*truth, found, LandmarkId::kArmpitL) < 0.04 ||
          warns(found, "armpit-uncertain", "upper_arm_l")));
   CHECK((made::error(*truth, found, LandmarkId::kArmpitR) < 0.04 ||
@@ -197,7 +192,7 @@ TEST_CASE("arms that hang or rise on a heavy or a small body are no reason to do
       const auto truth =
           synth::make_body({}, {.mass_kg = 36.0 * 1.68 * 1.68, .pose = pose, .vertices = 5000, .seed = seed});
       REQUIRE(truth.ok());
-      const anatomy::Anatomy found = landmarks_of(*truth);
+      const anatomy::Anatomy found = analyzed(truth->mesh);
       for (const auto& [elbow, part] :
            {std::pair{LandmarkId::kElbowL, "upper_arm_l"}, std::pair{LandmarkId::kElbowR, "upper_arm_r"}}) {
         CHECK(made::error(*truth, found, elbow) < 0.025);
@@ -227,7 +222,7 @@ TEST_CASE("borders follow the build: the parts of very heavy bodies are right") 
     CAPTURE(options.seed);
     const auto truth = synth::make_body({}, options);
     REQUIRE(truth.ok());
-    CHECK(made::agreement(*truth, landmarks_of(*truth).part) > 0.94);
+    CHECK(made::agreement(*truth, analyzed(truth->mesh).part) > 0.94);
   }
 }
 
@@ -243,5 +238,5 @@ TEST_CASE("a leg that is kicked forward leaves its seat to its own side") {
                                    .pregnant = true};
   const auto truth = synth::make_body({}, options);
   REQUIRE(truth.ok());
-  CHECK(made::swapped(*truth, landmarks_of(*truth).part) == 0.0);
+  CHECK(made::swapped(*truth, analyzed(truth->mesh).part) == 0.0);
 }

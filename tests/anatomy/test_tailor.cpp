@@ -11,6 +11,7 @@
 #include <bodice_test/data.hpp>
 #include <bodice_test/read_mesh.hpp>
 
+#include "analyzed.hpp"
 #include "made.hpp"
 
 namespace {
@@ -19,12 +20,6 @@ using namespace bodice;
 using body::LandmarkId;
 using body::MeasurementId;
 using geometry::Vec3;
-
-anatomy::Anatomy analyzed_for_tailor(const geometry::TriMesh& mesh) {
-  auto found = anatomy::analyze({}, mesh, {body::find_profile("ansur2").value()});
-  REQUIRE(found.ok());
-  return std::move(*found);
-}
 
 synth::Body standing(std::uint64_t seed, body::Sex sex, double bmi) {
   constexpr double kStature_m = 1.7;
@@ -52,7 +47,7 @@ TEST_CASE("landmarks of tailors lie near the truth on bodies of any build and po
   for (std::uint64_t seed = 40; seed < 52; ++seed) {
     CAPTURE(seed);
     const synth::Body truth = made::random_body(seed);
-    const anatomy::Anatomy found = analyzed_for_tailor(truth.mesh);
+    const anatomy::Anatomy found = analyzed(truth.mesh);
     for (const LandmarkId id : kTailorLandmarks) {
       CAPTURE(std::string(body::name(id)));
       const double error = made::error(truth, found, id);
@@ -70,7 +65,7 @@ TEST_CASE("girths and lengths of standing bodies agree with those that they were
                                        {5U, body::Sex::kFemale, 30.0}}) {
     CAPTURE(seed);
     const synth::Body truth = standing(seed, sex, bmi);
-    const body::Measurements found = anatomy::measure(truth.mesh, analyzed_for_tailor(truth.mesh));
+    const body::Measurements found = anatomy::measure(truth.mesh, analyzed(truth.mesh));
     for (int i = 0; i < body::kMeasurementCount; ++i) {
       const auto id = static_cast<MeasurementId>(i);
       CAPTURE(std::string(body::name(id)));
@@ -89,7 +84,7 @@ TEST_CASE("from true landmarks and parts the girth of a thigh is that of the mad
     CAPTURE(seed);
     const auto sex = seed % 2 ? body::Sex::kFemale : body::Sex::kMale;
     const synth::Body truth = standing(static_cast<std::uint64_t>(seed), sex, 18.0 + 3.5 * seed);
-    anatomy::Anatomy known = analyzed_for_tailor(truth.mesh);
+    anatomy::Anatomy known = analyzed(truth.mesh);
     known.landmarks = truth.landmarks;
     known.part = truth.part;
     const double off = anatomy::measure(truth.mesh, known)[MeasurementId::kLegCircumference] -
@@ -103,12 +98,12 @@ TEST_CASE("from true landmarks and parts the girth of a thigh is that of the mad
 
 TEST_CASE("measurements follow the scale of a body, and not its rotation or position") {
   const synth::Body truth = standing(6, body::Sex::kFemale, 24.0);
-  const body::Measurements reference = anatomy::measure(truth.mesh, analyzed_for_tailor(truth.mesh));
+  const body::Measurements reference = anatomy::measure(truth.mesh, analyzed(truth.mesh));
   const Eigen::Quaterniond turn = Eigen::Quaterniond(0.3, -0.5, 0.7, 0.2).normalized();
   constexpr double kScale = 1e3;
   geometry::TriMesh moved = truth.mesh;
   for (Vec3& p : moved.positions) p = kScale * (turn * p) + Vec3(1e4, -2e4, 3e4);
-  const body::Measurements found = anatomy::measure(moved, analyzed_for_tailor(moved));
+  const body::Measurements found = anatomy::measure(moved, analyzed(moved));
   for (int i = 0; i < body::kMeasurementCount; ++i) {
     const auto id = static_cast<MeasurementId>(i);
     CAPTURE(std::string(body::name(id)));
@@ -119,7 +114,7 @@ TEST_CASE("measurements follow the scale of a body, and not its rotation or posi
 
 TEST_CASE("without a landmark no measurement is invented") {
   const synth::Body truth = standing(7, body::Sex::kMale, 24.0);
-  anatomy::Anatomy found = analyzed_for_tailor(truth.mesh);
+  anatomy::Anatomy found = analyzed(truth.mesh);
   found.landmarks[static_cast<std::size_t>(LandmarkId::kWaist)] = {.id = LandmarkId::kWaist};
   const body::Measurements measurements = anatomy::measure(truth.mesh, found);
   for (const double value : measurements.value) CHECK(std::isnan(value));

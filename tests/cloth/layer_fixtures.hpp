@@ -62,7 +62,7 @@ struct LayerScene {
 /// What came of a scene.
 struct LayerOutcome {
   std::size_t start = 0, worst = 0, end = 0;  ///< pairs of triangles that cross
-  double deepest_m = 0.0;                     ///< of the particles inside the body
+  double deepest_m = 0.0;                     ///< how deep the deepest particle was
   std::uint64_t hash = 0;
   cloth::FrameReport report;
 };

@@ -20,6 +20,8 @@ using bodice::geometry::Ellipsoid;
 using bodice::geometry::Mat3;
 using bodice::geometry::Vec3;
 
+inline constexpr float kInf = std::numeric_limits<float>::infinity();
+
 inline Vec3 random_vector(bodice::engine::Random& random, double half_side) {
   const double x = random.uniform(-half_side, half_side);
   const double y = random.uniform(-half_side, half_side);

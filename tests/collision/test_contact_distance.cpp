@@ -16,7 +16,6 @@ using namespace bodice_test;
 
 namespace {
 
-constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLimits_m[] = {-0.05f, -0.01f, 0.0f, 1e-4f, 0.01f, 0.03f, 0.2f, 1e4f, 3e38f, -kInf, kNaN};
 

@@ -14,7 +14,6 @@ using namespace bodice_test;
 
 namespace {
 
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
 constexpr QueryOptions kFirst{.accuracy = Accuracy::kFirstOrder};
 
 Vec3 vec(const float (&v)[3]) {
@@ -222,7 +221,7 @@ TEST_CASE("a first-order query with a contact distance reports only particles wi
       const Collider collider(body_like(relief, margin_m));
       Cloud cloud = near_surface(collider, 4000, 0.03f);
       const auto unlimited = contacts_of(collider, cloud, kFirst);
-      for (const float within_m : {-0.01f, 0.0f, 0.01f, -kInfinite}) {
+      for (const float within_m : {-0.01f, 0.0f, 0.01f, -kInf}) {
         const auto limited =
             contacts_of(collider, cloud, {.within_m = within_m, .accuracy = Accuracy::kFirstOrder});
         int too_far = 0, found = 0, differ = 0;
@@ -231,10 +230,10 @@ TEST_CASE("a first-order query with a contact distance reports only particles wi
           found += !none;
           too_far += !none && !(limited[i].signed_distance <= within_m);
           differ += none == (unlimited[i].signed_distance <= within_m);
-          if (none) CHECK(limited[i].signed_distance == kInfinite);
+          if (none) CHECK(limited[i].signed_distance == kInf);
         }
         CHECK(too_far == 0);
-        CHECK((found > 100 || within_m == -kInfinite));
+        CHECK((found > 100 || within_m == -kInf));
         // With fewer candidates another of two nearly equal owners may be chosen.
         CHECK(differ <= (within_m == 0.0f && !relief ? 0 : 8));
       }

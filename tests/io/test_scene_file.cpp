@@ -20,7 +20,8 @@ using bodice_test::TempFolder;
 
 namespace {
 
-constexpr double kFloatsOfPositions_m = 2e-6;  // of positions up to 2 m
+// Floats round positions of up to 2 m by less.
+constexpr double kFloatsOfPositions_m = 2e-6;
 
 double farthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   REQUIRE(a.size() == b.size());

@@ -1,9 +1,7 @@
-// Which particles something else moved into the body after contact with it was resolved.
+// Finds particles that self-contact moved into the body, after contact with the body was resolved.
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include <bodice/collision/collider.hpp>
 #include <bodice/engine/context.hpp>
@@ -20,9 +18,10 @@ struct ResolvedBody {
   float remaining = 0.0f;    ///< share of the frame that is left after the substep
 };
 
-/// Sets `guard` (#P) of those of the particles `moved` that lie deeper in the body at `now` than at
-/// `resolved`, and nearer than their thickness allows: to the body's normal at `resolved`, with weight 1. A
-/// quarter of the thickness may be lost. Returns whether there are any. Two queries a particle.
+/// Sets `guard` (#P) of each particle of `moved` that sank: it lies deeper in the body at `now` than at
+/// `resolved`, by more than a quarter of the thickness where it keeps that. Its guard is the body's normal at
+/// `resolved`, with weight 1; others stay as they are. Returns whether any sank. Takes two queries a
+/// particle.
 bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::span<const Index> moved,
                 std::span<const Point> resolved, std::span<const Point> now, std::span<Point> guard);
 
