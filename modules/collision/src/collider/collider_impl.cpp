@@ -146,12 +146,14 @@ Collider::Impl::Impl(const proxy::BodyProxy& proxy)
       texels(proxy.texels().size()),
       shapes(local_shapes(origin, proxy, proxy_index)),
       field(shapes),
-      model{Baked(shapes, proxy_index), std::nullopt} {
+      model{Baked(shapes, field.boxes(), proxy_index), std::nullopt} {
   if (proxy.relief().size() == shapes.size() && !shapes.empty()) model.relief.emplace(proxy, proxy_index);
   internal_index.resize(proxy_index.size());
   for (std::uint32_t k = 0; k < proxy_index.size(); ++k) internal_index[proxy_index[k]] = k;
   for (const std::uint32_t k : proxy_index) part.push_back(proxy.ellipsoids()[k].part);
-  for (const geometry::Ellipsoid& shape : shapes) material.push_back(material_of(shape));
+  for (const geometry::Ellipsoid& shape : shapes)
+    material.emplace_back().set(shape.center, material_of(shape).axes);
+  material_before = material;
   trial.resize(shapes.size());
   motion.resize(shapes.size());
   affine_motions.resize(shapes.size());

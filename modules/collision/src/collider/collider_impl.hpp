@@ -81,7 +81,7 @@ struct Collider::Impl {
   UnionField field;
   ProxyModel model;
   std::vector<body::Part> part;
-  std::vector<Material> material;  ///< one an ellipsoid, in the current pose
+  std::vector<InvertedMaterial> material, material_before;  ///< one an ellipsoid, in this pose and the last
   std::vector<SurfaceMotion> motion;
   std::vector<AffineMotion> affine_motions;  ///< those of the last move
   bool moving = false;

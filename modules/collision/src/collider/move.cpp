@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <optional>
 
-#include <Eigen/LU>
-
 #include "collider/collider_impl.hpp"
 #include "collider/mended_ellipsoid.hpp"
 
@@ -24,33 +22,34 @@ double usable_step_s(double dt_s) {
 void Collider::Impl::move(std::span<const geometry::Ellipsoid> now,
                           std::span<const geometry::Mat3> axes_of_material, double step_s) noexcept {
   const double dt_s = usable_step_s(step_s);
-  double farthest_m = 0.0;
+  material.swap(material_before);
   for (std::size_t k = 0; k < now.size(); ++k) {
     const std::uint32_t at = internal_index[k];
     shapes[at] = now[k];
     shapes[at].center -= origin;
-    Material moved = material_of(shapes[at]);
-    if (!axes_of_material.empty()) moved.axes = axes_of_material[k];
-    motion[at] = motion_between(material[at], moved, dt_s);
-    affine_motions[at] = affine_motion_between(material[at], moved);
-    farthest_m = std::max(farthest_m, travel_between(material[at], moved));
-    material[at] = moved;
+    material[at].set(now[k].center - origin,
+                     axes_of_material.empty() ? material_of(now[k]).axes : axes_of_material[k]);
+  }
+  // Motions have a pass of their own: a processor waits for what it has just written in parts to be read as a
+  // whole.
+  double farthest_m = 0.0;
+  for (std::size_t k = 0; k < material.size(); ++k) {
+    motion[k].set(material_before[k], material[k], dt_s);
+    affine_motions[k].set(material_before[k], material[k]);
+    farthest_m = std::max(farthest_m, travel_between(material_before[k], material[k]));
   }
   poses += farthest_m > 0.0;
   moving = dt_s > 0.0;
   moved_dt_s = dt_s;
   travel_m = static_cast<float>(1.001 * farthest_m);
   field.update(shapes);
-  model.baked.update(shapes);
+  model.baked.update(shapes, field.boxes());
 }
 
 bool Collider::Impl::take(std::span<const geometry::Ellipsoid> now) noexcept {
   if (now.size() != trial.size()) return false;
-  for (std::size_t k = 0; k < trial.size(); ++k) {
-    trial[k] = now[k];
-    if (!mend(trial[k]).empty()) return false;
-  }
-  return true;
+  std::ranges::copy(now, trial.begin());
+  return std::ranges::all_of(trial, [](geometry::Ellipsoid& shape) { return mend(shape).empty(); });
 }
 
 bool Collider::move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept {

@@ -32,6 +32,7 @@ class UnionField {
   double size_m() const { return size_m_; }
   const geometry::Ellipsoid& shape(std::size_t k) const { return shapes_[k]; }
   const geometry::Box& box(std::size_t k) const { return boxes_[k]; }
+  const std::vector<geometry::Box>& boxes() const { return boxes_; }
 
   /// A plane that ellipsoid k lies behind: d(x) >= distance_m + normal . (x - p) for every x. The bound is of
   /// first order (simd/ellipsoid/bound-inl.hpp) and costs a tenth of the closest point.

@@ -2,8 +2,6 @@
 // inverse in floats for the kernels; the exact side needs this direction, for all ellipsoids.
 #pragma once
 
-#include <Eigen/LU>
-
 #include "model/surface_motion.hpp"
 
 namespace bodice::collision {
@@ -13,13 +11,12 @@ struct AffineMotion {
   geometry::Mat3 linear = geometry::Mat3::Identity();
   geometry::Vec3 translation = geometry::Vec3::Zero();
 
+  /// The motion of material from one pose to the next.
+  void set(const InvertedMaterial& before, const InvertedMaterial& now) {
+    linear.noalias() = now.axes * before.inverse_axes;
+    translation = now.center - linear * before.center;
+  }
   geometry::Vec3 apply(const geometry::Vec3& before) const { return linear * before + translation; }
 };
-
-/// The motion of material from one pose to the next.
-inline AffineMotion affine_motion_between(const Material& before, const Material& now) {
-  const geometry::Mat3 linear = now.axes * before.axes.inverse();
-  return {linear, now.center - linear * before.center};
-}
 
 }  // namespace bodice::collision

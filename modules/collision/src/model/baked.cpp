@@ -61,7 +61,8 @@ BallMap grown(BallMap ball) {
 
 }  // namespace
 
-Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32_t>& proxy_indices)
+Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<geometry::Box>& boxes,
+             const std::vector<std::uint32_t>& proxy_indices)
     : proxy_index(proxy_indices.begin(), proxy_indices.end()) {
   internal_index.resize(proxy_index.size());
   for (std::size_t k = 0; k < proxy_index.size(); ++k)
@@ -88,21 +89,19 @@ Baked::Baked(const std::vector<Ellipsoid>& shapes, const std::vector<std::uint32
     cull.group_high[axis].assign(groups, nowhere);
   }
   for (std::vector<float>& values : cull.baked) values.assign(padded, 1.0f);
-  update(shapes);
+  update(shapes, boxes);
 }
 
-void Baked::update(const std::vector<Ellipsoid>& shapes) {
+void Baked::update(const std::vector<Ellipsoid>& shapes, const std::vector<geometry::Box>& boxes) {
   double size_m = 0.0;
   for (std::size_t k = 0; k < shapes.size(); ++k) {
     ellipsoids[k] = bake(shapes[k]);
-    const auto values = std::bit_cast<std::array<float, kBakedFloats>>(ellipsoids[k]);
-    for (std::size_t i = 0; i < kShapeFloats; ++i) cull.baked[i][k] = values[i];
     balls[k] = bake_ball(shapes[k]);
     ellipsoids[k].proxy_index = balls[k].proxy_index = proxy_index[k];
     bounds[k] = grown(balls[k]);
     const float* const ball = balls[k].to_ball;  // the members follow each other without padding
     for (std::size_t i = 0; i < kBallFloats; ++i) cull.ball[i][k] = ball[i];
-    const geometry::Box box = geometry::bounding_box(shapes[k]);
+    const geometry::Box& box = boxes[k];
     for (int axis = 0; axis < 3; ++axis) {
       cull.low[axis][k] = static_cast<float>(box.low[axis]);
       cull.high[axis][k] = static_cast<float>(box.high[axis]);
@@ -114,6 +113,11 @@ void Baked::update(const std::vector<Ellipsoid>& shapes) {
     size_m = std::max({size_m, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
   }
   rounding_m = static_cast<float>(kFloatRounding * size_m);
+  // A pass of its own, because a processor waits for what it has just written in parts to be read as a whole.
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const auto values = std::bit_cast<std::array<float, kBakedFloats>>(ellipsoids[k]);
+    for (std::size_t i = 0; i < kShapeFloats; ++i) cull.baked[i][k] = values[i];
+  }
 }
 
 }  // namespace bodice::collision

@@ -51,9 +51,10 @@ inline constexpr int kGroup = 16;
 struct Baked {
   static constexpr std::size_t kPad = kGroup;
 
-  Baked(const std::vector<geometry::Ellipsoid>& shapes, const std::vector<std::uint32_t>& proxy_indices);
+  Baked(const std::vector<geometry::Ellipsoid>& shapes, const std::vector<geometry::Box>& boxes,
+        const std::vector<std::uint32_t>& proxy_indices);
   /// Replaces the shapes by as many others; allocates nothing.
-  void update(const std::vector<geometry::Ellipsoid>& shapes);
+  void update(const std::vector<geometry::Ellipsoid>& shapes, const std::vector<geometry::Box>& boxes);
 
   std::size_t size() const { return ellipsoids.size(); }
 

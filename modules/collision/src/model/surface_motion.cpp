@@ -15,23 +15,30 @@ Vec3 SurfaceMotion::at(const Vec3& x) const {
   return velocity;
 }
 
+void InvertedMaterial::set(const Vec3& new_center, const Mat3& new_axes) {
+  center = new_center;
+  axes = new_axes;
+  inverse_axes = new_axes.inverse();
+}
+
 double travel_between(const Material& before, const Material& now) {
   return (now.center - before.center).norm() + (now.axes - before.axes).norm();
 }
 
-SurfaceMotion motion_between(const Material& before, const Material& now, double dt_s) {
-  SurfaceMotion motion;
-  if (!(dt_s > 0.0)) return motion;
+void SurfaceMotion::set(const InvertedMaterial& before, const InvertedMaterial& now, double dt_s) {
+  if (!(dt_s > 0.0)) {
+    *this = {};
+    return;
+  }
   // x_before = c' + M' M^-1 (x - c);  velocity = (x - x_before) / dt
-  const Mat3 back = before.axes * now.axes.inverse();
-  const Mat3 linear = (Mat3::Identity() - back) / dt_s;
-  const Vec3 translation = (back * now.center - before.center) / dt_s;
+  const Mat3 back = before.axes * now.inverse_axes;
+  const Mat3 turn = (Mat3::Identity() - back) / dt_s;
+  const Vec3 shift = (back * now.center - before.center) / dt_s;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column)
-      motion.linear[3 * row + column] = static_cast<float>(linear(row, column));
-    motion.translation[row] = static_cast<float>(translation[row]);
+      linear[3 * row + column] = static_cast<float>(turn(row, column));
+    translation[row] = static_cast<float>(shift[row]);
   }
-  return motion;
 }
 
 }  // namespace bodice::collision

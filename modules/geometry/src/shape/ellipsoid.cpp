@@ -1,7 +1,7 @@
 #include <bodice/geometry/ellipsoid.hpp>
 
-#include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -16,9 +16,14 @@ Vec3 to_local(const Ellipsoid& ellipsoid, const Vec3& point) {
 
 std::array<int, 3> axes_by_radius(const Vec3& radii) {
   std::array<int, 3> axes = {0, 1, 2};
-  // std::stable_sort would allocate, which a collider that moves to a new pose must not.
-  std::sort(axes.begin(), axes.end(),
-            [&](int a, int b) { return radii[a] != radii[b] ? radii[a] > radii[b] : a < b; });
+  // Exchanges of neighbors keep equal radii in order, and neither allocate nor call: a moving collider does
+  // this for each ellipsoid in each frame.
+  const auto exchange = [&](int& a, int& b) {
+    if (radii[a] < radii[b]) std::swap(a, b);
+  };
+  exchange(axes[0], axes[1]);
+  exchange(axes[1], axes[2]);
+  exchange(axes[0], axes[1]);
   return axes;
 }
 
