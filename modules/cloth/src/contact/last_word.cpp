@@ -9,8 +9,6 @@
 namespace bodice::cloth {
 namespace {
 
-// The share of the thickness that layers which hold each other apart may take.
-constexpr float kYieldedThickness = 0.25f;
 constexpr float kAnyDistance_m = std::numeric_limits<float>::infinity();
 constexpr std::size_t kSunkGrain = 128;  // particles a task
 
@@ -37,7 +35,6 @@ struct Probe {
 bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::span<const Index> moved,
                 std::span<const Point> resolved, std::span<const Point> now, std::span<Point> guard) {
   if (body.collider == nullptr) return false;
-  const float yielded_m = kYieldedThickness * body.thickness_m;
   std::atomic<bool> any{false};
   engine::parallel_for(context, moved.size(), kSunkGrain, [&](std::size_t begin, std::size_t end) {
     const std::span<const Index> some = moved.subspan(begin, end - begin);
@@ -45,7 +42,7 @@ bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::s
     to.query(body, some, now, body.thickness_m);
     from.query(body, some, resolved, kAnyDistance_m);
     for (std::size_t k = 0; k < some.size(); ++k) {
-      const float allowed_m = std::min(from.contact[k].signed_distance, body.thickness_m) - yielded_m;
+      const float allowed_m = std::min(from.contact[k].signed_distance, body.thickness_m);
       if (!(to.contact[k].signed_distance < allowed_m)) continue;
       const float* const normal = from.contact[k].normal;
       guard[some[k]] = {normal[0], normal[1], normal[2], 1.0f};

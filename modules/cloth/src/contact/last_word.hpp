@@ -18,10 +18,9 @@ struct ResolvedBody {
   float remaining = 0.0f;    ///< share of the frame that is left after the substep
 };
 
-/// Sets `guard` (#P) of each particle of `moved` that sank: it lies deeper in the body at `now` than at
-/// `resolved`, by more than a quarter of the thickness where it keeps that. Its guard is the body's normal at
-/// `resolved`, with weight 1; others stay as they are. Returns whether any sank. Takes two queries a
-/// particle.
+/// Sets `guard` (#P) of each particle of `moved` that sank: at `now` it is nearer to the body than the
+/// thickness, and nearer than at `resolved`. Its guard is the body's normal at `resolved`, with weight 1;
+/// others stay as they are. Returns whether any sank. Takes two queries a particle.
 bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::span<const Index> moved,
                 std::span<const Point> resolved, std::span<const Point> now, std::span<Point> guard);
 

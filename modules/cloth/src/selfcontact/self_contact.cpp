@@ -245,7 +245,10 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   if (s.origin != p.origin) forget_pairs(s);
   s.origin = p.origin;
   copy_points(context, p, s.before);
-  follow_tangles(s.mesh, s.before, s.tangles, s.tangles_before);
+  if (s.tangles.empty()) return;
+  // What is loose may have passed others by many triangles since the frame before.
+  refit(context, s.mesh, s.before, {}, s.tree);
+  find_tangles(context, s.mesh, s.tree, s.before, s.tasks, s.tangles);
   loosen(s.mesh, s.tangles, s.loose);
 }
 
@@ -261,7 +264,8 @@ void push_apart(const engine::Context& context, const SelfSubstep& substep, Self
   find_moves(context, s.mesh, s.before, p.point, s.moves);
   refresh_contacts(context, source_of(s), s.tasks);
   push_contacts(context, s.mesh, push_of(substep, s), s.tasks, p.point);
-  untangle(s.mesh, s.tangles, substep.touching, kUntangle_m_s * substep.length_s, p.point);
+  untangle(s.mesh, s.tangles, {substep.touching, s.loose.list, kUntangle_m_s * substep.length_s}, s.now,
+           p.point);
 }
 
 void hold_apart(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,

@@ -30,7 +30,6 @@ struct SelfContact {
   ContactMesh mesh;
   SweepTree tree;
   std::vector<PairTask> tasks;
-  std::vector<Tangle> tangles_before;
   std::vector<Tangle> tangles;             ///< triangles that cross
   Loose loose;                             ///< particles near these, which contact leaves alone
   std::vector<Point> rest;                 ///< #P: positions at rest, meters, in the particles' first frame

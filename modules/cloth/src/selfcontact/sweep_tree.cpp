@@ -20,7 +20,7 @@ void fit_leaf(const ContactMesh& mesh, std::size_t leaf, std::span<const Point> 
   Sweep all = empty_sweep();
   all.move_low = all.low, all.move_high = all.high;
   for (const Index i : mesh.particles_of(leaf)) {
-    const Float4 p = xyz(load(at[i])), m = xyz(load(move[i]));
+    const Float4 p = xyz(load(at[i])), m = move.empty() ? splat(0.0f) : xyz(load(move[i]));
     add({p, p, m, m}, all);
   }
   tree.node[tree.width + leaf] = all;

@@ -30,7 +30,7 @@ struct SweepTree {
 /// A hierarchy without boxes for these leaves.
 SweepTree make_sweep_tree(const ContactMesh& mesh);
 
-/// Fits the boxes to particles that move by `move` from `at`. O(#triangles).
+/// Fits the boxes to particles that move by `move` from `at`; without it, they stay. O(#triangles).
 void refit(const engine::Context& context, const ContactMesh& mesh, std::span<const Point> at,
            std::span<const Point> move, SweepTree& tree);
 

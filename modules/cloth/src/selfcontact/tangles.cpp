@@ -89,6 +89,13 @@ void pull_through(const Face& of, unsigned k, const Face& face, const Passage& p
   }
 }
 
+// Bounds how far a point went.
+void shorten(float most_m, const Point& from, Point& to) {
+  const Float4 by = xyz(load(to) - load(from));
+  const float far_m = std::sqrt(dot(by, by));
+  if (far_m > most_m) store(to, load(to) - (1.0f - most_m / far_m) * by);
+}
+
 bool lies_on_body(const Face& f, std::span<const std::uint8_t> touching) {
   return touching[f.particle[0]] || touching[f.particle[1]] || touching[f.particle[2]];
 }
@@ -136,31 +143,19 @@ bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, st
   return true;
 }
 
-void follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vector<Tangle>& tangles,
-                    std::vector<Tangle>& room) {
-  std::swap(tangles, room);
-  tangles.clear();
-  for (const Tangle& t : room)
-    for (const Index i : mesh.faces[t.a].particle)
-      for (const Index j : mesh.faces[t.b].particle)
-        for (const std::uint32_t a : mesh.star_of(i))
-          for (const std::uint32_t b : mesh.star_of(j))
-            if (a != b) tangles.push_back({std::min(a, b), std::max(a, b)});
-  std::ranges::sort(tangles);
-  const auto repeated = std::ranges::unique(tangles);
-  tangles.erase(repeated.begin(), repeated.end());
-  std::erase_if(tangles,
-                [&](const Tangle& t) { return !cross_each_other(mesh.faces[t.a], mesh.faces[t.b], at); });
-}
-
-void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles,
-              std::span<const std::uint8_t> touching, float step_m, std::span<Point> at) {
+void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const Untangling& how,
+              std::span<Point> room, std::span<Point> at) {
+  if (tangles.empty()) return;
+  for (const Index i : how.movable) room[i] = at[i];
   for (const Tangle& t : tangles) {
     const Face &a = mesh.faces[t.a], &b = mesh.faces[t.b];
-    if (lies_on_body(a, touching) && lies_on_body(b, touching)) continue;
-    for_each_passage(a, b, at, [&](unsigned k, const Passage& p) { pull_through(a, k, b, p, step_m, at); });
-    for_each_passage(b, a, at, [&](unsigned k, const Passage& p) { pull_through(b, k, a, p, step_m, at); });
+    if (lies_on_body(a, how.touching) && lies_on_body(b, how.touching)) continue;
+    for_each_passage(a, b, at,
+                     [&](unsigned k, const Passage& p) { pull_through(a, k, b, p, how.step_m, at); });
+    for_each_passage(b, a, at,
+                     [&](unsigned k, const Passage& p) { pull_through(b, k, a, p, how.step_m, at); });
   }
+  for (const Index i : how.movable) shorten(how.step_m, room[i], at[i]);
 }
 
 }  // namespace bodice::cloth

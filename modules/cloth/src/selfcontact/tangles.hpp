@@ -17,19 +17,22 @@ namespace bodice::cloth {
 void find_tangles(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,
                   std::span<const Point> at, std::vector<PairTask>& tasks, std::vector<Tangle>& tangles);
 
-/// Updates the tangles after some motion. Looks at the neighbors of those that there were, because contact
-/// lets nothing cross elsewhere. `room` has what they were.
-void follow_tangles(const ContactMesh& mesh, std::span<const Point> at, std::vector<Tangle>& tangles,
-                    std::vector<Tangle>& room);
-
 /// Adds the triangles that cross at positions `at` of the pairs that the tasks list as pressed; returns
 /// whether there are any.
 bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, std::span<const Point> at,
                  std::vector<Tangle>& tangles);
 
-/// Moves the triangles of all tangles by about `step_m` each, where they still cross. Two that
-/// lie on the body stay where it has them. touching   #P
-void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles,
-              std::span<const std::uint8_t> touching, float step_m, std::span<Point> at);
+/// How triangles that cross are moved.
+struct Untangling {
+  std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
+  std::span<const Index> movable;          ///< at least the corners of all tangles
+  float step_m = 0.0f;                     ///< how far each triangle is moved, and a particle at most
+};
+
+/// Moves the triangles of all tangles that still cross. Two that lie on the body stay where it has them. A
+/// particle with many tangles moves no farther than one with a single one: together they would tear the
+/// cloth. Uses `room` (#P).
+void untangle(const ContactMesh& mesh, const std::vector<Tangle>& tangles, const Untangling& how,
+              std::span<Point> room, std::span<Point> at);
 
 }  // namespace bodice::cloth
