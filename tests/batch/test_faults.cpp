@@ -88,14 +88,14 @@ TEST_CASE("another attempt is made of crashes, as often as wanted, and none of e
   CHECK(result->end.done == 1);
   CHECK(folder.log(result->log)[1]["attempts"] == 2);
 
-  BatchFolder stubborn({R"({"n": 1, "do": "crash"})", R"({"n": 2, "do": "fail"})"});
-  stubborn.work.ran = stubborn / "ran";
-  result = stubborn.run({.jobs = 1, .retry = 2});
+  BatchFolder failing({R"({"n": 1, "do": "crash"})", R"({"n": 2, "do": "fail"})"});
+  failing.work.ran = failing / "ran";
+  result = failing.run({.jobs = 1, .retry = 2});
   REQUIRE(result.ok());
   CHECK(result->end.failed == 2);
-  CHECK(stubborn.log(result->log)[1]["attempts"] == 3);
-  CHECK(stubborn.log(result->log)[2]["attempts"] == 1);
-  CHECK(stubborn.read(stubborn / "ran").size() == 4);
+  CHECK(failing.log(result->log)[1]["attempts"] == 3);
+  CHECK(failing.log(result->log)[2]["attempts"] == 1);
+  CHECK(failing.read(failing / "ran").size() == 4);
 
   BatchFolder unprepared({R"({"n": 1, "prepare": "crash once"})", R"({"n": 2, "prepare": "crash once"})"});
   unprepared.work.prepared = unprepared / "prepared";
