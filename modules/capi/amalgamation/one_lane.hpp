@@ -14,6 +14,7 @@
 #define HWY_AVX2 (1 << 25)
 #define HWY_AVX3 (1 << 24)
 #define HWY_STATIC_TARGET HWY_SCALAR
+#define HWY_WASM (1 << 23)
 #define HWY_TARGETS HWY_SCALAR
 #define HWY_TARGET HWY_SCALAR
 #define HWY_ONCE 1

@@ -121,7 +121,7 @@ class Lookup {
   std::int32_t column_;
 #else
   explicit HWY_INLINE Lookup(VI column)
-      : column_(column), index_(hn::IndicesFromVec(f, hn::And(column, hn::Set(I(), kWidth - 1)))) {
+      : column_(column), index_(lane_indices(hn::And(column, hn::Set(I(), kWidth - 1)))) {
     for (int t = 1; t < kTables; ++t)
       beyond_[t - 1] = hn::RebindMask(f, hn::Gt(column, hn::Set(I(), t * kWidth - 1)));
   }
@@ -132,16 +132,15 @@ class Lookup {
     if constexpr (kTables == 2)
       return V{_mm512_permutex2var_ps(hn::Load(f, row).raw, column_.raw, hn::Load(f, row + kWidth).raw)};
 #endif
-    V value = hn::TableLookupLanes(hn::Load(f, row), index_);
+    V value = lookup_lanes(hn::Load(f, row), index_);
     for (int t = 1; t < kTables; ++t)
-      value =
-          hn::IfThenElse(beyond_[t - 1], hn::TableLookupLanes(hn::Load(f, row + t * kWidth), index_), value);
+      value = hn::IfThenElse(beyond_[t - 1], lookup_lanes(hn::Load(f, row + t * kWidth), index_), value);
     return value;
   }
 
  private:
   VI column_;
-  decltype(hn::IndicesFromVec(f, VI())) index_;
+  LaneIndices index_;
   M beyond_[kTables > 1 ? kTables - 1 : 1];
 #endif
 };

@@ -37,7 +37,7 @@ class Pack {
 #else
   explicit HWY_INLINE Pack(M which) : Pack(bits(which)) {}
   HWY_INLINE void store(V values, float* to) const {
-    hn::StoreU(hn::TableLookupLanes(values, from_), f, to);
+    hn::StoreU(lookup_lanes(values, from_), f, to);
   }
   HWY_INLINE void store(VI values, std::int32_t* to) const {
     store(hn::BitCast(f, values), reinterpret_cast<float*>(to));
@@ -48,10 +48,10 @@ class Pack {
   static constexpr hn::Rebind<std::uint8_t, F> kBytes{};
 
   explicit HWY_INLINE Pack(std::uint64_t which)
-      : from_(hn::IndicesFromVec(f, hn::PromoteTo(I(), hn::LoadU(kBytes, kPackTable.from[which])))),
+      : from_(lane_indices(hn::PromoteTo(I(), hn::LoadU(kBytes, kPackTable.from[which])))),
         count_(std::popcount(which)) {}
 
-  decltype(hn::IndicesFromVec(f, VI())) from_;
+  LaneIndices from_;
 #endif
   int count_;
 };

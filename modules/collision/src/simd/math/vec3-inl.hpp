@@ -43,8 +43,8 @@ constexpr bool kIsNeon = (HWY_TARGET & HWY_ALL_NEON) != 0;
 constexpr bool kIsNeon = HWY_TARGET == HWY_NEON;
 #endif
 // Division and square root occupy a vector unit ten times as long as an estimate and a Newton step, which is
-// exact to two roundings. v must be in [1e-37, 1e37].
-#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
+// exact to two roundings. Some targets have no estimate. v must be in [1e-37, 1e37].
+#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_WASM
 HWY_INLINE V estimated_inverse_sqrt(V v) {
   return hn::Div(all(1.0f), hn::Sqrt(v));
 }
@@ -76,6 +76,27 @@ HWY_INLINE V reciprocal(V v) {
 }
 HWY_INLINE V inverse_sqrt(V v) {
   return newton_inverse_sqrt(v, estimated_inverse_sqrt(v));
+}
+#endif
+#if HWY_TARGET == HWY_WASM
+// Highway 1.0 looks up byte by byte, because engines before April 2021 had a fault in the one instruction for
+// it (its comment in ops/wasm_128-inl.h).
+using LaneIndices = VI;
+HWY_INLINE LaneIndices lane_indices(VI lanes) {
+  return hn::Add(hn::Mul(lanes, hn::Set(I(), 0x04040404)), hn::Set(I(), 0x03020100));
+}
+HWY_INLINE V lookup_lanes(V table, LaneIndices from) {
+  return V{wasm_i8x16_swizzle(table.raw, from.raw)};
+}
+#else
+using LaneIndices = decltype(hn::IndicesFromVec(f, VI()));
+/// What lookup_lanes() takes; `lanes` must be from 0 to kWidth - 1.
+HWY_INLINE LaneIndices lane_indices(VI lanes) {
+  return hn::IndicesFromVec(f, lanes);
+}
+/// In each lane, the lane of the table that its index names.
+HWY_INLINE V lookup_lanes(V table, LaneIndices from) {
+  return hn::TableLookupLanes(table, from);
 }
 #endif
 // Largest relative error of an estimate: 1.5 * 2^-12, and 2^-14 on targets with masks.

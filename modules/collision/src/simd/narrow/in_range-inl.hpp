@@ -56,7 +56,7 @@ class OctantLimits {
   HWY_INLINE V operator()(std::int32_t column, VI octant) const {
     const float* const limits = limit_ + column * kOctants;
     if constexpr (kWidth >= kOctants)
-      return hn::TableLookupLanes(hn::LoadU(f, limits), hn::IndicesFromVec(f, octant));
+      return lookup_lanes(hn::LoadU(f, limits), lane_indices(octant));
     else
       return gathered(limits, octant);
   }
