@@ -45,7 +45,42 @@ double worst_radius_error(const TriMesh& mesh, double radius) {
   return worst;
 }
 
+/// The grid with the field's own value at each node.
+template <class Field>
+geometry::FieldGrid valued(geometry::FieldGrid grid, const Field& field) {
+  for (std::size_t z = 0; z < grid.nodes[2]; ++z)
+    for (std::size_t y = 0; y < grid.nodes[1]; ++y)
+      for (std::size_t x = 0; x < grid.nodes[0]; ++x) {
+        const Vec3 node(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+        grid.value[grid.index(x, y, z)] = static_cast<float>(field(Vec3(grid.low + grid.cell_m * node)));
+      }
+  return grid;
+}
+
+void check_same(const TriMesh& a, const TriMesh& b) {
+  REQUIRE(!a.triangles.empty());
+  CHECK(a.positions == b.positions);
+  CHECK(a.triangles == b.triangles);
+}
+
 }  // namespace
+
+TEST_CASE("blocks that one value decides leave the contour as it is, to the bit, with fewer calls") {
+  std::size_t calls = 0;
+  const auto balls = [&](const Vec3& p) {
+    ++calls;
+    return std::min((p - Vec3(0.3, 0.1, 0.0)).norm() - 0.5, (p + Vec3(0.4, 0.3, 0.2)).norm() - 0.4);
+  };
+  const auto grid = geometry::sample_field({}, balls, unit_box(), 0.02);
+  CHECK(calls < grid.value.size() / 6);
+  check_same(geometry::contour({}, grid), geometry::contour({}, valued(grid, balls)));
+
+  const TriMesh open = kept(bodice_test::icosphere(0.8, 4), [](const Vec3& p) { return p.y() < 0.6; });
+  const geometry::MeshDistance distance({}, open);
+  const auto inside = geometry::sample_inside({}, distance, unit_box(), 0.03);
+  const auto exact = valued(inside, [&](const Vec3& p) { return distance.signed_distance(p); });
+  check_same(geometry::contour({}, inside), geometry::contour({}, exact));
+}
 
 TEST_CASE("the contour of a ball is closed, wound outward and as large as the ball") {
   const auto ball = [](const Vec3& p) { return p.norm() - 0.8; };

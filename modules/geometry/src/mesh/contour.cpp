@@ -11,8 +11,8 @@
 namespace bodice::geometry {
 namespace {
 
-/// Nodes along each side of a block that one value may decide.
-constexpr std::size_t kBlock = 8;
+/// Nodes along each side of the largest and the smallest blocks that one value may decide.
+constexpr std::size_t kBlock = 8, kLeastBlock = 2;
 /// Where no triangle is near, a winding number this far from one half is on the same side all around.
 constexpr double kClearWinding = 0.4;
 
@@ -181,42 +181,72 @@ class Contour {
   std::vector<Index> first_;  ///< #nodes: the first vertex of the cell at this low corner
 };
 
-/// Samples `field` block by block. `decided` is called with the middle and the radius of each block and gives
-/// one value for all of it, or 0 where its nodes differ.
-template <class Field, class Decided>
-FieldGrid sample(const engine::Context& context, const Box& box, double cell_m, const Field& field,
-                 const Decided& decided) {
+using Node = std::array<std::size_t, 3>;
+
+FieldGrid make_grid(const Box& box, double cell_m) {
   FieldGrid grid;
   grid.cell_m = cell_m;
   grid.low = box.low - Vec3::Constant(2.0 * cell_m);
   for (int k = 0; k < 3; ++k)
     grid.nodes[static_cast<std::size_t>(k)] = static_cast<std::size_t>(std::ceil(box.size()[k] / cell_m)) + 5;
   grid.value.resize(grid.nodes[0] * grid.nodes[1] * grid.nodes[2]);
-  std::array<std::size_t, 3> blocks;
-  for (std::size_t k = 0; k < 3; ++k) blocks[k] = engine::block_count(grid.nodes[k], kBlock);
-  // Farther from the surface than this, no node of the block and no neighbor of one lies across it.
-  const double radius = cell_m * (0.5 * (kBlock - 1) * std::sqrt(3.0) + 2.0);
-  const auto at = [&](double x, double y, double z) { return Vec3(grid.low + cell_m * Vec3(x, y, z)); };
+  return grid;
+}
 
-  const auto fill = [&](std::size_t block) {
-    std::array<std::size_t, 3> first = {block % blocks[0], block / blocks[0] % blocks[1],
-                                        block / blocks[0] / blocks[1]};
-    for (std::size_t& f : first) f *= kBlock;
-    const double half = 0.5 * (kBlock - 1);
-    const double for_all =
-        decided(at(static_cast<double>(first[0]) + half, static_cast<double>(first[1]) + half,
-                   static_cast<double>(first[2]) + half),
-                radius);
-    for (std::size_t z = first[2]; z < std::min(first[2] + kBlock, grid.nodes[2]); ++z)
-      for (std::size_t y = first[1]; y < std::min(first[1] + kBlock, grid.nodes[1]); ++y)
-        for (std::size_t x = first[0]; x < std::min(first[0] + kBlock, grid.nodes[0]); ++x)
-          grid.value[grid.index(x, y, z)] = static_cast<float>(
-              for_all != 0.0
-                  ? for_all
-                  : field(at(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z))));
-  };
-  engine::parallel_for(context, blocks[0] * blocks[1] * blocks[2], 1,
-                       [&](std::size_t begin, std::size_t) { fill(begin); });
+/// Samples `field` block by block. `decided` is called with the middle and the radius of each block and gives
+/// one value for all of it, or 0 where its nodes differ.
+template <class Field, class Decided>
+class Sampler {
+ public:
+  Sampler(FieldGrid& grid, const Field& field, const Decided& decided)
+      : grid_(grid), field_(field), decided_(decided) {}
+
+  /// Sets the nodes of a block with `side` nodes along each side. One that is not decided is cut into eight.
+  void fill(const Node& first, std::size_t side) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (first[k] >= grid_.nodes[k]) return;
+    const double half = 0.5 * static_cast<double>(side - 1);
+    // Farther from the surface than this, no node of the block and no neighbor of one lies across it.
+    const double radius = grid_.cell_m * (half * std::sqrt(3.0) + 2.0);
+    const double for_all = decided_(at(first, half), radius);
+    if (for_all == 0.0 && side > kLeastBlock) {
+      for (std::size_t eighth = 0; eighth < 8; ++eighth)
+        fill({first[0] + (eighth & 1) * side / 2, first[1] + (eighth >> 1 & 1) * side / 2,
+              first[2] + (eighth >> 2) * side / 2},
+             side / 2);
+      return;
+    }
+    for (std::size_t z = first[2]; z < std::min(first[2] + side, grid_.nodes[2]); ++z)
+      for (std::size_t y = first[1]; y < std::min(first[1] + side, grid_.nodes[1]); ++y)
+        for (std::size_t x = first[0]; x < std::min(first[0] + side, grid_.nodes[0]); ++x)
+          grid_.value[grid_.index(x, y, z)] =
+              static_cast<float>(for_all != 0.0 ? for_all : field_(at({x, y, z}, 0.0)));
+  }
+
+ private:
+  Vec3 at(const Node& node, double beyond) const {
+    return grid_.low + grid_.cell_m * (Vec3(static_cast<double>(node[0]), static_cast<double>(node[1]),
+                                            static_cast<double>(node[2])) +
+                                       Vec3::Constant(beyond));
+  }
+
+  FieldGrid& grid_;
+  const Field& field_;
+  const Decided& decided_;
+};
+
+template <class Field, class Decided>
+FieldGrid sample(const engine::Context& context, const Box& box, double cell_m, const Field& field,
+                 const Decided& decided) {
+  FieldGrid grid = make_grid(box, cell_m);
+  Sampler sampler(grid, field, decided);
+  Node blocks;
+  for (std::size_t k = 0; k < 3; ++k) blocks[k] = engine::block_count(grid.nodes[k], kBlock);
+  engine::parallel_for(context, blocks[0] * blocks[1] * blocks[2], 1, [&](std::size_t block, std::size_t) {
+    sampler.fill({block % blocks[0] * kBlock, block / blocks[0] % blocks[1] * kBlock,
+                  block / blocks[0] / blocks[1] * kBlock},
+                 kBlock);
+  });
   return grid;
 }
 
