@@ -79,6 +79,19 @@ function(bodice_unite target root)
   endforeach()
 endfunction()
 
+# bodice_unite_program(<target> [<files>]): the same for a test or a bench, whose folder is one program; with a number, so
+# many files at a time.
+function(bodice_unite_program target)
+  if(NOT BODICE_UNITY)
+    return()
+  endif()
+  set(files 0)
+  if(ARGC GREATER 1)
+    set(files ${ARGV1})
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${files})
+endfunction()
+
 # Warnings and sanitizers live on a target that is linked PRIVATE and never
 # exported, so that none of them reaches a project that embeds bodice.
 function(bodice_define_build_flags)

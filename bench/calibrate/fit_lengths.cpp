@@ -12,12 +12,12 @@ using bodice::anatomy::BodyExtremities;
 using bodice::anatomy::kTemplateModes;
 using bodice::anatomy::TemplatePairs;
 
-constexpr double kRidge = 1e-9;
+constexpr double kLengthRidge = 1e-9;
 /// Rounds of the descent to deviations that are not negative; it has settled long before.
 constexpr int kRounds = 2000;
 /// The least deviation of a distance, a fraction of the stature: what is left of a mode that made bodies
 /// lack.
-constexpr double kLeastDeviation = 0.02;
+constexpr double kLeastLengthDeviation = 0.02;
 
 /// Head to feet, foot to foot, hand to hand, head to hands, as fractions of the stature.
 Eigen::Vector4d stature_lengths(const Sample& sample) {
@@ -59,7 +59,7 @@ Eigen::VectorXd variances_of(const Eigen::MatrixXd& modes, const Eigen::VectorXd
 ordered_json fit_stature(const Samples& samples) {
   LeastSquares system(4);
   for (const auto& sample : samples) system.add(stature_lengths(*sample), 1.0);
-  const Eigen::VectorXd weights = system.solve(kRidge).col(0);
+  const Eigen::VectorXd weights = system.solve(kLengthRidge).col(0);
   double off = 0.0;
   for (const auto& sample : samples) off += std::abs(stature_lengths(*sample).dot(weights) - 1.0);
   std::printf("  stature: %.2f %% off in the mean\n", 100.0 * off / static_cast<double>(samples.size()));
@@ -88,7 +88,7 @@ ordered_json fit_extremities(const Samples& samples) {
     modes.col(m) = bodice::anatomy::template_spread(one).reshaped();
   }
   const Eigen::VectorXd deviations =
-      variances_of(modes, spread.reshaped()).cwiseSqrt().cwiseMax(kLeastDeviation);
+      variances_of(modes, spread.reshaped()).cwiseSqrt().cwiseMax(kLeastLengthDeviation);
   return {{"distances", rounded(distances)}, {"spread", rounded(deviations)}};
 }
 

@@ -20,7 +20,7 @@ namespace {
 using namespace bodice;
 using geometry::Vec3;
 
-constexpr double kVisible_m = 0.5e-3;
+constexpr double kVisibleDepth_m = 0.5e-3;
 constexpr std::size_t kFirstFrames = 10;  // a garment may take so long to come out of a fold
 constexpr std::size_t kStep = 6;          // frames from one to the next that causes are found in
 constexpr double kTight_m = 0.007;        // a garment starts as tight where its median gap is less
@@ -63,10 +63,10 @@ struct Row {
 
 tryon::ClothInside inside(const engine::Context& context, const geometry::MeshDistance& skin,
                           const std::vector<Vec3>& at, const geometry::TriMesh& garment) {
-  return tryon::cloth_inside(context, skin, at, garment.triangles, kVisible_m);
+  return tryon::cloth_inside(context, skin, at, garment.triangles, kVisibleDepth_m);
 }
 
-void print_head() {
+void print_head_of_faces() {
   std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s %11s\n", "", "", "parti-", "ms", "thick",
               "cm2", "cm2", "cm2", "gap mm at start", "gap mm at end", "stretch", "stretch", "crossings");
   std::printf("%-36s %-5s %6s %6s %8s %8s %8s %8s %15s %15s %8s %8s %11s\n", "garment", "body", "cles",
@@ -184,7 +184,7 @@ Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& ou
 
 bool judge_faces(const engine::Context& context, const FacesOptions& options) {
   Sheet sheet;
-  print_head();
+  print_head_of_faces();
   const std::vector<Outfit> outfits = find_outfits(options.data, options.only, false);
   for (const Outfit& outfit : outfits) {
     if (options.walking_only) break;

@@ -23,7 +23,7 @@ std::string missed_bars(const LongRun& run) {
   return missed + (run.report.finite ? "" : "  NOT FINITE");
 }
 
-void print_head() {
+void print_head_of_moving() {
   std::printf("%-26s %-9s %6s %7s %7s %8s %6s %7s %8s %7s %8s %7s\n", "", "", "parti-", "ms", "ms", "mm deep",
               "at", "frames", "mm deep", "drop", "stretch", "mm off");
   std::printf("%-26s %-9s %6s %7s %7s %8s %6s %7s %8s %7s %8s %7s\n", "outfit", "motion", "cles", "median",
@@ -58,7 +58,7 @@ bool drape_moving(const bodice::engine::Context& context, MovingOptions options)
     csv << "outfit,motion,frame,deepest_mm\n";
   }
   std::printf("%s\n", title(find_origin()).c_str());
-  print_head();
+  print_head_of_moving();
   bool written = true;
   for (const MovingOutfit& outfit : moving_outfits(context, options.data, options.only))
     for (const std::string& motion : options.motions) {

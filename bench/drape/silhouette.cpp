@@ -11,7 +11,7 @@ namespace {
 using bodice::geometry::TriMesh;
 using bodice::geometry::Vec3;
 
-constexpr double kRow_m = 0.01;
+constexpr double kSlice_m = 0.01;
 constexpr int kSamples = 8;  // samples of each side, so that a coarse mesh has no gaps
 
 /// The extent of a row of an outline.
@@ -27,7 +27,7 @@ Outline outline(const TriMesh& mesh, int axis) {
       for (int s = 0; s < kSamples; ++s) {
         const double at = static_cast<double>(s) / kSamples;
         const Vec3 p = (1.0 - at) * mesh.corner(t, k) + at * mesh.corner(t, (k + 1) % 3);
-        Interval& row = rows[static_cast<int>(std::floor(p.y() / kRow_m))];
+        Interval& row = rows[static_cast<int>(std::floor(p.y() / kSlice_m))];
         row.low = std::min(row.low, p[axis]), row.high = std::max(row.high, p[axis]);
       }
   return rows;
@@ -37,7 +37,7 @@ double distance(double at, int row, const Outline& to) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const auto& [other, interval] : to) {
     const double aside = std::max({0.0, interval.low - at, at - interval.high});
-    nearest = std::min(nearest, std::hypot(aside, kRow_m * (other - row)));
+    nearest = std::min(nearest, std::hypot(aside, kSlice_m * (other - row)));
   }
   return nearest;
 }

@@ -15,7 +15,7 @@ using geometry::Index;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-constexpr int kQueries = 1000, kCells = 16;
+constexpr int kMeshQueries = 1000, kCells = 16;
 
 TriMesh box_at(const Placement& placement) {
   TriMesh mesh;
@@ -37,7 +37,7 @@ double mesh_distance_error(const Placement& placement) {
   const geometry::MeshDistance distance({}, box_at(placement));
   engine::Random random(3);
   double worst = 0.0;
-  for (int i = 0; i < kQueries; ++i) {
+  for (int i = 0; i < kMeshQueries; ++i) {
     Vec3 u;
     for (int axis = 0; axis < 3; ++axis) u[axis] = random.uniform(-1.5, 1.5);
     const Vec3 local =

@@ -19,13 +19,13 @@ double churn(double x, int rounds) {
 }
 
 double rounds_per_us() {
-  using Clock = std::chrono::steady_clock;
+  using SteadyClock = std::chrono::steady_clock;
   double best = 0.0;
   volatile double sink = 0.5;
   for (int i = 0; i < 5; ++i) {
-    const auto begin = Clock::now();
+    const auto begin = SteadyClock::now();
     sink = churn(sink, 200'000);
-    const std::chrono::duration<double, std::micro> spent = Clock::now() - begin;
+    const std::chrono::duration<double, std::micro> spent = SteadyClock::now() - begin;
     best = std::max(best, 200'000 / spent.count());
   }
   return best;

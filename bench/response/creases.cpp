@@ -26,9 +26,9 @@ constexpr int kPaths = 2000, kSteps = 200;
 constexpr double kStep_m = 1e-4;
 
 /// Particles with velocities.
-struct Batch {
+struct Arrays {
   std::vector<float> x, y, z, vx, vy, vz;
-  explicit Batch(std::size_t count) : x(count), y(count), z(count), vx(count), vy(count), vz(count) {}
+  explicit Arrays(std::size_t count) : x(count), y(count), z(count), vx(count), vy(count), vz(count) {}
   collision::Particles view(bool with_velocity = true) {
     collision::Particles p{.count = x.size(), .x = x.data(), .y = y.data(), .z = z.data()};
     if (with_velocity) p.vx = vx.data(), p.vy = vy.data(), p.vz = vz.data();
@@ -49,7 +49,7 @@ std::vector<Vec3> on_surface(const proxy::BodyProxy& proxy, const collision::Col
     const auto& e = proxy.ellipsoids()[random.below(proxy.ellipsoids().size())].shape;
     const double a = random.normal(), b = random.normal();
     const Vec3 w = Vec3(a, b, random.normal()).stableNormalized();
-    Batch one(1);
+    Arrays one(1);
     one.set(0, e.center + e.axes * e.radii.cwiseProduct(w) - collider.origin(), Vec3::Zero());
     collider.resolve({}, one.view(), {});
     points.push_back(one.position(0));
@@ -64,7 +64,7 @@ struct Jumps {
 
 /// Angles between the normals of consecutive points on paths over the surface.
 Jumps normal_jumps(const collision::Collider& collider, const std::vector<Vec3>& points, float blend_m) {
-  Batch batch(points.size());
+  Arrays batch(points.size());
   std::vector<Vec3> at = points, direction(points.size()), last(points.size());
   engine::Random random(10);
   for (Vec3& d : direction) {
@@ -110,7 +110,7 @@ Jumps normal_jumps(const collision::Collider& collider, const std::vector<Vec3>&
 std::pair<double, double> chatter_um(const collision::Collider& collider, const std::vector<Vec3>& points,
                                      float blend_m) {
   constexpr double kSubstep_s = 1.0 / 960.0;
-  Batch batch(points.size());
+  Arrays batch(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) batch.set(i, points[i], Vec3::Zero());
   std::vector<Vec3> pressed(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -120,7 +120,7 @@ std::pair<double, double> chatter_um(const collision::Collider& collider, const 
   }
   std::vector<double> moved;
   for (int step = 0; step < 300; ++step) {
-    const Batch before = batch;
+    const Arrays before = batch;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec3 v = batch.velocity(i) + kSubstep_s * pressed[i];
       batch.set(i, batch.position(i) + kSubstep_s * v, v);
@@ -138,7 +138,7 @@ std::pair<double, double> chatter_um(const collision::Collider& collider, const 
 std::pair<double, double> cost_ns(const collision::Collider& collider, const std::vector<Vec3>& points,
                                   float blend_m) {
   engine::Random random(3);
-  Batch cloud(100000);
+  Arrays cloud(100000);
   for (std::size_t i = 0; i < cloud.x.size(); ++i) {
     const double a = random.uniform(-0.03, 0.03), b = random.uniform(-0.03, 0.03);
     cloud.set(i, points[random.below(points.size())] + Vec3(a, b, random.uniform(-0.03, 0.03)), Vec3::Zero());
@@ -146,7 +146,7 @@ std::pair<double, double> cost_ns(const collision::Collider& collider, const std
   std::vector<collision::Contact> contacts(cloud.x.size());
   collision::Workspace order;
   double query = 1e9, response = 1e9;
-  Batch moved = cloud;
+  Arrays moved = cloud;
   for (int repeat = 0; repeat < 25; ++repeat) {
     const bench::Stopwatch queried;
     collider.query({}, cloud.view(false), contacts, order);
