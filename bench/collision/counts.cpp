@@ -12,6 +12,7 @@
 #include <bench_references/subject.hpp>
 #include <bench_support/stopwatch.hpp>
 #include "counts.hpp"
+#include "rows.hpp"
 
 namespace bench {
 
@@ -24,7 +25,7 @@ using bodice::proxy::BodyProxy;
 namespace {
 
 constexpr std::size_t kFitted = 1000;  // the largest number that a fit makes sense for
-constexpr double kCountedBand_m = 0.03, kBall_m = 0.02;
+constexpr double kBall_m = 0.02;
 
 /// A proxy of balls around points of the skin.
 BodyProxy balls(const bodice::geometry::TriMesh& mesh, double stature_m, std::size_t count) {
@@ -84,7 +85,7 @@ void print_row(const BodyProxy& proxy, const Cloud& ordered, const Cloud& shuffl
 void grow_counts(std::size_t particles, int repeats) {
   const auto body = make_subject(8850);
   const bodice::geometry::MeshDistance skin({}, body.mesh);
-  const Cloud shuffled = near_skin(body.mesh, particles, kCountedBand_m, 1), ordered = coherent(shuffled);
+  const Cloud shuffled = near_skin(body.mesh, particles, kBand_m, 1), ordered = coherent(shuffled);
   std::puts(
       "| ellipsoids | query: coherent | random, order kept | random | response: coherent | random, order "
       "kept "

@@ -11,6 +11,7 @@
 #include <bodice/tryon/judge_frame.hpp>
 
 #include <bench_support/or_exit.hpp>
+#include "conditions.hpp"
 
 namespace bench {
 namespace {
@@ -19,7 +20,6 @@ using namespace bodice;
 using body::Part;
 using geometry::Vec3;
 
-constexpr double kVisible_m = 0.5e-3;
 constexpr std::size_t kListed = 5;  // pairs of parts in a line
 
 /// The part of the skin nearest to a point.

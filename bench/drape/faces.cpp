@@ -12,6 +12,7 @@
 
 #include <bench_support/or_exit.hpp>
 #include "causes.hpp"
+#include "conditions.hpp"
 #include "sheet.hpp"
 
 namespace bench {
@@ -20,10 +21,8 @@ namespace {
 using namespace bodice;
 using geometry::Vec3;
 
-constexpr double kVisibleDepth_m = 0.5e-3;
-constexpr std::size_t kFirstFrames = 10;  // a garment may take so long to come out of a fold
-constexpr std::size_t kStep = 6;          // frames from one to the next that causes are found in
-constexpr double kTight_m = 0.007;        // a garment starts as tight where its median gap is less
+constexpr std::size_t kStep = 6;    // frames from one to the next that causes are found in
+constexpr double kTight_m = 0.007;  // a garment starts as tight where its median gap is less
 // Bars, in the units of the columns; the fold of a knee or armpit that a garment starts in has its own.
 constexpr double kStanding_cm2 = 0.0, kInFold_cm2 = 2.0, kWalking_cm2 = 5.0, kGapMedian_mm = 2.5,
                  kGap95_mm = 5.0;
@@ -63,7 +62,7 @@ struct Row {
 
 tryon::ClothInside inside(const engine::Context& context, const geometry::MeshDistance& skin,
                           const std::vector<Vec3>& at, const geometry::TriMesh& garment) {
-  return tryon::cloth_inside(context, skin, at, garment.triangles, kVisibleDepth_m);
+  return tryon::cloth_inside(context, skin, at, garment.triangles, kVisible_m);
 }
 
 void print_head_of_faces() {

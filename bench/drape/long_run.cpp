@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <bench_support/or_exit.hpp>
+#include "conditions.hpp"
 
 namespace bench {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 using namespace bodice;
 using geometry::Vec3;
 
-constexpr double kFrame_s = 1.0 / 60.0;
 constexpr int kKeepOneOf = 10;
 constexpr double kDeep_m = 0.002, kEnd_s = 0.5;
 constexpr int kSheetColumns = 12;
@@ -61,12 +61,6 @@ tryon::BodyMotion motion_of(const engine::Context& context, const MovingOutfit& 
       or_exit(tryon::find_motion(context, skin, {.motion = "squat", .clip = {}}, warnings));
   playing.clip = long_clip(playing, standing, options);
   return playing;
-}
-
-double mean_height(const std::vector<Vec3>& positions) {
-  double sum = 0.0;
-  for (const Vec3& p : positions) sum += p.y();
-  return sum / static_cast<double>(positions.size());
 }
 
 tryon::DrapeResult drape(const engine::Context& context, const MovingOutfit& outfit,

@@ -5,21 +5,13 @@
 #include <cstdio>
 
 #include <bodice/tryon/penetration.hpp>
+#include "conditions.hpp"
 
 namespace bench {
 namespace {
 
 using namespace bodice;
 using geometry::Vec3;
-
-constexpr double kFrameTime_s = 1.0 / 60.0;
-constexpr int kFramesToComeOut = 10;  // a garment that starts inside the body may take so long to come out
-
-double mean_y(const std::vector<Vec3>& positions) {
-  double sum = 0.0;
-  for (const Vec3& p : positions) sum += p.y();
-  return sum / static_cast<double>(positions.size());
-}
 
 /// The pose of a body that turns about the vertical through its middle.
 class Turntable {
@@ -35,7 +27,7 @@ class Turntable {
       now_[k].center = middle_ + turned * (rest_[k].center - middle_);
       now_[k].axes = turned * rest_[k].axes;
     }
-    collider.move_to(now_, kFrameTime_s);
+    collider.move_to(now_, kFrame_s);
   }
   void carry(std::vector<Vec3>& rest_to_now) const { rotate(rotation(), rest_to_now); }
   void carry_back(std::vector<Vec3>& now_to_rest) const { rotate(rotation().transpose(), now_to_rest); }
@@ -90,7 +82,7 @@ Wear wear(const engine::Context& context, const Body& body, const tryon::WornGar
   out.particles = solver.particles(), out.held = all.held.size();
   std::vector<Vec3> positions(all.mesh.positions.size());
   solver.positions(positions);
-  const double start = mean_y(positions);
+  const double start = mean_height(positions);
   const std::vector<Vec3> worn = positions;
   std::vector<double> ms;
   for (int frame = 1; frame <= options.windy_frames + options.calm_frames; ++frame) {
@@ -100,18 +92,18 @@ Wear wear(const engine::Context& context, const Body& body, const tryon::WornGar
       out.finite = out.finite && solver.set_environment(calm).ok();
     }
     if (options.turn_rad_s != 0.0) {
-      table.turn(options.turn_rad_s * kFrameTime_s, collider);
+      table.turn(options.turn_rad_s * kFrame_s, collider);
       std::vector<Vec3> pins = held;
       table.carry(pins);
       solver.move_pins(pins);
     }
     const std::int64_t begin_ns = context.clock->now_ns();
-    const cloth::FrameReport report = solver.step(context, collider, kFrameTime_s);
+    const cloth::FrameReport report = solver.step(context, collider, kFrame_s);
     ms.push_back(static_cast<double>(context.clock->now_ns() - begin_ns) * 1e-6);
     solver.positions(positions);
     table.carry_back(positions);
     const double deepest = tryon::penetration(context, *body.skin.distance, positions).deepest_m;
-    if (frame > kFramesToComeOut) out.settled_deepest_m = std::max(out.settled_deepest_m, deepest);
+    if (frame > kFirstFrames) out.settled_deepest_m = std::max(out.settled_deepest_m, deepest);
     out.end_deepest_m = deepest;
     out.finite = out.finite && report.finite;
     if (frame > options.windy_frames) out.rest_speed_m_s = report.median_speed_m_s;
@@ -123,7 +115,7 @@ Wear wear(const engine::Context& context, const Body& body, const tryon::WornGar
     out.end = positions;
   }
   out.behind_rad = -table.angle_between(worn, positions);
-  out.drop_m = start - mean_y(positions);
+  out.drop_m = start - mean_height(positions);
   out.pierced_share = tryon::pierced_share(context, *body.skin.distance, positions, all.mesh.triangles);
   std::ranges::sort(ms);
   auto at = [&](double q) { return ms[static_cast<std::size_t>(q * static_cast<double>(ms.size() - 1))]; };

@@ -2,7 +2,7 @@
 """What distances cost from Python and in WebAssembly beside the same call in C, on one thread: 100,000 points within
 30 mm of the skin. The languages are measured in turns; the fastest of many calls counts.
 
-    /usr/bin/python3 bench/embedding/rows.py BUILD [WEB]     build/release, build/web/web
+    /usr/bin/python3 bench/embedding/rows.py BUILD [WEB]     build/release, build/web/package
 """
 
 import os

@@ -12,6 +12,8 @@
 
 namespace tradeoff {
 
+inline constexpr double kFrameParticles = 1e4;  ///< particles of the frame that times are given for
+
 /// A method that finds distances, with its costs.
 struct Contender {
   std::string kind;               ///< the tier, or the peer

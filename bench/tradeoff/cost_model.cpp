@@ -15,8 +15,6 @@ namespace {
 using namespace bodice;
 using proxy::Tier;
 
-constexpr double kFrameParticles = 1e4;
-
 /// A proxy and the time of a query.
 struct Point {
   std::string body;

@@ -17,7 +17,6 @@ using namespace bodice;
 using proxy::Tier;
 
 constexpr double kExact_mm = 0.05;  ///< plots draw smaller errors at this value
-constexpr double kParticlesAFrame = 1e4;
 
 /// The options of a fit: a count or, for relief, a target error that decides the size of the tables.
 struct FitSetting {
@@ -137,7 +136,7 @@ bench::Plot plot_of(const std::vector<Row>& rows, const char* title, const char*
 }
 
 double moving_frame_us(const Row& row) {
-  return row.update_us + 1e-3 * kParticlesAFrame * row.query_ns;
+  return row.update_us + 1e-3 * kFrameParticles * row.query_ns;
 }
 
 }  // namespace

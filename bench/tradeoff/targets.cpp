@@ -13,8 +13,7 @@ namespace {
 
 using namespace bodice;
 
-constexpr double kWithin = 1.2;  // a target is met within this factor
-constexpr double kParticlesOfFrame = 1e4;
+constexpr double kWithin = 1.2;           // a target is met within this factor
 constexpr std::size_t kBudgetBodies = 5;  // the time of a query hardly depends on the body
 
 /// The fits of all bodies for one target or budget.
@@ -69,10 +68,10 @@ void time_budgets(const std::vector<Budgeted>& fits, const std::vector<Contender
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const Contender& c = contenders[i];
     Target& budget = budgets[fits[i].budget];
-    const double us = 1e-3 * kParticlesOfFrame * costs[i].query_ns;
+    const double us = 1e-3 * kFrameParticles * costs[i].query_ns;
     budget.add(us, us <= kWithin * budget.requested, c);
     table.add({fits[i].body, budget.requested, c.kind, c.size, fits[i].gap_mm, us, us / budget.requested,
-               1e-3 * kParticlesOfFrame * costs[i].response_ns});
+               1e-3 * kFrameParticles * costs[i].response_ns});
   }
 }
 

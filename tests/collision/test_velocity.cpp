@@ -1,6 +1,8 @@
 // Velocities after the closest-point response.
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+
 #include "scenes.hpp"
 
 using namespace bodice;
@@ -153,4 +155,28 @@ TEST_CASE("a moving body drags a particle in contact with its own velocity") {
   cloud.add(Vec3(0.03, 0.999, 0.0), Vec3(0.0, -10.0, 0.0));
   collider.resolve({}, cloud.particles(), {.friction = 5.0f});
   CHECK((cloud.velocity(0) - Vec3(3.0, 0.0, 0.0)).norm() < 1e-3);
+}
+
+TEST_CASE("in each of several moves the surface has its material's velocity") {
+  constexpr double kStep_s = 0.02;
+  const Mat3 turn = Eigen::AngleAxisd(0.8, Vec3(1.0, 2.0, -1.0).normalized()).toRotationMatrix();
+  Ellipsoid now{.radii = Vec3(0.5, 0.2, 0.1)};
+  Collider collider(proxy_of({now}));
+  const auto point_of = [](const Ellipsoid& e, const Vec3& u) {
+    return Vec3(e.center + e.axes * e.radii.cwiseProduct(u));
+  };
+  for (int move = 0; move < 4; ++move) {
+    const Ellipsoid before = now;
+    now = {.center = turn * before.center + Vec3(0.02, -0.01, 0.03),
+           .axes = turn * before.axes,
+           .radii = 1.05 * before.radii};
+    REQUIRE(collider.move_to(std::vector{now}, kStep_s));
+    for (int i = 0; i < 3; ++i)
+      for (const double side : {-1.0, 1.0}) {
+        const Vec3 u = side * Vec3::Unit(i), at = point_of(now, u);
+        const Vec3 truth = (at - point_of(before, u)) / kStep_s;
+        const Vec3 found = collider.surface_velocity(0, at - collider.origin());
+        CHECK((found - truth).norm() < 1e-4 * truth.norm());
+      }
+  }
 }
