@@ -57,3 +57,18 @@ TEST_CASE("the radial projection lies on the surface, on the ray, and is defined
     CHECK(radial_projection(e, e.center) == e.center + e.radii[shortest] * e.axes.col(shortest));
   }
 }
+
+TEST_CASE("axes are ordered by falling radius, and equal ones by their numbers") {
+  const double radii[] = {0.1, 0.2, 0.3};
+  for (const double x : radii)
+    for (const double y : radii)
+      for (const double z : radii) {
+        const Vec3 r(x, y, z);
+        CAPTURE(r.transpose());
+        const std::array<int, 3> axes = axes_by_radius(r);
+        for (int i = 0; i < 2; ++i) {
+          const int a = axes[static_cast<std::size_t>(i)], b = axes[static_cast<std::size_t>(i + 1)];
+          CHECK((r[a] > r[b] || (r[a] == r[b] && a < b)));
+        }
+      }
+}
