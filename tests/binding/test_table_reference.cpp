@@ -1,6 +1,7 @@
 // The tables of a pose against a scalar evaluation, in double precision, of the formulas in the layer's page:
 //   h(w) = s h(u) + growth(u) (1 - a(u) / out),  a(w) = s a(u),  u = V w - shift(w)
 // The shift is read from a table half as fine; at its directions shift(w) = change(V w - change(V w)).
+// Burial is that of the texel nearest to u, and what a table yields by where growth(u) is large.
 // It shares the definition of tables (proxy_distance.hpp) and the exact closest point with the code, and
 // nothing of binding but the constants that binding stores.
 #include <algorithm>
@@ -135,7 +136,9 @@ class Reference {
 /// Departures of a pose's tables from the reference, over half a byte's step of each table.
 struct Departures {
   std::vector<double> h_m, a_m;
-  int tables = 0;  ///< number of tables compared
+  std::vector<double> burial;  ///< in bytes
+  int tables = 0;              ///< number of tables compared
+  int yielding = 0;            ///< texels that yield by at least a byte
 };
 
 /// The values of a table as lengths.
@@ -145,6 +148,17 @@ std::vector<double> decoded(const proxy::ReliefTable& table, const proxy::Relief
     values[i] = of_h ? double{table.h_offset_m} + double{table.h_scale_m} * texels[i].h / 255.0
                      : double{table.a_offset} + double{table.a_scale} * texels[i].a / 255.0;
   return values;
+}
+
+/// The byte of burial of a texel that reads the table at rest at u, before rounding.
+double buried(const proxy::BodyProxy& bound, const proxy::PosedProxy& posed, std::size_t k, const Vec3& u,
+              double yield_m) {
+  const proxy::ReliefTable& table = bound.relief()[k];
+  const proxy::TableStencil at = proxy::table_stencil(u, table.nodes_per_side);
+  const bool right = at.weight[1] + at.weight[3] >= 0.5, below = at.weight[2] + at.weight[3] >= 0.5;
+  const std::size_t nearest = at.node[(right ? 1 : 0) + (below ? 2 : 0)];
+  const double bytes = yield_m / (proxy::kBurialWeight * double{posed.burial_step_m});
+  return std::min(255.0, bound.binding()->burial[table.first_texel + nearest] + bytes);
 }
 
 void compare(const proxy::BodyProxy& bound, const proxy::PosedProxy& posed,
@@ -173,11 +187,16 @@ void compare(const proxy::BodyProxy& bound, const proxy::PosedProxy& posed,
     const Vec3 w = node_direction(i, n);
     const Vec3 u = to_table * w - read(shifts, w, half).direction;
     const double a = read(rest_a, u, n);
-    const double h = reference.scale() * read(rest_h, u, n) +
-                     read(changes, u, n).growth_m * std::max(kLeastSlope, 1.0 - a / out_m);
+    const double growth = read(changes, u, n).growth_m;
+    const double h = reference.scale() * read(rest_h, u, n) + growth * std::max(kLeastSlope, 1.0 - a / out_m);
     const double most = out_m * reference.scale();
-    found.h_m.push_back(std::abs(std::clamp(h, -most, most) - now_h[static_cast<std::size_t>(i)]) -
+    found.h_m.push_back(std::abs(std::clamp(h, -most, 0.8 * most) - now_h[static_cast<std::size_t>(i)]) -
                         0.5 * double{now.h_scale_m} / 255.0);
+    const double yield = std::clamp(std::max(growth - 0.4 * most, -growth - most / 15.0), 0.0, most / 3.0);
+    found.yielding += yield > proxy::kBurialWeight * double{posed.burial_step_m};
+    found.burial.push_back(std::abs(buried(bound, posed, k, u, yield) -
+                                    posed.burial[rest.first_texel + static_cast<std::size_t>(i)]) -
+                           0.5);
     found.a_m.push_back(
         std::abs(std::clamp(reference.scale() * a, -most, most) - now_a[static_cast<std::size_t>(i)]) -
         0.5 * double{now.a_scale} / 255.0);
@@ -222,6 +241,7 @@ TEST_CASE(
     CAPTURE(name);
     const Departures found = departures(moving, pose);
     REQUIRE(found.tables > 20);
+    MESSAGE(found.yielding << " of " << found.burial.size() << " texels yield");
     std::string shares;
     for (const double share : {0.5, 0.9, 0.95, 0.99, 0.999})
       shares +=
@@ -234,5 +254,8 @@ TEST_CASE(
     CHECK(at_share(found.a_m, 0.9) < kRounding_m);
     CHECK(at_share(found.h_m, 0.99) < kUnsettled_m);
     CHECK(at_share(found.a_m, 0.99) < kUnsettled_m);
+    // A texel midway between two may take either's burial.
+    CHECK(at_share(found.burial, 0.95) < 0.05);
+    CHECK((found.yielding > 100) == (name != "bind"));
   }
 }

@@ -38,9 +38,15 @@ inline constexpr float kLeastShare = 0.01f;
 
 /// Least posed radius over the least radius at rest, no unit: a table on a flat disk has no directions.
 inline constexpr double kFlattest = 0.05;
-/// Largest height of a posed table over the reach of relief, no unit: more would only come from skin that has
-/// left the ellipsoid, and cost the others their digits.
-inline constexpr double kHighest = 1.0;
+/// Largest depth and height of a posed table over the reach of relief, no unit: more would only come from
+/// skin that has left the ellipsoid, and cost the others their digits. Skin that the body covers in its rest
+/// pose needs the depth.
+inline constexpr double kDeepest = 1.0, kHighest = 0.8;
+/// A table yields to others where its skin sank or rose by more than these in a pose, in reaches of relief:
+/// there the skin folds, or another ellipsoid has come between. Less is what the joints of a walk do.
+inline constexpr double kMostSinking = 1.0 / 15.0, kMostRising = 0.4;
+/// And yields by at most this, in reaches of relief: where all tables are that far off, the nearest serves.
+inline constexpr double kMostYield = 1.0 / 3.0;
 /// Least slope of the corrected distance along the normal that heights are divided by, no unit.
 inline constexpr double kLeastSlope = 0.2;
 

@@ -87,7 +87,11 @@ void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableR
   for (int i = 0; i < 9; ++i) to.to_table[i] = static_cast<float>(carried.to_table(i / 3, i % 3));
   to.scale = static_cast<float>(carried.scale);
   to.inverse_out = static_cast<float>(1.0 / reach.out_m);
+  to.least_m = static_cast<float>(-kDeepest * reach.out_m * carried.scale);
   to.most_m = static_cast<float>(kHighest * reach.out_m * carried.scale);
+  to.yield = yield_rule(reach.out_m, carried.scale);
+  if (reach.burial_step_m > 0.0)
+    to.per_step = static_cast<float>(1.0 / (proxy::kBurialWeight * reach.burial_step_m));
   find_shifts(to, scratch);
   resample(to, rest.burial, scratch);
   std::copy_n(scratch.burial.begin(), count, burial);

@@ -44,15 +44,17 @@ struct RestTable {
   const std::uint16_t* followers;  ///< the skin node that each texel changes with
 };
 
-/// The lengths that heights are bounded by.
+/// The lengths that heights and burial are measured by.
 struct TableReach {
-  double out_m = 0.0;  ///< how far relief reaches outward at rest
+  double out_m = 0.0;          ///< how far relief reaches outward at rest
+  double burial_step_m = 0.0;  ///< unit of burial in the pose
 };
 
 /// Writes texels, burial and scales of the posed table, given the changes of its nodes in scratch.changes.
 /// For texel direction w: u = V w - shift(w); h = s h(u) + growth(u) (1 - a(u) / out) and a = s a(u), with s
 /// the ellipsoid's scale. The shift is bilinear between directions of a table of shift_nodes(n) a side, at
-/// which shift(w) = change(V w - change(V w)). Burial is that of the texel nearest to u. Allocates nothing.
+/// which shift(w) = change(V w - change(V w)). Burial is that of the texel nearest to u, and more where
+/// growth(u) is large (yield.hpp). Allocates nothing.
 void follow(const RestTable& rest, const CarriedEllipsoid& carried, const TableReach& reach,
             TableScratch& scratch, proxy::ReliefTable& table, proxy::ReliefTexel* texels,
             std::uint8_t* burial);

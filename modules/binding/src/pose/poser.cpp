@@ -139,8 +139,8 @@ void Poser::Impl::write_table(std::size_t k, const CarriedEllipsoid& carried, Ta
   posed_maps(bound.ellipsoids()[k].shape.center, step_m, terms, joints.skinning(), carried, own);
   find_changes(binding, binding.first_bundle[k], binding.first_bundle[k + 1], step_m, carried, own.data(),
                room.changes.data());
-  follow(rest, carried, {proxy::relief_reach(bound.stature_m()).out_m}, room, posed.relief[k],
-         posed.texels.data() + table.first_texel, posed.burial.data() + table.first_texel);
+  follow(rest, carried, {proxy::relief_reach(bound.stature_m()).out_m, double{posed.burial_step_m}}, room,
+         posed.relief[k], posed.texels.data() + table.first_texel, posed.burial.data() + table.first_texel);
 }
 
 engine::Result<void> Poser::Impl::add(std::shared_ptr<const proxy::BasePose> base, int blended, bool stays) {

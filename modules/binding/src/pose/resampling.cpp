@@ -160,7 +160,8 @@ BODICE_CLONES
 void resample(Resampling& to, const std::uint8_t* buried, TableScratch& scratch) {
   const int n = to.nodes, count = n * n;
   const Float4* const rest = scratch.rest.data();
-  const float most_m = to.most_m, scale = to.scale, inverse_out = to.inverse_out;
+  const float least_m = to.least_m, most_m = to.most_m, scale = to.scale, inverse_out = to.inverse_out;
+  const float per_step = to.per_step;
   for (int first = 0; first < count; first += kChunk) {
     Chunk u[3], length, found[4];
     Stencils at;
@@ -181,11 +182,17 @@ void resample(Resampling& to, const std::uint8_t* buried, TableScratch& scratch)
     for (int l = 0; l < kChunk; ++l) {
       const float slope = greater(1.0f - found[1][l] * inverse_out, static_cast<float>(kLeastSlope));
       const float height = scale * found[0][l] + found[2][l] * slope;
-      h[l] = lesser(greater(height, -most_m), most_m);
-      a[l] = lesser(greater(scale * found[1][l], -most_m), most_m);
+      h[l] = lesser(greater(height, least_m), most_m);
+      a[l] = lesser(greater(scale * found[1][l], least_m), -least_m);
     }
+    std::int32_t yield[kChunk];
+    for (int l = 0; l < kChunk; ++l)
+      yield[l] = static_cast<std::int32_t>(per_step * yield_m(to.yield, found[2][l]) + 0.5f);
     // The nearest texel's: between texels that are buried and others none is made that is so a little.
-    for (int l = 0; l < kChunk; ++l) burial[l] = buried[nearest[l]];
+    for (int l = 0; l < kChunk; ++l) {
+      const std::int32_t depth = buried[nearest[l]] + yield[l];
+      burial[l] = static_cast<std::uint8_t>(depth < 255 ? depth : 255);
+    }
     // Lanes beyond the table repeat its last texel, but for their shifts.
     if (first + kChunk > count)
       for (int l = count - first; l < kChunk; ++l) h[l] = h[0], a[l] = a[0];

@@ -7,6 +7,7 @@
 
 #include "pose/followed_table.hpp"
 #include "pose/lanes.hpp"
+#include "pose/yield.hpp"
 
 namespace bodice::binding {
 
@@ -30,11 +31,13 @@ struct Range {
 /// What the resampling of a table needs besides its scratch.
 struct Resampling {
   int nodes = 0;
-  float to_table[9] = {};    ///< by rows
-  float scale = 1.0f;        ///< scale of the ellipsoid since rest
-  float inverse_out = 0.0f;  ///< 1 over the reach of relief at rest, 1/m
-  float most_m = 0.0f;       ///< bound on heights
-  Range h, a;                ///< range of the values written
+  float to_table[9] = {};               ///< by rows
+  float scale = 1.0f;                   ///< scale of the ellipsoid since rest
+  float inverse_out = 0.0f;             ///< 1 over the reach of relief at rest, 1/m
+  float least_m = 0.0f, most_m = 0.0f;  ///< bounds on heights; slopes lie between the first and its negative
+  YieldRule yield;
+  float per_step = 0.0f;  ///< steps of burial a meter of score; zero where there is no burial
+  Range h, a;             ///< range of the values written
 };
 
 /// Finds the shift of each texel: scratch.shift, from scratch.changes. Rows of the coarser table are spread
@@ -42,7 +45,7 @@ struct Resampling {
 void find_shifts(const Resampling& to, TableScratch& scratch);
 
 /// Heights and slopes of the pose in scratch.h and scratch.a, meters, from scratch.rest; scratch.burial from
-/// the table's burial at rest.
+/// the table's burial at rest and from how far its skin has left it.
 void resample(Resampling& to, const std::uint8_t* buried, TableScratch& scratch);
 
 }  // namespace bodice::binding

@@ -1,5 +1,6 @@
 #include <bodice/binding/table_warp.hpp>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "pose/joint_motion.hpp"
 #include "pose/refusal.hpp"
 #include "pose/skin_changes.hpp"
+#include "pose/yield.hpp"
 
 namespace bodice::binding {
 namespace {
@@ -131,7 +133,13 @@ proxy::TableReading TableWarp::read(std::uint32_t ellipsoid, const geometry::Vec
   if (moves) reading.growth_m = impl_->change(ellipsoid, at)[3];
   const double depth = bilinear(
       at, 0.0, [&](std::uint32_t node) { return double{1.0} * binding.burial[table.first_texel + node]; });
-  reading.burial_m = proxy::kBurialWeight * double{binding.burial_step_m} * impl_->joints.scale() * depth;
+  const double step_m = proxy::kBurialWeight * double{binding.burial_step_m} * impl_->joints.scale();
+  reading.burial_m = step_m * depth;
+  if (moves) {
+    const YieldRule rule = yield_rule(proxy::relief_reach(impl_->bound.stature_m()).out_m, carried.scale);
+    const double yield = double{yield_m(rule, static_cast<float>(reading.growth_m))};
+    reading.burial_m = std::min(reading.burial_m + yield, 255.0 * step_m);
+  }
   return reading;
 }
 
