@@ -1,5 +1,7 @@
 #include "scans.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -38,7 +40,8 @@ void write(const Scan& scan, const std::filesystem::path& file) {
 }
 
 std::filesystem::path folder_of(const ScanBench& bench) {
-  const auto folder = bench.folder.empty() ? std::filesystem::temp_directory_path() / "bodice_scans"
+  const auto folder = bench.folder.empty() ? std::filesystem::temp_directory_path() /
+                                                 ("bodice_scans_" + std::to_string(getpid()))
                                            : std::filesystem::path(bench.folder);
   std::filesystem::create_directories(folder);
   return folder;

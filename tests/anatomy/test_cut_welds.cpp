@@ -31,12 +31,60 @@ TEST_CASE("limbs that are welded are cut apart: parts and landmarks are right, w
   }
 }
 
+namespace {
+
+/// The skin of a scan that is one mesh, in meters, y up.
+geometry::TriMesh skin_of(const synth::Scan& scan) {
+  geometry::TriMesh skin = scan.meshes[0].shape;
+  for (geometry::Vec3& p : skin.positions) p = scan.frame.to_inside(p);
+  return skin;
+}
+
+double worst_landmark(const synth::ScanPerson& person, const anatomy::Anatomy& found) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(LandmarkId::kToeR); ++i)
+    worst = std::max(worst, (found.landmarks[i].position - person.landmarks[i].position).norm());
+  return worst / person.stature_m;
+}
+
+}  // namespace
+
+TEST_CASE("thighs that a scanner has grown together far below the crotch are cut apart up to it") {
+  struct Case {
+    synth::ScanKind kind;
+    std::uint64_t seed;
+  };
+  for (const Case& c : {Case{synth::ScanKind::kFused, 9004},
+                        {synth::ScanKind::kFused, 9001},
+                        {synth::ScanKind::kClosed, 9004}}) {
+    CAPTURE(synth::name(c.kind));
+    CAPTURE(c.seed);
+    const auto scan = synth::make_scan({}, c.kind, c.seed);
+    REQUIRE(scan.ok());
+    const geometry::TriMesh skin = skin_of(*scan);
+    const anatomy::Anatomy found = analyzed(skin);
+    CHECK(std::any_of(found.warnings.begin(), found.warnings.end(), [](const engine::Warning& w) {
+      return w.code == "limbs-cut" && w.message.find("the crotch") != std::string::npos;
+    }));
+    CHECK(worst_landmark(scan->persons[0], found) < 0.035);
+    CHECK(found.stature_m == doctest::Approx(scan->persons[0].stature_m).epsilon(0.015));
+  }
+}
+
+TEST_CASE("noise makes paths along the skin longer, and no standing body taller") {
+  for (const std::uint64_t seed : {9100, 9102}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kStrongNoise, seed);
+    REQUIRE(scan.ok());
+    const anatomy::Anatomy found = analyzed(skin_of(*scan));
+    CHECK(found.stature_m == doctest::Approx(scan->persons[0].stature_m).epsilon(0.02));
+  }
+}
+
 TEST_CASE("webs of 18 mm that no cut undoes are refused with a sentence that names what touches") {
   const auto scan = synth::make_scan({}, synth::ScanKind::kWebbed, 4);
   REQUIRE(scan.ok());
-  geometry::TriMesh skin = scan->meshes[0].shape;
-  for (geometry::Vec3& p : skin.positions) p = scan->frame.to_inside(p);
-  const auto found = anatomy::analyze({}, skin, {*body::find_profile("ansur2")});
+  const auto found = anatomy::analyze({}, skin_of(*scan), {*body::find_profile("ansur2")});
   REQUIRE(!found.ok());
   CHECK(found.error().code == engine::ErrorCode::kUnusableGeometry);
   CHECK(found.error().message.find("a hand touches a leg") != std::string::npos);

@@ -3,24 +3,42 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include <bodice/anatomy/plausible.hpp>
 
 #include "analyze/thin_copy.hpp"
+#include "analyze/webs.hpp"
 
 namespace bodice::anatomy {
 namespace {
 
 using body::LandmarkId;
+using geometry::MeshDistance;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-/// Depths of thin copies, of the stature: 9 and 14 mm. What the first does not part, the second may.
-constexpr std::array kDepths = {0.0053, 0.0082};
+/// Depths of thin copies, of the stature: 2, 9 and 14 mm. The first keeps the fingers, by which arms are
+/// measured, and serves where webs are all there is; what one does not part, the next may.
+constexpr std::array kDepths = {0.0012, 0.0053, 0.0082};
 /// A web hides an armpit or the crotch where the thin copy has it higher by this much of the stature; without
 /// webs it is .003.
-constexpr double kWeb = 0.01;
+constexpr double kHidden = 0.01;
+
+/// Looks at a copy, each with the webs cut that the one before showed.
+constexpr int kPasses = 3;
+/// Confidence of a landmark that a web hides: below that of one that is named in a warning.
+constexpr double kInDoubt = 0.3;
+
+/// A body with welded limbs, and how it is analyzed.
+struct WeldedBody {
+  const engine::Context& context;
+  const TriMesh& mesh;
+  const MeshDistance& distance;
+  const Options& options;
+  Analyze analyze;
+};
 
 bool shows_weld(const engine::Warning& w) {
   return w.code == "limbs-fused" || w.code == "hand-fused-to-leg" || w.code == "legs-fused";
@@ -38,22 +56,22 @@ int doubts(const Anatomy& anatomy) {
       }));
 }
 
-struct Web {
+struct Fold {
   LandmarkId id;
   const char* name;
 };
-constexpr std::array<Web, 3> kWebs = {{{LandmarkId::kArmpitL, "the left armpit"},
-                                       {LandmarkId::kArmpitR, "the right armpit"},
-                                       {LandmarkId::kPerineum, "the crotch"}}};
+constexpr std::array<Fold, 3> kFolds = {{{LandmarkId::kArmpitL, "the left armpit"},
+                                         {LandmarkId::kArmpitR, "the right armpit"},
+                                         {LandmarkId::kPerineum, "the crotch"}}};
 
-/// The webs that a thin copy shows, joined to a clause; empty if there are none.
-std::string webs(const Anatomy& as_is, const Anatomy& apart) {
+/// The folds that a thin copy shows, joined to a clause; empty if there are none.
+std::string folds(const Anatomy& as_is, const Anatomy& apart) {
   std::string text;
-  for (const Web& web : kWebs) {
-    const auto at = static_cast<std::size_t>(web.id);
+  for (const Fold& fold : kFolds) {
+    const auto at = static_cast<std::size_t>(fold.id);
     const Vec3 offset = apart.landmarks[at].position - as_is.landmarks[at].position;
-    if (offset.dot(apart.up) < kWeb * apart.stature_m) continue;
-    text += (text.empty() ? "" : ", ") + std::string(web.name);
+    if (offset.dot(apart.up) < kHidden * apart.stature_m) continue;
+    text += (text.empty() ? "" : ", ") + std::string(fold.name);
   }
   return text;
 }
@@ -68,25 +86,64 @@ void warn(const std::string& where, const ThinCopy& thin, Anatomy& apart) {
        "Check the borders of parts there; a pose with arms and legs apart needs no cut."});
 }
 
+/// A thin copy that has come apart, and what was found on it.
+struct Parted {
+  ThinCopy thin;
+  Anatomy found;
+  std::vector<Web> left;  ///< webs that no cut undid
+};
+
+/// What a web hides may be one more, so that each cut is followed by another look.
+std::optional<Parted> part(const WeldedBody& body, double depth, std::vector<Web> webs) {
+  for (int pass = 1;; ++pass) {
+    auto thin = thin_copy(body.context, body.mesh, body.distance, depth, webs);
+    if (!thin) return std::nullopt;
+    auto found = body.analyze(body.context, thin->mesh, body.options);
+    if (is_welded(found) || !contradictions(thin->mesh, *found).empty()) return std::nullopt;
+    std::vector<Web> more = find_webs(body.context, thin->mesh, *found);
+    if (more.empty() || pass == kPasses) return Parted{std::move(*thin), std::move(*found), std::move(more)};
+    webs.insert(webs.end(), more.begin(), more.end());
+  }
+}
+
+/// Landmarks that webs lead astray are no longer trusted.
+void doubt(const std::vector<Web>& webs, Anatomy& anatomy) {
+  for (const Web& web : webs) {
+    body::Landmark& mark = anatomy.landmarks[static_cast<std::size_t>(web.id)];
+    mark.confidence = std::min(mark.confidence, kInDoubt);
+    const bool crotch = web.id == LandmarkId::kPerineum;
+    const auto part = crotch                           ? body::Part::kThighL
+                      : web.id == LandmarkId::kArmpitL ? body::Part::kUpperArmL
+                                                       : body::Part::kUpperArmR;
+    anatomy.warnings.push_back(
+        {crotch ? "perineum-uncertain" : "armpit-uncertain", std::string(body::name(part)),
+         std::string(crotch ? "The crotch" : "This armpit") +
+             " lies lower than the room inside the body shows: skin that has grown together hides it.",
+         "Check this border in the result; a pose with arms and legs apart has none."});
+  }
+}
+
 }  // namespace
 
 engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh& mesh, const Options& options,
                                   Analyze analyze) {
   auto as_is = analyze(context, mesh, options);
-  if (!is_welded(as_is)) return as_is;
-  for (const double depth : kDepths) {
-    const auto thin = thin_copy(context, mesh, depth);
-    if (!thin) break;
-    const auto found = analyze(context, thin->mesh, options);
-    if (is_welded(found) || !contradictions(thin->mesh, *found).empty()) continue;
-    Anatomy apart = carry_out(context, *thin, *found, mesh);
-    const std::string where = as_is ? webs(*as_is, apart) : "";
-    const bool better = !as_is || doubts(apart) <= doubts(*as_is);
-    if (!better) break;
+  const std::vector<Web> seen = as_is ? find_webs(context, mesh, *as_is) : std::vector<Web>{};
+  if (!is_welded(as_is) && seen.empty()) return as_is;
+  const MeshDistance distance(context, mesh);
+  const std::span depths = std::span(kDepths).subspan(is_welded(as_is) ? 1 : 0);
+  for (const double depth : depths) {
+    const auto parted = part({context, mesh, distance, options, analyze}, depth, seen);
+    if (!parted) continue;
+    Anatomy apart = carry_out(context, parted->thin, parted->found, mesh);
+    const std::string where = as_is ? folds(*as_is, apart) : "";
+    doubt(parted->left, apart);
+    if (as_is && doubts(apart) > doubts(*as_is) + static_cast<int>(seen.size())) break;
     if (as_is) apart.stages = as_is->stages;
-    warn(where, *thin, apart);
+    warn(where, parted->thin, apart);
     return apart;
   }
+  if (as_is) doubt(seen, *as_is);
   return as_is;
 }
 

@@ -120,15 +120,47 @@ Index nearest_vertex(const TriMesh& skin, const Vec3& point) {
   return best;
 }
 
+/// A thin box that holds a web, and what may have grown together below it.
+class Cut {
+ public:
+  Cut(const Web& web, double height, double half_thickness) : half_thickness_(half_thickness) {
+    const Vec3 inward = (web.fold - web.edge).normalized();
+    axes_.col(0) = inward;
+    axes_.col(1) = web.forward;
+    axes_.col(2) = inward.cross(web.forward);
+    low_ = web.edge - kBelow * height * inward;
+    half_ = {0.5 * (web.fold - low_).norm(), kHalfWidth * height, 0.0};
+    middle_ = low_ + half_.x() * inward;
+  }
+  /// Positive inside; changes by no more than the distance between two points.
+  double depth(const Vec3& p) const {
+    const Vec3 local = axes_.transpose() * (p - middle_);
+    return half_thickness_ - (local.cwiseAbs() - half_).cwiseMax(0.0).norm();
+  }
+
+ private:
+  static constexpr double kBelow = 0.04, kHalfWidth = 0.1;  // of the height
+  Eigen::Matrix3d axes_;
+  Vec3 low_, middle_, half_;
+  double half_thickness_;
+};
+
 }  // namespace
 
-std::optional<ThinCopy> thin_copy(const engine::Context& context, const TriMesh& skin, double depth_share) {
+std::optional<ThinCopy> thin_copy(const engine::Context& context, const TriMesh& skin,
+                                  const MeshDistance& distance, double depth_share,
+                                  std::span<const Web> webs) {
   const double height = std::sqrt(surface_area(skin) / kAreaOfHeight);
   ThinCopy thin{{}, depth_share * height, height / kCells};
   const geometry::Box box = geometry::bounding_box(skin.positions);
   if (!(thin.cell > 0.0) || box.size().prod() > kMostNodes * std::pow(thin.cell, 3)) return std::nullopt;
-  const MeshDistance distance(context, skin);
-  const auto field = [&](const Vec3& p) { return distance.signed_distance(p) + thin.depth; };
+  std::vector<Cut> cuts;
+  for (const Web& web : webs) cuts.emplace_back(web, height, thin.cell);
+  const auto field = [&](const Vec3& p) {
+    double outside = distance.signed_distance(p) + thin.depth;
+    for (const Cut& cut : cuts) outside = std::max(outside, cut.depth(p));
+    return outside;
+  };
   const TriMesh all = contour(context, geometry::sample_field(context, field, box, thin.cell));
   if (all.empty()) return std::nullopt;
   auto repaired =
@@ -157,9 +189,14 @@ Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const An
     if (lies_on_skin(landmark.id)) landmark.position = surface.closest_point(landmark.position).point;
     landmark.vertex = nearest_vertex(skin, landmark.position);
   }
-  const Vec3 knees = 0.5 * (mark(LandmarkId::kKneeL).position + mark(LandmarkId::kKneeR).position);
+  const auto middle = [&](LandmarkId left, LandmarkId right) {
+    return Vec3(0.5 * (mark(left).position + mark(right).position));
+  };
   out.stature_m = stature_of({mark(LandmarkId::kCrown).position,
-                              knees,
+                              mark(LandmarkId::kNeck).position,
+                              mark(LandmarkId::kPerineum).position,
+                              middle(LandmarkId::kKneeL, LandmarkId::kKneeR),
+                              middle(LandmarkId::kAnkleL, LandmarkId::kAnkleR),
                               {mark(LandmarkId::kToeL).position, mark(LandmarkId::kToeR).position}},
                              skin.positions, found.stature_m + 2.0 * thin.depth);  // sole and crown
   return out;

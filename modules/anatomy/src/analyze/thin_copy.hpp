@@ -3,9 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
+
+#include "analyze/webs.hpp"
 
 namespace bodice::anatomy {
 
@@ -16,9 +19,12 @@ struct ThinCopy {
   double cell = 0.0;   ///< edge of the cells that it was contoured on
 };
 
-/// Empty where nothing lies so deep, or the body would need too large a grid. Cost: half a second.
+/// The copy of a skin that lies so deep, a share of the body's height; `distance` is that of the skin. Webs
+/// are cut out of it. Empty where nothing lies so deep, or the body would need too large a grid. Cost: half a
+/// second.
 std::optional<ThinCopy> thin_copy(const engine::Context& context, const geometry::TriMesh& skin,
-                                  double depth_share);
+                                  const geometry::MeshDistance& distance, double depth_share,
+                                  std::span<const Web> webs);
 
 /// What was found on a thin copy, on its skin: parts spread along the skin from where it lies right above the
 /// copy, tips move to the ends of their limbs, and what lies on the skin moves out to it.

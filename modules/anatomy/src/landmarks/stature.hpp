@@ -10,7 +10,7 @@ namespace bodice::anatomy {
 
 /// What shows whether a body stands.
 struct Stance {
-  geometry::Vec3 crown, knees;  ///< the point between the knees
+  geometry::Vec3 crown, neck, crotch, knees, ankles;  ///< the points between knees and between ankles
   std::array<geometry::Vec3, 2> toes;
 };
 /// From the lowest of the points to the crown, if the body stands and is about as tall as was estimated; else
