@@ -12,11 +12,11 @@
 #endif
 
 #include <algorithm>
-#include <bit>
 
 #include "simd/broad/cache-inl.hpp"
 #include "simd/broad/domination-inl.hpp"
 #include "simd/ellipsoid/relief_table-inl.hpp"
+#include "simd/narrow/buried-inl.hpp"
 #include "simd/narrow/query-inl.hpp"
 #include "simd/narrow/unions-inl.hpp"
 
@@ -39,10 +39,11 @@ HWY_INLINE V twice_first_order(const BallMap& e, V3 p) {
 
 /// Tangent plane of an ellipsoid, one problem a lane.
 struct Tangent {
-  V distance;  ///< of the particle, meters; at most the distance to the ellipsoid, but for rounding
-  V3 normal;   ///< outward, unit, local frame
-  V3 w;        ///< point of contact as a direction on the unit sphere, axes of the proxy
-  V3 shrink;   ///< r_j^2 / (t + r_j^2), with t after one step
+  V distance;      ///< of the particle, meters; at most the distance to the ellipsoid, but for rounding
+  V3 normal;       ///< outward, unit, local frame
+  V3 w;            ///< point of contact as a direction on the unit sphere, axes of the proxy
+  V3 shrink;       ///< r_j^2 / (t + r_j^2), with t after one step
+  V plain, score;  ///< poses only: the distance without the table, and with the burial, meters
 };
 
 /// The unit vector along the shortest axis; of equal axes along the last.
@@ -123,48 +124,51 @@ HWY_INLINE V correct(const ReliefTables& relief, const TableLanes& table, const 
 constexpr int kVectorsAtOnce = kWidth < 16 ? 4 : 2;
 static_assert(CachedBatch::kSpan % (kVectorsAtOnce * kWidth) == 0);
 
-/// Writes first-order contacts of ranges of lanes with their candidates. In a pose it notes the lanes of
-/// which the nearest ellipsoid is buried: another one owns them.
+/// Writes first-order contacts of ranges of lanes with their candidates. In a pose, where the nearest
+/// ellipsoid is buried, those of the owner, or it notes the lane.
 template <class Union>
 struct FirstOrderEvaluation {
   const Union& proxy;
   const Batch& batch;
   const ContactOutput& out;
-  LaneBits& buried;
+  float plain_m;  ///< distance up to which all ellipsoids are candidates, meters
+  BuriedParticles& buried;
 
   Status operator()(const Candidates& among) const {
     return with_tables(among.columns, [&](auto tables) { return write<tables()>(among); });
   }
 
  private:
+  /// Candidates that are kept of each particle besides the nearest.
+  static constexpr int kFollowing = Union::kBuries ? BuriedParticles::kFollowing + 1 : 0;
+  using Lowest = LowestBounds<kFollowing>;
+  using ColumnsOf = VI[kVectorsAtOnce];
+
   template <int kTables>
   HWY_INLINE Status write(const Candidates& among) const {
+    if constexpr (Union::kBuries) buried.clear();
     for (int i = 0; i < among.count; ++i)
       if (among.lists[i].count == 0)
         write_none(out, among.ranges[i].begin, among.ranges[i].end);
       else
         write_range<kTables>(among.ranges[i], among.lists[i], among.columns);
+    if constexpr (Union::kBuries) write_buried<kTables>(among.columns);
     return Status::kDone;
   }
-  /// The columns of the ellipsoids of least first-order distance.
-  HWY_INLINE void find_owners(const CandidateList& candidates, const Columns& columns,
-                              const V3 (&p)[kVectorsAtOnce], VI (&column)[kVectorsAtOnce]) const {
-    V least[kVectorsAtOnce];
-    for (V& l : least) l = all(kNoLimit_m);
+  /// The ellipsoids of least first-order distance: twice that, and their columns.
+  HWY_INLINE void find_nearest(const CandidateList& candidates, const Columns& columns,
+                               const V3 (&p)[kVectorsAtOnce], Lowest (&lowest)[kVectorsAtOnce]) const {
+    for (Lowest& l : lowest) l.clear();
     for (int i = 0; i < candidates.count; ++i) {
       const BallMap& e = proxy.model.baked.balls[columns.ellipsoid(candidates.index[i])];
       const VI rank = hn::Set(I(), candidates.index[i]);
-      for (int v = 0; v < kVectorsAtOnce; ++v)
-        least[v] = hn::Min(least[v], ranked(twice_first_order(e, p[v]), rank));
+      for (int v = 0; v < kVectorsAtOnce; ++v) lowest[v].add(twice_first_order(e, p[v]), rank);
     }
-    for (int v = 0; v < kVectorsAtOnce; ++v)
-      column[v] = hn::And(hn::BitCast(I(), least[v]), hn::Set(I(), kRankMask));
   }
   /// The tangent planes of the ellipsoids in some columns, corrected by their tables if there are any.
   template <int kTables>
-  HWY_INLINE void find_tangents(const Columns& columns, const VI (&column)[kVectorsAtOnce],
-                                const V3 (&p)[kVectorsAtOnce], int from,
-                                Tangent (&at)[kVectorsAtOnce]) const {
+  HWY_INLINE void find_tangents(const Columns& columns, const ColumnsOf& column,
+                                const V3 (&p)[kVectorsAtOnce], Tangent (&at)[kVectorsAtOnce]) const {
     BallLanes e[kVectorsAtOnce];
 #pragma GCC unroll 4
     for (int v = 0; v < kVectorsAtOnce; ++v)
@@ -174,89 +178,101 @@ struct FirstOrderEvaluation {
     for (int v = 0; v < kVectorsAtOnce; ++v)
       if constexpr (Union::kBlends) {
         const ColumnLanes<kTables> of_table(columns, column[v], Columns::kTable);
+        if constexpr (Union::kBuries) at[v].plain = at[v].distance;
         const V burial = correct<Union::kBuries>(proxy.relief(), table_from(of_table), e[v], at[v]);
-        if constexpr (Union::kBuries) buried.add(bits(hn::Gt(burial, hn::Zero(f))), from + v * kWidth);
+        if constexpr (Union::kBuries) at[v].score = hn::Add(at[v].plain, burial);
       }
+  }
+  /// The contact of a tangent plane.
+  template <int kTables>
+  HWY_INLINE ContactLanes contact_of(const Columns& columns, VI column, V3 p, const Tangent& at) const {
+    const V d = hn::Sub(at.distance, all(out.margin_m));
+    const ColumnLanes<kTables> of_owner(columns, column);
+    ContactLanes c = {d, add_scaled(p, hn::Neg(d), at.normal), at.normal,
+                      of_owner.integer(Columns::kBallProxyIndex)};
+    if (out.limited()) hide_beyond(out.within_m, c);
+    return c;
   }
   template <int kTables>
   HWY_INLINE void write_range(const LaneRange& range, const CandidateList& candidates,
                               const Columns& columns) const {
-    const V margin = all(out.margin_m);
-    const bool limited = out.limited();
     for (int from = range.begin; from < range.end; from += kVectorsAtOnce * kWidth) {
       V3 p[kVectorsAtOnce];
-      VI column[kVectorsAtOnce];
+      Lowest lowest[kVectorsAtOnce];
+      ColumnsOf column;
       Tangent at[kVectorsAtOnce];
       load_step(batch, from, p);
-      find_owners(candidates, columns, p, column);
-      find_tangents<kTables>(columns, column, p, from, at);
+      find_nearest(candidates, columns, p, lowest);
+      for (int v = 0; v < kVectorsAtOnce; ++v) column[v] = lowest[v].rank(0);
+      find_tangents<kTables>(columns, column, p, at);
       for (int v = 0; v < kVectorsAtOnce; ++v) {
-        const V d = hn::Sub(at[v].distance, margin);
-        const ColumnLanes<kTables> of_owner(columns, column[v]);
-        ContactLanes c = {d, add_scaled(p[v], hn::Neg(d), at[v].normal), at[v].normal,
-                          of_owner.integer(Columns::kBallProxyIndex)};
-        if (limited) hide_beyond(out.within_m, c);
-        write_contacts(c, out, from + v * kWidth, range.end);
+        const int i = from + v * kWidth;
+        write_contacts(contact_of<kTables>(columns, column[v], p[v], at[v]), out, i, range.end);
+        if constexpr (Union::kBuries) buried.add(lanes_below(i, range.end), i, nearest_of(lowest[v], at[v]));
       }
     }
   }
-};
-
-/// Writes exact contacts of the lanes that are buried to first order.
-inline Status query_buried(const PosedUnion& proxy, const Batch& batch, const LaneBits& buried,
-                           const ContactOutput& out) {
-  InRange lanes;
-  for (int begin = 0; begin < batch.at.count; begin += kBlock)
-    for (std::uint64_t left = buried.from(begin); left != 0; left &= left - 1) {
-      const int lane = begin + std::countr_zero(left);
-      if (lane >= batch.at.count) break;
-      lanes.x[lanes.count] = batch.at.x[lane];
-      lanes.y[lanes.count] = batch.at.y[lane];
-      lanes.z[lanes.count] = batch.at.z[lane];
-      lanes.lane[lanes.count++] = lane;
+  HWY_INLINE NearestToFirstOrder nearest_of(const Lowest& lowest, const Tangent& at) const {
+    const auto half = [](V twice) { return hn::Mul(all(0.5f), twice); };
+    const V known = hn::Add(hn::Min(at.plain, all(plain_m)), all(proxy.model.certain_m()));
+    return {at.plain,       at.score,
+            known,          {half(lowest.bound[1]), half(lowest.bound[2]), half(lowest.bound[3])},
+            lowest.rank(1), lowest.rank(2)};
+  }
+  /// Contacts of the buried particles: of the candidates that follow the nearest, that of the least score.
+  template <int kTables>
+  HWY_INLINE void write_buried(const Columns& columns) const {
+    constexpr int kStepOfPairs = kVectorsAtOnce * kWidth;
+    if (buried.pairs > 0) buried.pad(kStepOfPairs);
+    for (int from = 0; from < buried.pairs; from += kStepOfPairs) {
+      V3 p[kVectorsAtOnce];
+      ColumnsOf column;
+      Tangent at[kVectorsAtOnce];
+      for (int v = 0; v < kVectorsAtOnce; ++v) {
+        const int i = from + v * kWidth;
+        column[v] = hn::LoadU(I(), buried.pair_column + i);
+        p[v] = gather3(batch.at.x, batch.at.y, batch.at.z, hn::LoadU(I(), buried.pair_lane + i));
+      }
+      find_tangents<kTables>(columns, column, p, at);
+      for (int v = 0; v < kVectorsAtOnce; ++v) {
+        const int i = from + v * kWidth;
+        hn::StoreU(at[v].score, f, buried.pair_score_m + i);
+        store_contacts(contact_of<kTables>(columns, column[v], p[v], at[v]),
+                       [&](int k) { return buried.contact(i + k); });
+      }
     }
-  if (lanes.count == 0) return Status::kDone;
-  const int end = (lanes.count + kBlock - 1) / kBlock * kBlock;
-  for (float* values : {lanes.x, lanes.y, lanes.z})
-    std::fill(values + lanes.count, values + end, values[lanes.count - 1]);
-  std::fill(lanes.lane + lanes.count, lanes.lane + end, -1);
-  Kernel<PosedUnion> kernel(proxy);
-  Batch some{.at = {lanes.x, lanes.y, lanes.z, lanes.count}};
-  BatchResults found;
-  const Status status = nearest(kernel, some, found);
-  if (status == Status::kDone) write_in_range(lanes, found, out);
-  return status;
-}
+    if (buried.count > 0) buried.write_least(out);
+  }
+};
 
 /// First-order query of a batch among its candidates by distance.
 template <class Union>
 Status query_nearest_to_first_order(const Union& proxy, Batch& batch, const ContactOutput& out,
-                                    LaneBits& buried) {
+                                    BuriedParticles& buried) {
   const ProxyModel& model = proxy.model;
   BroadPhase broad(model);
   const QueryLimits limits(model, std::min(out.within_m + out.margin_m, kNoLimit_m));
-  const float rounding_m = 4.0f * model.baked.rounding_m;
-  const FirstOrderEvaluation<Union> evaluate{proxy, batch, out, buried};
+  const float rounding_m = 4.0f * model.baked.rounding_m, beyond_m = rounding_m + model.certain_m();
+  const FirstOrderEvaluation<Union> evaluate{proxy, batch, out, limits.plain_m, buried};
   // The cache also serves exact queries, which blend.
   if (refresh_if_stale<NotDominated<false>>(model.beyond_m() + rounding_m, batch, broad))
-    return broad.take_cached(batch, rounding_m, limits.of_bounds(model.baked), Columns::Rows::kBalls,
-                             evaluate);
+    return broad.take_cached(batch, beyond_m, limits.of_bounds(model.baked), Columns::Rows::kBalls, evaluate);
   // Ranges without candidates are not visited again.
   if (out.limited()) write_none(out, 0, batch.at.count);
   const Blocks blocks(batch.at, {0, batch.at.count});
   if (!blocks.in_float_range) return Status::kTooFar;
   blocks.note_radii(batch.radius_m);
-  const NotBeyondNorDominated rule(limits.plain_m, rounding_m, blocks.ranges[0].box);
+  const NotBeyondNorDominated rule(limits.plain_m, beyond_m, blocks.ranges[0].box);
   return broad.search(blocks.ranges, blocks.count, rule, evaluate);
 }
 
 /// First-order query of a batch; unless it is done, contacts are unchanged or complete.
 template <class Union>
 HWY_INLINE Status query_first_order(const Union& proxy, Batch& batch, const ContactOutput& out) {
-  LaneBits buried;
+  BuriedParticles buried;
   const Status status = query_nearest_to_first_order(proxy, batch, out, buried);
   if constexpr (Union::kBuries)
-    if (status == Status::kDone) return query_buried(proxy, batch, buried, out);
+    if (status == Status::kDone) return query_lanes(proxy, batch, buried.to_exact, out);
   return status;
 }
 
