@@ -135,4 +135,10 @@ TriMesh fused(const bodice::synth::Body& truth, const TriMesh& mesh, Part one, P
   return joined;
 }
 
+bodice::geometry::TriMesh skin_of(const bodice::synth::Scan& scan) {
+  bodice::geometry::TriMesh skin = scan.meshes[0].shape;
+  for (Vec3& p : skin.positions) p = scan.frame.to_inside(p);
+  return skin;
+}
+
 }  // namespace made

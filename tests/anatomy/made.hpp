@@ -3,6 +3,7 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/synth/body.hpp>
+#include <bodice/synth/scan.hpp>
 
 namespace made {
 
@@ -26,5 +27,8 @@ double error(const bodice::synth::Body& truth, const bodice::anatomy::Anatomy& f
 /// limbs that touch.
 bodice::geometry::TriMesh fused(const bodice::synth::Body& truth, const bodice::geometry::TriMesh& mesh,
                                 bodice::body::Part one, bodice::body::Part other);
+
+/// The skin of a scan that is one mesh, in meters, y up.
+bodice::geometry::TriMesh skin_of(const bodice::synth::Scan& scan);
 
 }  // namespace made

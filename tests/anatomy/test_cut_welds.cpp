@@ -33,13 +33,6 @@ TEST_CASE("limbs that are welded are cut apart: parts and landmarks are right, w
 
 namespace {
 
-/// The skin of a scan that is one mesh, in meters, y up.
-geometry::TriMesh skin_of(const synth::Scan& scan) {
-  geometry::TriMesh skin = scan.meshes[0].shape;
-  for (geometry::Vec3& p : skin.positions) p = scan.frame.to_inside(p);
-  return skin;
-}
-
 double worst_landmark(const synth::ScanPerson& person, const anatomy::Anatomy& found) {
   double worst = 0.0;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(LandmarkId::kToeR); ++i)
@@ -61,7 +54,7 @@ TEST_CASE("thighs that a scanner has grown together far below the crotch are cut
     CAPTURE(c.seed);
     const auto scan = synth::make_scan({}, c.kind, c.seed);
     REQUIRE(scan.ok());
-    const geometry::TriMesh skin = skin_of(*scan);
+    const geometry::TriMesh skin = made::skin_of(*scan);
     const anatomy::Anatomy found = analyzed(skin);
     CHECK(std::any_of(found.warnings.begin(), found.warnings.end(), [](const engine::Warning& w) {
       return w.code == "limbs-cut" && w.message.find("the crotch") != std::string::npos;
@@ -76,7 +69,7 @@ TEST_CASE("noise makes paths along the skin longer, and no standing body taller"
     CAPTURE(seed);
     const auto scan = synth::make_scan({}, synth::ScanKind::kStrongNoise, seed);
     REQUIRE(scan.ok());
-    const anatomy::Anatomy found = analyzed(skin_of(*scan));
+    const anatomy::Anatomy found = analyzed(made::skin_of(*scan));
     CHECK(found.stature_m == doctest::Approx(scan->persons[0].stature_m).epsilon(0.02));
   }
 }
@@ -84,7 +77,7 @@ TEST_CASE("noise makes paths along the skin longer, and no standing body taller"
 TEST_CASE("webs of 18 mm that no cut undoes are refused with a sentence that names what touches") {
   const auto scan = synth::make_scan({}, synth::ScanKind::kWebbed, 4);
   REQUIRE(scan.ok());
-  const auto found = anatomy::analyze({}, skin_of(*scan), {*body::find_profile("ansur2")});
+  const auto found = anatomy::analyze({}, made::skin_of(*scan), {*body::find_profile("ansur2")});
   REQUIRE(!found.ok());
   CHECK(found.error().code == engine::ErrorCode::kUnusableGeometry);
   CHECK(found.error().message.find("a hand touches a leg") != std::string::npos);

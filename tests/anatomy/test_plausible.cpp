@@ -5,7 +5,10 @@
 
 #include <bodice/anatomy/plausible.hpp>
 #include <bodice/synth/body.hpp>
+#include <bodice/synth/scan.hpp>
 #include <bodice_test/shapes.hpp>
+
+#include "made.hpp"
 
 using namespace bodice;
 using geometry::TriMesh;
@@ -51,6 +54,34 @@ TEST_CASE("boxes, balls and a body stretched to a pole are not human") {
   REQUIRE(body.ok());
   for (Vec3& p : body->mesh.positions) p.y() *= 3.0;
   CHECK(!judged(body->mesh).empty());
+}
+
+TEST_CASE("a bun of hair is named where it stands off the head, a bare head is not") {
+  for (const std::uint64_t seed : {9600, 9605}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kBunAndHem, seed);
+    REQUIRE(scan.ok());
+    const auto names_hair = [](const TriMesh& skin) {
+      const auto found = anatomy::analyze({}, skin, options(false));
+      REQUIRE(found.ok());
+      return std::any_of(found->warnings.begin(), found->warnings.end(), [](const engine::Warning& w) {
+        return w.code == "crown-disagrees" && w.message.find("stands off the head") != std::string::npos;
+      });
+    };
+    CHECK(names_hair(made::skin_of(*scan)));
+    CHECK(!names_hair(scan->persons[0].body));
+  }
+}
+
+TEST_CASE("a body in one skin with its chair is refused for the flat surface") {
+  for (const std::uint64_t seed : {9000, 9002, 9103}) {
+    CAPTURE(seed);
+    const auto scan = synth::make_scan({}, synth::ScanKind::kChairFused, seed);
+    REQUIRE(scan.ok());
+    const std::string why = judged(made::skin_of(*scan));
+    CHECK_MESSAGE(why.find("as flat as furniture") != std::string::npos, why);
+    CHECK(judged(scan->persons[0].body) == "");
+  }
 }
 
 TEST_CASE("with force, what is analyzed but not human gives a warning with the reason") {

@@ -6,6 +6,7 @@
 
 #include "analyze/cut_welds.hpp"
 #include "check/diagnostics.hpp"
+#include "check/flat_parts.hpp"
 #include "check/fused_limbs.hpp"
 #include "landmarks/find_landmarks.hpp"
 #include "landmarks/stature.hpp"
@@ -123,7 +124,10 @@ geometry::TriMesh without_fins(const geometry::TriMesh& mesh) {
 engine::Result<Anatomy> checked(const geometry::TriMesh& mesh, engine::Result<Anatomy> found, bool force) {
   if (!found) return found;
   const std::vector<std::string> clauses = contradictions(mesh, *found);
-  if (clauses.empty()) return found;
+  if (clauses.empty()) {
+    warn_of_flat_parts(mesh, *found);
+    return found;
+  }
   std::string why;
   for (const std::string& clause : clauses) why += (why.empty() ? "" : ", ") + clause;
   if (!force) {

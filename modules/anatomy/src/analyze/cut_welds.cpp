@@ -99,9 +99,12 @@ std::optional<Parted> part(const WeldedBody& body, double depth, std::vector<Web
     auto thin = thin_copy(body.context, body.mesh, body.distance, depth, webs);
     if (!thin) return std::nullopt;
     auto found = body.analyze(body.context, thin->mesh, body.options);
-    if (is_welded(found) || !contradictions(thin->mesh, *found).empty()) return std::nullopt;
+    if (!found) return std::nullopt;
     std::vector<Web> more = find_webs(body.context, thin->mesh, *found);
-    if (more.empty() || pass == kPasses) return Parted{std::move(*thin), std::move(*found), std::move(more)};
+    if (more.empty() || pass == kPasses) {
+      if (is_welded(found) || !contradictions(thin->mesh, *found).empty()) return std::nullopt;
+      return Parted{std::move(*thin), std::move(*found), std::move(more)};
+    }
     webs.insert(webs.end(), more.begin(), more.end());
   }
 }

@@ -18,10 +18,10 @@ using geometry::TriMesh;
 using geometry::Vec3;
 
 // All lengths are fractions of the stature.
-constexpr double kAround = 0.3;     ///< skin farther than this from the landmark is not looked at
+constexpr double kAround = 0.35;    ///< skin farther than this from the landmark is not looked at
 constexpr double kDeepest = 0.15;   ///< no point of a body lies deeper
 constexpr double kStep = 0.004;     ///< from one level to the next
-constexpr double kFarthest = 0.17;  ///< the last level
+constexpr double kFarthest = 0.25;  ///< the last level
 constexpr double kMiddle = 0.01;    ///< the plane between the limbs is found within this distance
 constexpr double kAhead = 0.084, kAheadStep = 0.012;  ///< where the thickest point of a level is looked for
 constexpr double kShallow = 0.015;                    ///< what lies less deep shows no fold
