@@ -43,6 +43,30 @@ class Fits(unittest.TestCase):
         self.assertTrue(0.5 < self.body.measurements["waist"] < 1.2)
         self.assertAlmostEqual(self.body.measurements["height"], 1.7, delta=0.03)
 
+    def test_a_thing_is_fitted_without_being_a_person(self):
+        grid = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 13)] * 2), axis=-1).reshape(-1, 2)
+        face = np.array([[i, i + 1, i + 14, i, i + 14, i + 13] for i in range(12 * 13) if i % 13 < 12]).reshape(-1, 3)
+        sides, faces = [], []
+        for axis in range(3):
+            for sign in (1.0, -1.0):
+                side = np.empty((len(grid), 3))
+                side[:, axis], side[:, (axis + 1) % 3], side[:, (axis + 2) % 3] = sign, grid[:, 0], grid[:, 1]
+                faces.append((face if sign > 0 else face[:, ::-1]) + len(grid) * len(sides))
+                sides.append(0.2 * side)
+        cube, faces = np.concatenate(sides), np.concatenate(faces)
+        with self.assertRaisesRegex(bodice.Error, "No human body"):
+            bodice.fit(cube, faces)
+        with self.assertRaisesRegex(bodice.Error, "no shape 'cube'. Give one of person, any"):
+            bodice.fit(cube, faces, shape="cube")
+        points = np.random.default_rng(4).uniform(-0.3, 0.3, (2000, 3))
+        beyond = np.abs(points) - 0.2
+        exact = np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0)
+        for body in (bodice.fit(cube, faces, shape="any"), bodice.begin_fit(cube, faces, shape="any").result()):
+            near = np.abs(exact) < 0.03
+            self.assertLess(np.abs(body.signed_distance(points) - exact)[near].mean(), 0.002)
+        with self.assertRaisesRegex(bodice.Error, "no measurements"):
+            body.measurements
+
     def test_the_error_of_the_proxy_is_what_the_report_states(self):
         random = np.random.default_rng(3)
         corners = self.vertices[self.faces[random.integers(0, len(self.faces), 3000)]]

@@ -17,6 +17,7 @@ from ._rig import Rig
 Progress = Callable[[str], object]
 
 TIERS = ("paper", "solid", "tight", "relief")
+SHAPES = ("person", "any")
 
 
 class Hook:
@@ -41,10 +42,12 @@ class Hook:
         _c.check(status)
 
 
-def skin_options(rig: Optional[Rig], find_rig: bool):
+def skin_options(rig: Optional[Rig], find_rig: bool, shape: str = SHAPES[0]):
     """A bodice_skin_options, and what must be kept as long as it is used."""
+    if shape not in SHAPES:
+        raise _c.Error(f"There is no shape {shape!r}. Give one of {', '.join(SHAPES)}.")
     options, kept = _c.defaults(_c.SkinOptions), None
-    options.find_rig = int(find_rig)
+    options.find_rig, options.shape = int(find_rig), SHAPES.index(shape)
     if rig is not None:
         kept = rig._structure()
         options.rig = ctypes.cast(ctypes.pointer(kept[0]), ctypes.c_void_p)
@@ -69,23 +72,24 @@ class Skin:
     """The repaired mesh of a body with its landmarks and parts. Any pose and up axis; coordinates are meters.
 
     `vertices` (n, 3), `faces` (m, 3). `rig`: the bones of the program, which its proxies follow; `find_rig`: the body
-    gets a skeleton for that."""
+    gets a skeleton for that. `shape`: "person", or "any" for a thing such as a chair, whose parts are clusters."""
 
     def __init__(self, vertices: np.ndarray, faces: np.ndarray, *, rig: Optional[Rig] = None, find_rig: bool = False,
-                 workers: int = 0, progress: Optional[Progress] = None):
+                 shape: str = "person", workers: int = 0, progress: Optional[Progress] = None):
         points = _c.as_points(vertices)
         mesh, _kept = _c.mesh(points, faces)
-        self._make(_c.whole("bodice_skin_from_mesh"), (ctypes.byref(mesh),), find_rig, workers, progress, rig)
+        self._make(_c.whole("bodice_skin_from_mesh"), (ctypes.byref(mesh),), find_rig, workers, progress, rig, shape)
 
     @classmethod
-    def _by(cls, name: str, arguments: tuple, find_rig: bool, workers: int, progress: Optional[Progress]) -> "Skin":
+    def _by(cls, name: str, arguments: tuple, find_rig: bool, workers: int, progress: Optional[Progress],
+            shape: str = "person") -> "Skin":
         skin = cls.__new__(cls)
-        skin._make(_c.whole(name), arguments, find_rig, workers, progress)
+        skin._make(_c.whole(name), arguments, find_rig, workers, progress, shape=shape)
         return skin
 
-    def _make(self, create, arguments, find_rig, workers, progress, rig=None) -> None:
+    def _make(self, create, arguments, find_rig, workers, progress, rig=None, shape="person") -> None:
         context = _c.make_context(workers)
-        options, _kept = skin_options(rig, find_rig)
+        options, _kept = skin_options(rig, find_rig, shape)
         hook = Hook(options, progress)
         self._adopt(context, _c.Handle("bodice_skin", create, context, *arguments, ctypes.byref(options),
                                        check=hook.check))
@@ -225,11 +229,11 @@ class FittedBody(Body):
         return out, _c.as_dict(report)
 
 
-def load_skin(path: Union[str, "os.PathLike[str]"], *, find_rig: bool = False, workers: int = 0,
+def load_skin(path: Union[str, "os.PathLike[str]"], *, find_rig: bool = False, shape: str = "person", workers: int = 0,
               progress: Optional[Progress] = None) -> Skin:
     """A skin from an OBJ, PLY, STL, glTF/GLB, FBX or Collada file in any unit; meters with y up. A rig of the file is
-    taken along."""
-    return Skin._by("bodice_skin_from_file", (os.fsencode(path),), find_rig, workers, progress)
+    taken along. `shape`: as of Skin."""
+    return Skin._by("bodice_skin_from_file", (os.fsencode(path),), find_rig, workers, progress, shape)
 
 
 def built_in(female: bool = True, stature: float = 1.68, *, find_rig: bool = False, workers: int = 0) -> Skin:
@@ -239,9 +243,9 @@ def built_in(female: bool = True, stature: float = 1.68, *, find_rig: bool = Fal
 
 def fit(vertices: np.ndarray, faces: np.ndarray, tier: Optional[str] = None, *,
         target_error: Optional[float] = None, max_ellipsoids: Optional[int] = None, budget_us: Optional[float] = None,
-        rig: Optional[Rig] = None, find_rig: bool = False, workers: int = 0,
+        rig: Optional[Rig] = None, find_rig: bool = False, shape: str = "person", workers: int = 0,
         progress: Optional[Progress] = None) -> FittedBody:
     """From a mesh to a body: Skin(vertices, faces).fit(...). 1 to 3 seconds; tier "solid" takes half a second."""
-    skin = Skin(vertices, faces, rig=rig, find_rig=find_rig, workers=workers, progress=progress)
+    skin = Skin(vertices, faces, rig=rig, find_rig=find_rig, shape=shape, workers=workers, progress=progress)
     return skin.fit(tier, target_error=target_error, max_ellipsoids=max_ellipsoids, budget_us=budget_us,
                     progress=progress)

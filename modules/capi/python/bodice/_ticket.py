@@ -51,13 +51,13 @@ class Ticket:
 
 def begin_fit(vertices: np.ndarray, faces: np.ndarray, tier: Optional[str] = None, *,
               target_error: Optional[float] = None, max_ellipsoids: Optional[int] = None,
-              budget_us: Optional[float] = None, rig: Optional[Rig] = None, find_rig: bool = False, workers: int = 0,
-              progress: Optional[Progress] = None) -> Ticket:
+              budget_us: Optional[float] = None, rig: Optional[Rig] = None, find_rig: bool = False,
+              shape: str = "person", workers: int = 0, progress: Optional[Progress] = None) -> Ticket:
     """bodice.fit() that returns at once; the arrays are copied. Refuses a mesh that cannot be."""
     begin = _c.whole("bodice_fit_begin")
     context = _c.make_context(workers)
     mesh, _kept = _c.mesh(_c.as_points(vertices), faces)
-    options, _kept_rig = skin_options(rig, find_rig)
+    options, _kept_rig = skin_options(rig, find_rig, shape)
     wanted = fit_options(tier, target_error, max_ellipsoids, budget_us)
     hook, handle = Hook(options, progress), ctypes.c_void_p()
     hook.check(begin(context, ctypes.byref(mesh), ctypes.byref(options), ctypes.byref(wanted), ctypes.byref(handle)))
