@@ -28,9 +28,12 @@ constexpr double kShallow = 0.015;                    ///< what lies less deep s
 constexpr std::array kLimbs{0.03, 0.045};             ///< from the plane to the middles of the limbs
 /// The plane is above the fold where it has this share of the room beside it.
 constexpr double kAsDeep = 0.9;
-/// 229 of 235 whole bodies that stand have less at the crotch, and all at the armpits; of 179 with bent
-/// thighs, all but one have less than the second.
-constexpr double kLeastWeb = 0.019, kLeastWebBent = 0.035;
+/// Whole bodies have less, where the thighs are not bent and where they are: of 235 that stand 229 at the
+/// crotch and all but one at the armpits, of 179 others all but one.
+struct Least {
+  double crotch, armpit;
+};
+constexpr Least kStanding{0.019, 0.013}, kBent{0.035, 0.025};
 /// Cosine between a thigh and the trunk's axis from which on the thigh is not bent.
 constexpr double kUpright = 0.75;
 
@@ -137,15 +140,14 @@ std::optional<double> fold_height(const Room& room) {
 
 std::vector<Web> find_webs(const engine::Context& context, const TriMesh& skin, const Anatomy& found) {
   std::vector<Web> webs;
-  const bool bent = is_bent(found);
+  const Least& least = is_bent(found) ? kBent : kStanding;
   for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum}) {
     Route route = route_inward(found, id);
     const MeshDistance near(context, crop(skin, route.from, kAround * found.stature_m));
     if (const auto hit = near.closest_point_within(route.from, kAround * found.stature_m))
       route.from = hit->point;
     const std::optional<double> height = fold_height(Room(near, route, found.stature_m));
-    const double least = bent && id == LandmarkId::kPerineum ? kLeastWebBent : kLeastWeb;
-    if (!height || *height < least) continue;
+    if (!height || *height < (id == LandmarkId::kPerineum ? least.crotch : least.armpit)) continue;
     webs.push_back({id, route.from, route.from + *height * found.stature_m * route.inward, route.forward});
   }
   return webs;
