@@ -32,11 +32,11 @@ struct alignas(64) BuriedParticles {
   static constexpr int kFollowing = 2;
   static constexpr int kSize = kBatch + 16, kPairs = kFollowing * kBatch + 4 * kStep;
   std::int32_t lane[kSize];
-  float score_m[kSize], known_m[kSize];
+  float score_m[kSize], burial_m[kSize], known_m[kSize];
   float after_m[kSize];  ///< first-order distance of the first candidate that is in no pair
   int count = 0;
   std::int32_t pair_lane[kPairs], pair_column[kPairs];
-  float pair_score_m[kPairs];
+  float pair_score_m[kPairs], pair_burial_m[kPairs];
   alignas(
       Contact) std::byte contacts[kPairs * sizeof(Contact)];  ///< not filled with defaults, which takes time
   int pairs = 0;
@@ -45,15 +45,18 @@ struct alignas(64) BuriedParticles {
   void clear() { count = pairs = 0; }
   Contact* contact(int pair) { return reinterpret_cast<Contact*>(contacts) + pair; }
   /// Adds the particles of the lanes [first, first + kWidth) that are buried and among `real`.
-  HWY_INLINE void add(M real, int first, const NearestToFirstOrder& at) {
-    const M buried = hn::And(hn::Gt(at.score, at.distance), real);
-    const M contested = hn::Or(hn::Lt(at.next[0], at.score), hn::Gt(at.score, at.known));
+  HWY_INLINE void add(M real, int first, const NearestToFirstOrder& at, V blend) {
+    const V burial = hn::Sub(at.score, at.distance);
+    const M buried = hn::And(hn::Gt(burial, hn::Zero(f)), real);
+    const M uncertain = hn::Or(hn::Gt(at.score, at.known), hn::Gt(burial, blend));
+    const M contested = hn::Or(hn::Lt(at.next[0], at.score), uncertain);
     const M open = hn::And(buried, contested);
     if (HWY_LIKELY(hn::AllFalse(f, open))) return;
     const VI lanes = lanes_from(first);
     const Pack pack(open);
     pack.store(lanes, lane + count);
     pack.store(at.score, score_m + count);
+    pack.store(burial, burial_m + count);
     pack.store(at.known, known_m + count);
     pack.store(at.next[kFollowing], after_m + count);
     count += pack.count();
@@ -67,19 +70,23 @@ struct alignas(64) BuriedParticles {
       pair_column[i] = pair_column[pairs - 1];
     }
   }
-  /// Writes the contacts of pairs that have a lower score than the nearest ellipsoid, and leaves the
-  /// particles of which the owner may be in no pair to the exact query.
-  void write_least(const ContactOutput& out) {
-    float least_m[kBatch];
-    for (int i = 0; i < count; ++i) least_m[lane[i]] = score_m[i];
+  /// Writes the contacts of pairs that have a lower score than the nearest ellipsoid. It leaves to the exact
+  /// query the particles of which the owner may be in no pair, or is buried itself: then scores to first
+  /// order are too near each other to choose by.
+  void write_least(const ContactOutput& out, float blend_m) {
+    float least_m[kBatch], of_least_m[kBatch];
+    for (int i = 0; i < count; ++i) least_m[lane[i]] = score_m[i], of_least_m[lane[i]] = burial_m[i];
     for (int i = 0; i < pairs; ++i) {
       float& least = least_m[pair_lane[i]];
       if (!(pair_score_m[i] < least)) continue;
       least = pair_score_m[i];
+      of_least_m[pair_lane[i]] = pair_burial_m[i];
       out.of(pair_lane[i]) = *contact(i);
     }
-    for (int i = 0; i < count; ++i)
-      if (!(least_m[lane[i]] <= std::min(after_m[i], known_m[i]))) to_exact.set(lane[i], true);
+    for (int i = 0; i < count; ++i) {
+      const bool settled = least_m[lane[i]] <= std::min(after_m[i], known_m[i]);
+      if (!settled || of_least_m[lane[i]] > blend_m) to_exact.set(lane[i], true);
+    }
   }
 
  private:

@@ -208,7 +208,8 @@ struct FirstOrderEvaluation {
       for (int v = 0; v < kVectorsAtOnce; ++v) {
         const int i = from + v * kWidth;
         write_contacts(contact_of<kTables>(columns, column[v], p[v], at[v]), out, i, range.end);
-        if constexpr (Union::kBuries) buried.add(lanes_below(i, range.end), i, nearest_of(lowest[v], at[v]));
+        if constexpr (Union::kBuries)
+          buried.add(lanes_below(i, range.end), i, nearest_of(lowest[v], at[v]), all(proxy.model.blend_m()));
       }
     }
   }
@@ -237,11 +238,12 @@ struct FirstOrderEvaluation {
       for (int v = 0; v < kVectorsAtOnce; ++v) {
         const int i = from + v * kWidth;
         hn::StoreU(at[v].score, f, buried.pair_score_m + i);
+        hn::StoreU(hn::Sub(at[v].score, at[v].plain), f, buried.pair_burial_m + i);
         store_contacts(contact_of<kTables>(columns, column[v], p[v], at[v]),
                        [&](int k) { return buried.contact(i + k); });
       }
     }
-    if (buried.count > 0) buried.write_least(out);
+    if (buried.count > 0) buried.write_least(out, proxy.model.blend_m());
   }
 };
 
