@@ -17,6 +17,8 @@ using geometry::MeshDistance;
 using geometry::TriMesh;
 using geometry::Vec3;
 
+/// So many triangles, 4 mm apart on a person, show depths well enough.
+constexpr std::size_t kEnough = 50000;
 // All lengths are fractions of the stature.
 constexpr double kAround = 0.35;    ///< skin farther than this from the landmark is not looked at
 constexpr double kDeepest = 0.15;   ///< no point of a body lies deeper
@@ -70,18 +72,34 @@ bool is_bent(const Anatomy& found) {
   return std::min(cosine(LandmarkId::kKneeL), cosine(LandmarkId::kKneeR)) < kUpright;
 }
 
-/// The skin around a point, without fins: these hang in the air, and bridge what is apart.
+/// Fins hang in the air, and bridge what is apart.
+void drop_fins(TriMesh& mesh) {
+  const geometry::MeshEdges edges = geometry::mesh_edges(mesh);
+  if (edges.non_manifold == 0) return;
+  const std::vector<bool> fin = geometry::find_fins(mesh, edges);
+  std::size_t next = 0;
+  std::erase_if(mesh.triangles, [&](const geometry::Triangle&) { return fin[next++]; });
+}
+
+/// The skin around a point. Of a fine mesh it has some of the triangles, each with its own corners: depths of
+/// many millimeters do not need them all.
 TriMesh crop(const TriMesh& skin, const Vec3& around, double radius) {
-  TriMesh near{skin.positions, {}};
+  std::vector<geometry::Triangle> near;
   for (const geometry::Triangle& t : skin.triangles)
-    if ((skin.positions[t[0]] - around).squaredNorm() < radius * radius) near.triangles.push_back(t);
-  const geometry::MeshEdges edges = geometry::mesh_edges(near);
-  if (edges.non_manifold == 0) return near;
-  const std::vector<bool> fin = geometry::find_fins(near, edges);
-  TriMesh kept{std::move(near.positions), {}};
-  for (std::size_t t = 0; t < fin.size(); ++t)
-    if (!fin[t]) kept.triangles.push_back(near.triangles[t]);
-  return kept;
+    if ((skin.positions[t[0]] - around).squaredNorm() < radius * radius) near.push_back(t);
+  const std::size_t step = 1 + near.size() / kEnough;
+  if (step == 1) {
+    TriMesh all{skin.positions, std::move(near)};
+    drop_fins(all);
+    return all;
+  }
+  TriMesh some;
+  for (std::size_t i = 0; i < near.size(); i += step) {
+    const auto first = static_cast<geometry::Index>(some.positions.size());
+    for (const geometry::Index v : near[i]) some.positions.push_back(skin.positions[v]);
+    some.triangles.push_back({first, first + 1, first + 2});
+  }
+  return some;
 }
 
 /// The room inside the body along a route.
