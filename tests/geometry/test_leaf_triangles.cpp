@@ -9,6 +9,7 @@
 #include <bodice/geometry/triangle.hpp>
 
 #include "distance/leaf_triangles.hpp"
+#include "shape/solid_angle.hpp"
 
 using namespace bodice::geometry;
 using bodice::engine::Random;
@@ -74,4 +75,42 @@ TEST_CASE("a leaf gives distances to 0.1 mm for triangles within a meter that ar
     close += std::abs(std::sqrt(static_cast<double>(estimate2[0])) - distance) < 1e-4;
   }
   CHECK(close == count);
+}
+
+TEST_CASE("a leaf gives half of each solid angle, or reports that a point nearly lies in a triangle") {
+  Random random(43);
+  int known = 0;
+  for (int i = 0; i < 20000; ++i) {
+    LeafTriangles leaf{.first = 0, .count = 3};
+    std::array<BvhTriangle, 3> triangles;
+    for (int k = 0; k < 3; ++k) {
+      triangles[static_cast<std::size_t>(k)] = {random_vector(random, 0.4), random_vector(random, 0.1),
+                                                random_vector(random, 0.1)};
+      leaf.set(k, triangles[static_cast<std::size_t>(k)]);
+    }
+    const BvhTriangle& in = triangles[0];
+    const double u = random.uniform(-0.2, 1.2), v = random.uniform(-0.2, 1.2);
+    const double height = (i % 2 ? 1.0 : -1.0) * std::pow(10.0, random.uniform(-9.0, -1.0));
+    const Vec3 on = in.a + u * in.ab + v * in.ac, normal = in.ab.cross(in.ac).normalized();
+    const Eigen::Vector3f at = (on + height * normal).cast<float>();
+    const Vec3 query = at.cast<double>();
+    Int4 near{};
+    const Float4 half = leaf.half_solid_angles({at.x(), at.y(), at.z()}, near);
+    CHECK(half[3] == 0.0f);  // an empty lane
+    CHECK(near[3] == 0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const BvhTriangle& t = triangles[k];
+      const HalfAngle exact = half_solid_angle(t.a, t.a + t.ab, t.a + t.ac, query);
+      const double distance = (closest_point(t.a, t.a + t.ab, t.a + t.ac, query).point - query).norm();
+      const bool is_near = near[static_cast<int>(k)] != 0;
+      if (distance < 1e-7) CHECK(is_near);
+      if (std::abs(t.ab.cross(t.ac).normalized().dot(query - t.a)) > 1e-5) CHECK_FALSE(is_near);
+      if (is_near) continue;
+      ++known;
+      // Coordinates are rounded by about 1e-7, which turns the triangle by as much over the distance.
+      CHECK(std::abs(static_cast<double>(half[static_cast<int>(k)]) - std::atan2(exact.sine, exact.cosine)) <
+            3e-5 + 3e-7 / distance);
+    }
+  }
+  CHECK(known > 50000);
 }

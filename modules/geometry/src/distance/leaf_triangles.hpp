@@ -31,6 +31,11 @@ struct LeafTriangles {
   /// true ones.
   Float4 distances2(const std::array<float, 3>& point) const;
   static constexpr double kSlack = 64.0 * 0x1p-23;
+
+  /// Half of the solid angle of each triangle as seen from a point, in (-pi, pi), in radians, within 2e-5 of
+  /// the exact one; 0 for slivers. `near` is set for triangles in which the point nearly lies: their sign is
+  /// not known in floats.
+  Float4 half_solid_angles(const std::array<float, 3>& point, Int4& near) const;
 };
 
 }  // namespace bodice::geometry

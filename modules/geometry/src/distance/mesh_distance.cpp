@@ -14,7 +14,11 @@ namespace {
 // one on bodies, which decides the side of a point except next to a hole. There the finer ratio is used.
 constexpr double kCoarseFar = 2.5;
 constexpr double kFineFar = 6.0;
-constexpr double kDecided = 0.15;  // |w - 1/2| above which the coarse sum decides
+/// A winding number in floats decides the side where it is farther than `decided` from one half.
+struct FloatPass {
+  double far_ratio, decided;
+};
+constexpr FloatPass kFloatPasses[] = {{kCoarseFar, 0.15}, {kFineFar, 2e-3}};
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -28,8 +32,11 @@ struct MeshDistance::Impl {
       : bvh(build_bvh(context, mesh)), dipoles(build_dipoles(bvh)) {}
 
   bool inside(const Vec3& local) const {
-    const double coarse = geometry::winding_number(bvh, dipoles, local, kCoarseFar);
-    if (std::abs(coarse - 0.5) > kDecided) return coarse > 0.5;
+    for (const FloatPass& pass : kFloatPasses) {
+      const std::optional<double> found = float_winding_number(bvh, dipoles, local, pass.far_ratio);
+      if (!found) break;
+      if (std::abs(*found - 0.5) > pass.decided) return *found > 0.5;
+    }
     return geometry::winding_number(bvh, dipoles, local, kFineFar) > 0.5;
   }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 
 #include "shape/solid_angle.hpp"
 
@@ -102,14 +103,14 @@ std::vector<DipoleNode> build_dipoles(const Bvh& bvh) {
   return dipoles;
 }
 
-double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& query,
-                      double far_ratio) {
-  if (bvh.nodes.empty() || !query.allFinite()) return 0.0;
-  std::array<float, 3> q;  // clamped so that squares stay finite; at such distances the number is 0 anyway
-  for (int k = 0; k < 3; ++k) q[k] = static_cast<float>(std::clamp(query[k], -1e12, 1e12));
+namespace {
+
+/// Visits what makes up a winding number: far fields of children that are far enough, and leaves that are
+/// not.
+template <class FarField, class Leaf>
+void for_each_term(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const std::array<float, 3>& q,
+                   double far_ratio, const FarField& far_field, const Leaf& leaf) {
   const auto far_ratio2 = static_cast<float>(std::min(far_ratio * far_ratio, 3e38));
-  SolidAngleSum near;
-  double far = 0.0;
   std::array<std::uint32_t, Bvh::kStackSize> stack;
   int depth = 0;
   stack[depth++] = 0;
@@ -120,14 +121,48 @@ double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, co
       const std::uint32_t child = bvh.nodes[n].child[i];
       if (child == BvhChild::kNone) continue;
       if ((too_near >> i & 1u) == 0)
-        far += static_cast<double>(angle[i]);
+        far_field(angle[i]);
       else if (BvhChild::is_leaf(child))
-        add_leaf(bvh, bvh.leaf(child), query, near);
+        leaf(bvh.leaf(child));
       else
         stack[depth++] = child;
     }
   }
+}
+
+/// Clamped so that squares stay finite. At such distances the winding number is 0 anyway.
+std::array<float, 3> clamped(const Vec3& query) {
+  std::array<float, 3> q;
+  for (int k = 0; k < 3; ++k) q[k] = static_cast<float>(std::clamp(query[k], -1e12, 1e12));
+  return q;
+}
+
+}  // namespace
+
+double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& query,
+                      double far_ratio) {
+  if (bvh.nodes.empty() || !query.allFinite()) return 0.0;
+  SolidAngleSum near;
+  double far = 0.0;
+  for_each_term(
+      bvh, dipoles, clamped(query), far_ratio, [&](float angle) { far += static_cast<double>(angle); },
+      [&](const LeafTriangles& leaf) { add_leaf(bvh, leaf, query, near); });
   return (near.total() + far) / (4.0 * std::numbers::pi);
+}
+
+std::optional<double> float_winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles,
+                                           const Vec3& query, double far_ratio) {
+  if (bvh.nodes.empty() || !query.allFinite()) return 0.0;
+  const std::array<float, 3> q = clamped(query);
+  Float4 near{};
+  Int4 unknown_side{};
+  float far = 0.0f;
+  for_each_term(
+      bvh, dipoles, q, far_ratio, [&](float angle) { far += angle; },
+      [&](const LeafTriangles& leaf) { near += leaf.half_solid_angles(q, unknown_side); });
+  if (any(unknown_side)) return std::nullopt;
+  const float angle = 2.0f * ((near[0] + near[1]) + (near[2] + near[3])) + far;
+  return static_cast<double>(angle) / (4.0 * std::numbers::pi);
 }
 
 }  // namespace bodice::geometry

@@ -1,6 +1,8 @@
 // Generalized winding numbers over a Bvh.
 #pragma once
 
+#include <optional>
+
 #include "distance/bvh.hpp"
 
 namespace bodice::geometry {
@@ -19,5 +21,10 @@ std::vector<DipoleNode> build_dipoles(const Bvh& bvh);
 /// than `far_ratio` times its radius; with infinity the sum is exact.
 double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& local_query,
                       double far_ratio);
+
+/// The same in floats, four triangles at a time, for a third of the cost; within 2e-3 but beside slivers.
+/// Nothing where the query lies so near to a triangle that its side is not known in floats.
+std::optional<double> float_winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles,
+                                           const Vec3& local_query, double far_ratio);
 
 }  // namespace bodice::geometry
