@@ -6,6 +6,7 @@
 
 #include <bodice/colliders/formats.hpp>
 #include <bodice/colliders/reduce.hpp>
+#include <bodice/engine/random.hpp>
 #include <bodice/fitting/fit.hpp>
 #include <bodice/synth/body.hpp>
 
@@ -82,6 +83,28 @@ TEST_CASE("The distance to a tapered capsule is that to the nearest of its balls
         CHECK(colliders::shape_distance(shape, point).distance ==
               doctest::Approx(brute_distance(shape, point)).epsilon(1e-6));
       }
+}
+
+TEST_CASE("A bounding ball never rules out a shape that is as near as a distance, and rules out far ones") {
+  engine::Random random(7);
+  auto anywhere = [&](double most) {
+    return Vec3(most * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+  };
+  int ruled_out = 0;
+  for (int i = 0; i < 20000; ++i) {
+    PlainShape shape;
+    shape.a = anywhere(1.0), shape.b = shape.a + anywhere(i % 3 == 0 ? 0.0 : 0.4);
+    shape.radius_a = random.uniform(0.01, 0.3), shape.radius_b = random.uniform(0.01, 0.3);
+    const colliders::BoundingBall ball(shape);
+    const Vec3 along_axis = shape.b + (i % 2 ? 1e-9 : 1.0) * (shape.b - shape.a), point = anywhere(2.0);
+    for (const Vec3& p : {point, along_axis, shape.a}) {
+      const double distance_m = colliders::shape_distance(shape, p).distance;
+      CHECK_FALSE(ball.is_farther(p, distance_m));
+      CHECK_FALSE(ball.is_farther(p, distance_m + 0.01));
+    }
+    ruled_out += ball.is_farther(point, 0.1);
+  }
+  CHECK(ruled_out > 10000);
 }
 
 TEST_CASE("A body that is one tapered capsule comes back as it is") {

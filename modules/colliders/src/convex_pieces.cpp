@@ -56,12 +56,16 @@ std::vector<Vec3> farthest_points(const SkinPoints& points, const Members& membe
 
 std::vector<Members> overlapping_groups(const engine::Context& context, const SkinPoints& points,
                                         std::span<const PlainShape> shapes) {
+  const std::vector<BoundingBall> balls = bounding_balls(shapes);
   const Assignment nearest = assign(context, points, shapes);
   std::vector<Members> groups(shapes.size());
   for (std::uint32_t p = 0; p < points.position.size(); ++p)
-    for (std::size_t s = 0; points.area[p] > 0.0 && s < shapes.size(); ++s)
-      if (shape_distance(shapes[s], points.position[p]).distance <= nearest.nearest[p].distance + kOverlap_m)
+    for (std::size_t s = 0; points.area[p] > 0.0 && s < shapes.size(); ++s) {
+      const double reach_m = nearest.nearest[p].distance + kOverlap_m;
+      if (!balls[s].is_farther(points.position[p], reach_m) &&
+          shape_distance(shapes[s], points.position[p]).distance <= reach_m)
         groups[s].push_back(p);
+    }
   return groups;
 }
 

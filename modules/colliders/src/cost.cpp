@@ -6,9 +6,12 @@
 namespace bodice::colliders {
 ReductionCost cost_of(const engine::Context& context, const proxy::BodyProxy& proxy, const SkinPoints& points,
                       std::span<const PlainShape> shapes) {
+  const std::vector<BoundingBall> balls = bounding_balls(shapes);
   return cost_by(context, proxy, points, [&](const Vec3& point) {
     double least = std::numeric_limits<double>::infinity();
-    for (const PlainShape& shape : shapes) least = std::min(least, shape_distance(shape, point).distance);
+    for (std::size_t s = 0; s < shapes.size(); ++s)
+      if (!balls[s].is_farther(point, least))
+        least = std::min(least, shape_distance(shapes[s], point).distance);
     return least;
   });
 }

@@ -84,6 +84,7 @@ void move(PlainShape& shape, const Vec8& step) {
 
 Assignment assign(const engine::Context& context, const SkinPoints& points,
                   std::span<const PlainShape> shapes) {
+  const std::vector<BoundingBall> balls = bounding_balls(shapes);
   Assignment found;
   const std::size_t count = points.position.size();
   found.shape.resize(count), found.nearest.resize(count);
@@ -94,6 +95,7 @@ Assignment assign(const engine::Context& context, const SkinPoints& points,
         for (std::size_t p = begin; p < end; ++p) {
           double least = std::numeric_limits<double>::infinity();
           for (std::size_t s = 0; s < shapes.size(); ++s) {
+            if (balls[s].is_farther(points.position[p], least)) continue;
             const ShapeDistance d = shape_distance(shapes[s], points.position[p]);
             if (!(d.distance < least)) continue;
             least = d.distance, found.nearest[p] = d;

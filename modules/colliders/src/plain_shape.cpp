@@ -7,6 +7,9 @@
 namespace bodice::colliders {
 namespace {
 
+/// Balls are larger by this share, so that rounding never makes a distance that ties look larger.
+constexpr double kRounding = 1e-12;
+
 constexpr std::array<std::string_view, 3> kKindNames = {"spheres", "capsules", "tapered"};
 
 }  // namespace
@@ -37,6 +40,16 @@ ShapeDistance shape_distance(const PlainShape& shape, const Vec3& point) {
   const double far = away.norm();
   return {far - (shape.radius_a + along * (shape.radius_b - shape.radius_a)), along,
           far > 0.0 ? Vec3(away / far) : Vec3(Vec3::UnitX())};
+}
+
+BoundingBall::BoundingBall(const PlainShape& shape)
+    : center_(0.5 * (shape.a + shape.b)),
+      radius_m_((1.0 + kRounding) *
+                    (0.5 * (shape.b - shape.a).norm() + std::max(shape.radius_a, shape.radius_b)) +
+                kRounding * center_.norm()) {}
+
+std::vector<BoundingBall> bounding_balls(std::span<const PlainShape> shapes) {
+  return {shapes.begin(), shapes.end()};
 }
 
 }  // namespace bodice::colliders

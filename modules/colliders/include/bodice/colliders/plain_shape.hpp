@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include <bodice/body/part.hpp>
 #include <bodice/geometry/types.hpp>
@@ -40,5 +42,24 @@ struct ShapeDistance {
 
 /// The exact signed distance outside and down to the axis. O(1).
 ShapeDistance shape_distance(const PlainShape& shape, const Vec3& point);
+
+/// A ball around a shape. Most shapes are farther from a point than the nearest one, and the ball shows it
+/// for a tenth of the exact distance's cost.
+class BoundingBall {
+ public:
+  explicit BoundingBall(const PlainShape& shape);
+
+  /// Whether the shape is surely farther from the point than a distance, in meters.
+  bool is_farther(const Vec3& point, double distance_m) const {
+    const double reach_m = radius_m_ + distance_m;
+    return reach_m < 0.0 || (point - center_).squaredNorm() > reach_m * reach_m;
+  }
+
+ private:
+  Vec3 center_;
+  double radius_m_;
+};
+
+std::vector<BoundingBall> bounding_balls(std::span<const PlainShape> shapes);
 
 }  // namespace bodice::colliders
