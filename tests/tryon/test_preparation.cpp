@@ -25,8 +25,10 @@ tryon::PreparationOptions options_for(proxy::Tier tier) {
 /// The hashes of the published proxies, in order.
 std::vector<std::uint64_t> proxies_of(const engine::Context& context, proxy::Tier tier) {
   std::vector<std::uint64_t> hashes;
+  tryon::PreparationOptions options = options_for(tier);
+  options.fit.max_ellipsoids = 40;
   auto preparation = tryon::Preparation::make(
-      options_for(tier), [&](const auto&, const proxy::BodyProxy& proxy) { hashes.push_back(proxy.hash()); });
+      options, [&](const auto&, const proxy::BodyProxy& proxy) { hashes.push_back(proxy.hash()); });
   REQUIRE(preparation.ok());
   const auto run = preparation->run(context, synth::BodyOptions{.vertices = 1500});
   REQUIRE_MESSAGE(run.ok(), run.error().sentence());
