@@ -7,6 +7,7 @@
 //   (4')  owner = argmin_k ( d_k + kappa b_k(w_k) ),  the lowest index on a tie
 //   (5')  F     = sum_k W_k F_k / sum_k W_k - margin
 //         W_k   = max(0, 1 - (d_k + kappa b_k - d_owner - kappa b_owner) / reach.blend)^2
+// A pose may raise the burial of texels that their skin has left (binding/src/pose/yield.hpp).
 // Burial counts from reach.blend on, so that outside of the ellipsoids of a body at rest (5') is (5), but for
 // cells of a table between a texel that is buried and one that is not: hundredths of a millimeter on average.
 // As b_k >= 0, a lower bound on d_k bounds the left side of (4') as well. A body of another size is the same
