@@ -7,8 +7,8 @@ file(MAKE_DIRECTORY "${SCRATCH}")
 
 # What leaves the library. (Sanitizers add symbols and libraries of their own.)
 execute_process(COMMAND "${NM}" -D --defined-only "${LIBRARY}" OUTPUT_VARIABLE names COMMAND_ERROR_IS_FATAL ANY)
-string(REGEX MATCHALL "[A-Za-z] [^\n]+" names "${names}")
-list(TRANSFORM names REPLACE "^. ([^@]+).*" "\\1")
+string(REGEX MATCHALL " [A-Za-z] [^\n]+" names "${names}")  # after an address, which may end in a letter
+list(TRANSFORM names REPLACE "^ . ([^@]+).*" "\\1")
 set(foreign ${names})
 list(FILTER foreign EXCLUDE REGEX "^bodice_")
 if(foreign AND NOT SANITIZE)

@@ -27,10 +27,12 @@
 #if defined(_MSC_VER) && !defined(__clang__)
 #define HWY_INLINE __forceinline
 #define HWY_NOINLINE __declspec(noinline)
+#define HWY_LIKELY(condition) (condition)
 #define HWY_UNLIKELY(condition) (condition)
 #else
 #define HWY_INLINE inline __attribute__((always_inline))
 #define HWY_NOINLINE __attribute__((noinline))
+#define HWY_LIKELY(condition) __builtin_expect(!!(condition), 1)
 #define HWY_UNLIKELY(condition) __builtin_expect(!!(condition), 0)
 #endif
 
