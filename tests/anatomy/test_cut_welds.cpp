@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <bodice/engine/random.hpp>
 #include <bodice/synth/scan.hpp>
 
 #include "analyzed.hpp"
@@ -61,6 +62,28 @@ TEST_CASE("thighs that a scanner has grown together far below the crotch are cut
     }));
     CHECK(worst_landmark(scan->persons[0], found) < 0.035);
     CHECK(found.stature_m == doctest::Approx(scan->persons[0].stature_m).epsilon(0.015));
+  }
+}
+
+TEST_CASE("thighs of whole bodies that meet below the crotch are not cut apart") {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    CAPTURE(seed);
+    engine::Random random(seed, 0x816);
+    synth::BodyOptions options;
+    options.sex = random.below(2) == 0 ? body::Sex::kFemale : body::Sex::kMale;
+    options.stature_m = random.uniform(1.5, 1.95);
+    options.mass_kg = random.uniform(18.5, 32.0) * options.stature_m * options.stature_m;
+    options.vertices = static_cast<int>(random.uniform(3000.0, 9000.0));
+    options.seed = seed + 100;
+    const auto truth = synth::make_body({}, options);
+    REQUIRE(truth.ok());
+    const anatomy::Anatomy found = analyzed(truth->mesh);
+    for (const engine::Warning& w : found.warnings) {
+      CAPTURE(w.message);
+      CHECK(w.code != "limbs-cut");
+      CHECK(w.code != "perineum-uncertain");
+    }
+    CHECK(made::error(*truth, found, LandmarkId::kPerineum) < 0.03);
   }
 }
 

@@ -139,7 +139,8 @@ class Cut {
   }
 
  private:
-  static constexpr double kBelow = 0.04, kHalfWidth = 0.1;  // of the height
+  /// Reach below the edge and to each side, as shares of the body's height.
+  static constexpr double kBelow = 0.04, kHalfWidth = 0.1;
   Eigen::Matrix3d axes_;
   Vec3 low_, middle_, half_;
   double half_thickness_;

@@ -9,6 +9,8 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/mesh_edges.hpp>
 
+#include "check/thighs.hpp"
+
 namespace bodice::anatomy {
 namespace {
 
@@ -37,7 +39,7 @@ struct Least {
   double crotch, armpit;
 };
 constexpr Least kStanding{0.026, 0.013}, kBent{0.035, 0.025};
-/// Cosine between a thigh and the trunk's axis from which on the thigh is not bent.
+/// A body stands where the cosines of both thighs reach this.
 constexpr double kUpright = 0.75;
 
 /// The route from a landmark into the body, between the two limbs that meet there.
@@ -65,12 +67,6 @@ Route route_inward(const Anatomy& found, LandmarkId id) {
   route.across = left.cross(found.up).cross(route.inward).normalized();
   route.forward = route.inward.cross(route.across);
   return route;
-}
-
-bool is_bent(const Anatomy& found) {
-  const Vec3 crotch = at(found, LandmarkId::kPerineum);
-  const auto cosine = [&](LandmarkId knee) { return (crotch - at(found, knee)).normalized().dot(found.up); };
-  return std::min(cosine(LandmarkId::kKneeL), cosine(LandmarkId::kKneeR)) < kUpright;
 }
 
 /// Fins hang in the air, and bridge what is apart.
@@ -159,7 +155,7 @@ std::optional<double> fold_height(const Room& room) {
 
 std::vector<Web> find_webs(const engine::Context& context, const TriMesh& skin, const Anatomy& found) {
   std::vector<Web> webs;
-  const Least& least = is_bent(found) ? kBent : kStanding;
+  const Least& least = std::ranges::min(thigh_cosines(found)) < kUpright ? kBent : kStanding;
   for (const LandmarkId id : {LandmarkId::kArmpitL, LandmarkId::kArmpitR, LandmarkId::kPerineum}) {
     Route route = route_inward(found, id);
     const MeshDistance near(context, crop(skin, route.from, kAround * found.stature_m));

@@ -17,7 +17,7 @@ struct Web {
 };
 
 /// The webs at the armpits and the crotch where `found` has them. Inside the body, a plane between two limbs
-/// has less room than the limbs beside it; above their fold it has as much. Cost: milliseconds.
+/// has less room than the limbs beside it; above their fold it has as much. Cost: tens of milliseconds.
 std::vector<Web> find_webs(const engine::Context& context, const geometry::TriMesh& skin,
                            const Anatomy& found);
 

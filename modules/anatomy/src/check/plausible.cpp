@@ -7,6 +7,7 @@
 #include <bodice/engine/message.hpp>
 
 #include "check/flat_parts.hpp"
+#include "check/thighs.hpp"
 
 namespace bodice::anatomy {
 namespace {
@@ -32,7 +33,7 @@ constexpr int kHopeless = 6;
 constexpr double kTypicalArea = 0.63;
 // Shares of the skin's area: head .08 to .2, trunk .3 to .5, an arm .07 to .12, a leg .13 to .22.
 constexpr Range kHeadShare{0.03, 0.42}, kTrunkShare{0.14, 0.65}, kArmShare{0.025, 0.2}, kLegShare{0.06, 0.3};
-/// Cosine of the angle between a thigh and the line from perineum to neck, below which a body sits.
+/// A body sits where the cosines of both thighs are below this.
 constexpr double kSitting = 0.6;
 /// A limb to its counterpart.
 constexpr double kLimbRatio = 2.2;
@@ -70,13 +71,6 @@ int doubts(const Anatomy& anatomy) {
 bool is_unusual(const Anatomy& anatomy) {
   return std::any_of(anatomy.warnings.begin(), anatomy.warnings.end(),
                      [](const engine::Warning& w) { return w.code == "unusual-body"; });
-}
-
-bool sits(const Anatomy& anatomy) {
-  const auto at = [&](LandmarkId id) { return anatomy.landmarks[static_cast<std::size_t>(id)].position; };
-  const geometry::Vec3 hip = at(LandmarkId::kPerineum);
-  const auto cosine = [&](LandmarkId knee) { return (hip - at(knee)).normalized().dot(anatomy.up); };
-  return std::max(cosine(LandmarkId::kKneeL), cosine(LandmarkId::kKneeR)) < kSitting;
 }
 
 void check_limbs(const Shares& shares, std::vector<std::string>& found) {
@@ -132,7 +126,7 @@ std::vector<std::string> contradictions(const geometry::TriMesh& skin, const Ana
                                     std::round(100.0 * shares.part(Part::kHead)), " % of the skin"));
   // A figure that stands may have flat parts in what it wears.
   if (const double flat = flat_share(skin, anatomy.up);
-      flat > kMostFlat && (sits(anatomy) || doubts(anatomy) > 0))
+      flat > kMostFlat && (std::ranges::max(thigh_cosines(anatomy)) < kSitting || doubts(anatomy) > 0))
     found.push_back(
         engine::message(std::round(100.0 * flat), " % of its surface is as flat as furniture or a floor"));
   double trunk = 0.0;

@@ -22,7 +22,7 @@ std::vector<DipoleNode> build_dipoles(const Bvh& bvh);
 double winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles, const Vec3& local_query,
                       double far_ratio);
 
-/// The same in floats, four triangles at a time, for a third of the cost; within 2e-3 but beside slivers.
+/// The same in floats, four triangles at a time, for about half of the cost; within 2e-3 but beside slivers.
 /// Nothing where the query lies so near to a triangle that its side is not known in floats.
 std::optional<double> float_winding_number(const Bvh& bvh, const std::vector<DipoleNode>& dipoles,
                                            const Vec3& local_query, double far_ratio);

@@ -39,7 +39,7 @@ HWY_INLINE V twice_first_order(const BallMap& e, V3 p) {
 
 /// Tangent plane of an ellipsoid, one problem a lane.
 struct Tangent {
-  V distance;      ///< of the particle, meters; at most the distance to the ellipsoid, but for rounding
+  V distance;      ///< signed distance to the plane, meters: a lower bound of that to the ellipsoid
   V3 normal;       ///< outward, unit, local frame
   V3 w;            ///< point of contact as a direction on the unit sphere, axes of the proxy
   V3 shrink;       ///< r_j^2 / (t + r_j^2), with t after one step

@@ -36,7 +36,8 @@ class MeshDistance {
   double signed_distance(const Vec3& query) const { return closest_point(query).signed_distance; }
   /// The generalized winding number: 1 inside a closed mesh that is wound outward, 0 outside.
   double winding_number(const Vec3& query) const;
-  /// Whether the winding number is above one half. Cost: a tenth of winding_number(), except next to a hole.
+  /// Whether the winding number is above one half. Cost: a seventh of winding_number(), except next to a
+  /// hole.
   bool inside(const Vec3& query) const;
 
  private:
