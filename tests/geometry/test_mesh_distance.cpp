@@ -214,3 +214,16 @@ TEST_CASE("the tree has the same bits however many workers build it") {
     }
   }
 }
+
+TEST_CASE("points a nanometer off the skin lie on its right side, which floats cannot show") {
+  const TriMesh ball = bodice_test::icosphere(0.3137, 3);
+  const MeshDistance distance({}, ball);
+  for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
+    const Vec3 on = 0.2 * ball.corner(t, 0) + 0.5 * ball.corner(t, 1) + 0.3 * ball.corner(t, 2);
+    const Vec3 out = area_vector(ball, t).normalized();
+    for (const double height_m : {1e-7, 1e-8, 1e-9}) {
+      CHECK(distance.inside(on - height_m * out));
+      CHECK_FALSE(distance.inside(on + height_m * out));
+    }
+  }
+}
