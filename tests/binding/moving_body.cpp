@@ -76,6 +76,27 @@ Pose march(const rig::Skeleton& skeleton) {
                            {"calf_l", {Vec3::UnitX(), 70.0}}});
 }
 
+Pose stride(const rig::Skeleton& skeleton) {
+  return turned(skeleton, {{"thigh_l", {Vec3::UnitX(), -30.0}},
+                           {"calf_l", {Vec3::UnitX(), 12.0}},
+                           {"thigh_r", {Vec3::UnitX(), 22.0}},
+                           {"calf_r", {Vec3::UnitX(), 35.0}},
+                           {"upper_arm_l", {Vec3::UnitX(), 25.0}},
+                           {"upper_arm_r", {Vec3::UnitX(), -25.0}}});
+}
+
+Pose squat(const rig::Skeleton& skeleton) {
+  return turned(skeleton, {{"thigh_l", {Vec3::UnitX(), -115.0}},
+                           {"thigh_r", {Vec3::UnitX(), -115.0}},
+                           {"calf_l", {Vec3::UnitX(), 130.0}},
+                           {"calf_r", {Vec3::UnitX(), 130.0}}});
+}
+
+Pose arms_up(const rig::Skeleton& skeleton) {
+  return turned(skeleton,
+                {{"upper_arm_l", {Vec3::UnitZ(), 150.0}}, {"upper_arm_r", {Vec3::UnitZ(), -150.0}}});
+}
+
 Pose moved(const JointMatrix& map, Pose pose) {
   for (JointMatrix& joint : pose) joint = rig::compose(map, joint);
   return pose;

@@ -36,6 +36,12 @@ Pose turned(const bodice::rig::Skeleton& skeleton, const std::map<std::string, T
 Pose seat(const bodice::rig::Skeleton& skeleton);
 /// Arms raised by 70 degrees, one knee up.
 Pose march(const bodice::rig::Skeleton& skeleton);
+/// A stride of a run, the left leg ahead.
+Pose stride(const bodice::rig::Skeleton& skeleton);
+/// Thighs forward by 115 degrees and knees bent by 130.
+Pose squat(const bodice::rig::Skeleton& skeleton);
+/// Arms raised by 150 degrees.
+Pose arms_up(const bodice::rig::Skeleton& skeleton);
 
 /// Every matrix after a map of the world.
 Pose moved(const JointMatrix& map, Pose pose);

@@ -15,31 +15,6 @@ using namespace bodice;
 using namespace binding_test;
 using geometry::Vec3;
 
-namespace {
-
-Pose stride(const rig::Skeleton& skeleton) {
-  return turned(skeleton, {{"thigh_l", {Vec3::UnitX(), -30.0}},
-                           {"calf_l", {Vec3::UnitX(), 12.0}},
-                           {"thigh_r", {Vec3::UnitX(), 22.0}},
-                           {"calf_r", {Vec3::UnitX(), 35.0}},
-                           {"upper_arm_l", {Vec3::UnitX(), 25.0}},
-                           {"upper_arm_r", {Vec3::UnitX(), -25.0}}});
-}
-
-Pose squat(const rig::Skeleton& skeleton) {
-  return turned(skeleton, {{"thigh_l", {Vec3::UnitX(), -115.0}},
-                           {"thigh_r", {Vec3::UnitX(), -115.0}},
-                           {"calf_l", {Vec3::UnitX(), 130.0}},
-                           {"calf_r", {Vec3::UnitX(), 130.0}}});
-}
-
-Pose arms_up(const rig::Skeleton& skeleton) {
-  return turned(skeleton,
-                {{"upper_arm_l", {Vec3::UnitZ(), 150.0}}, {"upper_arm_r", {Vec3::UnitZ(), -150.0}}});
-}
-
-}  // namespace
-
 TEST_CASE(
     "in a stride, a seat, a squat and with raised arms a collider has the distances and owners of eq. (4') "
     "and (5'), on every instruction set") {
