@@ -11,6 +11,7 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/sampling.hpp>
 #include <bodice/proxy/proxy_file.hpp>
+#include <bodice/rigging/motion.hpp>
 #include <bodice/tryon/base_pose.hpp>
 #include <bodice/tryon/rigged_body.hpp>
 #include <bodice_test/executors.hpp>
@@ -35,11 +36,11 @@ const Body& sitter() {
     REQUIRE(tryon::give_rig(context, builtin, *skin).ok());
     auto body = tryon::fit_bound_proxy(context, std::move(*skin), {.measure_accuracy = false});
     REQUIRE_MESSAGE(body.ok(), body.error().sentence());
-    std::vector<engine::Warning> warnings;
-    auto motion = tryon::find_motion(context, body->skin, {.motion = "sit"}, warnings);
-    REQUIRE_MESSAGE(motion.ok(), motion.error().sentence());
-    std::vector<rig::Affine> seat(motion->rig.skeleton.joints.size());
-    rig::joint_matrices(motion->rig.skeleton, motion->clip, 2.5, seat);
+    const rig::Skeleton& skeleton = body->skin.rig->skeleton;
+    const auto sit = rigging::make_clip(skeleton, rigging::Motion::kSit);
+    REQUIRE_MESSAGE(sit.ok(), sit.error().sentence());
+    std::vector<rig::Affine> seat(skeleton.joints.size());
+    rig::joint_matrices(skeleton, *sit, 2.5, seat);
     return Body{std::move(body).value(), std::move(seat)};
   }();
   return made;

@@ -92,7 +92,7 @@ void run_side(double phase, const Build& build, int side, Posture& p) {
   ArmPosture& arm = p.arm[side];
   arm.raise = 20.0;  // bent forearms would cut into the waist below that
   arm.forward = -8.0 - 36.0 * wave(phase, 0.03);
-  arm.twist = 16.0 - 10.0 * wave(phase, 0.03);
+  arm.twist = 6.0 - 14.0 * wave(phase, 0.03);  // hands that go back pass the hips, and what these wear
   arm.elbow = 88.0 - 10.0 * wave(phase, 0.08);
 }
 

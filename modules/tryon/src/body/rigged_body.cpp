@@ -9,6 +9,7 @@
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/io/rig.hpp>
 #include <bodice/rig/retarget.hpp>
+#include <bodice/rigging/clear_arms.hpp>
 #include <bodice/rigging/make_rig.hpp>
 #include <bodice/rigging/motion.hpp>
 
@@ -46,20 +47,22 @@ engine::Result<BodyMotion> carried_over(const rig::Skeleton& source, const rig::
   return BodyMotion{rig, std::move(carried->clip)};
 }
 
-/// Scans may sit on the floor with heels or toes up, so that the floor is where the skin ends.
-rigging::MotionOptions on_floor_of(const SegmentedSkin& skin) {
-  return {.floor_m = geometry::bounding_box(skin.input.skin.positions).low.y()};
+/// Scans may sit on the floor with heels or toes up, so that the floor is where the skin ends. Wide bodies
+/// hold their arms out, which would else swing through the hips and what these wear.
+rigging::MotionOptions motion_options(const SegmentedSkin& skin, const rig::Rig& rig) {
+  return {.arms_out_deg = rigging::clear_arms_deg(skin.input.skin, skin.anatomy.part, rig),
+          .floor_m = geometry::bounding_box(skin.input.skin.positions).low.y()};
 }
 
 /// Made motions are of the common skeleton. For a rig of another one, the common skeleton of the same body is
 /// found and its clip carried over.
 engine::Result<BodyMotion> made_motion(const engine::Context& context, const SegmentedSkin& skin,
                                        rigging::Motion motion, std::vector<engine::Warning>& warnings) {
-  if (auto clip = rigging::make_clip(skin.rig->skeleton, motion, on_floor_of(skin)))
+  if (auto clip = rigging::make_clip(skin.rig->skeleton, motion, motion_options(skin, *skin.rig)))
     return BodyMotion{*skin.rig, std::move(clip).value()};
   auto common = rigging::make_rig(context, skin.input.skin, skin.anatomy);
   if (!common) return of_body(std::move(common).error(), skin.input);
-  auto clip = rigging::make_clip(common->rig.skeleton, motion, on_floor_of(skin));
+  auto clip = rigging::make_clip(common->rig.skeleton, motion, motion_options(skin, common->rig));
   if (!clip) return std::move(clip).error();
   return carried_over(common->rig.skeleton, *clip, *skin.rig, warnings);
 }
