@@ -1,5 +1,5 @@
-// Distances to first order in a pose: how far they are off the scalar reference of the posed proxy and off the
-// exact distance to the posed skin.
+// Distances to first order in a pose: how far they are off the scalar reference of the posed proxy and off
+// the exact distance to the posed skin.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -163,6 +163,8 @@ void Poser::Impl::pose_ellipsoid(std::size_t k, const PoseOptions& options, Tabl
   }
   posed.shapes[k] = carried.shape;
   posed.material[k] = carried.shape.axes * carried.shape.radii.asDiagonal() * carried.to_table.transpose();
+  if (k < options.offsets.size())
+    displace(options.offsets[k], options.offset_share, posed.shapes[k], posed.material[k]);
   if (bound.relief().empty()) return;
   const proxy::ReliefTable& table = bound.relief()[k];
   const std::size_t back = 1 - current;

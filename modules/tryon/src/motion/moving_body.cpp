@@ -28,6 +28,8 @@ engine::Result<MovingBody> MovingBody::make(const SegmentedSkin& skin, const pro
                          "Bind the proxy to the rig that moves the skin."};
   moving.poser_.emplace(std::move(poser).value());
   moving.skinning_.assign(joints, rig::identity());
+  for (const rig::Joint& joint : skin.rig->skeleton.joints) moving.bind_.push_back(joint.bind);
+  moving.at_rest_ = skin.input.skin.positions;
   if (has_still) moving.with_still_.assign(joints + 1, rig::identity());
   moving.posed_ = skin.input.skin;
   moving.is_skinned_ = true;
@@ -42,7 +44,10 @@ engine::Result<void> MovingBody::pose(const engine::Context& context, std::span<
     std::ranges::copy(joints, with_still_.begin());
     all = with_still_;
   }
-  if (auto posed = poser_->pose(context, all, options); !posed) return posed;
+  binding::PoseOptions between_shapes = options;
+  between_shapes.offsets = blend_.offsets();
+  between_shapes.offset_share = blend_.share();
+  if (auto posed = poser_->pose(context, all, between_shapes); !posed) return posed;
   if (!collider_.pose(poser_->posed(), dt_s))
     return engine::Error{engine::ErrorCode::kUnusableGeometry,
                          "In this pose the body has no shape that a collider takes.",
@@ -59,6 +64,27 @@ const geometry::TriMesh& MovingBody::skin(const engine::Context& context) {
     rig::skin_linear(context, skin_->input.skin.positions, skin_->rig->weights, skinning_, posed_.positions);
   is_skinned_ = true;
   return posed_;
+}
+
+void MovingBody::skin_positions(std::span<Vec3> out) {
+  const std::size_t count = std::min(out.size(), skin_->input.skin.positions.size());
+  if (blend_.share() > 0.0 && moves()) {
+    for (std::size_t v = 0; v < at_rest_.size(); ++v) at_rest_[v] = blend_.skin(v);
+    rig::skin_linear(at_rest_, skin_->rig->weights, skinning_, posed_.positions);
+    is_skinned_ = false;  // skin() is that of the body's own shape
+    std::copy_n(posed_.positions.begin(), count, out.begin());
+  } else if (blend_.share() > 0.0) {
+    for (std::size_t v = 0; v < count; ++v) out[v] = blend_.skin(v);
+  } else {
+    std::copy_n(skin({}).positions.begin(), count, out.begin());
+  }
+}
+
+void MovingBody::show_shape(const engine::Context& context) {
+  if (moves())
+    static_cast<void>(pose(context, bind_, 0.0));  // the bind pose has no matrix to refuse
+  else
+    collider_.move_to(blend_.shapes(), 0.0);
 }
 
 const geometry::MeshDistance& MovingBody::distance(const engine::Context& context) {

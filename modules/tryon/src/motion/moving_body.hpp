@@ -12,6 +12,8 @@
 #include <bodice/tryon/motion.hpp>
 #include <bodice/tryon/prepare.hpp>
 
+#include "motion/shape_blend.hpp"
+
 namespace bodice::tryon {
 
 /// A collider with the skin that judges it. Not thread-safe. Keeps a reference to the skin.
@@ -28,12 +30,24 @@ class MovingBody {
   /// then nothing moves. Allocates nothing.
   engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s,
                             const binding::PoseOptions& options = {});
+
+  /// Goes over to its shape from that of another body of the same vertices, in the calls that follow.
+  void come_from(const MovingBody& before) { blend_.begin(before.blend_); }
+  /// The share of the shape that it comes from: 1 at first, 0 where it has its own.
+  double share_before() const noexcept { return blend_.share(); }
+  /// Goes on by dt_s from the shape before; pose() then shows it.
+  void go_over(double dt_s) { blend_.advance(dt_s); }
+  /// Shows the shape on a body that has no pose: one that stands still, or is in its bind pose.
+  void show_shape(const engine::Context& context);
+
   /// Null where the body stands still.
   binding::Poser* poser() noexcept { return poser_ ? &*poser_ : nullptr; }
 
   const collision::Collider& collider() const noexcept { return collider_; }
   /// The skin in the pose in force, computed at the first call in it.
   const geometry::TriMesh& skin(const engine::Context& context);
+  /// The same while the body goes over to its shape; as many positions as `out` has.
+  void skin_positions(std::span<geometry::Vec3> out);
   /// Exact, of skin(). Built anew in each pose in which it is called.
   const geometry::MeshDistance& distance(const engine::Context& context);
   /// Carries points that were attached to the skin in the bind pose into the pose in force, #points each.
@@ -41,10 +55,14 @@ class MovingBody {
              std::span<geometry::Vec3> posed) const;
 
  private:
-  MovingBody(const SegmentedSkin& skin, const proxy::BodyProxy& proxy) : skin_(&skin), collider_(proxy) {}
+  MovingBody(const SegmentedSkin& skin, const proxy::BodyProxy& proxy)
+      : skin_(&skin), collider_(proxy), blend_(proxy, skin.input.skin.positions) {}
 
   const SegmentedSkin* skin_;
   collision::Collider collider_;
+  ShapeBlend blend_;
+  std::vector<rig::Affine> bind_;        // #J; empty where the body stands still
+  std::vector<geometry::Vec3> at_rest_;  // #V; scratch
   std::optional<binding::Poser> poser_;
   std::vector<rig::Affine> skinning_;               // #J
   std::vector<rig::Affine> with_still_;             // #J + 1; empty without things on proxy::kStillJoint

@@ -18,8 +18,8 @@ using BodySink = engine::Sink<SessionBody>;
 /// wanted when the body was submitted is found once.
 class BodyPublisher {
  public:
-  BodyPublisher(const engine::Context& context, BodySink& sink, bool moves, WantedClip wanted)
-      : context_(context), sink_(sink), moves_(moves), wanted_(std::move(wanted)) {}
+  BodyPublisher(const engine::Context& context, BodySink& sink, bool moves, WantedClip wanted, Worn worn)
+      : context_(context), sink_(sink), moves_(moves), wanted_(std::move(wanted)), worn_(std::move(worn)) {}
 
   void publish(const std::shared_ptr<const SegmentedSkin>& skin, const proxy::BodyProxy& proxy) {
     if (moves_ && wanted_.number > 0 && !motion_ && result) {
@@ -29,7 +29,7 @@ class BodyPublisher {
       else
         result = std::move(found).error();
     }
-    auto body = make_session_body({skin, proxy, next_++}, moves_, motion_);
+    auto body = make_session_body(context_, {skin, proxy, next_++}, moves_, motion_, worn_);
     if (body)
       sink_.publish(std::move(body).value());
     else if (result)
@@ -43,6 +43,7 @@ class BodyPublisher {
   BodySink& sink_;
   bool moves_;
   WantedClip wanted_;
+  Worn worn_;
   std::shared_ptr<const SessionMotion> motion_;
   int next_ = 0;
 };
@@ -63,14 +64,14 @@ engine::Ticket Session::submit(BodySource source) {
   PreparationOptions options{
       .segment = impl_->options.segment, .fit = impl_->options.fit, .bind = impl_->options.moves};
   if (impl_->options.region_margin_m && impl_->solver) {
-    options.garments = {impl_->wardrobe.mesh};
+    options.garments = {impl_->wardrobe->mesh};
     options.region_margin_m = *impl_->options.region_margin_m;
   }
   return impl_->bodies.submit(
       "prepare body",
-      [source = std::move(source), options = std::move(options), wanted = impl_->wanted](
-          const engine::Context& context, BodySink& sink) -> engine::Result<void> {
-        BodyPublisher publisher(context, sink, options.bind, wanted);
+      [source = std::move(source), options = std::move(options), wanted = impl_->wanted,
+       worn = impl_->worn()](const engine::Context& context, BodySink& sink) -> engine::Result<void> {
+        BodyPublisher publisher(context, sink, options.bind, wanted, worn);
         auto preparation = Preparation::make(
             options, [&](const auto& skin, const auto& proxy) { publisher.publish(skin, proxy); });
         if (!preparation) return std::move(preparation).error();
@@ -87,9 +88,9 @@ engine::Result<void> Session::dress(const std::vector<WornGarment>& garments) {
   auto solver = cloth::Solver::make(all->mesh, all->held, *fabric, impl_->options.solver);
   if (!solver) return std::move(solver).error();
   impl_->solver.emplace(std::move(solver).value());
-  impl_->wardrobe = std::move(all).value();
-  impl_->held_by = nullptr;
-  impl_->cloth = impl_->wardrobe.mesh.positions;
+  impl_->wardrobe = std::make_shared<const Wardrobe>(std::move(all).value());
+  impl_->held = nullptr;
+  impl_->cloth = impl_->wardrobe->mesh.positions;
   impl_->reach.emplace(impl_->cloth);
   if (impl_->motion) {  // garments are made for the bind pose
     ClipPlayback& playback = *impl_->motion->playback;
@@ -143,7 +144,7 @@ FrameOutcome Session::frame(double dt_s) {
     outcome.has_body = s.body != nullptr;
     if (!s.body) return;  // without a body the garments would fall to the floor before the first one is ready
     outcome.proxy_hash = s.body->live.proxy.hash();
-    if (s.solver && s.held_by != s.body.get()) s.hold_garments(context);
+    if (s.solver && !s.held) s.hold_garments(context);
     s.pose(context, dt_s);
     if (s.solver) outcome.cloth = s.solver->step(context, s.body->body->collider(), dt_s);
   });
@@ -151,7 +152,9 @@ FrameOutcome Session::frame(double dt_s) {
     outcome.plays = true;
     outcome.clip_s = s.motion->playback->time_s();
     outcome.ramp_left_s = s.motion->playback->ramp_left_s();
-    if (s.options.refits && !s.nothing_runs_behind)
+    // While a slider moves, tables of a pose would be those of a shape that is about to go.
+    const bool keeps_shape = s.shapes_done == s.shapes_begun && s.wanted_shape.empty();
+    if (s.options.refits && !s.nothing_runs_behind && keeps_shape)
       s.refits.consider(s.body->live.skin, s.body->live.proxy, *s.body->body, *s.motion->playback, s.paused);
   }
   return outcome;
@@ -163,8 +166,7 @@ const LiveBody* Session::body() const noexcept {
 
 void Session::skin_positions(std::span<Vec3> out) const {
   if (!impl_->body) return;
-  const auto& skin = impl_->body->body->skin({}).positions;
-  std::copy_n(skin.begin(), std::min(skin.size(), out.size()), out.begin());
+  impl_->body->body->skin_positions(out);
 }
 
 const collision::Collider* Session::collider() const noexcept {
@@ -176,7 +178,7 @@ const proxy::PosedProxy* Session::posed() const noexcept {
 }
 
 std::size_t Session::vertices() const noexcept {
-  return impl_->wardrobe.mesh.positions.size();
+  return impl_->wardrobe ? impl_->wardrobe->mesh.positions.size() : 0;
 }
 
 void Session::positions(std::span<Vec3> out) const {

@@ -2,22 +2,43 @@
 
 #include <utility>
 
+#include <bodice/rigging/motion.hpp>
+
 namespace bodice::tryon {
 namespace {
 
-std::shared_ptr<const SessionMotion> motion_of(std::uint64_t number,
-                                               std::shared_ptr<const SegmentedSkin> skin,
-                                               std::shared_ptr<const BodyMotion> motion, double ramp_s,
-                                               rig::Playback mode) {
-  auto playback = std::make_shared<ClipPlayback>(std::move(motion), mode);
-  return std::make_shared<const SessionMotion>(
-      SessionMotion{number, std::move(skin), std::move(playback), ramp_s, mode});
+/// The same clip on another shape of the body. A made one is made anew, as arms keep off wider hips.
+engine::Result<std::shared_ptr<const SessionMotion>> motion_of_shape(
+    const engine::Context& context, const SessionMotion& before, std::shared_ptr<const SegmentedSkin> skin) {
+  BodyMotion motion{*skin->rig, before.playback->motion().clip};
+  if (rigging::motion_from_name(before.choice.motion)) {
+    std::vector<engine::Warning> warnings;
+    auto made = find_motion(context, *skin, before.choice, warnings);
+    if (!made) return std::move(made).error();
+    motion = std::move(made).value();
+  }
+  auto same = std::make_shared<SessionMotion>(before);
+  same->skin = std::move(skin);
+  same->playback =
+      std::make_shared<ClipPlayback>(std::make_shared<const BodyMotion>(std::move(motion)), before.mode);
+  return std::shared_ptr<const SessionMotion>(std::move(same));
 }
 
 }  // namespace
 
+HeldVertices hold(const engine::Context& context, const Worn& worn, const SegmentedSkin& skin,
+                  MovingBody& body) {
+  if (!worn.all) return {};
+  if (body.moves()) body.show_shape(context);  // in the bind pose
+  HeldVertices held{worn.all, held_positions(*worn.all, body.collider(), worn.thickness_m), {}};
+  if (body.moves())
+    held.weights = attach_to_skin(skin.input.skin, *skin.distance, skin.rig->weights, held.bind);
+  return held;
+}
+
 engine::Result<std::shared_ptr<const SessionBody>> make_session_body(
-    LiveBody live, bool moves, std::shared_ptr<const SessionMotion> motion) {
+    const engine::Context& context, LiveBody live, bool moves, std::shared_ptr<const SessionMotion> motion,
+    const Worn& worn) {
   auto body = MovingBody::make(*live.skin, live.proxy, moves);
   if (!body) return std::move(body).error();
   auto ready =
@@ -25,6 +46,7 @@ engine::Result<std::shared_ptr<const SessionBody>> make_session_body(
   ready->body = std::make_shared<MovingBody>(std::move(body).value());
   ready->origin = ready->live.skin;
   ready->origin_proxy = std::make_shared<const proxy::BodyProxy>(ready->live.proxy);
+  ready->held = hold(context, worn, *ready->live.skin, *ready->body);
   return std::shared_ptr<const SessionBody>(std::move(ready));
 }
 
@@ -36,24 +58,28 @@ engine::Result<std::shared_ptr<const SessionMotion>> find_session_motion(
   if (!found) return std::move(found).error();
   const double ramp_s = wanted.options.ramp_s ? *wanted.options.ramp_s
                                               : suggested_ramp_s(context, *found, skin->input.skin.positions);
-  return motion_of(wanted.number, skin, std::make_shared<const BodyMotion>(std::move(found).value()), ramp_s,
-                   wanted.options.loop ? rig::Playback::kLoop : rig::Playback::kClamp);
+  const rig::Playback mode = wanted.options.loop ? rig::Playback::kLoop : rig::Playback::kClamp;
+  auto playback =
+      std::make_shared<ClipPlayback>(std::make_shared<const BodyMotion>(std::move(found).value()), mode);
+  return std::make_shared<const SessionMotion>(
+      SessionMotion{wanted.number, wanted.choice, skin, std::move(playback), ramp_s, mode});
 }
 
 engine::Result<std::shared_ptr<const SessionBody>> make_reshaped(const engine::Context& context,
                                                                  const SessionBody& body,
                                                                  const SessionMotion* motion,
+                                                                 const Worn& worn,
                                                                  std::span<const geometry::Vec3> positions) {
   auto shape = reshape_body(context, *body.origin, *body.origin_proxy, positions);
   if (!shape) return std::move(shape).error();
   std::shared_ptr<const SessionMotion> same;
-  if (motion)
-    same = motion_of(
-        motion->number, shape->skin,
-        std::make_shared<const BodyMotion>(BodyMotion{*shape->skin->rig, motion->playback->motion().clip}),
-        motion->ramp_s, motion->mode);
-  auto ready = make_session_body({shape->skin, shape->proxy, body.live.refinement}, body.body->moves(),
-                                 std::move(same));
+  if (motion) {
+    auto found = motion_of_shape(context, *motion, shape->skin);
+    if (!found) return std::move(found).error();
+    same = std::move(found).value();
+  }
+  auto ready = make_session_body(context, {shape->skin, shape->proxy, body.live.refinement},
+                                 body.body->moves(), std::move(same), worn);
   if (!ready) return ready;
   auto whole = std::make_shared<SessionBody>(**ready);
   whole->origin = body.origin;

@@ -6,6 +6,7 @@
 
 #include <bodice/tryon/reshape.hpp>
 #include <bodice/tryon/session.hpp>
+#include <bodice/tryon/wardrobe.hpp>
 
 #include "motion/clip_playback.hpp"
 #include "motion/moving_body.hpp"
@@ -22,10 +23,24 @@ struct WantedClip {
 /// The clip as one body plays it.
 struct SessionMotion {
   std::uint64_t number = 0;  ///< of the wanted clip
+  MotionChoice choice;
   std::shared_ptr<const SegmentedSkin> skin;
   std::shared_ptr<ClipPlayback> playback;  ///< changed by the frames' thread alone
   double ramp_s = 0.0;
   rig::Playback mode = rig::Playback::kLoop;
+};
+
+/// What a session's bodies wear.
+struct Worn {
+  std::shared_ptr<const Wardrobe> all;  ///< null: nothing
+  double thickness_m = 0.0;
+};
+
+/// The vertices of garments that one body holds, in its bind pose.
+struct HeldVertices {
+  std::shared_ptr<const Wardrobe> of;
+  std::vector<geometry::Vec3> bind;  ///< #held, world meters
+  rig::SkinWeights weights;          ///< empty where the body stands still
 };
 
 /// A body as it is published.
@@ -35,11 +50,18 @@ struct SessionBody {
   std::shared_ptr<const proxy::BodyProxy> origin_proxy;
   std::shared_ptr<MovingBody> body;             ///< changed by the frames' thread alone
   std::shared_ptr<const SessionMotion> motion;  ///< null: none was wanted when it was submitted
+  HeldVertices held;                            ///< of what was worn when it was made
 };
+
+/// Puts a body into its bind pose and finds where it holds the garments there. Cost: a pose, and a closest
+/// point a held vertex.
+HeldVertices hold(const engine::Context& context, const Worn& worn, const SegmentedSkin& skin,
+                  MovingBody& body);
 
 /// A body ready for frames; its proxy is bound where it `moves`.
 engine::Result<std::shared_ptr<const SessionBody>> make_session_body(
-    LiveBody live, bool moves, std::shared_ptr<const SessionMotion> motion);
+    const engine::Context& context, LiveBody live, bool moves, std::shared_ptr<const SessionMotion> motion,
+    const Worn& worn);
 
 /// Finds the clip for a skin that has a rig.
 engine::Result<std::shared_ptr<const SessionMotion>> find_session_motion(
@@ -50,6 +72,7 @@ engine::Result<std::shared_ptr<const SessionMotion>> find_session_motion(
 engine::Result<std::shared_ptr<const SessionBody>> make_reshaped(const engine::Context& context,
                                                                  const SessionBody& body,
                                                                  const SessionMotion* motion,
+                                                                 const Worn& worn,
                                                                  std::span<const geometry::Vec3> positions);
 
 }  // namespace bodice::tryon

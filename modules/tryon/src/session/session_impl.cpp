@@ -4,27 +4,42 @@
 
 namespace bodice::tryon {
 
-/// Pins are found in the bind pose. It may allocate, because it does not run in every frame.
+/// Held vertices are found in the bind pose: where the body was made, or here after a change of garments,
+/// which allocates.
 void Session::Impl::hold_garments(const engine::Context& context) {
-  held_by = body.get();
-  if (body->body->moves()) {
-    std::vector<rig::Affine> bind;
-    for (const rig::Joint& joint : body->live.skin->rig->skeleton.joints) bind.push_back(joint.bind);
-    static_cast<void>(body->body->pose(context, bind, 0.0));  // the bind pose has no matrix to refuse
+  held = &body->held;
+  if (held->of != wardrobe) {
+    held_now = hold(context, worn(), *body->live.skin, *body->body);
+    held = &held_now;
     jumped = true;
   }
-  held = held_positions(wardrobe, body->body->collider(), options.solver.thickness_m);
-  posed = held;
+  const bool goes_over = body->body->share_before() > 0.0 && held_at_rest.size() == held->bind.size();
+  held_before = goes_over ? held_at_rest : held->bind;
+  held_at_rest = posed = held_before;
+  solver->move_pins(posed);
+}
+
+/// Held vertices go with the body's shape and pose.
+void Session::Impl::move_held() {
+  const double share = body->body->share_before();
+  for (std::size_t i = 0; i < held_at_rest.size(); ++i)
+    held_at_rest[i] = held->bind[i] + share * (held_before[i] - held->bind[i]);
   if (body->body->moves())
-    held_weights = attach_to_skin(body->live.skin->input.skin, *body->live.skin->distance,
-                                  body->live.skin->rig->weights, held);
+    body->body->carry(held_at_rest, held->weights, posed);
+  else
+    posed = held_at_rest;
   solver->move_pins(posed);
 }
 
 void Session::Impl::take_body(std::shared_ptr<const SessionBody> next) {
+  if (body && body->origin_proxy == next->origin_proxy) {
+    next->body->come_from(*body->body);
+    new_shape = true;
+  } else {
+    jumped = true;
+  }
   body = std::move(next);
-  jumped = true;
-  held_by = nullptr;
+  held = nullptr;
   if (!body->body->moves() || wanted.number == 0) return;
   if (motion && motion->skin == body->live.skin && motion->number == wanted.number) return;
   if (body->motion && body->motion->number == wanted.number)
@@ -64,10 +79,10 @@ void Session::Impl::begin_shape() {
   const SessionMotion* const plays = motion && motion->skin == body->live.skin ? motion.get() : nullptr;
   shapes.submit(
       "reshape",
-      [from = body, plays = plays ? motion : nullptr, number = ++shapes_begun,
+      [from = body, plays = plays ? motion : nullptr, number = ++shapes_begun, worn = worn(),
        shape = std::exchange(wanted_shape, {})](const engine::Context& context,
                                                 engine::Sink<SessionShape>& sink) -> engine::Result<void> {
-        auto reshaped = make_reshaped(context, *from, plays.get(), shape);
+        auto reshaped = make_reshaped(context, *from, plays.get(), worn, shape);
         if (!reshaped && reshaped.error().code == engine::ErrorCode::kCanceled)
           return std::move(reshaped).error();
         sink.publish(
@@ -96,20 +111,29 @@ void Session::Impl::take_results(FrameOutcome& outcome) {
 }
 
 void Session::Impl::pose(const engine::Context& context, double dt_s) {
-  if (!motion || motion->skin != body->live.skin) return;
+  MovingBody& moving = *body->body;
+  if (!motion || motion->skin != body->live.skin) {
+    if (!(moving.share_before() > 0.0)) return;
+    moving.go_over(dt_s);
+    moving.show_shape(context);
+    if (solver) move_held();
+    return;
+  }
   ClipPlayback& playback = *motion->playback;
-  if (!paused) playback.advance(dt_s);
   binding::PoseOptions where;
   if (solver) {
     solver->positions(cloth);
     where.within = reach->boxes(cloth);
   }
+  // A new shape begins in the pose of the frame before, so that contacts know how the surface moves.
+  if (std::exchange(new_shape, false) && !jumped)
+    static_cast<void>(moving.pose(context, playback.joints(), 0.0, where));
+  if (!paused) playback.advance(dt_s);
+  moving.go_over(dt_s);
   // A body that jumped here did not come with the velocity of the jump.
-  if (auto done = body->body->pose(context, playback.joints(), jumped ? 0.0 : dt_s, where); !done) return;
+  if (auto done = moving.pose(context, playback.joints(), jumped ? 0.0 : dt_s, where); !done) return;
   jumped = false;
-  if (!solver) return;
-  body->body->carry(held, held_weights, posed);
-  solver->move_pins(posed);
+  if (solver) move_held();
 }
 
 }  // namespace bodice::tryon

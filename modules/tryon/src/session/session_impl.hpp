@@ -37,7 +37,7 @@ struct Session::Impl {
   engine::Stream<SessionShape> shapes;
   Refits refits;
   std::optional<cloth::Solver> solver;
-  Wardrobe wardrobe;
+  std::shared_ptr<const Wardrobe> wardrobe;  // null: no garments
 
   const SessionBody* seen_body = nullptr;  // of the streams, at the last boundary
   const SessionMotion* seen_motion = nullptr;
@@ -46,20 +46,23 @@ struct Session::Impl {
   std::shared_ptr<const SessionMotion> motion;
   WantedClip wanted;
   bool paused = false, jumped = false;
+  bool new_shape = false;  // since the last pose, the body has become another shape of itself
   std::vector<geometry::Vec3> wanted_shape;  // empty: none waits
   std::uint64_t shapes_begun = 0, shapes_done = 0;
 
-  std::vector<geometry::Vec3> held, posed;  // pins in the bind pose, and in the one in force
-  rig::SkinWeights held_weights;
+  HeldVertices held_now;               // found in a frame: a body that wore something else when it was made
+  const HeldVertices* held = nullptr;  // null: to be found in the next frame
+  std::vector<geometry::Vec3> held_before, held_at_rest, posed;  // in the shape before, now, and in the pose
   std::vector<geometry::Vec3> cloth;  // #vertices of all garments, after the last frame
   std::optional<GarmentReach> reach;  // of the garments
-  const SessionBody* held_by = nullptr;
 
+  Worn worn() const { return {wardrobe, options.solver.thickness_m}; }
   void take_results(FrameOutcome& outcome);
   void take_body(std::shared_ptr<const SessionBody> next);
   void take_motion(std::shared_ptr<const SessionMotion> next);
   void hold_garments(const engine::Context& context);
   void pose(const engine::Context& context, double dt_s);
+  void move_held();
   void begin_shape();
   engine::Ticket find_wanted_clip();
 };

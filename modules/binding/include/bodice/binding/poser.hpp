@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include <bodice/binding/shape_offset.hpp>
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/types.hpp>
@@ -22,6 +23,10 @@ struct PoseOptions {
   /// Only tables of ellipsoids that come into one of these boxes (world, meters) follow the skin; all if
   /// absent. Tables outside of all keep what they were at rest.
   std::optional<std::span<const geometry::Box>> within;
+  /// Ellipsoids are displaced by this share of their offsets (#E, or none), tables stay: a body that goes
+  /// over from another shape to its own.
+  std::span<const ShapeOffset> offsets;
+  double offset_share = 0.0;
 };
 
 /// The joints of one bound proxy, and its current pose. Two poses are kept: while one is written, queries may

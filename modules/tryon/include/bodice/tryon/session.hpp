@@ -106,7 +106,9 @@ class Session {
 
   /// Gives the body in use another shape: `positions` are those of its skin's vertices (#V of
   /// LiveBody::skin, meters, bind pose), as a slider moves them. Behind the frames its ellipsoids are carried
-  /// there, its tables are solved anew (reshape_body()), and it takes effect at a boundary; garments stay on.
+  /// there, its tables are solved anew (reshape_body()), and it takes effect at a boundary. From then on the
+  /// surface, the skin and held vertices go over to it within a sixth of a second, or longer where they would
+  /// move faster than .1 m/s; garments stay on.
   /// One shape is worked on at a time; of those that wait the newest counts. Fails with kInvalidArgument for
   /// another number of vertices, positions that are not finite, or where there is no body.
   engine::Result<void> reshape(std::vector<geometry::Vec3> positions);
