@@ -6,12 +6,15 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <numeric>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include <bodice/io/scene.hpp>
 #include <bodice/tryon/judge_frame.hpp>
 #include <bodice/tryon/session.hpp>
 #include <bodice/tryon/wearing.hpp>
@@ -27,12 +30,14 @@ using geometry::Vec3;
 constexpr double kFrame_s = 1.0 / 60.0;
 constexpr double kMostFrame_ms = 8.0, kMostOverScratch = 1.2;
 constexpr double kNear_m = 0.03;
+constexpr int kKeepOneOf = 10, kSheetColumns = 10;
 constexpr int kFramesBefore = 120;  // what a frame takes on this machine without a slider
 
 struct Arguments {
-  std::string body, motion;
+  std::string body, motion, sheet;
   double seconds = 5.0, girth_mm = 25.0, edge_mm = 11.0;
-  int workers = 2, judged = 4;
+  int workers = 2, frame_workers = 0, judged = 4;
+  std::size_t longest = 0;
 };
 
 /// The skin made wider around the hips and the waist by at most `by_m`, smoothly along the body's height.
@@ -48,12 +53,27 @@ std::vector<Vec3> widened(const tryon::SegmentedSkin& skin, const std::vector<Ve
   return positions;
 }
 
+/// What a frame took, and what happened in it.
+struct FrameRecord {
+  double frame_ms = 0.0, processor_ms = 0.0;  ///< of the clock, and of the calling thread's processor
+  double boundary_ms = 0.0, cloth_ms = 0.0, contact_ms = 0.0;
+  bool new_shape = false, new_tables = false;
+};
+
+/// Processor time of the calling thread, which other programs do not change.
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
 /// A session with the skirt on, after its first second.
 class Dressed {
  public:
   Dressed(const engine::Context& context, const Arguments& arguments) : context_(context) {
     tryon::SessionOptions options;
     options.moves = !arguments.motion.empty();
+    options.pipeline.frame_workers = arguments.frame_workers;
     session_ = std::make_unique<tryon::Session>(context, options);
     tryon::BodySource source = synth::BodyOptions{};
     if (!arguments.body.empty()) source = tryon::BodyFile{arguments.body};
@@ -62,18 +82,29 @@ class Dressed {
     frame();
     skin_ = session_->body()->skin;
     normals_ = geometry::vertex_normals(skin_->input.skin);
-    bench::or_exit(session_->dress(
-        {bench::or_exit(tryon::make_garment(context, *skin_, {.edge_length_m = 1e-3 * arguments.edge_mm}))}));
+    const auto garment =
+        bench::or_exit(tryon::make_garment(context, *skin_, {.edge_length_m = 1e-3 * arguments.edge_mm}));
+    cloth_ = {.name = "cloth", .mesh = garment.mesh, .frames = {}, .time_s = {}, .colors = {}};
+    bench::or_exit(session_->dress({garment}));
     for (int i = 0; i < 60; ++i) frame();
   }
 
-  /// Runs a frame at its time, as a program that draws does, and returns what it took, milliseconds.
-  double frame() {
+  /// Runs a frame at its time, as a program that draws does.
+  FrameRecord frame() {
+    const std::uint64_t before = outcome_.proxy_hash;
+    const double begin_ms = processor_ms();
     const auto begin = std::chrono::steady_clock::now();
     outcome_ = session_->frame(kFrame_s);
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    const double processor = processor_ms() - begin_ms;
     std::this_thread::sleep_until(begin + std::chrono::duration<double>(kFrame_s));
-    return took.count();
+    return {took.count(),
+            processor,
+            1e-6 * static_cast<double>(outcome_.timing.boundary_ns),
+            1e-3 * outcome_.cloth.frame_us,
+            1e-3 * outcome_.cloth.collision_us,
+            outcome_.proxy_hash != before,
+            outcome_.took_refit};
   }
   void reshape(double by_m) { bench::or_exit(session_->reshape(widened(*skin_, normals_, by_m))); }
   /// Frames until the requested shape is in use.
@@ -84,6 +115,24 @@ class Dressed {
     return frames;
   }
 
+  /// Keeps the frame for the contact sheet.
+  void keep() {
+    cloth_.frames.emplace_back(session_->vertices());
+    session_->positions(cloth_.frames.back());
+    cloth_.time_s.push_back(static_cast<double>(cloth_.frames.size()));
+    bodies_.emplace_back(skin_->input.skin.positions.size());
+    session_->skin_positions(bodies_.back());
+  }
+  void write_sheet(const std::string& png) const {
+    io::Scene scene;
+    scene.body = &skin_->input.skin;
+    scene.body_frames = bodies_;
+    scene.garments = {cloth_};
+    std::vector<std::size_t> frames(bodies_.size());
+    std::iota(frames.begin(), frames.end(), std::size_t{0});
+    bench::or_exit(io::write_contact_sheet(scene, frames, kSheetColumns, png, {.width = 240, .height = 360}));
+  }
+
   tryon::Session& session() { return *session_; }
   const tryon::FrameOutcome& outcome() const { return outcome_; }
 
@@ -92,6 +141,8 @@ class Dressed {
   std::unique_ptr<tryon::Session> session_;
   std::shared_ptr<const tryon::SegmentedSkin> skin_;
   std::vector<Vec3> normals_;
+  io::GarmentTrack cloth_;
+  std::vector<std::vector<Vec3>> bodies_;
   tryon::FrameOutcome outcome_;
 };
 
@@ -103,19 +154,17 @@ double error_mm(const engine::Context& context, const tryon::SegmentedSkin& skin
   return 1e3 * found.error_m.mean;
 }
 
-/// Sweeps the slider there and back; times of all frames.
-std::vector<double> sweep(Dressed& dressed, const Arguments& arguments, int& shapes) {
-  std::vector<double> frame_ms;
+/// Sweeps the slider there and back.
+std::vector<FrameRecord> sweep(Dressed& dressed, const Arguments& arguments) {
+  std::vector<FrameRecord> records;
   const int frames = static_cast<int>(std::lround(arguments.seconds / kFrame_s));
-  std::uint64_t hash = dressed.session().body()->proxy.hash();
   for (int i = 0; i < frames; ++i) {
     const double share = 1.0 - std::abs(2.0 * (i + 1) / frames - 1.0);
     dressed.reshape(1e-3 * arguments.girth_mm * share);
-    frame_ms.push_back(dressed.frame());
-    shapes += dressed.session().body()->proxy.hash() != hash;
-    hash = dressed.session().body()->proxy.hash();
+    records.push_back(dressed.frame());
+    if (!arguments.sheet.empty() && i % kKeepOneOf == 0) dressed.keep();
   }
-  return frame_ms;
+  return records;
 }
 
 /// The largest ratio of a shape's error to that of a fit from scratch.
@@ -136,7 +185,24 @@ double worst_over_scratch(const engine::Context& context, Dressed& dressed, cons
   return worst;
 }
 
-void print_times(const char* what, const std::vector<double>& sorted) {
+/// The longest frames, and what they spent their time on.
+void print_longest(std::vector<FrameRecord> records, std::size_t count) {
+  std::ranges::sort(records, std::greater<>(), &FrameRecord::frame_ms);
+  records.resize(std::min(count, records.size()));
+  for (const FrameRecord& r : records)
+    std::printf(
+        "  %6.2f ms, processor %.2f: boundary %.2f, cloth %.2f (body contact %.2f, all workers), rest "
+        "%.2f%s%s\n",
+        r.frame_ms, r.processor_ms, r.boundary_ms, r.cloth_ms, r.contact_ms,
+        r.frame_ms - r.boundary_ms - r.cloth_ms, r.new_shape ? ", a new shape" : "",
+        r.new_tables ? ", tables of a pose" : "");
+}
+
+void print_times(const char* what, const std::vector<FrameRecord>& records, double FrameRecord::*time) {
+  if (records.empty()) return;
+  std::vector<double> sorted;
+  for (const FrameRecord& r : records) sorted.push_back(r.*time);
+  std::ranges::sort(sorted);
   const auto at = [&](double share) {
     return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
   };
@@ -163,25 +229,37 @@ int main(int argc, char** argv) {
   app.add_option("--threads", arguments.workers, "workers")->capture_default_str();
   app.add_option("--judged", arguments.judged, "shapes that are compared with fits from scratch")
       ->capture_default_str();
+  app.add_option("--frame-threads", arguments.frame_workers,
+                 "threads of a frame; 0: all. With 1 its processor time is the work of the whole frame")
+      ->capture_default_str();
+  app.add_option("--sheet", arguments.sheet,
+                 "write a contact sheet of every tenth frame of the sweep, a PNG");
+  app.add_option("--longest", arguments.longest, "so many of the longest frames are printed in parts");
   CLI11_PARSE(app, argc, argv);
 
   const auto workers = engine::make_tbb_executor(arguments.workers);
   const engine::Context context{.executor = workers.get()};
   Dressed dressed(context, arguments);
-  std::vector<double> before_ms;
-  for (int i = 0; i < kFramesBefore; ++i) before_ms.push_back(dressed.frame());
-  int shapes = 0;
-  std::vector<double> frame_ms = sweep(dressed, arguments, shapes);
-  std::printf("%s, %d workers\n%zu particles, %zu frames, %d shapes came into use\n",
+  std::vector<FrameRecord> before;
+  for (int i = 0; i < kFramesBefore; ++i) before.push_back(dressed.frame());
+  const std::vector<FrameRecord> records = sweep(dressed, arguments);
+  std::vector<FrameRecord> with_shapes;
+  std::ranges::copy_if(records, std::back_inserter(with_shapes), &FrameRecord::new_shape);
+  std::printf("%s, %d workers\n%zu particles, %zu frames, %zu shapes came into use\n",
               bench::title(bench::find_origin()).c_str(), arguments.workers, dressed.session().vertices(),
-              frame_ms.size(), shapes);
-  const double ratio = worst_over_scratch(context, dressed, arguments);
-  std::ranges::sort(frame_ms);
-  std::ranges::sort(before_ms);
-  print_times("frames before the sweep, ms", before_ms);
-  print_times("frames of the sweep, ms", frame_ms);
-  print_bar("longest frame, ms", frame_ms.back(), kMostFrame_ms);
-  print_bar("error over that of fits from scratch", ratio, kMostOverScratch);
+              records.size(), with_shapes.size());
+  if (!arguments.sheet.empty()) dressed.write_sheet(arguments.sheet);
+  const double ratio = arguments.judged > 0 ? worst_over_scratch(context, dressed, arguments) : 0.0;
+  print_times("frames before the sweep, ms", before, &FrameRecord::frame_ms);
+  print_times("frames of the sweep, ms", records, &FrameRecord::frame_ms);
+  print_times("of these, frames with a new shape, ms", with_shapes, &FrameRecord::frame_ms);
+  print_times("the same by the calling thread's processor", before, &FrameRecord::processor_ms);
+  print_times("", records, &FrameRecord::processor_ms);
+  print_times("", with_shapes, &FrameRecord::processor_ms);
+  print_longest(records, arguments.longest);
+  print_bar("longest frame, ms", std::ranges::max(records, {}, &FrameRecord::frame_ms).frame_ms,
+            kMostFrame_ms);
+  if (arguments.judged > 0) print_bar("error over that of fits from scratch", ratio, kMostOverScratch);
   print_bar("cloth finite (0: yes)", dressed.outcome().cloth.finite ? 0.0 : 1.0, 0.0);
   return 0;
 }
