@@ -37,6 +37,7 @@ Burial find_burial(const engine::Context& context, const proxy::BodyProxy& proxy
       const proxy::ReliefTable& table = proxy.relief()[k];
       const int n = table.nodes_per_side;
       for (int i = 0; i < n * n; ++i) {
+        if (i % n == 0) context.checkpoint();
         const Vec3 point = surface_point(proxy.ellipsoids()[k].shape, texel_direction(i, n));
         depth[table.first_texel + static_cast<std::size_t>(i)] =
             std::max(0.0, depth_in_others(proxy, k, point) - from_m);

@@ -9,6 +9,7 @@ namespace bodice::fitting {
 namespace {
 
 constexpr std::size_t kGrain = 256;
+constexpr std::size_t kTasksAtOnce = 32;  // about half a millisecond of grouping
 
 /// One ellipsoid near a sample.
 struct Near {
@@ -101,9 +102,11 @@ class TermFinder {
   double least_m_ = 0.0;
 };
 
-/// Groups the terms of all tasks by ellipsoid; tasks and samples keep their order.
-void group(std::span<const std::vector<Found>> tasks, std::size_t samples, std::size_t ellipsoids,
+/// Groups the terms of all tasks by ellipsoid; tasks and samples keep their order. Frames come first now and
+/// then.
+void group(const engine::Context& context, std::span<const std::vector<Found>> tasks, std::size_t ellipsoids,
            ReliefTerms& terms) {
+  const std::size_t samples = terms.target_m.size();
   terms.begin.assign(ellipsoids + 1, 0);
   terms.of_begin.assign(samples + 1, 0);
   for (const auto& task : tasks)
@@ -111,15 +114,19 @@ void group(std::span<const std::vector<Found>> tasks, std::size_t samples, std::
       ++terms.begin[f.ellipsoid + 1];
       ++terms.of_begin[f.term.sample + 1];
     }
+  context.checkpoint();
   for (std::size_t k = 0; k < ellipsoids; ++k) terms.begin[k + 1] += terms.begin[k];
   for (std::size_t i = 0; i < samples; ++i) terms.of_begin[i + 1] += terms.of_begin[i];
   terms.term.resize(terms.begin.back());
   std::vector<std::size_t> next(terms.begin.begin(), terms.begin.end() - 1);
-  for (const auto& task : tasks)
+  std::size_t done = 0;
+  for (const auto& task : tasks) {
+    if (done++ % kTasksAtOnce == 0) context.checkpoint();
     for (const Found& f : task) {
       terms.of.push_back(static_cast<std::uint32_t>(next[f.ellipsoid]));
       terms.term[next[f.ellipsoid]++] = f.term;
     }
+  }
 }
 
 }  // namespace
@@ -138,7 +145,8 @@ ReliefTerms find_posed_terms(const engine::Context& context, std::span<const Rel
     terms.weight.push_back(sample.weight);
     terms.signed_distance_m.push_back(sample.signed_distance_m);
   }
-  group(tasks, samples.size(), input.shapes.size(), terms);
+  context.checkpoint();
+  group(context, tasks, input.shapes.size(), terms);
   return terms;
 }
 

@@ -138,6 +138,7 @@ void ReliefSystem::smooth(const Vector& x, Vector& y) const {
 ReliefSystem::Vector ReliefSystem::inverse_diagonal() const {
   Vector d = Vector::Zero(static_cast<Eigen::Index>(unknowns_));
   for (std::size_t k = 0; k < tables_.size(); ++k) {
+    context_.checkpoint();
     const Table& table = tables_[k];
     double* const h = d.data() + table.first;
     double* const a = h + table.grid->unknowns;
