@@ -4,34 +4,50 @@
 #include <bodice_test/executors.hpp>
 
 #include "face_fixtures.hpp"
-#include "faces/face_contact.hpp"
+#include "faces/own_side.hpp"
 
 using namespace bodice;
 using namespace bodice_test;
 
 namespace {
 
+/// A sample at the middle of an edge from a to b, `sunk_m` below it, and what is known of the edge's ends.
+struct EdgeSample {
+  collision::Collider body;
+  cloth::FaceContact faces;
+  cloth::FaceSample sample;
+
+  EdgeSample(std::span<const geometry::Ellipsoid> shapes, const Vec3& a, const Vec3& b, double sunk_m = 0.0)
+      : body(collider_of(shapes)) {
+    const auto contact = [&](const Vec3& at) {
+      const Eigen::Vector3f p = (at - body.origin()).cast<float>();
+      return body.query({p.x(), p.y(), p.z()});
+    };
+    faces.rules.keep_m = static_cast<float>(kThickness_m), faces.rules.spacing_m = 0.01f;
+    faces.rules.sag_m = static_cast<float>(kSag_m);
+    faces.nearest = {contact(a), contact(b)};
+    const Vec3 middle = 0.5 * (a + b) - Vec3(0.0, sunk_m, 0.0);
+    const collision::Contact here = contact(middle);
+    sample.particle[1] = sample.particle[2] = 1;
+    sample.weight[0] = sample.weight[1] = 0.5f;
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.at[axis] = static_cast<float>(middle[axis] - body.origin()[axis]);
+      sample.normal[axis] = here.normal[axis];
+    }
+    sample.distance_m = here.signed_distance;
+  }
+  /// Where its push leads.
+  Vec3 pushed() const {
+    const Eigen::Map<const Eigen::Vector3f> at(sample.at), normal(sample.normal);
+    return body.origin() + (at - sample.distance_m * normal).cast<double>();
+  }
+};
+
 /// Whether a sample at the middle of an edge from a to b would be pushed.
 bool middle_is_pushed(std::span<const geometry::Ellipsoid> shapes, const Vec3& a, const Vec3& b) {
-  const collision::Collider body = collider_of(shapes);
-  const auto contact = [&](const Vec3& at) {
-    const Eigen::Vector3f p = (at - body.origin()).cast<float>();
-    return body.query({p.x(), p.y(), p.z()});
-  };
-  cloth::FaceContact faces;
-  faces.rules.keep_m = static_cast<float>(kThickness_m), faces.rules.spacing_m = 0.01f;
-  faces.nearest = {contact(a), contact(b)};
-  const Vec3 middle = 0.5 * (a + b);
-  const collision::Contact here = contact(middle);
-  cloth::FaceSample sample;
-  sample.particle[1] = sample.particle[2] = 1;
-  sample.weight[0] = sample.weight[1] = 0.5f;
-  for (int axis = 0; axis < 3; ++axis) {
-    sample.at[axis] = static_cast<float>(middle[axis] - body.origin()[axis]);
-    sample.normal[axis] = here.normal[axis];
-  }
-  sample.distance_m = here.signed_distance;
-  return cloth::is_on_its_side(sample, faces);
+  EdgeSample middle(shapes, a, b);
+  return cloth::is_on_its_side(middle.sample, middle.faces) ||
+         cloth::take_to_own_side(middle.body, middle.faces, middle.sample);
 }
 
 }  // namespace
@@ -46,6 +62,16 @@ TEST_CASE("face contact: a sample is pushed between two toes, and not through a 
   const std::span<const geometry::Ellipsoid> toe(toes.data(), 1);
   CHECK(!middle_is_pushed(toe, Vec3(-0.019, 1.001, 0), Vec3(0.009, 1.001, 0)));
   CHECK(middle_is_pushed(toe, Vec3(-0.01, 1.009, -0.01), Vec3(-0.01, 1.0085, 0.01)));
+}
+
+TEST_CASE("face contact: a sample that sank below the middle of a flat limb is pushed to its edge's side") {
+  const geometry::Ellipsoid flat = ellipsoid(Vec3(0, 1, 0), Vec3(0.05, 0.01, 0.1));
+  EdgeSample sunk(std::span(&flat, 1), Vec3(-0.02, 1.01, 0), Vec3(0.02, 1.01, 0), 0.012);
+  CHECK(sunk.sample.normal[1] < -0.9f);
+  CHECK(!cloth::is_on_its_side(sunk.sample, sunk.faces));
+  REQUIRE(cloth::take_to_own_side(sunk.body, sunk.faces, sunk.sample));
+  CHECK(cloth::is_on_its_side(sunk.sample, sunk.faces));
+  CHECK(sunk.pushed().y() == doctest::Approx(1.01).epsilon(1e-4));
 }
 
 TEST_CASE("face contact: a tight sleeve of long edges keeps the thickness everywhere, without it they cut") {

@@ -7,6 +7,7 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "base/tolerances.hpp"
+#include "faces/own_side.hpp"
 
 namespace bodice::cloth {
 namespace {

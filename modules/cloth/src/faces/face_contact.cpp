@@ -8,6 +8,7 @@
 
 #include "base/schedule.hpp"
 #include "base/tolerances.hpp"
+#include "faces/own_side.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -53,10 +54,10 @@ float motion_off(const FaceSample& s, const FaceContact& f) {
   return std::sqrt(dot3(off, off));
 }
 
-// What happens to a sample in a substep: it is queried anew, may be too near, or neither until it has
-// traveled farther.
+// What happens to a sample in a substep: it is queried anew, may be too near, has a surface behind it, or
+// none of these until it has traveled farther.
 struct Look {
-  bool query = false, active = false;
+  bool query = false, active = false, behind = false;
   float quiet_m = 0.0f;
 };
 
@@ -71,7 +72,7 @@ Look look_at(const FaceSample& s, Float4 where, const FaceContact& f) {
   const float room_m = distance_at(s, where) - s.keep_m - r.sag_m;
   if (room_m > 0.0f) return {.quiet_m = std::min(stale_m, room_m)};
   if (is_on_its_side(s, f)) return {.active = true};
-  return {.quiet_m = stale_m};
+  return {.behind = true, .quiet_m = stale_m};
 }
 
 // Looks at the samples of a run that may have come too near, and lists those to push, with distances that are
@@ -82,7 +83,9 @@ void refresh_run(const collision::Collider& body, const FaceSubstep& substep, st
   const auto [begin, end] = f.samples.of_run(f.elements, run);
   state.active = 0, state.next_m = kNever_m;
   SampleQuery query;
-  const auto settle = [&](std::uint32_t k, const Look& look) {
+  const auto settle = [&](std::uint32_t k, Look look) {
+    FaceSample& sample = f.samples.all[k];
+    if (look.behind && take_to_own_side(body, f, sample)) look = look_at(sample, vector_of(sample.at), f);
     const float quiet_m = look.quiet_m - substep.remaining * motion_off(f.samples.all[k], f);
     f.until_m[k] = look.active || !(quiet_m > 0.0f) ? 0.0f : state.travel_m + quiet_m;
     state.next_m = std::min(state.next_m, f.until_m[k]);
@@ -184,19 +187,6 @@ std::uint64_t push_all(const engine::Context& context, const FaceSubstep& subste
 }
 
 }  // namespace
-
-bool is_on_its_side(const FaceSample& s, const FaceContact& f) {
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
-  const Float4 normal = vector_of(s.normal), surface = vector_of(s.at) - s.distance_m * normal;
-  for (int c = 0; c < 3; ++c) {
-    const collision::Contact& corner = f.nearest[s.particle[c]];
-    const bool near = corner.signed_distance < f.rules.keep_m + f.rules.spacing_m;
-    if (!(weight[c] > 0.0f) || !near || dot3(normal, vector_of(corner.normal)) >= 0.0f) continue;
-    // A surface ahead faces the sample's own across a gap; one behind is the other side of a limb.
-    if (!(dot3(normal, vector_of(corner.point) - surface) > 0.0f)) return false;
-  }
-  return true;
-}
 
 FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& topology,
                               const SolverOptions& options, double median_edge_m,

@@ -41,12 +41,6 @@ struct FaceContact {
   bool on = false;  ///< whether there are samples in this frame
 };
 
-/// Whether a sample inside the body would be pushed toward the side that its particles lie on. Where a
-/// triangle cuts a limb, the closest surface may be on the other side of the limb: it opposes the surface
-/// below a particle, and that one lies behind it. There only the particles, which know their paths, are moved
-/// out. Between two toes the surfaces oppose each other as well, but each lies ahead of the other.
-bool is_on_its_side(const FaceSample& sample, const FaceContact& faces);
-
 /// The contact of this garment at rest with a body, at the thickness of the options.
 FaceContact make_face_contact(const geometry::TriMesh& mesh, const Topology& topology,
                               const SolverOptions& options, double median_edge_m, const Particles& particles);

@@ -197,6 +197,16 @@ std::size_t count_at_rest(const Elements& elements, const Particles& p, float sp
   return total;
 }
 
+void take_contact(const collision::Collider& body, const collision::Contact& contact, float frame_s,
+                  FaceSample& s) {
+  s.distance_m = contact.signed_distance;
+  std::ranges::copy(contact.normal, s.normal);
+  const Vec3 velocity =
+      body.surface_velocity(contact.ellipsoid, Eigen::Map<const Eigen::Vector3f>(s.at).cast<double>());
+  const float along = frame_s * dot3(vector_of(s.normal), to_float4(velocity));
+  for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = along * s.normal[axis];
+}
+
 void SampleQuery::run(const collision::Collider& body, float band_m, float frame_s,
                       std::span<FaceSample> samples) {
   if (count == 0) return;
@@ -207,13 +217,9 @@ void SampleQuery::run(const collision::Collider& body, float band_m, float frame
     const collision::Contact& c = contact[k];
     s.at[0] = x[k], s.at[1] = y[k], s.at[2] = z[k];
     const bool near = c.ellipsoid != collision::kNoEllipsoid;
-    s.distance_m = near ? c.signed_distance : band_m;
-    for (int axis = 0; axis < 3; ++axis) s.normal[axis] = near ? c.normal[axis] : 0.0f;
-    if (!near) continue;
-    const Vec3 velocity =
-        body.surface_velocity(c.ellipsoid, Eigen::Map<const Eigen::Vector3f>(s.at).cast<double>());
-    const float along = frame_s * dot3(vector_of(s.normal), to_float4(velocity));
-    for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = along * s.normal[axis];
+    s.distance_m = band_m;
+    for (float& n : s.normal) n = 0.0f;
+    if (near) take_contact(body, c, frame_s, s);
   }
   count = 0;
 }

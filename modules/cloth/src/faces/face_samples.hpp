@@ -90,6 +90,10 @@ void place_samples(const engine::Context& context, const collision::Collider& bo
                    const Elements& elements, std::span<const collision::Contact> nearest,
                    const MotionNearParticles& motion, const Particles& particles, FaceSamples& samples);
 
+/// Gives a sample the distance, the normal and the motion of a contact.
+void take_contact(const collision::Collider& body, const collision::Contact& contact, float frame_s,
+                  FaceSample& sample);
+
 /// Queries the listed samples at positions (x, y, z) in the body's pose at the end of the frame.
 struct SampleQuery {
   static constexpr std::size_t kMost = 256;

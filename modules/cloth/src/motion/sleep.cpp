@@ -18,9 +18,20 @@ constexpr float kQuiet_s =
 // / 2.
 constexpr float kTremble_m = 0.5f * kSlow_m_s * kQuiet_s;
 
+// A particle that contact puts back by more than this share of the median edge in a substep does not sleep.
+constexpr double kPullOfEdge = 0.25;
+
 bool stays(const Particles& p, std::size_t i, const Point& anchor) {
   const float dx = p.x[i] - anchor.x, dy = p.y[i] - anchor.y, dz = p.z[i] - anchor.z;
   return dx * dx + dy * dy + dz * dz < kTremble_m * kTremble_m;
+}
+
+// Whether contact puts the particle back from afar in each substep. Asleep it would no longer balance the
+// neighbors that pull it, and these would go off.
+bool is_pulled(const Particles& p, std::size_t i, float most_m) {
+  const Point& pulled = p.point[i];
+  const float dx = p.x[i] - pulled.x, dy = p.y[i] - pulled.y, dz = p.z[i] - pulled.z;
+  return dx * dx + dy * dy + dz * dz > most_m * most_m;
 }
 
 // Finds the speeds of the particles [begin, end) over the frame.
@@ -40,8 +51,9 @@ bool woken(const Ring& ring, std::size_t i, const Sleep& sleep) {
 
 }  // namespace
 
-Sleep make_sleep(std::size_t particles) {
+Sleep make_sleep(std::size_t particles, double median_edge_m) {
   Sleep s;
+  s.pull_m = static_cast<float>(kPullOfEdge * median_edge_m);
   for (auto* a : {&s.start_x, &s.start_y, &s.start_z, &s.speed, &s.quiet_s}) a->assign(particles, 0.0f);
   s.anchor.assign(particles, Point{}), s.stays.assign(particles, 0);
   return s;
@@ -65,7 +77,8 @@ void end_sleep_frame(const engine::Context& context, const Ring& ring, double fr
                        [&](std::size_t begin, std::size_t end) { find_speeds(p, begin, end, per_s, sleep); });
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const bool quiet = (sleep.speed[i] < kSlow_m_s || sleep.stays[i]) && !woken(ring, i, sleep);
+      const bool quiet = (sleep.speed[i] < kSlow_m_s || sleep.stays[i]) && !woken(ring, i, sleep) &&
+                         !is_pulled(p, i, sleep.pull_m);
       sleep.quiet_s[i] = quiet ? std::min(kQuiet_s, sleep.quiet_s[i] + static_cast<float>(frame_s)) : 0.0f;
       if (!quiet || !sleep.stays[i]) sleep.anchor[i] = {p.x[i], p.y[i], p.z[i], 0.0f};
       if (sleeps(sleep, i)) p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;

@@ -20,10 +20,11 @@ struct Sleep {
   std::vector<Point> anchor;        ///< #P: the position where the particle last was not quiet, meters
   std::vector<std::uint8_t> stays;  ///< #P: whether the particle is near its anchor
   std::vector<float> quiet_s;       ///< #P: how long the particle has been slow or near its anchor
+  float pull_m = 0.0f;              ///< a particle that contact puts back by more in a substep does not sleep
 };
 
 /// The state for so many particles, all awake.
-Sleep make_sleep(std::size_t particles);
+Sleep make_sleep(std::size_t particles, double median_edge_m);
 
 /// Whether a particle sleeps; constraints cannot move it then.
 bool sleeps(const Sleep& sleep, std::size_t particle);

@@ -8,6 +8,7 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "base/tolerances.hpp"
+#include "selfcontact/expected_paths.hpp"
 #include "selfcontact/tangles.hpp"
 
 namespace bodice::cloth {
@@ -30,53 +31,20 @@ constexpr float kUntangle_m_s = 0.3f;
 // Shares of the spare distance that particles may use before and after contacts moved them; two of them may
 // use both halves against each other.
 constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
+// The shares that particles on the body are expected to use at most. One that moves brings layers together,
+// and with less they would not meet in time.
+constexpr float kUsedStill = 0.2f, kUsedMoving = 1.0f;
 
 // Share of what a particle may stray that it uses at most when a search begins.
 constexpr float kOnPath = 0.9f;
 
-// Share of a substep's velocity in the one that is expected: sweeps leave some tremble, which averages out.
-constexpr float kSmoothing = 0.25f;
-
 // Pairs that would cross are pushed apart in so many rounds at most, of so many sweeps.
 constexpr int kHeldRounds = 6, kHeldSweeps = 4;
-// After so many rounds of zones, pairs that the body presses from both sides may cross; after so many, all
-// particles move together.
+// After so many rounds of zones, pairs that the body presses from both sides or within a zone may cross;
+// after so many, all particles move together.
 constexpr int kFirmRounds = 4, kMostRounds = 16;
 // How often particles that sink into the body are guarded against it, before layers cross.
 constexpr int kGuardings = 4;
-
-// Whether a particle at `at` left its expected path by more than `most_m`, `since_s` after the search.
-bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
-            const SelfContact& s) {
-  const float share = std::min(1.0f, since_s / s.ahead_s), most2 = most_m * most_m;
-  std::atomic<bool> far{false};
-  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    bool any_far = false;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Float4 off = xyz(load(at[i]) - load(s.found[i]) - share * load(s.ahead[i]));
-      any_far = any_far || !(dot(off, off) <= most2);
-    }
-    if (any_far) far.store(true, std::memory_order_relaxed);
-  });
-  return far.load();
-}
-
-// Expects that particles go on as they did, for a frame; and those that are at `at`, farther from there than
-// `most_m`, that they stray no more than that. Constraints may pull one far that contact then puts back.
-void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
-                float most_m, SelfContact& s) {
-  s.ahead_s = std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
-  const float share = substep.length_s / s.ahead_s;
-  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Float4 path = xyz(load(at[i]) - load(s.before[i])), expected = xyz(s.ahead_s * load(s.drift[i])),
-                   off = path - share * expected;
-      s.found[i] = s.before[i];
-      const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
-      store(s.ahead[i], expected + (1.0f - kept) / share * off);
-    }
-  });
-}
 
 // Lists the groups of particles on the paths that are expected.
 void search(const engine::Context& context, SelfContact& s) {
@@ -103,16 +71,6 @@ ContactSource source_of(const SelfContact& s) {
   return {s.mesh, {s.gap_m, s.slack_m, 0.0f, s.before}, s.rest, s.moves, s.loose.state};
 }
 
-// Adds the substep's velocities to the smoothed ones.
-void follow_drift(const engine::Context& context, float substep_s, SelfContact& s) {
-  engine::parallel_for(context, s.drift.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Float4 drift = load(s.drift[i]), now = (load(s.now[i]) - load(s.before[i])) / substep_s;
-      store(s.drift[i], drift + kSmoothing * (now - drift));
-    }
-  });
-}
-
 void copy_points(const engine::Context& context, const Particles& p, std::vector<Point>& to) {
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) to[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};
@@ -133,7 +91,7 @@ std::size_t count_crossing(const engine::Context& context, const SelfSubstep& su
   const bool all = !again || s.report.searches != searches;
   const std::span<const std::uint8_t> moved = all ? std::span<const std::uint8_t>{} : s.moved_leaves;
   const std::size_t count =
-      find_crossing(context, source_of(s), {s.now, s.zones.guard, moved, room}, s.tasks);
+      find_crossing(context, source_of(s), {s.now, s.zones.guard, s.zones.parent, moved, room}, s.tasks);
   std::ranges::fill(s.moved_leaves, std::uint8_t{0});
   return count;
 }
@@ -260,8 +218,9 @@ SelfContactReport report_self_contact(const SelfContact& s) {
 }
 
 void push_apart(const engine::Context& context, const SelfSubstep& substep, SelfContact& s, Particles& p) {
-  keep_groups(context, substep, p.point, kUsedBefore, s);
-  find_moves(context, s.mesh, s.before, p.point, s.moves);
+  foresee(context, substep, (substep.still_body ? kUsedStill : kUsedMoving) * s.spare_m, p, s);
+  keep_groups(context, substep, s.now, kUsedBefore, s);
+  find_moves(context, s.mesh, s.before, s.now, s.moves);
   refresh_contacts(context, source_of(s), s.tasks);
   push_contacts(context, s.mesh, push_of(substep, s), s.tasks, p.point);
   untangle(s.mesh, s.tangles, {substep.touching, s.loose.list, kUntangle_m_s * substep.length_s}, s.now,

@@ -61,6 +61,7 @@ void begin_self_contact(const engine::Context& context, const Particles& particl
 struct SelfSubstep {
   float length_s = 0.0f, frame_s = 0.0f;
   float friction = 0.0f;
+  bool still_body = false;                 ///< whether the body stands in this frame
   std::span<const std::uint8_t> touching;  ///< #P: whether the body pushed the particle in the substep before
 };
 

@@ -26,10 +26,22 @@ constexpr int kLifts = 3;
 // A zone with a pin moves as the pin, up to the rounding of floats.
 constexpr float kPinOfZone = 1e7f;
 
+// The root of a particle's zone, or a particle without one.
+Index zone_of(Index i, std::span<const Index> zone) {
+  while (zone[i] != i && zone[i] != geometry::kNoIndex) i = zone[i];
+  return i;
+}
+
+bool are_of_one_zone(const Index (&particle)[4], std::span<const Index> zone) {
+  const Index first = zone_of(particle[0], zone);
+  return std::ranges::all_of(particle, [&](Index i) { return zone_of(i, zone) == first; });
+}
+
 // Whether a pair must not cross. A part is backed by a pin or by the body behind it.
 bool can_be_parted(const PairContact& c, const CrossingSearch& how) {
   if (how.room == Room::kAmple)
     return std::ranges::any_of(c.particle, [&](Index i) { return how.now[i].weight > 0.0f; });
+  if (are_of_one_zone(c.particle, how.zone)) return false;
   const int split = c.edges ? 2 : 1;
   bool backed[2] = {false, false};
   for (int k = 0; k < 4; ++k) {

@@ -25,13 +25,15 @@ struct Zones {
 Zones make_zones(std::size_t particles);
 
 /// Where there is room, pairs may cross only if none of their particles can be moved; where it is scarce,
-/// also if the body or pins press their parts together from both sides.
+/// also if the body or pins press their parts together from both sides, or part those of one zone: what moves
+/// as one crosses itself only where particles that are guarded cannot move with it.
 enum class Room : std::uint8_t { kAmple, kScarce };
 
 /// Where pairs that would cross are looked for.
 struct CrossingSearch {
   std::span<const Point> now;    ///< #P: where paths end; a particle without weight cannot be moved
   std::span<const Point> guard;  ///< #P: as Zones::guard
+  std::span<const Index> zone;   ///< #P: as Zones::parent
   std::span<const std::uint8_t>
       moved;  ///< #leaves: whether its particles moved since the last search; or empty
   Room room = Room::kAmple;

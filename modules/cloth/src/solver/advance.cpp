@@ -102,7 +102,7 @@ FrameShare share(int substep, const Plan& plan) {
 
 SelfSubstep self_substep(const Plan& plan, const State& s) {
   return {plan.substep_s, static_cast<float>(plan.simulated_s), static_cast<float>(s.fabric.friction),
-          s.contacts.touching};
+          !s.contacts.motion.moving, s.contacts.touching};
 }
 
 ResolvedBody resolved_body(const collision::Collider* collider, const FrameShare& share, const State& s) {

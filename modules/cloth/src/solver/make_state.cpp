@@ -105,7 +105,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   s.ring = make_ring(mesh, together);
   if (options.self_collision)
     s.self = make_self_contact(mesh, s.particles, options.layer_gap_m, welded->median_edge_m);
-  s.sleep = make_sleep(s.particles.count());
+  s.sleep = make_sleep(s.particles.count(), welded->median_edge_m);
   s.contacts = make_contacts(s.particles.count(),
                              make_face_contact(mesh, topology, options, welded->median_edge_m, s.particles));
   if (options.certify_m && !s.contacts.faces.elements.all.empty())

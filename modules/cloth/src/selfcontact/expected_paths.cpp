@@ -1,0 +1,72 @@
+#include "selfcontact/expected_paths.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include <bodice/engine/parallel.hpp>
+
+#include "base/tolerances.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+// Share of a substep's velocity in the one that is expected: sweeps leave some tremble, which averages out.
+constexpr float kSmoothing = 0.25f;
+
+}  // namespace
+
+bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
+            const SelfContact& s) {
+  const float share = std::min(1.0f, since_s / s.ahead_s), most2 = most_m * most_m;
+  std::atomic<bool> far{false};
+  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    bool any_far = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 off = xyz(load(at[i]) - load(s.found[i]) - share * load(s.ahead[i]));
+      any_far = any_far || !(dot(off, off) <= most2);
+    }
+    if (any_far) far.store(true, std::memory_order_relaxed);
+  });
+  return far.load();
+}
+
+void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
+                float most_m, SelfContact& s) {
+  s.ahead_s = std::max(substep.length_s, substep.frame_s), s.since_s = 0.0f;
+  const float share = substep.length_s / s.ahead_s;
+  engine::parallel_for(context, s.found.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 path = xyz(load(at[i]) - load(s.before[i])), expected = xyz(s.ahead_s * load(s.drift[i])),
+                   off = path - share * expected;
+      s.found[i] = s.before[i];
+      const float kept = std::min(1.0f, most_m / std::sqrt(dot(off, off) + kTinyLength2));
+      store(s.ahead[i], expected + (1.0f - kept) / share * off);
+    }
+  });
+}
+
+void foresee(const engine::Context& context, const SelfSubstep& substep, float most_m, const Particles& p,
+             SelfContact& s) {
+  engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      s.now[i] = p.point[i];
+      if (!substep.touching[i]) continue;
+      const Float4 expected = xyz(load(s.before[i]) + substep.length_s * load(s.drift[i]));
+      const Float4 off = xyz(load(p.point[i])) - expected;
+      const float off_m = std::sqrt(dot(off, off));
+      if (off_m > most_m) store(s.now[i], expected + (most_m / off_m) * off);
+    }
+  });
+}
+
+void follow_drift(const engine::Context& context, float substep_s, SelfContact& s) {
+  engine::parallel_for(context, s.drift.size(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Float4 drift = load(s.drift[i]), now = (load(s.now[i]) - load(s.before[i])) / substep_s;
+      store(s.drift[i], drift + kSmoothing * (now - drift));
+    }
+  });
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,26 @@
+// Where particles are expected to go, which decides how often pairs are searched anew.
+#pragma once
+
+#include "selfcontact/self_contact.hpp"
+
+namespace bodice::cloth {
+
+/// Whether a particle at `at` left its expected path by more than `most_m`, `since_s` after the search.
+bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,
+            const SelfContact& self);
+
+/// Expects that particles go on as they did, for a frame; and those that are at `at`, farther from there than
+/// `most_m`, that they stray no more than that.
+void look_ahead(const engine::Context& context, const SelfSubstep& substep, std::span<const Point> at,
+                float most_m, SelfContact& self);
+
+/// Writes to `now` where contact with the body is expected to leave the points that constraints moved. What
+/// lies on the body is put back, so that it counts as no farther from its drift than `most_m`: cloth that is
+/// much too small is pulled by an edge and more a substep, and lists of pairs would hold all of it.
+void foresee(const engine::Context& context, const SelfSubstep& substep, float most_m,
+             const Particles& particles, SelfContact& self);
+
+/// Adds the velocities of a substep, which ended at `now`, to the smoothed ones.
+void follow_drift(const engine::Context& context, float substep_s, SelfContact& self);
+
+}  // namespace bodice::cloth
