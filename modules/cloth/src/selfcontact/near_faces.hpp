@@ -1,29 +1,53 @@
 // Pairs of triangles of two leaves with boxes that are near each other.
 #pragma once
 
+#include <bit>
+
 #include "selfcontact/contact_mesh.hpp"
 
 namespace bodice::cloth {
 
-/// The boxes of the triangles of a leaf, and of all of them.
+/// The boxes of the triangles of a leaf, and of all of them. Lane k of an array is triangle k; those that the
+/// leaf has not are empty.
 struct LeafBoxes {
-  Float4 low[kLeaf], high[kLeaf];
-  Float4 all_low = {}, all_high = {};
+  alignas(32) float low[3][kLeaf], high[3][kLeaf];
+  float all_low[3], all_high[3];
 
   LeafBoxes(std::span<const Face> faces, std::span<const Point> at) {
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-      const auto& [a, b, c] = faces[k].particle;
-      const Float4 p = xyz(load(at[a])), q = xyz(load(at[b])), r = xyz(load(at[c]));
-      low[k] = min(min(p, q), r), high[k] = max(max(p, q), r);
-      all_low = k == 0 ? low[k] : min(all_low, low[k]);
-      all_high = k == 0 ? high[k] : max(all_high, high[k]);
+    Float4 least = splat(kFarOfBoxes_m), most = splat(-kFarOfBoxes_m);
+    for (std::size_t k = 0; k < kLeaf; ++k) {
+      Float4 face_low = splat(kFarOfBoxes_m), face_high = splat(-kFarOfBoxes_m);
+      if (k < faces.size()) {
+        const auto& [a, b, c] = faces[k].particle;
+        const Float4 p = load(at[a]), q = load(at[b]), r = load(at[c]);
+        face_low = min(min(p, q), r), face_high = max(max(p, q), r);
+        least = min(least, face_low), most = max(most, face_high);
+      }
+      for (int axis = 0; axis < 3; ++axis) low[axis][k] = face_low[axis], high[axis][k] = face_high[axis];
     }
+    for (int axis = 0; axis < 3; ++axis) all_low[axis] = least[axis], all_high[axis] = most[axis];
   }
+
+ private:
+  static constexpr float kFarOfBoxes_m = 1e30f;
 };
 
-/// Whether two boxes are nearer than `reach` along all axes.
-inline bool are_near(Float4 low, Float4 high, Float4 other_low, Float4 other_high, Float4 reach) {
-  return !any((low - other_high > reach) | (other_low - high > reach));
+/// A bit for each triangle of `boxes` that is nearer than `reach_m` along all axes to a box from `low` to
+/// `high`. A position that is not a number is near everything.
+inline unsigned near_bits(const LeafBoxes& boxes, const float (&low)[3], const float (&high)[3],
+                          float reach_m) {
+  static_assert(kLeaf == 8);
+  unsigned near = 0;
+  for (std::size_t half = 0; half < kLeaf; half += 4) {
+    Int4 far = {};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Float4 over = splat(low[axis]) - load(&boxes.high[axis][half]),
+                   under = load(&boxes.low[axis][half]) - splat(high[axis]);
+      far |= (over > splat(reach_m)) | (under > splat(reach_m));
+    }
+    near |= (~lane_bits(far) & 0xFu) << half;
+  }
+  return near;
 }
 
 /// Calls visit(a, b) for each two triangles of two leaves, or of one, with boxes nearer than `reach_m`; a and
@@ -33,12 +57,16 @@ void for_each_near_face(const ContactMesh& mesh, std::span<const Point> at, std:
                         std::size_t other, float reach_m, Visit&& visit) {
   const std::uint32_t first = mesh.face_begin[leaf], second = mesh.face_begin[other];
   const LeafBoxes a(mesh.faces_of(leaf), at), b(mesh.faces_of(other), at);
-  const Float4 reach = splat(reach_m);
-  const std::uint32_t in_a = mesh.face_begin[leaf + 1] - first, in_b = mesh.face_begin[other + 1] - second;
-  for (std::uint32_t i = 0; i < in_a; ++i) {
-    if (!are_near(a.low[i], a.high[i], b.all_low, b.all_high, reach)) continue;
-    for (std::uint32_t j = leaf == other ? i + 1 : 0; j < in_b; ++j)
-      if (are_near(a.low[i], a.high[i], b.low[j], b.high[j], reach)) visit(first + i, second + j);
+  const std::uint32_t in_b = mesh.face_begin[other + 1] - second, all_of_b = (1u << in_b) - 1u;
+  const unsigned in_reach = near_bits(a, b.all_low, b.all_high, reach_m);
+  for (std::uint32_t i = 0; i < mesh.face_begin[leaf + 1] - first; ++i) {
+    if ((in_reach >> i & 1u) == 0) continue;
+    const float low[3] = {a.low[0][i], a.low[1][i], a.low[2][i]};
+    const float high[3] = {a.high[0][i], a.high[1][i], a.high[2][i]};
+    unsigned near = near_bits(b, low, high, reach_m) & all_of_b;
+    if (leaf == other) near &= ~((2u << i) - 1u);  // each two triangles of one leaf once
+    for (; near != 0; near &= near - 1u)
+      visit(first + i, second + static_cast<std::uint32_t>(std::countr_zero(near)));
   }
 }
 
