@@ -129,24 +129,26 @@ TEST_CASE(
 }
 
 TEST_CASE("a body that walks keeps its velocity when another shape comes into use, and its surface follows") {
-  const auto session = begun(true), same = begun(true);
+  const auto session = begun(true);
   const std::vector<Vec3> wanted = wider(*session->body()->skin);
   REQUIRE(farthest_m(wanted, session->body()->skin->input.skin.positions) > 0.02);
-  REQUIRE(session->reshape(wanted).ok());
-  const std::vector<Vec3> before = skin_of(*same);
+  const std::vector<Vec3> before = skin_of(*session);
   session->frame(kStep_s);
-  same->frame(kStep_s);
+  std::vector<Vec3> now = skin_of(*session);
+  for (std::size_t v = 0; v < now.size(); ++v) now[v] += now[v] - before[v];  // where it is a frame later
+  REQUIRE(session->reshape(wanted).ok());
+  session->frame(kStep_s);
   REQUIRE(session->body()->skin->input.skin.positions == wanted);
-  const std::vector<Vec3> now = skin_of(*same);
-  CHECK(farthest_m(now, skin_of(*session)) < 0.009);  // arms and soles are where a wider body has them
+  // Arms and soles are where a wider body has them, and limbs gain speed.
+  CHECK(farthest_m(now, skin_of(*session)) < 0.012);
   double off_m_s = 0.0, speed_m_s = 0.0;
   for (std::size_t v = 0; v < now.size(); v += 7) {
     const Vec3 local = now[v] - session->collider()->origin();
     const Eigen::Vector3f p = local.cast<float>();
     const auto contact = session->collider()->query({p.x(), p.y(), p.z()});
     const Vec3 velocity = session->collider()->surface_velocity(contact.ellipsoid, local);
-    off_m_s += (velocity - (now[v] - before[v]) / kStep_s).norm();
-    speed_m_s += (now[v] - before[v]).norm() / kStep_s;
+    off_m_s += (velocity - (now[v] - before[v]) / (2.0 * kStep_s)).norm();
+    speed_m_s += (now[v] - before[v]).norm() / (2.0 * kStep_s);
   }
   CHECK(off_m_s < 0.3 * speed_m_s);  // zero velocities would be off by all of it
   check_that_frames_allocate_nothing(*session);
