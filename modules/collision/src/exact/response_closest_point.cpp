@@ -9,6 +9,8 @@
 #include "exact/cutting_planes.hpp"
 #include "exact/ray_exits.hpp"
 #include "exact/response.hpp"
+#include "exact/response_parts.hpp"
+#include "exact/shorter_exit.hpp"
 #include "model/tolerances.hpp"
 
 namespace bodice::collision {
@@ -17,39 +19,15 @@ using geometry::Vec3;
 
 namespace {
 
-/// Removes the inward part of the velocity and slows the rest by Coulomb friction; restitution is 0.
-void correct_velocity(const Halfspaces& contact, double friction, Vec3& velocity) {
-  const Vec3 along = contact.closest_velocity(velocity);
-  const double impulse = (along - velocity).norm();
-  const double speed = along.norm();
-  velocity =
-      speed > friction * impulse ? Vec3(along * (1.0 - friction * impulse / speed)) : Vec3(Vec3::Zero());
-}
-
-/// The position as it will be stored, in float. It goes through memory, because g++ 12 optimizes a vectorized
-/// pair of casts to float and back away.
-Vec3 rounded_to_float(const Vec3& x) {
-  const auto rounded = [](double v) {
-    const volatile float narrow = static_cast<float>(v);
-    return double{narrow};
-  };
-  return {rounded(x.x()), rounded(x.y()), rounded(x.z())};
-}
-
-Halfspaces single(const Vec3& normal) {
-  Halfspaces result;
-  result.add({normal, 0.0});
-  return result;
-}
-
 /// Moves the particle to `x`, or toward it as far as max_push_m allows.
 void move(const Vec3& x, const Halfspaces& contact, const ResolveOptions& options, ParticleReport& report,
           ParticleState& particle) {
   const Vec3 p = particle.position;
   const double push = (x - p).norm();
   // Undoing the particle's own path does not count as a push.
-  const double own_path = particle.has_safe ? (p - particle.safe).norm() : 0.0;
-  const double limit = double{options.max_push_m} + own_path;
+  const double undone =
+      particle.has_safe ? std::max(0.0, (particle.safe - p).dot(x - p)) / std::max(push, 1e-300) : 0.0;
+  const double limit = double{options.max_push_m} + undone;
   particle.position = x;
   if (push > limit) {
     particle.position = p + (x - p) * (limit / push);
@@ -124,6 +102,17 @@ class Resolver {
     x_ = pushed.position;
     contact_ = pushed.contact;
     by_chance_ = pushed.clear && pushed.set_back;
+    if (pushed.clear && !near_.nonconvex() && (x_ - p_).norm() > kLongestPlainPush * report_.depth_m)
+      shorten_push();
+  }
+
+  /// Planes that were added on the path hold a particle deep between many ellipsoids too far off.
+  void shorten_push() {
+    report_.fallback = true;
+    const auto x = shorter_exit(field_, p_, x_, clearance_m_);
+    if (!x) return;
+    x_ = *x;
+    contact_ = touching(x_);
   }
 
   /// Returns the particle to the point where its path entered the union, if x_ is on another side or still
@@ -195,6 +184,8 @@ class Resolver {
     if (near_.nonconvex()) exit_beyond_bulge(exit);
     exit_along_rays(exit);
     if (!std::isfinite(exit.length_m)) return;
+    if (!near_.nonconvex())
+      if (const auto x = shorter_exit(field_, p_, exit.x, clearance_m_)) take_shorter(exit, *x);
     x_ = exit.x;
     contact_ = exit.contact ? *exit.contact : touching(x_);
   }

@@ -41,6 +41,11 @@ inline constexpr double kEndSlack = 1e-2;
 /// where the exit along the normal is shorter.
 inline constexpr double kLongestPush = 4.0;
 
+/// The same out of plain ellipsoids: a right-angled corner of three takes 1.7. Deep between many of them,
+/// planes that were added on the path lead as much as three times too far, and the exact side shortens such a
+/// push.
+inline constexpr double kLongestPlainPush = 2.0;
+
 /// Usual length of a push out of a crease, in multiples of the depth.
 inline constexpr double kUsualPush = 1.5;
 
@@ -82,6 +87,9 @@ inline constexpr double kBesideJump = 1e-6;
 /// Depth, as a fraction of the union's size, up to which a position without room around it counts as a fold
 /// of the skin, where limbs overlap: a centimeter of a body.
 inline constexpr double kFoldDepth = 1e-2;
+
+/// An exit is replaced by a shorter one of unknown contacts only if that is less than this fraction of it.
+inline constexpr double kWorthShortening = 0.9;
 
 /// A ray exit replaces another exit only if it is shorter than this fraction of it.
 inline constexpr double kMuchShorter = 0.75;

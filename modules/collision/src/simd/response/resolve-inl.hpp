@@ -24,7 +24,9 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 // Longer pushes, in multiples of the depth, come from surfaces that nearly face each other and are left to
 // the exact side.
-constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
+template <class Surface>
+constexpr float kMostOfDepth = static_cast<float>(Surface::kConvex ? collision::kLongestPlainPush
+                                                                   : collision::kLongestPush);
 // A path shorter than this fraction of the least radius nearby neither passes through an ellipsoid nor
 // changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
@@ -80,8 +82,9 @@ class PushOut {
   HWY_INLINE void write_responses(int i, M contact, V& deepest);
   /// Contacts with a push that the kernel does not settle.
   HWY_INLINE M unsettled(int i, V depth, V length2) const;
-  /// The longest push that is allowed now.
-  HWY_INLINE V longest_push(VI lanes, V3 p) const;
+  /// The longest that a push of this length is allowed to be: what it undoes of the particle's path does not
+  /// count.
+  HWY_INLINE V longest_push(VI lanes, V3 p, V3 push, V length2) const;
   /// The velocity after the contact, for particles that were pushed from p to `position`.
   HWY_INLINE V3 velocity_after(int i, VI lanes, V3 p, V3 position) const;
 
@@ -166,16 +169,17 @@ HWY_INLINE V3 PushOut<Surface>::velocity_after(int i, VI lanes, V3 p, V3 positio
 
 template <class Surface>
 HWY_INLINE M PushOut<Surface>::unsettled(int i, V depth, V length2) const {
-  const V longest = hn::Min(all(reach_m_), hn::MulAdd(all(kLongestPush), depth, all(parameters_.slack_m)));
+  const V longest =
+      hn::Min(all(reach_m_), hn::MulAdd(all(kMostOfDepth<Surface>), depth, all(parameters_.slack_m)));
   return hn::Or(hn::Gt(length2, hn::Mul(longest, longest)), mask_of(state_.open, i));
 }
 
 template <class Surface>
-HWY_INLINE V PushOut<Surface>::longest_push(VI lanes, V3 p) const {
+HWY_INLINE V PushOut<Surface>::longest_push(VI lanes, V3 p, V3 push, V length2) const {
   const V limit = all(parameters_.max_push_m);
   if (!batch_.has_safe) return limit;
-  const V3 path = p - safe_positions_of(batch_, lanes);
-  return hn::Add(limit, hn::Sqrt(dot(path, path)));
+  const V undone = hn::Max(hn::Zero(f), dot(safe_positions_of(batch_, lanes) - p, push));
+  return hn::Add(limit, hn::Div(undone, hn::Sqrt(hn::Max(length2, all(1e-30f)))));
 }
 
 template <class Surface>
@@ -189,7 +193,7 @@ HWY_INLINE void PushOut<Surface>::write_responses(int i, M contact, V& deepest) 
   const M hard = hn::And(contact, unsettled(i, depth, length2));
   for_particles(hard, hard, in_range_.lane + i, [&](int lane, bool) { out_.left_to_exact.set(lane, true); });
   contact = hn::AndNot(hard, contact);
-  const V limit = longest_push(lanes, p);
+  const V limit = longest_push(lanes, p, push, length2);
   const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
   V3 position = pushed_to;
   if (!hn::AllFalse(f, pending)) {
