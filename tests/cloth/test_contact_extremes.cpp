@@ -22,7 +22,8 @@ TEST_CASE("contact extremes: a tube that begins wholly inside a trunk comes out,
     CHECK(report.layers.pairs < 25 * solver.particles());
     if (frame > 0) CHECK((report.limits & cloth::kSpeedClamped) == 0);
     const std::vector<Vec3> at = positions(solver, mesh.positions.size());
-    CHECK(nearest(trunk, at, mesh.triangles, 2) > 0.0);
+    // Cloth comes out at a meter a second: the 37 mm that it begins inside take more than two frames.
+    CHECK(nearest(trunk, at, mesh.triangles, 2) > (frame < 2 ? -0.041 + 0.017 * (frame + 1) : 0.0));
     if (frame % 11 == 0) CHECK(crossings(mesh, at) == 0);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "face_fixtures.hpp"
 #include "faces/own_side.hpp"
+#include "faces/push_sample.hpp"
 
 using namespace bodice;
 using namespace bodice_test;
@@ -233,4 +234,33 @@ TEST_CASE("face contact: between two limbs no particle is pushed through either"
     }
     before = now;
   }
+}
+
+TEST_CASE("face contact: no corner moves farther than twice the push of a sample beside a pinned one") {
+  const float free[3] = {1.0f, 1.0f, 1.0f};
+  for (const float share : {0.9f, 0.5f, 0.1f, 0.01f, 1e-6f}) {
+    CAPTURE(share);
+    const float weight[3] = {share, 1.0f - share, 0.0f};
+    const float pinned[3] = {1.0f, 0.0f, 1.0f};
+    CHECK(share / cloth::yielding_of(weight, pinned) <= 2.0f);
+    // Where no corner is pinned the sample moves by the whole push.
+    const float yielding = cloth::yielding_of(weight, free);
+    CHECK((share * share + (1.0f - share) * (1.0f - share)) / yielding == doctest::Approx(1.0));
+  }
+}
+
+TEST_CASE("face contact: a sleeve that begins deep in a limb comes out slowly, and is not thrown") {
+  Sleeve sleeve(true);
+  sleeve.limb.front().radii =
+      Vec3(0.1, 0.6, 0.1);  // 5 cm wider than the sleeve, which is held inside by its upper rim
+  sleeve.body = collider_of(sleeve.limb);
+  const std::vector<Vec3> start = positions(*sleeve.solver, sleeve.mesh.positions.size());
+  const cloth::FrameReport report = sleeve.solver->step({}, sleeve.body, kFrame_s);
+  double farthest_m = 0.0;
+  const std::vector<Vec3> now = positions(*sleeve.solver, start.size());
+  for (std::size_t v = 0; v < start.size(); ++v)
+    farthest_m = std::max(farthest_m, (now[v] - start[v]).norm());
+  CHECK(report.faces.contacts > 0);
+  CAPTURE(farthest_m);
+  CHECK(farthest_m < 0.04);
 }

@@ -8,6 +8,7 @@
 
 #include "base/tolerances.hpp"
 #include "faces/own_side.hpp"
+#include "faces/push_sample.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -147,12 +148,13 @@ class Prover {
 void push(const FaceSample& s, const FaceContact& f, Particles& p, FaceCertificate& c) {
   const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
   Float4 moved = -vector_of(s.at);
-  float yielding = 0.0f;
+  float inverse_mass[3];
   for (int k = 0; k < 3; ++k) {
     const Index i = s.particle[k];
     moved += weight[k] * Float4{p.x[i], p.y[i], p.z[i], 0.0f};
-    yielding += p.point[i].weight * weight[k] * weight[k];
+    inverse_mass[k] = p.point[i].weight;
   }
+  const float yielding = yielding_of(weight, inverse_mass);
   const float depth = -(s.distance_m + dot3(vector_of(s.normal), moved));
   if (!(depth > 0.0f) || !(yielding > 0.0f) || !is_on_its_side(s, f)) return;
   for (int k = 0; k < 3; ++k) {

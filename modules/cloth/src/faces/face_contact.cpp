@@ -9,6 +9,7 @@
 #include "base/schedule.hpp"
 #include "base/tolerances.hpp"
 #include "faces/own_side.hpp"
+#include "faces/push_sample.hpp"
 
 namespace bodice::cloth {
 namespace {
@@ -33,16 +34,6 @@ constexpr float kRounding = 1.00001f;  // travel is rounded upward
 
 bool is_due(const RunState& run) {
   return !(run.next_m > run.travel_m);
-}
-
-// Position of a sample in the body's pose at the end of the frame.
-Float4 seen_by_body(const FaceSample& s, std::span<const Point> now, float remaining) {
-  return position(s, now) + remaining * vector_of(s.ahead);
-}
-
-// Distance of a sample at this position, to first order.
-float distance_at(const FaceSample& s, Float4 where) {
-  return s.distance_m + dot3(vector_of(s.normal), where - vector_of(s.at));
 }
 
 // How far a sample's motion in the frame may be off its elements' share of that of the particles.
@@ -129,37 +120,6 @@ std::size_t travel(FaceContact& f) {
     work += end - begin;
   }
   return work;
-}
-
-// The longest push of a sample in a substep. What it came nearer in this substep is undone at once, and the
-// rest at the recovery speed.
-float longest_push(const FaceSample& s, const FaceSubstep& substep, const FaceContact& f,
-                   const Particles& p) {
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
-  Float4 path = -(substep.length_s / f.rules.frame_s) * vector_of(s.ahead);
-  for (int c = 0; c < 3; ++c) {
-    const Index i = s.particle[c];
-    path += weight[c] * (xyz(load(f.now[i])) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f});
-  }
-  return kFromBody_m_s * substep.length_s + std::sqrt(dot3(path, path));
-}
-
-// Moves the particles of a sample that is too near; returns whether it was.
-bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& p, FaceContact& f) {
-  const float room = distance_at(s, seen_by_body(s, f.now, substep.remaining)) - s.keep_m;
-  if (!(room < 0.0f)) return false;
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
-  float yielding = 0.0f;
-  for (int c = 0; c < 3; ++c) yielding += f.now[s.particle[c]].weight * weight[c] * weight[c];
-  if (!(yielding > 0.0f)) return true;
-  float push = -room;
-  if (push > kFromBody_m_s * substep.length_s) push = std::min(push, longest_push(s, substep, f, p));
-  const Float4 normal = vector_of(s.normal);
-  for (int c = 0; c < 3; ++c) {
-    Point& point = f.now[s.particle[c]];
-    store(point, load(point) + (push * point.weight * weight[c] / yielding) * normal);
-  }
-  return true;
 }
 
 // Calls visit(sample) for the active samples of a group, in order.

@@ -119,4 +119,20 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   return s;
 }
 
+void set_positions(std::span<const Vec3> world_positions, State& s) {
+  if (world_positions.size() != s.particle_of_vertex.size()) return;
+  if (!std::ranges::all_of(world_positions, [](const Vec3& p) { return p.allFinite(); })) return;
+  Particles& p = s.particles;
+  for (std::size_t v = world_positions.size(); v-- > 0;) {
+    const Index i = s.particle_of_vertex[v];
+    if (i == geometry::kNoIndex) continue;
+    const Eigen::Vector3f at = (world_positions[v] - p.origin).cast<float>();
+    p.x[i] = at.x(), p.y[i] = at.y(), p.z[i] = at.z();
+    p.vx[i] = p.vy[i] = p.vz[i] = 0.0f;
+    p.point[i] = {at.x(), at.y(), at.z(), p.point[i].weight};
+  }
+  wake_all(s.sleep);
+  s.self.sided = false, forget_pairs(s.self);
+}
+
 }  // namespace bodice::cloth

@@ -36,6 +36,10 @@ FrameReport Solver::step(const engine::Context& context, double dt_s) {
   return advance(whole, nullptr, dt_s, impl_->state);
 }
 
+void Solver::set_positions(std::span<const geometry::Vec3> world_positions) {
+  cloth::set_positions(world_positions, impl_->state);
+}
+
 void Solver::move_pins(std::span<const geometry::Vec3> world_positions) {
   // Constraints cannot move sleeping particles, so that edges between them and moving pins would stretch.
   if (set_pin_targets(world_positions, impl_->state.pins)) wake_all(impl_->state.sleep);

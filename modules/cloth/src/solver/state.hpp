@@ -54,6 +54,9 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
                                  const Fabric& fabric, const SolverOptions& options,
                                  std::span<const Tack> tacks = {});
 
+/// As Solver::set_positions().
+void set_positions(std::span<const Vec3> world_positions, State& state);
+
 /// Advances by one frame.
 FrameReport advance(const engine::Context& context, const collision::Collider* collider, double dt_s,
                     State& state);

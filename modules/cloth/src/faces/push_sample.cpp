@@ -1,0 +1,58 @@
+#include "faces/push_sample.hpp"
+
+#include "base/tolerances.hpp"
+
+namespace bodice::cloth {
+namespace {
+
+// How much farther a sample may be pushed in a substep. What it came nearer in this substep is undone at
+// once, and the rest at the recovery speed. What its neighbors pushed it meanwhile is part of that, or
+// together they would throw the cloth.
+float longest_push(const FaceSample& s, const FaceSubstep& substep, const FaceContact& f,
+                   const Particles& p) {
+  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  Float4 path = -(substep.length_s / f.rules.frame_s) * vector_of(s.ahead), pushed = splat(0.0f);
+  for (int c = 0; c < 3; ++c) {
+    const Index i = s.particle[c];
+    path += weight[c] * (load(f.entered[i]) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f});
+    pushed += weight[c] * (load(f.now[i]) - load(f.entered[i]));
+  }
+  const Float4 normal = vector_of(s.normal);
+  const float nearer = std::max(0.0f, -dot3(normal, path));
+  return std::max(0.0f, kFromBody_m_s * substep.length_s + nearer - dot3(normal, pushed));
+}
+
+// Whether no free corner of a sample can be out of the body within the frame. Contact of particles brings
+// such corners out, and the sample with them; many deep samples that pull at the same corners would throw
+// them.
+bool corners_are_deep(const FaceSample& s, const FaceContact& f) {
+  const float deep_m = f.rules.keep_m - kFromBody_m_s * f.rules.frame_s;
+  return std::ranges::all_of(s.particle, [&](Index i) {
+    return !(f.now[i].weight > 0.0f) || f.nearest[i].signed_distance < deep_m;
+  });
+}
+
+}  // namespace
+
+bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& p, FaceContact& f) {
+  const float room = distance_at(s, seen_by_body(s, f.now, substep.remaining)) - s.keep_m;
+  if (!(room < 0.0f)) return false;
+  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  const float inverse_mass[3] = {f.now[s.particle[0]].weight, f.now[s.particle[1]].weight,
+                                 f.now[s.particle[2]].weight};
+  const float yielding = yielding_of(weight, inverse_mass);
+  if (!(yielding > 0.0f)) return true;
+  float push = -room;
+  if (push > kFromBody_m_s * substep.length_s) {
+    if (corners_are_deep(s, f)) return false;
+    push = std::min(push, longest_push(s, substep, f, p));
+  }
+  const Float4 normal = vector_of(s.normal);
+  for (int c = 0; c < 3; ++c) {
+    Point& point = f.now[s.particle[c]];
+    store(point, load(point) + (push * point.weight * weight[c] / yielding) * normal);
+  }
+  return true;
+}
+
+}  // namespace bodice::cloth

@@ -1,0 +1,39 @@
+// Pushes a sample of an edge or triangle out of the body by its corners.
+#pragma once
+
+#include <algorithm>
+
+#include "faces/face_contact.hpp"
+
+namespace bodice::cloth {
+
+/// Position of a sample in the body's pose at the end of the frame.
+inline Float4 seen_by_body(const FaceSample& s, std::span<const Point> now, float remaining) {
+  return position(s, now) + remaining * vector_of(s.ahead);
+}
+
+/// Distance of a sample at this position, to first order.
+inline float distance_at(const FaceSample& s, Float4 where) {
+  return s.distance_m + dot3(vector_of(s.normal), where - vector_of(s.at));
+}
+
+/// No corner moves farther than this many times the push of its sample. A sample near a pinned corner yields
+/// only if the other corners move many times as far, which tears the cloth.
+inline constexpr float kLongestLever = 2.0f;
+
+/// What a push is divided by: corner c moves by its inverse mass times its weight times push / yielding.
+inline float yielding_of(const float (&weight)[3], const float (&inverse_mass)[3]) {
+  float all = 0.0f, most = 0.0f;
+  for (int c = 0; c < 3; ++c) {
+    const float by = inverse_mass[c] * weight[c];
+    all += by * weight[c];
+    most = std::max(most, by);
+  }
+  return std::max(all, most / kLongestLever);
+}
+
+/// Moves the corners of a sample that is too near; returns whether it was.
+bool push_out(const FaceSample& sample, const FaceSubstep& substep, const Particles& particles,
+              FaceContact& faces);
+
+}  // namespace bodice::cloth
