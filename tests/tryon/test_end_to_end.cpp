@@ -248,3 +248,26 @@ TEST_CASE("solid with very few ellipsoids encloses the parts instead of growing 
   CHECK(solid->accuracy.gap_m.mean < 0.06);
   CHECK(solid->accuracy.skin_outside_depth_m <= 1e-9);
 }
+
+TEST_CASE("a garment that begins deep in a wide proxy is lifted out of it, untorn and untangled") {
+  // The back of this body is hollow at the waist, which the ellipsoids of the solid tier fill: 48 mm of them
+  // cover the waistband.
+  for (const proxy::Tier tier : {proxy::Tier::kSolid, proxy::Tier::kTight}) {
+    CAPTURE(proxy::name(tier));
+    auto skin = tryon::segment_builtin({}, {.vertices = 2000, .seed = 65}, {});
+    REQUIRE(skin.ok());
+    const auto body = tryon::fit_proxy({}, std::move(skin).value(), {.tier = tier});
+    REQUIRE(body.ok());
+    const auto draped = tryon::drape({}, *body, {skirt_for({}, body->skin)}, {.frames = 12});
+    REQUIRE(draped.ok());
+    const tryon::DrapeReport& report = draped->report;
+    CHECK(report.crossings_end == 0);
+    CHECK(report.stretch_p95 < 0.1);
+    CHECK(report.stretch_max <
+          3.0);  // one edge of the waistband; 60 and more where contact alone moves it out
+    if (tier == proxy::Tier::kSolid)
+      CHECK(report.lifted_m == doctest::Approx(0.06).epsilon(0.3));
+    else
+      CHECK(report.lifted_m == 0.0);
+  }
+}

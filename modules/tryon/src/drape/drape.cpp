@@ -19,6 +19,7 @@
 #include "drape/recorder.hpp"
 #include "garment/garment_reach.hpp"
 #include "garment/misplaced_garments.hpp"
+#include "garment/start.hpp"
 #include "measure/crossings.hpp"
 #include "measure/fit_warnings.hpp"
 #include "measure/prop_start.hpp"
@@ -255,6 +256,7 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
   auto scene = make_scene(*all, *solver, body, met, options.motion != nullptr);
   if (!scene) return std::move(scene).error();
   MovingBody& moving = scene->met;
+  report.lifted_m = lift_out(context, body.skin, moving.collider(), settings->thickness_m, *all, *solver);
   Recorder recorder(garments, *all, frames_to_keep(options.frames, options.kept_frames));
   Drape drape(context, options, *scene, recorder, result);
   std::optional<engine::StageTimer> timer(std::in_place, context, report.stages, "drape");
@@ -266,7 +268,6 @@ engine::Result<DrapeResult> simulate(const engine::Context& context, const Prepa
       *all, garments, drape.positions(),
       {moving.skin(context), body.skin.anatomy.part, moving.distance(context)}, report.warnings);
   timer.reset();
-
   report.pierced_share =
       pierced_share(context, moving.distance(context), drape.positions(), all->mesh.triangles);
   add_cloth(context, drape.positions(), all->mesh.triangles, options.props, report.props);

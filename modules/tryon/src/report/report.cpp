@@ -193,6 +193,7 @@ Json drape_json(const DrapeReport& d) {
           {"frames", d.frames},
           {"particles", d.particles},
           {"thickness_mm", mm(d.thickness_m)},
+          {"lifted_mm", mm(d.lifted_m)},
           {"frame_ms", {{"median", d.frame_ms_median}, {"p99", d.frame_ms_p99}, {"max", d.frame_ms_max}}},
           {"penetration",
            {{"count_over_1mm", d.penetration_over_1mm},

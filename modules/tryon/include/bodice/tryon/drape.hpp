@@ -80,8 +80,9 @@ struct DrapeReport {
   double median_speed_m_s = 0.0;                ///< at the end
   bool finite = true;                           ///< whether all positions of all frames were finite
   std::uint64_t hash = 0;                       ///< hash of the final state, equal for any number of workers
-  double ramp_s = 0.0;                          ///< from the bind pose to the clip's first frame
-  std::vector<KeptFrame> kept;                  ///< of a body that moves
+  double lifted_m = 0.0;  ///< how far the start was moved out of a proxy that is wider than the skin, at most
+  double ramp_s = 0.0;    ///< from the bind pose to the clip's first frame
+  std::vector<KeptFrame> kept;  ///< of a body that moves
   std::vector<DrapedGarment> garments;
   std::vector<PropReport> props;
   std::optional<FitScale> fit_map;  ///< scale of the garments' colors, where they have one
