@@ -16,7 +16,7 @@ constexpr double kWorthLifting_m = 0.015;
 constexpr double kLongestLift_m = 0.2;
 constexpr int kSteps = 64;
 constexpr double kArrived_m = 1e-5;
-constexpr std::size_t kLiftGrain = 256;  // vertices a block
+constexpr std::size_t kStartGrain = 256;  // vertices a block
 
 double distance_of(const collision::Collider& collider, const Vec3& world) {
   const Eigen::Vector3f local = (world - collider.origin()).cast<float>();
@@ -54,13 +54,13 @@ std::vector<Vec3> lifted_positions(const engine::Context& context, const geometr
                                    double thickness_m) {
   std::vector<Vec3> lifted = garment.positions;
   std::vector<double> depth_m(lifted.size(), 0.0);
-  engine::parallel_for(context, lifted.size(), kLiftGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, lifted.size(), kStartGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
       if (lifted[v].allFinite()) depth_m[v] = thickness_m - distance_of(collider, lifted[v]);
   });
   if (std::ranges::none_of(depth_m, [](double depth) { return depth > kWorthLifting_m; })) return {};
   const std::vector<Vec3> normals = geometry::vertex_normals(body.input.skin);
-  engine::parallel_for(context, lifted.size(), kLiftGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, lifted.size(), kStartGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
       if (!(depth_m[v] > 0.0)) continue;
       const Vec3 direction = normal_at(body.input.skin, normals, body.distance->closest_point(lifted[v]));
