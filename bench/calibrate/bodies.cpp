@@ -54,17 +54,19 @@ Sample::Sample(std::uint64_t seed, bool standing) : person_(seed) {
   if (!made) throw std::runtime_error(made.error().sentence());
   truth_ = std::move(*made);
   stature_m_ = truth_.stature_m;
+  for (const bodice::body::Part part : truth_.part) classes_.push_back(bench::coarse_class(part));
   for (const auto& mark : truth_.landmarks) landmarks_[static_cast<std::size_t>(mark.id)] = mark.position;
   analyze();
 }
 
 Sample::Sample(const bench::Case& body, std::size_t person, int weight)
-    : stature_m_(body.stature), person_(person), weight_(weight) {
+    : classes_(body.truth), stature_m_(body.stature), person_(person), weight_(weight) {
   for (std::size_t id = 0; id < landmarks_.size(); ++id) {
     const auto found = body.landmarks.find(std::string(name(static_cast<bodice::body::LandmarkId>(id))));
     if (found != body.landmarks.end()) landmarks_[id] = found->second;
   }
   truth_.mesh = body.mesh;
+  classes_.resize(body.mesh.positions.size(), -1);
   if (knows(kLeftFingertip) && stature_m_ > 0.0) analyze();
 }
 

@@ -36,6 +36,8 @@ class Sample {
 
   /// The labels and joints of a made body; empty for a body of a file.
   const bodice::synth::Body& truth() const { return truth_; }
+  /// The class of each vertex by bench::coarse_class; -1 where the truth is not known.
+  const std::vector<int>& classes() const { return classes_; }
   double stature_m() const { return stature_m_; }
   /// Bodies of one person are left out of a fit together.
   std::size_t person() const { return person_; }
@@ -59,6 +61,7 @@ class Sample {
   void analyze();
 
   bodice::synth::Body truth_;
+  std::vector<int> classes_;
   std::array<std::optional<Vec3>, bodice::body::kLandmarkCount> landmarks_;
   double stature_m_ = 0.0;
   std::size_t person_ = 0;

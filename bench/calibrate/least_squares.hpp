@@ -15,10 +15,25 @@ class LeastSquares {
   void add(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
     square_.noalias() += x * x.transpose();
     right_.noalias() += x * y.transpose();
+    squares_ += y.squaredNorm();
     ++rows_;
   }
   void add(const Eigen::VectorXd& x, double y) { add(x, Eigen::VectorXd::Constant(1, y)); }
 
+  LeastSquares& operator+=(const LeastSquares& other) {
+    square_ += other.square_;
+    right_ += other.right_;
+    squares_ += other.squares_;
+    rows_ += other.rows_;
+    return *this;
+  }
+  int unknowns() const { return static_cast<int>(square_.rows()); }
+  std::size_t rows() const { return rows_; }
+  /// The sum over the rows of (x . weights - y)^2.
+  double squared_error(const Eigen::MatrixXd& weights) const {
+    return squares_ - 2.0 * weights.cwiseProduct(right_).sum() +
+           weights.cwiseProduct(square_ * weights).sum();
+  }
   /// #unknowns x #targets. `ridge`: what a squared weight costs, as a share of a row; it settles what the
   /// rows leave open.
   Eigen::MatrixXd solve(double ridge) const {
@@ -33,6 +48,7 @@ class LeastSquares {
 
  private:
   Eigen::MatrixXd square_, right_;
+  double squares_ = 0.0;  ///< of all y
   std::size_t rows_ = 0;
 };
 

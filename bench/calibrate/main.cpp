@@ -1,14 +1,15 @@
 // calibrate DIR [--bodies N] [--only NAME,NAME] [--data BODIES]
-// Makes the coefficients of anatomy's landmarks again from made bodies of known truth and, with --data, from
-// those of a data folder, and writes each
-// landmark's to DIR/<name>.json. The same command writes the same files. modules/anatomy/data/README.md
-// states what is made by which command, and how good it is.
+// Makes the coefficients of anatomy again from made bodies of known truth and, with --data, from those of a
+// data folder, and writes each to DIR/<name>.json: those in use, or those that are named. The same command
+// writes the same files. modules/anatomy/data/README.md states what is made by which command, and how good it
+// is.
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "fit.hpp"
+#include "fit_borders.hpp"
 #include "fit_corrections.hpp"
 #include "fit_lengths.hpp"
 #include "landmarks/landmark_table.hpp"
@@ -29,8 +30,8 @@ struct Arguments {
   std::string only;
   std::size_t bodies = 300;
 
-  bool wants(const std::string& name) const {
-    return only.empty() || ("," + only + ",").find("," + name + ",") != std::string::npos;
+  bool names(const std::string& name) const {
+    return ("," + only + ",").find("," + name + ",") != std::string::npos;
   }
 };
 
@@ -141,13 +142,15 @@ bool make_again(const std::filesystem::path& folder, const std::string& name, co
   return true;
 }
 
-/// Fits that no recipe of a landmark names.
+/// Fits that no recipe of a landmark names. As those of corrections, what they make is not in use, and is
+/// made only if it is named.
 struct OwnFit {
   const char* name;
   ordered_json (*fit)(const calibrate::Samples& samples);
 };
 constexpr OwnFit kOwnFits[] = {{"stature", calibrate::fit_stature},
                                {"extremities", calibrate::fit_extremities},
+                               {"borders", calibrate::fit_borders},
                                {"perineum", calibrate::fit_perineum_signature},
                                {"armpit", calibrate::fit_armpit_signature}};
 
@@ -164,11 +167,12 @@ int main(int argc, char** argv) {
   }
   Bodies bodies(a);
   for (const auto& [name, fit] : kOwnFits)
-    if (a.wants(name))
+    if (a.names(name))
       if (!make_again(a.folder, name, fit(bodies.all()))) return 1;
   for (const LandmarkKind& kind : bodice::anatomy::landmark_kinds()) {
     const std::string name = file_of(kind);
-    if (kind.recipe == Recipe::kNone || !a.wants(name)) continue;
+    const bool taken = kind.recipe != Recipe::kNone && kind.recipe != Recipe::kCorrections;
+    if (kind.recipe == Recipe::kNone || !(a.names(name) || (a.only.empty() && taken))) continue;
     if (!make_again(a.folder, name, fit(kind, bodies))) return 1;
   }
   return 0;
