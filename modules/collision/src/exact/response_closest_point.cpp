@@ -102,8 +102,8 @@ class Resolver {
     x_ = pushed.position;
     contact_ = pushed.contact;
     by_chance_ = pushed.clear && pushed.set_back;
-    if (pushed.clear && !near_.nonconvex() && (x_ - p_).norm() > kLongestPlainPush * report_.depth_m)
-      shorten_push();
+    const double short_m = std::max(kShortPush * field_.size_m(), kLongestPlainPush * report_.depth_m);
+    if (pushed.clear && !near_.nonconvex() && (x_ - p_).norm() > short_m) shorten_push();
   }
 
   /// Planes that were added on the path hold a particle deep between many ellipsoids too far off.

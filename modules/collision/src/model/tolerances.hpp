@@ -41,10 +41,13 @@ inline constexpr double kEndSlack = 1e-2;
 /// where the exit along the normal is shorter.
 inline constexpr double kLongestPush = 4.0;
 
-/// The same out of plain ellipsoids: a right-angled corner of three takes 1.7. Deep between many of them,
-/// planes that were added on the path lead as much as three times too far, and the exact side shortens such a
-/// push.
+/// The same out of plain ellipsoids for pushes that are longer than kShortPush: a right-angled corner of
+/// three takes 1.7. Deep between many of them, planes that were added on the path lead as much as three times
+/// too far, and the exact side shortens such a push.
 inline constexpr double kLongestPlainPush = 2.0;
+
+/// A push that is not worth shortening, as a fraction of the union's size: 45 mm on a person.
+inline constexpr double kShortPush = 0.05;
 
 /// Usual length of a push out of a crease, in multiples of the depth.
 inline constexpr double kUsualPush = 1.5;

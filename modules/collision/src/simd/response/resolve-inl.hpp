@@ -24,9 +24,9 @@ namespace bodice::collision::HWY_NAMESPACE {
 
 // Longer pushes, in multiples of the depth, come from surfaces that nearly face each other and are left to
 // the exact side.
-template <class Surface>
-constexpr float kMostOfDepth = static_cast<float>(Surface::kConvex ? collision::kLongestPlainPush
-                                                                   : collision::kLongestPush);
+constexpr float kLongestPush = static_cast<float>(collision::kLongestPush);
+constexpr float kLongestPlainPush = static_cast<float>(collision::kLongestPlainPush);
+constexpr float kShortPushOfSlack = static_cast<float>(kShortPush / kCertificate);
 // A path shorter than this fraction of the least radius nearby neither passes through an ellipsoid nor
 // changes sides.
 constexpr float kShortPath = static_cast<float>(kLongPath);
@@ -169,8 +169,12 @@ HWY_INLINE V3 PushOut<Surface>::velocity_after(int i, VI lanes, V3 p, V3 positio
 
 template <class Surface>
 HWY_INLINE M PushOut<Surface>::unsettled(int i, V depth, V length2) const {
-  const V longest =
-      hn::Min(all(reach_m_), hn::MulAdd(all(kMostOfDepth<Surface>), depth, all(parameters_.slack_m)));
+  const V slack = all(parameters_.slack_m);
+  V longest = hn::Min(all(reach_m_), hn::MulAdd(all(kLongestPush), depth, slack));
+  if constexpr (Surface::kConvex) {
+    const V short_m = all(kShortPushOfSlack * parameters_.slack_m);
+    longest = hn::Min(longest, hn::Max(short_m, hn::MulAdd(all(kLongestPlainPush), depth, slack)));
+  }
   return hn::Or(hn::Gt(length2, hn::Mul(longest, longest)), mask_of(state_.open, i));
 }
 
