@@ -46,8 +46,8 @@ inline constexpr double kLongestPush = 4.0;
 /// too far, and the exact side shortens such a push.
 inline constexpr double kLongestPlainPush = 2.0;
 
-/// A push that is not worth shortening, as a fraction of the union's size: 45 mm on a person.
-inline constexpr double kShortPush = 0.05;
+/// A push that is not worth shortening, as a fraction of the union's size: 90 mm on a person.
+inline constexpr double kShortPush = 0.1;
 
 /// Usual length of a push out of a crease, in multiples of the depth.
 inline constexpr double kUsualPush = 1.5;
