@@ -32,7 +32,7 @@ constexpr double kMostOff = 2.5;
 using Tied = std::vector<Coordinate>;
 
 struct BorderKind {
-  const char* member;   ///< of the file; it has the weights
+  const char* member;   ///< the member of the file that has the weights
   const char* follows;  ///< the member with what the build adds to each weight; null where nothing is added
   std::vector<int> outer, inner;  ///< the classes on the limb's side, of the left limb, and on the other
   bool paired;

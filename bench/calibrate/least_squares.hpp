@@ -48,7 +48,7 @@ class LeastSquares {
 
  private:
   Eigen::MatrixXd square_, right_;
-  double squares_ = 0.0;  ///< of all y
+  double squares_ = 0.0;  ///< the sum of all |y|^2
   std::size_t rows_ = 0;
 };
 

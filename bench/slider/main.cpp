@@ -55,7 +55,8 @@ std::vector<Vec3> widened(const tryon::SegmentedSkin& skin, const std::vector<Ve
 
 /// What a frame took, and what happened in it.
 struct FrameRecord {
-  double frame_ms = 0.0, processor_ms = 0.0;  ///< of the clock, and of the calling thread's processor
+  double frame_ms = 0.0;      ///< the time by the clock
+  double processor_ms = 0.0;  ///< the time that the calling thread took of its processor
   double boundary_ms = 0.0, cloth_ms = 0.0, contact_ms = 0.0;
   bool new_shape = false, new_tables = false;
 };

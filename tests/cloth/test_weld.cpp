@@ -96,3 +96,24 @@ TEST_CASE("weld: a garment without a usable triangle fails with kUnusableGeometr
     CHECK(welded.error().code == engine::ErrorCode::kUnusableGeometry);
   }
 }
+
+TEST_CASE("positions can be set; lengths at rest stay, and what does not fit is ignored") {
+  const TriMesh mesh = sheet(4, 4, 0.4, 0.4, Vec3(-0.2, 1.0, -0.2));
+  bodice::cloth::Solver solver = make_solver(mesh, {}, cotton(), {});
+  std::vector<Vec3> wider = mesh.positions;
+  for (Vec3& p : wider) p = Vec3(1.1 * p.x(), p.y(), 1.1 * p.z());
+  solver.set_positions(wider);
+  const auto farthest_m = [&] {
+    double most = 0.0;
+    const std::vector<Vec3> now = positions(solver, wider.size());
+    for (std::size_t v = 0; v < wider.size(); ++v) most = std::max(most, (now[v] - wider[v]).norm());
+    return most;
+  };
+  CHECK(farthest_m() < 1e-6);
+  CHECK(solver.step({}, 0.0).stretch_max == doctest::Approx(0.1).epsilon(1e-3));
+  solver.set_positions(std::span(mesh.positions).first(3));
+  std::vector<Vec3> broken = mesh.positions;
+  broken[7].y() = std::numeric_limits<double>::quiet_NaN();
+  solver.set_positions(broken);
+  CHECK(farthest_m() < 1e-6);
+}

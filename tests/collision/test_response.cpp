@@ -149,6 +149,23 @@ TEST_CASE("a push is limited beyond undoing the path, by kernels and by the exac
   }
 }
 
+TEST_CASE("a path that leads outward does not lengthen a push, by kernels and by the exact side") {
+  for (const bool exactly : {false, true}) {
+    auto shapes = ball(0.5);
+    shapes.push_back(ball(0.005)[0]);
+    shapes[1].center = exactly ? Vec3(0.0045, 0.4825, 0.0045) : Vec3(0.0, -0.47, 0.0);
+    const Collider collider(proxy_of(shapes));
+    Cloud cloud;
+    cloud.add(Vec3(0.0, 0.48, 0.0));
+    cloud.add_safe(Vec3(0.0, 0.475, 0.0));
+    const ContactReport report = collider.resolve({}, cloud.particles(), {.max_push_m = 0.001f});
+    CAPTURE(exactly);
+    CHECK(report.judged_exactly == (exactly ? 1u : 0u));
+    CHECK(report.pending == 1);
+    CHECK(cloud.y[0] == doctest::Approx(0.481).epsilon(1e-5));
+  }
+}
+
 TEST_CASE("options that are NaN, infinite or negative do no harm") {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               infinity = std::numeric_limits<float>::infinity();

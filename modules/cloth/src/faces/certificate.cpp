@@ -146,9 +146,9 @@ class Prover {
 
 // Pushes one point to the body's surface, as contact does.
 void push(const FaceSample& s, const FaceContact& f, Particles& p, FaceCertificate& c) {
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  const std::array<float, 3> weight = weights_of(s);
   Float4 moved = -vector_of(s.at);
-  float inverse_mass[3];
+  std::array<float, 3> inverse_mass;
   for (int k = 0; k < 3; ++k) {
     const Index i = s.particle[k];
     moved += weight[k] * Float4{p.x[i], p.y[i], p.z[i], 0.0f};

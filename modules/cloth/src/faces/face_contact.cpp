@@ -39,7 +39,7 @@ bool is_due(const RunState& run) {
 // How far a sample's motion in the frame may be off its elements' share of that of the particles.
 float motion_off(const FaceSample& s, const FaceContact& f) {
   if (!f.motion.moving) return 0.0f;
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  const std::array<float, 3> weight = weights_of(s);
   Float4 off = -vector_of(s.ahead);
   for (int c = 0; c < 3; ++c) off += weight[c] * xyz(load(f.motion.ahead[s.particle[c]]));
   return std::sqrt(dot3(off, off));

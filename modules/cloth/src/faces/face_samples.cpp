@@ -141,7 +141,7 @@ void query_samples(const collision::Collider& body, const Placement& how, const 
   const float band_m = band_of(how.rules);
   for (std::uint32_t k = range.begin; k < range.end; ++k) {
     FaceSample& s = samples[k];
-    const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+    const std::array<float, 3> weight = weights_of(s);
     Float4 where = splat(0.0f), ahead = splat(0.0f);
     s.keep_m = how.rules.keep_m;
     for (int c = 0; c < 3; ++c) {

@@ -9,6 +9,7 @@
 // Semiconcave Functions, Hamilton-Jacobi Equations, and Optimal Control. 2004. - section 2.2 (distances).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -116,6 +117,10 @@ inline Float4 vector_of(const float (&v)[3]) {
 inline float dot3(Float4 a, Float4 b) {
   const Float4 ab = a * b;
   return ab[0] + ab[1] + ab[2];
+}
+/// The weights of a sample's three particles, sum 1.
+inline std::array<float, 3> weights_of(const FaceSample& s) {
+  return {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
 }
 /// The position of a sample, given those of the particles.
 inline Float4 position(const FaceSample& s, std::span<const Point> at) {

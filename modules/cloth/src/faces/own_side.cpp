@@ -23,7 +23,7 @@ struct Corner {
 // Calls visit(corner) for the particles of a sample that have a share in it.
 template <class Visit>
 void for_each_corner(const FaceSample& s, const FaceContact& f, Visit&& visit) {
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  const std::array<float, 3> weight = weights_of(s);
   for (int c = 0; c < 3; ++c)
     if (weight[c] > 0.0f) visit(Corner{f.nearest[s.particle[c]], weight[c]});
 }

@@ -10,7 +10,7 @@ namespace {
 // together they would throw the cloth.
 float longest_push(const FaceSample& s, const FaceSubstep& substep, const FaceContact& f,
                    const Particles& p) {
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
+  const std::array<float, 3> weight = weights_of(s);
   Float4 path = -(substep.length_s / f.rules.frame_s) * vector_of(s.ahead), pushed = splat(0.0f);
   for (int c = 0; c < 3; ++c) {
     const Index i = s.particle[c];
@@ -37,9 +37,9 @@ bool corners_are_deep(const FaceSample& s, const FaceContact& f) {
 bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& p, FaceContact& f) {
   const float room = distance_at(s, seen_by_body(s, f.now, substep.remaining)) - s.keep_m;
   if (!(room < 0.0f)) return false;
-  const float weight[3] = {s.weight[0], s.weight[1], 1.0f - s.weight[0] - s.weight[1]};
-  const float inverse_mass[3] = {f.now[s.particle[0]].weight, f.now[s.particle[1]].weight,
-                                 f.now[s.particle[2]].weight};
+  const std::array<float, 3> weight = weights_of(s);
+  const std::array<float, 3> inverse_mass = {f.now[s.particle[0]].weight, f.now[s.particle[1]].weight,
+                                             f.now[s.particle[2]].weight};
   const float yielding = yielding_of(weight, inverse_mass);
   if (!(yielding > 0.0f)) return true;
   float push = -room;

@@ -22,9 +22,9 @@ inline float distance_at(const FaceSample& s, Float4 where) {
 inline constexpr float kLongestLever = 2.0f;
 
 /// What a push is divided by: corner c moves by its inverse mass times its weight times push / yielding.
-inline float yielding_of(const float (&weight)[3], const float (&inverse_mass)[3]) {
+inline float yielding_of(const std::array<float, 3>& weight, const std::array<float, 3>& inverse_mass) {
   float all = 0.0f, most = 0.0f;
-  for (int c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < 3; ++c) {
     const float by = inverse_mass[c] * weight[c];
     all += by * weight[c];
     most = std::max(most, by);
@@ -32,7 +32,8 @@ inline float yielding_of(const float (&weight)[3], const float (&inverse_mass)[3
   return std::max(all, most / kLongestLever);
 }
 
-/// Moves the corners of a sample that is too near; returns whether it was.
+/// Moves the corners of a sample that is too near; returns false where it is not, or is left to its
+/// particles.
 bool push_out(const FaceSample& sample, const FaceSubstep& substep, const Particles& particles,
               FaceContact& faces);
 

@@ -10,7 +10,7 @@
 
 #include <bodice/engine/context.hpp>
 
-#include "selfcontact/pairs.hpp"
+#include "pairs/pairs.hpp"
 
 namespace bodice::cloth {
 

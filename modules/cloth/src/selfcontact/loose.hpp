@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "selfcontact/pairs.hpp"
+#include "pairs/pairs.hpp"
 
 namespace bodice::cloth {
 

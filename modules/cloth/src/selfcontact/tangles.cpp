@@ -6,7 +6,7 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "base/tolerances.hpp"
-#include "selfcontact/near_faces.hpp"
+#include "pairs/near_faces.hpp"
 
 namespace bodice::cloth {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "selfcontact/pairs.hpp"
+#include "pairs/pairs.hpp"
 
 namespace bodice::cloth {
 

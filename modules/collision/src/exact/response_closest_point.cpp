@@ -9,7 +9,7 @@
 #include "exact/cutting_planes.hpp"
 #include "exact/ray_exits.hpp"
 #include "exact/response.hpp"
-#include "exact/response_parts.hpp"
+#include "exact/response_steps.hpp"
 #include "exact/shorter_exit.hpp"
 #include "model/tolerances.hpp"
 
@@ -25,9 +25,8 @@ void move(const Vec3& x, const Halfspaces& contact, const ResolveOptions& option
   const Vec3 p = particle.position;
   const double push = (x - p).norm();
   // Undoing the particle's own path does not count as a push.
-  const double undone =
-      particle.has_safe ? std::max(0.0, (particle.safe - p).dot(x - p)) / std::max(push, 1e-300) : 0.0;
-  const double limit = double{options.max_push_m} + undone;
+  const Vec3 path = particle.has_safe ? Vec3(p - particle.safe) : Vec3(Vec3::Zero());
+  const double limit = double{options.max_push_m} + (path.dot(x - p) < 0.0 ? path.norm() : 0.0);
   particle.position = x;
   if (push > limit) {
     particle.position = p + (x - p) * (limit / push);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <bodice/engine/parallel.hpp>
+#include <bodice/geometry/triangle.hpp>
 
 namespace bodice::tryon {
 namespace {
@@ -27,13 +28,10 @@ double distance_of(const collision::Collider& collider, const Vec3& world) {
 Vec3 normal_at(const geometry::TriMesh& skin, const std::vector<Vec3>& normals,
                const geometry::SurfacePoint& at) {
   const auto& t = skin.triangles[at.triangle];
-  const Vec3 &a = skin.positions[t[0]], &b = skin.positions[t[1]], &c = skin.positions[t[2]];
-  const Vec3 across = (b - a).cross(c - a);
-  const double twice_area2 = across.squaredNorm();
-  if (!(twice_area2 > 0.0)) return at.normal;
-  const double u = across.dot((c - b).cross(at.point - b)) / twice_area2,
-               v = across.dot((a - c).cross(at.point - c)) / twice_area2;
-  return (u * normals[t[0]] + v * normals[t[1]] + (1.0 - u - v) * normals[t[2]]).stableNormalized();
+  const Vec3 share =
+      geometry::closest_point(skin.positions[t[0]], skin.positions[t[1]], skin.positions[t[2]], at.point)
+          .barycentric;
+  return (share[0] * normals[t[0]] + share[1] * normals[t[1]] + share[2] * normals[t[2]]).stableNormalized();
 }
 
 /// How far out along a direction the proxy is left, meters; 0 where it is not within kLongestLift_m.

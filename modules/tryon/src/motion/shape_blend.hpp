@@ -20,7 +20,9 @@ class ShapeBlend {
   /// Goes on by dt_s.
   void advance(double dt_s);
 
-  double share() const noexcept { return share_; }  ///< of the shape before: 1 at first, 0 at the end
+  double share() const noexcept {
+    return share_;
+  }  ///< the share of the shape before: 1 at first, 0 at the end
   std::span<const binding::ShapeOffset> offsets() const noexcept { return offsets_; }  ///< #E
   std::span<const geometry::Ellipsoid> shapes() const noexcept { return shapes_; }     ///< #E, at rest
   /// A vertex of the skin at rest.

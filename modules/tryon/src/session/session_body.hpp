@@ -50,7 +50,7 @@ struct SessionBody {
   std::shared_ptr<const proxy::BodyProxy> origin_proxy;
   std::shared_ptr<MovingBody> body;             ///< changed by the frames' thread alone
   std::shared_ptr<const SessionMotion> motion;  ///< null: none was wanted when it was submitted
-  HeldVertices held;                            ///< of what was worn when it was made
+  HeldVertices held;                            ///< the vertices that it held when it was made
 };
 
 /// Puts a body into its bind pose and finds where it holds the garments there. Cost: a pose, and a closest

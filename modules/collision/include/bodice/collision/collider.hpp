@@ -73,9 +73,9 @@ struct ResolveOptions {
   Response response = Response::kClosestPoint;
   float thickness_m = 0.0f;  ///< distance kept between particle and surface
   float friction = 0.3f;     ///< Coulomb coefficient
-  /// Longest push a call, meters, in addition to what it undoes of the path from the safe position. Particles
-  /// that start deep inside come out over several calls (`pending`). Those in a fold of the body without room
-  /// stay midway in it.
+  /// Longest push a call, meters, in addition to the length of the path from the safe position where the push
+  /// leads back against that. Particles that start deep inside come out over several calls (`pending`). Those
+  /// in a fold of the body without room stay midway in it.
   float max_push_m = std::numeric_limits<float>::infinity();
   /// Radius of the fillets in the creases where plain ellipsoids meet, meters: normals turn over this length
   /// instead of jumping. The surface rises there by up to 0.29 of it, and by more where more than two

@@ -82,9 +82,8 @@ class PushOut {
   HWY_INLINE void write_responses(int i, M contact, V& deepest);
   /// Contacts with a push that the kernel does not settle.
   HWY_INLINE M unsettled(int i, V depth, V length2) const;
-  /// The longest that a push of this length is allowed to be: what it undoes of the particle's path does not
-  /// count.
-  HWY_INLINE V longest_push(VI lanes, V3 p, V3 push, V length2) const;
+  /// The longest that a push is allowed to be: the path that it leads back against does not count.
+  HWY_INLINE V longest_push(VI lanes, V3 p, V3 push) const;
   /// The velocity after the contact, for particles that were pushed from p to `position`.
   HWY_INLINE V3 velocity_after(int i, VI lanes, V3 p, V3 position) const;
 
@@ -179,11 +178,12 @@ HWY_INLINE M PushOut<Surface>::unsettled(int i, V depth, V length2) const {
 }
 
 template <class Surface>
-HWY_INLINE V PushOut<Surface>::longest_push(VI lanes, V3 p, V3 push, V length2) const {
+HWY_INLINE V PushOut<Surface>::longest_push(VI lanes, V3 p, V3 push) const {
   const V limit = all(parameters_.max_push_m);
   if (!batch_.has_safe) return limit;
-  const V undone = hn::Max(hn::Zero(f), dot(safe_positions_of(batch_, lanes) - p, push));
-  return hn::Add(limit, hn::Div(undone, hn::Sqrt(hn::Max(length2, all(1e-30f)))));
+  const V3 path = p - safe_positions_of(batch_, lanes);
+  const M against = hn::Lt(dot(path, push), hn::Zero(f));
+  return hn::Add(limit, hn::IfThenElseZero(against, hn::Sqrt(dot(path, path))));
 }
 
 template <class Surface>
@@ -197,7 +197,7 @@ HWY_INLINE void PushOut<Surface>::write_responses(int i, M contact, V& deepest) 
   const M hard = hn::And(contact, unsettled(i, depth, length2));
   for_particles(hard, hard, in_range_.lane + i, [&](int lane, bool) { out_.left_to_exact.set(lane, true); });
   contact = hn::AndNot(hard, contact);
-  const V limit = longest_push(lanes, p, push, length2);
+  const V limit = longest_push(lanes, p, push);
   const M pending = hn::And(contact, hn::Gt(length2, hn::Mul(limit, limit)));
   V3 position = pushed_to;
   if (!hn::AllFalse(f, pending)) {

@@ -1,4 +1,4 @@
-#include "selfcontact/sweep_tree.hpp"
+#include "pairs/sweep_tree.hpp"
 
 #include <bit>
 

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "selfcontact/contact_mesh.hpp"
+#include "pairs/contact_mesh.hpp"
 
 namespace bodice::cloth {
 

@@ -9,8 +9,8 @@
 
 #include <bodice/engine/context.hpp>
 
-#include "selfcontact/closest.hpp"
-#include "selfcontact/sweep_tree.hpp"
+#include "pairs/closest.hpp"
+#include "pairs/sweep_tree.hpp"
 
 namespace bodice::cloth {
 

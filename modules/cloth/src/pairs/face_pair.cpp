@@ -1,4 +1,4 @@
-#include "selfcontact/face_pair.hpp"
+#include "pairs/face_pair.hpp"
 
 #include <algorithm>
 #include <cmath>

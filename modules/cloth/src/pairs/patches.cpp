@@ -1,4 +1,4 @@
-#include "selfcontact/patches.hpp"
+#include "pairs/patches.hpp"
 
 #include <algorithm>
 #include <tuple>

@@ -1,4 +1,4 @@
-#include "selfcontact/pairs.hpp"
+#include "pairs/pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 #include <bodice/engine/parallel.hpp>
 
-#include "selfcontact/face_pair.hpp"
-#include "selfcontact/near_faces.hpp"
+#include "pairs/face_pair.hpp"
+#include "pairs/near_faces.hpp"
 
 namespace bodice::cloth {
 namespace {

@@ -1,4 +1,4 @@
-#include "selfcontact/contact_mesh.hpp"
+#include "pairs/contact_mesh.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include <bodice/geometry/detail/morton.hpp>
 
 #include "base/schedule.hpp"
-#include "selfcontact/patches.hpp"
+#include "pairs/patches.hpp"
 
 namespace bodice::cloth {
 namespace {

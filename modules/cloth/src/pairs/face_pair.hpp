@@ -1,8 +1,8 @@
 // Quick proofs that parts of the cloth stay apart: of two triangles by a plane, of a patch by its normals.
 #pragma once
 
-#include "selfcontact/closest.hpp"
-#include "selfcontact/contact_mesh.hpp"
+#include "pairs/closest.hpp"
+#include "pairs/contact_mesh.hpp"
 
 namespace bodice::cloth {
 

@@ -10,7 +10,7 @@
 
 #include <bodice/engine/context.hpp>
 
-#include "selfcontact/contact_mesh.hpp"
+#include "pairs/contact_mesh.hpp"
 
 namespace bodice::cloth {
 

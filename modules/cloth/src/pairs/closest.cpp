@@ -1,6 +1,6 @@
 // may_meet() is based on: Minchen Li, Danny M. Kaufman, Chenfanfu Jiang. Codimensional Incremental Potential
 // Contact. 2021. - section 5 (additive continuous collision detection)
-#include "selfcontact/closest.hpp"
+#include "pairs/closest.hpp"
 
 #include <algorithm>
 #include <cmath>
