@@ -5,6 +5,8 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
+#include "look/look.hpp"
+
 namespace bodice::io {
 
 namespace {
@@ -49,6 +51,10 @@ engine::Result<void> check_track(const GarmentTrack& track) {
   for (const auto& color : track.colors)
     if (!std::ranges::all_of(color, [](float c) { return c >= 0.0f && c <= 1.0f; }))
       return invalid(name + " has a color that is not in 0..1.");
+  if (track.look && (track.look->material.size() != track.mesh.triangles.size() ||
+                     track.look->uv.size() != 6 * track.look->uv_sets * track.mesh.triangles.size()))
+    return invalid(name + " has " + std::to_string(track.mesh.triangles.size()) +
+                   " triangles but the look of " + std::to_string(track.look->material.size()) + ".");
   for (std::size_t i = 0; i < track.time_s.size(); ++i)
     if (!std::isfinite(track.time_s[i]) ||
         (i > 0 && takes_time(track) && !(track.time_s[i] > track.time_s[i - 1])))

@@ -29,7 +29,7 @@ engine::Result<std::vector<tryon::WornGarment>> wear_files(const Run& run, const
       if (!placed) return std::move(placed).error();
       if (*placed) skin.warnings.push_back(**placed);
     }
-    worn.push_back({.name = file, .mesh = std::move(garment->skin)});
+    worn.push_back({.name = file, .mesh = std::move(garment->skin), .look = std::move(garment->look)});
   }
   return worn;
 }

@@ -4,9 +4,12 @@
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <bodice/engine/write_file.hpp>
+
+#include "look/look_mesh.hpp"
 
 namespace bodice::io {
 
@@ -28,11 +31,24 @@ class Words {
   std::string& bytes_;
 };
 
-void add_frames(const GarmentTrack& track, const geometry::Frame& frame, Words& words) {
-  for (const auto& points : track.frames)
-    for (const geometry::Vec3& p : points)
-      for (const double v : frame.to_file(p)) words.add(static_cast<float>(v));
-}
+/// The frames of a garment with the vertices of its mesh in the GLB.
+class Frames {
+ public:
+  explicit Frames(const GarmentTrack& track) : track_(track), look_(look_mesh(track)) {}
+
+  std::uint32_t vertices() const {
+    return static_cast<std::uint32_t>(look_ ? look_->cloth_vertex.size() : track_.mesh.positions.size());
+  }
+  void add_to(Words& words, const geometry::Frame& frame) const {
+    for (const auto& points : track_.frames)
+      for (const geometry::Vec3& p : look_ ? look_->spread(points) : points)
+        for (const double v : frame.to_file(p)) words.add(static_cast<float>(v));
+  }
+
+ private:
+  const GarmentTrack& track_;
+  std::optional<LookMesh> look_;
+};
 
 std::string pc2(const GarmentTrack& track, const geometry::Frame& frame) {
   constexpr float kFirstFrame = 0.0f, kFramesASample = 1.0f;
@@ -40,22 +56,24 @@ std::string pc2(const GarmentTrack& track, const geometry::Frame& frame) {
   std::string bytes("POINTCACHE2\0", 12);
   Words words(std::endian::little, bytes);
   words.add(kVersion);
-  words.add(static_cast<std::uint32_t>(track.mesh.positions.size()));
+  const Frames frames(track);
+  words.add(frames.vertices());
   words.add(kFirstFrame);
   words.add(kFramesASample);
   words.add(static_cast<std::uint32_t>(track.frames.size()));
-  add_frames(track, frame, words);
+  frames.add_to(words, frame);
   return bytes;
 }
 
 std::string mdd(const GarmentTrack& track, const geometry::Frame& frame) {
   std::string bytes;
   Words words(std::endian::big, bytes);
+  const Frames frames(track);
   words.add(static_cast<std::uint32_t>(track.frames.size()));
-  words.add(static_cast<std::uint32_t>(track.mesh.positions.size()));
+  words.add(frames.vertices());
   for (std::size_t f = 0; f < track.frames.size(); ++f)
     words.add(track.time_s.empty() ? 0.0f : static_cast<float>(track.time_s[f]));
-  add_frames(track, frame, words);
+  frames.add_to(words, frame);
   return bytes;
 }
 

@@ -27,6 +27,11 @@ void pad_to_four(std::string& bytes, char with) {
   while (bytes.size() % 4 != 0) bytes.push_back(with);
 }
 
+std::size_t components_of(std::string_view type) {
+  if (type == "MAT4") return 16;
+  return type == "VEC4" ? 4 : type == "VEC3" ? 3 : type == "VEC2" ? 2 : 1;
+}
+
 Json to_json(const Vec3f& v) {
   return {v.x(), v.y(), v.z()};
 }
@@ -105,17 +110,44 @@ std::size_t GlbBuilder::add_weights(std::span<const float> values) {
 }
 
 std::size_t GlbBuilder::add_values(std::span<const float> values, const char* type) {
-  const std::string_view name = type;
-  const std::size_t components = name == "MAT4" ? 16 : name == "VEC4" ? 4 : name == "VEC3" ? 3 : 1;
   return add_accessor(add_view(values.data(), values.size_bytes(), kNoTarget), kFloat,
-                      values.size() / components, type);
+                      values.size() / components_of(type), type);
 }
 
-void GlbBuilder::require(const char* extension) {
-  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
-    Json& names = document_[list];
-    if (std::find(names.begin(), names.end(), extension) == names.end()) names.push_back(extension);
-  }
+std::size_t GlbBuilder::add_attribute(std::span<const float> values, const char* type) {
+  return add_accessor(add_view(values.data(), values.size_bytes(), kArrayBuffer), kFloat,
+                      values.size() / components_of(type), type);
+}
+
+std::size_t GlbBuilder::add_ones(std::span<const std::uint32_t> at, std::size_t count) {
+  const std::vector<float> ones(at.size(), 1.0f);
+  const std::size_t indices = add_view(at.data(), at.size_bytes(), kNoTarget);
+  const std::size_t values = add_view(ones.data(), sizeof(float) * ones.size(), kNoTarget);
+  return add("accessors", {{"componentType", kFloat},
+                           {"count", count},
+                           {"type", "SCALAR"},
+                           {"sparse",
+                            {{"count", at.size()},
+                             {"indices", {{"bufferView", indices}, {"componentType", kUnsignedInt}}},
+                             {"values", {{"bufferView", values}}}}}});
+}
+
+std::size_t GlbBuilder::add_image_bytes(std::string_view bytes) {
+  return add_view(bytes.data(), bytes.size(), kNoTarget);
+}
+
+void GlbBuilder::name_in(const char* list, std::string_view extension) {
+  Json& names = document_[list];
+  if (std::find(names.begin(), names.end(), extension) == names.end()) names.push_back(extension);
+}
+
+void GlbBuilder::require(std::string_view extension) {
+  use(extension);
+  name_in("extensionsRequired", extension);
+}
+
+void GlbBuilder::use(std::string_view extension) {
+  name_in("extensionsUsed", extension);
 }
 
 std::size_t GlbBuilder::size(const char* array) const {

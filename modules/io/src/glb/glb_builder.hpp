@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,6 +31,12 @@ class GlbBuilder {
   std::size_t add_weights(std::span<const float> values);         ///< of vertices, four each
   std::size_t add_values(std::span<const float> values,
                          const char* type);  ///< keys, matrices: "VEC3", "MAT4", ...
+  std::size_t add_attribute(std::span<const float> values,
+                            const char* type);  ///< of vertices: "SCALAR", "VEC2", ...
+  /// Adds `count` numbers, ones at rising positions and zeros elsewhere, of which only the ones take space.
+  std::size_t add_ones(std::span<const std::uint32_t> at, std::size_t count);
+  /// Adds the bytes of an image file; returns the index of its view.
+  std::size_t add_image_bytes(std::string_view bytes);
 
   /// Appends to one of the document's arrays ("nodes", "meshes", ...) and returns the new index.
   std::size_t add(const char* array, Json value);
@@ -38,7 +45,9 @@ class GlbBuilder {
   /// Makes a node a root of the scene.
   void add_to_scene(std::size_t node);
   /// Names an extension that a reader must know.
-  void require(const char* extension);
+  void require(std::string_view extension);
+  /// Names an extension that a reader may ignore.
+  void use(std::string_view extension);
 
   /// The whole file, or nothing if it exceeds the 4 GiB that the format allows.
   std::string finish() const;
@@ -46,6 +55,7 @@ class GlbBuilder {
  private:
   friend class GlbSparseWriter;
   std::size_t add_view(const void* data, std::size_t bytes, int target);
+  void name_in(const char* list, std::string_view extension);
   std::size_t add_accessor(std::size_t view, int component, std::size_t count, const char* type);
 
   Json document_;

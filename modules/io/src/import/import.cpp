@@ -134,7 +134,7 @@ engine::Result<ImportedMesh> import_garment(const engine::Context& context, cons
   ImportedMesh out;
   out.file = file;
   engine::StageTimer load(context, out.stages, "load");
-  auto scene = read_scene(file);
+  auto scene = read_scene(file, LookOf::kGarment);
   if (!scene) return scene.error();
   load.stop();
 
@@ -156,6 +156,8 @@ engine::Result<ImportedMesh> import_garment(const engine::Context& context, cons
   out.repair = std::move(repaired->report);
   std::erase_if(out.repair.warnings, [](const engine::Warning& w) { return w.code == "open-edges"; });
   append_warnings(out.repair.warnings, out.warnings);
+  append_warnings(scene->look.warnings, out.warnings);
+  out.look = joined_look(std::move(scene->look), scene->meshes, repaired->triangle_of_input);
   check.stop();
   return out;
 }

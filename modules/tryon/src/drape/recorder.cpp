@@ -21,6 +21,7 @@ Recorder::Recorder(const std::vector<WornGarment>& garments, const Wardrobe& all
     io::GarmentTrack track;
     track.name = g == 0 ? "cloth" : "cloth_" + std::to_string(g + 1);
     track.mesh = garments[g].mesh;
+    track.look = garments[g].look;
     tracks_.push_back(std::move(track));
   }
 }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@
 #include <bodice/geometry/mesh_repair.hpp>
 
 namespace bodice::io {
+
+/// How a garment looks: the materials, images and texture coordinates of its file, and its name. It is made
+/// by import_garment() and used by write_glb() for a mesh with the same triangles.
+struct Look;
 
 /// A unit of length of a file; kAuto finds it.
 enum class Unit { kAuto, kMeter, kDecimeter, kCentimeter, kMillimeter, kInch, kFoot };
@@ -55,6 +60,7 @@ struct ImportedMesh {
   std::size_t input_vertices = 0, input_triangles = 0;
   std::vector<engine::Warning> warnings;
   std::vector<engine::StageTime> stages;  ///< times of "load" and "check"
+  std::shared_ptr<const Look> look;       ///< of a garment; null for bodies and where the file has none
 };
 
 /// Reads a body; of a skinned file, in its bind pose in world space. Fails with kNotFound, kUnreadable (not a
@@ -68,9 +74,9 @@ engine::Result<ImportedMesh> import_body(const engine::Context& context, const s
 engine::Result<ImportedMesh> import_garment(const engine::Context& context, const std::filesystem::path& file,
                                             const geometry::Frame& body_frame);
 
-/// The files beside this one that hold part of it, in its order: the buffers of a glTF document, whether they
-/// are there or not. None for every other format, and for data inside of the document. Reads the document
-/// alone.
+/// The files beside this one that hold part of it, in its order, whether they are there or not: buffers and
+/// images of a glTF document, material libraries of an OBJ and their images. None for every other format, and
+/// for data inside of the document. Cost: reading the file.
 std::vector<std::filesystem::path> files_beside(const std::filesystem::path& file);
 
 }  // namespace bodice::io

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@
 
 namespace bodice::io {
 
+struct Look;
+
 /// A garment over time.
 struct GarmentTrack {
   std::string name;                                 ///< "cloth", "cloth_2", ...
@@ -26,6 +29,9 @@ struct GarmentTrack {
   std::vector<double> time_s;                       ///< time of each kept frame: increasing, or all equal
   /// Colors of a map over the garment, sRGB 0..1, #V; empty: the garment has one color.
   std::vector<std::array<float, 3>> colors;
+  /// What import_garment() read beside a mesh with these triangles; null: the garment is plain. With
+  /// `colors` its name alone is used.
+  std::shared_ptr<const Look> look = nullptr;
 };
 
 /// A thing that stands still beside the body.

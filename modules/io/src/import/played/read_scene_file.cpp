@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "../../color.hpp"
+#include "../../look/look_mesh.hpp"
 #include "import/played/node_tree.hpp"
 #include "import/played/played_skin.hpp"
 #include "import/source/check_gltf.hpp"
@@ -58,14 +59,64 @@ class SceneFileReader {
     return primitives.empty() ? kNone : primitives[0];
   }
 
+  /// The node of a garment's mesh: that of its name, or the only one below it.
+  std::size_t mesh_node(std::size_t node) const {
+    const json& object = document_.element("nodes", node);
+    const json& children = array_at(object, "children");
+    if (index_at(object, "mesh") || children.size() != 1 || !children[0].is_number_unsigned()) return node;
+    const auto child = children[0].get<std::size_t>();
+    return child < tree_.size() ? child : node;
+  }
+
+  /// Adds the triangles of the mesh's further primitives, which share the vertices of the first one.
+  bool read_other_triangles(std::size_t node, geometry::TriMesh& mesh) const {
+    const auto at = index_at(document_.element("nodes", node), "mesh");
+    if (!at) return true;
+    const json& primitives = array_at(document_.element("meshes", *at), "primitives");
+    for (std::size_t p = 1; p < primitives.size(); ++p)
+      if (!read_triangles(primitives[p], mesh)) return false;
+    return true;
+  }
+
+  /// Merges the vertices of a garment that stand for one vertex of the cloth. Cloths without the attribute
+  /// have their own vertices.
+  bool join_copies(const json& primitive, GarmentTrack& track) const {
+    const auto at = index_at(primitive["attributes"], kClothVertex);
+    if (!at) return true;
+    const auto numbers = document_.numbers(*at);
+    if (!numbers || numbers->components != 1 || numbers->count != track.mesh.positions.size()) return false;
+    const auto count = static_cast<double>(numbers->count);
+    std::vector<geometry::Index> cloth_vertex;
+    for (const double v : numbers->values) {
+      if (!(v >= 0.0 && v < count)) return false;
+      cloth_vertex.push_back(static_cast<geometry::Index>(v));
+    }
+    const std::size_t vertices = std::size_t{1} + *std::ranges::max_element(cloth_vertex);
+    const auto join = [&](std::vector<Vec3>& points) {
+      std::vector<Vec3> joined(vertices, Vec3::Zero());
+      for (std::size_t v = 0; v < points.size(); ++v) joined[cloth_vertex[v]] = points[v];
+      points = std::move(joined);
+    };
+    join(track.mesh.positions);
+    for (std::vector<Vec3>& frame : track.frames) join(frame);
+    for (geometry::Triangle& triangle : track.mesh.triangles)
+      for (geometry::Index& v : triangle) v = cloth_vertex[v];
+    return true;
+  }
+
   /// The mesh of a primitive in its own coordinates.
   bool read_mesh(const json& primitive, geometry::TriMesh& mesh) const {
     if (!primitive.is_object() || !primitive.contains("attributes")) return false;
     mesh.positions = vectors(primitive["attributes"], "POSITION");
+    return !mesh.positions.empty() && read_triangles(primitive, mesh) &&
+           std::ranges::all_of(mesh.positions, [](const Vec3& p) { return p.allFinite(); });
+  }
+
+  /// Appends the triangles of a primitive.
+  bool read_triangles(const json& primitive, geometry::TriMesh& mesh) const {
     const auto at = index_at(primitive, "indices");
     const auto indices = at ? document_.numbers(*at) : std::nullopt;
-    if (mesh.positions.empty() || !indices || indices->components != 1 || indices->count % 3 != 0)
-      return false;
+    if (!indices || indices->components != 1 || indices->count % 3 != 0) return false;
     const auto vertices = static_cast<double>(mesh.positions.size());
     for (std::size_t i = 0; i < indices->count; i += 3) {
       geometry::Triangle triangle;
@@ -75,7 +126,7 @@ class SceneFileReader {
       }
       mesh.triangles.push_back(triangle);
     }
-    return std::ranges::all_of(mesh.positions, [](const Vec3& p) { return p.allFinite(); });
+    return true;
   }
 
   /// The times of the animation of a node's path, or none.
@@ -102,13 +153,14 @@ class SceneFileReader {
   bool read_garments(SceneFile& out) {
     for (int k = 1;; ++k) {
       const std::string name = k == 1 ? "cloth" : "cloth_" + std::to_string(k);
-      const auto node = tree_.find(name);
-      if (!node) return true;
+      const auto named = tree_.find(name);
+      if (!named) return true;
+      const std::size_t node = mesh_node(*named);
       GarmentTrack track;
       track.name = name;
-      const json& primitive = primitive_of(*node);
-      if (!read_mesh(primitive, track.mesh)) return false;
-      const Eigen::Affine3d to_world = tree_.world(*node);
+      const json& primitive = primitive_of(node);
+      if (!read_mesh(primitive, track.mesh) || !read_other_triangles(node, track.mesh)) return false;
+      const Eigen::Affine3d to_world = tree_.world(node);
       for (const json& target : array_at(primitive, "targets")) {
         const std::vector<Vec3> moved = vectors(target, "POSITION");
         if (moved.size() != track.mesh.positions.size()) return false;
@@ -119,8 +171,9 @@ class SceneFileReader {
       for (Vec3& p : track.mesh.positions) p = to_world * p;
       for (const Vec3& color : vectors(primitive["attributes"], "COLOR_0"))
         track.colors.push_back(to_srgb(color));
-      track.time_s = times_of(*node, "weights");
+      track.time_s = times_of(node, "weights");
       if (track.time_s.size() != track.frames.size()) track.time_s.assign(track.frames.size(), 0.0);
+      if (!join_copies(primitive, track)) return false;
       out.garments.push_back(std::move(track));
     }
   }

@@ -11,6 +11,7 @@
 #include <bodice/geometry/frame.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
+#include "import/look/mesh_look.hpp"
 #include "import/scene/file_rig.hpp"
 
 namespace bodice::io {
@@ -20,22 +21,28 @@ struct FileMesh {
   std::string material;     ///< may be empty
   geometry::TriMesh shape;  ///< file units and axes, node transforms applied
   FileWeights weights;      ///< of its vertices; empty where the file has no bones
+  MeshLook look;            ///< read with LookOf::kGarment
 };
 
 struct FileScene {
   std::vector<FileMesh> meshes;  ///< meshes with at least one triangle
   FileRig rig;
+  FileLook look;                          ///< read with LookOf::kGarment
   std::optional<double> meters_per_unit;  ///< the unit that the file states
   std::optional<geometry::Axis> up;       ///< the axis that the file states
   bool kept_digits = false;               ///< whether positions were read in more than single precision
 };
 
+/// Whether materials, images and texture coordinates are read: those of garments alone are used.
+enum class LookOf { kNothing, kGarment };
+
 /// Reads any format that assimp knows. Skinned meshes are in their bind pose. Points and lines are left out,
 /// polygons are triangulated. Fails with kNotFound or kUnreadable.
-engine::Result<FileScene> read_scene(const std::filesystem::path& file);
+engine::Result<FileScene> read_scene(const std::filesystem::path& file, LookOf look = LookOf::kNothing);
 
 /// The same, but a file without triangles will do.
-engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file);
+engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file,
+                                            LookOf look = LookOf::kNothing);
 
 /// Appends a mesh's vertices and triangles to another's.
 void append(const geometry::TriMesh& mesh, geometry::TriMesh& to);

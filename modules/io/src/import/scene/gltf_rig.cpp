@@ -58,6 +58,17 @@ std::vector<FileBone> GltfRig::bones_of_skin(const json& skin) const {
   return bones;
 }
 
+const json& GltfRig::node(std::uint32_t scene_node) const {
+  return document_.element("nodes", document_node_[scene_node]);  // kNone is beyond all nodes
+}
+
+const json& GltfRig::primitive(std::uint32_t scene_node, std::size_t primitive) const {
+  static const json kNothing;
+  const auto mesh = index_at(node(scene_node), "mesh");
+  const json& primitives = array_at(mesh ? document_.element("meshes", *mesh) : kNothing, "primitives");
+  return primitive < primitives.size() ? primitives[primitive] : kNothing;
+}
+
 std::vector<FileBone> GltfRig::bones(std::uint32_t scene_node, std::size_t primitive) const {
   if (document_node_[scene_node] == kNone) return {};
   const json& node = document_.element("nodes", document_node_[scene_node]);

@@ -20,6 +20,12 @@ class GltfRig {
   std::vector<FileBone> bones(std::uint32_t scene_node, std::size_t primitive) const;
   std::vector<FileClip> clips() const;
 
+  const GltfDocument& document() const { return document_; }
+  /// The document's node of a node of the scene; null where there is none.
+  const nlohmann::json& node(std::uint32_t scene_node) const;
+  /// Primitive number `primitive` of the mesh at a node of the scene; null where there is none.
+  const nlohmann::json& primitive(std::uint32_t scene_node, std::size_t primitive) const;
+
  private:
   bool walk(std::size_t document_node, const aiNode& node, const SceneNodes& nodes);
   std::vector<FileBone> bones_of_skin(const nlohmann::json& skin) const;

@@ -6,6 +6,7 @@
 #include <assimp/scene.h>
 #include <Eigen/Geometry>
 
+#include "import/look/look_reader.hpp"
 #include "import/scene/bind_pose.hpp"
 #include "import/scene/file_scene.hpp"
 #include "import/scene/gltf_rig.hpp"
@@ -60,6 +61,11 @@ class Collector {
     if (document) gltf_ = GltfRig::match(std::move(*document), nodes_);
   }
 
+  /// Reads looks as well. `materials`: whether what assimp calls materials is from the file.
+  void read_looks(const std::filesystem::path& folder, bool materials) {
+    look_.emplace(scene_, gltf_ ? &*gltf_ : nullptr, folder, materials, out_.look);
+  }
+
   void collect() {
     for (std::uint32_t n = 0; n < nodes_.node.size(); ++n)
       for (unsigned i = 0; i < nodes_.node[n]->mNumMeshes; ++i)
@@ -77,6 +83,7 @@ class Collector {
         mesh_to_world(bones, out_.rig.nodes, mesh, out_.rig.nodes[node].to_world);
     result.shape = to_tri_mesh(mesh, out_.rig.world_to_file * to_world, offset_);
     if (result.shape.triangles.empty()) return;
+    if (look_) result.look = look_->of(mesh, {node, primitive, nodes_.node[node]}, result.shape.triangles);
     out_.rig.has_bones = out_.rig.has_bones || !bones.empty();
     if (skinned_) result.weights = bind_mesh(bones, node, to_world, mesh.mNumVertices, out_.rig);
     out_.meshes.push_back(std::move(result));
@@ -87,6 +94,7 @@ class Collector {
   FileScene& out_;
   SceneNodes nodes_;
   std::optional<GltfRig> gltf_;
+  std::optional<LookReader> look_;
   bool skinned_ = false;
 };
 
@@ -126,11 +134,6 @@ const aiScene* parse(AssimpReader& reader, const std::filesystem::path& file, Ve
     }
   }
   return reader.read(file);
-}
-
-/// Whether assimp's readers made the name up because the file gives none.
-bool is_made_up(std::string_view name) {
-  return name.empty() || name == "defaultobject" || name == "DefaultMaterial" || name.starts_with('<');
 }
 
 /// Whether the format indexes positions apart from normals and textures: assimp makes a vertex of each
@@ -179,7 +182,7 @@ engine::Result<std::optional<GltfDocument>> open_document(const std::filesystem:
 
 }  // namespace
 
-engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file) {
+engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file, LookOf look) {
   if (auto checked = check_readable(file); !checked) return checked.error();
   const auto format = known_format(file);
   if (!format) return format.error();
@@ -201,7 +204,10 @@ engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file) {
   }
   read_fbx_metadata(*scene, result);
   result.rig.world_to_file = world_to_file;
-  Collector(*scene, std::move(*document), offset, result).collect();
+  Collector collector(*scene, std::move(*document), offset, result);
+  const std::filesystem::path folder = file.parent_path();
+  if (look == LookOf::kGarment) collector.read_looks(folder, has_materials(file, *format));
+  collector.collect();
   for (FileMesh& mesh : result.meshes)
     if (is_made_up(mesh.name)) mesh.name = file.stem().string();
   if (splits_vertices(*format))
@@ -209,8 +215,8 @@ engine::Result<FileScene> read_motion_scene(const std::filesystem::path& file) {
   return result;
 }
 
-engine::Result<FileScene> read_scene(const std::filesystem::path& file) {
-  auto result = read_motion_scene(file);
+engine::Result<FileScene> read_scene(const std::filesystem::path& file, LookOf look) {
+  auto result = read_motion_scene(file, look);
   if (result && result->meshes.empty())
     return engine::Error{engine::ErrorCode::kUnreadable, "'" + file.string() + "' holds no triangles.",
                          "Export the body's surface as polygons, not as points, lines or curves."};

@@ -30,11 +30,12 @@ class GltfDocument {
   const nlohmann::json& element(const char* array, std::size_t index) const;
   /// Empty where the accessor does not exist or points outside of its buffer.
   std::optional<GltfNumbers> numbers(std::size_t accessor) const;
+  /// The bytes of a buffer view; none where it points outside of its buffer.
+  std::string_view view_bytes(std::size_t view) const;
 
  private:
   struct Layout;
 
-  std::string_view view_bytes(std::size_t view) const;
   bool read_dense(const nlohmann::json& accessor, const Layout& layout, GltfNumbers& out) const;
   bool read_sparse(const nlohmann::json& accessor, const Layout& layout, GltfNumbers& out) const;
 

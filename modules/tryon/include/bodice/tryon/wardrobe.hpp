@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/tryon/tack.hpp>
 
+namespace bodice::io {
+struct Look;
+}
+
 namespace bodice::tryon {
 
 /// A garment to wear.
@@ -18,6 +23,8 @@ struct WornGarment {
   std::string name;
   geometry::TriMesh mesh;             ///< meters, y up
   std::vector<geometry::Index> held;  ///< vertices that stay with the body
+  std::shared_ptr<const io::Look> look =
+      nullptr;  ///< what io::import_garment() read of it, for GLB; null: none
 };
 
 /// All garments as one mesh for one solver, with the first vertex of each.

@@ -1,0 +1,38 @@
+// How the meshes of a file look, before they are joined to one garment.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <bodice/engine/result.hpp>
+#include <bodice/geometry/tri_mesh.hpp>
+
+#include "look/look.hpp"
+
+namespace bodice::io {
+
+struct FileMesh;
+
+/// The look of one mesh of a file.
+struct MeshLook {
+  std::string node;  ///< the name of its node; empty where the file gives none
+  std::size_t uv_sets = 0;
+  std::vector<float> uv;                 ///< #F x 3 x uv_sets x 2, as Look has them
+  std::uint32_t material = kNoMaterial;  ///< into FileLook::materials
+};
+
+/// What the meshes of a file share.
+struct FileLook {
+  Materials materials;
+  std::vector<engine::Warning> warnings;  ///< of images that are left out
+};
+
+/// The looks of all meshes, in their order, for the triangles that repair kept; null where the file has
+/// none. `triangle_of_input` is that of geometry::RepairedMesh. O(#F).
+std::shared_ptr<const Look> joined_look(FileLook file, std::span<const FileMesh> meshes,
+                                        std::span<const geometry::Index> triangle_of_input);
+
+}  // namespace bodice::io
