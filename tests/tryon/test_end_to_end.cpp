@@ -63,6 +63,19 @@ TEST_CASE("a generated body is measured, dressed and draped") {
   CHECK(height < 0.66 * 1.68);
 }
 
+TEST_CASE("tier solid: no ellipsoid stands far out in the air behind hollow backs") {
+  // Fitted to samples of the skin alone, ellipsoids stand 92, 108, 286 and 145 mm out of these bodies.
+  for (const std::uint64_t seed : {46, 97, 111, 133}) {
+    CAPTURE(seed);
+    auto skin = tryon::segment_builtin({}, {.vertices = 2000, .seed = seed}, {});
+    REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
+    const auto body = tryon::fit_proxy({}, std::move(skin).value(), {.tier = proxy::Tier::kSolid});
+    REQUIRE_MESSAGE(body.ok(), body.error().sentence());
+    CHECK(body->fit.accuracy.gap_m.max < 0.06);
+    CHECK(body->fit.accuracy.interior_covered_percent == 100.0);
+  }
+}
+
 TEST_CASE("a hole in the skin gives one warning") {
   auto made = synth::make_body({}, {.vertices = 3000});
   REQUIRE(made.ok());

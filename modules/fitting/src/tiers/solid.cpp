@@ -9,6 +9,7 @@
 #include "base/scaling.hpp"
 #include "cluster/cluster_items.hpp"
 #include "cover/cover.hpp"
+#include "skin/air_samples.hpp"
 #include "skin/medial_initialization.hpp"
 #include "skin/part_skin.hpp"
 #include "tiers/tiers.hpp"
@@ -19,6 +20,11 @@ namespace {
 
 constexpr double kOverStepOfFew = 1.3;  // over-relaxation of the steps, of which there are few
 constexpr int kSolidIterations = 9;     // steps of the descent: too few for split-and-merge moves to pay
+/// Steps after the samples in the air are added, which are the union's points more than kStandsOut_mm outside
+/// the skin. Without them a long ellipsoid that follows flat skin may stand decimeters out behind a hollow.
+constexpr int kAirIterations = 5;
+constexpr double kStandsOut_mm = 15.0, kFarInAir_mm = 200.0;
+constexpr std::size_t kAirProbesEach = 40;  // probes of an ellipsoid's surface, of the average size
 /// Motion in the scaled body up to which candidates stay valid. With so few samples and ellipsoids a region,
 /// choosing candidates again costs more than keeping all that may ever be near.
 constexpr double kMostMotion = 0.3;
@@ -47,9 +53,35 @@ std::vector<int> shares_by_demand(const std::vector<PartSkin>& skins, int count,
   return share;
 }
 
+/// Whether an axis of any ellipsoid ends in the air, which is far sooner known than samples are found.
+bool any_end_in_air(const SkinSource& source, const Scaling& scaling,
+                    std::span<const geometry::Ellipsoid> shapes) {
+  const geometry::MeshDistance& distance = *source.skin.distance;
+  for (const geometry::Ellipsoid& scaled : shapes) {
+    const geometry::Ellipsoid e = scaling.out(scaled);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-1.0, 1.0}) {
+        const Vec3 end = e.center + side * e.radii[axis] * e.axes.col(axis);
+        if (!distance.closest_point_within(end, kStandsOut_mm * scaling.mm()) && !distance.inside(end))
+          return true;
+      }
+  }
+  return false;
+}
+
+/// Samples of the air in which the ellipsoids, in the scaled body, stand out.
+std::vector<DistanceSample> air_of(const engine::Context& context, const SkinSource& source,
+                                   const Scaling& scaling, std::span<const geometry::Ellipsoid> shapes) {
+  std::vector<geometry::Ellipsoid> in_meters;
+  for (const geometry::Ellipsoid& e : shapes) in_meters.push_back(scaling.out(e));
+  return samples_in_air(context, source, in_meters, kAirProbesEach * shapes.size(),
+                        kStandsOut_mm * scaling.mm(), kFarInAir_mm * scaling.mm());
+}
+
 /// Ellipsoids that follow one region's skin, in meters.
-std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const LabeledSkin& skin,
+std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const SkinSource& source,
                                           const std::vector<PartSkin>& skins, std::size_t r, int count) {
+  const LabeledSkin& skin = source.skin;
   auto ellipsoids = ellipsoids_from_balls(context, skins[r].balls, count, skin.stature_m);
   const Scaling scaling(skin);
   const RobustLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
@@ -58,8 +90,15 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;
-  descend(context, problem, shapes,
-          {.iterations = kSolidIterations, .split_and_merge = false, .over_step = kOverStepOfFew});
+  DescentOptions steps{.iterations = kSolidIterations, .split_and_merge = false, .over_step = kOverStepOfFew};
+  descend(context, problem, shapes, steps);
+  std::vector<DistanceSample> air;
+  if (any_end_in_air(source, scaling, shapes)) air = air_of(context, source, scaling, shapes);
+  if (!air.empty()) {
+    problem.add(air);
+    steps.iterations = kAirIterations;
+    descend(context, problem, shapes, steps);
+  }
   for (std::size_t k = 0; k < shapes.size(); ++k) ellipsoids[k].shape = scaling.out(shapes[k]);
   take_parts(problem, ellipsoids);
   return ellipsoids;
@@ -118,6 +157,8 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
                                                         const std::vector<Region>& regions, int count,
                                                         const FitOptions& options, InteriorColumns* columns) {
   std::vector<PartSkin> skins;
+  // Which skin is buried in other limbs is not found here, because that takes longer than the fit.
+  const SkinSource source{skin, kAllParts, std::vector<std::uint8_t>(skin.mesh.triangles.size(), 0)};
   RegionTasks tasks{.verb = "cover"};
   tasks.parts = options.parts;
   tasks.on_part = options.on_part;
@@ -134,7 +175,7 @@ engine::Result<std::vector<FittedRegion>> cover_regions(const engine::Context& c
   tasks.fit = [&](const engine::Context& inner, const Region& region, int share) {
     const auto r = static_cast<std::size_t>(&region - regions.data());
     std::vector<proxy::ProxyEllipsoid> ellipsoids;
-    if (!skins[r].balls.empty()) ellipsoids = follow(inner, skin, skins, r, share);
+    if (!skins[r].balls.empty()) ellipsoids = follow(inner, source, skins, r, share);
     FittedRegion covered = cover_region(inner, skin, items, region, std::move(ellipsoids));
     if (share > kFewEllipsoids) return covered;
     FittedRegion enclosed = enclose_region(inner, items, region, share, skin.stature_m);
