@@ -5,6 +5,7 @@ import math
 import os
 import re
 import shutil
+import subprocess
 import sys
 import xml.etree.ElementTree as xml
 
@@ -155,6 +156,7 @@ def read_godot(file, joints):
     for head, body in sections:
         tags = dict(re.findall(r'(\w+)="([^"]*)"', head))
         values = dict(re.findall(r"^([a-z_]+) = (.*)$", body, re.M))
+        if "type" in tags: check(set(values) <= set(GODOT[tags["type"]]), f"{file}: properties {list(values)} of {tags['type']}")
         if head.startswith("sub_resource"):
             resources[tags["id"]] = (float(values["radius"]), float(values.get("height", 0)))
         elif head.startswith("node") and "parent" in tags:
@@ -214,6 +216,22 @@ def read_sdformat(file, joints):
             rows, at = lie_down((product(outer[0], rows_of_angles(*pose[3:])), place(outer, pose[:3])))
             solids.append((at, rows, numbers(collision, "geometry/ellipsoid/radii")))
     return solids
+
+
+# The same by the parsers of MuJoCo and SDFormat, in programs that print what these see.
+def read_by(reader):
+    def read(file, joints):
+        done = subprocess.run([reader, file], capture_output=True, text=True, timeout=60)
+        check(done.returncode == 0, f"{os.path.basename(reader)} refuses {file}: {done.stderr}")
+        solids = []
+        for line in done.stdout.splitlines():
+            name, *v = line.split()
+            v = [float(n) for n in v]
+            check(name in joints if joints else name == "body", f"{file}: a body {name}")
+            rows, at = lie_down(([v[3:6], v[6:9], v[9:12]], v[0:3]))
+            solids.append((at, rows, v[12:15]))
+        return solids
+    return read
 
 
 # Convex pieces: planes, and triangles for points outside of them.
@@ -309,6 +327,26 @@ FORMATS = [("convex", ".gltf", read_convex_gltf, [None]), ("convex", ".obj", rea
            ("vrm", ".gltf", read_vrm, ["capsules", "spheres"]),
            ("mujoco", ".xml", read_mujoco, [None]),
            ("sdformat", ".sdf", read_sdformat, [None])]
+READERS = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else ""
+for name, extension in [("mujoco", ".xml"), ("sdformat", ".sdf")]:
+    reader = os.path.join(READERS, "read_by_" + name)
+    if os.path.exists(reader): FORMATS.append((name, extension, read_by(reader), [None]))
+    else: print(f"{name}'s own parser is not here, so that the file is read by Python's alone")
+
+# What Godot's pages of its classes list, of what the files use.
+GODOT = {"Node3D": [], "AnimatableBody3D": ["sync_to_physics"], "CollisionShape3D": ["transform", "shape"],
+         "BoneAttachment3D": ["transform", "bone_name", "use_external_skeleton", "external_skeleton"],
+         "CapsuleShape3D": ["radius", "height"], "SphereShape3D": ["radius"]}
+
+
+def obeys_schema(name, file):
+    """By the schemas beside this file, where Python has a validator (Debian: python3-jsonschema)."""
+    schema = os.path.join(os.path.dirname(os.path.abspath(__file__)), "schemas", name + ".schema.json")
+    if not os.path.exists(schema): return
+    try: import jsonschema
+    except ImportError: return
+    for error in jsonschema.Draft202012Validator(json.load(open(schema))).iter_errors(json.load(open(file))):
+        check(False, f"{file} breaks {name}.schema.json at {list(error.absolute_path)}: {error.message[:200]}")
 
 
 def read_back(proxy, body, points, joints):
@@ -318,6 +356,7 @@ def read_back(proxy, body, points, joints):
             file = f"{name}_{kind}{extension}"
             run("export", proxy, "--to", name, "-o", file, "--body", body, "--report", "cost.json", "-q",
                 *(["--shapes", kind, "--count", "24"] if kind else ["--count", "24"] if name == "convex" else []))
+            obeys_schema(name, file)
             solids = reader(file, joints)
             check(kind is None and name != "convex" or 12 <= len(solids) <= 24, f"{file}: {len(solids)} shapes of 24")
             told, found = json.load(open("cost.json"))["error_mm"], errors(points, solids)

@@ -25,20 +25,34 @@ Json unity_rest(const BoneFrame& frame) {
   return rows;
 }
 
-/// Importers of Unreal negate y of a joint's coordinates and turn the skin's y up into z up; centimeters.
+/// A point of the skin in an imported mesh, centimeters: y up becomes z up, mirrored.
+Vec3 unreal_skin_point(const Vec3& v) {
+  return 100.0 * Vec3(v.x(), v.z(), v.y());
+}
+
+/// A point in a joint's coordinates as importers of FBX have it; they negate y.
 Vec3 unreal_point(const Vec3& v, const BoneFrame& frame) {
-  if (frame.name.empty()) return 100.0 * Vec3(v.x(), v.z(), v.y());
-  return 100.0 * Vec3(v.x(), -v.y(), v.z());
+  return frame.name.empty() ? unreal_skin_point(v) : 100.0 * Vec3(v.x(), -v.y(), v.z());
 }
 
 Json unreal_vector(const Vec3& v) {
   return {{"X", tidy(v.x())}, {"Y", tidy(v.y())}, {"Z", tidy(v.z())}};
 }
 
+/// The shape at rest in the mesh's coordinates: importers of FBX and glTF agree there, and not in joints.
+Json unreal_rest(const PlainShape& shape) {
+  return {{"RestStart", unreal_vector(unreal_skin_point(shape.a))},
+          {"RestEnd", unreal_vector(unreal_skin_point(shape.b))},
+          {"RestRadius0", tidy(100.0 * shape.radius_a)},
+          {"RestRadius1", tidy(100.0 * shape.radius_b)}};
+}
+
 /// Adds a shape to the lists of Unreal's FKAggregateGeom. The ball of Radius0 is at the end of +Z.
-void add_unreal_shape(const PlainShape& local, const BoneFrame& frame, Json& geometry) {
+void add_unreal_shape(const PlainShape& at_rest, const BoneFrame& frame, Json& geometry) {
+  const PlainShape local = in_bone(at_rest, frame);
   const Vec3 a = unreal_point(local.a, frame), b = unreal_point(local.b, frame);
   Json shape = {{"Center", unreal_vector(0.5 * (a + b))}};
+  shape.update(unreal_rest(at_rest));
   if (is_sphere(local)) {
     shape["Radius"] = tidy(100.0 * local.radius_a);
     geometry["SphereElems"].push_back(std::move(shape));
@@ -82,7 +96,7 @@ std::string unity_text(const proxy::BodyProxy& proxy, std::span<const PlainShape
 }
 
 std::string unreal_text(const proxy::BodyProxy& proxy, std::span<const PlainShape> shapes) {
-  Json file = {{"format", "bodice colliders for Unreal"}, {"version", 1}};
+  Json file = {{"format", "bodice colliders for Unreal"}, {"version", 2}};
   file["proxy"] = engine::hex64(proxy.hash());
   file["SkeletalBodySetups"] = Json::array();
   for (const std::int16_t bone : bones_of(shapes)) {
@@ -91,7 +105,7 @@ std::string unreal_text(const proxy::BodyProxy& proxy, std::span<const PlainShap
                      {"SphylElems", Json::array()},
                      {"TaperedCapsuleElems", Json::array()}};
     for (const PlainShape& shape : shapes)
-      if (shape.bone == bone) add_unreal_shape(in_bone(shape, frame), frame, geometry);
+      if (shape.bone == bone) add_unreal_shape(shape, frame, geometry);
     file["SkeletalBodySetups"].push_back({{"BoneName", frame.name}, {"AggGeom", std::move(geometry)}});
   }
   return file.dump(1) + "\n";
