@@ -194,3 +194,41 @@ TEST_CASE("a contact sheet without frames, without columns or of a frame that is
   CHECK(!io::write_contact_sheet(scene, frames, 2, folder / "a.png").ok());
   CHECK(!std::filesystem::exists(folder / "a.png"));
 }
+
+TEST_CASE("a legend stands in a strip below the views, in its colors and with its numbers") {
+  const SceneFixture fixture;
+  const std::size_t frames[] = {0};
+  io::PictureOptions options{.width = 300, .height = 400};
+  const Picture plain = drawn(fixture.scene, frames, options);
+  options.legend = io::Legend{{{0.0f, 0.0f, 1.0f}, {1.0f, 1.0f, 1.0f}, {1.0f, 0.0f, 0.0f}},
+                              -3.0,
+                              3.0,
+                              "mm",
+                              "proxy outside",
+                              "skin outside"};
+  const Picture with = drawn(fixture.scene, frames, options);
+  CHECK(with.width == plain.width);
+  REQUIRE(with.height > plain.height + 20);
+  CHECK(std::equal(plain.rgb.begin(), plain.rgb.end(), with.rgb.begin()));
+  const int bar = plain.height + 8;  // its rows have the scale from a quarter of the width to three quarters
+  CHECK(with.at(150, bar) == std::array<int, 3>{0, 0, 255});
+  CHECK(with.at(449, bar) == std::array<int, 3>{255, 0, 0});
+  const auto [r, g, b] = with.at(224, bar);  // a quarter of the bar: halfway from blue to white
+  CHECK(r == doctest::Approx(127).epsilon(0.03));
+  CHECK(g == r);
+  CHECK(b == 255);
+  const auto dots = [](const Picture& picture, int x0, int x1) {
+    int n = 0;
+    for (int y = picture.height - 30; y < picture.height; ++y)
+      for (int x = x0; x < x1; ++x) n += picture.at(x, y)[0] < 100;
+    return n;
+  };
+  CHECK(dots(with, 150, 240) > 100);
+  CHECK(dots(with, 360, 450) > 100);
+  CHECK(dots(with, 0, 149) + dots(with, 451, 600) == 0);
+  options.legend->most = 8.0;  // an eight has more dots than a three
+  CHECK(dots(drawn(fixture.scene, frames, options), 360, 450) > dots(with, 360, 450));
+  options.legend->colors.resize(1);
+  const TempFolder folder;
+  CHECK_FALSE(io::write_picture(fixture.scene, frames, folder / "a.png", options).ok());
+}

@@ -33,9 +33,10 @@ engine::Result<double> write_heat_map(const engine::Context& context, const tryo
   tryon::ErrorMap map = tryon::error_map(context, body);
   const geometry::TriMesh& skin = body.skin.input.skin;
   io::Scene scene;
+  const io::PictureOptions options{.legend = tryon::legend_of(map)};
   scene.garments.push_back({"skin", skin, {skin.positions}, {0.0}, std::move(map.colors)});
   const std::size_t frames[] = {0};
-  if (auto saved = io::write_picture(scene, frames, file); !saved) return std::move(saved).error();
+  if (auto saved = io::write_picture(scene, frames, file, options); !saved) return std::move(saved).error();
   return map.limit_m;
 }
 

@@ -91,7 +91,9 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
   if (const std::string& picture = command.common.picture; !picture.empty()) {
     const std::size_t last = scene.garments.front().frames.size() - 1;
     const std::size_t frames[] = {0, frame_between(scene), last};
-    if (auto saved = io::write_picture(scene, frames, picture); !saved) return saved;
+    io::PictureOptions options;
+    if (draped.report.fit_map) options.legend = tryon::legend_of(*draped.report.fit_map);
+    if (auto saved = io::write_picture(scene, frames, picture, options); !saved) return saved;
     written.push_back(picture);
   }
   if (!command.thumbnail.empty()) {

@@ -2,6 +2,7 @@
 
 #include "../scene_check.hpp"
 #include "actors.hpp"
+#include "legend.hpp"
 #include "panel.hpp"
 #include "png.hpp"
 
@@ -21,6 +22,9 @@ engine::Result<void> check_request(const Scene& scene, std::span<const std::size
     return invalid("A picture of " + std::to_string(rows) + " rows of " + std::to_string(options.width) +
                        " x " + std::to_string(options.height) + " pixels is too small or too large.",
                    "Use views of 16 pixels or more, and at most 16384 in all.");
+  if (options.legend && options.legend->colors.size() < 2)
+    return invalid("A legend has " + std::to_string(options.legend->colors.size()) + " colors.",
+                   "Give two or more.");
   for (const std::size_t frame : frames)
     if (!scene.body_frames.empty() && frame >= scene.body_frames.size())
       return invalid("Frame " + std::to_string(frame) + " of the body does not exist.",
@@ -127,7 +131,9 @@ engine::Result<void> write_picture(const Scene& scene, std::span<const std::size
   if (frames.empty()) rows.push_back(actors_of(scene, nullptr, options));
   if (rows.front().empty())
     return invalid("The picture would show nothing.", "Give a body, or show the proxy or garments.");
-  return write_png(draw(rows, options), file);
+  Image image = draw(rows, options);
+  if (options.legend) add_legend(*options.legend, image);
+  return write_png(image, file);
 }
 
 }  // namespace bodice::io

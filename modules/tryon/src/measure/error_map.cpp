@@ -48,4 +48,13 @@ ErrorMap error_map(const engine::Context& context, const PreparedBody& body) {
   return map;
 }
 
+io::Legend legend_of(const ErrorMap& map) {
+  return {.colors = {kInside, kOnSurface, kOutside},
+          .least = -1e3 * map.limit_m,
+          .most = 1e3 * map.limit_m,
+          .unit = "mm",
+          .at_least = "proxy outside",
+          .at_most = "skin outside"};
+}
+
 }  // namespace bodice::tryon

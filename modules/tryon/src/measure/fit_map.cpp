@@ -68,4 +68,15 @@ std::vector<Color> fit_colors(std::span<const double> values, const FitScale& sc
   return colors;
 }
 
+io::Legend legend_of(const FitScale& scale) {
+  const bool ease = scale.map == FitMap::kEase;
+  const double in_unit = ease ? 1e3 : 1e2;
+  return {.colors = {kRamp.begin(), kRamp.end()},
+          .least = in_unit * scale.loose,
+          .most = in_unit * scale.tight,
+          .unit = ease ? "mm" : "percent",
+          .at_least = "loose",
+          .at_most = "tight"};
+}
+
 }  // namespace bodice::tryon

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -72,12 +73,21 @@ std::span<const float, 3> part_color(body::Part part);
 /// with kWriteFailed.
 engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file);
 
+/// A scale of colors, which a picture shows in a strip below it.
+struct Legend {
+  std::vector<std::array<float, 3>> colors;  ///< sRGB 0..1, two or more, evenly from least to most
+  double least = 0.0, most = 1.0;            ///< numbers at the ends
+  std::string unit;                          ///< "mm"
+  std::string at_least, at_most;             ///< what the ends mean, in lower-case letters
+};
+
 /// Size and content of a picture.
 struct PictureOptions {
   int width = 640, height = 960;  ///< size of one view, pixels
   bool show_proxy = false;        ///< in place of the skin: its surface if there is one, else its ellipsoids
   bool show_garments = true;
-  bool from_left = false;  ///< contact sheets: the left side in place of the front
+  bool from_left = false;                       ///< contact sheets: the left side in place of the front
+  std::optional<Legend> legend = std::nullopt;  ///< of write_picture(), below the views
 };
 
 /// Writes a PNG with a row for each kept frame in `frames` (indices into GarmentTrack::frames; empty: the

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include <bodice/io/scene.hpp>
 #include <bodice/tryon/prepare.hpp>
 
 namespace bodice::tryon {
@@ -14,6 +15,9 @@ struct ErrorMap {
   double limit_m = 0.0;                      ///< error at which the colors end: 98 % of vertices have less
   std::vector<std::array<float, 3>> colors;  ///< #V, sRGB: blue inside the proxy, white on it, red outside
 };
+
+/// The colors of the map in millimeters, for a picture of it.
+io::Legend legend_of(const ErrorMap& map);
 
 /// Cost: one exact distance a vertex.
 ErrorMap error_map(const engine::Context& context, const PreparedBody& body);

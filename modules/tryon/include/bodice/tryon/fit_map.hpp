@@ -8,6 +8,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/io/scene.hpp>
 
 namespace bodice::tryon {
 
@@ -35,5 +36,8 @@ std::vector<double> strain_of_vertices(const geometry::TriMesh& rest, std::span<
 /// The color of each value, sRGB 0..1: dark blue, light blue, pale yellow, orange, dark red from loose to
 /// tight, and the color of an end beyond it. They differ in lightness and hue, for color-blind people.
 std::vector<std::array<float, 3>> fit_colors(std::span<const double> values, const FitScale& scale);
+
+/// The colors from loose to tight for a picture: ease in millimeters, strain in percent.
+io::Legend legend_of(const FitScale& scale);
 
 }  // namespace bodice::tryon
