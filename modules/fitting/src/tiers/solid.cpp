@@ -22,7 +22,7 @@ constexpr double kOverStepOfFew = 1.3;  // over-relaxation of the steps, of whic
 constexpr int kSolidIterations = 9;     // steps of the descent: too few for split-and-merge moves to pay
 /// Steps after the samples in the air are added, which are the union's points more than kStandsOut_mm outside
 /// the skin. Without them a long ellipsoid that follows flat skin may stand decimeters out behind a hollow.
-constexpr int kAirIterations = 5;
+constexpr int kAirIterations = 4;
 constexpr double kStandsOut_mm = 15.0, kFarInAir_mm = 200.0;
 constexpr std::size_t kAirProbesEach = 40;  // probes of an ellipsoid's surface, of the average size
 /// Motion in the scaled body up to which candidates stay valid. With so few samples and ellipsoids a region,
@@ -53,18 +53,19 @@ std::vector<int> shares_by_demand(const std::vector<PartSkin>& skins, int count,
   return share;
 }
 
-/// Whether an axis of any ellipsoid ends in the air, which is far sooner known than samples are found.
+/// Whether the longest axis of any ellipsoid ends in the air, which is far sooner known than samples are
+/// found.
 bool any_end_in_air(const SkinSource& source, const Scaling& scaling,
                     std::span<const geometry::Ellipsoid> shapes) {
   const geometry::MeshDistance& distance = *source.skin.distance;
   for (const geometry::Ellipsoid& scaled : shapes) {
     const geometry::Ellipsoid e = scaling.out(scaled);
-    for (int axis = 0; axis < 3; ++axis)
-      for (const double side : {-1.0, 1.0}) {
-        const Vec3 end = e.center + side * e.radii[axis] * e.axes.col(axis);
-        if (!distance.closest_point_within(end, kStandsOut_mm * scaling.mm()) && !distance.inside(end))
-          return true;
-      }
+    Eigen::Index longest = 0;
+    const double radius_m = e.radii.maxCoeff(&longest);
+    const Vec3 half_axis = radius_m * e.axes.col(longest);
+    for (const Vec3& end : {Vec3(e.center - half_axis), Vec3(e.center + half_axis)})
+      if (!distance.closest_point_within(end, kStandsOut_mm * scaling.mm()) && !distance.inside(end))
+        return true;
   }
   return false;
 }
