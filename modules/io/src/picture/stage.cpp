@@ -18,8 +18,8 @@ View light_view(const geometry::Box& box, const View& eye) {
   view.right = Vec3f::UnitY().cross(view.toward_eye).normalized();
   view.up = view.toward_eye.cross(view.right);
   view.center = box.center().cast<float>();
-  view.width = view.height =
-      std::min(kLargestShadow, 2 * std::max(eye.width, eye.height));  // enough for small pictures
+  // A small picture shows no finer shadow, and a larger map would take longer than the picture.
+  view.width = view.height = std::min(kLargestShadow, std::max(eye.width, eye.height));
   view.pixels_per_meter = static_cast<float>(view.width) / static_cast<float>(1.02 * box.size().norm());
   return view;
 }
