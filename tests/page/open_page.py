@@ -35,7 +35,17 @@ if 'data-ready="yes"' not in shown.stdout:
         print("skipped: this Chromium has no WebGL, not even in software")
         sys.exit(0)
     failures.append("the page is not ready")
-if not re.search(r'<label><input type="checkbox"> landmarks', shown.stdout): failures.append("no checkboxes")
+# What stands on the page: a tree of checkboxes, charts, the worst frame, downloads, and a still that needs no script.
+for name in ["skin", "ellipsoids", "proxy's surface", "cloth", "landmarks"]:
+    if not re.search(f'<label><input type="checkbox"> {name}<', shown.stdout): failures.append(f"no checkbox for {name}")
+parts = re.search(r'<details id="parts">(.*?)</details>', shown.stdout, re.S)
+if not parts or parts[1].count('type="checkbox"') != 15: failures.append("no checkbox for each of 15 parts")
+if '<div id="still"><svg' not in open("d.html").read(): failures.append("no still for the first paint")
+for file in ["report.json", "errors.csv", "frames.csv"]:
+    if f'download="{file}"' not in shown.stdout: failures.append(f"no {file} to download")
+for pattern, what in [(r'<output id="now">[0-9.]+ s<', "the time"), (r'<span id="most">\+[0-9.]+ mm<', "the legend"),
+                      (r'<div id="stages"><div title="[0-9]+ % of', "the times of stages")]:
+    if not re.search(pattern, shown.stdout): failures.append(f"the page lacks {what}")
 open_page("--screenshot=" + os.path.abspath("d.png"))
 # A picture without the body compresses to a fraction of this.
 if not os.path.exists("d.png") or os.path.getsize("d.png") < 60000: failures.append("the body is not drawn")
@@ -50,5 +60,27 @@ for page in ["proxy.html", "scene.html", "walk.html"]:
     console = [line for line in shown.stderr.splitlines() if "CONSOLE" in line]
     if console or 'data-ready="yes"' not in shown.stdout: failures.append(f"{page}: {console or 'not ready'}")
     if page == "walk.html" and not re.search(r'<p id="caption"><', shown.stdout): failures.append("no words on the curves")
+# A part that is switched off is not drawn, and a warning about it leads there. The page is changed as a hand would.
+def with_script(script, page, name):
+    with open(name, "w") as out: out.write(open(page).read().replace("</body>", f"<script>{script}</script></body>"))
+    open_page("--screenshot=" + os.path.abspath(name + ".png"), page=name)
+    return os.path.getsize(name + ".png")
+
+
+click_parts = "for (const b of document.querySelectorAll('#parts input')) b.click();"
+full, none = with_script("", "scene.html", "full.html"), with_script(click_parts, "scene.html", "none.html")
+if none > 0.6 * full: failures.append(f"parts do not vanish: a picture of {none} bytes for {full}")
+with open("warned.html", "w") as out:
+    out.write(open("d.html").read().replace('"warnings":[]', '"warnings":[{"part":"head","text":"Hair, maybe."}]', 1))
+shown = open_page("--dump-dom", page="warned.html")
+if '<button title="look at head">Hair, maybe.</button>' not in shown.stdout: failures.append("a warning leads nowhere")
+# A body of a million vertices: ready within three seconds, without virtual time.
+subprocess.run([program, "fit", "--vertices", "1000000", "--tier", "paper", "--html", "large.html", "-q"], check=True)
+shown = subprocess.run([browser, "--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                        "--user-data-dir=" + os.path.abspath("profile"), "--dump-dom", "file://" + os.path.abspath("large.html")],
+                       capture_output=True, text=True, timeout=200)
+ready = re.search(r'data-ms="(\d+)"', shown.stdout)
+if not ready or int(ready[1]) > 3000: failures.append(f"a large page is ready after {ready and ready[1]} ms")
+else: print(f"a page of a million vertices is ready after {ready[1]} ms")
 print(*["FAILED: " + f for f in failures], f"page of {size / 1e6:.1f} MB", sep="\n")
 sys.exit(1 if failures else 0)

@@ -22,8 +22,38 @@ function box(name, on, change) {
   text.append(input, ' ' + name);
   $('show').append(text);
 }
-for (const [name, mesh] of Object.entries(meshes)) box(name, mesh.on, on => { mesh.on = on; });
+// The parts of skin and ellipsoids, below a line that opens.
+function partBoxes() {
+  const present = [...new Set(Object.values(meshes).flatMap(mesh => mesh.parts ? [...new Set(mesh.parts)] : []))].sort((a, b) => a - b);
+  if (present.length < 2) return;
+  const details = document.createElement('details'), summary = document.createElement('summary');
+  details.id = 'parts';
+  summary.textContent = 'parts';
+  details.append(summary);
+  const boxes = present.map(p => {
+    const text = document.createElement('label'), input = document.createElement('input'), color = document.createElement('i');
+    input.type = 'checkbox';
+    input.checked = true;
+    input.onchange = () => { hidden[input.checked ? 'delete' : 'add'](p); showParts(); draw(); };
+    color.style.background = `rgb(${data.colors[p].map(c => Math.round(255 * c))})`;
+    text.append(input, color, data.parts[p]);
+    details.append(text);
+    return input;
+  });
+  const flip = document.createElement('button');
+  flip.className = 'link';
+  flip.textContent = 'all or none';
+  flip.onclick = () => {
+    const on = hidden.size > 0;
+    boxes.forEach((input, i) => { input.checked = on; hidden[on ? 'delete' : 'add'](present[i]); });
+    showParts(); draw();
+  };
+  details.append(flip);
+  $('show').append(details);
+}
+for (const [name, mesh] of Object.entries(meshes)) box(name, mesh.on, on => { mesh.on = on; if (mesh === meshes.skin) showLegend(document.querySelector('[name=by]:checked').value); });
 if (data.landmarks.length) box('landmarks', false, on => { showLandmarks = on; });
+partBoxes();
 const showLegend = by => { $('legend').style.display = by === 'error' && meshes.skin.on ? '' : 'none'; };
 $('by').hidden = !skin;
 $('errors').hidden = !error;
@@ -153,10 +183,11 @@ function caption() {
   const add = (tag, text, kind) => { const e = document.createElement(tag); e.textContent = text; if (kind) e.className = kind; $('caption').append(e, ' '); return e; };
   if (d.length && !worst) add('span', 'No particle is inside the skin in any frame.');
   if (worst && d.length) {
-    add('span', `Deepest particle in the skin: up to ${Math.max(...d).toFixed(2)} mm,`);
+    add('span', `Deepest particle in the skin: ${Math.max(...d).toFixed(2)} mm,`);
     const jump = add('button', `frame ${worst}`);
     jump.title = 'show the worst frame';
     jump.onclick = () => { play(false); show(frameNear(worst / d.length)); };
+    $('caption').append('at worst. ');
   }
   if (kept.length > 1) add('span', `Error of the posed proxy: up to ${Math.max(...kept.map(k => k[1])).toFixed(2)} mm.`, 'blue');
 }

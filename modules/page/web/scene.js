@@ -60,18 +60,30 @@ function ellipsoidMesh(text) {
   return at;
 }
 
-const meshes = {};
-function addMesh(name, frames, triangles, colors, on) { meshes[name] = {frames, triangles, colors, on, dirty: true}; }
+// Meshes by name. `parts`: the part of each vertex, where it has one.
+const meshes = {}, hidden = new Set();
+function addMesh(name, frames, triangles, colors, on, parts) { meshes[name] = {frames, triangles, colors, on, parts, shown: triangles, dirty: true}; }
+// Leaves out the triangles of hidden parts.
+function showParts() {
+  for (const mesh of Object.values(meshes)) {
+    if (!mesh.parts) continue;
+    const kept = [];
+    if (hidden.size) for (let t = 0; t < mesh.triangles.length; t += 3)
+      if (!hidden.has(mesh.parts[mesh.triangles[t]])) kept.push(mesh.triangles[t], mesh.triangles[t + 1], mesh.triangles[t + 2]);
+    mesh.shown = hidden.size ? new Uint32Array(kept) : mesh.triangles;
+    mesh.dirty = true;
+  }
+}
 const times = data.times || [];
 const frameOf = (item, decode, first) => item.frames ? item.frames.map(f => () => decode(f)) : [() => decode(first)];
-if (skin) addMesh('skin', frameOf(skin, positions, skin.positions), new Uint32Array(bytes(skin.triangles)), skinColors(skinBy), true);
+if (skin) addMesh('skin', frameOf(skin, positions, skin.positions), new Uint32Array(bytes(skin.triangles)), skinColors(skinBy), true, part);
 if (data.ellipsoids) {
-  const owner = new Uint8Array(bytes(data.ellipsoids.part)), triangles = [], colors = [];
+  const owner = new Uint8Array(bytes(data.ellipsoids.part)), triangles = [], colors = [], parts = [];
   owner.forEach((p, e) => {
     for (const t of sphereTriangles) triangles.push(t + e * sphere.length);
-    for (const _ of sphere) colors.push(...data.colors[p]);
+    for (const _ of sphere) { colors.push(...data.colors[p]); parts.push(p); }
   });
-  addMesh('ellipsoids', frameOf(data.ellipsoids, ellipsoidMesh, data.ellipsoids.shapes), new Uint32Array(triangles), new Float32Array(colors), !skin && !data.surface);
+  addMesh('ellipsoids', frameOf(data.ellipsoids, ellipsoidMesh, data.ellipsoids.shapes), new Uint32Array(triangles), new Float32Array(colors), !skin && !data.surface, parts);
 }
 if (data.surface) {
   const at = positions(data.surface.positions);
@@ -127,21 +139,27 @@ function upload(mesh) {
     gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
   });
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.buffers[3]);
-  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.triangles, gl.STATIC_DRAW);
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.shown, gl.STATIC_DRAW);
   mesh.dirty = false;
 }
 
+// The share of the view's height that the legend takes, where the view is so narrow that it would cover the feet.
+function belowLegend() {
+  const legend = $('legend');
+  return stage.clientWidth < 700 && legend.offsetHeight ? Math.min(.3, (legend.offsetHeight + 14) / stage.clientHeight) : 0;
+}
 function matrices() {
   const cy = Math.cos(yaw), sy = Math.sin(yaw), cp = Math.cos(pitch), sp = Math.sin(pitch);
   const turn = [[cy, 0, -sy], [-sy * sp, cp, -cy * sp], [sy * cp, sp, cy * cp]].map(r => r);
   const aspect = canvas.width / Math.max(1, canvas.height), f = 2.6, far = 1.5 * side / zoom * Math.max(1, .75 / aspect) * 1.05;
   const view = new Float32Array(16), near = .02 * side, end = far + 4 * side;
+  const below = belowLegend(), size = f * (1 - below);
   const move = turn.map(r => -(r[0] * center[0] + r[1] * center[1] + r[2] * center[2]));
   move[2] -= far;
   for (let c = 0; c < 4; ++c) {
     const column = c < 3 ? [turn[0][c], turn[1][c], turn[2][c]] : move;
-    view[4 * c] = f / aspect * column[0];
-    view[4 * c + 1] = f * column[1];
+    view[4 * c] = size / aspect * column[0];
+    view[4 * c + 1] = size * column[1] - below * column[2];
     view[4 * c + 2] = -(end + near) / (end - near) * column[2] - (c === 3 ? 2 * end * near / (end - near) : 0);
     view[4 * c + 3] = -column[2];
   }
@@ -171,23 +189,30 @@ function paint() {
       gl.vertexAttribPointer(i, 3, gl.FLOAT, false, 0, 0);
     }
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.buffers[3]);
-    gl.drawElements(gl.TRIANGLES, mesh.triangles.length, gl.UNSIGNED_INT, 0);
+    gl.drawElements(gl.TRIANGLES, mesh.shown.length, gl.UNSIGNED_INT, 0);
   }
   label(view);
 }
 
 const labels = data.landmarks.map(l => {
-  const span = document.createElement('span');
-  span.textContent = '\u25cf ' + l.name;
+  const span = document.createElement('span'), name = document.createElement('b');
+  name.textContent = l.name;
+  span.append('\u25cf ', name);
   $('labels').append(span);
   return span;
 });
+// Dots for all landmarks, and the names that do not cover another one.
 function label(view) {
+  const named = [];
   data.landmarks.forEach((l, i) => {
     const clip = [0, 1, 3].map(r => view[r] * l.at[0] + view[4 + r] * l.at[1] + view[8 + r] * l.at[2] + view[12 + r]);
     labels[i].hidden = !showLandmarks || clip[2] <= 0;
-    labels[i].style.left = (clip[0] / clip[2] + 1) / 2 * stage.clientWidth - 10 + 'px';
-    labels[i].style.top = (1 - clip[1] / clip[2]) / 2 * stage.clientHeight - 8 + 'px';
+    const x = (clip[0] / clip[2] + 1) / 2 * stage.clientWidth - 10, y = (1 - clip[1] / clip[2]) / 2 * stage.clientHeight - 8;
+    labels[i].style.left = x + 'px';
+    labels[i].style.top = y + 'px';
+    const end = x + 24 + 6 * l.name.length, free = named.every(n => Math.abs(n.y - y) > 11 || n.x > end || n.end < x + 12);
+    labels[i].lastChild.hidden = !free;
+    if (free && !labels[i].hidden) named.push({x: x + 12, end, y});
   });
 }
 
