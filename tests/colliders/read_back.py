@@ -373,6 +373,9 @@ def refusals():
     check("unity" in said and said.count("\n") == 1, f"a format that does not exist: {said}")
     said = run("export", "free.json", "--to", "unity", "-o", "no/such/folder.json", code=1)
     check("folder" in said and said.count("\n") == 1, f"a folder that does not exist: {said}")
+    for output, report in [("/proc/none.json", "none_report.json"), ("none.json", "/proc/none.json")]:  # where no file can be
+        said = run("export", "free.json", "--to", "unity", "-o", output, "--report", report, code=1)
+        check("could not be written" in said and said.count("\n") == 1, f"a folder that cannot be written: {said}")
     said = run("export", "free.json", "--to", "unity", "-o", "none.tscn", code=2)
     check("extension" in said, f"an extension that is not the format's: {said}")
     said = run("export", "free.json", "--to", "mujoco", "--shapes", "capsules", "-o", "none.xml", code=2)

@@ -16,6 +16,11 @@ for name in ["body", "cloth"]:
     mesh = objects[name]
     found[name] = [list(mesh.matrix_world @ v.co) for v in mesh.data.vertices]
 cloth = objects["cloth"]
+action = cloth.data.shape_keys.animation_data.action
+end = action.frame_range[1]
+bpy.context.scene.frame_set(int(end), subframe=end - int(end))
+found["values_at_end"] = [key.value for key in cloth.data.shape_keys.key_blocks[1:]]
+bpy.context.scene.frame_set(0)
 found["keys"] = [key.name for key in cloth.data.shape_keys.key_blocks]
 last = cloth.data.shape_keys.key_blocks[-1]
 found["last_key"] = [list(cloth.matrix_world @ point.co) for point in last.data]

@@ -35,6 +35,8 @@ def compare(blender, name, glb_file, cache):
     frames = len(glb.primitive("cloth")["targets"])
     check(most_apart(y_up(found["cloth"]), glb.points("cloth")) < 1e-5, f"{name}: the cloth is elsewhere")
     check(len(found["keys"]) == frames + 1, f"{name}: {len(found['keys'])} shape keys of {frames} frames")
+    values = found["values_at_end"]
+    check(abs(values[-1] - 1) < 1e-3 and sum(v > 1e-3 for v in values) == 1, f"{name}: weights at the end are {values[-3:]}")
     names = glb.document["meshes"][glb.nodes[glb.find("cloth")]["mesh"]]["extras"]["targetNames"]
     check(found["keys"][1:] == names, f"{name}: keys are {found['keys'][1:3]}, ...")
     check(most_apart(y_up(found["last_key"]), glb.points("cloth", frames - 1)) < 1e-5, f"{name}: the last frame")
@@ -42,6 +44,23 @@ def compare(blender, name, glb_file, cache):
     check(found["extras"] == {key: node["extras"][key] for key in found["extras"]}, f"{name}: extras")
     check(most_apart(y_up(found["cached"]), glb.points("cloth", frames - 1)) < 1e-4,
           f"{name}: {cache} ends {most_apart(y_up(found['cached']), glb.points('cloth', frames - 1))} m elsewhere")
+
+
+def convex(blender):
+    """Each convex piece is one closed mesh in Blender, and holds what the file has."""
+    run("fit", "body.obj", "--tier", "solid", "-o", "p.json", "-q")
+    run("export", "p.json", "--to", "convex", "--count", "16", "-o", "pieces.gltf", "-q")
+    run("export", "p.json", "--to", "convex", "--count", "16", "-o", "pieces.obj", "-q")
+    found = in_blender(blender, "convex_in_blender.py", os.path.abspath("pieces.gltf"), os.path.abspath("pieces.obj"))
+    if not found: return
+    nodes = json.load(open("pieces.gltf"))["nodes"]
+    check(len(found["gltf"]) == len(found["obj"]) == sum("mesh" in node for node in nodes) > 8, "number of pieces")
+    for name, piece in {**found["gltf"], **found["obj"]}.items():
+        check(piece["open_edges"] == 0, f"{name}: {piece['open_edges']} edges are not manifold")
+        check(piece["volume"] > 0, f"{name}: wound inward, {piece['volume']} m3")
+    apart = max(abs(a["volume"] - b["volume"]) for a, b in
+                zip(*(sorted(pieces.values(), key=lambda piece: piece["volume"]) for pieces in found.values())))
+    check(apart < 1e-7, f"pieces of glTF and OBJ differ by {apart} m3")
 
 
 def addon(blender):
@@ -92,6 +111,7 @@ def main():
     check(Glb("long.glb").document.get("extensionsRequired"), "the long drape is not quantized")
     compare(blender, "small integers", "long.glb", "long.mdd")
     addon(blender)
+    convex(blender)
     print("Blender:", "failed" if failures else "passed")
     return 1 if failures else 0
 

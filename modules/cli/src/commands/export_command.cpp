@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -120,6 +121,18 @@ engine::Result<void> check_shapes(const ExportCommand& command, const colliders:
                        "Leave --shapes out."};
 }
 
+/// Writes the report first, and takes it back where the colliders cannot be written: one is never there
+/// without the other.
+engine::Result<void> write_both(const ExportCommand& command, std::string_view text,
+                                std::string_view report) {
+  if (!command.report.empty())
+    if (auto done = engine::write_file(command.report, report); !done) return done;
+  auto done = engine::write_file(command.output, text);
+  std::error_code ignored;
+  if (!done && !command.report.empty()) std::filesystem::remove(command.report, ignored);
+  return done;
+}
+
 engine::Result<void> export_colliders(const ExportCommand& command) {
   const colliders::Format format = *colliders::format_from_name(command.format);
   const colliders::FormatFacts& facts = colliders::facts(format);
@@ -138,13 +151,10 @@ engine::Result<void> export_colliders(const ExportCommand& command) {
   if (!reduced) return reduced.error();
   const auto text = text_of(command, both->proxy, *reduced);
   if (!text) return text.error();
-  if (auto done = engine::write_file(command.output, std::string_view(*text)); !done) return done;
-  if (!command.report.empty()) {
-    const std::string report = colliders::cost_json(
-        both->proxy, reduced->cost,
-        {command.format, reduced->what, command.body.empty() ? "the proxy's surface" : command.body});
-    if (auto done = engine::write_file(command.report, std::string_view(report)); !done) return done;
-  }
+  const std::string report = colliders::cost_json(
+      both->proxy, reduced->cost,
+      {command.format, reduced->what, command.body.empty() ? "the proxy's surface" : command.body});
+  if (auto done = write_both(command, *text, report); !done) return done;
   if (command.quiet) return {};
   print_cost(command, *reduced);
   std::printf("wrote       %s\n", command.output.c_str());
