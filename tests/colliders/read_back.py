@@ -234,6 +234,24 @@ def read_by(reader):
     return read
 
 
+def modules_of(package):
+    """The folder of Node's modules that has a package: BODICE_NODE_MODULES, or node_modules in the repository's build."""
+    root = os.environ.get("BODICE_ROOT", ".")
+    for folder in [os.environ.get("BODICE_NODE_MODULES", ""), *(os.path.join(root, *p, "node_modules") for p in [(), ("build",), ("..",)])]:
+        if folder and os.path.isdir(os.path.join(folder, package)): return os.path.abspath(folder)
+    return None
+
+
+def read_by_three_vrm(node, modules):
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "readers", "by_three_vrm.mjs")
+    def read(file, joints):
+        done = subprocess.run([node, script, modules, file], capture_output=True, text=True, timeout=60)
+        check(done.returncode == 0, f"three-vrm refuses {file}: {done.stderr}")
+        found = [json.loads(line) for line in done.stdout.splitlines()]
+        return [(c["a"], c["b"], c["radius"], c["radius"]) for c in found]
+    return read
+
+
 # Convex pieces: planes, and triangles for points outside of them.
 def cross(u, v): return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 
@@ -332,6 +350,10 @@ for name, extension in [("mujoco", ".xml"), ("sdformat", ".sdf")]:
     reader = os.path.join(READERS, "read_by_" + name)
     if os.path.exists(reader): FORMATS.append((name, extension, read_by(reader), [None]))
     else: print(f"{name}'s own parser is not here, so that the file is read by Python's alone")
+
+node, modules = os.environ.get("BODICE_NODE", ""), modules_of("@pixiv/three-vrm-springbone")
+if os.path.exists(node) and modules: FORMATS.append(("vrm", ".gltf", read_by_three_vrm(node, modules), ["capsules", "spheres"]))
+else: print("three-vrm is not here (npm: three, @pixiv/three-vrm-springbone), so that VRM is read by Python alone")
 
 # What Godot's pages of its classes list, of what the files use.
 GODOT = {"Node3D": [], "AnimatableBody3D": ["sync_to_physics"], "CollisionShape3D": ["transform", "shape"],
