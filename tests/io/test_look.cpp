@@ -250,3 +250,46 @@ TEST_CASE(
   CHECK(out["extensionsUsed"] == document["extensionsUsed"]);
   CHECK_FALSE(out.contains("extensionsRequired"));
 }
+
+TEST_CASE("a look with any of its values replaced is read, or refused with a sentence") {
+  const TempFolder folder;
+  folder.write("red.png", kPng);
+  json document = json::parse(to_gltf(Tube().mesh, kIdentity));
+  document["images"] = {{{"uri", "red.png"}, {"name", "red"}}};
+  document["samplers"] = {{{"wrapS", 33071}}};
+  document["textures"] = {{{"source", 0}, {"sampler", 0}}};
+  document["materials"] = {{{"name", "Velvet"},
+                            {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 0}}}}},
+                            {"extensions", {{"KHR_materials_sheen", {{"sheenColorFactor", {1, 1, 1}}}}}}}};
+  json& primitive = document["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["attributes"]["TEXCOORD_0"] = primitive["attributes"]["POSITION"];  // three components, not two
+  std::size_t read = 0, refused = 0;
+  const auto attempt = [&](const json& changed) {
+    const auto garment = io::import_garment(kContext, folder.write("a.gltf", changed.dump()), {});
+    if (!garment.ok()) {
+      CHECK_FALSE(garment.error().sentence().empty());
+      ++refused;
+      return;
+    }
+    written(*garment, folder / "out.glb");
+    ++read;
+  };
+  attempt(document);
+  CHECK(read == 1);
+  const json flat = document.flatten();
+  for (const auto& [pointer, value] : flat.items()) {
+    const bool of_look = pointer.find("/images") == 0 || pointer.find("/samplers") == 0 ||
+                         pointer.find("/textures") == 0 || pointer.find("/materials") == 0 ||
+                         pointer.ends_with("/material") || pointer.ends_with("/TEXCOORD_0");
+    if (!of_look) continue;
+    for (const json& other :
+         {json(), json(-1), json(1'000'000), json(0.5), json("x"), json::array(), json::object()}) {
+      json changed = document;
+      changed[json::json_pointer(pointer)] = other;
+      attempt(changed);
+    }
+  }
+  CHECK(read > 20);
+  CHECK(refused > 0);
+}
