@@ -57,10 +57,22 @@ def errors_are_those_of_queries():
     check(data["hash"] in data["report"] and json.loads(data["report"]), "the report of this proxy is not in the page")
 
 
+def tasks_are_those_of_the_trace(tasks, stages, trace):
+    spans = [e for e in json.load(open(trace))["traceEvents"] if e["ph"] == "X"]
+    check(len(tasks) == len(spans) > 5, f"{len(tasks)} tasks of {len(spans)} spans")
+    first = min(e["ts"] for e in spans)
+    for (name, begin, ms, thread), e in zip(tasks, sorted(spans, key=lambda e: e["ts"])):
+        check(name == e["name"] and abs(begin - (e["ts"] - first) / 1e3) < 0.01 and abs(ms - e["dur"] / 1e3) < 0.01,
+              f"{name} at {begin} ms is {e}")
+    for name, ms in stages:
+        check(name == "set-up and judging" or any(t[0] == name and abs(t[2] - ms) < 1 for t in tasks), f"no task for {name}")
+
+
 def drapes_move():
-    run("drape", "--vertices", "3000", "--tier", "solid", "--motion", "walk", "--frames", "6", "--keep", "4",
-        "--substeps", "4", "-o", "w.glb", "--no-picture", "--report", "w.json", "--html", "w.html", "-q")
+    run("drape", "--vertices", "3000", "--tier", "solid", "--motion", "walk", "--frames", "6", "--keep", "4", "--substeps", "4",
+        "-o", "w.glb", "--no-picture", "--report", "w.json", "--html", "w.html", "--trace", "t.json", "-q")
     data, report = read("w.html"), json.load(open("w.json"))
+    tasks_are_those_of_the_trace(data["tasks"], data["stages"], "t.json")
     frames = len(data["times"])
     check(frames == 4 and data["left_out"] == 0, f"{frames} frames of 4")
     for name, item in [("cloth", data["cloth"][0]), ("skin", data["skin"])]:

@@ -44,7 +44,8 @@ if '<div id="still"><svg' not in open("d.html").read(): failures.append("no stil
 for file in ["report.json", "errors.csv", "frames.csv"]:
     if f'download="{file}"' not in shown.stdout: failures.append(f"no {file} to download")
 for pattern, what in [(r'<output id="now">[0-9.]+ s<', "the time"), (r'<span id="most">\+[0-9.]+ mm<', "the legend"),
-                      (r'<div id="stages"><div title="[0-9]+ % of', "the times of stages")]:
+                      (r'<div id="stages" class="bars"><div title="[0-9]+ % of [0-9]+ ms, begins at [0-9.]+ ms', "the times of stages"),
+                      (r'<summary>all [0-9]+ tasks on [0-9]+ thread', "the timeline of tasks")]:
     if not re.search(pattern, shown.stdout): failures.append(f"the page lacks {what}")
 open_page("--screenshot=" + os.path.abspath("d.png"))
 # A picture without the body compresses to a fraction of this.

@@ -88,6 +88,12 @@ Json json_of(const std::vector<engine::StageTime>& stages) {
   return list;
 }
 
+Json json_of(const std::vector<TaskSpan>& tasks) {
+  Json list = Json::array();
+  for (const TaskSpan& t : tasks) list.push_back({t.name, t.begin_ms, t.ms, t.thread});
+  return list;
+}
+
 void add_parts(const PageSubject& subject, Json& data) {
   data["parts"] = Json::array(), data["colors"] = Json::array();
   for (int p = 0; p < body::kAllPartCount; ++p) {
@@ -213,6 +219,7 @@ Json data_of(const engine::Context& context, const PageSubject& subject, const i
   add_frames(scene, shown, thin, cube, data);
   if (subject.drape) add_drape(*subject.drape, data);
   data["warnings"] = json_of(subject.warnings), data["stages"] = json_of(subject.stages);
+  data["tasks"] = json_of(subject.tasks);
   data["lacks"] = subject.lacks;
   data["report"] = subject.report;
   return data;

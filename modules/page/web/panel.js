@@ -64,14 +64,37 @@ for (const radio of document.querySelectorAll('[name=by]')) {
   radio.onchange = () => { meshes.skin.colors = skinColors(radio.value); meshes.skin.dirty = true; showLegend(radio.value); draw(); };
 }
 
+// When each task ran: bars begin where it began, in a color for its thread. Pages of files have the lengths alone.
 $('spent').hidden = !data.stages.length;
-const total = data.stages.reduce((sum, s) => sum + s[1], 0) || 1;
+const total = data.stages.reduce((sum, s) => sum + s[1], 0) || 1, end = Math.max(1e-9, ...data.tasks.map(t => t[1] + t[2]));
+const duration = ms => `${ms < 10 ? ms.toFixed(1) : ms.toFixed(0)} ms`;
+function bar(into, name, [left, width], thread, ms, title) {
+  const row = document.createElement('div'), rail = document.createElement('s'), length = document.createElement('i');
+  length.style.marginLeft = Math.min(99, 100 * left) + '%';
+  length.style.width = 100 * width + '%';
+  length.hidden = width === 0;
+  length.className = 'thread' + thread % 3;
+  rail.append(length);
+  row.append(name, rail, duration(ms));
+  row.title = title;
+  into.append(row);
+}
+const longest = Math.max(...data.stages.map(s => s[1]));
 for (const [name, ms] of data.stages) {
-  const row = document.createElement('div'), bar = document.createElement('i');
-  bar.style.width = 100 * ms / Math.max(...data.stages.map(s => s[1])) + '%';
-  row.append(name, bar, `${ms < 10 ? ms.toFixed(1) : ms.toFixed(0)} ms`);
-  row.title = `${(100 * ms / total).toFixed(0)} % of ${total.toFixed(0)} ms`;
-  $('stages').append(row);
+  const task = data.tasks.filter(t => t[0] === name).sort((a, b) => Math.abs(a[2] - ms) - Math.abs(b[2] - ms))[0];
+  bar($('stages'), name, task ? [task[1] / end, task[2] / end] : data.tasks.length ? [0, 0] : [0, ms / longest], task ? task[3] : 0, ms,
+      `${(100 * ms / total).toFixed(0)} % of ${total.toFixed(0)} ms` + (task ? `, begins at ${duration(task[1])}` : ''));
+}
+if (data.tasks.length) {
+  const details = document.createElement('details'), summary = document.createElement('summary'), rows = document.createElement('div');
+  const threads = 1 + Math.max(...data.tasks.map(t => t[3]));
+  summary.textContent = `all ${data.tasks.length} tasks on ${threads} ${threads > 1 ? 'threads' : 'thread'}, from left to right ${duration(end)}`;
+  rows.className = 'bars';
+  for (const [name, begin, ms, thread] of data.tasks)
+    bar(rows, name, [begin / end, ms / end], thread, ms, `thread ${thread + 1}, begins at ${duration(begin)}`);
+  details.id = 'tasks';
+  details.append(summary, rows);
+  $('spent').append(details);
 }
 $('warned').hidden = !data.warnings.length;
 for (const warning of data.warnings) {

@@ -13,7 +13,7 @@ namespace bodice::cli {
 Run::Run(const CommonOptions& options) : options_(options), progress_(options.quiet) {
   if (options.threads != 1) executor_ = engine::make_tbb_executor(options.threads);
   context_.executor = executor_ ? executor_.get() : &engine::inline_executor();
-  if (!options.trace.empty()) trace_ = std::make_unique<engine::Trace>();
+  if (!options.trace.empty() || !options.html.empty()) trace_ = std::make_unique<engine::Trace>();
   context_.trace = trace_.get();
 }
 
@@ -91,7 +91,9 @@ engine::Result<void> Run::write_page(const tryon::PreparedBody& body, const io::
   if (options_.html.empty()) return {};
   const std::string text = page::page_html(
       context_,
-      page::subject_of(body, {.scene = &scene, .drape = drape, .report = report(body, drape, false)}));
+      page::subject_of(
+          body,
+          {.scene = &scene, .drape = drape, .report = report(body, drape, false), .trace = trace_.get()}));
   if (auto done = engine::write_file(options_.html, std::string_view(text)); !done) return done;
   written.push_back(options_.html);
   return {};
@@ -110,7 +112,7 @@ engine::Result<void> Run::finish(const tryon::PreparedBody& body, const tryon::D
   if (auto done = write(options_.labels, options_.labels.empty() ? "" : tryon::labels_text(body.skin)); !done)
     return done;
   if (auto done = write(options_.report, report); !done) return done;
-  if (trace_) {
+  if (!options_.trace.empty()) {
     files.push_back(options_.trace);
     if (auto done = trace_->write(options_.trace); !done) return done;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <bodice/engine/context.hpp>
+#include <bodice/engine/trace.hpp>
 #include <bodice/io/scene.hpp>
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/prepare.hpp>
@@ -32,6 +33,13 @@ struct DrapeCurves {
   double dt_s = 0.0;
 };
 
+/// When a task ran, and on which thread.
+struct TaskSpan {
+  std::string name;
+  double begin_ms = 0.0, ms = 0.0;  ///< begin: from the first task on
+  int thread = 0;                   ///< in order of their first tasks
+};
+
 /// What a page shows. It refers to data that must outlive it; what is absent is left out of the page.
 struct PageSubject {
   std::string title, tier, hash;
@@ -43,6 +51,7 @@ struct PageSubject {
   std::vector<NamedPoint> landmarks;
   std::vector<engine::Warning> warnings;
   std::vector<engine::StageTime> stages;
+  std::vector<TaskSpan> tasks;  ///< in order of their begin
   std::optional<DrapeCurves> drape;
   std::string report;              ///< tryon::report_json(), for download
   std::vector<std::string> lacks;  ///< a sentence for each thing that the page could show and does not
@@ -53,9 +62,10 @@ struct PageContent {
   const io::Scene* scene = nullptr;           ///< skin, proxy, garments and frames
   const tryon::DrapeReport* drape = nullptr;  ///< null: nothing was draped
   std::string report;                         ///< tryon::report_json(), for download
+  const engine::Trace* trace = nullptr;       ///< of the run; null: the page has no timeline
 };
 
-/// A run as it ends.
+/// A run as it ends. Of its trace the 200 longest spans are shown.
 PageSubject subject_of(const tryon::PreparedBody& body, const PageContent& content);
 
 /// The numbers of a report that tryon::report_json() wrote: title, accuracy, landmarks, warnings, stages and
