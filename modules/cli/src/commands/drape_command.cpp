@@ -144,7 +144,7 @@ void add_drape_options(CLI::App& sub, DrapeCommand& command) {
       ->check(not_empty())
       ->group("Output");
   sub.add_option("--film-strip", command.film_strip,
-                 "write a PNG with eight moments of the motion in one row")
+                 "write a PNG with eight moments of the motion in one row, from the front or the left")
       ->check(not_empty())
       ->group("Output");
   sub.add_option("--cache", command.cache,

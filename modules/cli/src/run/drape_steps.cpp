@@ -66,6 +66,29 @@ std::size_t frame_between(const io::Scene& scene) {
   return best;
 }
 
+using Frames = std::vector<std::vector<geometry::Vec3>>;
+
+/// By how much points move from frame to frame along an axis, beside what all of them do: square meters.
+double motion_along(int axis, const Frames& frames) {
+  double sum = 0.0;
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    double mean = 0.0, square = 0.0;
+    for (std::size_t v = 0; v < frames[f].size(); ++v) {
+      const double moved = frames[f][v][axis] - frames[f - 1][v][axis];
+      mean += moved, square += moved * moved;
+    }
+    const auto count = static_cast<double>(frames[f].size());
+    sum += square - mean * mean / count;
+  }
+  return sum;
+}
+
+/// Whether the left side shows clearly more of the motion than the front, as of a body that walks.
+bool moves_forward(const Frames& body, const io::GarmentTrack& garment) {
+  const Frames& frames = body.empty() ? garment.frames : body;
+  return motion_along(2, frames) > 2.0 * motion_along(0, frames);
+}
+
 /// At most so many of the kept frames, evenly spread, with the first and the last.
 std::vector<std::size_t> spread_frames(std::size_t kept) {
   constexpr std::size_t kMost = 8;
@@ -112,8 +135,11 @@ engine::Result<void> write_outputs(Run& run, const DrapeCommand& command, const 
   }
   if (!command.film_strip.empty()) {
     const std::vector<std::size_t> frames = spread_frames(scene.garments.front().frames.size());
-    if (auto saved = io::write_contact_sheet(scene, frames, static_cast<int>(frames.size()),
-                                             command.film_strip, {.width = 240, .height = 360});
+    if (auto saved =
+            io::write_contact_sheet(scene, frames, static_cast<int>(frames.size()), command.film_strip,
+                                    {.width = 240,
+                                     .height = 360,
+                                     .from_left = moves_forward(draped.body_frames, scene.garments.front())});
         !saved)
       return saved;
     written.push_back(command.film_strip);
