@@ -9,6 +9,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "support", "python"))
 from glb import Glb, most_apart
 from program_check import check, failures, run
+from textured import write_textured
 
 SCRATCH = sys.argv[2]
 # Blender takes its Python's modules from beside the python3 that it finds, which must be Debian's.
@@ -63,6 +64,40 @@ def convex(blender):
     check(apart < 1e-7, f"pieces of glTF and OBJ differ by {apart} m3")
 
 
+def corners_of(glb, node):
+    """Position, texture coordinate and material of each corner, sorted, without the last digits."""
+    mesh, map_, found = glb.document["meshes"][glb.nodes[node]["mesh"]], glb.world(node), []
+    for p in mesh["primitives"]:
+        at, uv = (glb.numbers(p["attributes"][name]) for name in ("POSITION", "TEXCOORD_0"))
+        name = glb.document["materials"][p["material"]]["name"]
+        for (i,) in glb.numbers(p["indices"]):
+            point = [row[0] * at[i][0] + row[1] * at[i][1] + row[2] * at[i][2] + row[3] for row in map_]
+            found.append((name, *[round(v, 3) for v in point + uv[i]]))
+    return sorted(found)
+
+
+def looks(blender):
+    """A garment that Blender exports in four formats comes back with its textures, materials, image and name."""
+    write_textured("skirt.obj", "checked.obj")
+    exported = in_blender(blender, "export_from_blender.py", os.path.abspath("checked.obj"), os.path.abspath("garment"))
+    if not exported: return
+    image, first = open("checks.png", "rb").read(), None
+    for file in ["checked.obj", *exported]:
+        run("drape", "body.obj", os.path.relpath(file), "--unit", "m", "--up", "y", "--tier", "solid", "--substeps", "1", "--frames",
+            "1", "--no-picture", "-o", "look.glb", "-q")
+        glb = Glb("look.glb")
+        (node,) = glb.nodes[glb.find("cloth")]["children"]
+        check(glb.nodes[node]["name"] == "Skirt", f"{file}: the name is {glb.nodes[node]['name']}")
+        view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"]]
+        check(glb.buffer[view["byteOffset"]:view["byteOffset"] + view["byteLength"]] == image, f"{file}: another image")
+        checks = next(m for m in glb.document["materials"] if m["name"] == "Checks")
+        check("baseColorTexture" in checks["pbrMetallicRoughness"], f"{file}: no texture")
+        corners = corners_of(glb, node)
+        first = first or corners
+        apart = sum(a[0] != b[0] or max(abs(p - q) for p, q in zip(a[1:], b[1:])) > 0.0015 for a, b in zip(first, corners))
+        check(len(first) == len(corners) and apart < 0.01 * len(first), f"{file}: {apart} of {len(corners)} corners are others")
+
+
 def addon(blender):
     """The add-on fits, shows and bakes: its ellipsoids hold the skin as the proxy does, and the cloth moves."""
     file = os.path.join(os.environ["BODICE_ROOT"], "modules", "colliders", "blender", "bodice_addon.py")
@@ -112,6 +147,7 @@ def main():
     compare(blender, "small integers", "long.glb", "long.mdd")
     addon(blender)
     convex(blender)
+    looks(blender)
     print("Blender:", "failed" if failures else "passed")
     return 1 if failures else 0
 
