@@ -11,6 +11,7 @@ namespace {
 
 // Lengths in statures.
 constexpr double kDerivativeStep = 1e-6;  // far below any feature, far above rounding
+constexpr double kSurely = 1e-3;          // no value changes so much within a derivative's step
 constexpr double kLongestStep = 0.03;     // keeps a Newton step on its own limb
 constexpr double kMidGap = 4e-4;          // between thighs that are pressed together
 constexpr double kMidBlend = 0.008;       // blend radius there
@@ -25,6 +26,29 @@ double smooth_max(double a, double b, double radius) {
 }
 
 }  // namespace
+
+/// The primitives that a value and those within a derivative's step of it depend on, a few of those that are visible.
+class Flesh::Deciding {
+ public:
+  void add(int primitive) {
+    if (count_ < primitives_.size())
+      primitives_[count_++] = primitive;
+    else
+      too_many_ = true;
+  }
+  void clear() {
+    count_ = 0;
+    too_many_ = false;
+  }
+  std::span<const int> or_all(const std::vector<int>& visible) const {
+    return too_many_ ? std::span<const int>(visible) : std::span(primitives_.data(), count_);
+  }
+
+ private:
+  std::array<int, 32> primitives_;
+  std::size_t count_ = 0;
+  bool too_many_ = false;
+};
 
 Flesh::Flesh(const Figure& figure) {
   add_trunk(figure);
@@ -79,18 +103,35 @@ void Flesh::link_right_half() {
       visible_right_[r].push_back(partner(i));
 }
 
-double Flesh::value(Region region, const Vec3& p) const {
+const std::vector<int>& Flesh::visible_at(Region region, const Vec3& p) const {
+  return (p.x() < 0.0 ? visible_right_ : visible_)[static_cast<std::size_t>(region)];
+}
+
+/// The union of some primitives at p. `deciding` receives those of them that matter there and close by.
+double Flesh::united(std::span<const int> primitives, Region region, const Vec3& p,
+                     Deciding* deciding) const {
   double total = 1.0;
-  const auto& visible = p.x() < 0.0 ? visible_right_ : visible_;
-  for (const int i : visible[static_cast<int>(region)]) {
-    const Primitive& primitive = primitives_[i];
+  for (const int i : primitives) {
+    const Primitive& primitive = primitives_[static_cast<std::size_t>(i)];
     const double reach = total + primitive.blend + primitive.loft.bound_radius();
-    if (reach < 0.0 || (p - primitive.loft.bound_center()).squaredNorm() > reach * reach) continue;
-    total = smooth_min(total, primitive.loft.value(p), primitive.blend);
+    const double apart2 = (p - primitive.loft.bound_center()).squaredNorm();
+    const auto out_of_reach = [&](double r) { return r < 0.0 || apart2 > r * r; };
+    if (out_of_reach(reach)) {
+      if (deciding && !out_of_reach(reach + kSurely)) deciding->add(i);
+      continue;
+    }
+    const double value = primitive.loft.value(p);
+    if (deciding && value < total - primitive.blend - kSurely) deciding->clear();
+    if (deciding && value < total + primitive.blend + kSurely) deciding->add(i);
+    total = smooth_min(total, value, primitive.blend);
   }
   if (region == Region::kLegL) total = smooth_max(total, kMidGap - p.x(), kMidBlend);
   if (region == Region::kLegR) total = smooth_max(total, kMidGap + p.x(), kMidBlend);
   return total;
+}
+
+double Flesh::value(Region region, const Vec3& p) const {
+  return united(visible_at(region, p), region, p, nullptr);
 }
 
 double Flesh::own_value(Region region, const Vec3& p) const {
@@ -100,16 +141,17 @@ double Flesh::own_value(Region region, const Vec3& p) const {
   return total;
 }
 
-Vec3 Flesh::gradient(Region region, const Vec3& p, double value) const {
+Vec3 Flesh::gradient(Region region, const Vec3& p, double value, const Deciding& deciding) const {
   // The differences are one-sided, and along x away from the middle plane, so that left and right round
   // alike. In the plane itself the slope along x is zero by symmetry.
+  const std::span<const int> primitives = deciding.or_all(visible_at(region, p));
   Vec3 g = Vec3::Zero();
   for (int c = 0; c < 3; ++c) {
     if (c == 0 && std::abs(p.x()) < kDerivativeStep) continue;
     const double step = c == 0 && p.x() < 0.0 ? -kDerivativeStep : kDerivativeStep;
     Vec3 moved = p;
     moved[c] += step;
-    g[c] = (this->value(region, moved) - value) / step;
+    g[c] = (united(primitives, region, moved, nullptr) - value) / step;
   }
   return g;
 }
@@ -117,8 +159,9 @@ Vec3 Flesh::gradient(Region region, const Vec3& p, double value) const {
 Vec3 Flesh::project(Region region, Vec3 p, int steps, Vec3* normal) const {
   Vec3 g = Vec3::UnitY();
   for (int step = 0; step < steps; ++step) {
-    const double f = value(region, p);
-    g = gradient(region, p, f);
+    Deciding deciding;
+    const double f = united(visible_at(region, p), region, p, &deciding);
+    g = gradient(region, p, f, deciding);
     const double square = g.squaredNorm();
     if (square < 1e-4) break;  // on an axis there is no direction to move in
     Vec3 move = -f / square * g;

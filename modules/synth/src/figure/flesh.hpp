@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "figure/figure.hpp"
@@ -67,6 +68,8 @@ class Flesh {
     Loft loft;
     double blend;  ///< radius of the smooth union with the primitives before
   };
+  class Deciding;
+
   void add(Region region, Loft loft, double blend);
   void add_trunk(const Figure& figure);
   void add_head(const Figure& figure);
@@ -74,7 +77,9 @@ class Flesh {
   void add_leg(const Figure& figure, int side);
   void link_regions();
   void link_right_half();
-  Vec3 gradient(Region region, const Vec3& p, double value) const;
+  const std::vector<int>& visible_at(Region region, const Vec3& p) const;
+  double united(std::span<const int> primitives, Region region, const Vec3& p, Deciding* deciding) const;
+  Vec3 gradient(Region region, const Vec3& p, double value, const Deciding& deciding) const;
 
   std::vector<Primitive> primitives_;
   std::array<std::vector<int>, kRegionCount> own_;      ///< primitives of each region
