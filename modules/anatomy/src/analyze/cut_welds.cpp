@@ -34,8 +34,7 @@ constexpr double kInDoubt = 0.3;
 /// A body with welded limbs, and how it is analyzed.
 struct WeldedBody {
   const engine::Context& context;
-  const TriMesh& mesh;
-  const MeshDistance& distance;
+  SampledSkin& skin;
   const Options& options;
   Analyze analyze;
 };
@@ -96,7 +95,7 @@ struct Parted {
 /// What a web hides may be one more, so that each cut is followed by another look.
 std::optional<Parted> part(const WeldedBody& body, double depth, std::vector<Web> webs) {
   for (int pass = 1;; ++pass) {
-    auto thin = thin_copy(body.context, body.mesh, body.distance, depth, webs);
+    auto thin = body.skin.thin_copy(body.context, depth, webs);
     if (!thin) return std::nullopt;
     auto found = body.analyze(body.context, thin->mesh, body.options);
     if (!found) return std::nullopt;
@@ -134,9 +133,11 @@ engine::Result<Anatomy> cut_welds(const engine::Context& context, const TriMesh&
   const std::vector<Web> seen = as_is ? find_webs(context, mesh, *as_is) : std::vector<Web>{};
   if (!is_welded(as_is) && seen.empty()) return as_is;
   const MeshDistance distance(context, mesh);
-  const std::span depths = std::span(kDepths).subspan(is_welded(as_is) ? 1 : 0);
+  auto skin = SampledSkin::make(mesh, distance);
+  const std::span depths =
+      skin ? std::span(kDepths).subspan(is_welded(as_is) ? 1 : 0) : std::span<const double>();
   for (const double depth : depths) {
-    const auto parted = part({context, mesh, distance, options, analyze}, depth, seen);
+    const auto parted = part({context, *skin, options, analyze}, depth, seen);
     if (!parted) continue;
     Anatomy apart = carry_out(context, parted->thin, parted->found, mesh);
     const std::string where = as_is ? folds(*as_is, apart) : "";

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <queue>
 
-#include <bodice/geometry/contour.hpp>
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
@@ -148,21 +147,25 @@ class Cut {
 
 }  // namespace
 
-std::optional<ThinCopy> thin_copy(const engine::Context& context, const TriMesh& skin,
-                                  const MeshDistance& distance, double depth_share,
-                                  std::span<const Web> webs) {
-  const double height = std::sqrt(surface_area(skin) / kAreaOfHeight);
-  ThinCopy thin{{}, depth_share * height, height / kCells};
+std::optional<SampledSkin> SampledSkin::make(const TriMesh& skin, const MeshDistance& distance) {
+  const double height = std::sqrt(surface_area(skin) / kAreaOfHeight), cell = height / kCells;
   const geometry::Box box = geometry::bounding_box(skin.positions);
-  if (!(thin.cell > 0.0) || box.size().prod() > kMostNodes * std::pow(thin.cell, 3)) return std::nullopt;
+  if (!(cell > 0.0) || box.size().prod() > kMostNodes * std::pow(cell, 3)) return std::nullopt;
+  const auto signed_distance = [&distance](const Vec3& p) { return distance.signed_distance(p); };
+  return SampledSkin(height, cell, geometry::NodeDistances(signed_distance, box, cell));
+}
+
+std::optional<ThinCopy> SampledSkin::thin_copy(const engine::Context& context, double depth_share,
+                                               std::span<const Web> webs) {
+  ThinCopy thin{{}, depth_share * height_, cell_};
   std::vector<Cut> cuts;
-  for (const Web& web : webs) cuts.emplace_back(web, height, thin.cell);
-  const auto field = [&](const Vec3& p) {
-    double outside = distance.signed_distance(p) + thin.depth;
+  for (const Web& web : webs) cuts.emplace_back(web, height_, cell_);
+  const auto below_or_cut = [&](double distance, const Vec3& p) {
+    double outside = distance + thin.depth;
     for (const Cut& cut : cuts) outside = std::max(outside, cut.depth(p));
     return outside;
   };
-  const TriMesh all = contour(context, geometry::sample_field(context, field, box, thin.cell));
+  const TriMesh all = contour(context, distances_.sample(context, below_or_cut));
   if (all.empty()) return std::nullopt;
   auto repaired =
       geometry::repair(context, geometry::largest_components(all, geometry::connected_components(all), 1));

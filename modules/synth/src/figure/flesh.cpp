@@ -27,7 +27,8 @@ double smooth_max(double a, double b, double radius) {
 
 }  // namespace
 
-/// The primitives that a value and those within a derivative's step of it depend on, a few of those that are visible.
+/// The primitives that a value and those within a derivative's step of it depend on, a few of those that are
+/// visible.
 class Flesh::Deciding {
  public:
   void add(int primitive) {
