@@ -16,12 +16,12 @@ SCRATCH = sys.argv[2]
 KEEP = "--keep" in sys.argv
 
 
-# Vectors and matrices, without numpy.
-def add(a, b): return [x + y for x, y in zip(a, b)]
-def sub(a, b): return [x - y for x, y in zip(a, b)]
-def scale(k, a): return [k * x for x in a]
-def dot(a, b): return sum(x * y for x, y in zip(a, b))
-def norm(a): return math.sqrt(dot(a, a))
+# Vectors of three and matrices, without numpy; written out, since they take most of the time.
+def add(a, b): return [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+def sub(a, b): return [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+def scale(k, a): return [k * a[0], k * a[1], k * a[2]]
+def dot(a, b): return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+def norm(a): return math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 def apply(rows, v): return [dot(row, v) for row in rows]
 def transpose(rows): return [list(column) for column in zip(*rows)]
 def product(a, b): return [[dot(row, column) for column in zip(*b)] for row in a]
@@ -53,10 +53,17 @@ def hull_distance(p, shape):
     a, b, ra, rb = shape
     value = lambda t: norm(sub(p, add(a, scale(t, sub(b, a))))) - (ra + t * (rb - ra))
     low, high, g = 0.0, 1.0, 0.6180339887498949
-    for _ in range(40):
-        left, right = high - g * (high - low), low + g * (high - low)
-        if value(left) < value(right): high = right
-        else: low = left
+    left, right = high - g * (high - low), low + g * (high - low)
+    at_left, at_right = value(left), value(right)
+    for _ in range(40):  # one of the two inner points stays
+        if at_left < at_right:
+            high, right, at_right = right, left, at_left
+            left = high - g * (high - low)
+            at_left = value(left)
+        else:
+            low, left, at_left = left, right, at_right
+            right = low + g * (high - low)
+            at_right = value(right)
     return min(value(0.0), value(1.0), value(0.5 * (low + high)))
 
 
@@ -67,7 +74,7 @@ def ellipsoid_distance(p, ellipsoid):
     high = norm([r * v for r, v in zip(radii, y)])
     for _ in range(70):  # the closest point is r^2 y / (t + r^2), on the ellipsoid
         t = 0.5 * (low + high)
-        if sum((r * v / (t + r * r)) ** 2 for r, v in zip(radii, y)) > 1: low = t
+        if norm([r * v / (t + r * r) for r, v in zip(radii, y)]) > 1: low = t
         else: high = t
     close = [r * r * v / (high + r * r) for r, v in zip(radii, y)]
     inside = sum((v / r) ** 2 for r, v in zip(radii, y)) < 1
