@@ -85,12 +85,6 @@ json document_of(const std::filesystem::path& file) {
   return json::parse(bytes.substr(20, length));
 }
 
-io::ImportedMesh imported(const std::filesystem::path& file) {
-  auto garment = io::import_garment(kContext, file, {});
-  REQUIRE_MESSAGE(garment.ok(), (garment.ok() ? std::string() : garment.error().sentence()));
-  return std::move(garment).value();
-}
-
 void check_read_by_assimp(const std::filesystem::path& file, const Tube& tube) {
   Assimp::Importer importer;
   const aiScene* read = importer.ReadFile(file.string(), 0);

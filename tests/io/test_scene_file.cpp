@@ -13,6 +13,7 @@
 
 #include "made_rig.hpp"
 #include "scene_fixture.hpp"
+#include "textured_tube.hpp"
 
 using namespace bodice;
 using namespace io_test;
@@ -129,6 +130,35 @@ TEST_CASE("a skinned body comes back at the times of its garments as the rig pos
     rig::skinning_matrices(rig.skeleton, world, skinning);
     rig::skin_linear(fixture.body.positions, rig.weights, skinning, posed);
     CHECK(farthest(back.body_frames[f], posed) < 5e-6);
+  }
+}
+
+TEST_CASE("garments with the names of other nodes are read back as themselves") {
+  const TempFolder folder;
+  io::Scene scene;
+  const TriMesh body = figure();
+  scene.body = &body;
+  std::size_t vertices = 0;
+  for (const char* name : {"cloth_2", "body"}) {
+    std::string obj = Tube().obj();
+    obj.replace(obj.find("o Tube"), 6, "o "s + name);
+    io::GarmentTrack& track = scene.garments.emplace_back();
+    const io::ImportedMesh garment = imported(folder.write("tube.obj", obj));
+    track.name = scene.garments.size() == 1 ? "cloth" : "cloth_2";
+    track.mesh = garment.skin;
+    track.look = garment.look;
+    for (Vec3& p : track.mesh.positions) p.x() += static_cast<double>(scene.garments.size());
+    track.frames = {track.mesh.positions};
+    vertices = track.mesh.positions.size();
+  }
+  REQUIRE(io::write_glb(scene, folder / "names.glb").ok());
+  const auto back = io::read_scene_file({}, folder / "names.glb");
+  REQUIRE(back.ok());
+  CHECK(back->body.positions.size() == body.positions.size());
+  REQUIRE(back->garments.size() == 2);
+  for (std::size_t g = 0; g < 2; ++g) {
+    REQUIRE(back->garments[g].mesh.positions.size() == vertices);
+    CHECK((back->garments[g].frames[0][5] - scene.garments[g].frames[0][5]).norm() < 1e-6);
   }
 }
 

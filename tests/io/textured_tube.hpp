@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <doctest/doctest.h>
+
+#include <bodice/io/import.hpp>
 #include <bodice_test/shapes.hpp>
 
 #include "figure.hpp"
@@ -76,5 +79,11 @@ struct Tube {
 inline constexpr const char* kMtl =
     "newmtl Checks\nKd 0.8 0.8 0.8\nNs 30\nmap_Kd -s 1 1 1 pixel one.png\n\nnewmtl Band\nKd 0.6 0.1 0.2\nd "
     "0.5\n";
+
+inline bodice::io::ImportedMesh imported(const std::filesystem::path& file) {
+  auto garment = bodice::io::import_garment(kContext, file, {});
+  REQUIRE_MESSAGE(garment.ok(), (garment.ok() ? std::string() : garment.error().sentence()));
+  return std::move(garment).value();
+}
 
 }  // namespace io_test

@@ -48,10 +48,22 @@ NodeTree::NodeTree(const GltfDocument& document) : document_(document) {
   }
 }
 
-std::optional<std::size_t> NodeTree::find(std::string_view name) const {
-  for (std::size_t n = 0; n < size(); ++n)
-    if (text_at(document_.element("nodes", n), "name") == name) return n;
-  return std::nullopt;
+bool NodeTree::is_top(std::size_t node) const {
+  const std::ptrdiff_t up = parent_[node];
+  return up == kNoParent ||
+         (parent_[static_cast<std::size_t>(up)] == kNoParent &&
+          text_at(document_.element("nodes", static_cast<std::size_t>(up)), "name") == "input");
+}
+
+std::optional<std::size_t> NodeTree::find_top(std::string_view name) const {
+  std::optional<std::size_t> found;
+  for (std::size_t n = 0; n < size(); ++n) {
+    const json& node = document_.element("nodes", n);
+    if (!is_top(n) || text_at(node, "name") != name) continue;
+    if (index_at(node, "mesh")) return n;
+    if (!found) found = n;
+  }
+  return found;
 }
 
 Eigen::Affine3d NodeTree::world(std::size_t node) const {

@@ -19,8 +19,9 @@ class NodeTree {
   explicit NodeTree(const GltfDocument& document);
 
   std::size_t size() const { return local_.size(); }
-  /// The index of the first node of a name.
-  std::optional<std::size_t> find(std::string_view name) const;
+  /// The first node of a name at the top of the scene or right below the node `input`, one with a mesh before
+  /// others: joints and garments may have the same name.
+  std::optional<std::size_t> find_top(std::string_view name) const;
   /// kNoParent for a root.
   std::ptrdiff_t parent(std::size_t node) const { return parent_[node]; }
   const rig::LocalTransform& local(std::size_t node) const { return local_[node]; }
@@ -32,6 +33,8 @@ class NodeTree {
   static constexpr std::ptrdiff_t kNoParent = -1;
 
  private:
+  bool is_top(std::size_t node) const;
+
   const GltfDocument& document_;
   std::vector<rig::LocalTransform> local_;
   std::vector<std::ptrdiff_t> parent_;

@@ -153,7 +153,7 @@ class SceneFileReader {
   bool read_garments(SceneFile& out) {
     for (int k = 1;; ++k) {
       const std::string name = k == 1 ? "cloth" : "cloth_" + std::to_string(k);
-      const auto named = tree_.find(name);
+      const auto named = tree_.find_top(name);
       if (!named) return true;
       const std::size_t node = mesh_node(*named);
       GarmentTrack track;
@@ -189,7 +189,7 @@ class SceneFileReader {
   }
 
   bool read_body(SceneFile& out) {
-    const auto node = tree_.find("body");
+    const auto node = tree_.find_top("body");
     if (!node) return true;
     const json& primitive = primitive_of(*node);
     if (!read_mesh(primitive, out.body)) return false;
@@ -221,7 +221,7 @@ class SceneFileReader {
   }
 
   bool read_ellipsoids(SceneFile& out) {
-    const auto above = tree_.find("ellipsoids");
+    const auto above = tree_.find_top("ellipsoids");
     if (!above) return true;
     const json& top = document_.element("nodes", *above);
     if (top.contains("extras")) {
