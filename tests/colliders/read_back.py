@@ -259,6 +259,27 @@ def read_by_three_vrm(node, modules):
     return read
 
 
+def read_by_unity_script(program):
+    """The importer for Unity itself, on a stand-in of Unity's classes: no Unity runs here."""
+    def read(file, joints):
+        done = subprocess.run(["mono", program, file], capture_output=True, text=True, timeout=60)
+        check(done.returncode == 0, f"the importer for Unity refuses {file}: {done.stderr}")
+        found = [[float(v) for v in line.split()] for line in done.stdout.splitlines()]
+        return [([-v[0], v[1], v[2]], [-v[3], v[4], v[5]], v[6], v[7]) for v in found]
+    return read
+
+
+def compiled_unity_script():
+    here = os.path.dirname(os.path.abspath(__file__))
+    program = os.path.abspath(os.path.join(SCRATCH, "..", "unity_stand_in.exe"))
+    os.makedirs(os.path.dirname(program), exist_ok=True)
+    done = subprocess.run(["mcs", "-out:" + program, os.path.join(here, "UnityStandIn.cs"),
+                           os.path.join(here, "..", "..", "modules", "colliders", "unity", "BodiceColliders.cs")],
+                          capture_output=True, text=True, timeout=120)
+    check(done.returncode == 0, f"BodiceColliders.cs does not compile: {done.stdout}{done.stderr}")
+    return program
+
+
 # Convex pieces: planes, and triangles for points outside of them.
 def cross(u, v): return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
 
@@ -361,6 +382,10 @@ for name, extension in [("mujoco", ".xml"), ("sdformat", ".sdf")]:
 node, modules = os.environ.get("BODICE_NODE", ""), modules_of("@pixiv/three-vrm-springbone")
 if os.path.exists(node) and modules: FORMATS.append(("vrm", ".gltf", read_by_three_vrm(node, modules), ["capsules", "spheres"]))
 else: print("three-vrm is not here (npm: three, @pixiv/three-vrm-springbone), so that VRM is read by Python alone")
+
+if shutil.which("mcs") and shutil.which("mono"):
+    FORMATS.append(("unity", ".json", read_by_unity_script(compiled_unity_script()), ["capsules", "tapered", "spheres"]))
+else: print("mono is not here (Debian: mono-mcs), so that the importer for Unity is not compiled")
 
 # What Godot's pages of its classes list, of what the files use.
 GODOT = {"Node3D": [], "AnimatableBody3D": ["sync_to_physics"], "CollisionShape3D": ["transform", "shape"],
