@@ -9,9 +9,9 @@
 #include <fstream>
 
 #include "fit.hpp"
-#include "fit_borders.hpp"
 #include "fit_corrections.hpp"
 #include "fit_lengths.hpp"
+#include "fit_part_borders.hpp"
 #include "landmarks/landmark_table.hpp"
 
 namespace {
@@ -150,7 +150,7 @@ struct OwnFit {
 };
 constexpr OwnFit kOwnFits[] = {{"stature", calibrate::fit_stature},
                                {"extremities", calibrate::fit_extremities},
-                               {"borders", calibrate::fit_borders},
+                               {"part_borders", calibrate::fit_part_borders},
                                {"perineum", calibrate::fit_perineum_signature},
                                {"armpit", calibrate::fit_armpit_signature}};
 

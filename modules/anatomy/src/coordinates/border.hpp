@@ -1,10 +1,10 @@
-// The borders of parts and joints in the body's coordinates.
+// Borders in the body's coordinates, and those through joints.
 #pragma once
 
 #include <algorithm>
 #include <array>
 
-#include <coefficients/borders.hpp>
+#include <coefficients/joint_borders.hpp>
 
 namespace bodice::anatomy {
 
@@ -50,13 +50,12 @@ constexpr std::array<float, N> to_floats(const double (&values)[N]) {
 /// body size.
 inline constexpr float kHeadReach = 0.48F;
 
+// These are read by landmarks; parts have borders of their own (segment/part_borders.hpp).
 // Borders follow the labels of skin weights, so that a joint's border runs through the joint. No coordinate
 // that they use is a height or a share of the stature: a large head or short legs do not move them.
-inline constexpr Border kNeck{to_floats(coefficients::borders::kNeck)};
-inline constexpr Border kShoulder{to_floats(coefficients::borders::kShoulder)};
-inline constexpr Border kElbow{to_floats(coefficients::borders::kElbow)};
-inline constexpr Border kKnee{to_floats(coefficients::borders::kKnee)};
-inline constexpr Border kHip{to_floats(coefficients::borders::kHip)};
-inline constexpr Border kWaist{to_floats(coefficients::borders::kWaist)};
+inline constexpr Border kNeck{to_floats(coefficients::joint_borders::kNeck)};
+inline constexpr Border kShoulder{to_floats(coefficients::joint_borders::kShoulder)};
+inline constexpr Border kElbow{to_floats(coefficients::joint_borders::kElbow)};
+inline constexpr Border kKnee{to_floats(coefficients::joint_borders::kKnee)};
 
 }  // namespace bodice::anatomy

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include <coefficients/part_borders.hpp>
+
 #include "coordinates/build.hpp"
 
 namespace bodice::anatomy {
 namespace {
 
-namespace data = coefficients::borders;
+namespace data = coefficients::part_borders;
 
 /// The build of the calibration bodies in the middle, how builds spread, and how many deviations off nothing
 /// more is known.
@@ -42,7 +44,8 @@ Build deviations(Build build) {
   return build;
 }
 
-Border on_build(Border border, const FollowsBuild& follows, const Build& off) {
+Border on_build(const double (&weights)[kWeights], const FollowsBuild& follows, const Build& off) {
+  Border border{to_floats(weights)};
   for (std::size_t i = 0; i < off.size(); ++i)
     for (std::size_t k = 0; k < border.weight.size(); ++k) border.weight[k] += off[i] * follows[i].weight[k];
   return border;
@@ -52,9 +55,12 @@ Border on_build(Border border, const FollowsBuild& follows, const Build& off) {
 
 PartBorders part_borders(const BodyCoordinates& coordinates) {
   const Build off = deviations(build_of(coordinates));
-  return {on_build(kNeck, kNeckFollows, off), on_build(kShoulder, kShoulderFollows, off),
-          on_build(kKnee, kKneeFollows, off), on_build(kHip, kHipFollows, off),
-          on_build(kWaist, kWaistFollows, off)};
+  return {on_build(data::kNeck, kNeckFollows, off),
+          on_build(data::kShoulder, kShoulderFollows, off),
+          {to_floats(data::kElbow)},
+          on_build(data::kKnee, kKneeFollows, off),
+          on_build(data::kHip, kHipFollows, off),
+          on_build(data::kWaist, kWaistFollows, off)};
 }
 
 }  // namespace bodice::anatomy

@@ -55,7 +55,7 @@ Part part_of(const BodyCoordinates& coordinates, const PartBorders& border, floa
   if (x[0][kFromHead] < kHeadReach && neck > 0.0F) return Part::kHead;
   const int arm = x[1][kOwnHand] < x[0][kOwnHand], leg = x[1][kOwnFoot] < x[0][kOwnFoot];
   if (x[arm][kOwnHand] < kArmReach && border.shoulder(x[arm]) > 0.0F)
-    return on_side(kElbow(x[arm]) > 0.0F ? Part::kForearmL : Part::kUpperArmL, arm);
+    return on_side(border.elbow(x[arm]) > 0.0F ? Part::kForearmL : Part::kUpperArmL, arm);
   const float margin = foot_margin(x[leg], leg == 0 ? tilt : -tilt);
   if (x[leg][kOwnFoot] < kLegReach && margin > kBetweenThighs && border.hip(x[leg]) > 0.0F)
     return on_side(border.knee(x[leg]) > 0.0F ? Part::kCalfL : Part::kThighL, leg);

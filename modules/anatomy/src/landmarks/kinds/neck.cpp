@@ -2,7 +2,6 @@
 // Differs: that girth is the cross-check; the landmark is the joint at the lower end of the neck.
 #include <cmath>
 
-#include <coefficients/borders.hpp>
 #include <coefficients/neck.hpp>
 
 #include "coordinates/body_lengths.hpp"

@@ -1,4 +1,4 @@
-#include "fit_borders.hpp"
+#include "fit_part_borders.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -229,7 +229,7 @@ void add_border(const BorderKind& kind, const Builds& builds, const Samples& sam
 
 }  // namespace
 
-ordered_json fit_borders(const Samples& samples) {
+ordered_json fit_part_borders(const Samples& samples) {
   const Builds builds(samples);
   ordered_json out = {{"build_middle", rounded(builds.middle)}, {"build_spread", rounded(builds.spread)}};
   for (const BorderKind& kind : kBorders) add_border(kind, builds, samples, out);
