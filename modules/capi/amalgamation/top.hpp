@@ -27,6 +27,10 @@
 #if __has_include(<hwy/highway.h>) && !defined(BODICE_NO_HIGHWAY)
 #define HWY_COMPILE_ONLY_STATIC
 #define HWY_BROKEN_EMU128 1
+// Unoptimized and under sanitizers Highway's assertions would need its library, which need not be here.
+#ifndef HWY_IS_DEBUG_BUILD
+#define HWY_IS_DEBUG_BUILD 0
+#endif
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 // There is one instruction set, and so nothing to choose at run time.
