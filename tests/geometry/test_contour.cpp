@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include <bodice/engine/random.hpp>
@@ -80,6 +82,29 @@ TEST_CASE("blocks that one value decides leave the contour as it is, to the bit,
   const auto inside = geometry::sample_inside({}, distance, unit_box(), 0.03);
   const auto exact = valued(inside, [&](const Vec3& p) { return distance.signed_distance(p); });
   check_same(geometry::contour({}, inside), geometry::contour({}, exact));
+}
+
+TEST_CASE("fields of one distance, sampled in turn, have the bits of each sampled alone") {
+  const auto ball = [](const Vec3& p) { return (p - Vec3(0.1, 0.0, -0.2)).norm() - 0.6; };
+  const auto executor = bodice_test::make_threads(3);
+  const engine::Context threads{.executor = executor.get()};
+  std::atomic<int> calls = 0;
+  const auto counted = [&](const Vec3& p) { return ++calls, ball(p); };
+  geometry::NodeDistances distances(counted, unit_box(), 0.03);
+  int before = 0;
+  for (const double depth : {0.0, 0.1, -0.05, 0.1}) {
+    CAPTURE(depth);
+    const auto below_or_cut = [&](double distance_m, const Vec3& p) {
+      return std::max(distance_m + depth, depth - p.y());
+    };
+    const auto alone = [&](const Vec3& p) { return below_or_cut(ball(p), p); };
+    const geometry::FieldGrid expected = geometry::sample_field({}, alone, unit_box(), 0.03);
+    const geometry::FieldGrid found = distances.sample(threads, below_or_cut);
+    CHECK(found.value == expected.value);
+    CHECK(found.nodes == expected.nodes);
+    before = calls.exchange(0);
+  }
+  CHECK(before == 0);  // what the second field needed is known when it is sampled again
 }
 
 TEST_CASE("the contour of a ball is closed, wound outward and as large as the ball") {
