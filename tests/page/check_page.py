@@ -93,11 +93,18 @@ def large_skins_are_thinned():
     check_mesh(data, data["skin"], [data["skin"]["positions"]], "a thinned skin")
 
 
+def same_tasks(then, now):
+    """Those of a run as it ended, and of its trace's file."""
+    check(len(then) == len(now) > 0, f"{len(now)} tasks of {len(then)}")
+    for a, b in zip(then, now):
+        check(a[0] == b[0] and a[3] == b[3] and max(abs(p - q) for p, q in zip(a[1:3], b[1:3])) < 1e-3, f"{b} is {a}")
+
+
 def pages_of_files():
     """What was saved gives the page that --html gave, and states what it does not hold."""
     run("fit", "body.obj", "--tier", "relief", "--max-ellipsoids", "20", "-o", "q.bodice", "--glb", "q.glb",
-        "--report", "q.json", "--html", "q.html", "-q")
-    run("report", "q.json", "q.glb", "q.bodice", "-o", "files.html", "-q")
+        "--report", "q.json", "--html", "q.html", "--trace", "q.trace", "-q")
+    run("report", "q.json", "q.glb", "q.trace", "q.bodice", "-o", "files.html", "-q")
     then, now = read("q.html"), read("files.html")
     for key in ["title", "tier", "hash", "gap_mm", "parts", "colors", "warnings", "stages", "report", "ellipsoids"]:
         check(then[key] == now[key], f"{key} is another one in the page of files")
@@ -107,6 +114,7 @@ def pages_of_files():
     at = [numbers(page["skin"]["error"], "h") for page in (then, now)]
     check(len(at[0]) == len(at[1]) and max(abs(p - q) for p, q in zip(*at)) <= 1, "errors differ by over 0.01 mm")
     check(now["lacks"] == [], f"{now['lacks']}")
+    same_tasks(then["tasks"], now["tasks"])
 
     run("report", "q.bodice", "-o", "proxy.html", "-q")
     data = read("proxy.html")
@@ -115,8 +123,9 @@ def pages_of_files():
     data = read("body.html")
     check(data["skin"]["error"] == now["skin"]["error"], "errors of --body")
 
-    run("report", "w.glb", "w.json", "-o", "walk.html", "-q")
+    run("report", "w.glb", "t.json", "w.json", "-o", "walk.html", "-q")
     then, now = read("w.html"), read("walk.html")
+    same_tasks(then["tasks"], now["tasks"])
     for key in ["drape", "stages"]: check(then[key] == now[key], f"{key} of a walk")
     check(max(abs(a - b) for a, b in zip(then["times"], now["times"])) < 1e-6, "times of a walk")
     for name in ["cloth", "skin"]:
@@ -130,6 +139,11 @@ def pages_of_files():
 
 def refusals():
     check("two runs" in run("report", "q.bodice", "w.glb", "-o", "none.html", code=2), "files of two runs")
+    run("report", "q.json", "-o", "times.html", "-q")
+    check(any("trace" in sentence for sentence in read("times.html")["lacks"]), "no word about the trace")
+    for text in ['{"traceEvents":[]}', '{"traceEvents":[{"ph":"X","ts":1}]}', '{"traceEvents":']:
+        with open("bad.trace", "w") as file: file.write(text)
+        check("no trace of a run" in run("report", "q.json", "bad.trace", "-o", "none.html", code=1), f"the trace {text}")
     check("two reports" in run("report", "q.json", "w.json", "-o", "none.html", code=2), "two reports")
     os.makedirs("empty")
     check("no result" in run("report", "empty", "-o", "none.html", code=1), "an empty folder")

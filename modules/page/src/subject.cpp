@@ -1,10 +1,8 @@
 #include <bodice/page/page.hpp>
 
-#include <algorithm>
-#include <functional>
-#include <thread>
-
 #include <bodice/engine/text.hpp>
+
+#include "tasks.hpp"
 
 namespace bodice::page {
 namespace {
@@ -17,33 +15,6 @@ DrapeCurves curves_of(const tryon::DrapeReport& drape) {
   curves.worst_frame = drape.worst_frame;
   curves.dt_s = drape.dt_s;
   return curves;
-}
-
-}  // namespace
-
-namespace {
-
-/// The longest spans of a trace, in order of their begin.
-std::vector<TaskSpan> tasks_of(const engine::Trace& trace) {
-  constexpr std::size_t kMost = 200;
-  std::vector<engine::TraceEvent> events = trace.events();
-  if (events.empty()) return {};
-  const std::int64_t first_ns = events.front().begin_ns;
-  std::vector<std::thread::id> threads;
-  std::vector<TaskSpan> tasks;
-  for (const engine::TraceEvent& event : events) {
-    auto thread = std::ranges::find(threads, event.thread);
-    if (thread == threads.end()) thread = threads.insert(thread, event.thread);
-    tasks.push_back({event.name, 1e-6 * static_cast<double>(event.begin_ns - first_ns),
-                     1e-6 * static_cast<double>(event.end_ns - event.begin_ns),
-                     static_cast<int>(thread - threads.begin())});
-  }
-  if (tasks.size() > kMost) {
-    std::ranges::stable_sort(tasks, std::ranges::greater{}, &TaskSpan::ms);
-    tasks.resize(kMost);
-    std::ranges::stable_sort(tasks, {}, &TaskSpan::begin_ms);
-  }
-  return tasks;
 }
 
 }  // namespace

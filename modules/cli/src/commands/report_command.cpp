@@ -33,10 +33,11 @@ struct ReportCommand {
 
 /// What the files of one run hold.
 struct RunFiles {
-  std::string proxy_file, glb_file, report_file;  ///< empty where there is none
+  std::string proxy_file, glb_file, report_file, trace_file;  ///< empty where there is none
   std::optional<proxy::BodyProxy> proxy;
   std::optional<io::SceneFile> scene;
   std::optional<page::PageSubject> report;
+  std::vector<page::TaskSpan> tasks;
   std::optional<geometry::TriMesh> body;
 };
 
@@ -46,6 +47,11 @@ std::string beginning_of(const fs::path& file) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 /// Keeps the name of the one file of its kind.
@@ -58,12 +64,14 @@ engine::Result<void> take(std::string& kept, const std::string& file, const char
   return {};
 }
 
-/// Finds by content which of the three kinds a file is.
+/// Finds by content which of the four kinds a file is.
 engine::Result<void> add_file(const std::string& file, RunFiles& run) {
   const std::string text = beginning_of(file);
   if (text.starts_with("glTF")) return take(run.glb_file, file, "GLBs");
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   const bool object = first != std::string::npos && text[first] == '{';
+  if (object && text.find("\"traceEvents\"") != std::string::npos)
+    return take(run.trace_file, file, "traces");
   if (object && text.find("\"format\"") == std::string::npos) return take(run.report_file, file, "reports");
   return take(run.proxy_file, file, "proxies");
 }
@@ -95,10 +103,14 @@ engine::Result<void> load_run(const engine::Context& context, const ReportComman
     run.scene = std::move(scene).value();
   }
   if (!run.report_file.empty()) {
-    std::ifstream stream(run.report_file, std::ios::binary);
-    auto subject = page::subject_of_report({std::istreambuf_iterator<char>(stream), {}}, run.report_file);
+    auto subject = page::subject_of_report(text_of(run.report_file), run.report_file);
     if (!subject) return std::move(subject).error();
     run.report = std::move(subject).value();
+  }
+  if (!run.trace_file.empty()) {
+    auto tasks = page::tasks_of_trace(text_of(run.trace_file), run.trace_file);
+    if (!tasks) return std::move(tasks).error();
+    run.tasks = std::move(tasks).value();
   }
   if (command.body.empty()) return {};
   if (run.scene && !run.scene->body.empty())
@@ -141,6 +153,8 @@ std::vector<std::string> what_is_missing(const RunFiles& run, const io::Scene& s
   if (!run.report)
     lacks.emplace_back(
         "There are no landmarks, warnings, times and curves here: the report of the run holds them.");
+  if (run.report && run.tasks.empty())
+    lacks.emplace_back("The times have no tasks: the trace of the run holds them.");
   if (run.report && run.report->drape && scene.garments.empty())
     lacks.emplace_back("The cloth is not shown: the GLB of the run holds it.");
   if (run.report && run.report->drape && run.report->drape->penetration_mm.empty())
@@ -177,7 +191,7 @@ engine::Result<void> write_report_page(const ReportCommand& command) {
     if (!added) return added;
   }
   std::vector<FileOption> inputs = {{"--body", command.body}};
-  for (const std::string& file : {run.proxy_file, run.glb_file, run.report_file})
+  for (const std::string& file : {run.proxy_file, run.glb_file, run.report_file, run.trace_file})
     inputs.push_back({"WHAT", file});
   const FileOption outputs[] = {{"-o", command.output, {".html"}}};
   if (auto ok = check_outputs(outputs, inputs); !ok) return ok;
@@ -196,6 +210,7 @@ engine::Result<void> write_report_page(const ReportCommand& command) {
     subject.ellipsoids = run.scene->ellipsoids;
   }
   subject.scene = &scene;
+  subject.tasks = run.tasks;
   subject.lacks = what_is_missing(run, scene);
   const std::string page = page::page_html(context, subject);
   if (auto done = engine::write_file(command.output, std::string_view(page)); !done) return done;
@@ -211,8 +226,8 @@ void add_report_command(CLI::App& app, int& exit_code) {
   auto command = std::make_shared<ReportCommand>();
   CLI::App* sub = app.add_subcommand("report", "Make a page of a saved proxy, or of a run's files");
   sub->add_option("WHAT", command->inputs,
-                  "a proxy, the GLB and the report of one run, any of them in any order; or the folder of a "
-                  "result of batch")
+                  "a proxy, the GLB, the report and the trace of one run, any of them in any order; or the "
+                  "folder of a result of batch")
       ->check(not_empty())
       ->required();
   sub->add_option("-o,--output", command->output, "the page: one .html file that needs nothing beside it")
@@ -225,7 +240,7 @@ void add_report_command(CLI::App& app, int& exit_code) {
   sub->add_flag("-q,--quiet", command->quiet, "print errors only");
   sub->footer(
       "The page is that of --html as far as the files hold it, and states what they do not.\n"
-      "Example: bodice report proxy.bodice drape.glb report.json -o page.html");
+      "Example: bodice report proxy.bodice drape.glb report.json trace.json -o page.html");
   sub->callback([command, &exit_code] {
     const auto done = write_report_page(*command);
     exit_code = done ? kExitOk : fail(done.error());

@@ -12,6 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "import/source/words.hpp"
+
 namespace bodice::io {
 
 namespace {
@@ -82,15 +84,6 @@ std::string_view plain_text(std::string& text) {
 
 bool contains(std::string_view text, std::string_view word) {
   return text.find(word) != std::string_view::npos;
-}
-
-std::string_view take_word(std::string_view& line) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::size_t length = std::min(line.find_first_of(kBlanks), line.size());
-  const std::string_view word = line.substr(0, length);
-  line.remove_prefix(length);
-  return word;
 }
 
 bool is_number(std::string_view word) {

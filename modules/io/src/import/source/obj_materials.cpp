@@ -7,20 +7,11 @@
 #include <string_view>
 
 #include "import/source/input_file.hpp"
+#include "import/source/words.hpp"
 
 namespace bodice::io {
 
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
-
-/// Takes the first word off a line.
-std::string_view take_word(std::string_view& line) {
-  line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
-  line.remove_prefix(word.size());
-  return word;
-}
 
 std::string_view trimmed(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
@@ -38,7 +29,7 @@ void each_line(std::string_view text, Use use) {
   }
 }
 
-bool is_number(std::string_view word) {
+bool is_decimal(std::string_view word) {
   return !word.empty() && word.find_first_not_of("+-.0123456789eE") == std::string_view::npos;
 }
 
@@ -47,10 +38,10 @@ std::string_view without_options(std::string_view rest) {
   for (;;) {
     std::string_view after = rest;
     const std::string_view option = take_word(after);
-    if (!option.starts_with('-') || is_number(option)) return trimmed(rest);
+    if (!option.starts_with('-') || is_decimal(option)) return trimmed(rest);
     if (option == "-o" || option == "-s" || option == "-t" || option == "-mm") {
       std::string_view next = after;
-      for (int k = 0; k < 3 && is_number(take_word(next)); ++k) after = next;
+      for (int k = 0; k < 3 && is_decimal(take_word(next)); ++k) after = next;
     } else {
       take_word(after);
     }

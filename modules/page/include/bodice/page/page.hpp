@@ -72,6 +72,10 @@ PageSubject subject_of(const tryon::PreparedBody& body, const PageContent& conte
 /// the drape's curves. Fails with kUnreadable where the text is no such report; the error names `file`.
 engine::Result<PageSubject> subject_of_report(const std::string& report, const std::string& file);
 
+/// The 200 longest spans of a trace that engine::Trace::json() wrote. Fails with kUnreadable where the text
+/// is no such trace or has no span; the error names `file`.
+engine::Result<std::vector<TaskSpan>> tasks_of_trace(const std::string& trace, const std::string& file);
+
 /// The page as HTML: the skin colored by the proxy's error, parts, landmarks, ellipsoids, the relief's
 /// surface, cloth over time, error and penetration, a histogram, the times of the stages and the warnings.
 /// Skins of more than 60,000 vertices are thinned, and frames are left out beyond 4 MB of positions; the page
