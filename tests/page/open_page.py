@@ -1,5 +1,7 @@
 """Opens a page in headless Chromium, from a file: it comes up without a message on the console, is a page of at most
 6 MB for the default drape, and draws the body. WebGL is done in software."""
+import html
+import json
 import os
 import re
 import shutil
@@ -68,6 +70,30 @@ def with_script(script, page, name):
     return os.path.getsize(name + ".png")
 
 
+# Keys, one finger and two turn and zoom the view and step through the clip; the page needs no scrolling.
+hands = """stage.setPointerCapture = () => {};
+const seen = {};
+const after = (name, act) => { const was = {yaw, pitch, zoom, frame}; act();
+  seen[name] = Object.entries({yaw, pitch, zoom, frame}).filter(([k, v]) => v !== was[k]).map(([k]) => k); };
+const press = key => document.body.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
+const touch = (kind, pointerId, clientX, clientY) =>
+  stage.dispatchEvent(new PointerEvent('pointer' + kind, {pointerId, pointerType: 'touch', clientX, clientY}));
+for (const key of ['ArrowLeft', 'ArrowUp', '+', ',']) after(key, () => press(key));
+touch('down', 5, 300, 300);
+after('finger', () => touch('move', 5, 340, 320));
+touch('down', 6, 400, 300);
+after('fingers', () => touch('move', 6, 500, 300));
+seen.scroll = [document.documentElement.scrollWidth > innerWidth, document.documentElement.scrollHeight > innerHeight];
+document.body.dataset.seen = JSON.stringify(seen);"""
+expected = {"ArrowLeft": ["yaw"], "ArrowUp": ["pitch"], "+": ["zoom"], ",": ["frame"], "finger": ["yaw", "pitch"],
+            "fingers": ["zoom"], "scroll": [False, False]}
+with open("hands.html", "w") as out:
+    out.write(open("walk.html").read().replace("</body>", f"<script>{hands}</script></body>"))
+for window in ["1280,800", "390,844"]:
+    shown = open_page("--dump-dom", f"--window-size={window}", page="hands.html")
+    seen = re.search(r'data-seen="([^"]*)"', shown.stdout)
+    seen = json.loads(html.unescape(seen[1])) if seen else None
+    if seen != expected: failures.append(f"hands at {window}: {seen}")
 click_parts = "for (const b of document.querySelectorAll('#parts input')) b.click();"
 full, none = with_script("", "scene.html", "full.html"), with_script(click_parts, "scene.html", "none.html")
 if none > 0.6 * full: failures.append(f"parts do not vanish: a picture of {none} bytes for {full}")
