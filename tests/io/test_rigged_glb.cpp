@@ -15,7 +15,7 @@ using bodice_test::TempFolder;
 namespace {
 
 /// Files keep floats: 1.2e-7 of lengths up to 2 m, through chains of four matrices.
-constexpr double kFloats_m = 5e-6;
+constexpr double kRoundTrip_m = 5e-6;
 
 /// Between vertices of the body read and those written, which repair has put into another order.
 double farthest(const io::ImportedMesh& read, const std::vector<Vec3>& now, const std::vector<Vec3>& then) {
@@ -39,7 +39,7 @@ TEST_CASE(
   REQUIRE(back->rig.ok());
   CHECK(back->body.unit == "m");
   REQUIRE(back->body.skin.positions.size() == skin.positions.size());
-  CHECK(farthest(back->body, back->body.skin.positions, skin.positions) < kFloats_m);
+  CHECK(farthest(back->body, back->body.skin.positions, skin.positions) < kRoundTrip_m);
 
   const rig::Skeleton &now = back->rig->skeleton, &then = rig.skeleton;
   REQUIRE(now.joints.size() == then.joints.size());
@@ -51,7 +51,7 @@ TEST_CASE(
     if (parent >= 0)
       CHECK(now.joints[static_cast<std::size_t>(parent)].name ==
             then.joints[static_cast<std::size_t>(then.joints[j].parent)].name);
-    CHECK((now.joints[*found].bind - then.joints[j].bind).norm() < kFloats_m);
+    CHECK((now.joints[*found].bind - then.joints[j].bind).norm() < kRoundTrip_m);
   }
   REQUIRE(back->rig->clips.size() == 2);
   for (std::size_t c = 0; c < 2; ++c) {
@@ -61,7 +61,7 @@ TEST_CASE(
       CAPTURE(c);
       CAPTURE(time);
       CHECK(farthest(back->body, posed(back->body.skin, *back->rig, back->rig->clips[c], time),
-                     posed(skin, rig, rig.clips[c], time)) < kFloats_m);
+                     posed(skin, rig, rig.clips[c], time)) < kRoundTrip_m);
     }
   }
 }
@@ -108,6 +108,6 @@ TEST_CASE("a clip that goes on after its last key keeps its duration and its pos
     CHECK(back->rig->clips[c].duration_s == doctest::Approx(duration_s));
     for (const double time : {0.3, duration_s - 0.4, duration_s - 0.2, duration_s})
       CHECK(farthest(back->body, posed(back->body.skin, *back->rig, back->rig->clips[c], time),
-                     posed(skin, rig, rig.clips[c], time)) < kFloats_m);
+                     posed(skin, rig, rig.clips[c], time)) < kRoundTrip_m);
   }
 }
