@@ -17,7 +17,6 @@ using bodice::body::LandmarkId;
 using bodice::body::Part;
 using bodice::geometry::Index;
 
-constexpr int kBuildCount = static_cast<int>(std::tuple_size_v<Build>);
 /// What a squared weight costs: as little as keeps coordinates that nearly depend on each other from growing
 /// large opposite weights.
 constexpr double kRidge = 1e-7;

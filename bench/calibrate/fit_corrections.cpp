@@ -13,8 +13,6 @@ using bodice::anatomy::Correction;
 using bodice::anatomy::CorrectionAxis;
 using bodice::anatomy::LandmarkKind;
 
-/// People are left out of the fit in this many parts, one after the other, to choose the ridge.
-constexpr std::size_t kFolds = 5;
 /// What a squared weight may cost, as a share of a row in units of its measure's spread.
 constexpr std::array kRidges{1e-5, 1e-4, 1e-3, 1e-2, 1e-1};
 /// A first estimate that is so many times as far off as a correction may move lies somewhere else on the

@@ -13,7 +13,6 @@ namespace {
 using namespace bodice::anatomy;  // Coordinate and its enumerators, Build
 using bodice::geometry::Index;
 
-constexpr int kBuildCount = static_cast<int>(std::tuple_size_v<Build>);
 /// The classes of bench::coarse_class that a left limb has; those of the right one are kSides higher.
 constexpr int kHead = 0, kChest = 1, kHips = 2, kUpperArm = 3, kForearm = 4, kThigh = 5, kCalf = 6,
               kSides = 4;
@@ -22,9 +21,8 @@ constexpr double kNearBorder = 0.06;
 /// At most so many vertices of a body take part in the fit of a border, so that fine meshes do not outweigh
 /// the others.
 constexpr std::size_t kRowsOfBody = 300;
-/// People are left out of the fit in this many parts, one after the other, to choose the ridge.
-constexpr std::size_t kFolds = 5;
-constexpr std::array kRidges{1e-7, 1e-6, 1e-5, 1e-4, 1e-3};
+/// What a squared weight may cost.
+constexpr std::array kBorderRidges{1e-7, 1e-6, 1e-5, 1e-4, 1e-3};
 /// How many deviations off the middle nothing more is known; as in segment/part_borders.cpp.
 constexpr double kMostOff = 2.5;
 
@@ -212,8 +210,8 @@ void add_border(const BorderKind& kind, const Builds& builds, const Samples& sam
   const int factors = kind.follows ? 1 + kBuildCount : 1;
   FoldedRows rows(kind, factors);
   for (const Sample* sample : samples) rows.add_body(*sample, kind, builds);
-  double ridge = kRidges.front();
-  for (const double other : kRidges)
+  double ridge = kBorderRidges.front();
+  for (const double other : kBorderRidges)
     if (rows.left_out_error(other) < rows.left_out_error(ridge)) ridge = other;
   const Eigen::VectorXd weights = rows.solve(ridge, kFolds);
   std::printf("  %s: left-out people %.2f %% of the body size off, ridge %g\n", kind.member,
