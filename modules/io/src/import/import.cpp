@@ -10,6 +10,7 @@
 #include "import/body/close_skin.hpp"
 #include "import/rig/build_rig.hpp"
 #include "import/scene/file_scene.hpp"
+#include "import/scene/joined_look.hpp"
 
 namespace bodice::io {
 

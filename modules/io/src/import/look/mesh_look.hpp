@@ -14,8 +14,6 @@
 
 namespace bodice::io {
 
-struct FileMesh;
-
 /// The look of one mesh of a file.
 struct MeshLook {
   std::string node;  ///< the name of its node; empty where the file gives none
@@ -29,10 +27,5 @@ struct FileLook {
   Materials materials;
   std::vector<engine::Warning> warnings;  ///< of images that are left out
 };
-
-/// The looks of all meshes, in their order, for the triangles that repair kept; null where the file has
-/// none. `triangle_of_input` is that of geometry::RepairedMesh. O(#F).
-std::shared_ptr<const Look> joined_look(FileLook file, std::span<const FileMesh> meshes,
-                                        std::span<const geometry::Index> triangle_of_input);
 
 }  // namespace bodice::io

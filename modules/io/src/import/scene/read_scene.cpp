@@ -6,10 +6,10 @@
 #include <assimp/scene.h>
 #include <Eigen/Geometry>
 
-#include "import/look/look_reader.hpp"
 #include "import/scene/bind_pose.hpp"
 #include "import/scene/file_scene.hpp"
 #include "import/scene/gltf_rig.hpp"
+#include "import/scene/look_reader.hpp"
 #include "import/scene/scene_rig.hpp"
 #include "import/scene/triangulate.hpp"
 #include "import/source/assimp_reader.hpp"

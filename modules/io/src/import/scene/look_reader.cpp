@@ -1,4 +1,4 @@
-#include "import/look/look_reader.hpp"
+#include "import/scene/look_reader.hpp"
 
 #include <algorithm>
 

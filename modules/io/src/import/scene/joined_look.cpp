@@ -1,8 +1,6 @@
-#include "import/look/mesh_look.hpp"
+#include "import/scene/joined_look.hpp"
 
 #include <algorithm>
-
-#include "import/scene/file_scene.hpp"
 
 namespace bodice::io {
 
