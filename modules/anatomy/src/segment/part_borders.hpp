@@ -12,8 +12,8 @@ struct PartBorders {
 
 /// A belly, heavy thighs and thick shoulders lengthen some paths along the skin and not others, so that one
 /// sum of distances is level with a joint on slim bodies and far from it on heavy ones. Therefore the weights
-/// of a border follow eight lengths of the whole body; only the elbow's do not. Landmarks read borders of
-/// their own (coordinates/border.hpp), to which their corrections were fitted. O(1).
+/// of each border but the elbow's follow eight lengths of the whole body. Landmarks read borders of their own
+/// (coordinates/border.hpp), to which their corrections were fitted. O(1).
 PartBorders part_borders(const BodyCoordinates& coordinates);
 
 }  // namespace bodice::anatomy

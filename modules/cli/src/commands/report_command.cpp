@@ -177,7 +177,9 @@ io::Scene scene_of_files(RunFiles& run) {
 }
 
 std::string title_of(const RunFiles& run) {
-  const std::string& file = !run.glb_file.empty() ? run.glb_file : run.proxy_file;
+  const std::string& file = !run.glb_file.empty()     ? run.glb_file
+                            : !run.proxy_file.empty() ? run.proxy_file
+                                                      : run.trace_file;
   return fs::path(file).filename().string();
 }
 

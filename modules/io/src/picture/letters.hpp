@@ -13,9 +13,8 @@ inline constexpr int kLetterWidth = 6, kLetterHeight = 9;
 /// The width of a text in pixels, `dot` pixels a dot.
 int text_width(std::string_view text, int dot);
 
-/// Draws a text in dark gray with its upper left corner at x, y. It has digits, lower-case letters, the
-/// blank,
-/// '.' and '-'; other characters are left blank, and what lies outside of the image is cut.
+/// Draws a text in dark gray with its upper left corner at x, y: digits, lower-case letters, '.' and '-'.
+/// Other characters are left blank, and what lies outside of the image is cut.
 void draw_text(std::string_view text, int x, int y, int dot, Image& image);
 
 }  // namespace bodice::io

@@ -49,8 +49,8 @@ class NodeDistances {
   double known(const Vec3& p, const std::array<std::size_t, 3>& first, std::size_t level);
 
   DistanceField distance_;
-  FieldGrid empty_;                                     ///< without values
-  std::array<std::vector<double>, kSides> distance_m_;  ///< of each block's middle, NaN until it is computed
+  FieldGrid empty_;                                     ///< the grid without values
+  std::array<std::vector<double>, kSides> distance_m_;  ///< at each block's middle; NaN is not known yet
 };
 
 /// The same of an incomplete surface: values are signed distances, and the sign is that of the winding

@@ -60,7 +60,7 @@ struct ImportedMesh {
   std::size_t input_vertices = 0, input_triangles = 0;
   std::vector<engine::Warning> warnings;
   std::vector<engine::StageTime> stages;  ///< times of "load" and "check"
-  std::shared_ptr<const Look> look;       ///< of a garment; null for bodies and where the file has none
+  std::shared_ptr<const Look> look;  ///< how a garment looks; null for a body and where the file has none
 };
 
 /// Reads a body; of a skinned file, in its bind pose in world space. Fails with kNotFound, kUnreadable (not a

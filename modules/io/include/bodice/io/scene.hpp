@@ -87,7 +87,7 @@ struct PictureOptions {
   bool show_proxy = false;        ///< in place of the skin: its surface if there is one, else its ellipsoids
   bool show_garments = true;
   bool from_left = false;                       ///< contact sheets: the left side in place of the front
-  std::optional<Legend> legend = std::nullopt;  ///< of write_picture(), below the views
+  std::optional<Legend> legend = std::nullopt;  ///< write_picture() draws it below the views
 };
 
 /// Writes a PNG with a row for each kept frame in `frames` (indices into GarmentTrack::frames; empty: the

@@ -33,7 +33,8 @@ class GltfLook {
   const GltfDocument& document_;
   const std::filesystem::path& folder_;
   FileLook& out_;
-  std::vector<std::size_t> materials_, textures_, samplers_, images_;  // of the document -> in out_
+  std::vector<std::size_t> materials_, textures_, samplers_,
+      images_;  // numbers in out_, for those of the document
 };
 
 }  // namespace bodice::io

@@ -25,7 +25,7 @@ struct MeshLook {
 /// What the meshes of a file share.
 struct FileLook {
   Materials materials;
-  std::vector<engine::Warning> warnings;  ///< of images that are left out
+  std::vector<engine::Warning> warnings;  ///< they name images that are left out
 };
 
 }  // namespace bodice::io

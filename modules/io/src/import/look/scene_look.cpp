@@ -18,7 +18,8 @@ namespace {
 using nlohmann::json;
 
 constexpr float kClothRoughness = 0.85f;
-constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648, kRepeat = 10497;  // of OpenGL, as in glTF
+constexpr int kClampToEdge = 33071, kMirroredRepeat = 33648,
+              kRepeat = 10497;  // OpenGL's numbers, which glTF uses, too
 
 float in_unit(float value, float otherwise) {
   return std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : otherwise;
