@@ -1,14 +1,10 @@
-// anatomy [--data DIR] [--only TEXT] [--seeds N | --rigs N | --measurements N [--from M]] [--all] [--verbose]
-//         [--sheet FILE.png] [--cost] [--scans N [--from M] [--only KIND] [--keep FOLDER] [--real]]
-// How well is every body analyzed, and in what time? Rows of the bodies that miss a bar (--all: of every
-// body; --verbose: with every landmark's error), then every bar beside what was measured. --seeds: N made
-// bodies in place of files, from seed M on; --rigs: N random poses of the files' bodies. --measurements:
-// errors of the 26 measurements of N made bodies that stand. --sheet writes a picture of every body by part.
-// --scans counts the outcomes of N made scans of each kind, of made bodies or (--real) of the data folder's.
-// The program fails if a body of a file misses a bar.
+// How well is every body analyzed, and in what time? Rows of the bodies that miss a bar, then every bar
+// beside what was measured; --help has the arguments. The program fails if a body of a file misses a bar.
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+
+#include <bench_support/help.hpp>
 
 #include "cost.hpp"
 #include "measurements.hpp"
@@ -62,9 +58,21 @@ void run(const bench::Case& c, bench::Report& report, bench::Sheet& sheet) {
   sheet.add(c.mesh, *anatomy);
 }
 
+constexpr const char* kUsage =
+    "anatomy [--data DIR] [--only TEXT] [--all] [--verbose] [--sheet FILE.png]    bodies of files against "
+    "truth\n"
+    "anatomy --seeds N [--from M]           made bodies in place of files\n"
+    "anatomy --rigs N                       random poses of the files' bodies\n"
+    "anatomy --measurements N [--from M]    errors of the 26 measurements of made bodies that stand\n"
+    "anatomy --scans N [--from M] [--only KIND] [--keep FOLDER] [--real]    outcomes of made scans of each "
+    "kind\n"
+    "anatomy --cost                         time of the analysis\n"
+    "Rows are bodies that miss a bar; --all: of every body; --verbose: with every landmark's error.\n";
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
   const Arguments arguments = parse(argc, argv);
   if (arguments.measured > 0) {
     bench::print_measurement_errors(arguments.from, arguments.measured);

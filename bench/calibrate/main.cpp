@@ -1,4 +1,3 @@
-// calibrate DIR [--bodies N] [--only NAME,NAME] [--data BODIES]
 // Makes the coefficients of anatomy again from made bodies of known truth and, with --data, from those of a
 // data folder, and writes each to DIR/<name>.json: those in use, or those that are named. The same command
 // writes the same files. modules/anatomy/data/README.md states what is made by which command, and how good it
@@ -7,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+
+#include <bench_support/help.hpp>
 
 #include "fit.hpp"
 #include "fit_corrections.hpp"
@@ -154,9 +155,15 @@ constexpr OwnFit kOwnFits[] = {{"stature", calibrate::fit_stature},
                                {"perineum", calibrate::fit_perineum_signature},
                                {"armpit", calibrate::fit_armpit_signature}};
 
+constexpr const char* kUsage =
+    "calibrate DIR [--bodies N] [--only NAME,NAME] [--data BODIES]\n"
+    "Makes the coefficients of anatomy again, and writes each to DIR/NAME.json: those in use, or those that "
+    "are named.\n";
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
   const Arguments a = parse(argc, argv);
   if (!std::filesystem::is_directory(a.folder)) {
     std::fprintf(

@@ -1,7 +1,5 @@
 // How long does a catalogue take on n nodes, with slow and lost ones, and in how many shards should it go?
 // Simulated job by job with recorded times.
-//   cluster [TIMES [JOBS [CORES]]] [--mean SECONDS] [--plot FILE.svg]   TIMES: seconds a job, one a line;
-//   default: those beside this file
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <bench_support/help.hpp>
 #include <bench_support/origin.hpp>
 #include <bench_support/plot.hpp>
 
@@ -81,9 +80,16 @@ std::vector<Model> fates(std::size_t nodes, int cores, std::size_t jobs) {
   return {calm, many, slow_one, slow_many, hung, lost};
 }
 
+constexpr const char* kUsage =
+    "cluster [TIMES [JOBS [CORES]]] [--mean SECONDS] [--plot FILE.svg]\n"
+    "How long a catalogue takes on n nodes, with slow and lost ones, in how many shards, simulated job by "
+    "job.\n"
+    "TIMES has the seconds of a job a line; default: those beside the source.\n";
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
   const Arguments arguments = read(argc, argv);
   std::vector<double> seconds = seconds_in(arguments.times);
   if (seconds.empty() || arguments.jobs == 0 || arguments.cores < 1)

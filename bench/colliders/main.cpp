@@ -10,6 +10,7 @@
 #include <bodice/tryon/prepare.hpp>
 
 #include <bench_references/capsules.hpp>
+#include <bench_support/help.hpp>
 
 namespace {
 
@@ -70,9 +71,15 @@ double mean_mm(const Row& row, double colliders::SurfaceError::*value) {
   return 1e3 * sum / static_cast<double>(row.of_body.size());
 }
 
+constexpr const char* kUsage =
+    "colliders DIR\n"
+    "The error of colliders for engines on the bodies of a folder (OBJ), beside one naive capsule a part, as "
+    "Markdown.\n";
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
   if (argc != 2) {
     std::fprintf(stderr, "colliders: name a folder of bodies (OBJ).\n");
     return 2;

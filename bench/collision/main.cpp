@@ -1,10 +1,6 @@
 // Cost of a query and of a response a particle, with its error, beside other methods that can answer the
 // same. One thread, one run, CPU time; median and min of the repeats, interleaved so that a slow minute
 // affects all rows alike.
-//
-// Usage: collision [particles [repeats [fit seconds [rows.csv]]]]
-//        collision figures [largest body]
-//        collision counts [particles [repeats]]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -20,6 +16,7 @@
 
 #include <Eigen/Geometry>
 
+#include <bench_support/help.hpp>
 #include <bench_support/origin.hpp>
 
 #include <bench_references/peers.hpp>
@@ -225,9 +222,17 @@ void write_csv(const std::string& file, const std::vector<Row>& rows, const benc
   for (const Row& row : rows) out << '"' << row.name << "\"," << row.median() << ',' << row.least() << '\n';
 }
 
+constexpr const char* kUsage =
+    "collision [PARTICLES [REPEATS [FIT_SECONDS [ROWS.csv]]]]    default: 100000 11 4\n"
+    "collision figures [LARGEST_BODY]\n"
+    "collision counts [PARTICLES [REPEATS]]\n"
+    "Cost of a query and of a response a particle, with its error, beside other methods that can answer the "
+    "same.\n";
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
   if (argc > 1 && std::string_view(argv[1]) == "figures")
     return bench::draw_figures(argc > 2 ? static_cast<std::size_t>(std::atol(argv[2])) : 856000) ? 0 : 1;
   if (argc > 1 && std::string_view(argv[1]) == "counts") {

@@ -1,9 +1,7 @@
 // What does the C interface cost beside the C++ call, with particles as hosts have them? One thread, a made
-// body, 10,000 particles within 30 mm of the skin. The two are measured in turns; the fastest of many calls
-// counts.
-//   embedding [PARTICLES] [ROUNDS] [FOLDER]
-// With a folder, proxies and particles are written there, and distances alone are measured, for other
-// languages to compare with: rows.py does that.
+// body, 10,000 particles within 30 mm of the skin. All are measured in turns; the fastest of many calls
+// counts. Structures in the world are compared with a C++ program that copies them to and fro by hand. --help
+// has the arguments.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -18,6 +16,10 @@
 #include <bodice/fitting/fit.hpp>
 #include <bodice/proxy/proxy_file.hpp>
 #include <bodice/synth/body.hpp>
+
+#include <bench_support/help.hpp>
+
+#include "frame.hpp"
 
 using namespace bodice;
 
@@ -50,15 +52,47 @@ double microseconds(Call&& call) {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The fastest of many calls of each, in turns; each begins with `reset`, which is not measured.
+/// The fastest of many calls of each, in turns.
 struct Fastest {
-  double cpp_us = 1e300, soa_us = 1e300, aos_us = 1e300;
+  double cpp_us = 1e300, soa_us = 1e300, by_hand_us = 1e300, aos_us = 1e300;
 };
 
-void print(const char* what, const Fastest& t) {
-  std::printf("| %s | %.1f | %.1f (%+.1f %%) | %.1f (%+.1f %%) |\n", what, t.cpp_us, t.soa_us,
-              100.0 * (t.soa_us / t.cpp_us - 1.0), t.aos_us, 100.0 * (t.aos_us / t.cpp_us - 1.0));
+template <class Call>
+void take(double& least_us, Call&& call) {
+  least_us = std::min(least_us, microseconds(call));
 }
+
+void print(const char* name, const char* call, const Fastest& t) {
+  std::printf("| %s, %s | %.1f | %.1f (%+.1f %%) | %.1f | %.1f (%+.1f %%) |\n", name, call, t.cpp_us,
+              t.soa_us, 100.0 * (t.soa_us / t.cpp_us - 1.0), t.by_hand_us, t.aos_us,
+              100.0 * (t.aos_us / t.by_hand_us - 1.0));
+}
+
+/// What a C++ program with particles as structures in the world does.
+struct ByHand {
+  const geometry::Vec3& origin;
+  Particles& now;
+
+  void in() const {
+    for (std::size_t i = 0; i < now.x.size(); ++i) {
+      now.x[i] = static_cast<float>(double{now.xyz[3 * i]} - origin.x());
+      now.y[i] = static_cast<float>(double{now.xyz[3 * i + 1]} - origin.y());
+      now.z[i] = static_cast<float>(double{now.xyz[3 * i + 2]} - origin.z());
+    }
+  }
+  void out() const {
+    for (std::size_t i = 0; i < now.x.size(); ++i) {
+      now.xyz[3 * i] = static_cast<float>(double{now.x[i]} + origin.x());
+      now.xyz[3 * i + 1] = static_cast<float>(double{now.y[i]} + origin.y());
+      now.xyz[3 * i + 2] = static_cast<float>(double{now.z[i]} + origin.z());
+    }
+  }
+  void out(std::vector<collision::Contact>& contacts) const {
+    for (collision::Contact& contact : contacts)
+      for (int axis = 0; axis < 3; ++axis)
+        contact.point[axis] = static_cast<float>(double{contact.point[axis]} + origin[axis]);
+  }
+};
 
 void write(const std::filesystem::path& file, const void* bytes, std::size_t size) {
   std::ofstream(file, std::ios::binary)
@@ -107,28 +141,46 @@ void measure(const char* name, const synth::Body& body, proxy::Tier tier, std::s
     return measure_distances(name, *collider, aos, *c_aos, rounds);
   }
   Fastest query, resolve;
+  const geometry::Vec3 origin = engine.origin();
+  const ByHand by_hand{origin, now};
   for (int round = 0; round < rounds; ++round) {
-    query.cpp_us = std::min(
-        query.cpp_us, microseconds([&] { engine.query(engine_context, particles, contacts, workspace); }));
-    query.soa_us = std::min(query.soa_us, microseconds([&] { collider->query(soa, *c_soa, out); }));
-    query.aos_us = std::min(query.aos_us, microseconds([&] { collider->query(aos, *c_aos, out); }));
+    take(query.cpp_us, [&] { engine.query(engine_context, particles, contacts, workspace); });
+    take(query.soa_us, [&] { collider->query(soa, *c_soa, out); });
+    take(query.by_hand_us, [&] {
+      by_hand.in();
+      engine.query(engine_context, particles, contacts, workspace);
+      by_hand.out(contacts);
+    });
+    take(query.aos_us, [&] { collider->query(aos, *c_aos, out); });
   }
   for (int round = 0; round < rounds; ++round) {
     now = start;
-    resolve.cpp_us = std::min(
-        resolve.cpp_us, microseconds([&] { engine.resolve(engine_context, particles, {}, workspace); }));
+    take(resolve.cpp_us, [&] { engine.resolve(engine_context, particles, {}, workspace); });
     now = start;
-    resolve.soa_us = std::min(resolve.soa_us, microseconds([&] { collider->resolve(soa, *c_soa); }));
+    take(resolve.soa_us, [&] { collider->resolve(soa, *c_soa); });
     now = start;
-    resolve.aos_us = std::min(resolve.aos_us, microseconds([&] { collider->resolve(aos, *c_aos); }));
+    take(resolve.by_hand_us, [&] {
+      by_hand.in();
+      engine.resolve(engine_context, particles, {}, workspace);
+      by_hand.out();
+    });
+    now = start;
+    take(resolve.aos_us, [&] { collider->resolve(aos, *c_aos); });
   }
-  print((std::string(name) + ", query").c_str(), query);
-  print((std::string(name) + ", resolve").c_str(), resolve);
+  print(name, "query", query);
+  print(name, "resolve", resolve);
 }
+
+constexpr const char* kUsage =
+    "embedding [PARTICLES] [ROUNDS] [FOLDER]    default: 10000 300\n"
+    "What a call of bodice.h costs beside the C++ call, on one thread, measured in turns.\n"
+    "With a FOLDER, proxies and particles are written there, and distances alone are measured, for "
+    "rows.py.\n";
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
   const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000;
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 300;
   const auto body = synth::make_body(engine::Context{}, {});
@@ -137,7 +189,18 @@ int main(int argc, char** argv) {
   const char* folder = argc > 3 ? argv[3] : nullptr;
   if (!folder)
     std::puts(
-        "| proxy, call | C++, packed | C, the same arrays | C, structures in the world |\n|---|---|---|---|");
+        "| proxy, call | C++, packed | C, the same arrays | C++, structures by hand | C, structures |\n"
+        "|---|---|---|---|---|");
   measure("tight", *body, proxy::Tier::kTight, count, rounds, folder);
   measure("relief", *body, proxy::Tier::kRelief, count, rounds, folder);
+  if (folder) return 0;
+  std::puts(
+      "\n| frame of 5,000 structures, microseconds: median (least) | pose | resolve | calls of malloc in 300 "
+      "|\n"
+      "|---|---|---|---|");
+  for (const proxy::Tier tier : {proxy::Tier::kTight, proxy::Tier::kRelief}) {
+    const auto fit = fitting::fit({}, {body->mesh, body->part, body->stature_m}, {.tier = tier});
+    if (!fit) return std::puts(fit.error().sentence().c_str()), 1;
+    embedding::print_frames(*body, fit->proxy, tier == proxy::Tier::kTight ? "tight" : "relief");
+  }
 }

@@ -1,9 +1,4 @@
 // Measures whether the response keeps its promises.
-//
-// Usage: response garments DATA [tier [frames [name part]]]
-//        response certify [particles [seed]]
-//        response creases
-//        response nearest [cases [seed]]
 #include <cstdio>
 #include <span>
 #include <string_view>
@@ -18,7 +13,10 @@ int main(int argc, char** argv) {
   if (mode == "creases") return bench::cross_creases(arguments.subspan(2)) ? 0 : 1;
   if (mode == "nearest") return bench::measure_nearest(arguments.subspan(2)) ? 0 : 1;
   std::puts(
-      "usage: response garments DATA [tier [frames [name part]]] | certify [particles [seed]] | creases | "
-      "nearest [cases [seed]]");
-  return 2;
+      "response garments DATA [TIER [FRAMES [NAME PART]]]\n"
+      "response certify [PARTICLES [SEED]]\n"
+      "response creases\n"
+      "response nearest [CASES [SEED]]\n"
+      "Measures whether the response keeps its promises.");
+  return mode == "--help" || mode == "-h" ? 0 : 2;
 }

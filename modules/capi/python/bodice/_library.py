@@ -19,8 +19,12 @@ class Error(ValueError):
 
 
 def _open() -> ctypes.CDLL:
-    if os.environ.get("BODICE_LIBRARY"):
-        return ctypes.CDLL(os.environ["BODICE_LIBRARY"])
+    named = os.environ.get("BODICE_LIBRARY")
+    if named:
+        try:
+            return ctypes.CDLL(named)
+        except OSError as error:
+            raise ImportError(f"BODICE_LIBRARY names {named}, which cannot be loaded ({error}). Name libbodice.so.") from None
     for name in ("bodice", "bodice_frame"):
         beside = pathlib.Path(__file__).with_name(f"lib{name}.so")
         for file in (str(beside) if beside.exists() else None, f"lib{name}.so.{ABI}", ctypes.util.find_library(name)):
@@ -30,6 +34,21 @@ def _open() -> ctypes.CDLL:
             except OSError:  # not where the loader looks
                 continue
     raise ImportError("libbodice is not found. Install bodice, or name the file in BODICE_LIBRARY.")
+
+
+def _misfit(what: str) -> ImportError:
+    """What importing with another library than that of this package raises."""
+    return ImportError(f"{library._name} ({_build()}) is not of the version of this package, whose ABI is {ABI}: {what}. "
+                       "Install both from one version, or name the right library in BODICE_LIBRARY.")
+
+
+def _build() -> str:
+    """The library's line about itself."""
+    try:
+        library.bodice_build.restype = ctypes.c_char_p
+    except AttributeError:
+        raise ImportError(f"{library._name} is no library of bodice. Name libbodice.so in BODICE_LIBRARY.") from None
+    return library.bodice_build().decode()
 
 
 library = _open()
@@ -104,7 +123,12 @@ def _declare() -> None:
         destroy.argtypes, destroy.restype = [c_void_p], None
 
 
-_declare()
+if f", ABI {ABI}," not in _build():
+    raise _misfit("the ABI differs")
+try:
+    _declare()
+except AttributeError as error:  # the loader's own text names the function that is not there
+    raise _misfit(str(error).rpartition("undefined symbol: ")[2] + " is missing") from None
 
 
 def check(status: int) -> None:

@@ -1,6 +1,7 @@
 #include "frame/host_contacts.hpp"
 
 #include <cstdint>
+#include <cstring>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -20,10 +21,25 @@ static_assert(BODICE_NO_ELLIPSOID == collision::kNoEllipsoid);
 constexpr std::size_t kContactsATask = 4096;  ///< contacts that one task copies
 constexpr std::uint8_t kNoPart = 255;
 
+/// Writes a coordinate of a contact's point. A contact is copied whole and its point replaced after that: put
+/// together in registers, it would be read back before its parts have been stored, which takes longer than
+/// the query.
+void set_coordinate(char* contact, int axis, float value) {
+  std::memcpy(contact + offsetof(bodice_contact, point) + static_cast<std::size_t>(axis) * sizeof value,
+              &value, sizeof value);
+}
+
+float outward(float local, double origin) {
+  return static_cast<float>(double{local} + origin);
+}
+
 void write_one(const EngineContacts& from, std::size_t i, const HostContacts& to) {
   const collision::Contact& c = from.contacts[i];
-  const bodice_contact world = as_c(c, from.origin);
-  if (to.contact) to.contact.set(i, world);
+  if (to.contact) {
+    char* const at = to.contact.at(i);
+    std::memcpy(at, &c, sizeof c);
+    for (int axis = 0; axis < 3; ++axis) set_coordinate(at, axis, outward(c.point[axis], from.origin[axis]));
+  }
   if (to.distance && to.distance_is_double)
     to.distance.set(i, double{c.signed_distance});
   else if (to.distance)
@@ -69,11 +85,20 @@ void write_contacts(const engine::Context& context, const EngineContacts& from, 
   });
 }
 
+void translate_contacts(const engine::Context& context, collision::Contact* contacts, std::size_t count,
+                        const double (&origin)[3]) {
+  engine::parallel_for(context, count, kContactsATask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        contacts[i].point[axis] = outward(contacts[i].point[axis], origin[axis]);
+  });
+}
+
 bodice_contact as_c(const collision::Contact& contact, const double (&origin)[3]) {
   bodice_contact out;
   out.distance = contact.signed_distance;
   for (int axis = 0; axis < 3; ++axis) {
-    out.point[axis] = static_cast<float>(double{contact.point[axis]} + origin[axis]);
+    out.point[axis] = outward(contact.point[axis], origin[axis]);
     out.normal[axis] = contact.normal[axis];
   }
   out.ellipsoid = contact.ellipsoid;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
+#include <type_traits>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -12,6 +14,7 @@ namespace bodice::capi {
 namespace {
 
 constexpr std::size_t kParticlesATask = 4096;  ///< particles that one task copies: some ten microseconds
+constexpr std::size_t kLine = 16;              ///< floats of a cache line, which are compared at once
 
 /// Calls work(component of a vector as Scalar, axis) with the type that the host has.
 template <class Work>
@@ -26,6 +29,53 @@ void with_scalar(bool is_double, Work&& work) {
 template <class Scalar>
 float inward(Scalar value, double origin) {
   return static_cast<float>(static_cast<double>(value) - origin);
+}
+
+/// a or b, without a branch: which particles a response moves is as good as random.
+template <class Scalar>
+Scalar chosen(bool first, Scalar a, Scalar b) {
+  using Bits = std::conditional_t<sizeof(Scalar) == 8, std::uint64_t, std::uint32_t>;
+  const Bits mask = Bits{0} - Bits{first};
+  return std::bit_cast<Scalar>((std::bit_cast<Bits>(a) & mask) | (std::bit_cast<Bits>(b) & ~mask));
+}
+
+/// What a response may have changed: arrays of `count` floats, `length` apart, as they were before.
+struct Changed {
+  const std::uint32_t* index;  ///< the element of each; null: in order
+  std::size_t count;
+  const float* before;
+  std::size_t length;
+};
+
+/// Writes the values of `after` that differ from those before. All is passed by value, so that the compiler
+/// knows it unchanged by the host's bytes.
+template <class Scalar>
+void write_changed(const Changed changed, const float* const (&after)[3], const double (&shift)[3],
+                   const StridedVectors to) {
+  const float *const x = after[0], *const y = after[1], *const z = after[2];
+  const float *const old_x = changed.before, *const old_y = old_x + changed.length,
+                     *const old_z = old_y + changed.length;
+  const double shift_x = shift[0], shift_y = shift[1], shift_z = shift[2];
+  const auto differs = [](float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) ^ std::bit_cast<std::uint32_t>(b);
+  };
+  for (std::size_t begin = 0; begin < changed.count; begin += kLine) {
+    const std::size_t end = std::min(changed.count, begin + kLine);
+    std::uint32_t any = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      any |= differs(x[i], old_x[i]) | differs(y[i], old_y[i]) | differs(z[i], old_z[i]);
+    if (any == 0) continue;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t e = changed.index ? changed.index[i] : i;
+      const auto write = [&](const Strided& numbers, float value, float old, double by) {
+        numbers.set(e, chosen(differs(value, old) != 0, static_cast<Scalar>(static_cast<double>(value) + by),
+                              numbers.get<Scalar>(e)));
+      };
+      write(to.x, x[i], old_x[i], shift_x);
+      write(to.y, y[i], old_y[i], shift_y);
+      write(to.z, z[i], old_z[i], shift_z);
+    }
+  }
 }
 
 }  // namespace
@@ -106,9 +156,10 @@ EngineParticles::EngineParticles(const HostParticles& host, const double (&origi
     pinned_ = host.count - engine_.count;
     element_ = element;
   }
-  // A whole number of cache lines an array.
-  const std::size_t length = (engine_.count + 15) / 16 * 16;
-  float* next = workspace.numbers.reserve(length * (3 + 3 * with_velocity + 3 * with_safe));
+  const std::size_t length = (engine_.count + kLine - 1) / kLine * kLine;
+  const std::size_t moved = drop_pinned ? length * (3 + 3 * with_velocity) : 0;
+  float* next = workspace.numbers.reserve(length * (3 + 3 * with_velocity + 3 * with_safe) + moved);
+  const float* const first = next;
   const auto copy = [&](const StridedVectors& from, bool is_position, float*(&to)[3]) {
     for (float*& array : to) {
       array = next;
@@ -127,6 +178,8 @@ EngineParticles::EngineParticles(const HostParticles& host, const double (&origi
     copy(host.safe, true, s);
     engine_.safe_x = s[0], engine_.safe_y = s[1], engine_.safe_z = s[2];
   }
+  before_ = std::copy_n(first, moved, next) - moved;
+  length_ = length;
 }
 
 void EngineParticles::copy_in(const StridedVectors& from, bool is_position, float* (&to)[3]) {
@@ -149,25 +202,16 @@ void EngineParticles::write_back() const {
   if (!copied_) return;
   // Serial: an element may stand in the index twice, and which of its values is kept must not depend on
   // threads.
-  const auto write = [&](const StridedVectors& to, const float* const(&from)[3], const double(&shift)[3]) {
-    with_scalar(to.is_double, [&](auto scalar) {
-      using Scalar = decltype(scalar);
-      const Strided* axes[] = {&to.x, &to.y, &to.z};
-      for (int axis = 0; axis < 3; ++axis) {
-        const Strided& numbers = *axes[axis];
-        const float* values = from[axis];
-        const double origin = shift[axis];
-        for (std::size_t i = 0; i < engine_.count; ++i) {
-          const std::size_t e = element(i);
-          const float before = inward(numbers.get<Scalar>(e), origin);
-          if (std::bit_cast<std::uint32_t>(before) == std::bit_cast<std::uint32_t>(values[i])) continue;
-          numbers.set(e, static_cast<Scalar>(static_cast<double>(values[i]) + origin));
-        }
-      }
-    });
-  };
-  write(host_.position, {engine_.x, engine_.y, engine_.z}, origin_);
-  if (engine_.vx) write(host_.velocity, {engine_.vx, engine_.vy, engine_.vz}, {0.0, 0.0, 0.0});
+  const Changed changed{element_ ? element_ : host_.index, engine_.count, before_, length_};
+  with_scalar(host_.position.is_double, [&](auto scalar) {
+    write_changed<decltype(scalar)>(changed, {engine_.x, engine_.y, engine_.z}, origin_, host_.position);
+  });
+  if (!engine_.vx) return;
+  const Changed velocities{changed.index, changed.count, before_ + 3 * length_, length_};
+  with_scalar(host_.velocity.is_double, [&](auto scalar) {
+    write_changed<decltype(scalar)>(velocities, {engine_.vx, engine_.vy, engine_.vz}, {0.0, 0.0, 0.0},
+                                    host_.velocity);
+  });
 }
 
 }  // namespace bodice::capi

@@ -34,9 +34,10 @@ void query(const bodice_collider& collider, const capi::HostParticles& host,
            const collision::Particles& particles, const collision::QueryOptions& options,
            bodice_workspace& workspace, const capi::HostContacts& to) {
   const engine::Context context = collider.context->engine_context();
-  if (host.is_local && to.fits_engine()) {
+  if (to.fits_engine()) {
     auto* contacts = reinterpret_cast<collision::Contact*>(to.contact.data);
     collider.collider.query(context, particles, {contacts, particles.count}, workspace.engine, options);
+    if (!host.is_local) capi::translate_contacts(context, contacts, particles.count, Origin(collider).xyz);
     return;
   }
   collision::Contact* contacts = workspace.contacts.reserve(particles.count);

@@ -1,0 +1,2 @@
+// bodice.hpp includes what it uses: here it comes first, and alone.
+#include <bodice.hpp>
