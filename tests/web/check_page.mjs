@@ -1,5 +1,5 @@
-// Opens the package's page in headless Chromium: drops a proxy and its body in centimeters on it, turns the body, and
-// looks at the pictures. Every file comes from this machine.
+// Opens the package's page in headless Chromium: drops a body in centimeters on it, which is fitted, turns it, looks at
+// the pictures, and drops a proxy with its body. Every file comes from this machine.
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {createServer} from 'node:http';
@@ -50,12 +50,12 @@ async function run() {
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
   };
+  const text = () => evaluate('document.getElementById("state").textContent');
   const state = async (wanted, seconds = 120) => {
-    for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise(r => setTimeout(r, 100))) {
-      const text = await evaluate('document.getElementById("state").textContent');
-      if (wanted.test(text)) return text;
-    }
-    throw new Error(`the page never said ${wanted}: ${await evaluate('document.getElementById("state").textContent')}`);
+    for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise(r => setTimeout(r, 100)))
+      if (await evaluate(wanted instanceof RegExp ? `${wanted}.test(document.getElementById("state").textContent)` : wanted))
+        return text();
+    throw new Error(`the page never said ${wanted}: ${await text()}`);
   };
   const picture = async name => {
     await evaluate('new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))');
@@ -75,15 +75,27 @@ async function run() {
   await page('Log.enable');
   await page('Page.navigate', {url: `${home}/page/index.html`});
   await state(/^Ready/);
-  const obj = readFileSync(path.join(scratch, 'surface.obj'), 'utf8');
+  const obj = readFileSync(path.join(scratch, 'made.obj'), 'utf8');
   const centimeters = obj.replace(/^v (\S+) (\S+) (\S+).*$/gm, (_, ...xyz) => 'v ' + xyz.slice(0, 3).map(x => 100 * x).join(' '));
-  await drop({'surface.obj': centimeters});
-  assert.match(await state(/proxy first/), /bodice fit/);
+  await drop({'triangle.obj': 'v 0 0 0\nv 1.7 0 0\nv 0 1.7 0\nf 1 2 3\n'});
+  await state(`!!document.querySelector('#state.wrong')`);
+  await drop({'made.obj': centimeters});
+  await state(/^Fitted/, 300);
+  const fitted = await picture('page_fitted');
+  const found = await evaluate('document.getElementById("numbers").innerText');
+  assert.match(found, /stature\s+16\d\.\d cm/);
+  assert.match(found, /centimeters/);
+  assert.ok(Number(found.match(/mean\s+([\d.]+) mm/)[1]) < 0.4, found);
+  await evaluate(`document.querySelector('input[value=parts]').click()`);
+  assert.notEqual(await picture('page_parts'), fitted);
+  const saved = await evaluate(`fetch(document.getElementById('save').href).then(r => r.arrayBuffer()).then(b => b.byteLength)`);
+  assert.ok(saved > 50000, `the saved proxy has ${saved} bytes`);
+
   const proxy = readFileSync(path.join(scratch, 'native.bodice')).toString('base64');
   await drop({'body.bodice': proxy}, true);
   await state(/^The proxy/);
   const ellipsoids = await picture('page_ellipsoids');
-  await drop({'surface.obj': centimeters});
+  await drop({'made.obj': centimeters});
   await state(/^The body/);
   const numbers = await evaluate('document.getElementById("numbers").innerText');
   assert.match(numbers, /centimeters/);

@@ -156,7 +156,7 @@ constexpr auto unique(Range&& range, Compare compare = {}, Projection projection
 
 }  // namespace ranges
 
-namespace ranges::views {
+namespace views {
 
 template <class Range>
 struct Reversed {
@@ -169,8 +169,7 @@ auto reverse(Range& range) {
   return Reversed<Range>{&range};
 }
 
-}  // namespace ranges::views
-namespace views = ranges::views;
+}  // namespace views
 
 _LIBCPP_END_NAMESPACE_STD
 #endif

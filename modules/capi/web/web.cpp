@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <bodice.h>
 #include <emscripten.h>
-
-#include "bodice_frame.h"
 
 #define BODICE_WEB extern "C" EMSCRIPTEN_KEEPALIVE
 
@@ -20,6 +19,16 @@ const bodice_context* context() {
     return bodice_context_create(&options, &context) == BODICE_OK ? context : nullptr;
   }();
   return made;
+}
+
+bodice_mesh mesh_at(double* positions, std::size_t vertices, const std::uint32_t* faces,
+                    std::size_t triangles) {
+  bodice_mesh mesh = bodice_default_mesh();
+  mesh.position = {positions, nullptr, nullptr, 0, BODICE_DOUBLE, 0};
+  mesh.vertices = vertices;
+  mesh.index = faces;
+  mesh.triangles = triangles;
+  return mesh;
 }
 
 bodice_particles particles_at(float* positions, std::size_t count) {
@@ -64,6 +73,92 @@ BODICE_WEB const char* web_part_name(int part) {
   return bodice_part_name(part);
 }
 
+// The module's function onStage hears the stages of long work, and cancels it by a result other than 0.
+EM_JS(int, tell_stage, (const char* stage),
+      { return Module["onStage"] ? Module["onStage"](UTF8ToString(stage)) : 0; });
+
+/// Positions are 3 numbers a vertex, faces 3 indices; `thing`: not a person. Returns 0 on failure.
+BODICE_WEB bodice_skin* web_skin(double* positions, std::size_t vertices, const std::uint32_t* faces,
+                                 std::size_t triangles, int thing, int find_rig) {
+  const bodice_mesh mesh = mesh_at(positions, vertices, faces, triangles);
+  bodice_skin_options options = bodice_default_skin_options();
+  options.shape = thing ? BODICE_SHAPE_ANY : BODICE_SHAPE_PERSON;
+  options.find_rig = find_rig;
+  options.progress = [](void*, const char* stage) -> std::int32_t { return tell_stage(stage); };
+  bodice_skin* skin = nullptr;
+  bodice_skin_from_mesh(context(), &mesh, &options, &skin);
+  return skin;
+}
+BODICE_WEB bodice_skin* web_skin_built_in(int female, double stature_m) {
+  bodice_skin* skin = nullptr;
+  bodice_skin_built_in(context(), female, stature_m, nullptr, &skin);
+  return skin;
+}
+BODICE_WEB void web_skin_destroy(bodice_skin* skin) {
+  bodice_skin_destroy(skin);
+}
+/// out: stature, up (3), #vertices, #triangles, #vertices that were given, #joints, #warnings
+BODICE_WEB bodice_status web_skin_info(const bodice_skin* skin, double* out) {
+  bodice_skin_info info = bodice_default_skin_info();
+  const bodice_status status = bodice_skin_get_info(skin, &info);
+  *out++ = info.stature_m;
+  for (const double x : info.up) *out++ = x;
+  for (const std::uint32_t count :
+       {info.vertices, info.triangles, info.input_vertices, info.joints, info.warnings})
+    *out++ = count;
+  return status;
+}
+BODICE_WEB const char* web_skin_warning(const bodice_skin* skin, std::uint32_t warning) {
+  return bodice_skin_warning(skin, warning);
+}
+BODICE_WEB bodice_status web_skin_mesh(const bodice_skin* skin, double* positions, std::size_t vertices,
+                                       std::uint32_t* faces, std::size_t triangles) {
+  return bodice_skin_get_mesh(skin, positions, vertices, faces, triangles);
+}
+BODICE_WEB bodice_status web_skin_parts(const bodice_skin* skin, std::uint8_t* part, std::size_t vertices) {
+  return bodice_skin_get_parts(skin, part, vertices);
+}
+BODICE_WEB bodice_status web_skin_vertex_of_input(const bodice_skin* skin, std::uint32_t* vertex,
+                                                  std::size_t count) {
+  return bodice_skin_get_vertex_of_input(skin, vertex, count);
+}
+BODICE_WEB const char* web_landmark_name(int landmark) {
+  return bodice_landmark_name(landmark);
+}
+/// out: position (3) and confidence of each landmark
+BODICE_WEB bodice_status web_skin_landmarks(const bodice_skin* skin, double* out) {
+  bodice_landmark marks[BODICE_LANDMARKS] = {};
+  const bodice_status status = bodice_skin_get_landmarks(skin, marks, BODICE_LANDMARKS);
+  for (const bodice_landmark& mark : marks) {
+    for (const double x : mark.position) *out++ = x;
+    *out++ = mark.confidence;
+  }
+  return status;
+}
+BODICE_WEB const char* web_measurement_name(int measurement) {
+  return bodice_measurement_name(measurement);
+}
+BODICE_WEB bodice_status web_skin_measurements(const bodice_skin* skin, double* out) {
+  return bodice_skin_get_measurements(skin, out, BODICE_MEASUREMENTS);
+}
+
+/// report: mean, 95 % and largest gap in meters, share of the interior that is covered, seconds. Returns 0 on
+/// failure.
+BODICE_WEB Body* web_fit(const bodice_skin* skin, int tier, int max_ellipsoids, double target_error_m,
+                         double* report) {
+  bodice_fit_options options = bodice_default_fit_options();
+  options.tier = tier;
+  options.max_ellipsoids = max_ellipsoids;
+  options.target_error_m = target_error_m;
+  options.progress = [](void*, const char* stage) -> std::int32_t { return tell_stage(stage); };
+  bodice_fit_report made = bodice_default_fit_report();
+  bodice_proxy* proxy = nullptr;
+  if (bodice_fit(context(), skin, &options, &proxy, &made) != BODICE_OK) return nullptr;
+  for (const double value :
+       {made.gap_mean_m, made.gap_p95_m, made.gap_max_m, made.interior_covered, made.seconds})
+    *report++ = value;
+  return make_body(proxy);
+}
 BODICE_WEB Body* web_load(const void* bytes, std::size_t size) {
   bodice_proxy* proxy = nullptr;
   return bodice_proxy_from_bytes(context(), bytes, size, &proxy) == BODICE_OK ? make_body(proxy) : nullptr;
@@ -149,11 +244,7 @@ BODICE_WEB int web_resolve(Body* body, float* positions, float* velocities, floa
 BODICE_WEB bodice_status web_exact(double* positions, std::size_t vertices, const std::uint32_t* faces,
                                    std::size_t triangles, double* points, std::size_t count,
                                    double* distance) {
-  bodice_mesh mesh = bodice_default_mesh();
-  mesh.position = {positions, nullptr, nullptr, 0, BODICE_DOUBLE, 0};
-  mesh.vertices = vertices;
-  mesh.index = faces;
-  mesh.triangles = triangles;
+  const bodice_mesh mesh = mesh_at(positions, vertices, faces, triangles);
   bodice_exact* exact = nullptr;
   bodice_status status = bodice_exact_create(context(), &mesh, &exact);
   if (status != BODICE_OK) return status;

@@ -38,9 +38,8 @@ class Exercised {
   Exercised(const Exercise& in, std::size_t k)
       : in_(in), table_(in.proxy.relief()[k]), shape_(in.proxy.ellipsoids()[k].shape) {
     const proxy::Binding& binding = in.binding;
-    map_ = carried(
-        {binding.terms.begin() + binding.first_term[k], binding.terms.begin() + binding.first_term[k + 1]},
-        in.skinning);
+    const std::size_t first = binding.first_term[k];
+    map_ = carried(std::span(binding.terms).subspan(first, binding.first_term[k + 1] - first), in.skinning);
     to_normal_ = map_.leftCols<3>().inverse().transpose();
   }
 

@@ -59,7 +59,7 @@ void add_bundle(std::span<const SkinNode> nodes, double step_m, proxy::Binding& 
   proxy::SkinBundle bundle;
   std::map<std::uint16_t, std::array<std::uint16_t, proxy::kBundle>> weights;  // by term
   const std::size_t first = binding.first_term[binding.first_term.size() - 2];
-  const std::span terms(binding.terms.begin() + static_cast<std::ptrdiff_t>(first), binding.terms.end());
+  const std::span terms = std::span(binding.terms).subspan(first);
   for (int lane = 0; lane < proxy::kBundle; ++lane) {
     const SkinNode& node = nodes[std::min<std::size_t>(static_cast<std::size_t>(lane), nodes.size() - 1)];
     bundle.texel[lane] = node.texel;
@@ -142,8 +142,7 @@ std::vector<std::uint16_t> find_followers(std::span<const SkinNode> nodes, int n
 
 void add_nodes(std::vector<SkinNode> nodes, double longest_radius_m, int nodes_per_side,
                proxy::Binding& binding) {
-  const std::span terms(binding.terms.begin() + binding.first_term[binding.first_term.size() - 2],
-                        binding.terms.end());
+  const std::span terms = std::span(binding.terms).subspan(binding.first_term[binding.first_term.size() - 2]);
   std::erase_if(nodes, [&](const SkinNode& node) {  // moved by other joints than all of the ellipsoid's skin
     return std::ranges::none_of(node.weights, [&](const auto& weight) {
       return weight.second >= kLeastWeight &&

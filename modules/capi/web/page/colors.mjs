@@ -18,6 +18,12 @@ export function errorColors(error) {
   return out;
 }
 
+export function partColors(parts) {
+  const out = new Float32Array(3 * parts.length);
+  parts.forEach((part, v) => out.set(PARTS[part % PARTS.length], 3 * v));
+  return out;
+}
+
 const RING = 24, ROWS = 14;
 
 export function ellipsoidMesh(ellipsoids) {

@@ -1,12 +1,12 @@
-// The page: takes a proxy and its body, and shows how far the two are apart.
-import {load} from '../bodice.mjs';
-import {findUnit, readMesh} from '../readers.mjs';
-import {ellipsoidMesh, errorColors, limitOf} from './colors.mjs';
+// The page: hands files to the worker, and shows the body, its proxy, and how far the two are apart.
+import {ellipsoidMesh, errorColors, limitOf, partColors} from './colors.mjs';
 import {View} from './view.mjs';
 
 const $ = id => document.getElementById(id);
+const STAGES = {read: 'Reading ...', repair: 'Repairing ...', segment: 'Finding landmarks and parts ...', fit: 'Fitting ...'};
 const view = new View($('view'));
-let library = null, proxy = null, skin = null;
+const worker = new Worker(new URL('./worker.mjs', import.meta.url), {type: 'module'});
+let shown = null, name = 'body';
 
 function say(text, wrong = false) {
   $('state').textContent = text;
@@ -19,81 +19,91 @@ const row = (what, value) => {
   return line;
 };
 
-function list() {
-  const rows = [row('stature', `${(100 * proxy.stature).toFixed(1)} cm`), row('tier', proxy.tier),
-                row('ellipsoids', String(proxy.ellipsoids.length)), row('joints', String(proxy.joints.length))];
+function list({proxy, skin, waist, seconds}) {
+  const cm = meters => `${(100 * meters).toFixed(1)} cm`;
+  const rows = [row('stature', cm(proxy.stature)), row('tier', proxy.tier),
+                row('ellipsoids', String(proxy.ellipsoids.length)), row('joints', String(proxy.joints))];
+  if (waist > 0) rows.splice(1, 0, row('waist', cm(waist)));
   if (skin) {
-    const sizes = Float32Array.from(skin.error, Math.abs), mean = sizes.reduce((a, b) => a + b, 0) / sizes.length;
-    rows.push(row('vertices of the body', String(sizes.length)), row('unit of the file', skin.unit),
+    const mean = skin.error.reduce((sum, e) => sum + Math.abs(e), 0) / skin.error.length;
+    rows.push(row('vertices of the body', String(skin.error.length)), row('unit of the file', skin.unit),
               row('distance from the proxy, mean', `${mean.toFixed(2)} mm`));
   }
+  if (proxy.report) rows.push(row('inside covered', `${(100 * proxy.report.interiorCovered).toFixed(2)} %`));
+  rows.push(row('time', `${seconds.toFixed(1)} s`));
   $('numbers').replaceChildren(...rows);
 }
 
 function show() {
-  const what = document.querySelector('input[name=what]:checked').value;
+  const what = document.querySelector('input[name=what]:checked').value, {skin, proxy} = shown;
   view.clear();
-  if (what !== 'ellipsoids') view.add(skin.positions, skin.faces, errorColors(skin.error), what === 'both' ? 0.35 : 1);
-  if (what !== 'error') {
+  if (what !== 'ellipsoids')
+    view.add(skin.positions, skin.faces, what === 'parts' ? partColors(skin.parts) : errorColors(skin.error),
+             what === 'both' ? 0.35 : 1);
+  if (what === 'ellipsoids' || what === 'both') {
     const {positions, faces, colors} = ellipsoidMesh(proxy.ellipsoids);
     view.add(positions, faces, colors, 1);
   }
-  $('legend').hidden = what === 'ellipsoids';
+  $('legend').hidden = what !== 'error' && what !== 'both';
   view.draw();
 }
 
-function takeProxy(bytes) {
-  const next = library.loadProxy(bytes);
-  proxy?.destroy();
-  proxy = next;
-  skin = null;
+/** Lets what is shown be chosen among what there is. */
+function offer(found) {
+  const there = {ellipsoids: true, error: !!found.skin, both: !!found.skin, parts: !!found.skin?.parts};
+  for (const input of document.querySelectorAll('input[name=what]')) input.disabled = !there[input.value];
+  document.querySelector(`input[value=${found.skin ? 'error' : 'ellipsoids'}]`).checked = true;
   $('show').hidden = false;
-  for (const input of document.querySelectorAll('input[name=what]')) input.disabled = input.value !== 'ellipsoids';
-  document.querySelector('input[value=ellipsoids]').checked = true;
-  view.frame(ellipsoidMesh(proxy.ellipsoids).positions, [0, 1, 0]);
+  $('save').hidden = !found.bytes;
+  if (!found.bytes) return;
+  URL.revokeObjectURL($('save').href);
+  $('save').href = URL.createObjectURL(new Blob([found.bytes]));
+  $('save').download = `${name}.bodice`;
 }
 
-function takeBody(bytes, name) {
-  if (!proxy) throw new Error('Drop a proxy first: bodice fit body.obj -o body.bodice.');
-  const {positions, faces} = readMesh(bytes, name), {unit, meters} = findUnit(positions);
-  const points = Float32Array.from(positions, x => x * meters);
-  const error = proxy.signedDistance(points).map(d => 1000 * d);
-  skin = {positions: points, faces, unit, error};
-  const limit = limitOf(error);
-  $('least').textContent = `-${limit} mm`;
-  $('most').textContent = `${limit} mm`;
-  for (const input of document.querySelectorAll('input[name=what]')) input.disabled = false;
-  document.querySelector('input[value=error]').checked = true;
+function take(found) {
+  shown = found;
+  list(found);
+  offer(found);
+  if (found.skin) {
+    const limit = limitOf(found.skin.error);
+    $('least').textContent = `-${limit} mm`;
+    $('most').textContent = `${limit} mm`;
+  }
+  view.frame(found.skin ? found.skin.positions : ellipsoidMesh(found.proxy.ellipsoids).positions, found.up);
+  show();
+  $('warnings').replaceChildren(...(found.warnings ?? []).map(
+      text => Object.assign(document.createElement('li'), {textContent: text})));
+  say(!found.skin ? 'The proxy. Drop its body to see how near they are.' :
+      found.proxy.dropped ? 'The body and its proxy.' : 'Fitted.');
 }
 
-async function take(files) {
-  try {
-    // The proxy comes first, whatever the order of the files.
-    for (const file of [...files].sort((a, b) => b.name.endsWith('.bodice') - a.name.endsWith('.bodice'))) {
-      const bytes = new Uint8Array(await file.arrayBuffer());
-      file.name.endsWith('.bodice') ? takeProxy(bytes) : takeBody(bytes, file.name);
-    }
-    list();
-    show();
-    say(skin ? 'The body and its proxy.' : 'The proxy. Drop its body to see how near they are.');
-  } catch (error) {
-    say(error.message, true);
+worker.onmessage = ({data}) => {
+  if (data.failed) return say(data.failed, true);
+  if (data.ready) return say('Ready.');
+  if (data.stage) return say(STAGES[data.stage] ?? data.stage);
+  take(data);
+};
+worker.onerror = event => say(event.message || 'The worker did not start. Serve this folder over HTTP.', true);
+
+async function submit(files) {
+  // A proxy comes first, whatever the order of the files.
+  for (const file of [...files].sort((a, b) => b.name.endsWith('.bodice') - a.name.endsWith('.bodice'))) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    say('Working ...');
+    if (!file.name.endsWith('.bodice')) name = file.name.replace(/\.[^.]*$/, '');
+    worker.postMessage(file.name.endsWith('.bodice') ? {proxy: bytes} : {body: bytes, name: file.name, any: $('any').checked});
   }
 }
 
 $('open').onclick = () => $('file').click();
-$('file').onchange = () => take($('file').files);
+$('file').onchange = () => submit($('file').files);
+$('made').onclick = () => { name = 'body'; say('Working ...'); worker.postMessage({made: true}); };
 $('show').onchange = show;
 addEventListener('dragover', event => { event.preventDefault(); document.body.classList.add('over'); });
 addEventListener('dragleave', () => document.body.classList.remove('over'));
 addEventListener('drop', event => {
   event.preventDefault();
   document.body.classList.remove('over');
-  if (event.dataTransfer.files.length) take(event.dataTransfer.files);
+  submit(event.dataTransfer.files);
 });
-try {
-  library = await load();
-  say('Ready.');
-} catch (error) {
-  say(error.message, true);
-}

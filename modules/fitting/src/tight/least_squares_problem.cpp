@@ -256,8 +256,8 @@ Neighborhood LeastSquaresProblem::around(std::span<const std::uint32_t> ellipsoi
     found.cost += static_cast<double>(cost_[i]);
     ++count;
   };
-  const auto sample = pair_sample_.begin();
-  const auto firsts = std::span(sample + pair_begin_[first], sample + pair_begin_[first + 1]);
+  const auto firsts =
+      std::span(pair_sample_).subspan(pair_begin_[first], pair_begin_[first + 1] - pair_begin_[first]);
   for (const std::uint32_t i : firsts) add(i);
   auto next = firsts.begin();  // both lists ascend; a sample in both was added with the first
   for (std::uint32_t pair = pair_begin_[last]; last != first && pair < pair_begin_[last + 1]; ++pair) {

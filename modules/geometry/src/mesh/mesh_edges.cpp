@@ -65,7 +65,7 @@ MeshEdges mesh_edges(const TriMesh& mesh) {
     });
     for (auto run = begin; run != end;) {
       const auto stop = std::find_if(run, end, [&](const Side& side) { return side.high != run->high; });
-      add_edge(edges, static_cast<Index>(low), Run(run, stop));
+      add_edge(edges, static_cast<Index>(low), Run(&*run, static_cast<std::size_t>(stop - run)));
       run = stop;
     }
   }

@@ -1,0 +1,20 @@
+# WebAssembly by emscripten: the packages of bodice there. Those that are headers alone are this machine's, behind links
+# in a folder of their own: /usr/include as a whole would hide emscripten's C library. oneTBB and spdlog are not there.
+function(bodice_web_packages)
+  set(links "${PROJECT_BINARY_DIR}/headers")
+  file(MAKE_DIRECTORY "${links}")
+  set(targets Eigen3::Eigen hwy::hwy nlohmann_json::nlohmann_json)
+  set(headers Eigen/Core hwy/highway.h nlohmann/json.hpp)
+  foreach(target header IN ZIP_LISTS targets headers)
+    string(MAKE_C_IDENTIFIER "BODICE_HOST_${header}" found)
+    find_path(${found} "${header}" PATHS /usr/include /usr/local/include PATH_SUFFIXES eigen3
+              NO_DEFAULT_PATH NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+    string(REGEX REPLACE "/.*" "" first "${header}")
+    file(CREATE_LINK "${${found}}/${first}" "${links}/${first}" SYMBOLIC)
+    add_library(${target} INTERFACE IMPORTED GLOBAL)
+    set_target_properties(${target} PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${links}")
+  endforeach()
+  foreach(target IN ITEMS TBB::tbb spdlog::spdlog Threads::Threads)
+    add_library(${target} INTERFACE IMPORTED GLOBAL)
+  endforeach()
+endfunction()
