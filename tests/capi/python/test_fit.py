@@ -43,6 +43,15 @@ class Fits(unittest.TestCase):
         self.assertTrue(0.5 < self.body.measurements["waist"] < 1.2)
         self.assertAlmostEqual(self.body.measurements["height"], 1.7, delta=0.03)
 
+    def test_the_example_of_a_pose_runs(self):
+        sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "examples"))
+        import fit_and_pose
+
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said):
+            self.assertTrue(fit_and_pose.main())
+        self.assertIn("took over", said.getvalue())
+
     def test_a_thing_is_fitted_without_being_a_person(self):
         grid = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 13)] * 2), axis=-1).reshape(-1, 2)
         face = np.array([[i, i + 1, i + 14, i, i + 14, i + 13] for i in range(12 * 13) if i % 13 < 12]).reshape(-1, 3)
