@@ -13,6 +13,7 @@
 #include <bench_support/or_exit.hpp>
 #include "causes.hpp"
 #include "conditions.hpp"
+#include "crossed.hpp"
 #include "sheet.hpp"
 
 namespace bench {
@@ -57,6 +58,7 @@ struct Row {
   double worst_cm2 = 0.0;                 ///< largest of the frames after the first ten; walking only
   double overlapped_cm2 = 0.0;  ///< besides, where the skin overlaps itself: at the end or in that frame
   Gaps start, end;
+  CrossedSpan crossed;  ///< walking only
   tryon::DrapeReport report;
 };
 
@@ -82,6 +84,10 @@ void print_row(const std::string& name, const char* body, const Row& row, double
               row.overlapped_cm2, 1e3 * row.start.median, 1e3 * row.start.p95, 1e3 * row.end.median,
               1e3 * row.end.p95, 1e2 * r.stretch_p95, 1e2 * r.stretch_max, r.crossings_start,
               r.crossings_end);
+  if (walks)
+    std::printf("  with room %zu/%zu (pressed before %zu/%zu), without %zu/%zu", row.crossed.worst.with_room,
+                row.crossed.end.with_room, row.crossed.worst.pressed_before, row.crossed.end.pressed_before,
+                row.crossed.worst.without_room, row.crossed.end.without_room);
   if (r.crossings_end > 0) std::printf("  MISSED crossings");
   if (inside > bar_cm2) std::printf("  MISSED inside");
   const bool tight = !walks && row.start.median < kTight_m;
@@ -137,6 +143,20 @@ tryon::PreparedBody bound_body(const engine::Context& context, tryon::SegmentedS
   return body;
 }
 
+/// Prints why cloth is inside the skin in the worst frame and on the mean, and where layers cross.
+void explain(const engine::Context& context, const Judged& judged, const std::vector<Crossed>& crossed,
+             std::size_t worst) {
+  const std::size_t kept = crossed.size(), count = (kept - kFirstFrames + kStep - 1) / kStep;
+  const auto most = std::ranges::max_element(crossed, {}, &Crossed::with_room) - crossed.begin();
+  print_crossed(context, judged, static_cast<std::size_t>(most));
+  print_crossed(context, judged, kept - 1);
+  Causes mean;
+  for (std::size_t k = kFirstFrames; k < kept; k += kStep)
+    mean.add(find_causes(context, judged, k), 1.0 / static_cast<double>(count));
+  print_causes(find_causes(context, judged, worst), "frame " + std::to_string(worst));
+  print_causes(mean, "mean");
+}
+
 Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& outfit, Sheet& sheet) {
   tryon::SegmentedSkin skin = or_exit(tryon::segment_file(context, outfit.body, {}));
   or_exit(tryon::give_rig(context, tryon::BodyFile{outfit.body}, skin));
@@ -166,16 +186,11 @@ Row walk(const engine::Context& context, const FacesOptions& o, const Outfit& ou
     return a.inside.shown_m2 < b.inside.shown_m2;
   });
   row.worst_cm2 = 1e4 * worst->inside.shown_m2, row.overlapped_cm2 = 1e4 * worst->inside.overlapped_m2;
-  if (o.causes) {
-    const auto frame = static_cast<std::size_t>(worst - draped.report.kept.begin());
-    const Judged judged{body, motion, garment.mesh, draped};
-    Causes mean;
-    const std::size_t kept = draped.report.kept.size(), count = (kept - kFirstFrames + kStep - 1) / kStep;
-    for (std::size_t k = kFirstFrames; k < kept; k += kStep)
-      mean.add(find_causes(context, judged, k), 1.0 / static_cast<double>(count));
-    print_causes(find_causes(context, judged, frame), "frame " + std::to_string(frame));
-    print_causes(mean, "mean");
-  }
+  const Judged judged{body, motion, garment.mesh, draped};
+  const std::vector<Crossed> crossed = find_crossed(context, judged);
+  row.crossed = span_of(crossed);
+  if (o.causes)
+    explain(context, judged, crossed, static_cast<std::size_t>(worst - draped.report.kept.begin()));
   return row;
 }
 

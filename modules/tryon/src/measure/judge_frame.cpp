@@ -37,14 +37,6 @@ double collider_distance_m(const collision::Collider& collider, const Vec3& worl
   return double{collider.query({p.x(), p.y(), p.z()}).signed_distance};
 }
 
-/// Whether a point lies in skin that overlaps itself, or its nearest skin lies under another layer of the
-/// body. Skin that is buried bounds nothing, so that the distance to it is none of the body.
-bool is_overlapped(const geometry::MeshDistance& distance, const Vec3& point,
-                   const geometry::SurfacePoint& nearest) {
-  return distance.winding_number(point) > kOverlap ||
-         distance.inside(nearest.point + kOver_m * nearest.normal);
-}
-
 ProxyError summarize(const std::vector<Sample>& samples) {
   ProxyError result;
   std::vector<double> errors;
@@ -84,6 +76,12 @@ Patch patch_of(std::span<const Vec3> positions, const geometry::Triangle& t) {
 }
 
 }  // namespace
+
+bool is_overlapped(const geometry::MeshDistance& distance, const Vec3& point,
+                   const geometry::SurfacePoint& nearest) {
+  return distance.winding_number(point) > kOverlap ||
+         distance.inside(nearest.point + kOver_m * nearest.normal);
+}
 
 ProxyError measure_proxy_error(const engine::Context& context, const collision::Collider& collider,
                                const geometry::TriMesh& skin, const geometry::MeshDistance& distance,

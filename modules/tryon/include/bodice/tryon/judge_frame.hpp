@@ -31,6 +31,12 @@ ProxyError measure_proxy_error(const engine::Context& context, const collision::
                                const geometry::TriMesh& skin, const geometry::MeshDistance& distance,
                                double within_m);
 
+/// Whether a point lies in skin that overlaps itself, or `nearest`, its closest skin, lies under another
+/// layer of the body. Skin that is buried bounds nothing, so that the distance to it is none of the body.
+/// Cost: a winding number.
+bool is_overlapped(const geometry::MeshDistance& distance, const geometry::Vec3& point,
+                   const geometry::SurfacePoint& nearest);
+
 /// A sample of a cloth triangle inside the skin.
 struct InsidePoint {
   geometry::Vec3 at;
