@@ -17,7 +17,7 @@ namespace {
 struct Arguments {
   std::string data = "../shared/data", only, picture, keep;
   std::uint64_t seeds = 0, rigs = 0, measured = 0, scans = 0, from = 0;
-  bool all = false, verbose = false, cost = false, real = false;
+  bool all = false, verbose = false, cost = false, real = false, proxies = false;
 };
 
 Arguments parse(int argc, char** argv) {
@@ -28,6 +28,7 @@ Arguments parse(int argc, char** argv) {
     if (is("--verbose")) a.verbose = true;
     if (is("--cost")) a.cost = true;
     if (is("--real")) a.real = true;
+    if (is("--proxies")) a.proxies = true;
     if (i + 1 >= argc) break;
     if (is("--data"))
       a.data = argv[++i];
@@ -64,7 +65,8 @@ constexpr const char* kUsage =
     "anatomy --seeds N [--from M]           made bodies in place of files\n"
     "anatomy --rigs N                       random poses of the files' bodies\n"
     "anatomy --measurements N [--from M]    errors of the 26 measurements of made bodies that stand\n"
-    "anatomy --scans N [--from M] [--only KIND] [--keep FOLDER] [--real]    outcomes of made scans of each "
+    "anatomy --scans N [--from M] [--only KIND] [--keep FOLDER] [--real] [--proxies]    outcomes of made "
+    "scans of each "
     "kind\n"
     "anatomy --cost                         time of the analysis\n"
     "Rows are bodies that miss a bar; --all: of every body; --verbose: with every landmark's error.\n";
@@ -90,7 +92,8 @@ int main(int argc, char** argv) {
                                              .folder = arguments.keep,
                                              .data = arguments.real ? arguments.data : "",
                                              .picture = arguments.picture,
-                                             .verbose = arguments.verbose});
+                                             .verbose = arguments.verbose,
+                                             .proxies = arguments.proxies});
     return written ? 0 : 1;
   }
   if (arguments.cost) {

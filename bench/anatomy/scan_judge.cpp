@@ -4,7 +4,9 @@
 #include <cmath>
 #include <set>
 
+#include <bodice/fitting/fit.hpp>
 #include <bodice/geometry/mesh_distance.hpp>
+#include <bodice/proxy/proxy_distance.hpp>
 #include <bodice/tryon/prepare.hpp>
 
 namespace bench {
@@ -67,7 +69,8 @@ bool is_doubt(const bodice::engine::Warning& warning) {
                                                   "broken-triangles",
                                                   "flipped-triangles",
                                                   "far-from-origin",
-                                                  "skin-touches"};
+                                                  "skin-touches",
+                                                  "noise-smoothed"};
   // A rebuilt skin is in doubt where a good part of it is made up: only then the warning has a remedy.
   if (warning.code == "skin-rebuilt") return !warning.remedy.empty();
   return !kNoDoubts.contains(warning.code);
@@ -107,9 +110,26 @@ const ScanPerson& nearest_person(const Scan& scan, const Anatomy& anatomy) {
                            [&](const auto& a, const auto& b) { return sum(a) < sum(b); });
 }
 
+/// Mean distance of the proxy's surface to the clean body, by area. `to_skin`: from the truth's coordinates.
+template <class ToSkin>
+std::optional<double> proxy_error(const bodice::tryon::SegmentedSkin& skin, const TriMesh& truth,
+                                  ToSkin&& to_skin) {
+  const auto fit = bodice::fitting::fit({}, bodice::tryon::labeled(skin), {.measure_accuracy = false});
+  if (!fit) return std::nullopt;
+  constexpr std::size_t kEvery = 7;
+  double sum = 0.0, all = 0.0;
+  for (std::size_t t = 0; t < truth.triangles.size(); t += kEvery) {
+    const Vec3 middle = (truth.corner(t, 0) + truth.corner(t, 1) + truth.corner(t, 2)) / 3.0;
+    const double area = area_vector(truth, t).norm();
+    sum += area * std::abs(bodice::proxy::proxy_distance(fit->proxy, to_skin(middle)).distance);
+    all += area;
+  }
+  return all > 0.0 ? std::optional(sum / all) : std::nullopt;
+}
+
 }  // namespace
 
-Judged judge(const Scan& scan, const std::filesystem::path& file) {
+Judged judge(const Scan& scan, const std::filesystem::path& file, bool with_proxy) {
   Judged judged;
   auto read = bodice::tryon::segment_file({}, file, {});
   if (!read) return judged.text = read.error().sentence(), judged;
@@ -120,6 +140,9 @@ Judged judge(const Scan& scan, const std::filesystem::path& file) {
   }
   const bodice::geometry::Frame frame = read->input.frame;
   const auto to_truth = [&](Vec3& p) { p = scan.frame.to_inside(frame.to_file(p)); };
+  if (with_proxy)
+    judged.proxy_m = proxy_error(*read, scan.persons.front().body,
+                                 [&](const Vec3& p) { return frame.to_inside(scan.frame.to_file(p)); });
   judged.skin = std::move(read->input.skin);
   judged.anatomy = std::move(read->anatomy);
   for (Vec3& p : judged.skin.positions) to_truth(p);

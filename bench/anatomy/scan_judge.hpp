@@ -23,12 +23,14 @@ struct Judged {
   double foreign = 0.0;                  ///< the share of the skin that lies away from the body
   double missing = 0.0;                  ///< the share of the body that lies away from the skin
   double seen_m = 0.0;                   ///< mean distance of the skin to the clean body, where they meet
+  std::optional<double> proxy_m;         ///< mean distance of a relief proxy's surface to the clean body
   std::string text;                      ///< the refusal, or the codes of the warnings
   bodice::geometry::TriMesh skin;        ///< in the truth's coordinates
   std::optional<bodice::anatomy::Anatomy> anatomy;
 };
 
-/// Reads and analyzes the file of a scan as `bodice fit` does.
-Judged judge(const bodice::synth::Scan& scan, const std::filesystem::path& file);
+/// Reads and analyzes the file of a scan as `bodice fit` does. `with_proxy`: fits it as well, with the
+/// defaults.
+Judged judge(const bodice::synth::Scan& scan, const std::filesystem::path& file, bool with_proxy);
 
 }  // namespace bench

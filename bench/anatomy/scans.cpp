@@ -63,20 +63,24 @@ std::optional<Scan> make(const std::optional<RealSubjects>& real, ScanKind kind,
 /// The outcomes of a kind.
 struct Row {
   std::array<int, kOutcomes> count{};
-  double slowest_s = 0.0, sum_seen_m = 0.0;
-  int read = 0;
+  double slowest_s = 0.0, sum_seen_m = 0.0, sum_proxy_m = 0.0;
+  int read = 0, fitted = 0;
 
   void add(const Judged& judged, double took_s) {
     ++count[judged.outcome];
     slowest_s = std::max(slowest_s, took_s);
     read += judged.anatomy ? 1 : 0;
     sum_seen_m += judged.seen_m;
+    fitted += judged.proxy_m ? 1 : 0;
+    sum_proxy_m += judged.proxy_m.value_or(0.0);
   }
 
   void print(const std::string& name) const {
     std::printf("%-16s", name.c_str());
     for (const int n : count) std::printf(" %13d", n);
-    std::printf(" %13.1f %9.1f\n", slowest_s, read > 0 ? 1e3 * sum_seen_m / read : 0.0);
+    std::printf(" %13.1f %9.1f", slowest_s, read > 0 ? 1e3 * sum_seen_m / read : 0.0);
+    if (fitted > 0) std::printf(" %9.2f", 1e3 * sum_proxy_m / fitted);
+    std::printf("\n");
     std::fflush(stdout);
   }
 };
@@ -98,7 +102,7 @@ bool print_scans(const ScanBench& bench) {
   if (!bench.data.empty()) real.emplace(bench.data);
   std::printf("%-16s", "kind");
   for (const char* name : kOutcomeNames) std::printf(" %13s", name);
-  std::printf(" %13s %9s\n", "slowest s", "skin mm");
+  std::printf(" %13s %9s%s\n", "slowest s", "skin mm", bench.proxies ? "  proxy mm" : "");
   Row total;
   Sheet sheet;
   for (int k = 0; k < bodice::synth::kScanKindCount; ++k) {
@@ -113,7 +117,7 @@ bool print_scans(const ScanBench& bench) {
           folder / (bench.folder.empty() ? "scan.obj" : name + " " + std::to_string(seed) + ".obj");
       write(*scan, file);
       const auto begin = std::chrono::steady_clock::now();
-      const Judged judged = judge(*scan, file);
+      const Judged judged = judge(*scan, file, bench.proxies);
       const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       row.add(judged, took_s);
       total.add(judged, took_s);

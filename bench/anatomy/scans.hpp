@@ -16,6 +16,7 @@ struct ScanBench {
   std::string data = {};     ///< the folder of real bodies to be scanned; empty: made ones are
   std::string picture = {};  ///< PNG of all bodies that were read, by part, with their landmarks
   bool verbose = false;      ///< whether each scan has a line of its own
+  bool proxies = false;      ///< whether each scan is fitted, and the proxy measured against the clean body
 };
 /// False if the picture could not be written.
 bool print_scans(const ScanBench& bench);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include <bodice/engine/random.hpp>
+#include <bodice/geometry/noise.hpp>
 #include <bodice/synth/scan.hpp>
 
 #include "analyzed.hpp"
@@ -95,6 +96,16 @@ TEST_CASE("noise makes paths along the skin longer, and no standing body taller"
     const anatomy::Anatomy found = analyzed(made::skin_of(*scan));
     CHECK(found.stature_m == doctest::Approx(scan->persons[0].stature_m).epsilon(0.02));
   }
+}
+
+TEST_CASE("a body in a stride, measured by paths along its skin, is no taller without its noise") {
+  const auto scan = synth::make_scan({}, synth::ScanKind::kStrongNoise, 12402);
+  REQUIRE(scan.ok());
+  geometry::TriMesh skin = made::skin_of(*scan);
+  const double clean_m = analyzed(scan->persons[0].body).stature_m;
+  CHECK(analyzed(skin).stature_m > 1.04 * clean_m);
+  skin.positions = geometry::without_noise({}, skin, geometry::noise_of({}, skin));
+  CHECK(analyzed(skin).stature_m == doctest::Approx(clean_m).epsilon(0.01));
 }
 
 TEST_CASE("webs of 18 mm that no cut undoes are refused with a sentence that names what touches") {

@@ -2,7 +2,9 @@
 
 #include <array>
 
+#include <bodice/engine/random.hpp>
 #include <bodice/io/import.hpp>
+#include <bodice_test/shapes.hpp>
 #include <bodice_test/temp_folder.hpp>
 
 #include "figure.hpp"
@@ -110,4 +112,27 @@ TEST_CASE("arms as wide as the body is tall do not change the up axis, y or z") 
   CHECK(import_obj(cross).frame.up == geometry::Axis::kY);
   const TriMesh lying = mapped(cross, [](const Vec3& p) { return Vec3(p.x(), -p.z(), p.y()); });
   CHECK(import_obj(lying).frame.up == geometry::Axis::kZ);
+}
+
+TEST_CASE("the noise of a scan is smoothed and stated, or kept where that is wanted") {
+  TriMesh noisy = bodice_test::icosphere(0.37, 5);
+  engine::Random random(5);
+  for (Vec3& p : noisy.positions) p *= 1.0 + 0.002 * random.normal() / 0.37;
+  const io::ImportedMesh smooth = import_obj(noisy), kept = import_obj(noisy, {.keep_noise = true});
+  for (const io::ImportedMesh* mesh : {&smooth, &kept})
+    CHECK(mesh->noise_m == doctest::Approx(0.002).epsilon(0.1));
+  CHECK(smooth.smoothed);
+  CHECK(warned(smooth, "noise-smoothed"));
+  CHECK_FALSE(kept.smoothed);
+  CHECK(warned(kept, "noise-kept"));
+  const auto mean_off = [](const io::ImportedMesh& mesh) {
+    double sum = 0.0;
+    for (const Vec3& p : mesh.skin.positions) sum += std::abs(p.norm() - 0.37);
+    return sum / static_cast<double>(mesh.skin.positions.size());
+  };
+  CHECK(mean_off(kept) > 0.0014);
+  CHECK(mean_off(smooth) < 0.0006);
+  const io::ImportedMesh clean = import_obj(bodice_test::icosphere(0.37, 5));
+  CHECK(clean.noise_m == 0.0);
+  CHECK_FALSE(clean.smoothed);
 }

@@ -172,6 +172,9 @@ void add_input_options(CLI::App& command, CommonOptions& o) {
       ->needs("BODY")
       ->group(group)
       ->capture_default_str();
+  command.add_flag("--keep-noise", o.keep_noise, "do not smooth the noise of a scan")
+      ->needs("BODY")
+      ->group(group);
   command.add_flag("--force", o.force, "go on with a warning where the shape contradicts a human body")
       ->needs("BODY")
       ->group(group);
@@ -246,6 +249,7 @@ engine::Result<tryon::SegmentOptions> segment_options(const CommonOptions& o) {
   if (o.up != "auto") options.import.up = static_cast<geometry::Axis>(o.up[0] - 'x');
   if (!o.mesh.empty()) options.import.mesh = o.mesh;
   options.import.person = o.person;
+  options.import.keep_noise = o.keep_noise;
   if (o.shape == "any") options.import.shape = io::Shape::kAny;
   options.force = o.force;
   auto profile = proportions(o);

@@ -2,6 +2,7 @@
 
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
+#include <bodice/geometry/noise.hpp>
 #include <bodice/io/import.hpp>
 #include <bodice/io/rig.hpp>
 
@@ -44,6 +45,17 @@ void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedM
                           "Move it near the origin before exporting, or export it as OBJ."});
 }
 
+void warn_of_noise(ImportedMesh& out) {
+  if (!(out.noise_m > 0.0)) return;
+  const std::string size = engine::message("The skin has noise of ", 1e3 * out.noise_m, " mm");
+  if (out.smoothed)
+    out.warnings.push_back({"noise-smoothed", out.mesh,
+                            size + ", which was smoothed; accuracy counts from the smooth skin.",
+                            "To fit the noise as well, keep it (program: --keep-noise)."});
+  else
+    out.warnings.push_back({"noise-kept", out.mesh, size + ", which was kept.", ""});
+}
+
 void to_inside(const geometry::Frame& frame, geometry::TriMesh& mesh) {
   for (geometry::Vec3& p : mesh.positions) p = frame.to_inside(p);
 }
@@ -79,11 +91,16 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   auto repaired = geometry::repair(context, chosen->shape);
   if (!repaired) return in_file(repaired.error(), file);
   // A skin with weights stays as it is: they are those of its vertices.
-  if (!scene->rig.has_bones)
+  double noise = 0.0;
+  if (!scene->rig.has_bones) {
+    if (!any) noise = geometry::noise_of(context, repaired->mesh);
+    out.smoothed = noise > 0.0 && !options.keep_noise;
+    if (out.smoothed) repaired->mesh.positions = geometry::without_noise(context, repaired->mesh, noise);
     if (auto closed = close_skin(context, chosen->shape, *repaired)) {
       *repaired = std::move(closed->repaired);
       out.made_up = std::move(closed->made_up);
     }
+  }
   DetectedFrame detected =
       (any ? frame_of_thing : detect_frame)(repaired->mesh, options, scene->meters_per_unit, scene->up);
   out.frame = detected.frame;
@@ -91,6 +108,8 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   out.up_found_by_extents = detected.up_found_by_extents;
   append_warnings(std::move(detected.warnings), out.warnings);
   check_precision(chosen->shape, scene->kept_digits, out);
+  out.noise_m = noise * out.frame.meters_per_unit;
+  warn_of_noise(out);
 
   out.skin = std::move(repaired->mesh);
   to_inside(out.frame, out.skin);

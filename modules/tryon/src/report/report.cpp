@@ -52,7 +52,9 @@ Json input_json(const io::ImportedMesh& input) {
           {"dropped_triangles", input.repair.dropped_triangles},
           {"components", input.repair.components},
           {"boundary_edges", input.repair.boundary_edges},
-          {"made_up_percent", made_up_percent(input)}};
+          {"made_up_percent", made_up_percent(input)},
+          {"noise_mm", mm(input.noise_m)},
+          {"smoothed", input.smoothed}};
 }
 
 bool is_thing(const SegmentedSkin& skin) {

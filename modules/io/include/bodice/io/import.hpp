@@ -38,6 +38,7 @@ struct ImportOptions {
   std::optional<geometry::Axis> up;  ///< absent: as the file states, else by shape
   std::optional<std::string> mesh;   ///< name of the body's mesh; absent: chosen by shape
   int person = 1;                    ///< which body of a file with several people, from 1
+  bool keep_noise = false;           ///< noise of a scan is measured, and not smoothed
 };
 
 /// A repaired mesh in meters, y up, and its relation to the file.
@@ -60,6 +61,9 @@ struct ImportedMesh {
   std::size_t input_vertices = 0, input_triangles = 0;
   std::vector<engine::Warning> warnings;
   std::vector<engine::StageTime> stages;  ///< times of "load" and "check"
+  /// Standard deviation of a scan's noise along the normals; 0 for clean skins, things and bodies with bones.
+  double noise_m = 0.0;
+  bool smoothed = false;             ///< whether that noise was taken out of the skin
   std::shared_ptr<const Look> look;  ///< how a garment looks; null for a body and where the file has none
 };
 
