@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include <bodice/engine/parallel.hpp>
 
@@ -72,7 +73,7 @@ std::complex<double> least_direction(const Skin& skin, const Isoline& loop, cons
     const double before = (loop.points[i] - loop.points[(i + n - 1) % n]).norm();
     const double after = (loop.points[(i + 1) % n] - loop.points[i]).norm();
     along += before;
-    const double angle = 2.0 * M_PI * along / loop.girth_m;
+    const double angle = 2.0 * std::numbers::pi * along / loop.girth_m;
     harmonic -=
         0.5 * (before + after) * static_cast<double>(value_at(skin, loop, i, field)) * std::polar(1.0, angle);
   }
