@@ -38,11 +38,8 @@ double depth_in(const collision::Collider& collider, const Vec3& world) {
   return -double{collider.query({p.x(), p.y(), p.z()}).signed_distance};
 }
 
-}  // namespace
-
-Causes find_causes(const engine::Context& context, const Judged& j, std::size_t frame) {
-  const tryon::SegmentedSkin& skin = j.body.skin;
-  const geometry::MeshDistance posed(context, {j.draped.body_frames[frame], skin.input.skin.triangles});
+/// The proxy in the pose of a kept frame.
+collision::Collider collider_in(const engine::Context& context, const Judged& j, std::size_t frame) {
   tryon::MotionPlayer player(j.motion, j.draped.report.ramp_s);
   std::vector<rig::Affine> joints(j.motion.rig.skeleton.joints.size());
   player.joints(j.draped.report.kept[frame].time_s, joints);
@@ -50,7 +47,49 @@ Causes find_causes(const engine::Context& context, const Judged& j, std::size_t 
   or_exit(poser.pose(context, joints));
   collision::Collider collider(j.body.fit.proxy);
   collider.pose(poser.posed(), 0.0);
+  return collider;
+}
 
+}  // namespace
+
+void add_deep_particles(const engine::Context& context, const Judged& j, std::size_t frame,
+                        DeepParticles& found) {
+  const tryon::SegmentedSkin& skin = j.body.skin;
+  const geometry::MeshDistance posed(context, {j.draped.body_frames[frame], skin.input.skin.triangles});
+  const collision::Collider collider = collider_in(context, j, frame);
+  const std::vector<Vec3>& at = j.draped.garments.front().frames[frame];
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    const geometry::SurfacePoint nearest = posed.closest_point(at[v]);
+    if (!(nearest.signed_distance < -DeepParticles::kDeep_m)) continue;
+    const Cause cause = tryon::is_overlapped(posed, at[v], nearest)                   ? Cause::kOverlap
+                        : depth_in(collider, at[v]) < 0.5 * -nearest.signed_distance ? Cause::kProxy
+                                                                                      : Cause::kParticle;
+    DeepParticles::Of& of = found.of[index(cause)];
+    ++of.count;
+    if (-nearest.signed_distance <= of.deepest_m) continue;
+    of.deepest_m = -nearest.signed_distance;
+    of.time_s = j.draped.report.kept[frame].time_s;
+    of.own = part_at(skin, *skin.distance, j.garment.positions[v]);
+    of.in = skin.anatomy.part[skin.input.skin.triangles[nearest.triangle][0]];
+  }
+}
+
+void print_deep_particles(const DeepParticles& found) {
+  constexpr const char* kNames[kCauses] = {"in skin that overlaps itself", "outside of the proxy",
+                                           "inside of the proxy", ""};
+  for (std::size_t c = 0; c < kCauses; ++c) {
+    const DeepParticles::Of& of = found.of[c];
+    if (of.count == 0) continue;
+    std::printf("    %-28s %5zu particles over 2 mm, deepest %5.2f mm at %.2f s: of %s, in %s\n", kNames[c],
+                of.count, 1e3 * of.deepest_m, of.time_s, std::string(body::kPartNames[index(of.own)]).c_str(),
+                std::string(body::kPartNames[index(of.in)]).c_str());
+  }
+}
+
+Causes find_causes(const engine::Context& context, const Judged& j, std::size_t frame) {
+  const tryon::SegmentedSkin& skin = j.body.skin;
+  const geometry::MeshDistance posed(context, {j.draped.body_frames[frame], skin.input.skin.triangles});
+  const collision::Collider collider = collider_in(context, j, frame);
   const std::vector<Vec3>& at = j.draped.garments.front().frames[frame];
   Causes causes;
   for (const geometry::Triangle& t : j.garment.triangles) {

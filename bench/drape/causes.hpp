@@ -38,6 +38,25 @@ struct Judged {
   const bodice::tryon::DrapeResult& draped;
 };
 
+/// Particles deeper in the skin than they may be, over some frames, by cause; kFace has none.
+struct DeepParticles {
+  struct Of {
+    std::size_t count = 0;   ///< particles over kDeep_m, of all frames
+    double deepest_m = 0.0;  ///< the deepest of these
+    double time_s = 0.0;     ///< its frame
+    bodice::body::Part own{}, in{};  ///< the part that it was nearest to at the start, and that it lies in
+  };
+  static constexpr double kDeep_m = 0.002;
+  std::array<Of, kCauses> of;
+};
+
+/// Adds the particles of the kept frame with this number.
+void add_deep_particles(const bodice::engine::Context& context, const Judged& judged, std::size_t frame,
+                        DeepParticles& found);
+
+/// Prints a line for each cause that there is.
+void print_deep_particles(const DeepParticles& found);
+
 /// The causes in the kept frame with this number.
 Causes find_causes(const bodice::engine::Context& context, const Judged& judged, std::size_t frame);
 

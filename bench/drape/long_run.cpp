@@ -101,6 +101,9 @@ LongRun run_long(const engine::Context& context, const MovingOutfit& outfit, con
   const tryon::BodyMotion motion = motion_of(context, outfit, options);
   tryon::DrapeResult draped = drape(context, outfit, motion, options);
   LongRun run;
+  const Judged judged{outfit.body->prepared, motion, outfit.garment.mesh, draped};
+  for (std::size_t frame = 1; frame < draped.report.kept.size(); ++frame)
+    add_deep_particles(context, judged, frame, run.deep);
   run.report = std::move(draped.report);
   run.garments = std::move(draped.garments);
   run.body_frames = std::move(draped.body_frames);

@@ -38,6 +38,7 @@ void print_row(const MovingOutfit& outfit, const std::string& motion, const Long
               motion.c_str(), r.particles, r.frame_ms_median, r.frame_ms_p99, 1e3 * run.deepest_m,
               run.deepest_s, run.frames_over_2mm, 1e3 * run.rest_m, 1e3 * run.drop_m, 1e2 * r.stretch_p95,
               run.proxy_mm, missed_bars(run).c_str());
+  print_deep_particles(run.deep);
   std::fflush(stdout);
 }
 

@@ -1,5 +1,7 @@
 #include "moving_outfits.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <span>
 
@@ -53,8 +55,8 @@ std::shared_ptr<const MovingBody> prepare(const engine::Context& context, const 
       MovingBody{name, or_exit(tryon::fit_bound_proxy(context, std::move(skin), {}))});
 }
 
-/// The skin of some parts, moved outward.
-geometry::TriMesh cut_from_skin(const tryon::SegmentedSkin& body, std::span<const Part> parts,
+/// The skin of some parts above a height, moved outward.
+geometry::TriMesh cut_from_skin(const tryon::SegmentedSkin& body, std::span<const Part> parts, double above_m,
                                 double ease_m) {
   std::uint32_t wanted = 0;
   for (const Part part : parts) wanted |= 1u << static_cast<int>(part);
@@ -65,7 +67,8 @@ geometry::TriMesh cut_from_skin(const tryon::SegmentedSkin& body, std::span<cons
   for (const geometry::Triangle& t : skin.triangles) {
     bool inside = true;
     for (const geometry::Index v : t)
-      inside = inside && (wanted >> static_cast<int>(body.anatomy.part[v]) & 1u) != 0;
+      inside = inside && (wanted >> static_cast<int>(body.anatomy.part[v]) & 1u) != 0 &&
+               skin.positions[v].y() >= above_m;
     if (!inside) continue;
     geometry::Triangle& own = cut.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
@@ -80,10 +83,24 @@ geometry::TriMesh cut_from_skin(const tryon::SegmentedSkin& body, std::span<cons
   return cut;
 }
 
+/// Where the thighs end: a shirt that went below would have a hole for each leg.
+double top_of_thighs_m(const tryon::SegmentedSkin& body) {
+  double top_m = -std::numeric_limits<double>::infinity();
+  for (std::size_t v = 0; v < body.anatomy.part.size(); ++v)
+    if (body.anatomy.part[v] == Part::kThighL || body.anatomy.part[v] == Part::kThighR)
+      top_m = std::max(top_m, body.input.skin.positions[v].y());
+  return top_m;
+}
+
 tryon::WornGarment make_garment(const engine::Context& context, const std::string& kind,
                                 const tryon::SegmentedSkin& skin) {
-  if (kind == "tshirt") return {.name = kind, .mesh = cut_from_skin(skin, kShirt, kShirtEase_m), .held = {}};
-  if (kind == "bodysuit") return {.name = kind, .mesh = cut_from_skin(skin, kSuit, kSuitEase_m), .held = {}};
+  constexpr double kAll = -std::numeric_limits<double>::infinity();
+  if (kind == "tshirt")
+    return {.name = kind,
+            .mesh = cut_from_skin(skin, kShirt, top_of_thighs_m(skin), kShirtEase_m),
+            .held = {}};
+  if (kind == "bodysuit")
+    return {.name = kind, .mesh = cut_from_skin(skin, kSuit, kAll, kSuitEase_m), .held = {}};
   tryon::WornGarment skirt = or_exit(tryon::make_garment(context, skin));
   skirt.name = kind;
   return skirt;

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 
+#include <bodice/tryon/garment_reach.hpp>
+#include <bodice/tryon/wearing.hpp>
+
 #include <bench_support/median.hpp>
+#include <bench_support/or_exit.hpp>
 #include <bench_support/stopwatch.hpp>
 
 #include "posed_proxy.hpp"
@@ -14,7 +18,6 @@ namespace {
 using namespace bodice;
 
 constexpr int kTurns = 7;
-constexpr double kSkirtMargin_m = 0.05;
 
 template <class Work>
 double timed_ms(const Work& work) {
@@ -27,23 +30,32 @@ Cloud cloud_of(const geometry::TriMesh& skin, std::size_t particles) {
   return coherent(near_skin(skin, particles, kNear_m, 5));
 }
 
-/// What is within reach of a skirt: the skin of the thighs and the lower trunk, and a margin.
-geometry::Box around_skirt(const tryon::SegmentedSkin& body, const geometry::TriMesh& skin) {
-  geometry::Box box;
-  for (std::size_t v = 0; v < skin.positions.size(); ++v) switch (body.anatomy.part[v]) {
-      case body::Part::kThighL:
-      case body::Part::kThighR:
-      case body::Part::kTorsoLL:
-      case body::Part::kTorsoLR:
-        box.extend(skin.positions[v]);
-        break;
-      default:
-        break;
-    }
-  box.low.array() -= kSkirtMargin_m;
-  box.high.array() += kSkirtMargin_m;
-  return box;
-}
+/// A skirt that hangs on the body at rest and goes with the skin nearest to it.
+class CarriedSkirt {
+ public:
+  explicit CarriedSkirt(const tryon::SegmentedSkin& body)
+      : body_(body),
+        at_rest_(or_exit(tryon::make_garment({}, body)).mesh.positions),
+        now_(at_rest_),
+        reach_(at_rest_) {
+    for (const geometry::Vec3& p : at_rest_)
+      nearest_.push_back(body.input.skin.triangles[body.distance->closest_point(p).triangle][0]);
+  }
+
+  /// What it can reach, as in a frame of a drape.
+  std::span<const geometry::Box> reach(const geometry::TriMesh& posed) {
+    for (std::size_t v = 0; v < now_.size(); ++v)
+      now_[v] = at_rest_[v] + posed.positions[nearest_[v]] - body_.input.skin.positions[nearest_[v]];
+    reach_.boxes(now_);
+    return reach_.boxes(now_);  // the frames measured lie apart in time: it has not come from the one before
+  }
+
+ private:
+  const tryon::SegmentedSkin& body_;
+  std::vector<geometry::Vec3> at_rest_, now_;
+  std::vector<geometry::Index> nearest_;
+  tryon::GarmentReach reach_;
+};
 
 /// Time of queries on one collider over those on another, by turns.
 double ratio(const collision::Collider& posed, const Cloud& near_posed, const collision::Collider& rest,
@@ -101,14 +113,14 @@ ProxyCost proxy_cost(const tryon::PreparedBody& body, const Frames& frames, std:
   const collision::Collider rest(body.fit.proxy);
   const Cloud near_rest = cloud_of(body.skin.input.skin, particles);
   PosedProxy proxy(body, false);
+  CarriedSkirt worn(body.skin);
   const collision::QueryOptions exact, first{.accuracy = collision::Accuracy::kFirstOrder};
   std::vector<double> ellipsoids, tables, skirt, collider, exact_ratio, first_ratio;
   proxy.collider().pose(proxy.poser().posed(), 0.0);
   const double bind_ratio = ratio(proxy.collider(), near_rest, rest, near_rest, exact);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const MovingFrame frame = frames.at(i);
-    const geometry::Box around = around_skirt(body.skin, frames.skin[i]);
-    const binding::PoseOptions reach{.within = std::span(&around, 1)};
+    const binding::PoseOptions reach{.within = worn.reach(frames.skin[i])};
     // A pose that follows one without tables writes all of them back, so that turns do not mix the kinds.
     for (int turn = 0; turn < 3; ++turn)
       ellipsoids.push_back(timed_ms([&] { proxy.pose_alone(frame, {.tables = false}); }));

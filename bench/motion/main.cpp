@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <bodice/binding/bind.hpp>
+#include <bodice/tryon/base_pose.hpp>
 #include <bodice/tryon/rigged_body.hpp>
 
 #include <bench_support/or_exit.hpp>
@@ -27,7 +28,7 @@ struct Arguments {
   std::vector<std::string> motions = {"walk", "reach", "run", "dance", "sit", "squat", "arms-up"};
   int frames = 13, refits = 4;
   std::size_t points = 6000, particles = 20000;
-  bool peers = true;
+  bool peers = true, prepared = false;
 };
 
 struct Subject {
@@ -120,6 +121,13 @@ bench::MotionResult measure(const engine::Context& context, const Subject& subje
   std::vector<double> refit_ms = refit.refit_ms();
   std::ranges::sort(refit_ms);
   result.refit_ms = refit_ms[refit_ms.size() / 2];
+  if (arguments.prepared) {
+    const proxy::BasePoses bases =
+        bench::or_exit(tryon::make_base_poses(context, body.fit.proxy, body.skin, motion));
+    bench::PosedProxy prepared(body, bases);
+    result.methods.push_back(judge(prepared, frames, truths, 1));
+    result.methods.back().cost = bench::cost_of(prepared, frames, body.skin, arguments.particles, 3);
+  }
   if (arguments.peers)
     for (const auto& peer : peers_of(body)) {
       result.methods.push_back(judge(*peer, frames, truths, 1));
@@ -177,6 +185,7 @@ int main(int argc, char** argv) {
   app.add_option("--points", arguments.points, "points near the skin in each frame")->capture_default_str();
   app.add_option("--particles", arguments.particles, "particles of a timed query")->capture_default_str();
   app.add_flag("!--no-peers", arguments.peers, "measure the proxy alone");
+  app.add_flag("--prepared", arguments.prepared, "measure the proxy with base poses along each clip, too");
   app.add_option("--out", arguments.out, "folder for motion.json and motion.png")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
 

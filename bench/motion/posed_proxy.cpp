@@ -15,6 +15,12 @@ PosedProxy::PosedProxy(const tryon::PreparedBody& body, bool refit)
       poser_(or_exit(binding::Poser::make(body.fit.proxy))),
       collider_(body.fit.proxy) {}
 
+PosedProxy::PosedProxy(const tryon::PreparedBody& body, const proxy::BasePoses& bases)
+    : PosedProxy(body, false) {
+  has_bases_ = true;
+  for (const auto& base : bases) or_exit(poser_.keep_base(base));
+}
+
 void PosedProxy::pose(const MovingFrame& frame) {
   if (refit_) {
     const Stopwatch watch;

@@ -13,8 +13,12 @@ namespace bench {
 class PosedProxy final : public MovingPeer {
  public:
   PosedProxy(const bodice::tryon::PreparedBody& body, bool refit);
+  /// Carried, with base poses that were made beforehand.
+  PosedProxy(const bodice::tryon::PreparedBody& body, const bodice::proxy::BasePoses& bases);
 
-  std::string name() const override { return refit_ ? "bodice, refit in the pose" : "bodice, carried"; }
+  std::string name() const override {
+    return refit_ ? "bodice, refit in the pose" : has_bases_ ? "bodice, clip prepared" : "bodice, carried";
+  }
   bool needs_skin() const override { return false; }
   void pose(const MovingFrame& frame) override;
   void query(const Cloud& cloud, std::span<float> distance_m) override;
@@ -30,7 +34,7 @@ class PosedProxy final : public MovingPeer {
 
  private:
   const bodice::tryon::PreparedBody* body_;
-  bool refit_;
+  bool refit_ = false, has_bases_ = false;
   bodice::binding::Poser poser_;
   bodice::collision::Collider collider_;
   std::vector<bodice::collision::Contact> contacts_;

@@ -11,13 +11,13 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/crossings.hpp>
+#include <bodice/tryon/garment_reach.hpp>
 #include <bodice/tryon/layers.hpp>
 #include <bodice/tryon/penetration.hpp>
 
 #include "drape/check_drape.hpp"
 #include "drape/drape_report.hpp"
 #include "drape/recorder.hpp"
-#include "garment/garment_reach.hpp"
 #include "garment/misplaced_garments.hpp"
 #include "garment/start.hpp"
 #include "measure/crossings.hpp"

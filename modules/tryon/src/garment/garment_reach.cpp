@@ -1,4 +1,4 @@
-#include "garment/garment_reach.hpp"
+#include <bodice/tryon/garment_reach.hpp>
 
 #include <algorithm>
 #include <numeric>

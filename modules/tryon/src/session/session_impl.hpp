@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "garment/garment_reach.hpp"
+#include <bodice/tryon/garment_reach.hpp>
+
 #include "motion/refits.hpp"
 #include "session/session_body.hpp"
 
