@@ -9,6 +9,7 @@
 #include <bodice/binding/poser.hpp>
 #include <bodice/engine/parallel.hpp>
 #include <bodice/tryon/judge_frame.hpp>
+#include <bodice/tryon/skin_room.hpp>
 
 #include <bench_support/or_exit.hpp>
 #include "conditions.hpp"
@@ -58,12 +59,16 @@ void add_deep_particles(const engine::Context& context, const Judged& j, std::si
   const geometry::MeshDistance posed(context, {j.draped.body_frames[frame], skin.input.skin.triangles});
   const collision::Collider collider = collider_in(context, j, frame);
   const std::vector<Vec3>& at = j.draped.garments.front().frames[frame];
+  const geometry::TriMesh now{j.draped.body_frames[frame], skin.input.skin.triangles};
+  const tryon::SkinRoom room(now, posed);
+  const double least_m = 2.0 * j.draped.report.thickness_m;
   for (std::size_t v = 0; v < at.size(); ++v) {
     const geometry::SurfacePoint nearest = posed.closest_point(at[v]);
     if (!(nearest.signed_distance < -DeepParticles::kDeep_m)) continue;
-    const Cause cause = tryon::is_overlapped(posed, at[v], nearest)                   ? Cause::kOverlap
-                        : depth_in(collider, at[v]) < 0.5 * -nearest.signed_distance ? Cause::kProxy
-                                                                                      : Cause::kParticle;
+    const DeepCause cause = tryon::is_overlapped(posed, at[v], nearest)                  ? DeepCause::kOverlap
+                            : room.width_m(at[v], least_m) < least_m                     ? DeepCause::kNoRoom
+                            : depth_in(collider, at[v]) < 0.5 * -nearest.signed_distance ? DeepCause::kProxy
+                                                                                         : DeepCause::kCloth;
     DeepParticles::Of& of = found.of[index(cause)];
     ++of.count;
     if (-nearest.signed_distance <= of.deepest_m) continue;
@@ -75,9 +80,9 @@ void add_deep_particles(const engine::Context& context, const Judged& j, std::si
 }
 
 void print_deep_particles(const DeepParticles& found) {
-  constexpr const char* kNames[kCauses] = {"in skin that overlaps itself", "outside of the proxy",
-                                           "inside of the proxy", ""};
-  for (std::size_t c = 0; c < kCauses; ++c) {
+  constexpr const char* kNames[kDeepCauses] = {"in skin that overlaps itself", "where skin leaves no room",
+                                               "outside of the proxy", "inside of the proxy"};
+  for (std::size_t c = 0; c < kDeepCauses; ++c) {
     const DeepParticles::Of& of = found.of[c];
     if (of.count == 0) continue;
     std::printf("    %-28s %5zu particles over 2 mm, deepest %5.2f mm at %.2f s: of %s, in %s\n", kNames[c],

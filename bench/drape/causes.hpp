@@ -38,16 +38,25 @@ struct Judged {
   const bodice::tryon::DrapeResult& draped;
 };
 
-/// Particles deeper in the skin than they may be, over some frames, by cause; kFace has none.
+/// Why a particle lies in the skin.
+enum class DeepCause {
+  kOverlap,  ///< the skin overlaps itself, so that no position is right
+  kNoRoom,   ///< the skin faces itself there, nearer than twice the distance that cloth keeps
+  kProxy,    ///< less than half as deep in the proxy, which has the skin too deep
+  kCloth     ///< in the proxy as well: what cloth left there
+};
+inline constexpr std::size_t kDeepCauses = 4;
+
+/// Particles deeper in the skin than they may be, over some frames, by cause.
 struct DeepParticles {
   struct Of {
-    std::size_t count = 0;   ///< particles over kDeep_m, of all frames
-    double deepest_m = 0.0;  ///< the deepest of these
-    double time_s = 0.0;     ///< its frame
+    std::size_t count = 0;           ///< particles over kDeep_m, of all frames
+    double deepest_m = 0.0;          ///< the deepest of these
+    double time_s = 0.0;             ///< its frame
     bodice::body::Part own{}, in{};  ///< the part that it was nearest to at the start, and that it lies in
   };
   static constexpr double kDeep_m = 0.002;
-  std::array<Of, kCauses> of;
+  std::array<Of, kDeepCauses> of;
 };
 
 /// Adds the particles of the kept frame with this number.
