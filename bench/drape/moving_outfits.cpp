@@ -96,9 +96,8 @@ tryon::WornGarment make_garment(const engine::Context& context, const std::strin
                                 const tryon::SegmentedSkin& skin) {
   constexpr double kAll = -std::numeric_limits<double>::infinity();
   if (kind == "tshirt")
-    return {.name = kind,
-            .mesh = cut_from_skin(skin, kShirt, top_of_thighs_m(skin), kShirtEase_m),
-            .held = {}};
+    return {
+        .name = kind, .mesh = cut_from_skin(skin, kShirt, top_of_thighs_m(skin), kShirtEase_m), .held = {}};
   if (kind == "bodysuit")
     return {.name = kind, .mesh = cut_from_skin(skin, kSuit, kAll, kSuitEase_m), .held = {}};
   tryon::WornGarment skirt = or_exit(tryon::make_garment(context, skin));
