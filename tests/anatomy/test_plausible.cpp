@@ -84,6 +84,14 @@ TEST_CASE("a body in one skin with its chair is refused for the flat surface") {
   }
 }
 
+TEST_CASE("two people in one skin, one of them taken for an arm, are refused") {
+  const auto scan = synth::make_scan({}, synth::ScanKind::kTwoFused, 12402);
+  REQUIRE(scan.ok());
+  const std::string why = judged(made::skin_of(*scan));
+  CHECK_MESSAGE(why.find("both welded") != std::string::npos, why);
+  CHECK(judged(scan->persons[0].body) == "");
+}
+
 TEST_CASE("with force, what is analyzed but not human gives a warning with the reason") {
   const TriMesh box = bodice_test::box(Vec3::Constant(0.5), 12);
   const std::string why = judged(box);

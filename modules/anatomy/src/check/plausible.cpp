@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <bodice/engine/message.hpp>
 
@@ -68,9 +69,14 @@ int doubts(const Anatomy& anatomy) {
       }));
 }
 
-bool is_unusual(const Anatomy& anatomy) {
+bool warned_of(const Anatomy& anatomy, std::string_view code) {
   return std::any_of(anatomy.warnings.begin(), anatomy.warnings.end(),
-                     [](const engine::Warning& w) { return w.code == "unusual-body"; });
+                     [&](const engine::Warning& w) { return w.code == code; });
+}
+
+/// Arms and legs that both stay welded, with landmarks in doubt, are those of two bodies in one skin.
+bool stays_welded(const Anatomy& anatomy) {
+  return warned_of(anatomy, "limbs-fused") && warned_of(anatomy, "legs-fused") && doubts(anatomy) >= kDoubts;
 }
 
 void check_limbs(const Shares& shares, std::vector<std::string>& found) {
@@ -135,9 +141,12 @@ std::vector<std::string> contradictions(const geometry::TriMesh& skin, const Ana
   if (!kTrunkShare.holds(trunk))
     found.push_back(
         engine::message("what would be the trunk has ", std::round(100.0 * trunk), " % of the skin"));
-  if (doubts(anatomy) >= kHopeless && is_unusual(anatomy))
+  if (doubts(anatomy) >= kHopeless && warned_of(anatomy, "unusual-body"))
     found.push_back(
         engine::message(doubts(anatomy), " of its landmarks are in doubt or contradict each other"));
+  if (stays_welded(anatomy))
+    found.push_back(engine::message("its arms and legs are both welded to something, and ", doubts(anatomy),
+                                    " of its landmarks are in doubt"));
   check_limbs(shares, found);
   check_lengths(anatomy, found);
   return found;
