@@ -96,7 +96,15 @@ void read_truth(const fs::path& file, Case& c) {
     c.landmarks["knee_" + side] = point(j["joints"][side + "_knee"]);
     c.landmarks["wrist_" + side] = point(j["joints"][side + "_wrist"]);
     c.landmarks["ankle_" + side] = point(j["joints"][side + "_ankle"]);
+    c.joints["upper_arm_" + side] = point(j["joints"][side + "_shoulder"]);
+    c.joints["thigh_" + side] = point(j["joints"][side + "_hip"]);
   }
+  const std::pair<const char*, const char*> trunk[] = {{"pelvis", "pelvis"},
+                                                       {"spine_lower", "spine_mid"},
+                                                       {"spine_upper", "spine_upper"},
+                                                       {"neck", "neck"},
+                                                       {"head", "head"}};
+  for (const auto& [ours, theirs] : trunk) c.joints[ours] = point(j["joints"][theirs]);
 }
 
 /// The poses that bodies are made in; everything in awkward/ is made from such a body but the fused one.
@@ -123,6 +131,7 @@ Case load(const fs::path& data, const fs::path& file, const std::vector<int>& co
     read_truth(truth, c);
     const Damage damage = damage_of(file.stem().string());
     for (auto& [name, p] : c.landmarks) p = damage(p);
+    for (auto& [name, p] : c.joints) p = damage(p);
     c.stature *= damage.scale;
   }
   return c;

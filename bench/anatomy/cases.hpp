@@ -19,12 +19,13 @@ int coarse_class(bodice::body::Part part);
 
 struct Case {
   std::string name;
-  bodice::geometry::TriMesh mesh;                           ///< repaired
-  std::vector<int> truth;                                   ///< #V coarse class, empty if unknown
-  std::map<std::string, bodice::geometry::Vec3> landmarks;  ///< LandmarkId names; empty if unknown
-  double stature = 0.0;                                     ///< in the mesh's unit, 0 if unknown
-  bool rest = false;                                        ///< stands as bodies are made: A or T pose
-  std::string kind = {};                                    ///< the row of the report's table
+  bodice::geometry::TriMesh mesh;                             ///< repaired
+  std::vector<int> truth;                                     ///< #V coarse class, empty if unknown
+  std::map<std::string, bodice::geometry::Vec3> landmarks;    ///< LandmarkId names; empty if unknown
+  double stature = 0.0;                                       ///< in the mesh's unit, 0 if unknown
+  bool rest = false;                                          ///< stands as bodies are made: A or T pose
+  std::string kind = {};                                      ///< the row of the report's table
+  std::map<std::string, bodice::geometry::Vec3> joints = {};  ///< JointId names; those that are known
 };
 
 /// Every body of the data folder with `only` in its path. Sorted by name.

@@ -66,6 +66,23 @@ const std::map<std::string, std::string>& joint_landmarks() {
   return bone_of;
 }
 
+/// The bones that begin where the joints of body::JointId do.
+const std::map<std::string, std::string>& joint_bones() {
+  static const std::map<std::string, std::string> bone_of{{"pelvis", "root"},
+                                                          {"spine_lower", "spine03"},
+                                                          {"spine_middle", "spine02"},
+                                                          {"spine_upper", "spine01"},
+                                                          {"neck", "neck01"},
+                                                          {"head", "head"},
+                                                          {"clavicle_l", "clavicle.L"},
+                                                          {"clavicle_r", "clavicle.R"},
+                                                          {"upper_arm_l", "upperarm01.L"},
+                                                          {"upper_arm_r", "upperarm01.R"},
+                                                          {"thigh_l", "upperleg01.L"},
+                                                          {"thigh_r", "upperleg01.R"}};
+  return bone_of;
+}
+
 }  // namespace
 
 Quaterniond turn(double x_deg, double y_deg, double z_deg) {
@@ -109,11 +126,12 @@ PosedBody pose(const RiggedBody& body, const Turns& turns_of) {
     const std::size_t b = bone.at(name);
     return Vec3(moved[b] * body.rig.bones[b].head);
   };
-  PosedBody posed{pose_skin(body.rig, moved), {}, head("upperleg01.L")};
+  PosedBody posed{pose_skin(body.rig, moved), {}, {}, head("upperleg01.L")};
   posed.pelvis = 0.5 * (posed.pelvis + head("upperleg01.R"));
   for (const auto& [name, vertex] : body.landmark_vertex)
     posed.landmarks[name] = posed.skin.positions[vertex];
   for (const auto& [name, of] : joint_landmarks()) posed.landmarks[name] = head(of);
+  for (const auto& [name, of] : joint_bones()) posed.joints[name] = head(of);
   return posed;
 }
 
@@ -128,6 +146,7 @@ std::vector<Case> rig_cases(const fs::path& data, std::uint64_t from, std::uint6
     cases.push_back({"rig/" + std::to_string(seed) + " " + body.name, std::move(posed.skin), labels,
                      std::move(posed.landmarks), body.stature});
     cases.back().kind = body.name;
+    cases.back().joints = std::move(posed.joints);
   }
   return cases;
 }

@@ -34,7 +34,9 @@ Eigen::Quaterniond mirrored(const Eigen::Quaterniond& left);
 struct PosedBody {
   bodice::geometry::TriMesh skin;
   std::map<std::string, bodice::geometry::Vec3> landmarks;  ///< by LandmarkId's name: 13 of them
-  bodice::geometry::Vec3 pelvis;
+  std::map<std::string, bodice::geometry::Vec3>
+      joints;                     ///< by JointId's name: those of trunk and limbs' roots
+  bodice::geometry::Vec3 pelvis;  ///< between the hips
 };
 PosedBody pose(const RiggedBody& body, const Turns& turns);
 

@@ -56,6 +56,9 @@ Sample::Sample(std::uint64_t seed, bool standing) : person_(seed) {
   stature_m_ = truth_.stature_m;
   for (const bodice::body::Part part : truth_.part) classes_.push_back(bench::coarse_class(part));
   for (const auto& mark : truth_.landmarks) landmarks_[static_cast<std::size_t>(mark.id)] = mark.position;
+  for (const auto& joint : truth_.skeleton.joints)
+    if (const auto id = bodice::body::joint_from_name(joint.name))
+      joints_[static_cast<std::size_t>(*id)] = joint.bind.col(3);
   analyze();
 }
 
@@ -65,6 +68,8 @@ Sample::Sample(const bench::Case& body, std::size_t person, int weight)
     const auto found = body.landmarks.find(std::string(name(static_cast<bodice::body::LandmarkId>(id))));
     if (found != body.landmarks.end()) landmarks_[id] = found->second;
   }
+  for (const auto& [joint, position] : body.joints)
+    joints_[static_cast<std::size_t>(bodice::body::joint_from_name(joint).value())] = position;
   truth_.mesh = body.mesh;
   classes_.resize(body.mesh.positions.size(), -1);
   if (knows(kLeftFingertip) && stature_m_ > 0.0) analyze();
@@ -87,6 +92,10 @@ Vec3 Sample::joint(const std::string& name) const {
   for (const auto& joint : truth_.joints)
     if (joint.name == name) return joint.position;
   throw std::runtime_error("no joint is named " + name);
+}
+
+std::optional<Vec3> Sample::skeleton_joint(bodice::body::JointId id) const {
+  return joints_[static_cast<std::size_t>(id)];
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include <bodice/body/joint.hpp>
 #include <bodice/synth/body.hpp>
 
 #include "../anatomy/cases.hpp"
@@ -54,6 +55,8 @@ class Sample {
   /// Precondition: knows(id).
   Vec3 landmark(bodice::body::LandmarkId id) const { return *landmarks_[static_cast<std::size_t>(id)]; }
   Vec3 joint(const std::string& name) const;
+  /// The true position of a joint of the common skeleton, where it is known.
+  std::optional<Vec3> skeleton_joint(bodice::body::JointId id) const;
   /// What the corrections of its landmarks are computed from.
   const bodice::anatomy::CorrectionRecords& records() const { return records_; }
 
@@ -63,6 +66,7 @@ class Sample {
   bodice::synth::Body truth_;
   std::vector<int> classes_;
   std::array<std::optional<Vec3>, bodice::body::kLandmarkCount> landmarks_;
+  std::array<std::optional<Vec3>, bodice::body::kJointCount> joints_;
   double stature_m_ = 0.0;
   std::size_t person_ = 0;
   int weight_ = 1;

@@ -14,8 +14,6 @@ using nlohmann::ordered_json;
 
 /// Measures of a build.
 inline constexpr int kBuildCount = static_cast<int>(std::tuple_size_v<bodice::anatomy::Build>);
-/// People are left out of a fit in this many parts, one after the other, to choose the ridge.
-inline constexpr std::size_t kFolds = 5;
 
 /// Numbers with the digits that single precision holds.
 ordered_json rounded(const Eigen::VectorXd& values);

@@ -1,7 +1,10 @@
 #include "fit_part_borders.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
+#include <string>
 
 #include <bodice/geodesic/distance.hpp>
 
@@ -150,51 +153,23 @@ Eigen::VectorXd terms_at(const Sample& sample, const BorderKind& kind, Index ver
   return terms;
 }
 
-/// The rows of one border: a system for each part of the people, so that each part can be left out.
-class FoldedRows {
- public:
-  FoldedRows(const BorderKind& kind, int factors)
-      : factors_(factors),
-        folds_(kFolds, LeastSquares((static_cast<int>(kind.terms.size()) + 1) * factors)) {}
-
-  void add_body(const Sample& sample, const BorderKind& kind, const Builds& builds) {
-    const Eigen::VectorXd factors = builds.factors(sample).head(factors_);
-    for (int side = 0; side < (kind.paired ? 2 : 1); ++side) {
-      const std::vector<int> beyond = sides_of_border(sample, kind, side);
-      const auto distance = distances_from_border(sample, beyond);
-      std::vector<Index> near;
-      for (Index v = 0; v < distance.size(); ++v)
-        if (beyond[v] != 0 && std::isfinite(distance[v])) near.push_back(v);
-      const std::size_t step = near.size() / kRowsOfBody + 1;
-      for (std::size_t i = 0; i < near.size(); i += step) {
-        const Eigen::VectorXd x = (factors * terms_at(sample, kind, near[i], side).transpose()).reshaped();
-        const double signed_m = beyond[near[i]] * static_cast<double>(distance[near[i]]);
-        if (x.allFinite()) folds_[sample.person() % kFolds].add(x, signed_m / sample.size_m());
-      }
+/// The rows of one border of one body.
+void add_body(const Sample& sample, const BorderKind& kind, const Eigen::VectorXd& factors,
+              FoldedLeastSquares& rows) {
+  for (int side = 0; side < (kind.paired ? 2 : 1); ++side) {
+    const std::vector<int> beyond = sides_of_border(sample, kind, side);
+    const auto distance = distances_from_border(sample, beyond);
+    std::vector<Index> near;
+    for (Index v = 0; v < distance.size(); ++v)
+      if (beyond[v] != 0 && std::isfinite(distance[v])) near.push_back(v);
+    const std::size_t step = near.size() / kRowsOfBody + 1;
+    for (std::size_t i = 0; i < near.size(); i += step) {
+      const Eigen::VectorXd x = (factors * terms_at(sample, kind, near[i], side).transpose()).reshaped();
+      const double signed_m = beyond[near[i]] * static_cast<double>(distance[near[i]]);
+      if (x.allFinite()) rows.add(sample.person(), x, signed_m / sample.size_m());
     }
   }
-  /// The weights, term by term each factor's, by all people but those of a part; kFolds: by all.
-  Eigen::VectorXd solve(double ridge, std::size_t without) const {
-    LeastSquares all(folds_.front().unknowns());
-    for (std::size_t fold = 0; fold < kFolds; ++fold)
-      if (fold != without) all += folds_[fold];
-    return all.solve(ridge).col(0);
-  }
-  /// Root mean square error on the people left out, as a fraction of the body size.
-  double left_out_error(double ridge) const {
-    double squares = 0.0, rows = 0.0;
-    for (std::size_t fold = 0; fold < kFolds; ++fold) {
-      if (folds_[fold].rows() == 0) continue;
-      squares += folds_[fold].squared_error(solve(ridge, fold));
-      rows += static_cast<double>(folds_[fold].rows());
-    }
-    return std::sqrt(squares / rows);
-  }
-
- private:
-  int factors_;
-  std::vector<LeastSquares> folds_;
-};
+}
 
 /// The weights of one factor as the file has them: one a coordinate, and the constant.
 Eigen::VectorXd as_border(const BorderKind& kind, const Eigen::VectorXd& weights, int factors, int factor) {
@@ -206,23 +181,74 @@ Eigen::VectorXd as_border(const BorderKind& kind, const Eigen::VectorXd& weights
   return border;
 }
 
-void add_border(const BorderKind& kind, const Builds& builds, const Samples& samples, ordered_json& out) {
+/// A border that was fitted: its weights, term by term each factor's.
+struct FittedBorder {
+  const BorderKind* kind;
+  int factors;
+  Eigen::VectorXd weights;
+
+  /// Positive on the limb's side; about the distance from the border as a fraction of the body size.
+  double score(const Sample& sample, const Eigen::VectorXd& build, Index vertex) const {
+    return weights.dot((build.head(factors) * terms_at(sample, *kind, vertex, 0).transpose()).reshaped());
+  }
+};
+
+FittedBorder fit_border(const BorderKind& kind, const Builds& builds, const Samples& samples) {
   const int factors = kind.follows ? 1 + kBuildCount : 1;
-  FoldedRows rows(kind, factors);
-  for (const Sample* sample : samples) rows.add_body(*sample, kind, builds);
-  double ridge = kBorderRidges.front();
-  for (const double other : kBorderRidges)
-    if (rows.left_out_error(other) < rows.left_out_error(ridge)) ridge = other;
-  const Eigen::VectorXd weights = rows.solve(ridge, kFolds);
+  FoldedLeastSquares rows((static_cast<int>(kind.terms.size()) + 1) * factors);
+  for (const Sample* sample : samples) add_body(*sample, kind, builds.factors(*sample).head(factors), rows);
+  const double ridge = rows.best_ridge(kBorderRidges);
   std::printf("  %s: left-out people %.2f %% of the body size off, ridge %g\n", kind.member,
               100.0 * rows.left_out_error(ridge), ridge);
-  out[kind.member] = rounded(as_border(kind, weights, factors, 0));
-  if (!kind.follows) return;
+  return {&kind, factors, rows.solve(ridge)};
+}
+
+void add_members(const FittedBorder& border, ordered_json& out) {
+  out[border.kind->member] = rounded(as_border(*border.kind, border.weights, border.factors, 0));
+  if (!border.kind->follows) return;
   Eigen::VectorXd follows(kBuildCount * (kCoordinateCount + 1));
   for (int f = 0; f < kBuildCount; ++f)
     follows.segment(f * (kCoordinateCount + 1), kCoordinateCount + 1) =
-        as_border(kind, weights, factors, f + 1);
-  out[kind.follows] = rounded(follows);
+        as_border(*border.kind, border.weights, border.factors, f + 1);
+  out[border.kind->follows] = rounded(follows);
+}
+
+/// A vertex between waist and neck of a made body: how far up by both scores, and on which side of
+/// the true chest line.
+struct BetweenWaistAndNeck {
+  double share;
+  bool upper;
+  double weight;
+};
+
+/// Where between the borders of waist and neck the chest line of made bodies lies: the share that leaves the
+/// least of the skin on the wrong side.
+double fit_chest_share(const FittedBorder& waist, const FittedBorder& neck, const Builds& builds,
+                       const Samples& samples) {
+  using bodice::body::Part;
+  std::vector<BetweenWaistAndNeck> vertices;
+  double wrong = 0.0;  // with every vertex above the line
+  for (const Sample* sample : samples) {
+    const std::vector<Part>& truth = sample->truth().part;
+    const Eigen::VectorXd build = builds.factors(*sample);
+    for (Index v = 0; v < truth.size(); ++v) {
+      const bool upper = truth[v] == Part::kTorsoUL || truth[v] == Part::kTorsoUR;
+      if (!upper && truth[v] != Part::kTorsoML && truth[v] != Part::kTorsoMR) continue;
+      const double above = waist.score(*sample, build, v), below = -neck.score(*sample, build, v);
+      if (!(above > 0.0 && below > 0.0)) continue;
+      const double weight = 1.0 / static_cast<double>(truth.size());
+      vertices.push_back({above / (above + below), upper, weight});
+      if (!upper) wrong += weight;
+    }
+  }
+  std::ranges::sort(vertices, {}, &BetweenWaistAndNeck::share);
+  double least = wrong, best = 0.0;
+  for (const auto& [share, upper, weight] : vertices) {
+    wrong += upper ? weight : -weight;
+    if (wrong < least) least = wrong, best = share;
+  }
+  std::printf("  chest: at %.3f from the waist's border, 0, to the neck's, 1\n", best);
+  return best;
 }
 
 }  // namespace
@@ -230,7 +256,14 @@ void add_border(const BorderKind& kind, const Builds& builds, const Samples& sam
 ordered_json fit_part_borders(const Samples& samples) {
   const Builds builds(samples);
   ordered_json out = {{"build_middle", rounded(builds.middle)}, {"build_spread", rounded(builds.spread)}};
-  for (const BorderKind& kind : kBorders) add_border(kind, builds, samples, out);
+  std::map<std::string, FittedBorder> borders;
+  for (const BorderKind& kind : kBorders) {
+    const FittedBorder border = fit_border(kind, builds, samples);
+    add_members(border, out);
+    borders.emplace(kind.member, border);
+  }
+  const double share = fit_chest_share(borders.at("waist"), borders.at("neck"), builds, samples);
+  out["chest_share"] = rounded(Eigen::VectorXd::Constant(1, share));
   return out;
 }
 

@@ -1,9 +1,17 @@
 // Linear least squares over many rows.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include <Eigen/Cholesky>
 
 namespace calibrate {
+
+/// People are left out of a fit in this many parts, one after the other, to choose the ridge.
+inline constexpr std::size_t kFolds = 5;
 
 /// Collects rows x . w = y and solves for w.
 class LeastSquares {
@@ -50,6 +58,42 @@ class LeastSquares {
   Eigen::MatrixXd square_, right_;
   double squares_ = 0.0;  ///< the sum of all |y|^2
   std::size_t rows_ = 0;
+};
+
+/// A system for each part of the people, so that each part can be left out.
+class FoldedLeastSquares {
+ public:
+  explicit FoldedLeastSquares(int unknowns) : folds_(kFolds, LeastSquares(unknowns)) {}
+
+  void add(std::size_t person, const Eigen::VectorXd& x, double y) { folds_[person % kFolds].add(x, y); }
+
+  /// The weights by all people but those of a part; kFolds: by all.
+  Eigen::VectorXd solve(double ridge, std::size_t without = kFolds) const {
+    LeastSquares all(folds_.front().unknowns());
+    for (std::size_t fold = 0; fold < kFolds; ++fold)
+      if (fold != without) all += folds_[fold];
+    return all.solve(ridge).col(0);
+  }
+  /// Root mean square error on the people left out.
+  double left_out_error(double ridge) const {
+    double squares = 0.0, rows = 0.0;
+    for (std::size_t fold = 0; fold < kFolds; ++fold) {
+      if (folds_[fold].rows() == 0) continue;
+      squares += folds_[fold].squared_error(solve(ridge, fold));
+      rows += static_cast<double>(folds_[fold].rows());
+    }
+    return std::sqrt(squares / rows);
+  }
+  /// The one of `ridges` that errs least on people left out.
+  double best_ridge(std::span<const double> ridges) const {
+    double best = ridges.front();
+    for (const double other : ridges)
+      if (left_out_error(other) < left_out_error(best)) best = other;
+    return best;
+  }
+
+ private:
+  std::vector<LeastSquares> folds_;
 };
 
 }  // namespace calibrate

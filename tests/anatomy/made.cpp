@@ -78,6 +78,19 @@ double agreement(const bodice::synth::Body& truth, const std::vector<Part>& foun
       [&](std::size_t v) { return merged(truth.part[v]) == merged(found[v]); });
 }
 
+double chest_agreement(const bodice::synth::Body& truth, const std::vector<Part>& found) {
+  const auto is_upper = [](Part part) { return part == Part::kTorsoUL || part == Part::kTorsoUR; };
+  const auto is_above_waist = [](Part part) { return merged(part) == Part::kTorsoUL; };
+  const std::vector<double> area = vertex_areas(truth.mesh);
+  double all = 0.0, held = 0.0;
+  for (std::size_t v = 0; v < area.size(); ++v) {
+    if (!is_above_waist(truth.part[v]) || !is_above_waist(found[v])) continue;
+    all += area[v];
+    held += is_upper(truth.part[v]) == is_upper(found[v]) ? area[v] : 0.0;
+  }
+  return held / all;
+}
+
 double swapped(const bodice::synth::Body& truth, const std::vector<Part>& found) {
   return share(
       truth, [&](std::size_t v) { return truth.part[v] >= Part::kUpperArmL; },

@@ -16,6 +16,9 @@ bodice::synth::Body random_body(std::uint64_t seed);
 /// Upper and middle torso count as one, left and right torso as one: their borders are a convention.
 double agreement(const bodice::synth::Body& truth, const std::vector<bodice::body::Part>& found);
 
+/// Share of the middle and upper torso's area that is on its side of the chest line.
+double chest_agreement(const bodice::synth::Body& truth, const std::vector<bodice::body::Part>& found);
+
 /// Share of the limbs' area that carries the other side's part.
 double swapped(const bodice::synth::Body& truth, const std::vector<bodice::body::Part>& found);
 

@@ -30,7 +30,7 @@ double worst_move(const anatomy::Anatomy& a, const anatomy::Anatomy& b, Back bac
 }  // namespace
 
 TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swapped, landmarks are near") {
-  double sum = 0.0;
+  double sum = 0.0, chest_sum = 0.0;
   int far = 0;
   constexpr int kSeeds = 50;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
@@ -40,6 +40,7 @@ TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swa
     REQUIRE_MESSAGE(found.ok(), (found.ok() ? "" : found.error().sentence()));
     const double agreement = made::agreement(truth, found->part);
     sum += agreement;
+    chest_sum += made::chest_agreement(truth, found->part);
     CHECK(agreement > 0.90);
     CHECK(made::swapped(truth, found->part) < 0.01);
     for (int i = 0; i < body::kLandmarkCount; ++i) {
@@ -51,6 +52,7 @@ TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swa
     CHECK(found->stature_m == doctest::Approx(truth.stature_m).epsilon(0.09));
   }
   CHECK(sum / kSeeds > 0.965);
+  CHECK(chest_sum / kSeeds > 0.9);
   CHECK(far < kSeeds * body::kLandmarkCount / 50);
 }
 

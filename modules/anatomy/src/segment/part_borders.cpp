@@ -36,12 +36,18 @@ constexpr FollowsBuild kNeckFollows = follows(data::kNeckFollows),
                        kWaistFollows = follows(data::kWaistFollows);
 
 /// In deviations from the middle.
-Build deviations(Build build) {
+struct Deviations {
+  Build off;          ///< clamped to kMostOff
+  bool known = true;  ///< false where a measure was farther off, as on a body that is welded at the arms
+};
+Deviations deviations(const Build& build) {
+  Deviations result;
   for (std::size_t i = 0; i < build.size(); ++i) {
     const float off = (build[i] - kMiddle[i]) / kSpread[i];
-    build[i] = std::isfinite(off) ? std::clamp(off, -kMostOff, kMostOff) : 0.0F;
+    result.off[i] = std::isfinite(off) ? std::clamp(off, -kMostOff, kMostOff) : 0.0F;
+    result.known = result.known && std::isfinite(off) && std::abs(off) <= kMostOff;
   }
-  return build;
+  return result;
 }
 
 Border on_build(const double (&weights)[kWeights], const FollowsBuild& follows, const Build& off) {
@@ -51,16 +57,28 @@ Border on_build(const double (&weights)[kWeights], const FollowsBuild& follows, 
   return border;
 }
 
+/// Where the scores of two borders have the share: scores are distances from them.
+Border between(const Border& below, const Border& above, float share) {
+  Border border{};
+  for (std::size_t k = 0; k < border.weight.size(); ++k)
+    border.weight[k] = (1.0F - share) * below.weight[k] + share * above.weight[k];
+  return border;
+}
+
 }  // namespace
 
 PartBorders part_borders(const BodyCoordinates& coordinates) {
-  const Build off = deviations(build_of(coordinates));
-  return {on_build(data::kNeck, kNeckFollows, off),
+  const auto [off, known] = deviations(build_of(coordinates));
+  const Border neck = on_build(data::kNeck, kNeckFollows, off),
+               waist = on_build(data::kWaist, kWaistFollows, off);
+  // The border of landmarks is the same for all builds, and errs less where the build is not known.
+  return {known ? neck : kNeck,
           on_build(data::kShoulder, kShoulderFollows, off),
           {to_floats(data::kElbow)},
           on_build(data::kKnee, kKneeFollows, off),
           on_build(data::kHip, kHipFollows, off),
-          on_build(data::kWaist, kWaistFollows, off)};
+          waist,
+          between(waist, neck, static_cast<float>(data::kChestShare[0]))};
 }
 
 }  // namespace bodice::anatomy

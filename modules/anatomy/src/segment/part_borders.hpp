@@ -7,7 +7,7 @@ namespace bodice::anatomy {
 
 /// The borders between parts, each as it runs on one body.
 struct PartBorders {
-  Border neck, shoulder, elbow, knee, hip, waist;
+  Border neck, shoulder, elbow, knee, hip, waist, chest;
 };
 
 /// A belly, heavy thighs and thick shoulders lengthen some paths along the skin and not others, so that one

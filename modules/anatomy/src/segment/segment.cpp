@@ -27,9 +27,6 @@ constexpr float kBetweenThighs = 0.03F;
 /// How much a margin toward the other side's hand takes from a foot's margin: a leg raised forward stretches
 /// the seat behind it, which then lies nearer to the foot of the leg that stands.
 constexpr float kHandAgainstFoot = 0.5F;
-/// Where between the borders of waist and neck, by their scores, the chest line lies: about .73 of the
-/// stature.
-constexpr float kChestShare = 0.65F;
 constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
 Part on_side(Part left, int side) {
@@ -51,8 +48,7 @@ float foot_margin(const CoordinateArray& x, float tilt) {
 /// `tilt`: of tilt_of().
 Part part_of(const BodyCoordinates& coordinates, const PartBorders& border, float tilt, std::size_t v) {
   const CoordinateArray x[2] = {coordinates.at(v, 0), coordinates.at(v, 1)};
-  const float neck = border.neck(x[0]);
-  if (x[0][kFromHead] < kHeadReach && neck > 0.0F) return Part::kHead;
+  if (x[0][kFromHead] < kHeadReach && border.neck(x[0]) > 0.0F) return Part::kHead;
   const int arm = x[1][kOwnHand] < x[0][kOwnHand], leg = x[1][kOwnFoot] < x[0][kOwnFoot];
   if (x[arm][kOwnHand] < kArmReach && border.shoulder(x[arm]) > 0.0F)
     return on_side(border.elbow(x[arm]) > 0.0F ? Part::kForearmL : Part::kUpperArmL, arm);
@@ -60,9 +56,8 @@ Part part_of(const BodyCoordinates& coordinates, const PartBorders& border, floa
   if (x[leg][kOwnFoot] < kLegReach && margin > kBetweenThighs && border.hip(x[leg]) > 0.0F)
     return on_side(border.knee(x[leg]) > 0.0F ? Part::kCalfL : Part::kThighL, leg);
   const int side = x[1][kOwnHand] + x[1][kOwnFoot] < x[0][kOwnHand] + x[0][kOwnFoot];
-  const float waist = border.waist(x[0]);
-  if (waist <= 0.0F) return on_side(Part::kTorsoLL, side);
-  return on_side((1.0F - kChestShare) * waist > kChestShare * -neck ? Part::kTorsoUL : Part::kTorsoML, side);
+  if (border.waist(x[0]) <= 0.0F) return on_side(Part::kTorsoLL, side);
+  return on_side(border.chest(x[0]) > 0.0F ? Part::kTorsoUL : Part::kTorsoML, side);
 }
 
 /// Eyes, teeth, clothes and debris follow the closest point of the skin of the body.

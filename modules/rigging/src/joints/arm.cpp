@@ -1,5 +1,5 @@
 // Clavicle, shoulder, elbow and wrist.
-#include "joints/found_joints.hpp"
+#include "joints/offset_joints.hpp"
 #include "joints/offsets.hpp"
 
 namespace bodice::rigging {
@@ -24,20 +24,16 @@ Vec3 find_wrist(const SkinCurves& skin, int side, const Vec3& elbow) {
 }  // namespace
 
 void find_arm(const SkinCurves& skin, const BorderRings& rings, int side, FoundJoints& joints) {
-  const double h = skin.anatomy().stature_m, sign = side == 0 ? 1.0 : -1.0;
+  const double sign = side == 0 ? 1.0 : -1.0;
   const Mat3& chest = joints.axes(JointId::kSpineUpper);
   const Vec3 elbow = skin.landmark(of_side(LandmarkId::kElbowL, side)).position;
-  const Vec3 border = rings.shoulder[side].center, along = (elbow - border).normalized();
-  const Vec3 shoulder =
-      border + h * (offsets::kShoulder.along * along + offsets::kShoulder.side * sign * chest.col(0) +
-                    offsets::kShoulder.up * chest.col(1) + offsets::kShoulder.front * chest.col(2));
+  const JointId shoulder_id = of_side(JointId::kUpperArmL, side),
+                clavicle_id = of_side(JointId::kClavicleL, side);
+  joints.at(shoulder_id) = offset_joint(shoulder_id, skin, rings, joints);
+  joints.at(clavicle_id) = offset_joint(clavicle_id, skin, rings, joints);
+  const Vec3 shoulder = joints.at(shoulder_id);
   const Vec3 wrist = find_wrist(skin, side, elbow);
   const Vec3 tip = skin.landmark(of_side(LandmarkId::kFingertipL, side)).position;
-  const Vec3 neck = joints.at(JointId::kNeck);
-  joints.at(of_side(JointId::kClavicleL, side)) =
-      neck + offsets::kClavicleShare * (shoulder - neck) +
-      h * (offsets::kClavicleFront * chest.col(2) - offsets::kClavicleDown * chest.col(1));
-  joints.at(of_side(JointId::kUpperArmL, side)) = shoulder;
   joints.at(of_side(JointId::kForearmL, side)) = elbow;
   joints.at(of_side(JointId::kHandL, side)) = wrist;
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "joints/found_joints.hpp"
+#include "joints/offset_joints.hpp"
 #include "joints/offsets.hpp"
 #include "joints/sole.hpp"
 
@@ -48,13 +48,11 @@ Vec3 ankle_section(std::span<const Vec3> foot, const Sole& sole, double height) 
 }  // namespace
 
 void find_leg(const SkinCurves& skin, const BorderRings& rings, int side, FoundJoints& joints) {
-  const double h = skin.anatomy().stature_m, sign = side == 0 ? 1.0 : -1.0;
+  const double h = skin.anatomy().stature_m;
   const Mat3& pelvis = joints.axes(JointId::kPelvis);
   const Vec3 knee = skin.landmark(of_side(LandmarkId::kKneeL, side)).position;
   const Vec3 toe = skin.landmark(of_side(LandmarkId::kToeL, side)).position;
-  const Vec3 border = rings.hip[side].center, along = (knee - border).normalized();
-  const Vec3 hip = border + h * (offsets::kHip.along * along + offsets::kHip.side * sign * pelvis.col(0) +
-                                 offsets::kHip.up * pelvis.col(1) + offsets::kHip.front * pelvis.col(2));
+  const Vec3 hip = offset_joint(of_side(JointId::kThighL, side), skin, rings, joints);
   const Vec3 thigh = (knee - hip).normalized();
   const std::vector<Vec3> foot = foot_points(skin, side);
   geometry::Vec3 middle = Vec3::Zero();

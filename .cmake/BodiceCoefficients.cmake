@@ -1,4 +1,4 @@
-# Makes of each <name>.json beside this file a header "coefficients/<name>.hpp" with one array of doubles a member, so
+# Makes of each <name>.json of a layer's data a header "coefficients/<name>.hpp" with one array of doubles a member, so
 # that the library reads no file and parses nothing when it runs. The member "most_odd" becomes kMostOdd.
 
 # "most_odd" -> "kMostOdd"
@@ -14,8 +14,9 @@ function(bodice_constant_name member out)
   set(${out} "${name}" PARENT_SCOPE)
 endfunction()
 
-# bodice_coefficients(<target> <folder of the JSON files>)
-function(bodice_coefficients target folder)
+# bodice_coefficients(<layer> <folder of the JSON files>)
+function(bodice_coefficients layer folder)
+  set(target bodice_${layer})
   set(headers "${CMAKE_CURRENT_BINARY_DIR}/${target}_coefficients")
   file(GLOB files CONFIGURE_DEPENDS "${folder}/*.json")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
@@ -24,7 +25,7 @@ function(bodice_coefficients target folder)
     file(READ "${file}" json)
     string(JSON count LENGTH "${json}")
     math(EXPR last "${count} - 1")
-    set(text "// Made from ${name}.json.\n#pragma once\n\nnamespace bodice::anatomy::coefficients::${name} {\n\n")
+    set(text "// Made from ${name}.json.\n#pragma once\n\nnamespace bodice::${layer}::coefficients::${name} {\n\n")
     foreach(i RANGE ${last})
       string(JSON member MEMBER "${json}" ${i})
       string(JSON type TYPE "${json}" "${member}")
