@@ -31,7 +31,7 @@ TEST_CASE(
         bodice_test::reference_at(moving.bound, poser.posed(), collider,
                                   bodice_test::points_around(posed_skin(moving, pose), 3000, seed++));
     CHECK(points.buried > 30);  // else the pose would not test burial
-    bodice_test::check_posed_collider(collider, points);
+    CHECK(bodice_test::check_posed_collider(collider, points) <= static_cast<int>(points.x.size()) / 200);
   }
 }
 

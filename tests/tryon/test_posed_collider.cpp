@@ -27,6 +27,11 @@ TEST_CASE(
     "colliders of real rigs that walk, sit, squat and raise their arms have the distances and owners of the "
     "reference, on every instruction set") {
   const engine::Context context;
+  // The same dozen points before one flat ellipsoid have a buried owner to first order in every pose, so that
+  // a rate over both bodies varies less than one of each pose.
+  constexpr std::size_t kPoints = 3000;
+  std::size_t evaluated = 0;
+  int buried_to_first_order = 0;
   for (const std::string name : {"f_avg_walk", "m_avg_reach"}) {
     CAPTURE(name);
     const auto file = bodice_test::data_file("rigs/" + name + ".glb");
@@ -44,7 +49,7 @@ TEST_CASE(
     int buried = 0;
     for (const Moment& moment :
          {Moment{"walk", 0.3}, Moment{"sit", 2.5}, Moment{"squat", 1.5}, Moment{"arms-up", 1.5}}) {
-      CAPTURE(moment.motion);
+      CAPTURE(std::string(moment.motion));
       std::vector<engine::Warning> warnings;
       auto motion = tryon::find_motion(context, body->skin, {.motion = moment.motion}, warnings);
       REQUIRE_MESSAGE(motion.ok(), motion.error().sentence());
@@ -56,10 +61,12 @@ TEST_CASE(
       REQUIRE(poser->pose(context, joints).ok());
       REQUIRE(collider.pose(poser->posed(), 0.0));
       auto points = bodice_test::reference_at(body->fit.proxy, poser->posed(), collider,
-                                              bodice_test::points_around(posed, 3000, 31));
+                                              bodice_test::points_around(posed, kPoints, 31));
       buried += points.buried;
-      bodice_test::check_posed_collider(collider, points);
+      buried_to_first_order += bodice_test::check_posed_collider(collider, points);
+      evaluated += kPoints;
     }
     CHECK(buried > 100);  // else the poses would not test burial
   }
+  CHECK(buried_to_first_order <= static_cast<int>(evaluated * 4 / 1000));
 }

@@ -81,12 +81,14 @@ inline PosedPoints reference_at(const bodice::proxy::BodyProxy& bound, const bod
 }
 
 /// Checks distances and owners of all points on every instruction set: in one call, call after call with a
-/// workspace, within a limit, and to first order.
-inline void check_posed_collider(const bodice::collision::Collider& collider, PosedPoints& points) {
+/// workspace, within a limit, and to first order. Returns how many points have a buried owner to first order,
+/// which depends on the body: the caller bounds it.
+inline int check_posed_collider(const bodice::collision::Collider& collider, PosedPoints& points) {
   using namespace bodice::collision;
   constexpr double kDistance_m = 3e-5, kScore_m = 5e-6, kLimit_m = 0.004, kBuried_m = 0.003;
   std::vector<Contact> contacts(points.x.size()), kept(points.x.size()), within(points.x.size()),
       first_order(points.x.size()), first_within(points.x.size());
+  int most_buried = 0;
   on_every_target([&](const std::string& target) {
     CAPTURE(target);
     Workspace workspace;
@@ -107,7 +109,7 @@ inline void check_posed_collider(const bodice::collision::Collider& collider, Po
       const bool inside = c.signed_distance <= static_cast<float>(kLimit_m);
       wrong_limit +=
           inside ? within[i].signed_distance != c.signed_distance : within[i].ellipsoid != kNoEllipsoid;
-      // To first order another ellipsoid may own a point, but none that is buried there.
+      // To first order another ellipsoid may own a point, but few that are buried there.
       const std::uint32_t owner = first_order[i].ellipsoid;
       buried += owner != c.ellipsoid && score[owner] > points.distances[i][owner] + kBuried_m;
       const bool first_inside = first_order[i].signed_distance <= static_cast<float>(kLimit_m);
@@ -118,9 +120,10 @@ inline void check_posed_collider(const bodice::collision::Collider& collider, Po
     CHECK(wrong_owner == 0);
     CHECK(unlike == 0);
     CHECK(wrong_limit == 0);
-    CHECK(buried <= static_cast<int>(contacts.size()) / 200);
     CHECK(unlike_first == 0);
+    most_buried = std::max(most_buried, buried);
   });
+  return most_buried;
 }
 
 }  // namespace bodice_test
