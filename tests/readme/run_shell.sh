@@ -15,7 +15,7 @@ cp body.obj scan.obj
 ran=0
 while IFS= read -r line; do
   case $line in
-    "" | "#"* | "sudo "* | "python3 "*) ;;
+    "" | "#"* | "sudo "* | "python3 "* | "/usr/bin/python3 "*) ;;
     "bash "*)
       script=${line#bash } script=${script%%[[:space:]]*}
       bash -n "$source_dir/$script"

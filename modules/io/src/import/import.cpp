@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/noise.hpp>
@@ -43,6 +44,15 @@ void check_precision(const geometry::TriMesh& shape, bool kept_digits, ImportedM
                           engine::message("The mesh lies so far from the origin that its coordinates are ",
                                           1e3 * grid_m, " mm apart in the reader's single precision."),
                           "Move it near the origin before exporting, or export it as OBJ."});
+}
+
+/// The noise of a mesh, in its unit, which is taken out unless it is to be kept.
+engine::Result<double> remove_noise(const engine::Context& context, bool keep, geometry::TriMesh& mesh) {
+  return engine::catch_canceled("The smoothing of noise", [&]() -> engine::Result<double> {
+    const double noise = geometry::noise_of(context, mesh);
+    if (noise > 0.0 && !keep) mesh.positions = geometry::without_noise(context, mesh, noise);
+    return noise;
+  });
 }
 
 void warn_of_noise(ImportedMesh& out) {
@@ -93,9 +103,12 @@ engine::Result<ReadBody> read_body(const engine::Context& context, const std::fi
   // A skin with weights stays as it is: they are those of its vertices.
   double noise = 0.0;
   if (!scene->rig.has_bones) {
-    if (!any) noise = geometry::noise_of(context, repaired->mesh);
+    if (!any) {
+      const auto removed = remove_noise(context, options.keep_noise, repaired->mesh);
+      if (!removed) return in_file(removed.error(), file);
+      noise = *removed;
+    }
     out.smoothed = noise > 0.0 && !options.keep_noise;
-    if (out.smoothed) repaired->mesh.positions = geometry::without_noise(context, repaired->mesh, noise);
     if (auto closed = close_skin(context, chosen->shape, *repaired)) {
       *repaired = std::move(closed->repaired);
       out.made_up = std::move(closed->made_up);
