@@ -126,8 +126,7 @@ PosedBody pose(const RiggedBody& body, const Turns& turns_of) {
     const std::size_t b = bone.at(name);
     return Vec3(moved[b] * body.rig.bones[b].head);
   };
-  PosedBody posed{pose_skin(body.rig, moved), {}, {}, head("upperleg01.L")};
-  posed.pelvis = 0.5 * (posed.pelvis + head("upperleg01.R"));
+  PosedBody posed{pose_skin(body.rig, moved), {}, {}};
   for (const auto& [name, vertex] : body.landmark_vertex)
     posed.landmarks[name] = posed.skin.positions[vertex];
   for (const auto& [name, of] : joint_landmarks()) posed.landmarks[name] = head(of);

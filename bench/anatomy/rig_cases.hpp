@@ -35,8 +35,7 @@ struct PosedBody {
   bodice::geometry::TriMesh skin;
   std::map<std::string, bodice::geometry::Vec3> landmarks;  ///< by LandmarkId's name: 13 of them
   std::map<std::string, bodice::geometry::Vec3>
-      joints;                     ///< by JointId's name: those of trunk and limbs' roots
-  bodice::geometry::Vec3 pelvis;  ///< between the hips
+      joints;  ///< by JointId's name: those of trunk and limbs' roots
 };
 PosedBody pose(const RiggedBody& body, const Turns& turns);
 

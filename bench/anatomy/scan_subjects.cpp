@@ -32,13 +32,17 @@ Turns turns_of(ScanKind kind, Random& random) {
   return turns;
 }
 
+Vec3 between_hips(const PosedBody& posed) {
+  return 0.5 * (posed.joints.at("thigh_l") + posed.joints.at("thigh_r"));
+}
+
 /// Moves the body to stand on y = 0 around the y axis.
 void stand(PosedBody& posed) {
   const auto box = bodice::geometry::bounding_box(posed.skin.positions);
-  const Vec3 by(-posed.pelvis.x(), -box.low.y(), -posed.pelvis.z());
+  const Vec3 hips = between_hips(posed), by(-hips.x(), -box.low.y(), -hips.z());
   for (Vec3& p : posed.skin.positions) p += by;
   for (auto& [name, p] : posed.landmarks) p += by;
-  posed.pelvis += by;
+  for (auto& [name, p] : posed.joints) p += by;
 }
 
 }  // namespace
@@ -52,7 +56,7 @@ bodice::synth::Body RealSubjects::posed(ScanKind kind, std::uint64_t seed) const
   stand(posed);
   bodice::synth::Body body;
   body.mesh = std::move(posed.skin);
-  body.joints.push_back({"pelvis", posed.pelvis});
+  body.joints.push_back({"pelvis", between_hips(posed)});
   for (int i = 0; i < bodice::body::kLandmarkCount; ++i) {
     const auto id = static_cast<bodice::body::LandmarkId>(i);
     const auto truth = posed.landmarks.find(std::string(bodice::body::name(id)));

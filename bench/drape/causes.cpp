@@ -56,10 +56,10 @@ collision::Collider collider_in(const engine::Context& context, const Judged& j,
 void add_deep_particles(const engine::Context& context, const Judged& j, std::size_t frame,
                         DeepParticles& found) {
   const tryon::SegmentedSkin& skin = j.body.skin;
-  const geometry::MeshDistance posed(context, {j.draped.body_frames[frame], skin.input.skin.triangles});
+  const geometry::TriMesh now{j.draped.body_frames[frame], skin.input.skin.triangles};
+  const geometry::MeshDistance posed(context, now);
   const collision::Collider collider = collider_in(context, j, frame);
   const std::vector<Vec3>& at = j.draped.garments.front().frames[frame];
-  const geometry::TriMesh now{j.draped.body_frames[frame], skin.input.skin.triangles};
   const tryon::SkinRoom room(now, posed);
   const double least_m = 2.0 * j.draped.report.thickness_m;
   for (std::size_t v = 0; v < at.size(); ++v) {

@@ -12,7 +12,8 @@ namespace bench {
 /// Pairs of triangles that cross in one kept frame.
 struct Crossed {
   std::size_t with_room = 0, without_room = 0;
-  std::size_t pressed_before = 0;  ///< of those with room: either triangle had none in an earlier frame
+  /// Crossings with room of which either triangle crossed without room in an earlier frame.
+  std::size_t pressed_before = 0;
 };
 
 /// The crossings of each kept frame.

@@ -27,7 +27,7 @@ struct LongRun {
   std::vector<std::vector<bodice::geometry::Vec3>> body_frames;  ///< the same frames
   double deepest_m = 0.0, deepest_s = 0.0;                       ///< while the body moves, and when
   int frames_over_2mm = 0;
-  DeepParticles deep;       ///< of the kept frames, but the first
+  DeepParticles deep;       ///< what lies deep in all kept frames but the first
   double rest_m = 0.0;      ///< deepest particle of the last half second
   double drop_m = 0.0;      ///< how much lower the garment ends, against the body
   double proxy_mm = 0.0;    ///< mean of the proxy's mean errors over the kept frames

@@ -1,5 +1,4 @@
-// Distances in WebAssembly: node rows.mjs PACKAGE FOLDER CALLS; see rows.py. The points go in ten parts, each as often, and
-// the fastest calls are added: on a busy machine no call of 10 milliseconds passes without an interruption.
+// Distances in WebAssembly: node rows.mjs PACKAGE FOLDER CALLS; see rows.py.
 import {readFileSync} from 'node:fs';
 import path from 'node:path';
 import {pathToFileURL} from 'node:url';

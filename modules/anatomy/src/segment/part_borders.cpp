@@ -35,7 +35,7 @@ constexpr FollowsBuild kNeckFollows = follows(data::kNeckFollows),
                        kKneeFollows = follows(data::kKneeFollows), kHipFollows = follows(data::kHipFollows),
                        kWaistFollows = follows(data::kWaistFollows);
 
-/// In deviations from the middle.
+/// A build as deviations from the middle.
 struct Deviations {
   Build off;          ///< clamped to kMostOff
   bool known = true;  ///< false where a measure was farther off, as on a body that is welded at the arms
@@ -57,7 +57,8 @@ Border on_build(const double (&weights)[kWeights], const FollowsBuild& follows, 
   return border;
 }
 
-/// Where the scores of two borders have the share: scores are distances from them.
+/// The border at a share of the path from one border to another, since scores are distances from their
+/// borders.
 Border between(const Border& below, const Border& above, float share) {
   Border border{};
   for (std::size_t k = 0; k < border.weight.size(); ++k)

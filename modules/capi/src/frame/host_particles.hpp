@@ -47,9 +47,9 @@ class EngineParticles {
   const HostParticles& host_;
   double origin_[3];
   collision::Particles engine_;
-  const std::uint32_t* element_ = nullptr;  ///< null: those of the host's index
+  const std::uint32_t* element_ = nullptr;  ///< element of each particle; null: the host's index has it
   const float* before_ = nullptr;           ///< what was copied, array after array, to know what has changed
-  std::size_t length_ = 0;                  ///< of one of these arrays
+  std::size_t length_ = 0;                  ///< number of values of one of these arrays
   std::uint64_t pinned_ = 0;
   bool copied_ = true;
   engine::Context context_;

@@ -19,8 +19,8 @@ class Quadric {
   int count() const { return count_; }
 
   struct Value {
-    double height = 0.0;    ///< of the quadric at the origin, along the normal
-    double variance = 0.0;  ///< of that height, where the points' is 1
+    double height = 0.0;    ///< where the quadric lies at the origin, along the normal
+    double variance = 0.0;  ///< variance of that height where points have a variance of 1
     double residual = 0.0;  ///< mean squared deviation of the points, an unbiased estimate of their variance
   };
   /// Nothing for fewer points than kFewest, and where they lie on a conic.

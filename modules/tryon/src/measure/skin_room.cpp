@@ -13,7 +13,8 @@ namespace {
 using geometry::Triangle;
 using geometry::Vec3;
 
-constexpr double kFacingCosine = -0.5;  // of the angle between normals of walls that face each other
+// Two walls face each other where the cosine of the angle between their normals is below this.
+constexpr double kFacingCosine = -0.5;
 constexpr std::size_t kRoomGrain = 4;
 
 /// Adds the points where edges of `of` pass through `through`.
