@@ -183,7 +183,7 @@ void exact(World& world, Draw& draw, fuzz::Bytes& bytes) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(capi) {
   fuzz::Bytes bytes(data, size);
   static World* const world = [] {
     auto* made = new World;

@@ -6,7 +6,7 @@
 
 using namespace bodice;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(import) {
   constexpr const char* kExtensions[] = {".obj", ".stl", ".ply"};
   fuzz::Bytes in(data, size);
   const char* extension = kExtensions[in.next() % 3];

@@ -48,7 +48,7 @@ void use_repaired(const geometry::TriMesh& mesh) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(mesh) {
   fuzz::Bytes in(data, size);
   const geometry::TriMesh mesh = mesh_of(in);
   const auto repaired = geometry::repair({}, mesh);

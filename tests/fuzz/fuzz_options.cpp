@@ -9,7 +9,7 @@
 
 using namespace bodice;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(options) {
   std::vector<std::string> words(1);
   for (const std::uint8_t byte : std::span(data, size)) {
     if (byte == '\n')

@@ -40,7 +40,7 @@ void check_encloses(const fitting::Mvee& found, const std::vector<Vec3>& points)
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(points) {
   fuzz::Bytes in(data, size);
   const std::vector<Vec3> points = points_of(in);
   const auto exact = fitting::mvee(points);

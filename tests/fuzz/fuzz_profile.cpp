@@ -3,7 +3,7 @@
 
 #include "harness.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(profile) {
   const fuzz::TemporaryFile file(".json", {data, size});
   const auto profile = bodice::body::load_profile(file.path());
   fuzz::check_told(profile);

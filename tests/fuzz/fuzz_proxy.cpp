@@ -23,7 +23,7 @@ void use(const proxy::BodyProxy& proxy) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(proxy) {
   const auto binary = proxy::from_binary(std::as_bytes(std::span(data, size)));
   fuzz::check_told(binary);
   if (binary.ok()) use(*binary);

@@ -136,7 +136,7 @@ std::vector<std::uint8_t> as_stl(const TriMesh& mesh) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(repair) {
   fuzz::Bytes in(data, size);
   const bool is_read = in.next() == kRead;
   const TriMesh mesh = mesh_of(in);

@@ -7,7 +7,7 @@
 
 using namespace bodice;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FUZZ_TARGET(rig) {
   const fuzz::TemporaryFile file(".bvh", {data, size});
   const auto motion = io::import_motion({}, file.path());
   fuzz::check_told(motion);

@@ -1,5 +1,5 @@
-// The common parts of the harnesses: a bounded reader of bytes, a temporary file, and a check that is always
-// compiled.
+// The common parts of the harnesses: how one starts, a bounded reader of bytes, a temporary file, and a check
+// that is always compiled.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <span>
 #include <string>
 
@@ -63,6 +64,28 @@ void check_told(const Result& result) {
   FUZZ_CHECK(result.ok() || result.error().message.size() > 8);
 }
 
+/// Takes the bytes of one case; returns 0.
+using Harness = int (*)(const std::uint8_t* data, std::size_t size);
+
+/// The harnesses of this program by their names.
+inline std::map<std::string, Harness>& harnesses() {
+  static std::map<std::string, Harness> all;
+  return all;
+}
+
+struct Registered {
+  Registered(const char* name, Harness harness) { harnesses().emplace(name, harness); }
+};
+
 }  // namespace fuzz
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+// FUZZ_TARGET(name) { ... return 0; } is the harness of a file, over its `data` and `size`. A program that
+// replays cases has several harnesses; libFuzzer has one, which it calls by a name of its own.
+#ifdef BODICE_REPLAY
+#define FUZZ_TARGET(name)                                             \
+  static int run_##name(const std::uint8_t* data, std::size_t size);  \
+  static const fuzz::Registered registered_##name(#name, run_##name); \
+  static int run_##name(const std::uint8_t* data, std::size_t size)
+#else
+#define FUZZ_TARGET(name) extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+#endif

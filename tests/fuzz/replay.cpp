@@ -1,6 +1,6 @@
 // Runs a harness on every kept case, and on mutations of them. The mutations are the same in every run.
 //
-//     replay_<name> CASES MUTATIONS
+//     replay_<group> NAME CASES MUTATIONS
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -59,30 +59,36 @@ extern "C" void show_case(int signal) {
   std::_Exit(1);
 }
 
-void run(const Case& bytes) {
+void run(fuzz::Harness harness, const Case& bytes) {
   running = &bytes;
   alarm(20);  // seconds: no case may hang
-  LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+  harness(bytes.data(), bytes.size());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: %s CASES MUTATIONS\n", argv[0]);
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: %s NAME CASES MUTATIONS\n", argv[0]);
     return 2;
   }
-  const std::vector<Case> cases = cases_in(argv[1]);
+  const auto found = fuzz::harnesses().find(argv[1]);
+  if (found == fuzz::harnesses().end()) {
+    std::fprintf(stderr, "%s has no harness %s.\n", argv[0], argv[1]);
+    return 2;
+  }
+  const fuzz::Harness harness = found->second;
+  const std::vector<Case> cases = cases_in(argv[2]);
   if (cases.empty()) {
-    std::fprintf(stderr, "%s holds no case.\n", argv[1]);
+    std::fprintf(stderr, "%s holds no case.\n", argv[2]);
     return 1;
   }
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGALRM}) std::signal(signal, show_case);
-  for (const Case& bytes : cases) run(bytes);
+  for (const Case& bytes : cases) run(harness, bytes);
   bodice::engine::Random random(1);
-  for (int i = std::atoi(argv[2]); i > 0; --i) {
-    run(mutated(cases[random.below(cases.size())], random));
+  for (int i = std::atoi(argv[3]); i > 0; --i) {
+    run(harness, mutated(cases[random.below(cases.size())], random));
   }
-  std::printf("%zu cases and %s mutations of them: nothing found\n", cases.size(), argv[2]);
+  std::printf("%zu cases and %s mutations of them: nothing found\n", cases.size(), argv[3]);
   return 0;
 }
