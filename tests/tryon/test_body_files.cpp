@@ -14,23 +14,15 @@
 #include <bodice_test/temp_folder.hpp>
 #include <nlohmann/json.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 using bodice_test::TempFolder;
 using geometry::Vec3;
 
-namespace {
-
-tryon::SegmentedSkin made_skin() {
-  auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
-  REQUIRE(skin.ok());
-  return std::move(skin).value();
-}
-
-}  // namespace
-
 TEST_CASE(
     "a segmentation has every vertex of the file once, by the part it belongs to, and what lies inside") {
-  const tryon::SegmentedSkin skin = made_skin();
+  const tryon::SegmentedSkin& skin = builtin_skin(3000);
   std::vector<Vec3> vertices;
   for (const Vec3& p : skin.input.skin.positions) vertices.push_back(skin.input.frame.to_file(p));
   const std::size_t count = vertices.size();
@@ -62,19 +54,18 @@ TEST_CASE(
 }
 
 TEST_CASE("an error map has the exact distance of each vertex, and colors that end where 98 % have less") {
-  auto body = tryon::fit_proxy({}, made_skin(), {.tier = proxy::Tier::kSolid});
-  REQUIRE(body.ok());
-  const tryon::ErrorMap map = tryon::error_map({}, *body);
-  const std::vector<Vec3>& points = body->skin.input.skin.positions;
+  const tryon::PreparedBody& body = builtin_body(3000, proxy::Tier::kSolid);
+  const tryon::ErrorMap map = tryon::error_map({}, body);
+  const std::vector<Vec3>& points = body.skin.input.skin.positions;
   REQUIRE(map.error_m.size() == points.size());
   REQUIRE(map.colors.size() == points.size());
   std::size_t beyond = 0;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (v % 50 == 0) {
       double least = 1e9;
-      for (const auto& e : body->fit.proxy.ellipsoids())
+      for (const auto& e : body.fit.proxy.ellipsoids())
         least = std::min(least, geometry::closest_point(e.shape, points[v]).signed_distance);
-      CHECK(map.error_m[v] == doctest::Approx(least - body->fit.proxy.margin_m()).epsilon(1e-9));
+      CHECK(map.error_m[v] == doctest::Approx(least - body.fit.proxy.margin_m()).epsilon(1e-9));
     }
     beyond += std::abs(map.error_m[v]) > 1.5 * map.limit_m;
     const auto& c = map.colors[v];

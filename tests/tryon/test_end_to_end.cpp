@@ -18,12 +18,16 @@
 #include <bodice_test/executors.hpp>
 #include <bodice_test/temp_folder.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 
 namespace {
 
+constexpr int kBodyVertices = 4500;
+
 tryon::PreparedBody prepare(const engine::Context& context, proxy::Tier tier) {
-  auto skin = tryon::segment_builtin(context, {.vertices = 4500}, {});
+  auto skin = tryon::segment_builtin(context, {.vertices = kBodyVertices}, {});
   REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
   auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = tier});
   REQUIRE_MESSAGE(body.ok(), body.error().sentence());
@@ -41,7 +45,7 @@ tryon::WornGarment skirt_for(const engine::Context& context, const tryon::Segmen
 TEST_CASE("a generated body is measured, dressed and draped") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
-  const tryon::PreparedBody body = prepare(context, proxy::Tier::kSolid);
+  const tryon::PreparedBody& body = builtin_body(kBodyVertices, proxy::Tier::kSolid);
   CHECK(body.skin.anatomy.stature_m == doctest::Approx(1.68).epsilon(0.02));
   CHECK(body.fit.accuracy.interior_covered_percent > 99.0);
   CHECK(body.fit.accuracy.gap_m.mean < 0.009);  // 6 mm; that it leaks nowhere must not double it
@@ -112,18 +116,16 @@ TEST_CASE("the same bits for any number of workers, from body to last frame") {
 
 TEST_CASE("only the parts that a garment can reach are fitted") {
   const engine::Context context;
-  auto skin = tryon::segment_builtin(context, {.vertices = 3000}, {});
-  REQUIRE(skin.ok());
-  const tryon::WornGarment skirt = skirt_for(context, *skin);
-  const std::uint32_t parts = tryon::reachable_parts(context, *skin, std::span(&skirt.mesh, 1), 0.05).value();
+  const tryon::SegmentedSkin& skin = builtin_skin(3000);
+  const tryon::WornGarment skirt = skirt_for(context, skin);
+  const std::uint32_t parts = tryon::reachable_parts(context, skin, std::span(&skirt.mesh, 1), 0.05).value();
   auto has = [&](body::Part part) { return (parts >> static_cast<int>(part) & 1u) != 0; };
   CHECK(has(body::Part::kThighL));
   CHECK(has(body::Part::kThighR));
   CHECK_FALSE(has(body::Part::kHead));
 
   const std::uint32_t wanted = parts;
-  const auto body =
-      tryon::fit_proxy(context, std::move(skin).value(), {.tier = proxy::Tier::kPaper, .parts = wanted});
+  const auto body = tryon::fit_proxy(context, skin, {.tier = proxy::Tier::kPaper, .parts = wanted});
   REQUIRE(body.ok());
   // The six parts of the torso are one region: if one is reached, all are fitted as in the whole body.
   bool torso = false;
@@ -135,24 +137,23 @@ TEST_CASE("only the parts that a garment can reach are fitted") {
 
 TEST_CASE("a skirt is held at its waistband, a tunic is not held") {
   const engine::Context context;
-  const auto skin = tryon::segment_builtin(context, {.vertices = 4500}, {});
-  REQUIRE(skin.ok());
-  const tryon::WornGarment skirt = skirt_for(context, *skin);
-  const auto held = tryon::held_vertices(skirt.mesh, *skin);
+  const tryon::SegmentedSkin& skin = builtin_skin(kBodyVertices);
+  const tryon::WornGarment skirt = skirt_for(context, skin);
+  const auto held = tryon::held_vertices(skirt.mesh, skin);
   REQUIRE_FALSE(held.empty());
   CHECK(held.size() < skirt.mesh.positions.size() / 5);
   double lowest = 1e9;
   for (const geometry::Index v : held) lowest = std::min(lowest, skirt.mesh.positions[v].y());
-  CHECK(lowest > 0.5 * skin->anatomy.stature_m);
+  CHECK(lowest > 0.5 * skin.anatomy.stature_m);
 
-  const auto tunic = tryon::make_garment(context, *skin, {.kind = synth::GarmentKind::kTunic});
+  const auto tunic = tryon::make_garment(context, skin, {.kind = synth::GarmentKind::kTunic});
   REQUIRE_MESSAGE(tunic.ok(), tunic.error().sentence());
-  CHECK(tryon::held_vertices(tunic->mesh, *skin).empty());
+  CHECK(tryon::held_vertices(tunic->mesh, skin).empty());
 }
 
 TEST_CASE("the report has every key that its readers rely on") {
   const engine::Context context;
-  const tryon::PreparedBody body = prepare(context, proxy::Tier::kPaper);
+  const tryon::PreparedBody& body = builtin_body(kBodyVertices, proxy::Tier::kPaper);
   const auto draped = tryon::drape(context, body, {skirt_for(context, body.skin)}, {.frames = 2});
   REQUIRE(draped.ok());
   const auto report =
@@ -219,11 +220,9 @@ TEST_CASE("the report has every key that its readers rely on") {
 }
 
 TEST_CASE("labels are one line a vertex, in the input's units") {
-  const engine::Context context;
-  auto skin = tryon::segment_builtin(context, {.vertices = 3000}, {});
-  REQUIRE(skin.ok());
-  skin->input.frame = {.meters_per_unit = 0.01, .up = geometry::Axis::kZ};
-  std::istringstream lines(tryon::labels_text(*skin));
+  tryon::SegmentedSkin skin = builtin_skin(3000);
+  skin.input.frame = {.meters_per_unit = 0.01, .up = geometry::Axis::kZ};
+  std::istringstream lines(tryon::labels_text(skin));
   std::size_t count = 0;
   double highest_z = 0.0, x = 0.0, y = 0.0, z = 0.0;
   std::string part;
@@ -232,14 +231,12 @@ TEST_CASE("labels are one line a vertex, in the input's units") {
     highest_z = std::max(highest_z, z);
     ++count;
   }
-  CHECK(count == skin->input.skin.positions.size());
+  CHECK(count == skin.input.skin.positions.size());
   CHECK(highest_z == doctest::Approx(168.0).epsilon(0.03));
 }
 
 TEST_CASE("an ellipsoid carries the part of the skin that it stands for, wherever the fit moved it") {
-  const auto executor = bodice_test::make_threads(2);
-  const engine::Context context{.executor = executor.get()};
-  const tryon::PreparedBody body = prepare(context, proxy::Tier::kTight);
+  const tryon::PreparedBody& body = builtin_body(kBodyVertices, proxy::Tier::kTight);
   const geometry::TriMesh& mesh = body.skin.input.skin;
   int agree = 0;
   for (const proxy::ProxyEllipsoid& e : body.fit.proxy.ellipsoids()) {

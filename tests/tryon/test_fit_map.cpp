@@ -10,6 +10,8 @@
 #include <bodice_test/executors.hpp>
 #include <bodice_test/shapes.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 using geometry::Vec3;
 
@@ -17,14 +19,6 @@ namespace {
 
 double lightness(const std::array<float, 3>& c) {
   return 0.2126 * double{c[0]} + 0.7152 * double{c[1]} + 0.0722 * double{c[2]};
-}
-
-tryon::PreparedBody prepare(const engine::Context& context) {
-  auto skin = tryon::segment_builtin(context, {.vertices = 4500}, {});
-  REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
-  auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = proxy::Tier::kSolid});
-  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
-  return std::move(body).value();
 }
 
 /// A tube of cloth around the hips, above the crotch, with these radii across and in depth, relative to the
@@ -93,7 +87,7 @@ TEST_CASE("fit map: the ease of a vertex is its distance to the skin, the strain
 TEST_CASE("fit: a tube too small around the hips is too tight there by what it lacks, one that fits is not") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
-  const tryon::PreparedBody body = prepare(context);
+  const tryon::PreparedBody& body = builtin_body(4500, proxy::Tier::kSolid);
   const auto small =
       tryon::drape(context, body, {tube_for(body, 0.85)}, {.frames = 10, .fit_map = tryon::FitMap::kStrain});
   REQUIRE(small.ok());
@@ -113,7 +107,7 @@ TEST_CASE("fit: a tube too small around the hips is too tight there by what it l
 TEST_CASE("fit: a tube that nothing holds is too loose when it slides down, not while it lies") {
   const auto executor = bodice_test::make_threads(2);
   const engine::Context context{.executor = executor.get()};
-  const tryon::PreparedBody body = prepare(context);
+  const tryon::PreparedBody& body = builtin_body(4500, proxy::Tier::kSolid);
   const tryon::WornGarment loose = tube_for(body, 1.3);
   const auto fallen = tryon::drape(context, body, {loose}, {.frames = 60});
   REQUIRE(fallen.ok());

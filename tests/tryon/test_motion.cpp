@@ -15,12 +15,15 @@
 #include <bodice_test/executors.hpp>
 #include <bodice_test/shapes.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 using geometry::Vec3;
 
 namespace {
 
 constexpr double kTurn_rad = 0.5 * std::numbers::pi;
+constexpr int kWalkerVertices = 4500;
 
 /// Two joints on the y axis, the second one a meter up; a clip turns the second about z by a quarter in a
 /// second.
@@ -83,23 +86,21 @@ tryon::WornGarment tight_shorts(const tryon::SegmentedSkin& body, std::vector<ge
   return shorts;
 }
 
-/// The built-in body with a skirt, playing a made motion.
-Walker walker(const engine::Context& context, const char* motion, proxy::Tier tier = proxy::Tier::kSolid) {
-  const synth::BodyOptions builtin{.vertices = 4500};
-  auto rigged = tryon::segment_builtin(context, builtin, {});
-  REQUIRE_MESSAGE(rigged.ok(), rigged.error().sentence());
-  REQUIRE(tryon::give_rig(context, builtin, *rigged).ok());
+/// The body with a skirt, playing a made motion.
+Walker walker(const engine::Context& context, const tryon::PreparedBody& body, const char* motion) {
   std::vector<engine::Warning> warnings;
-  auto found = tryon::find_motion(context, *rigged, {.motion = motion}, warnings);
+  auto found = tryon::find_motion(context, body.skin, {.motion = motion}, warnings);
   REQUIRE_MESSAGE(found.ok(), found.error().sentence());
   CHECK(warnings.empty());
-  const tryon::SegmentedSkin& skin = *rigged;
-  auto garment = tryon::make_garment(context, skin, {.kind = synth::GarmentKind::kSkirt});
+  auto garment = tryon::make_garment(context, body.skin, {.kind = synth::GarmentKind::kSkirt});
   REQUIRE_MESSAGE(garment.ok(), garment.error().sentence());
   std::vector<tryon::WornGarment> worn{std::move(garment).value()};
-  auto body = tryon::fit_bound_proxy(context, std::move(rigged).value(), {.tier = tier});
-  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
-  return {std::move(body).value(), std::move(found).value(), std::move(worn)};
+  return {body, std::move(found).value(), std::move(worn)};
+}
+
+/// The built-in body, which is fitted once, as a walker.
+Walker walker(const engine::Context& context, const char* motion, proxy::Tier tier = proxy::Tier::kSolid) {
+  return walker(context, bound_builtin_body(kWalkerVertices, tier), motion);
 }
 
 }  // namespace
@@ -242,7 +243,8 @@ TEST_CASE("a drape on a moving body has the same bits for 1, 3 and 7 workers") {
   for (const int workers : {1, 3, 7}) {
     const auto executor = bodice_test::make_threads(workers);
     const engine::Context context{.executor = executor.get()};
-    const Walker w = walker(context, "reach");
+    const Walker w =
+        walker(context, make_bound_builtin_body(context, kWalkerVertices, proxy::Tier::kSolid), "reach");
     tryon::DrapeOptions options{.frames = 6, .kept_frames = 2, .motion = &w.motion};
     options.solver.substeps = 4;
     const auto draped = tryon::drape(context, w.body, w.worn, options);

@@ -9,6 +9,8 @@
 #include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 using geometry::Vec3;
 
@@ -16,13 +18,10 @@ namespace {
 
 /// A made body in a made tunic.
 struct InTunic {
-  tryon::SegmentedSkin skin;
+  const tryon::SegmentedSkin& skin = builtin_skin(4500);
   geometry::TriMesh tunic;
 
   InTunic() {
-    auto made = tryon::segment_builtin({}, {.vertices = 4500}, {});
-    REQUIRE(made.ok());
-    skin = std::move(made).value();
     auto garment = tryon::make_garment({}, skin, {.kind = synth::GarmentKind::kTunic});
     REQUIRE(garment.ok());
     tunic = std::move(garment->mesh);

@@ -12,6 +12,8 @@
 #include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 
 namespace {
@@ -115,21 +117,20 @@ TEST_CASE("a preparation prepares one body after the other") {
 }
 
 TEST_CASE("parts that no garment reaches are not computed, as the trace shows") {
-  const auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
-  REQUIRE(skin.ok());
+  const tryon::SegmentedSkin& skin = builtin_skin(3000);
   auto trace_of = [&](std::vector<geometry::TriMesh> garments, std::uint32_t& parts) {
     engine::Trace trace;
     auto options = options_for(proxy::Tier::kPaper);
     options.garments = std::move(garments);
     auto preparation = tryon::Preparation::make(std::move(options), {});
     REQUIRE(preparation.ok());
-    REQUIRE(preparation->run({.trace = &trace}, skin->input).ok());
+    REQUIRE(preparation->run({.trace = &trace}, skin.input).ok());
     parts = 0;
     for (const auto& e : preparation->fit()->proxy.ellipsoids()) parts |= 1u << static_cast<unsigned>(e.part);
     return trace.events();
   };
   std::uint32_t whole = 0, reached = 0;
-  const auto all = trace_of({}, whole), some = trace_of({skirt_on(*skin)}, reached);
+  const auto all = trace_of({}, whole), some = trace_of({skirt_on(skin)}, reached);
   CHECK(traced(all, "refine head"));
   CHECK(traced(all, "refine thigh_l"));
   CHECK_FALSE(traced(some, "refine head"));
@@ -139,10 +140,10 @@ TEST_CASE("parts that no garment reaches are not computed, as the trace shows") 
   CHECK((reached & 1u << static_cast<unsigned>(body::Part::kThighL)) != 0);
 
   auto far = options_for(proxy::Tier::kPaper);
-  far.garments = {skirt_on(*skin)};
+  far.garments = {skirt_on(skin)};
   for (geometry::Vec3& p : far.garments[0].positions) p.x() += 10.0;
   auto preparation = tryon::Preparation::make(std::move(far), {});
-  const auto run = preparation->run({}, skin->input);
+  const auto run = preparation->run({}, skin.input);
   REQUIRE_FALSE(run.ok());
   CHECK(run.error().message.find("within reach") != std::string::npos);
 }

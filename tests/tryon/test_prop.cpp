@@ -16,20 +16,14 @@
 #include <bodice_test/executors.hpp>
 #include <bodice_test/shapes.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 using geometry::Vec3;
 
 namespace {
 
 constexpr int kVertices = 4500;
-
-tryon::PreparedBody made_body(const engine::Context& context, synth::Pose pose, proxy::Tier tier) {
-  auto skin = tryon::segment_builtin(context, {.pose = pose, .vertices = kVertices}, {});
-  REQUIRE_MESSAGE(skin.ok(), skin.error().sentence());
-  auto body = tryon::fit_proxy(context, std::move(skin).value(), {.tier = tier});
-  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
-  return std::move(body).value();
-}
 
 tryon::PreparedBody made_prop(const engine::Context& context, const geometry::TriMesh& mesh,
                               const tryon::PreparedBody& body) {
@@ -51,7 +45,7 @@ TEST_CASE("cloth falls onto a prop beside the body, and through where it would b
   for (const proxy::Tier tier : {proxy::Tier::kSolid, proxy::Tier::kRelief}) {
     CAPTURE(std::string(proxy::name(tier)));
     const engine::Context context;
-    const tryon::PreparedBody body = made_body(context, synth::Pose::kA, tier);
+    const tryon::PreparedBody& body = builtin_body(kVertices, tier);
     const Vec3 seat(1.2, 0.45, 0.0);
     const tryon::PreparedBody chair = made_prop(context, synth::make_chair(seat, 0.03), body);
     const tryon::WornGarment cloth = sheet_over(seat + Vec3(0.0, 0.06, 0.05), 0.3, 20);
@@ -87,7 +81,7 @@ TEST_CASE("cloth falls onto a prop beside the body, and through where it would b
 
 TEST_CASE("a garment that begins inside a prop is refused with the depth") {
   const engine::Context context;
-  const tryon::PreparedBody body = made_body(context, synth::Pose::kA, proxy::Tier::kSolid);
+  const tryon::PreparedBody& body = builtin_body(kVertices, proxy::Tier::kSolid);
   const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.2, 0.45, 0.0}, 0.03), body);
   CHECK(chair.fit.proxy.tier() == proxy::Tier::kTight);
   CHECK(chair.fit.accuracy.gap_m.mean < 0.004);
@@ -100,7 +94,7 @@ TEST_CASE("a garment that begins inside a prop is refused with the depth") {
 
 TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far from it") {
   const engine::Context context;
-  const tryon::PreparedBody body = made_body(context, synth::Pose::kA, proxy::Tier::kSolid);
+  const tryon::PreparedBody& body = builtin_body(kVertices, proxy::Tier::kSolid);
   const std::uint64_t hash = body.fit.proxy.hash();
   const tryon::PreparedBody far = made_prop(context, synth::make_chair({4.0, 0.45, 0.0}, 0.03), body);
   const tryon::WornGarment cloth = sheet_over({0.0, 1.75, 0.0}, 0.5, 16);
@@ -118,20 +112,16 @@ TEST_CASE("a prop changes nothing of the body's own fit or of cloth that is far 
 
 TEST_CASE("a prop stays where it is while the joints of the body move") {
   const engine::Context context;
-  auto skin = tryon::segment_builtin(context, {.vertices = kVertices}, {});
-  REQUIRE(skin.ok());
-  REQUIRE(tryon::give_rig(context, synth::BodyOptions{.vertices = kVertices}, *skin).ok());
-  auto body = tryon::fit_bound_proxy(context, std::move(skin).value(), {.tier = proxy::Tier::kRelief});
-  REQUIRE_MESSAGE(body.ok(), body.error().sentence());
-  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.5, 0.45, 0.0}, 0.03), *body);
-  const auto all = tryon::with_props(body->fit.proxy, {&chair, 1});
+  const tryon::PreparedBody& body = bound_builtin_body(kVertices, proxy::Tier::kRelief);
+  const tryon::PreparedBody chair = made_prop(context, synth::make_chair({1.5, 0.45, 0.0}, 0.03), body);
+  const auto all = tryon::with_props(body.fit.proxy, {&chair, 1});
   REQUIRE_MESSAGE(all.ok(), all.error().sentence());
   CHECK(all->binding()->joint_names.back() == proxy::kStillJoint);
 
-  auto poser = binding::Poser::make(*all), own = binding::Poser::make(body->fit.proxy);
+  auto poser = binding::Poser::make(*all), own = binding::Poser::make(body.fit.proxy);
   REQUIRE(poser.ok());
   REQUIRE(own.ok());
-  std::vector<rig::Affine> joints(body->fit.proxy.binding()->bind);
+  std::vector<rig::Affine> joints(body.fit.proxy.binding()->bind);
   const Vec3 by(0.0, 0.0, -0.4);
   for (rig::Affine& joint : joints) joint.col(3) += by;
   REQUIRE(own->pose(context, joints).ok());
@@ -142,8 +132,8 @@ TEST_CASE("a prop stays where it is while the joints of the body move") {
     CHECK(proxy::posed_proxy_distance(*all, poser->posed(), p).distance ==
           doctest::Approx(proxy::proxy_distance(chair.fit.proxy, p).distance).epsilon(1e-9));
     const Vec3 q(0.3 * std::sin(1.1 * i), 0.9 + 0.9 * std::sin(1.7 * i), -0.4 + 0.3 * std::sin(2.3 * i));
-    CHECK(proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
-          doctest::Approx(proxy::posed_proxy_distance(body->fit.proxy, own->posed(), q).distance)
-              .epsilon(1e-9));
+    CHECK(
+        proxy::posed_proxy_distance(*all, poser->posed(), q).distance ==
+        doctest::Approx(proxy::posed_proxy_distance(body.fit.proxy, own->posed(), q).distance).epsilon(1e-9));
   }
 }

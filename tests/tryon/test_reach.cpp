@@ -16,6 +16,8 @@
 #include <bodice/tryon/wearing.hpp>
 #include <bodice_test/executors.hpp>
 
+#include "builtin.hpp"
+
 using namespace bodice;
 using geometry::Vec3;
 
@@ -31,11 +33,10 @@ struct Skirted {
 };
 
 Skirted dress() {
-  auto skin = tryon::segment_builtin({}, {.vertices = 3000}, {});
-  REQUIRE(skin.ok());
-  auto cut = tryon::make_garment({}, *skin, {.kind = synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
+  const tryon::SegmentedSkin& skin = builtin_skin(3000);
+  auto cut = tryon::make_garment({}, skin, {.kind = synth::GarmentKind::kSkirt, .edge_length_m = 0.03});
   REQUIRE(cut.ok());
-  Skirted dressed{std::move(*skin), std::move(cut->mesh), {}, {}};
+  Skirted dressed{skin, std::move(cut->mesh), {}, {}};
   engine::Random random(7);
   for (const Vec3& p : dressed.skirt.positions)
     for (int k = 0; k < 4; ++k) {
