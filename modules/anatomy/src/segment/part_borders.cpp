@@ -5,8 +5,6 @@
 
 #include <coefficients/part_borders.hpp>
 
-#include "coordinates/build.hpp"
-
 namespace bodice::anatomy {
 namespace {
 
@@ -68,8 +66,8 @@ Border between(const Border& below, const Border& above, float share) {
 
 }  // namespace
 
-PartBorders part_borders(const BodyCoordinates& coordinates) {
-  const auto [off, known] = deviations(build_of(coordinates));
+PartBorders part_borders(const Build& build) {
+  const auto [off, known] = deviations(build);
   const Border neck = on_build(data::kNeck, kNeckFollows, off),
                waist = on_build(data::kWaist, kWaistFollows, off);
   // The border of landmarks is the same for all builds, and errs less where the build is not known.

@@ -82,7 +82,7 @@ void attach_pieces(const engine::Context& context, const Skin& skin, std::vector
 std::vector<Part> segment(const engine::Context& context, const Skin& skin,
                           const BodyCoordinates& coordinates) {
   std::vector<Part> part(skin.mesh.positions.size());
-  const PartBorders border = part_borders(coordinates);
+  const PartBorders border = part_borders(build_of(coordinates));
   const float tilt = tilt_of(coordinates.extremities());
   engine::parallel_for(context, part.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v)
