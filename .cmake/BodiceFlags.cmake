@@ -59,23 +59,27 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 option(BODICE_UNITY "Compile each folder of sources as one file (our own build)" ${unity})
 
-# bodice_unite(<target> <root> <sources...>): compiles the sources of each folder below root as one file. Kernels stay
-# alone, since they are compiled once for each instruction set, and so do landmarks, whose files all define find() and
-# other functions of the same names. So does what needs oneTBB or spdlog: in one object with the rest of the engine it
-# would make libbodice_frame need them, too.
+# bodice_unite(<target> <root> [TOGETHER] <sources...>): compiles the sources of each folder below root, and of the folders
+# in it, as one file; TOGETHER, where names of no two folders meet: all of them. Kernels stay alone, since they are compiled
+# once for each instruction set. So does what needs oneTBB or spdlog: in one object with the rest of the engine it would
+# make libbodice_frame need them, too.
 function(bodice_unite target root)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "TOGETHER" "" "")
   if(NOT BODICE_UNITY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  foreach(source IN LISTS ARGN)
-    if(source MATCHES "/kernels[a-z0-9_]*[.]cpp$|/landmarks/kinds/|/(tbb_executor|log_sinks)[.]cpp$")
+  foreach(source IN LISTS arg_UNPARSED_ARGUMENTS)
+    if(source MATCHES "/kernels[a-z0-9_]*[.]cpp$|/(tbb_executor|log_sinks)[.]cpp$")
       continue()
     endif()
-    cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${root}" OUTPUT_VARIABLE folder)
-    cmake_path(GET folder PARENT_PATH folder)
-    string(REPLACE "/" "_" folder "${target}_${folder}")
-    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}")
+    set(folder "")
+    if(NOT arg_TOGETHER)
+      cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${root}" OUTPUT_VARIABLE folder)
+      cmake_path(GET folder PARENT_PATH folder)
+      string(REGEX REPLACE "/.*" "" folder "${folder}")
+    endif()
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${target}_${folder}")
   endforeach()
 endfunction()
 

@@ -1,14 +1,15 @@
 # How bodice declares a layer and installs what was declared.
 
 # bodice_layer(<name> USES <layers...> PROMISES <headers...> | NOTHING
-#              [PUBLIC <targets...>] [PRIVATE <targets...>] [HEADERS <targets...>] [FLAGS <options...>])
+#              [PUBLIC <targets...>] [PRIVATE <targets...>] [HEADERS <targets...>] [FLAGS <options...>] [TOGETHER])
 # Declares the static library bodice::<name> from <name>/src/**.cpp. It exports only its own include folder and
 # those of the layers it uses. PROMISES are the headers in include/bodice/<name>, without .hpp, that users may rely
 # on; these and the headers that they include are installed, and modules/README.md lists them. Packages: PUBLIC ones
 # are in its headers, PRIVATE ones must be there to link it, and HEADERS ones only to compile it, so that users of an
-# installed bodice need them not. FLAGS are compile options of the layer's own files.
+# installed bodice need them not. FLAGS are compile options of the layer's own files. TOGETHER: all of them compile as
+# one where folders do (bodice_unite).
 function(bodice_layer name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "DIR" "USES;PROMISES;PUBLIC;PRIVATE;HEADERS;FLAGS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "TOGETHER" "DIR" "USES;PROMISES;PUBLIC;PRIVATE;HEADERS;FLAGS")
   if(NOT arg_PROMISES)
     message(FATAL_ERROR "bodice: layer ${name} has no PROMISES: name the headers that users may rely on, or NOTHING.")
   endif()
@@ -29,7 +30,11 @@ function(bodice_layer name)
   if(NOT BODICE_INSTALL)  # compiled where something links it
     set_target_properties(${target} PROPERTIES EXCLUDE_FROM_ALL ON)
   endif()
-  bodice_unite(${target} "${arg_DIR}/src" ${sources})
+  set(together "")
+  if(arg_TOGETHER)
+    set(together TOGETHER)
+  endif()
+  bodice_unite(${target} "${arg_DIR}/src" ${together} ${sources})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${arg_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>

@@ -39,14 +39,14 @@ double heat_of(JointId bone) {
   return is_limb(bone) ? kLimbHeat : kTrunkHeat;
 }
 
-struct Entry {
+struct JointShare {
   int joint;
   double weight;
 };
 
 /// The heaviest joints of a vertex, in order of joints, with sum 1.
 void append_vertex(const Heat& heat, JointId own, Eigen::Index v, rig::SkinWeights& weights) {
-  std::array<Entry, body::kJointCount> entries;
+  std::array<JointShare, body::kJointCount> entries;
   int count = 0;
   for (int j = 0; j < body::kJointCount; ++j) {
     const auto id = static_cast<JointId>(j);
@@ -54,14 +54,14 @@ void append_vertex(const Heat& heat, JointId own, Eigen::Index v, rig::SkinWeigh
     if (heat[j].size() > 0 && heat[j][v] > kLeastWeight) entries[count++] = {j, heat[j][v]};
   }
   if (count == 0) entries[count++] = {static_cast<int>(own), 1.0};
-  std::sort(entries.begin(), entries.begin() + count, [](const Entry& a, const Entry& b) {
+  std::sort(entries.begin(), entries.begin() + count, [](const JointShare& a, const JointShare& b) {
     return a.weight > b.weight || (a.weight == b.weight && a.joint < b.joint);
   });
   count = std::min(count, kInfluences);
   double sum = 0.0;
   for (int k = 0; k < count; ++k) sum += entries[k].weight;
   std::sort(entries.begin(), entries.begin() + count,
-            [](const Entry& a, const Entry& b) { return a.joint < b.joint; });
+            [](const JointShare& a, const JointShare& b) { return a.joint < b.joint; });
   for (int k = 0; k < count; ++k) {
     weights.joint.push_back(static_cast<std::uint16_t>(entries[k].joint));
     weights.weight.push_back(static_cast<float>(entries[k].weight / sum));

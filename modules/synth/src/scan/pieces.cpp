@@ -15,7 +15,7 @@ using geometry::Vec3;
 /// Sleeves and trouser legs stand off this far; pieces with gaps shrink, and tucked ones grow, by the other.
 constexpr double kCloth_m = 0.012, kGap_m = 0.004;
 
-enum Piece { kHead, kTrunk, kArmL, kArmR, kHandL, kHandR, kLegL, kLegR, kShoeL, kShoeR, kPieceCount };
+enum BodyPiece { kHead, kTrunk, kArmL, kArmR, kHandL, kHandR, kLegL, kLegR, kShoeL, kShoeR, kPieceCount };
 constexpr std::array<const char*, kPieceCount> kNames = {"head",   "trunk", "arm_l", "arm_r",  "hand_l",
                                                          "hand_r", "leg_l", "leg_r", "foot_l", "foot_r"};
 constexpr std::array<const char*, kPieceCount> kClothNames = {"head",   "shirt",  "sleeve_l",   "sleeve_r",

@@ -16,7 +16,7 @@ using geometry::TriMesh;
 /// The square root of the area over the longest edge that stays: 2 cm for a chair.
 constexpr double kAcross = 60.0;
 /// A surface with more vertices is fine enough, however long some of its edges are.
-constexpr std::size_t kMostVertices = 100'000;
+constexpr std::size_t kFineVertices = 100'000;
 
 /// The middle of each edge that is longer than `limit`, added to the mesh; kNoIndex for others.
 std::vector<Index> add_middles(const geometry::MeshEdges& edges, double limit, TriMesh& mesh) {
@@ -62,7 +62,7 @@ void refine_thing(io::ImportedMesh& thing) {
   TriMesh& mesh = thing.skin;
   const double limit = std::sqrt(geometry::surface_area(mesh)) / kAcross;
   if (!(limit > 0.0)) return;
-  for (std::size_t before = 0; before != mesh.positions.size() && mesh.positions.size() < kMostVertices;) {
+  for (std::size_t before = 0; before != mesh.positions.size() && mesh.positions.size() < kFineVertices;) {
     before = mesh.positions.size();
     const geometry::MeshEdges edges = geometry::mesh_edges(mesh);
     const std::vector<Index> middle = add_middles(edges, limit, mesh);

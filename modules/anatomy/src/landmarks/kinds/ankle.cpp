@@ -5,6 +5,7 @@
 #include "landmarks/base/level_loop.hpp"
 
 namespace bodice::anatomy {
+namespace of_ankle {
 namespace {
 
 /// Beyond this distance from the toe, in units of foot to foot, the level means nothing.
@@ -15,12 +16,13 @@ FoundLandmark find(const LandmarkInput& input, int side) {
 }
 
 }  // namespace
+}  // namespace of_ankle
 
 LandmarkKind ankle() {
   return {.id = LandmarkId::kAnkleL,
           .paired = true,
           .part = body::Part::kCalfL,
-          .find = find,
+          .find = of_ankle::find,
           .recipe = Recipe::kLimbLevel};
 }
 

@@ -11,6 +11,7 @@
 #include "landmarks/kinds/armpit_signature.hpp"
 
 namespace bodice::anatomy {
+namespace of_armpit {
 namespace {
 
 using geometry::Vec3;
@@ -93,17 +94,18 @@ double asymmetry(const LandmarkInput& input, const Landmarks& marks, int) {
 }
 
 }  // namespace
+}  // namespace of_armpit
 
 LandmarkKind armpit() {
   return {
       .id = LandmarkId::kArmpitL,
       .paired = true,
       .part = body::Part::kUpperArmL,
-      .find = find,
-      .refine = refine,
-      .checks = {{{level_difference, kMaxDifference,
+      .find = of_armpit::find,
+      .refine = of_armpit::refine,
+      .checks = {{{of_armpit::level_difference, of_armpit::kMaxDifference,
                    "The armpit and the level where the arm widens into the trunk lie far from each other."},
-                  {asymmetry, kMaxAsymmetry, nullptr}}},
+                  {of_armpit::asymmetry, of_armpit::kMaxAsymmetry, nullptr}}},
       .warn_uncertain = true,
       .doubt = 1,
       .on_skin = true,

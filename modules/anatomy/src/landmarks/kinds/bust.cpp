@@ -4,6 +4,7 @@
 #include "landmarks/base/skin_signature.hpp"
 
 namespace bodice::anatomy {
+namespace of_bust {
 namespace {
 
 constexpr SkinSignature kSignature = make_signature<kCoordinateCount, kBuildCount>(
@@ -14,12 +15,13 @@ FoundLandmark find(const LandmarkInput& input, int side) {
 }
 
 }  // namespace
+}  // namespace of_bust
 
 LandmarkKind bust() {
   return {.id = LandmarkId::kBustL,
           .paired = true,
           .part = body::Part::kTorsoUL,
-          .find = find,
+          .find = of_bust::find,
           .on_skin = true,
           .recipe = Recipe::kSignature};
 }

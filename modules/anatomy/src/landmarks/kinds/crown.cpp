@@ -11,6 +11,7 @@
 #include "skin/soft_position.hpp"
 
 namespace bodice::anatomy {
+namespace of_crown {
 namespace {
 
 using geodesic::Field;
@@ -143,17 +144,18 @@ double overhang(const LandmarkInput& input, const Landmarks& marks, int) {
 }
 
 }  // namespace
+}  // namespace of_crown
 
 LandmarkKind crown() {
   return {
       .id = LandmarkId::kCrown,
       .part = body::Part::kHead,
-      .find = find_crown,
-      .refine = refine_crown,
-      .checks = {{{difference, kMaxDifference,
+      .find = of_crown::find_crown,
+      .refine = of_crown::refine_crown,
+      .checks = {{{of_crown::difference, of_crown::kMaxDifference,
                    "The top of the head and the point of the head that is farthest from the perineum lie "
                    "apart."},
-                  {overhang, kMaxOverhang,
+                  {of_crown::overhang, of_crown::kMaxOverhang,
                    "Something stands off the head, such as hair: the crown and the stature may be wrong."}}},
       .recipe = Recipe::kCorrections};
 }

@@ -5,6 +5,7 @@
 #include "landmarks/base/limb_joint.hpp"
 
 namespace bodice::anatomy {
+namespace of_elbow {
 namespace {
 
 /// Beyond this distance from the fingertip, in units of hand to hand, the border's sign means nothing.
@@ -41,14 +42,15 @@ double difference(const LandmarkInput& input, const Landmarks& marks, int side) 
 }
 
 }  // namespace
+}  // namespace of_elbow
 
 LandmarkKind elbow() {
   return {.id = LandmarkId::kElbowL,
           .paired = true,
           .part = body::Part::kUpperArmL,
-          .find = find,
-          .refine = refine,
-          .checks = {{{difference, kMaxDifference,
+          .find = of_elbow::find,
+          .refine = of_elbow::refine,
+          .checks = {{{of_elbow::difference, of_elbow::kMaxDifference,
                        "The elbow's border and the bend or the middle of the arm lie far from each other."}}},
           .doubt = 1,
           .recipe = Recipe::kCorrections};

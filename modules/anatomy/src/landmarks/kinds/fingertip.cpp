@@ -3,6 +3,7 @@
 #include "landmarks/base/landmark_kind.hpp"
 
 namespace bodice::anatomy {
+namespace of_fingertip {
 namespace {
 
 /// The cross-check looks for the fingertip this near to the first estimate, as a fraction of the body size.
@@ -22,14 +23,15 @@ double difference(const LandmarkInput& input, const Landmarks& marks, int side) 
 }
 
 }  // namespace
+}  // namespace of_fingertip
 
 LandmarkKind fingertip() {
   return {
       .id = LandmarkId::kFingertipL,
       .paired = true,
       .part = body::Part::kForearmL,
-      .find = find,
-      .checks = {{{difference, kMaxDifference,
+      .find = of_fingertip::find,
+      .checks = {{{of_fingertip::difference, of_fingertip::kMaxDifference,
                    "The fingertip and the point of the hand that is farthest from the trunk lie apart."}}}};
 }
 

@@ -5,6 +5,7 @@
 #include "landmarks/base/level_loop.hpp"
 
 namespace bodice::anatomy {
+namespace of_hip {
 namespace {
 
 FoundLandmark find(const LandmarkInput& input, int) {
@@ -12,9 +13,13 @@ FoundLandmark find(const LandmarkInput& input, int) {
 }
 
 }  // namespace
+}  // namespace of_hip
 
 LandmarkKind hip() {
-  return {.id = LandmarkId::kHip, .part = body::Part::kTorsoLL, .find = find, .recipe = Recipe::kTrunkLevel};
+  return {.id = LandmarkId::kHip,
+          .part = body::Part::kTorsoLL,
+          .find = of_hip::find,
+          .recipe = Recipe::kTrunkLevel};
 }
 
 }  // namespace bodice::anatomy

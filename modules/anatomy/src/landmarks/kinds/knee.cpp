@@ -5,6 +5,7 @@
 #include "landmarks/base/limb_joint.hpp"
 
 namespace bodice::anatomy {
+namespace of_knee {
 namespace {
 
 /// Beyond this distance from the toe, in units of foot to foot, the border's sign means nothing.
@@ -42,14 +43,15 @@ double difference(const LandmarkInput& input, const Landmarks& marks, int side) 
 }
 
 }  // namespace
+}  // namespace of_knee
 
 LandmarkKind knee() {
   return {.id = LandmarkId::kKneeL,
           .paired = true,
           .part = body::Part::kThighL,
-          .find = find,
-          .refine = refine,
-          .checks = {{{difference, kMaxDifference,
+          .find = of_knee::find,
+          .refine = of_knee::refine,
+          .checks = {{{of_knee::difference, of_knee::kMaxDifference,
                        "The knee's border and the bend or the middle of the leg lie far from each other."}}},
           .doubt = 1,
           .recipe = Recipe::kCorrections};

@@ -12,6 +12,7 @@
 #include "skin/girth_profile.hpp"
 
 namespace bodice::anatomy {
+namespace of_neck {
 namespace {
 
 using geometry::Vec3;
@@ -153,13 +154,14 @@ double difference(const LandmarkInput& input, const Landmarks& marks, int) {
 }
 
 }  // namespace
+}  // namespace of_neck
 
 LandmarkKind neck() {
   return {.id = LandmarkId::kNeck,
           .part = body::Part::kHead,
-          .find = find,
-          .refine = refine,
-          .checks = {{{difference, kMaxDifference,
+          .find = of_neck::find,
+          .refine = of_neck::refine,
+          .checks = {{{of_neck::difference, of_neck::kMaxDifference,
                        "The neck's border and its narrowest level lie far from each other."}}},
           .warn_uncertain = true,
           .doubt = 2,

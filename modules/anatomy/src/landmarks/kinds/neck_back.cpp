@@ -4,6 +4,7 @@
 #include "landmarks/base/skin_signature.hpp"
 
 namespace bodice::anatomy {
+namespace of_neck_back {
 namespace {
 
 constexpr SkinSignature kSignature = make_signature<kCoordinateCount, kBuildCount>(
@@ -14,12 +15,13 @@ FoundLandmark find(const LandmarkInput& input, int side) {
 }
 
 }  // namespace
+}  // namespace of_neck_back
 
 LandmarkKind neck_back() {
   return {.id = LandmarkId::kNeckBack,
           .paired = false,
           .part = body::Part::kTorsoUL,
-          .find = find,
+          .find = of_neck_back::find,
           .on_skin = true,
           .recipe = Recipe::kSignature};
 }

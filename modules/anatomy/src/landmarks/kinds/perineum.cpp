@@ -7,6 +7,7 @@
 #include "landmarks/kinds/perineum_by_shape.hpp"
 
 namespace bodice::anatomy {
+namespace of_perineum {
 namespace {
 
 /// A signature this many deviations off is no evidence any more: one perineum in fifty is more than 4 off.
@@ -54,14 +55,15 @@ double difference(const LandmarkInput& input, const Landmarks&, int) {
 }
 
 }  // namespace
+}  // namespace of_perineum
 
 LandmarkKind perineum() {
   return {.id = LandmarkId::kPerineum,
           .part = body::Part::kThighL,
-          .find = find,
-          .refine = refine,
-          .finish = finish,
-          .checks = {{{difference, kMaxDifference,
+          .find = of_perineum::find,
+          .refine = of_perineum::refine,
+          .finish = of_perineum::finish,
+          .checks = {{{of_perineum::difference, of_perineum::kMaxDifference,
                        "The perineum and the point where the legs join along the skin lie far from each "
                        "other."}}},
           .warn_uncertain = true,

@@ -4,6 +4,7 @@
 #include "landmarks/base/skin_signature.hpp"
 
 namespace bodice::anatomy {
+namespace of_shoulder {
 namespace {
 
 constexpr SkinSignature kSignature = make_signature<kCoordinateCount, kBuildCount>(
@@ -14,12 +15,13 @@ FoundLandmark find(const LandmarkInput& input, int side) {
 }
 
 }  // namespace
+}  // namespace of_shoulder
 
 LandmarkKind shoulder() {
   return {.id = LandmarkId::kShoulderL,
           .paired = true,
           .part = body::Part::kUpperArmL,
-          .find = find,
+          .find = of_shoulder::find,
           .on_skin = true,
           .recipe = Recipe::kSignature};
 }

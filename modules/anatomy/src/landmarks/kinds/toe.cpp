@@ -4,6 +4,7 @@
 #include "skin/soft_position.hpp"
 
 namespace bodice::anatomy {
+namespace of_toe {
 namespace {
 
 /// How much nearer to the head than its tip the front of a foot reaches, and how far to the sides: fractions
@@ -39,14 +40,15 @@ double difference(const LandmarkInput& input, const Landmarks&, int side) {
 }
 
 }  // namespace
+}  // namespace of_toe
 
 LandmarkKind toe() {
   return {.id = LandmarkId::kToeL,
           .paired = true,
           .part = body::Part::kCalfL,
-          .find = find,
-          .finish = finish,
-          .checks = {{{difference, kMaxDifference,
+          .find = of_toe::find,
+          .finish = of_toe::finish,
+          .checks = {{{of_toe::difference, of_toe::kMaxDifference,
                        "The tip of the foot and the point of the foot that is farthest from the trunk lie "
                        "apart."}}}};
 }

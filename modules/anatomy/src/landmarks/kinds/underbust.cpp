@@ -5,6 +5,7 @@
 #include "landmarks/base/level_loop.hpp"
 
 namespace bodice::anatomy {
+namespace of_underbust {
 namespace {
 
 FoundLandmark find(const LandmarkInput& input, int) {
@@ -12,11 +13,12 @@ FoundLandmark find(const LandmarkInput& input, int) {
 }
 
 }  // namespace
+}  // namespace of_underbust
 
 LandmarkKind underbust() {
   return {.id = LandmarkId::kUnderbust,
           .part = body::Part::kTorsoUL,
-          .find = find,
+          .find = of_underbust::find,
           .recipe = Recipe::kTrunkLevel};
 }
 

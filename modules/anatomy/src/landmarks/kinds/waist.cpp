@@ -5,6 +5,7 @@
 #include "landmarks/base/level_loop.hpp"
 
 namespace bodice::anatomy {
+namespace of_waist {
 namespace {
 
 FoundLandmark find(const LandmarkInput& input, int) {
@@ -12,10 +13,13 @@ FoundLandmark find(const LandmarkInput& input, int) {
 }
 
 }  // namespace
+}  // namespace of_waist
 
 LandmarkKind waist() {
-  return {
-      .id = LandmarkId::kWaist, .part = body::Part::kTorsoML, .find = find, .recipe = Recipe::kTrunkLevel};
+  return {.id = LandmarkId::kWaist,
+          .part = body::Part::kTorsoML,
+          .find = of_waist::find,
+          .recipe = Recipe::kTrunkLevel};
 }
 
 }  // namespace bodice::anatomy

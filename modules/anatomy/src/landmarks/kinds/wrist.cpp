@@ -5,6 +5,7 @@
 #include "landmarks/base/level_loop.hpp"
 
 namespace bodice::anatomy {
+namespace of_wrist {
 namespace {
 
 /// Beyond this distance from the fingertip, in units of hand to hand, the level means nothing.
@@ -15,12 +16,13 @@ FoundLandmark find(const LandmarkInput& input, int side) {
 }
 
 }  // namespace
+}  // namespace of_wrist
 
 LandmarkKind wrist() {
   return {.id = LandmarkId::kWristL,
           .paired = true,
           .part = body::Part::kForearmL,
-          .find = find,
+          .find = of_wrist::find,
           .recipe = Recipe::kLimbLevel};
 }
 
