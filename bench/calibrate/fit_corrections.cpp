@@ -85,14 +85,12 @@ Eigen::VectorXd spreads(const Rows& rows) {
   return Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
-/// The weights by all rows but those of people in the fold; kFolds: by all.
-Eigen::VectorXd solve(const Rows& rows, double ridge, std::size_t fold) {
-  const auto unknowns = static_cast<int>(factors(*rows.front().correction, 0).size());
-  LeastSquares system(unknowns);
+/// The equations of all rows, by parts of the people.
+FoldedLeastSquares equations_of(const Rows& rows) {
+  FoldedLeastSquares equations(static_cast<int>(factors(*rows.front().correction, 0).size()));
   for (const Row& row : rows)
-    if (row.person % kFolds != fold)
-      for (int k = 0; k < 3; ++k) system.add(factors(*row.correction, k), row.missing[k]);
-  return system.solve(ridge * spreads(rows).array().square()).col(0);
+    for (int k = 0; k < 3; ++k) equations.add(row.person, factors(*row.correction, k), row.missing[k]);
+  return equations;
 }
 
 /// How far from the true landmark the weights lead.
@@ -103,20 +101,20 @@ double error(const Row& row, const Eigen::VectorXd& weights) {
 }
 
 /// The mean error of people that are left out.
-double left_out_error(const Rows& rows, double ridge) {
+double left_out_error(const Rows& rows, const FoldedLeastSquares& equations, const Eigen::VectorXd& ridge) {
+  std::vector<Eigen::VectorXd> weights;
+  for (std::size_t fold = 0; fold < kFolds; ++fold) weights.push_back(equations.solve(ridge, fold));
   double sum = 0.0;
-  for (std::size_t fold = 0; fold < kFolds; ++fold) {
-    const Eigen::VectorXd weights = solve(rows, ridge, fold);
-    for (const Row& row : rows)
-      if (row.person % kFolds == fold) sum += error(row, weights);
-  }
+  for (const Row& row : rows) sum += error(row, weights[row.person % kFolds]);
   return sum / static_cast<double>(rows.size());
 }
 
 void add_weights(const Rows& rows, ordered_json& out) {
   double best = std::numeric_limits<double>::infinity(), ridge = 0.0, before = 0.0;
+  const FoldedLeastSquares equations = equations_of(rows);
+  const Eigen::VectorXd costs = spreads(rows).cwiseAbs2();
   for (const double candidate : kRidges) {
-    const double left = left_out_error(rows, candidate);
+    const double left = left_out_error(rows, equations, candidate * costs);
     if (left < best) best = left, ridge = candidate;
   }
   for (const Row& row : rows) before += row.missing.norm() / static_cast<double>(rows.size());
@@ -124,7 +122,7 @@ void add_weights(const Rows& rows, ordered_json& out) {
   std::printf(
       "  %s: %zu rows, first estimate %.2f %%, left-out people %.2f %% of the body size off, ridge %g\n",
       name_of(first).c_str(), rows.size(), 100.0 * before, 100.0 * best, ridge);
-  const Eigen::VectorXd weights = solve(rows, ridge, kFolds);
+  const Eigen::VectorXd weights = equations.solve(Eigen::VectorXd(ridge * costs));
   Eigen::Index at = 0;
   for (const CorrectionAxis& axis : first.axes) {
     const auto count = static_cast<Eigen::Index>(weight_count(axis));

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include <bodice/geodesic/distance.hpp>
 
@@ -252,6 +253,18 @@ double fit_chest_share(const FittedBorder& waist, const FittedBorder& neck, cons
 }
 
 }  // namespace
+
+ordered_json fit_joint_borders(const Samples& samples) {
+  const Builds builds(samples);
+  ordered_json out = ordered_json::object();
+  for (BorderKind kind : kBorders) {
+    const std::string_view member = kind.member;
+    if (member == "hip" || member == "waist") continue;  // landmarks read neither
+    kind.follows = nullptr;
+    add_members(fit_border(kind, builds, samples), out);
+  }
+  return out;
+}
 
 ordered_json fit_part_borders(const Samples& samples) {
   const Builds builds(samples);

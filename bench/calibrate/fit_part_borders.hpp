@@ -10,4 +10,7 @@ namespace calibrate {
 /// people left out.
 ordered_json fit_part_borders(const Samples& samples);
 
+/// The same for the borders through joints that landmarks read: one for all builds.
+ordered_json fit_joint_borders(const Samples& samples);
+
 }  // namespace calibrate

@@ -67,8 +67,10 @@ class FoldedLeastSquares {
 
   void add(std::size_t person, const Eigen::VectorXd& x, double y) { folds_[person % kFolds].add(x, y); }
 
-  /// The weights by all people but those of a part; kFolds: by all.
-  Eigen::VectorXd solve(double ridge, std::size_t without = kFolds) const {
+  /// The weights by all people but those of a part; kFolds: by all. The ridge is one for all unknowns, or one
+  /// for each.
+  template <class Ridge>
+  Eigen::VectorXd solve(const Ridge& ridge, std::size_t without = kFolds) const {
     LeastSquares all(folds_.front().unknowns());
     for (std::size_t fold = 0; fold < kFolds; ++fold)
       if (fold != without) all += folds_[fold];

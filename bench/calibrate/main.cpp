@@ -153,6 +153,7 @@ struct OwnFit {
 constexpr OwnFit kOwnFits[] = {{"stature", calibrate::fit_stature},
                                {"extremities", calibrate::fit_extremities},
                                {"part_borders", calibrate::fit_part_borders},
+                               {"joint_borders", calibrate::fit_joint_borders},
                                {"joint_offsets", calibrate::fit_joint_offsets},
                                {"perineum", calibrate::fit_perineum_signature},
                                {"armpit", calibrate::fit_armpit_signature}};

@@ -93,10 +93,17 @@ Corrected corrected(const geometry::Ellipsoid& e, const Candidate& c, const Reli
   return {d - value.h - value.a * clamped / reach.out_m, e.axes * local};
 }
 
-/// A lower bound on the signed distance: by the enclosing sphere, and because the map from the unit sphere
-/// stretches lengths by a factor between the least and the largest radius.
+constexpr double kRounding = 1e-12;
+
+/// A lower bound on the signed distance by the enclosing sphere.
+double sphere_bound(const geometry::Ellipsoid& e, const Vec3& point) {
+  const double longest = e.radii.maxCoeff(), length = (point - e.center).norm();
+  return length - longest - kRounding * (length + longest);
+}
+
+/// A lower bound on the signed distance, never below the sphere's: the map from the unit sphere stretches
+/// lengths by a factor between the least and the largest radius.
 double lower_bound(const geometry::Ellipsoid& e, const Vec3& point) {
-  constexpr double kRounding = 1e-12;
   const Vec3 p = point - e.center;
   const double shortest = e.radii.minCoeff(), longest = e.radii.maxCoeff();
   const double beyond = (e.axes.transpose() * p).cwiseQuotient(e.radii).norm() - 1.0;
@@ -140,11 +147,17 @@ struct NearEllipsoids {
 /// Finds the owner, and with `blend_m` above zero all ellipsoids at most that much farther than the owner.
 /// Some of the found ellipsoids may be farther; their weight is zero.
 NearEllipsoids find_near(const Surfaces& surfaces, const Vec3& point, double blend_m) {
-  std::vector<double> bound;
+  std::vector<double> bound;  // the sphere's where that is enough to know that an ellipsoid is not the first
   bound.reserve(surfaces.count);
-  for (std::size_t k = 0; k < surfaces.count; ++k) bound.push_back(lower_bound(surfaces.shape(k), point));
   // The ellipsoid of the least bound is evaluated first, because few others then have a bound below it.
-  const auto first = static_cast<std::size_t>(std::ranges::min_element(bound) - bound.begin());
+  std::size_t first = 0;
+  double least_bound = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < surfaces.count; ++k) {
+    bound.push_back(sphere_bound(surfaces.shape(k), point));
+    if (bound[k] > least_bound) continue;
+    bound[k] = lower_bound(surfaces.shape(k), point);
+    if (bound[k] < least_bound) first = k, least_bound = bound[k];
+  }
   const auto candidate = [&](std::size_t k) {
     Candidate c{geometry::closest_point(surfaces.shape(k), point), static_cast<std::uint32_t>(k)};
     c.score = c.closest.signed_distance + surfaces.burial_of(k, c.closest);
@@ -154,7 +167,8 @@ NearEllipsoids find_near(const Surfaces& surfaces, const Vec3& point, double ble
   double least = first_candidate.score;
   NearEllipsoids near;
   for (std::size_t k = 0; k < surfaces.count; ++k) {
-    if (k != first && bound[k] > least + blend_m) continue;
+    const double reach = least + blend_m;
+    if (k != first && (bound[k] > reach || lower_bound(surfaces.shape(k), point) > reach)) continue;
     const Candidate c = k == first ? first_candidate : candidate(k);
     least = std::min(least, c.score);
     if (c.score < near.least) {
