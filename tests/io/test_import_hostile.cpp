@@ -65,12 +65,12 @@ TEST_CASE("a GLB with chunks that would end beyond the file is refused before an
     return std::string{static_cast<char>(value & 255u), static_cast<char>(value >> 8 & 255u),
                        static_cast<char>(value >> 16 & 255u), static_cast<char>(value >> 24)};
   };
-  const std::string json = R"({"asset":{"version":"2.0"}}  )";
+  const std::string chunk = R"({"asset":{"version":"2.0"}}  )";
   const std::uint32_t huge = 2'200'000'000;
   const auto file = [&](std::uint32_t all, std::uint32_t first, const std::string& more) {
-    return "glTF" + word(2) + word(all) + word(first) + "JSON" + json + more;
+    return "glTF" + word(2) + word(all) + word(first) + "JSON" + chunk + more;
   };
-  const auto length = static_cast<std::uint32_t>(json.size());
+  const auto length = static_cast<std::uint32_t>(chunk.size());
   const std::string files[] = {file(huge + 20, huge, ""), file(20 + length, huge, ""),
                                file(28 + length, length, word(huge) + std::string("BIN\0", 4))};
   for (const std::string& bytes : files) {

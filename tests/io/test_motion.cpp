@@ -24,7 +24,7 @@ const std::string kBvh =
     "OFFSET 0 40 0\n  }\n"
     " }\n}\nMOTION\nFrames: 2\nFrame Time: 0.25\n0 90 0 0 0 0 0 0 0\n10 95 -20 90 0 0 0 30 60\n";
 
-Eigen::Matrix3d turn(double degrees, const Vec3& axis) {
+Eigen::Matrix3d turn_by(double degrees, const Vec3& axis) {
   return Eigen::AngleAxisd(degrees * std::numbers::pi / 180.0, axis).toRotationMatrix();
 }
 
@@ -59,8 +59,8 @@ TEST_CASE("a BVH file gives joints in meters, and poses as the product of its ch
   CHECK(motion->clips[0].duration_s == 0.25);
   std::vector<rig::Affine> world(3);
   joint_matrices(skeleton, motion->clips[0], 0.25, world);
-  const Eigen::Matrix3d hips = turn(90, Vec3::UnitZ()),
-                        neck = hips * turn(30, Vec3::UnitX()) * turn(60, Vec3::UnitY());
+  const Eigen::Matrix3d hips = turn_by(90, Vec3::UnitZ()),
+                        neck = hips * turn_by(30, Vec3::UnitX()) * turn_by(60, Vec3::UnitY());
   const Vec3 at_hips(0.1, 0.95, -0.2), at_neck = at_hips + hips * Vec3(0, 0.8, 0);
   CHECK((world[0].col(3) - at_hips).norm() < 1e-12);
   CHECK((world[1].col(3) - at_neck).norm() < 1e-12);
