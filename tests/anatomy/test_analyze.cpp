@@ -56,37 +56,6 @@ TEST_CASE("fifty random bodies in random poses: parts agree, sides are never swa
   CHECK(far < kSeeds * body::kLandmarkCount / 50);
 }
 
-TEST_CASE("fine skins are understood by a copy with fewer triangles, and get its parts and vertices") {
-  const synth::Body truth = synth::make_body({}, {.vertices = 170000}).value();
-  REQUIRE(truth.mesh.positions.size() > 150000);
-  geometry::TriMesh mesh = truth.mesh;
-  const auto first = static_cast<geometry::Index>(mesh.positions.size());
-  const geometry::Vec3 beside = truth.landmarks[static_cast<std::size_t>(LandmarkId::kToeL)].position;
-  for (const geometry::Vec3& by :
-       {geometry::Vec3(0, 0, 0.02), geometry::Vec3(0.002, 0, 0.02), geometry::Vec3(0, 0.002, 0.02)})
-    mesh.positions.push_back(beside + by);
-  mesh.triangles.push_back({first, first + 1, first + 2});  // a crumb that no triangle of the copy stands for
-  const auto found = analyze(mesh);
-  REQUIRE(found.ok());
-  CHECK(std::ranges::count(found->stages, std::string("coarser skin"), &engine::StageTime::name) == 1);
-  REQUIRE(found->part.size() == mesh.positions.size());
-  for (geometry::Index v = first; v < first + 3; ++v) CHECK(found->part[v] == body::Part::kCalfL);
-  CHECK(made::agreement(truth, found->part) > 0.97);
-  int on_skin = 0;
-  for (const body::Landmark& mark : found->landmarks) {
-    CAPTURE(std::string(body::name(mark.id)));
-    CHECK(made::error(truth, *found, mark.id) < 0.025);
-    REQUIRE(mark.vertex < mesh.positions.size());
-    double nearest = 1.0;
-    for (const geometry::Vec3& p : mesh.positions) nearest = std::min(nearest, (p - mark.position).norm());
-    if (nearest > 0.004) continue;  // joints and centers of girths lie inside
-    ++on_skin;
-    CHECK((mesh.positions[mark.vertex] - mark.position).norm() < 0.006);
-  }
-  CHECK(on_skin >= 8);  // so that some were looked at
-  CHECK(found->stature_m == doctest::Approx(truth.stature_m).epsilon(0.01));
-}
-
 TEST_CASE("children of all ages, pregnant and very heavy bodies are understood") {
   const auto check = [](const synth::BodyOptions& options) {
     const auto truth = synth::make_body({}, options);

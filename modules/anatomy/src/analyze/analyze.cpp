@@ -3,7 +3,6 @@
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/stage_timer.hpp>
 #include <bodice/geometry/fins.hpp>
-#include <bodice/geometry/mesh_distance.hpp>
 
 #include "analyze/cut_welds.hpp"
 #include "check/diagnostics.hpp"
@@ -12,7 +11,6 @@
 #include "landmarks/find_landmarks.hpp"
 #include "landmarks/stature.hpp"
 #include "segment/segment.hpp"
-#include "skin/coarse_copy.hpp"
 #include "skin/halve_edges.hpp"
 #include "skin/split_pinches.hpp"
 
@@ -153,53 +151,14 @@ engine::Result<Anatomy> analyze_mesh(const engine::Context& context, const geome
   return analyze_apart(context, make_skin(context, clean), options, std::move(anatomy));
 }
 
-engine::Result<Anatomy> analyze_checked(const engine::Context& context, const geometry::TriMesh& mesh,
-                                        const Options& options) {
-  return checked(mesh, cut_welds(context, mesh, options, analyze_mesh), options.force);
-}
-
-/// From a coarse copy to the skin: a vertex has the part of its patch, or that of the closest triangle where
-/// the copy lost its piece.
-void carry_to_fine(const engine::Context& context, const CoarseCopy& copy, const geometry::TriMesh& skin,
-                   Anatomy& anatomy) {
-  std::vector<body::Part> parts(skin.positions.size());
-  std::optional<geometry::MeshDistance> distance;
-  for (std::size_t v = 0; v < parts.size(); ++v) {
-    geometry::Index at = copy.nearest[v];
-    if (at == geometry::kNoIndex) {
-      if (!distance) distance.emplace(context, copy.mesh);
-      at = copy.mesh.triangles[distance->closest_point(skin.positions[v]).triangle][0];
-    }
-    parts[v] = anatomy.part[at];
-  }
-  anatomy.part = std::move(parts);
-  for (body::Landmark& mark : anatomy.landmarks)
-    if (mark.vertex != geometry::kNoIndex) mark.vertex = copy.origin[mark.vertex];
-}
-
-/// Fine skins are analyzed on a copy of the same surface with fewer triangles.
-engine::Result<Anatomy> analyze_coarse_enough(const engine::Context& context, const geometry::TriMesh& mesh,
-                                              const Options& options) {
-  if (mesh.positions.size() <= kFine) return analyze_checked(context, mesh, options);
-  std::vector<engine::StageTime> stages;
-  StageTimer timer(context, stages, "coarser skin");
-  const std::optional<CoarseCopy> copy = coarse_copy(context, mesh);
-  timer.stop();
-  if (!copy) return analyze_checked(context, mesh, options);
-  auto found = analyze_checked(context, copy->mesh, options);
-  if (!found) return found;
-  carry_to_fine(context, *copy, mesh, *found);
-  found->stages.insert(found->stages.begin(), stages.begin(), stages.end());
-  return found;
-}
-
 }  // namespace
 
 engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& mesh,
                                 const Options& options) {
   if (mesh.empty()) return no_body("the mesh has no triangles.");
-  return engine::catch_canceled("The analysis of the body",
-                                [&] { return analyze_coarse_enough(context, mesh, options); });
+  return engine::catch_canceled("The analysis of the body", [&] {
+    return checked(mesh, cut_welds(context, mesh, options, analyze_mesh), options.force);
+  });
 }
 
 }  // namespace bodice::anatomy

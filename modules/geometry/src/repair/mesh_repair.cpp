@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include <bodice/engine/catch_canceled.hpp>
 #include <bodice/engine/message.hpp>
@@ -113,31 +112,24 @@ class Repair {
     counts_.flat = std::erase_if(kept_, flat);
   }
 
-  /// Drops every triangle on the same three vertices as an earlier one, whatever its winding. Those with the
-  /// same lowest corner stand together, and are compared.
+  /// Drops every triangle on the same three vertices as an earlier one, whatever its winding.
   void drop_duplicates() {
     struct Key {
-      Index middle, high, triangle;
+      Triangle corners;
+      Index triangle;
       auto operator<=>(const Key&) const = default;
     };
-    std::vector<Index> offset(positions_.size() + 1, 0);
-    for (Index t : kept_) ++offset[*std::ranges::min_element(welded_[t]) + 1];
-    for (std::size_t v = 1; v < offset.size(); ++v) offset[v] += offset[v - 1];
-    std::vector<Index> next(offset.begin(), offset.end() - 1);
-    std::vector<Key> keys(kept_.size());
+    std::vector<Key> keys;
+    keys.reserve(kept_.size());
     for (Index t : kept_) {
       Triangle sorted = welded_[t];
       std::sort(sorted.begin(), sorted.end());
-      keys[next[sorted[0]]++] = {sorted[1], sorted[2], t};
+      keys.push_back({sorted, t});
     }
+    std::sort(keys.begin(), keys.end());
     std::vector<bool> duplicate(input_.triangles.size(), false);
-    for (std::size_t v = 0; v < positions_.size(); ++v) {
-      const std::span<Key> same_low = std::span(keys).subspan(offset[v], offset[v + 1] - offset[v]);
-      std::ranges::sort(same_low);
-      for (std::size_t i = 1; i < same_low.size(); ++i)
-        duplicate[same_low[i].triangle] =
-            same_low[i].middle == same_low[i - 1].middle && same_low[i].high == same_low[i - 1].high;
-    }
+    for (std::size_t i = 1; i < keys.size(); ++i)
+      duplicate[keys[i].triangle] = keys[i].corners == keys[i - 1].corners;
     counts_.duplicate = std::erase_if(kept_, [&](Index t) { return duplicate[t]; });
   }
 
