@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include <bodice/collision/strided_particles.hpp>
+
 #include "base/handles.hpp"
 #include "base/structures.hpp"
 #include "frame/collider.hpp"
@@ -29,9 +31,9 @@ Outcome local_point(const bodice_collider& collider, const double* point, float 
   return {};
 }
 
-/// Queries particles that the engine can read, into the host's arrays or through the workspace.
+/// Queries into the host's array of contacts, or through the workspace.
 void query(const bodice_collider& collider, const capi::HostParticles& host,
-           const collision::Particles& particles, const collision::QueryOptions& options,
+           const collision::StridedParticles& particles, const collision::QueryOptions& options,
            bodice_workspace& workspace, const capi::HostContacts& to) {
   const engine::Context context = collider.context->engine_context();
   if (to.fits_engine()) {
@@ -94,8 +96,8 @@ bodice_status bodice_query(const bodice_collider* collider, const bodice_particl
     BODICE_CHECK(capi::read_contacts(contacts, host.count, to));
     std::optional<bodice_workspace> own;
     bodice_workspace& memory = workspace_for(*collider, workspace, own);
-    const capi::EngineParticles copy(host, Origin(*collider).xyz, memory, false);
-    query(*collider, host, copy.engine(),
+    const capi::EngineParticles from = capi::to_query(host, Origin(*collider).xyz);
+    query(*collider, host, from.particles,
           {.within_m = options.within_m,
            .accuracy = options.first_order ? collision::Accuracy::kFirstOrder : collision::Accuracy::kExact},
           memory, to);
@@ -147,16 +149,18 @@ bodice_status bodice_resolve(const bodice_collider* collider, const bodice_parti
     BODICE_CHECK(capi::read_particles(particles, host));
     std::optional<bodice_workspace> own;
     bodice_workspace& memory = workspace_for(*collider, workspace, own);
-    const capi::EngineParticles copy(host, Origin(*collider).xyz, memory, true);
+    const capi::EngineParticles from = capi::to_resolve(host, Origin(*collider).xyz, memory);
+    engine::Context context = collider->context->engine_context();
+    // Which of the values of an element that is listed twice is kept must not depend on threads.
+    if (!from.all_differ) context.executor = &engine::inline_executor();
     const collision::ContactReport done = collider->collider.resolve(
-        collider->context->engine_context(), copy.engine(),
+        context, from.particles,
         {.response = options.paper ? collision::Response::kPaper : collision::Response::kClosestPoint,
          .thickness_m = options.thickness_m,
          .friction = options.friction,
          .max_push_m = options.max_push_m,
          .blend_m = options.blend_m},
         memory.engine);
-    copy.write_back();
-    return capi::write(as_c(done, copy.pinned()), report, true);
+    return capi::write(as_c(done, from.pinned), report, true);
   });
 }

@@ -6,11 +6,12 @@
 
 struct bodice_workspace {
   explicit bodice_workspace(bodice::capi::SharedContext shared)
-      : context(shared), numbers(shared), element(shared), contacts(shared) {}
+      : context(shared), numbers(shared), element(shared), claim(shared), contacts(shared) {}
 
   bodice::capi::SharedContext context;
   bodice::collision::Workspace engine;
-  bodice::capi::HostArray<float> numbers;          ///< copies of the particles, one array after another
+  bodice::capi::HostArray<float> numbers;          ///< the paths of a sweep, one array after another
   bodice::capi::HostArray<std::uint32_t> element;  ///< of each particle that is not pinned
+  bodice::capi::HostArray<std::uint32_t> claim;    ///< of each element: the particle that has it
   bodice::capi::HostArray<bodice::collision::Contact> contacts;
 };

@@ -7,6 +7,7 @@
 #include <bodice/collision/collider.hpp>
 
 #include "model/batch.hpp"
+#include "model/particle_view.hpp"
 
 namespace bodice::collision {
 
@@ -21,10 +22,10 @@ struct GatheredBatch {
 
 /// Gathers the end - begin particles of `index`, or [begin, end) if it is null; at most kBatch. Particles
 /// that are not finite are left out and counted.
-void gather(const Particles& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
+void gather(const ParticleView& particles, const std::uint32_t* index, std::size_t begin, std::size_t end,
             GatheredBatch& out);
 
 /// Writes the positions and velocities of a response back.
-void scatter(const GatheredBatch& gathered, const BatchResponse& response, const Particles& particles);
+void scatter(const GatheredBatch& gathered, const BatchResponse& response, const ParticleView& particles);
 
 }  // namespace bodice::collision

@@ -30,18 +30,6 @@ class SharedReport {
   ContactReport total_;
 };
 
-/// The particles with each of the optional arrays complete or absent.
-Particles completed(Particles particles) {
-  if (!particles.vx || !particles.vy || !particles.vz) particles.vx = particles.vy = particles.vz = nullptr;
-  if (!particles.safe_x || !particles.safe_y || !particles.safe_z)
-    particles.safe_x = particles.safe_y = particles.safe_z = nullptr;
-  return particles;
-}
-
-bool has_positions(const Particles& particles) {
-  return particles.x && particles.y && particles.z;
-}
-
 /// Calls work(begin, end, sequence) for every `size` particles of [begin, end).
 template <class Work>
 void for_batches(std::size_t begin, std::size_t end, int size, const ParticleSequence& sequence,
@@ -53,7 +41,7 @@ void for_batches(std::size_t begin, std::size_t end, int size, const ParticleSeq
 /// Runs work in parallel tasks of whole batches over all particles and calls done(result) for each task. They
 /// are visited in the order of `all`; without a workspace and an order, each task may sort its particles.
 template <class Result, class Work, class Done>
-void for_tasks(const engine::Context& context, const Particles& particles, const ParticleSequence& all,
+void for_tasks(const engine::Context& context, const ParticleView& particles, const ParticleSequence& all,
                int size, Work&& work, Done&& done) {
   engine::parallel_for(context, particles.count, TaskOrder::kMost, [&](std::size_t begin, std::size_t end) {
     Result result;
@@ -135,7 +123,7 @@ Vec3 Collider::surface_velocity(std::uint32_t ellipsoid, const Vec3& local_point
 Contact Collider::query(const float (&local_point)[3], const QueryOptions& options) const noexcept {
   float x = local_point[0], y = local_point[1], z = local_point[2];
   Contact contact;
-  impl_->query_range({1, &x, &y, &z}, 0, 1, {}, options, {&contact, 1});
+  impl_->query_range(Particles{1, &x, &y, &z}, 0, 1, {}, options, {&contact, 1});
   return contact;
 }
 
@@ -147,6 +135,11 @@ void Collider::query(const engine::Context& context, const Particles& particles,
 void Collider::query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
                      Workspace& workspace, const QueryOptions& options) const {
   impl_->query(context, particles, contacts, options, workspace.data_.get());
+}
+
+void Collider::query(const engine::Context& context, const StridedParticles& particles,
+                     std::span<Contact> contacts, Workspace& workspace, const QueryOptions& options) const {
+  impl_->query(context, ParticleView(particles), contacts, options, workspace.data_.get());
 }
 
 std::size_t Collider::query_all(const float (&local_point)[3], float within_m,
@@ -184,19 +177,25 @@ ContactReport Collider::resolve(const engine::Context& context, const Particles&
   return impl_->resolve(context, particles, sanitized(options), workspace.data_.get());
 }
 
-ParticleSequence Collider::Impl::begin_call(const Particles& particles, WorkspaceData* workspace) const {
+ContactReport Collider::resolve(const engine::Context& context, const StridedParticles& particles,
+                                const ResolveOptions& options, Workspace& workspace) const {
+  return impl_->resolve(context, ParticleView(particles), sanitized(options), workspace.data_.get());
+}
+
+ParticleSequence Collider::Impl::begin_call(const ParticleView& particles, WorkspaceData* workspace) const {
   if (!workspace) return {};
   workspace->candidates.begin_call(particles.count, shapes, model.beyond_m());
   workspace->order.refresh(particles);
   return {workspace->order.order(), 0, workspace};
 }
 
-void Collider::Impl::query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
-                           const QueryOptions& options, WorkspaceData* workspace) const {
+void Collider::Impl::query(const engine::Context& context, const ParticleView& all,
+                           std::span<Contact> contacts, const QueryOptions& options,
+                           WorkspaceData* workspace) const {
   struct Nothing {};
-  Particles particles = all;
+  ParticleView particles = all;
   particles.count = std::min(all.count, contacts.size());
-  if (!has_positions(particles)) {
+  if (!particles.has_positions()) {
     std::fill_n(contacts.begin(), particles.count, no_contact());
     return;
   }
@@ -214,10 +213,9 @@ void Collider::Impl::query(const engine::Context& context, const Particles& all,
       [](const Nothing&) {});
 }
 
-ContactReport Collider::Impl::resolve(const engine::Context& context, const Particles& all,
+ContactReport Collider::Impl::resolve(const engine::Context& context, const ParticleView& particles,
                                       const ResolveOptions& options, WorkspaceData* workspace) const {
-  const Particles particles = completed(all);
-  if (!has_positions(particles)) {
+  if (!particles.has_positions()) {
     ContactReport report;
     report.not_finite = particles.count;
     return report;

@@ -67,19 +67,53 @@ Vec3 at(const float* x, const float* y, const float* z, std::size_t i) {
   return {double{x[i]}, double{y[i]}, double{z[i]}};
 }
 
-ParticleState load(const Particles& particles, std::size_t i) {
+/// A vector of particle i as the kernels read it.
+Vec3 at(const ParticleView& particles, const StridedVectors& from, const double (&shift)[3], std::size_t i) {
+  float x, y, z;
+  gather_vectors(particles, from, shift, {nullptr, i, 1}, {&x, &y, &z});
+  return {double{x}, double{y}, double{z}};
+}
+
+ParticleState load(const ParticleView& particles, std::size_t i) {
   ParticleState state;
-  state.position = at(particles.x, particles.y, particles.z, i);
+  const Particles& arrays = particles.arrays;
+  const StridedParticles& of = particles.strided;
+  const bool packed = particles.packed;
+  state.position = packed ? at(arrays.x, arrays.y, arrays.z, i) : at(particles, of.position, of.origin, i);
   state.velocity = Vec3::Zero();
   state.safe = state.position;
-  state.has_velocity = particles.vx != nullptr;
-  if (state.has_velocity) state.velocity = at(particles.vx, particles.vy, particles.vz, i);
-  if (particles.safe_x) state.safe = at(particles.safe_x, particles.safe_y, particles.safe_z, i);
-  state.has_safe = particles.safe_x && state.safe.allFinite();
+  state.has_velocity = particles.has_velocity();
+  if (state.has_velocity)
+    state.velocity =
+        packed ? at(arrays.vx, arrays.vy, arrays.vz, i) : at(particles, of.velocity, kNoShift, i);
+  if (particles.has_safe())
+    state.safe =
+        packed ? at(arrays.safe_x, arrays.safe_y, arrays.safe_z, i) : at(particles, of.safe, of.origin, i);
+  state.has_safe = particles.has_safe() && state.safe.allFinite();
   return state;
 }
 
-void store(const ParticleState& state, const Particles& particles, std::size_t i) {
+void write(const ParticleView& particles, const StridedVectors& to, const double (&shift)[3], std::size_t i,
+           const Vec3& now) {
+  const Vec3 was = at(particles, to, shift, i);
+  const auto write_as = [&](auto scalar) {
+    const auto number = [](const Vec3& of, int axis) { return static_cast<float>(of[axis]); };
+    write_vector<decltype(scalar)>(to, particles.element(i), {number(now, 0), number(now, 1), number(now, 2)},
+                                   {number(was, 0), number(was, 1), number(was, 2)}, shift);
+  };
+  if (to.is_double)
+    write_as(double{});
+  else
+    write_as(float{});
+}
+
+void store(const ParticleState& state, const ParticleView& view, std::size_t i) {
+  if (!view.packed) {
+    write(view, view.strided.position, view.strided.origin, i, state.position);
+    if (state.has_velocity) write(view, view.strided.velocity, kNoShift, i, state.velocity);
+    return;
+  }
+  const Particles& particles = view.arrays;
   particles.x[i] = static_cast<float>(state.position.x());
   particles.y[i] = static_cast<float>(state.position.y());
   particles.z[i] = static_cast<float>(state.position.z());
@@ -188,7 +222,7 @@ std::uint32_t Collider::Impl::owner_of(const Vec3& p) const {
   return field.owner(p, std::numeric_limits<double>::infinity()).ellipsoid;
 }
 
-void Collider::Impl::resolve_exactly(const Particles& particles, std::uint32_t i,
+void Collider::Impl::resolve_exactly(const ParticleView& particles, std::uint32_t i,
                                      const ResolveOptions& options, ContactReport& report) const {
   ++report.judged_exactly;
   ParticleState state = load(particles, i);
@@ -227,7 +261,7 @@ ResponseParameters Collider::Impl::parameters_of(const ResolveOptions& options) 
           .blend_m = options.blend_m};
 }
 
-Status Collider::Impl::resolve_by_kernel(const Particles& particles, std::size_t begin, std::size_t end,
+Status Collider::Impl::resolve_by_kernel(const ParticleView& particles, std::size_t begin, std::size_t end,
                                          const ParticleSequence& sequence, const ResolveOptions& options,
                                          ContactReport& report) const {
   GatheredBatch gathered;
@@ -257,7 +291,7 @@ Status Collider::Impl::resolve_by_kernel(const Particles& particles, std::size_t
   return Status::kDone;
 }
 
-void Collider::Impl::resolve_all_exactly(const Particles& particles, std::size_t begin, std::size_t end,
+void Collider::Impl::resolve_all_exactly(const ParticleView& particles, std::size_t begin, std::size_t end,
                                          const ParticleSequence& sequence, const ResolveOptions& options,
                                          ContactReport& report) const {
   GatheredBatch gathered;
@@ -269,7 +303,7 @@ void Collider::Impl::resolve_all_exactly(const Particles& particles, std::size_t
     resolve_exactly(particles, gathered.index[lane], options, report);
 }
 
-void Collider::Impl::resolve_range(const Particles& particles, std::size_t begin, std::size_t end,
+void Collider::Impl::resolve_range(const ParticleView& particles, std::size_t begin, std::size_t end,
                                    const ParticleSequence& sequence, const ResolveOptions& options,
                                    ContactReport& report) const {
   if (field.size() == 0 || options.response != Response::kClosestPoint) {

@@ -10,6 +10,7 @@
 #include "exact/response.hpp"
 #include "exact/union_field.hpp"
 #include "model/affine_motion.hpp"
+#include "model/particle_view.hpp"
 #include "model/proxy_model.hpp"
 #include "model/surface_motion.hpp"
 #include "simd/dispatch/kernels.hpp"
@@ -22,38 +23,38 @@ struct Collider::Impl {
 
   /// `workspace` may be null: each task then visits its particles in the order of the arrays, or in a sorted
   /// order of its own.
-  void query(const engine::Context& context, const Particles& all, std::span<Contact> contacts,
+  void query(const engine::Context& context, const ParticleView& all, std::span<Contact> contacts,
              const QueryOptions& options, WorkspaceData* workspace) const;
-  ContactReport resolve(const engine::Context& context, const Particles& all, const ResolveOptions& options,
-                        WorkspaceData* workspace) const;
+  ContactReport resolve(const engine::Context& context, const ParticleView& all,
+                        const ResolveOptions& options, WorkspaceData* workspace) const;
   /// Queries the particles [begin, end) of the sequence, at most kBatch.
-  void query_range(const Particles& particles, std::size_t begin, std::size_t end,
+  void query_range(const ParticleView& particles, std::size_t begin, std::size_t end,
                    const ParticleSequence& sequence, const QueryOptions& options,
                    std::span<Contact> contacts) const;
   /// Starts a call with the current pose: refreshes order and candidate cache of the workspace, which may be
   /// null, and returns the order to visit all particles in.
-  ParticleSequence begin_call(const Particles& particles, WorkspaceData* workspace) const;
+  ParticleSequence begin_call(const ParticleView& particles, WorkspaceData* workspace) const;
   /// The candidate cache of a batch; none unless the batch is whole or the last one.
-  CacheAccess cache_access_of(const Particles& particles, std::size_t begin, std::size_t end,
+  CacheAccess cache_access_of(const ParticleView& particles, std::size_t begin, std::size_t end,
                               WorkspaceData* workspace) const;
   /// Addresses to prefetch of the batch that begins at particle `begin`; contacts may be null.
-  static NextBatch next_batch_of(const Particles& particles, std::size_t begin,
+  static NextBatch next_batch_of(const ParticleView& particles, std::size_t begin,
                                  const ParticleSequence& sequence, Contact* contacts);
-  void resolve_range(const Particles& particles, std::size_t begin, std::size_t end,
+  void resolve_range(const ParticleView& particles, std::size_t begin, std::size_t end,
                      const ParticleSequence& sequence, const ResolveOptions& options,
                      ContactReport& report) const;
   /// Resolves the particles [begin, end) with the kernel. Unless it is done, no particle has moved, and
   /// nothing is counted.
-  Status resolve_by_kernel(const Particles& particles, std::size_t begin, std::size_t end,
+  Status resolve_by_kernel(const ParticleView& particles, std::size_t begin, std::size_t end,
                            const ParticleSequence& sequence, const ResolveOptions& options,
                            ContactReport& report) const;
   /// Resolves the particles [begin, end), at most kBatch, on the exact side.
-  void resolve_all_exactly(const Particles& particles, std::size_t begin, std::size_t end,
+  void resolve_all_exactly(const ParticleView& particles, std::size_t begin, std::size_t end,
                            const ParticleSequence& sequence, const ResolveOptions& options,
                            ContactReport& report) const;
   ResponseParameters parameters_of(const ResolveOptions& options) const;
   /// Resolves one particle on the exact side, in the caller's arrays.
-  void resolve_exactly(const Particles& particles, std::uint32_t i, const ResolveOptions& options,
+  void resolve_exactly(const ParticleView& particles, std::uint32_t i, const ResolveOptions& options,
                        ContactReport& report) const;
   Contact exact_contact(const geometry::Vec3& p) const;
   /// Internal index of the ellipsoid that owns a point.

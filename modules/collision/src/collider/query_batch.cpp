@@ -27,16 +27,19 @@ void copy(const float* from, const GatheredPositions& positions, std::size_t beg
   for (int i = 0; i < positions.count; ++i) to[i] = from[positions.index[i]];
 }
 
-void gather_positions(const Particles& particles, const ParticleSequence& sequence, std::size_t begin,
+void gather_positions(const ParticleView& particles, const ParticleSequence& sequence, std::size_t begin,
                       std::size_t end, GatheredPositions& out) {
   out.count = static_cast<int>(end - begin);
   if (sequence.stored())
     std::iota(out.index, out.index + out.count, static_cast<std::uint32_t>(begin));
   else
     std::memcpy(out.index, sequence.from(begin), static_cast<std::size_t>(out.count) * sizeof(std::uint32_t));
-  copy(particles.x, out, begin, sequence.stored(), out.x);
-  copy(particles.y, out, begin, sequence.stored(), out.y);
-  copy(particles.z, out, begin, sequence.stored(), out.z);
+  if (!particles.packed)
+    return gather_vectors(particles, particles.strided.position, particles.strided.origin,
+                          {sequence.from(begin), begin, out.count}, {out.x, out.y, out.z});
+  copy(particles.arrays.x, out, begin, sequence.stored(), out.x);
+  copy(particles.arrays.y, out, begin, sequence.stored(), out.y);
+  copy(particles.arrays.z, out, begin, sequence.stored(), out.z);
 }
 
 /// The comparison is false for NaN, too; it has no branch, so that loops compile to vector code.
@@ -82,7 +85,7 @@ void take(const GatheredPositions& positions, int i, GatheredPositions& out) {
 
 }  // namespace
 
-CacheAccess Collider::Impl::cache_access_of(const Particles& particles, std::size_t begin, std::size_t end,
+CacheAccess Collider::Impl::cache_access_of(const ParticleView& particles, std::size_t begin, std::size_t end,
                                             WorkspaceData* workspace) const {
   if (!workspace || (end - begin != kBatch && end != particles.count) || begin % kBatch != 0) return {};
   const auto share = [&](double of_size) { return static_cast<float>(of_size * field.size_m()); };
@@ -90,7 +93,7 @@ CacheAccess Collider::Impl::cache_access_of(const Particles& particles, std::siz
           share(kMostReach)};
 }
 
-NextBatch Collider::Impl::next_batch_of(const Particles& particles, std::size_t begin,
+NextBatch Collider::Impl::next_batch_of(const ParticleView& particles, std::size_t begin,
                                         const ParticleSequence& sequence, Contact* contacts) {
   NextBatch next;
   const std::size_t last = sequence.stored() ? particles.count : sequence.first + sequence.order.size();
@@ -100,10 +103,10 @@ NextBatch Collider::Impl::next_batch_of(const Particles& particles, std::size_t 
     next.cached = sequence.workspace->candidates.batch(begin / kBatch);
   next.index = sequence.from(begin);
   next.contacts = contacts && sequence.stored() ? contacts + begin : contacts;
-  if (!sequence.stored()) return next;
-  next.x = particles.x + begin;
-  next.y = particles.y + begin;
-  next.z = particles.z + begin;
+  if (!sequence.stored() || !particles.packed) return next;
+  next.x = particles.arrays.x + begin;
+  next.y = particles.arrays.y + begin;
+  next.z = particles.arrays.z + begin;
   return next;
 }
 
@@ -119,16 +122,19 @@ Positions view_of(const GatheredPositions& positions, LaneSpan lanes, GatheredPo
 
 }  // namespace
 
-void Collider::Impl::query_range(const Particles& particles, std::size_t begin, std::size_t end,
+void Collider::Impl::query_range(const ParticleView& particles, std::size_t begin, std::size_t end,
                                  const ParticleSequence& sequence, const QueryOptions& options,
                                  std::span<Contact> contacts) const {
   const int all = static_cast<int>(end - begin);
   const bool exact = options.accuracy == Accuracy::kExact;
-  Batch batch{.at = {particles.x + begin, particles.y + begin, particles.z + begin, all},
-              .cache = cache_access_of(particles, begin, end, sequence.workspace),
-              // A first-order query stores contacts in each step, and prefetching more of them would hold up
-              // these stores.
-              .next = next_batch_of(particles, end, sequence, exact ? contacts.data() : nullptr)};
+  const Particles& arrays = particles.arrays;
+  const bool in_place = sequence.stored() && particles.packed && all == kBatch;
+  Batch batch{
+      .at = in_place ? Positions{arrays.x + begin, arrays.y + begin, arrays.z + begin, all} : Positions{},
+      .cache = cache_access_of(particles, begin, end, sequence.workspace),
+      // A first-order query stores contacts in each step, and prefetching more of them would hold up
+      // these stores.
+      .next = next_batch_of(particles, end, sequence, exact ? contacts.data() : nullptr)};
   ContactOutput out{.contacts = contacts.data() + begin,
                     .margin_m = static_cast<float>(margin_m),
                     .within_m = options.within_m};
@@ -139,7 +145,6 @@ void Collider::Impl::query_range(const Particles& particles, std::size_t begin, 
       sequence.workspace->order.note_radius(first_block + static_cast<std::size_t>(i), batch.radius_m[i]);
     return status;
   };
-  const bool in_place = sequence.stored() && all == kBatch;
   if (in_place && field.size() > 0 && kernel(begin / kBlock) == Status::kDone) return;
   GatheredPositions positions, alone;
   gather_positions(particles, sequence, begin, end, positions);

@@ -22,9 +22,12 @@ constexpr int kWholeDigits = 3, kTaskDigits = 2;
 struct Range {
   float low = 0.0f, last, scale = 0.0f;
 
-  Range(const float* values, std::size_t count, int bits) : last(static_cast<float>((1 << bits) - 1)) {
+  /// That of the values [begin, begin + count).
+  template <class Values>
+  Range(const Values& values, std::size_t begin, std::size_t count, int bits)
+      : last(static_cast<float>((1 << bits) - 1)) {
     float least = std::numeric_limits<float>::max(), largest = -least;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = begin; i < begin + count; ++i) {
       // Values that are not finite, or absurdly large, do not stretch the grid.
       const float v = std::abs(values[i]) < kFarthest_m ? values[i] : least;
       least = std::min(least, v);
@@ -49,15 +52,17 @@ struct Order {
 /// Sorts the particles [begin, begin + size) along a Z-order curve of 2^(3 bits) cells, in `digits` passes of
 /// kDigitBits. The radix sort starts at the least digit and is stable, so that equal keys keep the caller's
 /// order.
-void sort(const Particles& particles, std::size_t begin, int digits, Order o) {
+void sort(const ParticleView& particles, std::size_t begin, int digits, Order o) {
   const std::size_t count = o.order.size();
   const int bits = digits * kDigitBits / 3;
-  const float *px = particles.x + begin, *py = particles.y + begin, *pz = particles.z + begin;
-  const Range x(px, count, bits), y(py, count, bits), z(pz, count, bits);
-  for (std::size_t i = 0; i < count; ++i) {
-    o.order[i] = static_cast<std::uint32_t>(begin + i);
-    o.key[i] = geometry::morton_code(x.cell(px[i]), y.cell(py[i]), z.cell(pz[i]));
-  }
+  with_axes(particles, [&](const auto& px, const auto& py, const auto& pz) {
+    const Range x(px, begin, count, bits), y(py, begin, count, bits), z(pz, begin, count, bits);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t p = begin + i;
+      o.order[i] = static_cast<std::uint32_t>(p);
+      o.key[i] = geometry::morton_code(x.cell(px[p]), y.cell(py[p]), z.cell(pz[p]));
+    }
+  });
   for (int digit = 0; digit < digits; ++digit) {
     std::array<std::uint32_t, 1u << kDigitBits> start{};
     const auto digit_of = [&](std::uint32_t key) {
@@ -77,29 +82,30 @@ void sort(const Particles& particles, std::size_t begin, int digits, Order o) {
 }
 
 /// Whether particles half a block apart in the arrays are about as far from each other as any two.
-bool scattered(const Particles& particles, std::size_t begin, std::size_t end) {
+bool scattered(const ParticleView& particles, std::size_t begin, std::size_t end) {
   if (end - begin < 4 * kBlock) return false;
   const std::size_t far = (end - begin) / 2;
-  double near_sum = 0.0, far_sum = 0.0;
-  const auto distance = [&](std::size_t i, std::size_t j) {
-    return std::abs(particles.x[i] - particles.x[j]) + std::abs(particles.y[i] - particles.y[j]) +
-           std::abs(particles.z[i] - particles.z[j]);
-  };
-  for (std::size_t i = begin; i < begin + far; i += kBlock / 4) {
-    const float to_near = distance(i, i + kBlock / 2), to_far = distance(i, i + far);
-    if (!(to_near < kFarthest_m && to_far < kFarthest_m)) continue;  // true for NaN, too
-    near_sum += double{to_near};
-    far_sum += double{to_far};
-  }
-  return near_sum > kScattered * far_sum;
+  return with_axes(particles, [&](const auto& x, const auto& y, const auto& z) {
+    double near_sum = 0.0, far_sum = 0.0;
+    const auto distance = [&](std::size_t i, std::size_t j) {
+      return std::abs(x[i] - x[j]) + std::abs(y[i] - y[j]) + std::abs(z[i] - z[j]);
+    };
+    for (std::size_t i = begin; i < begin + far; i += kBlock / 4) {
+      const float to_near = distance(i, i + kBlock / 2), to_far = distance(i, i + far);
+      if (!(to_near < kFarthest_m && to_far < kFarthest_m)) continue;  // true for NaN, too
+      near_sum += double{to_near};
+      far_sum += double{to_far};
+    }
+    return near_sum > kScattered * far_sum;
+  });
 }
 
 /// Sum over the blocks of the sides of their boxes, meters. An empty `order` means the order of the arrays.
-double spread_of(const Particles& particles, std::span<const std::uint32_t> order) {
+double spread_of(const ParticleView& particles, std::span<const std::uint32_t> order) {
   double sum = 0.0;
-  for (std::size_t begin = 0; begin < particles.count; begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, particles.count);
-    for (const float* values : {particles.x, particles.y, particles.z}) {
+  const auto add_sides = [&](const auto& values) {
+    for (std::size_t begin = 0; begin < particles.count; begin += kBlock) {
+      const std::size_t end = std::min(begin + kBlock, particles.count);
       float low = kFarthest_m, high = -kFarthest_m;
       for (std::size_t i = begin; i < end; ++i) {
         const float v = values[order.empty() ? i : order[i]];
@@ -109,13 +115,14 @@ double spread_of(const Particles& particles, std::span<const std::uint32_t> orde
       }
       sum += double{std::max(0.0f, high - low)};
     }
-  }
+  };
+  with_axes(particles, [&](const auto&... axes) { (add_sides(axes), ...); });
   return sum;
 }
 
 }  // namespace
 
-void ParticleOrder::refresh(const Particles& particles) {
+void ParticleOrder::refresh(const ParticleView& particles) {
   const std::size_t count = particles.count;
   const bool changed = order_.size() != count;
   const double spread = std::accumulate(radius_m_.begin(), radius_m_.end(), 0.0);
@@ -130,7 +137,7 @@ void ParticleOrder::refresh(const Particles& particles) {
   stored_ = spread_of(particles, {}) <= kStoredWell * as_sorted;
 }
 
-std::vector<std::uint32_t> order_if_scattered(const Particles& particles) {
+std::vector<std::uint32_t> order_if_scattered(const ParticleView& particles) {
   const std::size_t count = particles.count;
   if (!scattered(particles, 0, count)) return {};
   std::vector<std::uint32_t> order(count), key(count), other_order(count), other_key(count);
@@ -138,7 +145,7 @@ std::vector<std::uint32_t> order_if_scattered(const Particles& particles) {
   return order;
 }
 
-TaskOrder::TaskOrder(const Particles& particles, std::size_t begin, std::size_t end) {
+TaskOrder::TaskOrder(const ParticleView& particles, std::size_t begin, std::size_t end) {
   if (!scattered(particles, begin, end)) return;
   count_ = end - begin;
   const auto some = [this](std::uint32_t* values) { return std::span(values, count_); };

@@ -9,6 +9,7 @@
 #include <bodice/collision/collider.hpp>
 
 #include "model/batch.hpp"
+#include "model/particle_view.hpp"
 
 namespace bodice::collision {
 
@@ -18,7 +19,7 @@ struct WorkspaceData;
 class ParticleOrder {
  public:
   /// Sorts again if the number of particles has changed or the blocks have spread since the last sort.
-  void refresh(const Particles& particles);
+  void refresh(const ParticleView& particles);
 
   /// The order to visit particles in; empty if the order of the arrays is about as good.
   std::span<const std::uint32_t> order() const { return stored_ ? std::span<const std::uint32_t>() : order_; }
@@ -38,7 +39,7 @@ class ParticleOrder {
 
 /// Order to visit particles in along a Z-order curve if theirs is scattered, otherwise empty. It serves one
 /// call of so many particles that a task's own order is too sparse.
-std::vector<std::uint32_t> order_if_scattered(const Particles& particles);
+std::vector<std::uint32_t> order_if_scattered(const ParticleView& particles);
 
 /// The order of the particles of one task, sorted where that pays.
 class TaskOrder {
@@ -46,7 +47,7 @@ class TaskOrder {
   static constexpr std::size_t kMost = 32 * kBlock;  ///< tens of microseconds of work
 
   /// Orders the particles [begin, end), at most kMost.
-  TaskOrder(const Particles& particles, std::size_t begin, std::size_t end);
+  TaskOrder(const ParticleView& particles, std::size_t begin, std::size_t end);
 
   /// The order to visit particles in; empty: the order of the arrays.
   std::span<const std::uint32_t> order() const { return {order_, count_}; }

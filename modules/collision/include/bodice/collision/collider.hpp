@@ -117,6 +117,8 @@ class Workspace {
   std::unique_ptr<struct WorkspaceData> data_;
 };
 
+struct StridedParticles;
+
 /// A body proxy prepared for queries: floats in a local frame, with boxes for the broad phase. Thread-safe
 /// except for move_to(). It is fastest if neighbors in space are neighbors in the arrays, or if a Workspace
 /// is given.
@@ -162,6 +164,10 @@ class Collider {
              const QueryOptions& options = {}) const;
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              Workspace& workspace, const QueryOptions& options = {}) const;
+  /// The same for particles in any other form (strided_particles.hpp), gathered batch by batch. Contacts are
+  /// in the local frame.
+  void query(const engine::Context& context, const StridedParticles& particles, std::span<Contact> contacts,
+             Workspace& workspace, const QueryOptions& options = {}) const;
   Contact query(const float (&local_point)[3], const QueryOptions& options = {}) const noexcept;
   /// All ellipsoids within `within_m` of the point, nearest first, each with its own surface (and relief
   /// table). Returns their number, which may be more than `contacts` holds.
@@ -173,6 +179,8 @@ class Collider {
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,
+                        const ResolveOptions& options, Workspace& workspace) const;
+  ContactReport resolve(const engine::Context& context, const StridedParticles& particles,
                         const ResolveOptions& options, Workspace& workspace) const;
 
  private:
