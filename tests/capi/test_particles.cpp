@@ -99,6 +99,68 @@ TEST_CASE("capi: packed arrays and arrays of structures are resolved to the bits
   }
 }
 
+TEST_CASE(
+    "capi: structures of three and of four numbers, floats and doubles, are resolved to the same bits") {
+  Scene scene(limb_proxy(true));
+  const Cloud start = cloud_around_limb(kCount, 9);
+  Cloud truth = start;
+  scene.engine.resolve({}, {.count = kCount, .x = truth.x.data(), .y = truth.y.data(), .z = truth.z.data()},
+                       {.thickness_m = 0.002f});
+  const auto wrong_as = [&](auto scalar, std::size_t numbers) {
+    using Scalar = decltype(scalar);
+    std::vector<Scalar> all(numbers * kCount, Scalar{7});
+    const auto at = [&](std::size_t i) { return &all[numbers * i]; };
+    for (std::size_t i = 0; i < kCount; ++i)
+      at(i)[0] = Scalar{start.x[i]}, at(i)[1] = Scalar{start.y[i]}, at(i)[2] = Scalar{start.z[i]};
+    bodice_particles particles = bodice_default_particles();
+    particles.count = kCount;
+    particles.space = BODICE_LOCAL;
+    particles.position = {all.data(),
+                          nullptr,
+                          nullptr,
+                          static_cast<std::ptrdiff_t>(numbers * sizeof(Scalar)),
+                          sizeof(Scalar) == 8 ? BODICE_DOUBLE : BODICE_FLOAT,
+                          0};
+    REQUIRE(scene.collider.resolve(particles, scene.workspace, thick()));
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      wrong += at(i)[0] != Scalar{truth.x[i]} || at(i)[1] != Scalar{truth.y[i]};
+      wrong += at(i)[2] != Scalar{truth.z[i]} || (numbers == 4 && at(i)[3] != Scalar{7});
+    }
+    return wrong;
+  };
+  CHECK(wrong_as(float{}, 3) == 0);
+  CHECK(wrong_as(float{}, 4) == 0);
+  CHECK(wrong_as(double{}, 3) == 0);
+  CHECK(wrong_as(double{}, 4) == 0);
+}
+
+TEST_CASE("capi: an element that an index lists twice ends alike for any number of threads") {
+  const std::size_t count = 3 * kCount;
+  const std::vector<Fat> before = structures(cloud_around_limb(count, 10));
+  std::vector<std::uint32_t> index;
+  for (std::uint32_t i = 0; i < count; ++i) index.push_back(i % 2 == 0 ? i : std::uint32_t(count) - 1 - i);
+  std::vector<Fat> ends[2];
+  for (const int workers : {1, 4}) {
+    Scene scene(limb_proxy(false), workers);
+    std::vector<Fat>& all = ends[workers == 4];
+    all = before;
+    bodice_particles particles = aos(all);
+    particles.index = index.data();
+    particles.elements = count;
+    const auto report = scene.collider.resolve(particles, scene.workspace, thick());
+    REQUIRE_MESSAGE(report, bodice_last_error());
+    CHECK(report->contacts > count / 10);
+  }
+  std::size_t wrong = 0, moved = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    wrong += std::memcmp(ends[0][i].position, ends[1][i].position, sizeof ends[0][i].position) != 0;
+    moved += std::memcmp(ends[0][i].position, before[i].position, sizeof before[i].position) != 0;
+  }
+  CHECK(wrong == 0);
+  CHECK(moved > count / 20);
+}
+
 TEST_CASE("capi: an index and a negative stride visit the same particles in another order") {
   Scene scene(limb_proxy(true));
   Cloud truth = cloud_around_limb(kCount, 2);

@@ -1,5 +1,9 @@
 // The readers of OBJ and GLB, and units by size.
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import path from 'node:path';
 import {pathToFileURL} from 'node:url';
 import test from 'node:test';
 
@@ -84,4 +88,21 @@ test('units are found by the size of a person', () => {
   for (const [size, unit] of [[1.7, 'meters'], [170, 'centimeters'], [1700, 'millimeters'], [67, 'inches'], [5.6, 'feet']])
     assert.equal(findUnit([0, 0, 0, 0.3 * size, size, 0.1 * size]).unit, unit);
   assert.throws(() => findUnit([0, 0, 0, 0, 30, 0]), /no person/);
+});
+
+test('a rigged GLB of the program holds the mesh of its OBJ, where its skin is bound', () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 'bodice-readers-'));
+  try {
+    const file = name => path.join(folder, name), program = process.env.BODICE_PROGRAM;
+    execFileSync(program, ['make', '-o', file('body.obj'), '-q']);
+    execFileSync(program, ['rig', file('body.obj'), '-o', file('body.glb'), '-q']);
+    const [obj, glb] = ['body.obj', 'body.glb'].map(name => readMesh(readFileSync(file(name)), name));
+    assert.ok(obj.positions.length > 20000);
+    assert.deepEqual(glb.faces, obj.faces);
+    assert.equal(glb.positions.length, obj.positions.length);
+    assert.ok(obj.positions.every((x, i) => Math.abs(x - glb.positions[i]) < 1e-6));
+    assert.equal(findUnit(glb.positions).unit, 'meters');
+  } finally {
+    rmSync(folder, {recursive: true});
+  }
 });

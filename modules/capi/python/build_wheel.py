@@ -17,6 +17,17 @@ def version() -> str:
     return re.search(r"project\(bodice\s+VERSION\s+([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 
 
+def run(*command: str) -> None:
+    """Runs a command. pip shows none of its output without -v, and a build takes minutes: it goes to the terminal."""
+    try:
+        terminal = open("/dev/tty", "w")
+    except OSError:  # started by a program that has none
+        subprocess.check_call(command)
+        return
+    with terminal:
+        subprocess.check_call(command, stdout=terminal)
+
+
 def library() -> pathlib.Path:
     """The shared library: the one that BODICE_LIBRARY names, or libbodice, built where it was built before."""
     if os.environ.get("BODICE_LIBRARY"):
@@ -24,8 +35,8 @@ def library() -> pathlib.Path:
     build = ROOT / "build" / "release"
     if not (build / "CMakeCache.txt").exists():
         build = ROOT / "build" / "python"
-        subprocess.check_call(["cmake", "-S", str(ROOT), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"])
-    subprocess.check_call(["cmake", "--build", str(build), "--target", "bodice_c"])
+        run("cmake", "-S", str(ROOT), "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
+    run("cmake", "--build", str(build), "--target", "bodice_c")
     return (build / "modules" / "capi" / "libbodice.so").resolve()
 
 

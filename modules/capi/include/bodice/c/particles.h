@@ -31,9 +31,8 @@ typedef struct bodice_scalars {
 /** Coordinates: of the world, or of the collider's local frame (world less bodice_collider_get_origin()). */
 enum { BODICE_WORLD = 0, BODICE_LOCAL = 1 };
 
-/** Particles of the host. Nothing needs alignment. Without an index, mask and mass, with BODICE_LOCAL
- * coordinates as packed arrays of floats, nothing is copied; else each value is read and written once a call.
- */
+/** Particles of the host. Nothing needs alignment, and no array is copied: the kernels read 256 particles at
+ * a time from where they are, and write what a response changes there. */
 typedef struct bodice_particles {
   bodice_head head;
   size_t count; /**< particles to handle */
@@ -79,7 +78,7 @@ typedef struct bodice_contact {
 typedef struct bodice_contacts {
   bodice_head head;
   bodice_contact*
-      contact; /**< aligned to 32 bytes and packed, with local packed particles, nothing is copied */
+      contact; /**< if it is all that is wanted, aligned to 32 bytes and packed, it is written directly */
   ptrdiff_t contact_stride; /**< bytes; 0: one after the other */
   bodice_scalars distance;
   bodice_vectors point;
@@ -161,9 +160,9 @@ BODICE_INLINE bodice_contact_report bodice_default_contact_report(void) {
 
 /** Moves each particle out that is inside or nearer than the thickness, and corrects its velocity; all other
  * values keep their bits. With `safe`, particles stay on the side of the body that they came from. `options`,
- * `workspace` and `report` may be null. An element that stands in the index twice is moved twice, and one of
- * them is kept. Fails as bodice_query(). Const use of the collider. Allocates nothing once warm. Cost: that
- * of a query. */
+ * `workspace` and `report` may be null. If an element stands in the index twice, the call takes one thread,
+ * and moves that element once or twice. Fails as bodice_query(). Const use of the collider. Allocates nothing
+ * once warm. Cost: that of a query. */
 BODICE_STABLE bodice_status bodice_resolve(const bodice_collider* collider, const bodice_particles* particles,
                                            const bodice_resolve_options* options, bodice_workspace* workspace,
                                            bodice_contact_report* report);
