@@ -15,8 +15,8 @@ collision::StridedVectors as_engine(const StridedVectors& from) {
 
 /// Whether the `count` elements differ. `claim` has room for as many numbers as the arrays have elements, and
 /// only those that were written before are read.
-bool all_differ(const std::uint32_t* element, std::size_t count, HostArray<std::uint32_t>& claim,
-                std::size_t elements) {
+bool are_distinct(const std::uint32_t* element, std::size_t count, HostArray<std::uint32_t>& claim,
+                  std::size_t elements) {
   bool rising = true;
   for (std::size_t i = 1; i < count; ++i) rising &= element[i - 1] < element[i];
   if (rising) return true;
@@ -93,7 +93,7 @@ EngineParticles to_resolve(const HostParticles& host, const double (&origin)[3],
     out.pinned = host.count - particles.count;
   }
   if (host.index)
-    out.all_differ = all_differ(particles.element, particles.count, workspace.claim, host.elements);
+    out.all_differ = are_distinct(particles.element, particles.count, workspace.claim, host.elements);
   return out;
 }
 

@@ -27,12 +27,11 @@ void copy(const float* from, const GatheredPositions& positions, std::size_t beg
   for (int i = 0; i < positions.count; ++i) to[i] = from[positions.index[i]];
 }
 
+/// Gathers positions; their indices are left out where they are begin, begin + 1, ...
 void gather_positions(const ParticleView& particles, const ParticleSequence& sequence, std::size_t begin,
                       std::size_t end, GatheredPositions& out) {
   out.count = static_cast<int>(end - begin);
-  if (sequence.stored())
-    std::iota(out.index, out.index + out.count, static_cast<std::uint32_t>(begin));
-  else
+  if (!sequence.stored())
     std::memcpy(out.index, sequence.from(begin), static_cast<std::size_t>(out.count) * sizeof(std::uint32_t));
   if (!particles.packed)
     return gather_vectors(particles, particles.strided.position, particles.strided.origin,
@@ -103,7 +102,16 @@ NextBatch Collider::Impl::next_batch_of(const ParticleView& particles, std::size
     next.cached = sequence.workspace->candidates.batch(begin / kBatch);
   next.index = sequence.from(begin);
   next.contacts = contacts && sequence.stored() ? contacts + begin : contacts;
-  if (!sequence.stored() || !particles.packed) return next;
+  if (!sequence.stored()) return next;
+  if (const StridedVectors& at = particles.strided.position; !particles.packed) {
+    // Structures of three floats fill the memory that three arrays would take.
+    if (particles.strided.element || at.is_double || at.stride != 3 * sizeof(float)) return next;
+    const auto* const first = reinterpret_cast<const float*>(at.x) + 3 * begin;
+    next.x = first;
+    next.y = first + next.count;
+    next.z = first + 2 * next.count;
+    return next;
+  }
   next.x = particles.arrays.x + begin;
   next.y = particles.arrays.y + begin;
   next.z = particles.arrays.z + begin;
@@ -153,18 +161,29 @@ void Collider::Impl::query_range(const ParticleView& particles, std::size_t begi
         exact_contact({double{positions.x[i]}, double{positions.y[i]}, double{positions.z[i]}});
     contacts[positions.index[i]] = found.signed_distance <= options.within_m ? found : no_contact();
   };
+  const auto number = [&] {
+    if (sequence.stored())
+      std::iota(positions.index, positions.index + positions.count, static_cast<std::uint32_t>(begin));
+  };
   if (field.size() == 0) {
+    number();
     for (int i = 0; i < positions.count; ++i) exactly(i);
     return;
   }
+  pad(positions);
+  const bool in_order = sequence.stored() && !in_place;
+  if (in_order) {  // then contacts are so, too, which are written faster than those of an index
+    batch.at = view_of(positions, {0, positions.count}, alone);
+    if (kernel(begin / kBlock) == Status::kDone) return;
+  }
+  number();
   out.contacts = contacts.data();
   const auto gathered = [&](LaneSpan lanes) {
     batch.at = view_of(positions, lanes, alone);
     out.index = positions.index + lanes.begin;
     return kernel((begin + static_cast<std::size_t>(lanes.begin)) / kBlock);
   };
-  pad(positions);
-  if (!in_place && gathered({0, positions.count}) == Status::kDone) return;
+  if (!in_place && !in_order && gathered({0, positions.count}) == Status::kDone) return;
   batch.cache = {};
   batch.next = {};
   // Either the candidates overflowed, which those of single blocks may not, or some particles are too far
