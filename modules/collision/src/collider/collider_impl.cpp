@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "collider/one_particle.hpp"
 #include "model/tolerances.hpp"
 
 namespace bodice::collision {
@@ -61,66 +62,6 @@ std::vector<geometry::Ellipsoid> local_shapes(const Vec3& origin, const proxy::B
     shapes.back().center -= origin;
   }
   return shapes;
-}
-
-Vec3 at(const float* x, const float* y, const float* z, std::size_t i) {
-  return {double{x[i]}, double{y[i]}, double{z[i]}};
-}
-
-/// A vector of particle i as the kernels read it.
-Vec3 at(const ParticleView& particles, const StridedVectors& from, const double (&shift)[3], std::size_t i) {
-  float x, y, z;
-  gather_vectors(particles, from, shift, {nullptr, i, 1}, {&x, &y, &z});
-  return {double{x}, double{y}, double{z}};
-}
-
-ParticleState load(const ParticleView& particles, std::size_t i) {
-  ParticleState state;
-  const Particles& arrays = particles.arrays;
-  const StridedParticles& of = particles.strided;
-  const bool packed = particles.packed;
-  state.position = packed ? at(arrays.x, arrays.y, arrays.z, i) : at(particles, of.position, of.origin, i);
-  state.velocity = Vec3::Zero();
-  state.safe = state.position;
-  state.has_velocity = particles.has_velocity();
-  if (state.has_velocity)
-    state.velocity =
-        packed ? at(arrays.vx, arrays.vy, arrays.vz, i) : at(particles, of.velocity, kNoShift, i);
-  if (particles.has_safe())
-    state.safe =
-        packed ? at(arrays.safe_x, arrays.safe_y, arrays.safe_z, i) : at(particles, of.safe, of.origin, i);
-  state.has_safe = particles.has_safe() && state.safe.allFinite();
-  return state;
-}
-
-void write(const ParticleView& particles, const StridedVectors& to, const double (&shift)[3], std::size_t i,
-           const Vec3& now) {
-  const Vec3 was = at(particles, to, shift, i);
-  const auto write_as = [&](auto scalar) {
-    const auto number = [](const Vec3& of, int axis) { return static_cast<float>(of[axis]); };
-    write_vector<decltype(scalar)>(to, particles.element(i), {number(now, 0), number(now, 1), number(now, 2)},
-                                   {number(was, 0), number(was, 1), number(was, 2)}, shift);
-  };
-  if (to.is_double)
-    write_as(double{});
-  else
-    write_as(float{});
-}
-
-void store(const ParticleState& state, const ParticleView& view, std::size_t i) {
-  if (!view.packed) {
-    write(view, view.strided.position, view.strided.origin, i, state.position);
-    if (state.has_velocity) write(view, view.strided.velocity, kNoShift, i, state.velocity);
-    return;
-  }
-  const Particles& particles = view.arrays;
-  particles.x[i] = static_cast<float>(state.position.x());
-  particles.y[i] = static_cast<float>(state.position.y());
-  particles.z[i] = static_cast<float>(state.position.z());
-  if (!state.has_velocity) return;
-  particles.vx[i] = static_cast<float>(state.velocity.x());
-  particles.vy[i] = static_cast<float>(state.velocity.y());
-  particles.vz[i] = static_cast<float>(state.velocity.z());
 }
 
 void count(const ParticleReport& particle, body::Part part, ContactReport& report) {

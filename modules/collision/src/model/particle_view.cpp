@@ -27,7 +27,7 @@ float* floats(std::byte* at) {
   return reinterpret_cast<float*>(at);
 }
 
-/// Reads vectors whose numbers follow one another, `kStride` numbers apart, in vector code.
+/// Reads vectors of three numbers in a row, `kStride` numbers apart, in vector code.
 template <class Scalar, std::ptrdiff_t kStride>
 void read_structures(const std::byte* from, const double (&shift)[3], int count, float* const (&to)[3]) {
   float *const x = to[0], *const y = to[1], *const z = to[2];

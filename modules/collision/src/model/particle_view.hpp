@@ -29,7 +29,7 @@ struct ParticleView {
   StridedParticles strided;  ///< otherwise
 };
 
-/// What `origin` is for vectors that have no place, such as velocities.
+/// The shift of vectors that are no positions, such as velocities.
 inline constexpr double kNoShift[3] = {0.0, 0.0, 0.0};
 
 /// The number at an address as the kernels' float, less a shift.
