@@ -80,7 +80,7 @@ struct Crossed {
 TEST_CASE("last word: what layers move into the body is guarded, by however little, and nothing else") {
   const collision::Collider ball = ellipsoid_body(Vec3(0, -kRadius_m, 0), Vec3::Constant(kRadius_m));
   const Vec3 top = -ball.origin();  // in the particles' frame
-  cloth::BodyMotion still;
+  const cloth::BodyMotion still = cloth::make_motion(std::size(kMoved), 0.0);
   std::vector<Point> resolved, now, guard;
   std::vector<Index> moved;
   for (const Moved& m : kMoved) {
@@ -88,7 +88,7 @@ TEST_CASE("last word: what layers move into the body is guarded, by however litt
     resolved.push_back(to_point(top + Vec3(0, m.from_m, 0)));
     now.push_back(to_point(top + Vec3(0, m.to_m, 0)));
   }
-  guard.resize(moved.size()), still.by.resize(moved.size()), still.ahead.resize(moved.size());
+  guard.resize(moved.size());
   const cloth::ResolvedBody body{&ball, &still, static_cast<float>(kThickness_m), 0.0f};
   CHECK(cloth::guard_sunk({}, body, moved, resolved, now, guard));
   for (const Index i : moved) {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <bodice_test/allocations.hpp>
 #include <bodice_test/executors.hpp>
+#include <bodice_test/shapes.hpp>
 
 #include <numbers>
 
@@ -159,6 +160,38 @@ TEST_CASE("moving body: an arm that moves by its own width in a frame pushes a c
       for (Index j = 0; j <= 30; ++j) foremost = std::max(foremost, now[31 * j + i].z());
       CHECK(foremost > arm.center.z() + 0.01);
     }
+  }
+}
+
+TEST_CASE("moving body: cloth around a limb stays with it when another limb comes where it was") {
+  constexpr double kRadius_m = 0.05, kAside_m = 0.13, kStart_m = 0.5, kFastest_m = 0.12, kFaster_m = 0.02;
+  geometry::Ellipsoid limbs[2];
+  proxy::BodyProxy::Data data;
+  data.stature_m = 1.0;
+  for (const int k : {0, 1}) {
+    limbs[k].center = Vec3(k == 0 ? -kStart_m : kStart_m, 1.0, k == 0 ? 0.0 : kAside_m);
+    limbs[k].radii = Vec3::Constant(kRadius_m);
+    data.ellipsoids.push_back({});
+    data.ellipsoids.back().shape = limbs[k];
+  }
+  collision::Collider body(*proxy::BodyProxy::make(std::move(data)));
+  const TriMesh mesh = icosphere(kRadius_m + 0.003, 3, limbs[0].center);
+  cloth::Solver solver = make_solver(mesh, {}, cotton(), weightless());
+  solver.step({}, body, kFrame_s);
+  double by_m = 0.0;
+  for (int frame = 0; frame < 12; ++frame) {  // at 7.2 m/s where they pass
+    by_m = std::min(kFastest_m, by_m + kFaster_m);
+    limbs[0].center.x() += by_m, limbs[1].center.x() -= by_m;
+    body.move_to(limbs, kFrame_s);
+    solver.step({}, body, kFrame_s);
+    CAPTURE(frame);
+    double least_m = 1.0, most_m = -1.0;
+    for (const Vec3& p : positions(solver, mesh.positions.size())) {
+      const double distance_m = geometry::closest_point(limbs[0], p).signed_distance;
+      least_m = std::min(least_m, distance_m), most_m = std::max(most_m, distance_m);
+    }
+    CHECK(least_m > -1e-4);
+    CHECK(most_m < kRadius_m);
   }
 }
 

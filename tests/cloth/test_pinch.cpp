@@ -44,14 +44,16 @@ LayerScene arm_against_trunk(double in_m, double top_m, double length_m) {
   return scene;
 }
 
-// Pinned rims cross while the arm is in, whatever the solver does; so the crossings of these frames are not
-// judged, only those half a second after the arm has gone.
-void check_last_word(double top_m, double length_m) {
+// What lies between two bodies that overlap by in_mm is half of that deep in one of them, unless it slips
+// aside. Pinned rims go in with the arm. They cross while it is in, whatever the solver does; so the
+// crossings of these frames are not judged, only those half a second after the arm has gone.
+void check_last_word(double top_m, double length_m, bool rims_are_clear) {
   for (const double in_mm : {-4.0, -1.0, 1.0, 4.0}) {
     CAPTURE(in_mm);
     const LayerScene scene = arm_against_trunk(1e-3 * in_mm, top_m, length_m);
     const LayerOutcome with = play(scene, layered(true)), without = play(scene, layered(false));
-    CHECK(1e3 * with.deepest_m < 1e3 * without.deepest_m + 0.5);
+    CHECK(1e3 * with.deepest_m < std::max(1e3 * without.deepest_m, 0.5 * in_mm) + 0.5);
+    if (rims_are_clear) CHECK(1e3 * with.deepest_m < 0.5 * std::max(0.0, in_mm) + 0.5);
     CHECK(without.worst > 0);
     CHECK(with.start == 0);
     CHECK(with.end == 0);
@@ -63,11 +65,11 @@ void check_last_word(double top_m, double length_m) {
 }  // namespace
 
 TEST_CASE("pinch: layers between an arm and a trunk go no deeper than each would, and come apart again") {
-  check_last_word(1.1, 0.3);
+  check_last_word(1.1, 0.3, false);
 }
 
 TEST_CASE("pinch: so do layers with rims far from where the arm touches") {
-  check_last_word(1.25, 0.5);
+  check_last_word(1.25, 0.5, true);
 }
 
 TEST_CASE("pinch: the same bits for any number of workers") {

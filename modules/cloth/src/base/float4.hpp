@@ -60,6 +60,23 @@ inline Float4 xyz(Float4 v) {
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(v) & Int4{-1, -1, -1, 0});
 }
 
+/// The scalar product of vectors; the fourth lane is not used.
+inline float dot(Float4 a, Float4 b) {
+  const Float4 ab = a * b;
+  return ab[0] + ab[1] + ab[2];
+}
+
+/// The vector product of vectors; the fourth lane is not used, and zero in the result.
+inline Float4 cross(Float4 a, Float4 b) {
+  return Float4{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.0f};
+}
+
+/// A vector turned by a rotation vector of less than a radian, to second order.
+inline Float4 turned(Float4 v, Float4 by_rad) {
+  const Float4 first = cross(by_rad, v);
+  return v + first + 0.5f * cross(by_rad, first);
+}
+
 inline void transpose(Float4& a, Float4& b, Float4& c, Float4& d) {
   const Float4 ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
   const Float4 ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);

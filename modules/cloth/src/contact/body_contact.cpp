@@ -31,27 +31,35 @@ void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end,
   for (std::size_t i = begin; i < end; ++i) p.vz[i] = (p.z[i] - p.old_z[i]) * inverse_h;
 }
 
+// The body's motion in a substep at a pushed particle.
+struct MaterialMotion {
+  Float4 by;      // displacement of its material
+  float pushed;   // over all pushes of the particle, their lengths times the displacement along them
+  Float4 normal;  // of the surface when the substep ends; zero at rest
+};
+
 // Applies friction to a pushed particle and sets its velocity. The push has the length `depth` along n.
 // Friction removes up to mu times that of the displacement along the surface, relative to the body's
-// material, which moved by `carried`. The velocity along n becomes that of the material, of which `ahead` is
-// the part along the surface's normal: the push of a face need not be along the normal at its corners.
-void friction_and_velocity(Particles& p, std::size_t i, Float4 carried, Float4 ahead, float mu,
+// material, and moves nothing into the surface: a face need not push its corners along the normals there. The
+// velocity along n becomes that of what pushed, which may be other material than that at the particle.
+void friction_and_velocity(Particles& p, std::size_t i, const MaterialMotion& body, float mu,
                            float inverse_h) {
   const Point& before = p.point[i];
-  const float px = p.x[i] - before.x, py = p.y[i] - before.y, pz = p.z[i] - before.z;
-  const float depth = std::sqrt(px * px + py * py + pz * pz);
-  const float nx = px / depth, ny = py / depth, nz = pz / depth;
-  const float dx = p.x[i] - p.old_x[i] - carried[0], dy = p.y[i] - p.old_y[i] - carried[1],
-              dz = p.z[i] - p.old_z[i] - carried[2];
-  const float along_n = (dx + carried[0] - ahead[0]) * nx + (dy + carried[1] - ahead[1]) * ny +
-                        (dz + carried[2] - ahead[2]) * nz;
-  const float tx = dx - along_n * nx, ty = dy - along_n * ny, tz = dz - along_n * nz;
-  const float slip = std::sqrt(tx * tx + ty * ty + tz * tz);
-  const float kept = slip > mu * depth ? 1.0f - mu * depth / slip : 0.0f;
-  p.x[i] -= (1.0f - kept) * tx, p.y[i] -= (1.0f - kept) * ty, p.z[i] -= (1.0f - kept) * tz;
-  p.vx[i] = (kept * tx + carried[0]) * inverse_h;
-  p.vy[i] = (kept * ty + carried[1]) * inverse_h;
-  p.vz[i] = (kept * tz + carried[2]) * inverse_h;
+  const Float4 push = {p.x[i] - before.x, p.y[i] - before.y, p.z[i] - before.z, 0.0f};
+  const float depth = std::sqrt(dot(push, push));
+  const Float4 n = push / depth;
+  const Float4 path = {p.x[i] - p.old_x[i], p.y[i] - p.old_y[i], p.z[i] - p.old_z[i], 0.0f};
+  // Pushes that nearly cancel each other say little of how fast their sum goes.
+  const float most = std::sqrt(dot(body.by, body.by));
+  const float along_n = dot(path, n) - std::clamp(body.pushed / depth, -most, most);
+  const Float4 slip = path - body.by - along_n * n;
+  const float length = std::sqrt(dot(slip, slip));
+  const float kept = length > mu * depth ? 1.0f - mu * depth / length : 0.0f;
+  Float4 held = (1.0f - kept) * slip;
+  held -= std::max(0.0f, dot(held, body.normal)) * body.normal;
+  p.x[i] -= held[0], p.y[i] -= held[1], p.z[i] -= held[2];
+  const Float4 velocity = inverse_h * (kept * slip + body.by);
+  p.vx[i] = velocity[0], p.vy[i] = velocity[1], p.vz[i] = velocity[2];
 }
 
 // What all patches of a body contact pass share.
@@ -81,8 +89,10 @@ void respond(Particles& p, ContactState& s, std::size_t i, const BodyContact& co
   s.touching[i] = p.x[i] != before.x || p.y[i] != before.y || p.z[i] != before.z;
   if (!s.touching[i]) return;
   if (contact.paper()) return;
+  const BodyMotion& m = s.motion;
   const float share = contact.share.end - contact.share.begin;
-  friction_and_velocity(p, i, share * load(s.motion.by[i]), share * load(s.motion.ahead[i]), contact.friction,
+  const Float4 normal = turned(load(m.normal[i]), (contact.share.end - 1.0f) * load(m.turn[i]));
+  friction_and_velocity(p, i, {share * load(m.by[i]), share * m.along[i], normal}, contact.friction,
                         contact.inverse_h);
 }
 
@@ -140,11 +150,11 @@ std::uint32_t take_from_points(Particles& p, std::size_t begin, std::size_t end)
 
 }  // namespace
 
-ContactState make_contacts(std::size_t particles, FaceContact faces) {
+ContactState make_contacts(std::size_t particles, double friction, FaceContact faces) {
   ContactState s;
   s.touching.assign(particles, 0);
   s.clearance = make_clearance_cache(particles);
-  s.motion.by.resize(particles), s.motion.ahead.resize(particles);
+  s.motion = make_motion(particles, friction);
   s.patch.resize(engine::block_count(particles, kPatch));
   s.faces = std::move(faces);
   return s;
@@ -156,6 +166,7 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
   const std::int64_t begin_ns = context.clock->now_ns();
   // The paper's response has distances of its own and uses surface velocities by itself.
   const collision::Collider* body = options.response == collision::Response::kPaper ? nullptr : collider;
+  if (body != nullptr) s.motion.turns.resize(body->size());  // before it moves, because that allocates
   begin_motion_frame(context, moved ? body : nullptr, frame_s, particles, s.motion, s.faces.nearest);
   begin_clearance_frame(context, s.motion.moving ? nullptr : body, options.thickness_m, travel_m, s.touching,
                         particles, s.clearance);
@@ -164,7 +175,8 @@ void begin_contact_frame(const engine::Context& context, const collision::Collid
   if (body != nullptr && options.face_contact) {
     if (!s.motion.moving) query_particles(context, *body, s.faces, particles);
     begin_face_frame(context, *body, frame_s, options.environment,
-                     {s.motion.by, s.motion.ahead, s.motion.moving}, particles, s.faces);
+                     {s.motion.shift, s.motion.turn, s.motion.along, s.motion.follow, s.motion.moving},
+                     particles, s.faces);
   }
   s.patch.assign(s.patch.size(), {});
   s.patch.front().spent_ns = context.clock->now_ns() - begin_ns;
@@ -191,6 +203,7 @@ std::uint32_t resolve_body_contacts(const engine::Context& context, const collis
     if (const std::uint32_t reset = take_from_points(p, begin, end))
       limits.fetch_or(reset, std::memory_order_relaxed);
     if (paper || collider == nullptr) velocities_from_positions(p, begin, end, contact.inverse_h);
+    if (s.motion.moving) std::fill(&s.motion.along[begin], &s.motion.along[begin] + (end - begin), 0.0f);
     if (s.faces.on) enter_faces(faces, begin, end, p, s.faces);
   });
   if (collider == nullptr) return limits.load();

@@ -39,8 +39,9 @@ struct Substep {
   FrameShare share;
 };
 
-/// The state for so many particles; `faces` are those of make_face_contact().
-ContactState make_contacts(std::size_t particles, FaceContact faces);
+/// The state for so many particles of cloth with this coefficient of friction; `faces` are those of
+/// make_face_contact().
+ContactState make_contacts(std::size_t particles, double friction, FaceContact faces);
 
 /// Begins a frame. `collider` may be null: there is no body. `moved` is the result of is_moving(*collider);
 /// `travel_m` is as in begin_clearance_frame().

@@ -8,6 +8,9 @@
 namespace bodice::cloth {
 namespace {
 
+// Cloth with at least this coefficient of friction follows the surface below it, as far as contact goes.
+constexpr double kFollowingFriction = 0.2;
+
 Point point(const Vec3& v) {
   return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 0.0f};
 }
@@ -28,27 +31,62 @@ struct Moved {
   }
 };
 
-// Finds the motion of the nearest material for each particle. Surface velocities belong to positions at the
-// end of the frame. So a first query gives an approximate displacement, and a second one takes each particle
-// relative to the body as both were when the frame began.
+// Velocities belong to positions at the end of a frame, so that the displacement of a point at its start is
+// found by iteration. A step leaves about as much of the error as the ellipsoid turns by in the frame, in
+// radians.
+constexpr int kDisplacementSteps = 4;
+
+// How far the material that moves with an ellipsoid goes in a frame, from a point at its start.
+Vec3 displacement(const collision::Collider& body, std::uint32_t ellipsoid, double frame_s,
+                  const Vec3& start) {
+  Vec3 by = Vec3::Zero();
+  for (int step = 0; step < kDisplacementSteps; ++step)
+    by = frame_s * body.surface_velocity(ellipsoid, start + by);
+  return by;
+}
+
+// How each ellipsoid turns in the frame: half the curl of its velocity, an affine function, by the frame.
+void find_turns(const collision::Collider& body, double frame_s, std::span<Vec3> turns) {
+  for (std::uint32_t k = 0; k < turns.size(); ++k) {
+    const Vec3 still = body.surface_velocity(k, Vec3::Zero());
+    const Vec3 x = body.surface_velocity(k, Vec3::UnitX()) - still,
+               y = body.surface_velocity(k, Vec3::UnitY()) - still,
+               z = body.surface_velocity(k, Vec3::UnitZ()) - still;
+    turns[k] = 0.5 * frame_s * Vec3(y.z() - z.y(), z.x() - x.z(), x.y() - y.x());
+  }
+}
+
+// Finds the motion of the nearest material for each particle. The body as it was when the frame began is no
+// longer known, but the owners of the particles are: their motion takes each particle to where a query finds
+// the same material. Without an owner, that is the ellipsoid nearest to the particle at the end of the frame;
+// where a limb has moved by more than its width, it may be another limb's.
 void find_motion(const collision::Collider& body, double frame_s, std::size_t begin, std::size_t end,
                  const Particles& p, BodyMotion& motion, std::span<collision::Contact> kept) {
   collision::Contact nearest[kPatch];
   Moved points;
-  for (std::size_t i = begin; i < end; ++i) points.put(i - begin, p.x[i], p.y[i], p.z[i], splat(0.0f));
-  points.query(body, end - begin, nearest);
+  bool all_known = true;
+  for (std::size_t i = begin; i < end; ++i) {
+    points.put(i - begin, p.x[i], p.y[i], p.z[i], splat(0.0f));
+    all_known = all_known && motion.owner[i] != collision::kNoEllipsoid;
+  }
+  if (!all_known) points.query(body, end - begin, nearest);
   for (std::size_t k = 0; k < end - begin; ++k) {
-    const Vec3 by = frame_s * body.surface_velocity(nearest[k].ellipsoid, points.at(k));
+    const std::uint32_t known = motion.owner[begin + k];
+    const std::uint32_t owner = known != collision::kNoEllipsoid ? known : nearest[k].ellipsoid;
+    const Vec3 by = displacement(body, owner, frame_s, points.at(k));
     points.put(k, points.x[k], points.y[k], points.z[k], load(point(by)));
   }
   points.query(body, end - begin, nearest);
+  const double follow = double{motion.follow};
   if (!kept.empty()) std::copy_n(nearest, end - begin, &kept[begin]);
   for (std::size_t i = begin; i < end; ++i) {
     const collision::Contact& at = nearest[i - begin];
     const Vec3 by = frame_s * body.surface_velocity(at.ellipsoid, points.at(i - begin));
     const Vec3 normal = Eigen::Map<const Eigen::Vector3f>(at.normal).cast<double>();
-    motion.by[i] = point(by);
-    motion.ahead[i] = point(by.dot(normal) * normal);
+    const Vec3 turn = at.ellipsoid < motion.turns.size() ? motion.turns[at.ellipsoid] : Vec3::Zero();
+    motion.by[i] = point(by), motion.normal[i] = point(normal);
+    motion.shift[i] = point(follow * by + (1.0 - follow) * by.dot(normal) * normal);
+    motion.turn[i] = point(follow * turn);
   }
 }
 
@@ -58,8 +96,8 @@ float find_paths(const BodyMotion& motion, const FrameShare& substep, std::size_
                  const Particles& p, Moved& safe, Moved& now) {
   Float4 longest2 = splat(0.0f);
   for (std::size_t i = begin; i < end; ++i) {
-    const Float4 ahead = load(motion.ahead[i]);
-    const Float4 from = (1.0f - substep.begin) * ahead, to = (1.0f - substep.end) * ahead;
+    const Float4 shift = load(motion.shift[i]);
+    const Float4 from = (1.0f - substep.begin) * shift, to = (1.0f - substep.end) * shift;
     // The collider moves safe positions with the whole frame's motion, so that they are given as before the
     // frame.
     safe.put(i - begin, p.old_x[i], p.old_y[i], p.old_z[i], from - load(motion.by[i]));
@@ -72,6 +110,15 @@ float find_paths(const BodyMotion& motion, const FrameShare& substep, std::size_
 }
 
 }  // namespace
+
+BodyMotion make_motion(std::size_t particles, double friction) {
+  BodyMotion motion;
+  motion.follow = static_cast<float>(std::clamp(friction / kFollowingFriction, 0.0, 1.0));
+  for (auto* vectors : {&motion.by, &motion.shift, &motion.normal, &motion.turn}) vectors->resize(particles);
+  motion.along.resize(particles);
+  motion.owner.assign(particles, collision::kNoEllipsoid);
+  return motion;
+}
 
 // The velocity of an ellipsoid is an affine function: if it is zero at four points that span space, it is
 // zero everywhere.
@@ -89,18 +136,41 @@ void begin_motion_frame(const engine::Context& context, const collision::Collide
   const bool moved = motion.moving;
   motion.moving = moving_body != nullptr;
   if (!motion.moving) {
-    if (moved) std::ranges::fill(motion.by, Point{}), std::ranges::fill(motion.ahead, Point{});
+    if (!moved) return;
+    for (auto* vectors : {&motion.by, &motion.shift, &motion.normal, &motion.turn})
+      std::ranges::fill(*vectors, Point{});
+    std::ranges::fill(motion.along, 0.0f);
     return;
   }
+  find_turns(*moving_body, frame_s, motion.turns);
   engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
     find_motion(*moving_body, frame_s, begin, end, p, motion, nearest);
   });
 }
 
+void end_motion_frame(const engine::Context& context, const collision::Collider& body, const Particles& p,
+                      std::span<const collision::Contact> nearest, BodyMotion& motion) {
+  if (!motion.moving) {
+    for (std::size_t i = 0; i < nearest.size(); ++i) motion.owner[i] = nearest[i].ellipsoid;
+    return;
+  }
+  engine::parallel_for(context, p.count(), kPatch, [&](std::size_t begin, std::size_t end) {
+    collision::Contact contact[kPatch];
+    Moved points;
+    for (std::size_t i = begin; i < end; ++i) points.put(i - begin, p.x[i], p.y[i], p.z[i], splat(0.0f));
+    points.query(body, end - begin, contact);
+    for (std::size_t i = begin; i < end; ++i) motion.owner[i] = contact[i - begin].ellipsoid;
+  });
+}
+
+void forget_owners(BodyMotion& motion) {
+  std::ranges::fill(motion.owner, collision::kNoEllipsoid);
+}
+
 // Continuous collision costs much more than a push from the current position, and gives the same side unless
 // the particle passed through the body. So it is used for long paths only.
 collision::ContactReport resolve_moving(const engine::Context& context, const collision::Collider& body,
-                                        const collision::ResolveOptions& how, const BodyMotion& motion,
+                                        const collision::ResolveOptions& how, BodyMotion& motion,
                                         const FrameShare& substep, std::size_t begin, std::size_t end,
                                         Particles& p) {
   Moved safe, before;
@@ -113,10 +183,13 @@ collision::ContactReport resolve_moving(const engine::Context& context, const co
   else
     options.max_push_m += path_m;
   const collision::ContactReport report = body.resolve(context, view, options);
-  for (std::size_t i = begin; i < end; ++i) {  // a particle without a push keeps its exact position
-    p.x[i] += after.x[i - begin] - before.x[i - begin];
-    p.y[i] += after.y[i - begin] - before.y[i - begin];
-    p.z[i] += after.z[i - begin] - before.z[i - begin];
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t k = i - begin;
+    const Float4 push = {after.x[k] - before.x[k], after.y[k] - before.y[k], after.z[k] - before.z[k], 0.0f};
+    const Float4 along = push * load(motion.by[i]);
+    motion.along[i] += along[0] + along[1] + along[2];
+    const Float4 by = turned(push, (substep.end - 1.0f) * load(motion.turn[i]));
+    p.x[i] += by[0], p.y[i] += by[1], p.z[i] += by[2];  // a particle without a push keeps its exact position
   }
   return report;
 }

@@ -21,7 +21,7 @@ struct Probe {
              float within_m) {
     for (std::size_t k = 0; k < particles.size(); ++k) {
       const Index i = particles[k];
-      const Float4 p = load(at[i]) + body.remaining * load(body.motion->ahead[i]);
+      const Float4 p = load(at[i]) + body.remaining * load(body.motion->shift[i]);
       x[k] = p[0], y[k] = p[1], z[k] = p[2];
     }
     const engine::Context alone{.executor = &engine::inline_executor()};
@@ -44,7 +44,9 @@ bool guard_sunk(const engine::Context& context, const ResolvedBody& body, std::s
     for (std::size_t k = 0; k < some.size(); ++k) {
       const float allowed_m = std::min(from.contact[k].signed_distance, body.thickness_m);
       if (!(to.contact[k].signed_distance < allowed_m)) continue;
-      const float* const normal = from.contact[k].normal;
+      const float* const n = from.contact[k].normal;
+      const Float4 normal =
+          turned(Float4{n[0], n[1], n[2], 0.0f}, -body.remaining * load(body.motion->turn[some[k]]));
       guard[some[k]] = {normal[0], normal[1], normal[2], 1.0f};
       any.store(true, std::memory_order_relaxed);
     }

@@ -74,8 +74,8 @@ class Prover {
       const Float4 a = at(p_, e, w[0][0], w[0][1]), b = at(p_, e, w[1][0], w[1][1]),
                    c = at(p_, e, w[2][0], w[2][1]), center = (a + b + c) * (1.0f / 3.0f);
       x[k] = center[0], y[k] = center[1], z[k] = center[2];
-      radius[k] = std::sqrt(std::max(
-          {dot3(a - center, a - center), dot3(b - center, b - center), dot3(c - center, c - center)}));
+      radius[k] = std::sqrt(
+          std::max({dot(a - center, a - center), dot(b - center, b - center), dot(c - center, c - center)}));
       longest = std::max(longest, radius[k]);
     }
     collision::Contact contact[kBatch];
@@ -155,7 +155,7 @@ void push(const FaceSample& s, const FaceContact& f, Particles& p, FaceCertifica
     inverse_mass[k] = p.point[i].weight;
   }
   const float yielding = yielding_of(weight, inverse_mass);
-  const float depth = -(s.distance_m + dot3(vector_of(s.normal), moved));
+  const float depth = -(s.distance_m + dot(vector_of(s.normal), moved));
   if (!(depth > 0.0f) || !(yielding > 0.0f) || !is_on_its_side(s, f)) return;
   for (int k = 0; k < 3; ++k) {
     const Index i = s.particle[k];

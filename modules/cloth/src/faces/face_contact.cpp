@@ -40,9 +40,9 @@ bool is_due(const RunState& run) {
 float motion_off(const FaceSample& s, const FaceContact& f) {
   if (!f.motion.moving) return 0.0f;
   const std::array<float, 3> weight = weights_of(s);
-  Float4 off = -vector_of(s.ahead);
-  for (int c = 0; c < 3; ++c) off += weight[c] * xyz(load(f.motion.ahead[s.particle[c]]));
-  return std::sqrt(dot3(off, off));
+  Float4 off = -vector_of(s.shift);
+  for (int c = 0; c < 3; ++c) off += weight[c] * xyz(load(f.motion.shift[s.particle[c]]));
+  return std::sqrt(dot(off, off));
 }
 
 // What happens to a sample in a substep: it is queried anew, may be too near, has a surface behind it, or
@@ -55,7 +55,7 @@ struct Look {
 Look look_at(const FaceSample& s, Float4 where, const FaceContact& f) {
   const SampleRules& r = f.rules;
   const Float4 from = where - vector_of(s.at);
-  const float path = std::sqrt(dot3(from, from));
+  const float path = std::sqrt(dot(from, from));
   const float far_m = (s.distance_m - r.keep_m - r.rise_m) / r.slope - path;
   if (far_m > 0.0f) return {.quiet_m = far_m};
   const float stale_m = kFresh * r.sag_m - path;
@@ -84,7 +84,7 @@ void refresh_run(const collision::Collider& body, const FaceSubstep& substep, st
   };
   const auto run_query = [&] {
     const std::size_t count = query.count;
-    query.run(body, band_of(f.rules), f.rules.frame_s, f.samples.all);
+    query.run(body, f.rules, f.motion, f.samples.all);
     for (std::size_t q = 0; q < count; ++q) {
       const std::uint32_t k = query.sample[q];
       settle(k, look_at(f.samples.all[k], vector_of(f.samples.all[k].at), f));
@@ -202,8 +202,8 @@ void enter_faces(const FaceSubstep& substep, std::size_t begin, std::size_t end,
     for (std::size_t i = from; i < std::min(from + kTravelCluster, end); ++i) {
       const Float4 at = load(p.point[i]);
       Float4 path = xyz(at) - load(f.entered[i]);
-      if (f.motion.moving) path -= substep.share * xyz(load(f.motion.ahead[i]));
-      longest2 = std::max(longest2, dot3(path, path));
+      if (f.motion.moving) path -= substep.share * xyz(load(f.motion.shift[i]));
+      longest2 = std::max(longest2, dot(path, path));
       store(f.entered[i], xyz(at)), store(f.now[i], at);
     }
     f.step_m[from / kTravelCluster] = std::sqrt(longest2);

@@ -20,15 +20,12 @@ constexpr float kFarthest_m = 1e6f;  // in place of an infinite distance
 Float4 at(const Particles& p, Index i) {
   return Float4{p.x[i], p.y[i], p.z[i], 0.0f};
 }
-Float4 to_float4(const Vec3& v) {
-  return Float4{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 0.0f};
-}
 float length(Float4 v) {
-  return std::sqrt(dot3(v, v));
+  return std::sqrt(dot(v, v));
 }
 
 float length2(Float4 v) {
-  return dot3(v, v);
+  return dot(v, v);
 }
 
 // What the choice of the samples of one frame depends on.
@@ -60,7 +57,7 @@ struct Placement {
     const float by_length = length(edge) / (rules.spacing_m * widening);
     const collision::Contact &a = nearest[i], &b = nearest[j];
     if (a.ellipsoid == collision::kNoEllipsoid || b.ellipsoid == collision::kNoEllipsoid) return by_length;
-    const float sag = dot3(vector_of(b.normal) - vector_of(a.normal), edge) / 8.0f;
+    const float sag = dot(vector_of(b.normal) - vector_of(a.normal), edge) / 8.0f;
     return std::max(by_length, std::sqrt(std::max(0.0f, sag) / allowed_m) / widening);
   }
 };
@@ -70,7 +67,7 @@ void find_room(const engine::Context& context, const Placement& how) {
   engine::parallel_for(context, how.p.count(), kElementGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Float4 path =
-          Float4{how.p.vx[i], how.p.vy[i], how.p.vz[i], 0.0f} * r.frame_s - xyz(load(how.motion.by[i]));
+          Float4{how.p.vx[i], how.p.vy[i], how.p.vz[i], 0.0f} * r.frame_s - xyz(load(how.motion.shift[i]));
       how.room[i] = {std::min(how.nearest[i].signed_distance, kFarthest_m),
                      kSpare * (length(path) + r.fall_m)};
     }
@@ -138,22 +135,21 @@ float deficit(const Placement& how, Index i) {
 void query_samples(const collision::Collider& body, const Placement& how, const SampleRange& range,
                    std::span<FaceSample> samples) {
   SampleQuery query;
-  const float band_m = band_of(how.rules);
   for (std::uint32_t k = range.begin; k < range.end; ++k) {
     FaceSample& s = samples[k];
     const std::array<float, 3> weight = weights_of(s);
-    Float4 where = splat(0.0f), ahead = splat(0.0f);
+    Float4 where = splat(0.0f), shift = splat(0.0f);
     s.keep_m = how.rules.keep_m;
     for (int c = 0; c < 3; ++c) {
       const Index i = s.particle[c];
-      where += weight[c] * at(how.p, i), ahead += weight[c] * xyz(load(how.motion.ahead[i]));
+      where += weight[c] * at(how.p, i), shift += weight[c] * xyz(load(how.motion.shift[i]));
       s.keep_m -= weight[c] * deficit(how, i);
     }
-    for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = ahead[axis];
-    query.add(k, where + ahead);
-    if (query.is_full()) query.run(body, band_m, how.rules.frame_s, samples);
+    for (int axis = 0; axis < 3; ++axis) s.shift[axis] = shift[axis];
+    query.add(k, where + shift);
+    if (query.is_full()) query.run(body, how.rules, how.motion, samples);
   }
-  query.run(body, band_m, how.rules.frame_s, samples);
+  query.run(body, how.rules, how.motion, samples);
 }
 
 // The turn of normals between neighboring samples of an element shows which parts it needs next time.
@@ -165,8 +161,8 @@ int wanted_parts(const Placement& how, const Elements& elements, const FaceSampl
   for (std::uint32_t k = s.begin[e]; k + 1 < s.begin[e + 1]; ++k) {
     const FaceSample &a = s.all[k], &b = s.all[k + 1];
     const Float4 path = vector_of(b.at) - vector_of(a.at);
-    const float turn = dot3(vector_of(b.normal) - vector_of(a.normal), path);
-    if (turn > 0.0f) sharpest = std::max(sharpest, turn / dot3(path, path));
+    const float turn = dot(vector_of(b.normal) - vector_of(a.normal), path);
+    if (turn > 0.0f) sharpest = std::max(sharpest, turn / dot(path, path));
   }
   const Element& element = elements.all[e];
   const float wanted = std::sqrt(how.longest2(element) * sharpest / (8.0f * how.sag(element)));
@@ -197,19 +193,23 @@ std::size_t count_at_rest(const Elements& elements, const Particles& p, float sp
   return total;
 }
 
-void take_contact(const collision::Collider& body, const collision::Contact& contact, float frame_s,
-                  FaceSample& s) {
+void take_contact(const collision::Collider& body, const MotionNearParticles& motion,
+                  const collision::Contact& contact, float frame_s, FaceSample& s) {
   s.distance_m = contact.signed_distance;
   std::ranges::copy(contact.normal, s.normal);
+  if (!motion.moving) return;
   const Vec3 velocity =
       body.surface_velocity(contact.ellipsoid, Eigen::Map<const Eigen::Vector3f>(s.at).cast<double>());
-  const float along = frame_s * dot3(vector_of(s.normal), to_float4(velocity));
-  for (int axis = 0; axis < 3; ++axis) s.ahead[axis] = along * s.normal[axis];
+  const Eigen::Vector3f by = (double{frame_s} * velocity).cast<float>();
+  const Eigen::Map<const Eigen::Vector3f> normal(s.normal);
+  Eigen::Map<Eigen::Vector3f>(s.shift) =
+      motion.follow * by + (1.0f - motion.follow) * by.dot(normal) * normal;
 }
 
-void SampleQuery::run(const collision::Collider& body, float band_m, float frame_s,
-                      std::span<FaceSample> samples) {
+void SampleQuery::run(const collision::Collider& body, const SampleRules& rules,
+                      const MotionNearParticles& motion, std::span<FaceSample> samples) {
   if (count == 0) return;
+  const float band_m = band_of(rules);
   const engine::Context alone{.executor = &engine::inline_executor()};
   body.query(alone, {.count = count, .x = x, .y = y, .z = z}, {contact, count}, {.within_m = band_m});
   for (std::size_t k = 0; k < count; ++k) {
@@ -219,7 +219,7 @@ void SampleQuery::run(const collision::Collider& body, float band_m, float frame
     const bool near = c.ellipsoid != collision::kNoEllipsoid;
     s.distance_m = band_m;
     for (float& n : s.normal) n = 0.0f;
-    if (near) take_contact(body, c, frame_s, s);
+    if (near) take_contact(body, motion, c, rules.frame_s, s);
   }
   count = 0;
 }

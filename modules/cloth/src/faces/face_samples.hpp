@@ -28,8 +28,8 @@ struct alignas(64) FaceSample {
   float at[3] = {};         ///< where the distance was queried, in the body's pose at the end of the frame
   float normal[3] = {};     ///< of the body there
   float distance_m = 0.0f;  ///< there; at least the band if nothing is in it
-  float ahead[3] = {};  ///< displacement of the body's material near it in the frame along the normal, meters
-  float keep_m = 0.0f;  ///< distance to keep; less beside a pin that the host holds nearer
+  float shift[3] = {};      ///< how far the body sees it displaced when the frame begins, meters
+  float keep_m = 0.0f;      ///< distance to keep; less beside a pin that the host holds nearer
 };
 
 /// Lengths that decide which elements are sampled, and how densely.
@@ -47,9 +47,11 @@ inline float band_of(const SampleRules& rules) {
   return rules.keep_m + rules.rise_m + rules.spacing_m;
 }
 
-/// The body's motion in a frame near each particle (#P, meters), and its component along the normal.
+/// The body's motion in a frame near each particle (#P), and what pushes of it add up to, as in BodyMotion.
 struct MotionNearParticles {
-  std::span<const Point> by, ahead;
+  std::span<const Point> shift, turn;
+  std::span<float> along;
+  float follow = 0.0f;
   bool moving = false;  ///< whether any of it is not zero
 };
 
@@ -92,8 +94,8 @@ void place_samples(const engine::Context& context, const collision::Collider& bo
                    const MotionNearParticles& motion, const Particles& particles, FaceSamples& samples);
 
 /// Gives a sample the distance, the normal and the motion of a contact.
-void take_contact(const collision::Collider& body, const collision::Contact& contact, float frame_s,
-                  FaceSample& sample);
+void take_contact(const collision::Collider& body, const MotionNearParticles& motion,
+                  const collision::Contact& contact, float frame_s, FaceSample& sample);
 
 /// Queries the listed samples at positions (x, y, z) in the body's pose at the end of the frame.
 struct SampleQuery {
@@ -108,15 +110,12 @@ struct SampleQuery {
     sample[count] = s, x[count] = at[0], y[count] = at[1], z[count++] = at[2];
   }
   /// Queries within `band_m` and writes distance, normal and motion of each sample.
-  void run(const collision::Collider& body, float band_m, float frame_s, std::span<FaceSample> samples);
+  void run(const collision::Collider& body, const SampleRules& rules, const MotionNearParticles& motion,
+           std::span<FaceSample> samples);
 };
 
 inline Float4 vector_of(const float (&v)[3]) {
   return Float4{v[0], v[1], v[2], 0.0f};
-}
-inline float dot3(Float4 a, Float4 b) {
-  const Float4 ab = a * b;
-  return ab[0] + ab[1] + ab[2];
 }
 /// The weights of a sample's three particles, sum 1.
 inline std::array<float, 3> weights_of(const FaceSample& s) {

@@ -47,13 +47,13 @@ Descent descent_to(const FaceSample& s, const FaceContact& f) {
     all_near = all_near && is_near(corner, f);
     mean += corner.weight * vector_of(corner.contact.normal);
   });
-  const float agreement = std::sqrt(dot3(mean, mean));
+  const float agreement = std::sqrt(dot(mean, mean));
   if (!all_near || !(agreement > kAgreement)) return {};
   Descent descent{.out = mean / agreement};
   for_each_corner(s, f, [&](const Corner& corner) {
     const Float4 to_surface = vector_of(corner.contact.point) - vector_of(s.at);
-    descent.length_m = std::max(descent.length_m, dot3(descent.out, to_surface));
-    descent.widest_m = std::max(descent.widest_m, std::sqrt(dot3(to_surface, to_surface)));
+    descent.length_m = std::max(descent.length_m, dot(descent.out, to_surface));
+    descent.widest_m = std::max(descent.widest_m, std::sqrt(dot(to_surface, to_surface)));
   });
   descent.length_m += kAbove * f.rules.keep_m;
   return descent;
@@ -78,9 +78,9 @@ bool is_on_its_side(const FaceSample& s, const FaceContact& f) {
   const Float4 normal = vector_of(s.normal), surface = vector_of(s.at) - s.distance_m * normal;
   bool holds = true;
   for_each_corner(s, f, [&](const Corner& corner) {
-    if (!is_near(corner, f) || dot3(normal, vector_of(corner.contact.normal)) >= 0.0f) return;
+    if (!is_near(corner, f) || dot(normal, vector_of(corner.contact.normal)) >= 0.0f) return;
     // A surface ahead faces the sample's own across a gap; one behind is the other side of a limb.
-    holds = holds && dot3(normal, vector_of(corner.contact.point) - surface) > 0.0f;
+    holds = holds && dot(normal, vector_of(corner.contact.point) - surface) > 0.0f;
   });
   return holds;
 }
@@ -91,10 +91,10 @@ bool take_to_own_side(const collision::Collider& body, const FaceContact& f, Fac
   const collision::Contact met = meet(body, descent, sample, kMetWithin * f.rules.sag_m);
   if (met.ellipsoid == collision::kNoEllipsoid) return false;
   const Float4 normal = vector_of(met.normal);
-  const float depth_m = dot3(normal, vector_of(met.point) - vector_of(sample.at));
-  if (!(dot3(normal, descent.out) > kFacing) || !(depth_m > 0.0f) || depth_m > descent.widest_m) return false;
+  const float depth_m = dot(normal, vector_of(met.point) - vector_of(sample.at));
+  if (!(dot(normal, descent.out) > kFacing) || !(depth_m > 0.0f) || depth_m > descent.widest_m) return false;
   FaceSample taken = sample;
-  take_contact(body, met, f.rules.frame_s, taken);
+  take_contact(body, f.motion, met, f.rules.frame_s, taken);
   taken.distance_m = -depth_m;
   if (!is_on_its_side(taken, f)) return false;
   sample = taken;

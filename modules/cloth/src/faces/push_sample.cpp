@@ -8,18 +8,27 @@ namespace {
 // How much farther a sample may be pushed in a substep. What it came nearer in this substep is undone at
 // once, and the rest at the recovery speed. What its neighbors pushed it meanwhile is part of that, or
 // together they would throw the cloth.
-float longest_push(const FaceSample& s, const FaceSubstep& substep, const FaceContact& f,
+float longest_push(const FaceSample& s, Float4 normal, const FaceSubstep& substep, const FaceContact& f,
                    const Particles& p) {
   const std::array<float, 3> weight = weights_of(s);
-  Float4 path = -(substep.length_s / f.rules.frame_s) * vector_of(s.ahead), pushed = splat(0.0f);
+  Float4 path = -(substep.length_s / f.rules.frame_s) * vector_of(s.shift), pushed = splat(0.0f);
   for (int c = 0; c < 3; ++c) {
     const Index i = s.particle[c];
     path += weight[c] * (load(f.entered[i]) - Float4{p.old_x[i], p.old_y[i], p.old_z[i], 0.0f});
     pushed += weight[c] * (load(f.now[i]) - load(f.entered[i]));
   }
+  const float nearer = std::max(0.0f, -dot(normal, path));
+  return std::max(0.0f, kFromBody_m_s * substep.length_s + nearer - dot(normal, pushed));
+}
+
+// The normal of the body at a sample when the substep ends, before the rest of the frame turns the body.
+Float4 normal_now(const FaceSample& s, float remaining, const FaceContact& f) {
   const Float4 normal = vector_of(s.normal);
-  const float nearer = std::max(0.0f, -dot3(normal, path));
-  return std::max(0.0f, kFromBody_m_s * substep.length_s + nearer - dot3(normal, pushed));
+  if (!f.motion.moving) return normal;
+  const std::array<float, 3> weight = weights_of(s);
+  Float4 turn = splat(0.0f);
+  for (int c = 0; c < 3; ++c) turn += weight[c] * load(f.motion.turn[s.particle[c]]);
+  return turned(normal, -remaining * turn);
 }
 
 // Whether no free corner of a sample can be out of the body within the frame. Contact of particles brings
@@ -42,15 +51,19 @@ bool push_out(const FaceSample& s, const FaceSubstep& substep, const Particles& 
                                              f.now[s.particle[2]].weight};
   const float yielding = yielding_of(weight, inverse_mass);
   if (!(yielding > 0.0f)) return true;
+  const Float4 normal = normal_now(s, substep.remaining, f);
   float push = -room;
   if (push > kFromBody_m_s * substep.length_s) {
     if (corners_are_deep(s, f)) return false;
-    push = std::min(push, longest_push(s, substep, f, p));
+    push = std::min(push, longest_push(s, normal, substep, f, p));
   }
-  const Float4 normal = vector_of(s.normal);
+  const float ahead = dot(vector_of(s.normal), vector_of(s.shift));
   for (int c = 0; c < 3; ++c) {
-    Point& point = f.now[s.particle[c]];
-    store(point, load(point) + (push * point.weight * weight[c] / yielding) * normal);
+    const Index i = s.particle[c];
+    Point& point = f.now[i];
+    const float by = push * point.weight * weight[c] / yielding;
+    store(point, load(point) + by * normal);
+    if (f.motion.moving) f.motion.along[i] += by * ahead;
   }
   return true;
 }

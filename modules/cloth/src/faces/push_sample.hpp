@@ -9,12 +9,12 @@ namespace bodice::cloth {
 
 /// Position of a sample in the body's pose at the end of the frame.
 inline Float4 seen_by_body(const FaceSample& s, std::span<const Point> now, float remaining) {
-  return position(s, now) + remaining * vector_of(s.ahead);
+  return position(s, now) + remaining * vector_of(s.shift);
 }
 
 /// Distance of a sample at this position, to first order.
 inline float distance_at(const FaceSample& s, Float4 where) {
-  return s.distance_m + dot3(vector_of(s.normal), where - vector_of(s.at));
+  return s.distance_m + dot(vector_of(s.normal), where - vector_of(s.at));
 }
 
 /// No corner moves farther than this many times the push of its sample. A sample near a pinned corner yields

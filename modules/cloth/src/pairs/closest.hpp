@@ -8,17 +8,6 @@
 
 namespace bodice::cloth {
 
-/// The scalar product of vectors; the fourth lane is not used.
-inline float dot(Float4 a, Float4 b) {
-  const Float4 ab = a * b;
-  return ab[0] + ab[1] + ab[2];
-}
-
-/// The vector product of vectors; the fourth lane is not used, and zero in the result.
-inline Float4 cross(Float4 a, Float4 b) {
-  return Float4{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.0f};
-}
-
 /// The vector with length 1; zero where it has none.
 inline Float4 unit(Float4 v) {
   return v / __builtin_sqrtf(dot(v, v) + kTinyLength2);

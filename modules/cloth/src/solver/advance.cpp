@@ -141,6 +141,7 @@ void end_contact(const engine::Context& context, const collision::Collider& coll
   end_contact_frame(context, collider, s.options, s.contacts, s.particles);
   if (s.options.certify_m && touches_itself(plan, s))
     hold_apart(context, self_substep(plan, s), resolved_body(&collider, {}, s), s.self, s.particles);
+  end_motion_frame(context, collider, s.particles, s.contacts.faces.nearest, s.contacts.motion);
 }
 
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {
@@ -165,9 +166,9 @@ bool begin_collider(const collision::Collider* collider, State& s) {
   const std::uint64_t proxy_hash = collider != nullptr ? collider->proxy_hash() : 0;
   // Velocities do not suffice either: a pose that was set in no time has none.
   const std::uint64_t poses = collider != nullptr ? collider->poses() : 0;
-  if (moved || collider != s.last_collider || proxy_hash != s.last_proxy_hash || poses != s.last_poses ||
-      before != s.particles.origin)
-    wake_all(s.sleep);
+  const bool same_body = collider == s.last_collider && proxy_hash == s.last_proxy_hash;
+  if (moved || !same_body || poses != s.last_poses || before != s.particles.origin) wake_all(s.sleep);
+  if (!same_body) forget_owners(s.contacts.motion);
   if (collider == nullptr) std::ranges::fill(s.contacts.touching, std::uint8_t{0});
   s.last_collider = collider;
   s.last_proxy_hash = proxy_hash;

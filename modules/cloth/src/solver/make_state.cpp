@@ -106,7 +106,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
   if (options.self_collision)
     s.self = make_self_contact(mesh, s.particles, options.layer_gap_m, welded->median_edge_m);
   s.sleep = make_sleep(s.particles.count(), welded->median_edge_m);
-  s.contacts = make_contacts(s.particles.count(),
+  s.contacts = make_contacts(s.particles.count(), fabric.friction,
                              make_face_contact(mesh, topology, options, welded->median_edge_m, s.particles));
   if (options.certify_m && !s.contacts.faces.elements.all.empty())
     s.contacts.certificate = make_certificate(s.contacts.faces.elements, s.particles.count());
@@ -133,6 +133,7 @@ void set_positions(std::span<const Vec3> world_positions, State& s) {
   }
   wake_all(s.sleep);
   s.self.sided = false, forget_pairs(s.self);
+  forget_owners(s.contacts.motion);
 }
 
 }  // namespace bodice::cloth
