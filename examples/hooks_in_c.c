@@ -1,7 +1,7 @@
 /* Log, memory and clock of the host, in C90.
  *
  *    bodice --- a line ----------> log       to the host's own log, never two lines at a time
- *           --- bytes, alignment -> allocate  the arrays that calls copy particles into, and all comes back
+ *           --- bytes, alignment -> allocate  lists of the particles that are not pinned, and all comes back
  *           --- what time is it? -> now_ns
  */
 #include <stdio.h>
@@ -58,6 +58,7 @@ int main(void) {
   bodice_fit_options fit = bodice_default_fit_options();
   bodice_particles particles = bodice_default_particles();
   double positions[2][3] = {{0.0, 1.0, 0.0}, {3.0, 1.0, 0.0}};
+  const uint8_t is_free[2] = {1, 0}; /* the second one is pinned */
   unsigned warm;
   int frame, ok;
 
@@ -73,6 +74,7 @@ int main(void) {
   particles.count = 2;
   particles.position.x = positions;
   particles.position.scalar = BODICE_DOUBLE;
+  particles.mask = is_free;
   ok = bodice_context_create(&options, &context) == BODICE_OK &&
        bodice_skin_built_in(context, 0, 1.8, NULL, &skin) == BODICE_OK &&
        bodice_fit(context, skin, &fit, &proxy, NULL) == BODICE_OK &&
