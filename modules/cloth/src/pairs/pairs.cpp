@@ -122,7 +122,7 @@ std::vector<PairTask> make_pair_tasks(const ContactMesh& mesh) {
   for (PairTask& task : tasks) {
     task.pairs.reserve(pairs), task.spare.reserve(pairs);
     task.groups.reserve(pairs / 2), task.groups_before.reserve(pairs / 2), task.near.reserve(pairs / 2);
-    for (auto* list : {&task.crossing, &task.pressed}) list->reserve(pairs / 4);
+    task.crossing.reserve(pairs / 4), task.pressed.reserve(pairs / 4);
     task.held.reserve(pairs / 4);
     for (auto& contacts : task.contacts) contacts.reserve(pairs);
   }
@@ -170,6 +170,12 @@ void tidy(PairTask& task) {
     group.begin = begin, group.end = static_cast<std::uint32_t>(pairs.size());
   }
   std::swap(task.pairs, pairs);
+}
+
+void tidy_contacts(PairTask& task) {
+  if (task.contacts[0].size() + task.contacts[1].size() <= kUnused + 2 * task.used) return;
+  for (auto& contacts : task.contacts) contacts.clear();
+  for (PairGroup& group : task.groups) group.fresh = false;
 }
 
 }  // namespace bodice::cloth

@@ -66,7 +66,7 @@ struct PairTask {
   std::vector<PairContact> contacts[2];          ///< [0]: groups across blocks, [1]: groups inside
   std::vector<Tangle> tangles;
   std::vector<std::uint32_t> crossing;  ///< pairs that would cross in this substep
-  std::vector<std::uint32_t> pressed;   ///< pairs that would, and may, because nothing can part them
+  std::vector<Pair> pressed;            ///< pairs that would, and may, because nothing can part them
   std::vector<PairContact> held;        ///< contacts of all pairs that would have crossed in it
 };
 
@@ -93,8 +93,11 @@ void find_pairs(const ContactMesh& mesh, const PairSearch& search, PairGroup& gr
 /// Drops the pairs of a group with leaves that are `room_m` farther apart than the gap.
 void clear_pairs(float room_m, PairGroup& group, PairTask& task);
 
-/// Removes pairs that are no longer used, where these are many.
+/// Removes pairs that are no longer used, where these are many. Positions of pairs in the list change.
 void tidy(PairTask& task);
+
+/// Forgets the contacts of this substep where they are many more than pairs, because groups were found anew.
+void tidy_contacts(PairTask& task);
 
 /// The corners of a pair.
 inline Corners corners_of(const Index (&particle)[4], std::span<const Point> at) {

@@ -160,7 +160,7 @@ void part(const engine::Context& context, const SelfSubstep& substep, const Reso
     if (s.zones.guard[i].weight > 0.0f) s.now[i] = s.zones.resolved[i];
   count_crossing(context, substep, Room::kScarce, false, s);
   for (PairTask& task : s.tasks)
-    task.pressed.insert(task.pressed.end(), task.crossing.begin(), task.crossing.end());
+    for (const std::uint32_t k : task.crossing) task.pressed.push_back(task.pairs[k]);
 }
 
 // Copies the points that moved to the particles' positions, and lets them have that speed.

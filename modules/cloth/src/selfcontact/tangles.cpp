@@ -129,8 +129,7 @@ bool add_pressed(const ContactMesh& mesh, const std::vector<PairTask>& tasks, st
                  std::vector<Tangle>& tangles) {
   const std::size_t before = tangles.size();
   for (const PairTask& task : tasks)
-    for (const std::uint32_t k : task.pressed) {
-      const Pair& pair = task.pairs[k];
+    for (const Pair& pair : task.pressed) {
       for (const std::uint32_t a : mesh.star_of(pair.particle[0]))
         for (const std::uint32_t b : mesh.star_of(pair.particle[pair.edges ? 2 : 1]))
           if (a != b && cross_each_other(mesh.faces[a], mesh.faces[b], at))

@@ -89,7 +89,7 @@ void find_crossing_in(const ContactSource& source, const CrossingSearch& how, Pa
     if (!(contact.gap_m > 0.0f) || step_m < kSafe * contact.apart_m) continue;
     if (!would_cross(contact, source, how.now)) continue;
     if (!can_be_parted(contact, how)) {
-      task.pressed.push_back(k);
+      task.pressed.push_back(pair);
       continue;
     }
     task.crossing.push_back(k);
@@ -160,7 +160,8 @@ std::size_t find_crossing(const engine::Context& context, const ContactSource& s
   engine::parallel_for(context, tasks.size(), 1, [&](std::size_t t, std::size_t) {
     PairTask& task = tasks[t];
     task.crossing.clear(), task.held.clear();
-    if (how.moved.empty()) task.pressed.clear(), tidy(task);
+    if (how.moved.empty()) task.pressed.clear();
+    tidy(task), tidy_contacts(task);  // in a pinch, rounds find the same groups many times
     for (PairGroup& group : task.groups)
       if (how.moved.empty() || how.moved[group.leaf[0]] || how.moved[group.leaf[1]])
         find_crossing_in(source, how, group, task);
