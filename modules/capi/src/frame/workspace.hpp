@@ -11,7 +11,7 @@ struct bodice_workspace {
   bodice::capi::SharedContext context;
   bodice::collision::Workspace engine;
   bodice::capi::HostArray<float> numbers;          ///< the paths of a sweep, one array after another
-  bodice::capi::HostArray<std::uint32_t> element;  ///< of each particle that is not pinned
-  bodice::capi::HostArray<std::uint32_t> claim;    ///< of each element: the particle that has it
+  bodice::capi::HostArray<std::uint32_t> element;  ///< the element of each particle that is not pinned
+  bodice::capi::HostArray<std::uint32_t> claim;    ///< for each element, the particle that names it
   bodice::capi::HostArray<bodice::collision::Contact> contacts;
 };

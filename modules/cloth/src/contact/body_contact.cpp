@@ -33,9 +33,9 @@ void velocities_from_positions(Particles& p, std::size_t begin, std::size_t end,
 
 // The body's motion in a substep at a pushed particle.
 struct MaterialMotion {
-  Float4 by;      // displacement of its material
-  float pushed;   // over all pushes of the particle, their lengths times the displacement along them
-  Float4 normal;  // of the surface when the substep ends; zero at rest
+  Float4 by;      // the displacement of its material
+  float pushed;   // the sum over all its pushes of their lengths times the displacement along them
+  Float4 normal;  // the surface's normal when the substep ends; zero at rest
 };
 
 // Applies friction to a pushed particle and sets its velocity. The push has the length `depth` along n.

@@ -8,7 +8,7 @@
 namespace bodice::cloth {
 namespace {
 
-// Cloth with at least this coefficient of friction follows the surface below it, as far as contact goes.
+// Cloth with at least this coefficient of friction counts as following the surface; with less, a share does.
 constexpr double kFollowingFriction = 0.2;
 
 Point point(const Vec3& v) {
@@ -186,8 +186,7 @@ collision::ContactReport resolve_moving(const engine::Context& context, const co
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t k = i - begin;
     const Float4 push = {after.x[k] - before.x[k], after.y[k] - before.y[k], after.z[k] - before.z[k], 0.0f};
-    const Float4 along = push * load(motion.by[i]);
-    motion.along[i] += along[0] + along[1] + along[2];
+    motion.along[i] += dot(push, load(motion.by[i]));
     const Float4 by = turned(push, (substep.end - 1.0f) * load(motion.turn[i]));
     p.x[i] += by[0], p.y[i] += by[1], p.z[i] += by[2];  // a particle without a push keeps its exact position
   }

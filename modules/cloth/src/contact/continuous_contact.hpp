@@ -52,9 +52,9 @@ struct FrameShare {
 bool is_moving(const collision::Collider& body);
 
 /// Begins a frame of `frame_s` at the end of which the body has its current pose; null: no body moves.
-/// Precondition: `turns` has the size of the body. It
-/// costs a query a particle if the body moves, two where owners are not known, and nothing otherwise.
-/// `nearest` takes the contacts of the particles (#P, or empty), displaced by `by`.
+/// `nearest` takes the contacts of the particles (#P, or empty), displaced by `by`. Costs a query a particle
+/// if the body moves, two where owners are not known, and nothing otherwise.
+/// Precondition: `turns` has the size of the body.
 void begin_motion_frame(const engine::Context& context, const collision::Collider* moving_body,
                         double frame_s, const Particles& particles, BodyMotion& motion,
                         std::span<collision::Contact> nearest);
