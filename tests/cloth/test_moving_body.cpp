@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "contact/continuous_contact.hpp"
 #include "fixtures.hpp"
 
 using namespace bodice;
@@ -193,6 +194,30 @@ TEST_CASE("moving body: cloth around a limb stays with it when another limb come
     CHECK(least_m > -1e-4);
     CHECK(most_m < kRadius_m);
   }
+}
+
+TEST_CASE("moving body: a push is along the normal of the body as it is when the substep ends") {
+  constexpr double kTurn_rad = 0.3;
+  geometry::Ellipsoid limb{Vec3::Zero(), geometry::Mat3::Identity(), Vec3(0.3, 0.05, 0.05)};
+  collision::Collider body = ellipsoid_body(limb.center, limb.radii);
+  limb.axes = Eigen::AngleAxisd(kTurn_rad, Vec3::UnitZ()).toRotationMatrix();
+  move(body, limb);
+  cloth::Particles p;
+  for (auto* values : {&p.x, &p.y, &p.z, &p.vx, &p.vy, &p.vz, &p.old_x, &p.old_y, &p.old_z})
+    values->assign(1, 0.0f);
+  p.size = 1;
+  p.y[0] = static_cast<float>(0.052 - body.origin().y());
+  cloth::BodyMotion motion = cloth::make_motion(1, 0.5);
+  motion.ccd_threshold_m = 1.0f;
+  motion.turns.resize(body.size());
+  cloth::begin_motion_frame({}, &body, kFrame_s, p, motion, {});
+  const Vec3 normal = Eigen::AngleAxisd(0.5 * kTurn_rad, Vec3::UnitZ()) * Vec3::UnitY();
+  const Vec3 inside = 0.045 * normal - body.origin();
+  p.x[0] = p.old_x[0] = static_cast<float>(inside.x()), p.y[0] = p.old_y[0] = static_cast<float>(inside.y());
+  cloth::resolve_moving({}, body, {.thickness_m = 0.002f}, motion, {0.4f, 0.5f}, 0, 1, p);
+  const Vec3 push = Vec3(double{p.x[0]}, double{p.y[0]}, double{p.z[0]}) - inside;
+  CHECK(push.norm() > 0.004);
+  CHECK(push.normalized().dot(normal) > 0.999);
 }
 
 TEST_CASE("moving body: a step allocates nothing once warm") {
