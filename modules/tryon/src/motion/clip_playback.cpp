@@ -6,13 +6,14 @@
 
 #include "motion/local_pose.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 ClipPlayback::ClipPlayback(std::shared_ptr<const BodyMotion> motion, rig::Playback playback)
     : motion_(std::move(motion)),
       playback_(playback),
       from_(local_bind_pose(motion_->rig.skeleton)),
       local_(from_.size()),
+      ahead_(from_.size()),
       world_(from_.size()) {
   find_joints(0.0, 0.0, world_);
 }
@@ -54,11 +55,7 @@ void ClipPlayback::joints_ahead(double ahead_s, std::span<rig::Affine> world) {
 
 void ClipPlayback::find_joints(double time_s, double ramp_left_s, std::span<rig::Affine> world) {
   const rig::Skeleton& skeleton = motion_->rig.skeleton;
-  rig::sample(skeleton, motion_->clip, time_s, local_, playback_);
-  if (ramp_left_s > 0.0) {
-    const double share = smooth_step(1.0 - ramp_left_s / ramp_s_);
-    for (std::size_t j = 0; j < local_.size(); ++j) local_[j] = between(from_[j], local_[j], share);
-  }
+  sample_with_ramp(skeleton, motion_->clip, time_s, playback_, {from_, ramp_s_, ramp_left_s}, local_, ahead_);
   rig::world_matrices(skeleton, local_, world);
 }
 

@@ -7,7 +7,7 @@
 
 #include <bodice/tryon/motion.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The joints of a body over the frames of a session. A ramp leads from some pose to the clip's; while it
 /// lasts, the clip waits. Nothing but the constructor allocates.
@@ -40,8 +40,9 @@ class ClipPlayback {
   std::shared_ptr<const BodyMotion> motion_;
   rig::Playback playback_;
   double time_s_ = 0.0, ramp_s_ = 0.0, ramp_left_s_ = 0.0;
-  std::vector<rig::LocalTransform> from_, local_;  // #J: where the ramp began; scratch
-  std::vector<rig::Affine> world_;                 // #J
+  std::vector<rig::LocalTransform> from_;           // #J: where the ramp began
+  std::vector<rig::LocalTransform> local_, ahead_;  // #J: scratch
+  std::vector<rig::Affine> world_;                  // #J
 };
 
 }  // namespace bodice::tryon

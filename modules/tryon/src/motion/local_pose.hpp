@@ -6,7 +6,7 @@
 
 #include <bodice/rig/rig.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Local transforms that give these world matrices, #J each.
 void to_local_pose(const rig::Skeleton& skeleton, std::span<const rig::Affine> world,
@@ -15,10 +15,17 @@ void to_local_pose(const rig::Skeleton& skeleton, std::span<const rig::Affine> w
 /// Local transforms that give the bind pose as world matrices.
 std::vector<rig::LocalTransform> local_bind_pose(const rig::Skeleton& skeleton);
 
-/// From 0 to 1 without a jerk at either end.
-double smooth_step(double share);
+/// A ramp from a pose to a clip: `left_s` of its `length_s` are left.
+struct Ramp {
+  std::span<const rig::LocalTransform> from;  ///< #J
+  double length_s = 0.0, left_s = 0.0;
+};
 
-/// The transform that is `share` of what leads from a to b.
-rig::LocalTransform between(const rig::LocalTransform& a, const rig::LocalTransform& b, double share);
+/// Local transform of each joint (#J) at a time of the clip that is reached by a ramp; without one left,
+/// those of the clip. A ramp ends with the velocities that the clip has there. Allocates nothing. `ahead`
+/// (#J) is scratch.
+void sample_with_ramp(const rig::Skeleton& skeleton, const rig::Clip& clip, double time_s,
+                      rig::Playback playback, const Ramp& ramp, std::span<rig::LocalTransform> local,
+                      std::span<rig::LocalTransform> ahead);
 
 }  // namespace bodice::tryon

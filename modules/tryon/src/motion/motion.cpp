@@ -10,7 +10,7 @@
 
 #include "motion/local_pose.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;
@@ -59,15 +59,14 @@ MotionPlayer::MotionPlayer(const BodyMotion& motion, double ramp_s, rig::Playbac
       ramp_s_(std::isfinite(ramp_s) ? std::max(0.0, ramp_s) : 0.0),
       playback_(playback),
       bind_(local_bind_pose(motion.rig.skeleton)),
-      local_(bind_.size()) {}
+      local_(bind_.size()),
+      ahead_(bind_.size()) {}
 
 void MotionPlayer::joints(double time_s, std::span<rig::Affine> world) {
   const rig::Skeleton& skeleton = motion_->rig.skeleton;
-  rig::sample(skeleton, motion_->clip, std::max(0.0, time_s), local_, playback_);
-  if (time_s < 0.0 && ramp_s_ > 0.0) {
-    const double share = smooth_step(1.0 + time_s / ramp_s_);
-    for (std::size_t j = 0; j < local_.size(); ++j) local_[j] = between(bind_[j], local_[j], share);
-  }
+  const double left_s = ramp_s_ > 0.0 ? std::clamp(-time_s, 0.0, ramp_s_) : 0.0;
+  sample_with_ramp(skeleton, motion_->clip, std::max(0.0, time_s), playback_, {bind_, ramp_s_, left_s},
+                   local_, ahead_);
   rig::world_matrices(skeleton, local_, world);
 }
 

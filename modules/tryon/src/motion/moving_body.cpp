@@ -5,7 +5,7 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/proxy/add_things.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 using geometry::Vec3;
 

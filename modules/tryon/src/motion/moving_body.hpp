@@ -14,7 +14,7 @@
 
 #include "motion/shape_blend.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A collider with the skin that judges it. Not thread-safe. Keeps a reference to the skin.
 class MovingBody {

@@ -7,7 +7,7 @@
 #include "garment/thickness.hpp"
 #include "motion/moving_body.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;

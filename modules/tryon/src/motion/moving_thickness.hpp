@@ -7,7 +7,7 @@
 #include <bodice/tryon/motion.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// As known_thickness_m(), but where the skin below the garment stands out of the posed proxy, in poses
 /// spread over the clip. Skin that another part of the body covers does not stand out. Fails where a pose is

@@ -5,7 +5,7 @@
 
 #include <bodice/tryon/base_pose.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 /// What a refit takes behind frames, about: a moving body is refitted where it will be then.

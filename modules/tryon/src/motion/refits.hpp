@@ -13,7 +13,7 @@
 #include "motion/clip_playback.hpp"
 #include "motion/moving_body.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Decides when a refit is worth its time, and runs at most one at a time.
 class Refits {

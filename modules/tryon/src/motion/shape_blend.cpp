@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 /// A shape takes at least this time to come into use, and as long as its surface moves faster than this.

@@ -7,7 +7,7 @@
 #include <bodice/binding/shape_offset.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Ellipsoids and skin at rest between one shape and another. Only the constructor allocates.
 class ShapeBlend {

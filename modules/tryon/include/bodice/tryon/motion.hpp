@@ -12,7 +12,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/rig/rig.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// What moves a body: a rig with weights for each vertex of its skin, and the clip that is played.
 struct BodyMotion {
@@ -25,8 +25,8 @@ struct BodyMotion {
 engine::Result<void> check(const BodyMotion& motion, std::size_t vertices);
 
 /// Joints over time: a ramp from the bind pose, in which garments are put on, to the clip's first frame, and
-/// then the clip. Times are seconds of the clip; the ramp ends at 0. After its end the clip starts over if
-/// `playback` loops, else its last frame holds.
+/// then the clip. Times are seconds of the clip; the ramp ends at 0, with the clip's velocities there. After
+/// its end the clip starts over if `playback` loops, else its last frame holds.
 class MotionPlayer {
  public:
   /// `ramp_s` is the length of the ramp; zero jumps. Keeps a reference to `motion`. Allocates.
@@ -40,7 +40,7 @@ class MotionPlayer {
   const BodyMotion* motion_;
   double ramp_s_;
   rig::Playback playback_;
-  std::vector<rig::LocalTransform> bind_, local_;  // #J
+  std::vector<rig::LocalTransform> bind_, local_, ahead_;  // #J; the last two are scratch
 };
 
 /// The ramp that brings a skin to the clip's first frame with no vertex faster than a walking hand, between a
