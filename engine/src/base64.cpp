@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 std::string base64(std::span<const std::byte> bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 class SteadyClock final : public Clock {

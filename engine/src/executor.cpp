@@ -1,6 +1,6 @@
 #include <bodice/engine/executor.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 class InlineExecutor final : public Executor {

@@ -10,7 +10,7 @@
 #include <bodice/engine/frame_pipeline.hpp>
 #include "index_loop.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// Signals the processor, and after a while the system, that this thread only waits.
 class Backoff {

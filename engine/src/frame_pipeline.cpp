@@ -5,7 +5,7 @@
 #include <bodice/engine/trace.hpp>
 #include "frame_gate.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 int clamp_workers(const Context& context, int wanted) {

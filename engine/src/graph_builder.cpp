@@ -6,7 +6,7 @@
 
 #include "graph_impl.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 struct GraphBuilder::Impl {
   std::vector<detail::GraphNode> nodes;

@@ -8,7 +8,7 @@
 #include <bodice/engine/trace.hpp>
 #include "ready_set.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// The checked nodes and all memory of a run. Tasks are numbered by their rank in topological order.
 struct TaskGraph::Impl {

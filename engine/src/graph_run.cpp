@@ -6,7 +6,7 @@
 
 #include "graph_impl.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 // Each call of further workers nests one bulk deeper. At this depth all workers return and start again from

@@ -7,7 +7,7 @@
 
 #include "index_loop.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 // The state of a task lent to the host. Usually: free -> reserved -> queued -> running -> ended, after which

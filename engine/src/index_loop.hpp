@@ -7,7 +7,7 @@
 
 #include <bodice/engine/function_ref.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// The indices of one bulk. Any number of threads call work(), which draws them one by one.
 class IndexLoop {

@@ -7,7 +7,7 @@
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 spdlog::level::level_enum to_spdlog(LogLevel level) {

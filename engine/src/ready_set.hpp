@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// A set of small numbers from which any thread takes the least one, without a lock and without waiting.
 /// Every member except resize() may be called at any time by any thread.

@@ -6,7 +6,7 @@
 
 #include "graph_impl.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 TaskGraph::Impl::Impl(std::vector<detail::GraphNode> nodes_in, std::vector<std::uint32_t> order)
     : nodes(std::move(nodes_in)),

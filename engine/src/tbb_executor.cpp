@@ -14,7 +14,7 @@
 #include <bodice/engine/executor.hpp>
 #include "index_loop.hpp"
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 // TBB takes the least of all limits in force. Executors therefore share one number, so that none lowers

@@ -3,7 +3,7 @@
 #include <array>
 #include <charconv>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 void append_number(std::string& text, double value, int digits) {
   std::array<char, 32> number;

@@ -2,7 +2,7 @@
 
 #include <bodice/engine/trace.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 Job::Job(std::string name, const Context& context, Work work)
     : name_(std::move(name)), context_(context), cancel_(context.cancel), work_(std::move(work)) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 // One event. A slot belongs to the thread that drew its number, until `ready` passes it to readers.
 struct Trace::Slot {

@@ -4,7 +4,7 @@
 #include <bodice/engine/trace.hpp>
 #include <bodice/engine/write_file.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 void append_quoted(std::string& out, std::string_view text) {

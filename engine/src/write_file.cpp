@@ -8,7 +8,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
 # Makes of the files in web a header "page_template.hpp" with four texts, so that the program needs no file beside it.
 function(bodice_page_template target folder)
   set(headers "${CMAKE_CURRENT_BINARY_DIR}/${target}_template")
-  set(text "// Made from modules/page/web.\n#pragma once\n\n#include <string_view>\n\nnamespace bodice::page {\n\n")
+  set(text "// Made from modules/page/web.\n#pragma once\n\n#include <string_view>\n\nnamespace bodice::inline v0_1::page {\n\n")
   foreach(pair IN ITEMS kPage:page.html kStyle:page.css kScene:scene.js kPanel:panel.js)
     string(REPLACE ":" ";" pair "${pair}")
     list(GET pair 0 constant)

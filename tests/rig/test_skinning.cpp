@@ -15,6 +15,10 @@ using namespace bodice::rig;
 using namespace rig_test;
 using bodice::engine::Random;
 
+// Programs for processors with AVX, where Eigen aligns by more, share these types with libraries without it.
+static_assert(alignof(Affine) == alignof(double) && alignof(LocalTransform) == alignof(double) &&
+              alignof(DualQuaternion) == alignof(double));
+
 namespace {
 
 std::vector<Vec3> linear(const std::vector<Vec3>& rest, const SkinWeights& weights,

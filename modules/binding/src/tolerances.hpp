@@ -1,7 +1,7 @@
 // The tolerances of the layer, each with its unit and reason. Lengths are those of a body of 1.70 m.
 #pragma once
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 inline constexpr double kReferenceStature_m = 1.70;
 

@@ -10,7 +10,7 @@
 
 #include "profiles.hpp"
 
-namespace bodice::body {
+namespace bodice::inline v0_1::body {
 namespace {
 
 using nlohmann::json;

@@ -3,7 +3,7 @@
 // means over 4082 men and 1986 women of the public tables, each measure divided by the person's stature
 #include "profiles.hpp"
 
-namespace bodice::body {
+namespace bodice::inline v0_1::body {
 namespace {
 
 // The public tables of ANSUR II have no vertex-to-chin length; it is that of GB 10000-88.

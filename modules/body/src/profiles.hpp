@@ -4,7 +4,7 @@
 
 #include <bodice/body/proportions.hpp>
 
-namespace bodice::body {
+namespace bodice::inline v0_1::body {
 
 /// One measure of a profile: its name in files, the member of Proportions, and the values that a human body
 /// allows.

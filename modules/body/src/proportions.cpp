@@ -2,7 +2,7 @@
 
 #include "profiles.hpp"
 
-namespace bodice::body {
+namespace bodice::inline v0_1::body {
 
 Proportions ProportionProfile::either() const {
   Proportions mean;

@@ -1,5 +1,5 @@
 #ifndef BODICE_HAS_JSON
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 engine::Result<BodyProxy> from_json(std::string_view) {
   return engine::Error{

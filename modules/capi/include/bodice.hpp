@@ -19,6 +19,7 @@
 #include <bodice.h>
 
 namespace bodice {
+inline namespace v0_1 {
 
 /// A value, or the status and the sentence of a failure. The sentence is that of the thread's last failure:
 /// read it before the next call.
@@ -237,4 +238,5 @@ class Collider : public detail::Handle<bodice_collider, bodice_collider_destroy>
   }
 };
 
+}  // namespace v0_1
 }  // namespace bodice

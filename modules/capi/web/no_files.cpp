@@ -2,7 +2,7 @@
 // itself.
 #include <bodice/io/rig.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 namespace {
 
 engine::Error no_files() {

@@ -9,7 +9,7 @@
 int main(int argc, char** argv) {
   using namespace bodice::cli;
   CLI::App app{"bodice turns a human body mesh into a small analytic proxy and keeps cloth out of it."};
-  app.set_version_flag("--version", "bodice " BODICE_VERSION);
+  app.set_version_flag("--version", BODICE_PROGRAM);
   app.require_subcommand(1);
   app.footer(
       "Try:  bodice drape                     the built-in body and skirt, no files needed\n"

@@ -11,7 +11,7 @@
 
 #include <bodice/colliders/plain_shape.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 
 /// The coordinates of a joint in the bind pose, or those of the skin for what has no bone.
 struct BoneFrame {

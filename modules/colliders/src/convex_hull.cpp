@@ -8,7 +8,7 @@
 
 #include <bodice/colliders/convex_pieces.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 using geometry::Index;

@@ -13,7 +13,7 @@
 #include "cost_by.hpp"
 #include "fit_shapes.hpp"
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 using Members = std::vector<std::uint32_t>;

@@ -3,7 +3,7 @@
 
 #include "cost_by.hpp"
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 ReductionCost cost_of(const engine::Context& context, const proxy::BodyProxy& proxy, const SkinPoints& points,
                       std::span<const PlainShape> shapes) {
   const std::vector<BoundingBall> balls = bounding_balls(shapes);

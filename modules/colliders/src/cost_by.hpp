@@ -9,7 +9,7 @@
 #include <bodice/colliders/reduce.hpp>
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 
 using Weighted = std::vector<std::pair<double, double>>;  // distance, area
 

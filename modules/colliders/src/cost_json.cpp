@@ -3,7 +3,7 @@
 #include <bodice/colliders/reduce.hpp>
 #include <bodice/engine/text.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 using Json = nlohmann::ordered_json;

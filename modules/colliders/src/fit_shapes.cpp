@@ -12,7 +12,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 using Vec8 = Eigen::Matrix<double, 8, 1>;

@@ -6,7 +6,7 @@
 
 #include <bodice/colliders/reduce.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 
 /// The nearest shape of each point, and the sum of all squared distances weighted by area.
 struct Assignment {

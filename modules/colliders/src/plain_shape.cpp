@@ -4,7 +4,7 @@
 
 #include <bodice/colliders/plain_shape.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 /// Balls are larger by this share, so that rounding never makes a distance that ties look larger.

@@ -8,7 +8,7 @@
 
 #include "fit_shapes.hpp"
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 using Members = std::vector<std::uint32_t>;

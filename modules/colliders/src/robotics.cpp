@@ -5,7 +5,7 @@
 
 #include "bone_frame.hpp"
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 std::string numbers(std::initializer_list<double> values) {

@@ -6,7 +6,7 @@
 
 #include "bone_frame.hpp"
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -11,7 +11,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geodesic/distance.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 namespace {
 
 using geometry::Index;

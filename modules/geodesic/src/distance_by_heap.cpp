@@ -4,7 +4,7 @@
 
 #include <bodice/geodesic/distance_by_heap.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 
 using geometry::Index;
 

@@ -2,7 +2,7 @@
 
 #include "fast_marching.hpp"
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 
 DistanceSolver::DistanceSolver(const engine::Context& context, const geometry::TriMesh& mesh,
                                const geometry::MeshEdges& edges, Method method)

@@ -7,7 +7,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geodesic/edge_graph.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 namespace {
 
 using geometry::Index;

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 namespace {
 
 using geometry::Index;

@@ -3,7 +3,7 @@
 
 #include <bodice/geodesic/isoline.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 namespace {
 
 using geometry::Index;

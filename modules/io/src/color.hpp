@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Converts sRGB 0..1 to linear light, the unit of glTF's colors and of the shading here. IEC 61966-2-1.
 inline float to_linear(float srgb) {

@@ -4,7 +4,7 @@
 
 #include <bodice/io/obj.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <bodice/engine/write_file.hpp>
 #include <bodice/io/obj.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 engine::Result<void> write_obj(const geometry::TriMesh& mesh, const std::filesystem::path& file,
                                const geometry::Frame& frame) {

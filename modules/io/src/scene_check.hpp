@@ -3,7 +3,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/io/scene.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Fails for a scene that no writer can draw: an empty one, counts that do not match, numbers that are not
 /// finite.

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 namespace {
 
 using geometry::Index;

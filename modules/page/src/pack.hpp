@@ -10,7 +10,7 @@
 #include <bodice/engine/base64.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 
 template <class T>
 std::string packed(const std::vector<T>& values) {

@@ -15,7 +15,7 @@
 #include "page_template.hpp"
 #include "still.hpp"
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -10,7 +10,7 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/io/scene.hpp>
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 namespace {
 
 /// One ellipsoid's shadow along z: its covariance is the upper left of A diag(r^2) A^T.

@@ -6,7 +6,7 @@
 
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 
 /// Ellipsoids from the front as SVG: each is an ellipse, those behind drawn first.
 std::string still_svg(std::span<const proxy::ProxyEllipsoid> ellipsoids);

@@ -4,7 +4,7 @@
 
 #include "tasks.hpp"
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 namespace {
 
 DrapeCurves curves_of(const tryon::DrapeReport& drape) {

@@ -5,7 +5,7 @@
 
 #include <bodice/page/page.hpp>
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 namespace {
 
 using nlohmann::json;

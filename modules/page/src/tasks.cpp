@@ -9,7 +9,7 @@
 
 #include <bodice/engine/text.hpp>
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 namespace {
 
 /// Those that a page shows of all spans of a run, which are in order of their begin.

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 engine::Error unlike(const char* what, std::size_t thing) {

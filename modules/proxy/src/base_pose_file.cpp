@@ -20,7 +20,7 @@
 #include "json_form.hpp"
 #include "proxy_binary.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 
 #include "binding/bytes.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::array<char, 8> kSectionMagic = {'B', 'O', 'D', 'I', 'C', 'E', 'B', 'P'};

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// The section without its length and magic; empty where there is none.
 std::span<const std::byte> base_section(std::span<const std::byte> file);

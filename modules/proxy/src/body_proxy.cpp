@@ -6,7 +6,7 @@
 #include "check.hpp"
 #include "round44.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::size_t kNumbersPerEllipsoid = 15;  // center, radii, axes

@@ -4,7 +4,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::size_t kMostCells = std::size_t{1} << 23;

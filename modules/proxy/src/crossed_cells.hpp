@@ -10,7 +10,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 using geometry::Vec3;
 using LatticePoint = std::array<int, 3>;

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 inline constexpr std::string_view kJsonFormat = "bodice-proxy";
 /// Proxies without a binding are written in version 2, so that earlier builds read them.

@@ -12,7 +12,7 @@
 #include "binding/binding_bytes.hpp"
 #include "json_form.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 using geometry::Frame;

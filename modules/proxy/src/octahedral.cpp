@@ -3,7 +3,7 @@
 
 #include <bodice/proxy/proxy_distance.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 double sign(double value) {

@@ -21,7 +21,7 @@
 #include "binding/binding_bytes.hpp"
 #include "binding/bytes.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'B', 'O', 'D', 'I', 'C', 'E', 'P', 'X'};

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// Whether the bytes begin as a binary proxy does.
 bool is_binary_proxy(std::span<const std::byte> bytes);

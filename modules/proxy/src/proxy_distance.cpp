@@ -8,7 +8,7 @@
 
 #include <bodice/proxy/posed_proxy.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 /// A table's values at a direction, with their derivatives.

@@ -9,7 +9,7 @@
 
 #include "proxy_binary.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 namespace fs = std::filesystem;

@@ -13,7 +13,7 @@
 
 #include "crossed_cells.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 using geometry::Index;

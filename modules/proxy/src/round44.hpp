@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// Rounds to 44 significant bits. A change of unit and back perturbs a double by a few units of its 53rd bit,
 /// far less than half a unit of the 44th: rounding again gives the same number. Magnitudes below 1e-150

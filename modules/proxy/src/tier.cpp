@@ -2,7 +2,7 @@
 
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::array<std::string_view, 4> kTierNames = {"paper", "solid", "tight", "relief"};

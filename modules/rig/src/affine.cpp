@@ -4,7 +4,7 @@
 
 #include "tolerances.hpp"
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 bool is_invertible(const Affine& map) {
   if (!map.allFinite()) return false;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 namespace {
 

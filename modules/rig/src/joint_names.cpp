@@ -7,7 +7,7 @@
 
 #include <bodice/rig/retarget.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <bodice/rig/skeleton.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 /// The common name of each joint, #J, each used once: of several joints with one name the first has it, the
 /// others get an empty one. What a name means may depend on the others: where a collar is named, a shoulder

@@ -7,7 +7,7 @@
 #include "joint_names.hpp"
 #include "rest_frames.hpp"
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include <bodice/rig/skeleton.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 inline constexpr std::size_t kNoIndex = ~std::size_t{0};
 

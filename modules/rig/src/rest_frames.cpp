@@ -9,7 +9,7 @@
 
 #include <bodice/geometry/smallest_turn.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 namespace {
 

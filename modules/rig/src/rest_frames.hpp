@@ -8,7 +8,7 @@
 
 #include "match_joints.hpp"
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 /// World rotations (scales left out) and positions at rest, #J each.
 struct RestFrames {

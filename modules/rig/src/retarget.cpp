@@ -11,7 +11,7 @@
 #include "rest_frames.hpp"
 #include "skeleton_errors.hpp"
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "skeleton_errors.hpp"
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 namespace {
 

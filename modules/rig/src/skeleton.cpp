@@ -7,7 +7,7 @@
 #include "skeleton_errors.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/rig/skeleton.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 inline engine::Error unusable(std::string message, std::string remedy) {
   return {engine::ErrorCode::kUnusableGeometry, std::move(message), std::move(remedy)};

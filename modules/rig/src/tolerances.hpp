@@ -1,7 +1,7 @@
 // The tolerances of the layer, each with its unit and reason.
 #pragma once
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 /// Least determinant of a map over the product of its columns' lengths, no unit: a map closer to singular has
 /// an inverse that keeps less than half of the digits.

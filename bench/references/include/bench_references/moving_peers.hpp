@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <bodice/geometry/tri_mesh.hpp>
+#include <bodice/rig/affine.hpp>
 
 #include <bench_references/subject.hpp>
 
@@ -16,9 +17,9 @@ namespace bench {
 
 /// One frame of a skinned body.
 struct MovingFrame {
-  std::span<const Eigen::Matrix<double, 3, 4>> joints;    ///< #J: joint space to world
-  std::span<const Eigen::Matrix<double, 3, 4>> skinning;  ///< #J: bind pose to this pose
-  const bodice::geometry::TriMesh& skin;                  ///< the skin in this pose
+  std::span<const bodice::rig::Affine> joints;    ///< #J: joint space to world
+  std::span<const bodice::rig::Affine> skinning;  ///< #J: bind pose to this pose
+  const bodice::geometry::TriMesh& skin;          ///< the skin in this pose
 };
 
 /// A method that answers for the pose it was brought to last.

@@ -5,7 +5,9 @@
 #include <span>
 #include <string>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 /// Based on: Josefsson. RFC 4648. 2006. - section 4, with padding.
 std::string base64(std::span<const std::byte> bytes);

@@ -5,7 +5,9 @@
 #include <memory>
 #include <utility>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 /// Thrown by parallel_for and by check() in canceled work. Public functions return ErrorCode::kCanceled
 /// instead.

@@ -8,7 +8,7 @@
 #include <bodice/engine/cancel.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// Returns what `work()` returns, or kCanceled if a checkpoint in it throws Canceled. Each public function
 /// that takes a Context and returns a Result ends with it. `what` begins the error's sentence: "The fit" was

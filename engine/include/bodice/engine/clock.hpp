@@ -2,7 +2,9 @@
 
 #include <cstdint>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 /// The source of time for traces, stage times and time budgets. Results do not depend on it.
 class Clock {

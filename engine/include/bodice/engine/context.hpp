@@ -5,7 +5,7 @@
 #include <bodice/engine/executor.hpp>
 #include <bodice/engine/log.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 class Trace;
 

@@ -6,7 +6,7 @@
 
 #include <bodice/engine/function_ref.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// Work that may run on after the call that started it (Executor::start).
 class BackgroundTask {

@@ -26,7 +26,7 @@
 #include <bodice/engine/ticket.hpp>
 #include <bodice/engine/value_stack.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// How results of background work reach frames.
 enum class PipelineMode {

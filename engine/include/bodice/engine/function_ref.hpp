@@ -4,7 +4,9 @@
 #include <type_traits>
 #include <utility>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 template <class Signature>
 class FunctionRef;

@@ -11,7 +11,7 @@
 
 #include <bodice/engine/random.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// Hashes the values that are added to it, in order.
 class Hasher {

@@ -6,7 +6,7 @@
 #include <bodice/engine/executor.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// The host's job system as plain functions, all thread-safe and without exceptions.
 ///

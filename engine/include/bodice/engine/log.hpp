@@ -2,7 +2,9 @@
 
 #include <string_view>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 

@@ -9,7 +9,7 @@
 #include <bodice/engine/log.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// Writes lines `[12:34:56.789] [info] message` to the standard error stream, colored on a terminal.
 std::unique_ptr<Log> make_stderr_log(LogLevel least = LogLevel::kInfo);

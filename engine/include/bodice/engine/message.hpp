@@ -8,7 +8,9 @@
 #include <string>
 #include <type_traits>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 /// Joins all arguments to one text, the same in any locale. Real numbers have four significant digits, or all
 /// those before the point: 0.001235, 12.35, 123457, 1.235e+20.

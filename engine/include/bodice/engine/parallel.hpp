@@ -12,7 +12,7 @@
 
 #include <bodice/engine/context.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// The number of blocks of at most `grain` elements. It depends on count and grain only, never on the
 /// workers.

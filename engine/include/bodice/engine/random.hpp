@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstdint>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 constexpr std::uint64_t mix64(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;

@@ -6,7 +6,9 @@
 #include <utility>
 #include <variant>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 /// The kind of an error, for programs.
 enum class ErrorCode {

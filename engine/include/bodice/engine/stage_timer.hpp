@@ -6,7 +6,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/engine/trace.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// Times a stage from construction to stop() or destruction, appends it to `stages` and traces it.
 ///     { StageTimer timer(context, result.stages, "geodesic"); ... }

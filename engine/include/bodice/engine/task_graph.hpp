@@ -25,7 +25,7 @@
 #include <bodice/engine/function_ref.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 class GraphBuilder;
 class TaskGraph;

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <string>
 
-namespace bodice::engine {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine {
 
 /// Appends what printf("%.*g") writes in the C locale. It reads back as the same float from 9 digits on, and
 /// as the same double from 17 on. Precondition: 1 to 17 digits.

@@ -10,7 +10,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// A piece of work that runs once: on a worker, or on the thread that waits for it if no worker has begun it.
 class Job final : public BackgroundTask {

@@ -15,7 +15,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 inline constexpr std::int64_t kNoTraceValue = std::numeric_limits<std::int64_t>::min();
 

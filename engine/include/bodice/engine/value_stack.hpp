@@ -4,7 +4,9 @@
 #include <memory>
 #include <utility>
 
-namespace bodice::engine::detail {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::engine::detail {
 
 template <class T>
 struct ValueNode {

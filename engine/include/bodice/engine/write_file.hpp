@@ -8,7 +8,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::engine {
+namespace bodice::inline v0_1::engine {
 
 /// Writes to a new file beside the target, flushes it to the disk and renames it over the target. At any time
 /// there is the old file or the whole new one, and any number of threads and processes may write it. A file

@@ -14,7 +14,7 @@
 #include "skin/halve_edges.hpp"
 #include "skin/split_pinches.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using engine::Error;

@@ -11,7 +11,7 @@
 #include "analyze/thin_copy.hpp"
 #include "analyze/webs.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using body::LandmarkId;

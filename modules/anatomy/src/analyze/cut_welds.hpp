@@ -2,7 +2,7 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Analyzes a skin as it is.
 using Analyze = engine::Result<Anatomy> (*)(const engine::Context& context, const geometry::TriMesh& mesh,

@@ -10,7 +10,7 @@
 
 #include "landmarks/stature.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using body::LandmarkId;

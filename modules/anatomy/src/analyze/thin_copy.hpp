@@ -12,7 +12,7 @@
 
 #include "analyze/webs.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Where the skin lies this deep below a skin. Welds thinner than twice the depth are gone; so are fingers.
 struct ThinCopy {

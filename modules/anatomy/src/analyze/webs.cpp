@@ -11,7 +11,7 @@
 
 #include "check/thighs.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using body::LandmarkId;

@@ -5,7 +5,7 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Where a limb has grown together with the trunk, or both thighs with each other, beyond the fold that they
 /// meet in. It lies in the plane through `edge`, `fold` and `forward`.

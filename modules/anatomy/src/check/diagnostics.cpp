@@ -5,7 +5,7 @@
 #include "check/fused_limbs.hpp"
 #include "check/landmark_warnings.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using engine::Warning;

@@ -6,7 +6,7 @@
 
 #include "landmarks/find_landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// What the analysis found on one skin, step by step.
 struct Findings {

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Vec3;

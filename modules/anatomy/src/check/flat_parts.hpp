@@ -3,7 +3,7 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The share of the area that lies in a few planes, those of the soles not counted: `up` is the body's.
 /// O(#F).

@@ -2,7 +2,7 @@
 
 #include "landmarks/landmark_table.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// A hand welded to a thigh makes the path from hand to foot shorter than this, and legs welded together the

@@ -7,7 +7,7 @@
 
 #include "landmarks/find_landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// True where a weld cuts a path along the skin short: from hand to foot, from foot to foot.
 bool hand_fused_to_leg(const BodyCoordinates& coordinates, int side);

@@ -2,7 +2,7 @@
 
 #include "landmarks/landmark_table.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// "armpit" for the left and for the right armpit.

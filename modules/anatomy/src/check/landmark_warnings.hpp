@@ -5,7 +5,7 @@
 
 #include "landmarks/find_landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Adds a warning for each landmark with little confidence and for each cross-check that contradicts its
 /// landmark.

@@ -10,7 +10,7 @@
 #include "check/flat_parts.hpp"
 #include "check/thighs.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using body::LandmarkId;

@@ -6,7 +6,7 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Cosines between the left and the right thigh and the line from perineum to neck: near 1 for a body that
 /// stands, near 0 for one that sits.

@@ -11,7 +11,7 @@
 #include "skin/nearest_signature.hpp"
 #include "skin/soft_position.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geodesic::Field;

@@ -8,7 +8,7 @@
 #include "coordinates/border.hpp"
 #include "coordinates/leg_merge.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The fold of a heavy seat looks like a perineum, too. Where it fits best, a vertex in front of it fits by
 /// less than this many deviations worse, and is taken; among 2,100 rig-skinned and made bodies the five that

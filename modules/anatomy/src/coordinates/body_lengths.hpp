@@ -3,7 +3,7 @@
 
 #include "coordinates/body_coordinates.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Hand to hand, head to feet, head to hands, breastbone to crown, back to crown: fractions of the body size.
 using BodyLengths = std::array<double, 5>;

@@ -6,7 +6,7 @@
 
 #include <coefficients/joint_borders.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The coordinates of a vertex, seen from one side of the body; see BodyCoordinates.
 enum Coordinate {

@@ -5,7 +5,7 @@
 
 #include "coordinates/body_coordinates.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Hand to hand, foot to foot, perineum to crown, breastbone and back to where the legs merge, breastbone and
 /// back to the crown, head to hands: fractions of the body size. Head to feet follows from foot to foot and

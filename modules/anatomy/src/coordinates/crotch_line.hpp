@@ -5,7 +5,7 @@
 
 #include "coordinates/body_coordinates.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Equally spaced points of the line on which both feet are equally far, around its point nearest to a given
 /// one: from the front of the body over the crotch to its back.

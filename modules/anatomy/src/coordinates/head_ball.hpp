@@ -4,7 +4,7 @@
 #include "coordinates/body_coordinates.hpp"
 #include "skin/ball.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The ball that the skin above the neck's border resembles; its radius is 0 where there is no such skin.
 /// O(#F).

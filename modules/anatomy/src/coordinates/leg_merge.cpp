@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 using geometry::Index;
 using geometry::Vec3;

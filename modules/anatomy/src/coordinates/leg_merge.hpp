@@ -3,7 +3,7 @@
 
 #include "coordinates/midline.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The point where the growing discs around both feet first touch: below it the isolines of the distance from
 /// the nearer foot are one loop a leg, above it they have merged. The paper's perineum.

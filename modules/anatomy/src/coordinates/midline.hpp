@@ -3,7 +3,7 @@
 
 #include "extremities/body_extremities.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Where the midline of the trunk passes between the hands, in front and behind.
 struct Midline {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// Where arms are, and within it the upper arm: distances from the fingertip as fractions of hand to hand.

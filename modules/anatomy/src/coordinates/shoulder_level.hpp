@@ -3,7 +3,7 @@
 
 #include "skin/girth_profile.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// How far from the fingertip, along the skin, the loop around the arm widens into the trunk: where it is
 /// well above the girth of the upper arm. Read from the mesh alone, in any pose. `hands_apart`: from

@@ -3,7 +3,7 @@
 
 #include "coordinates/border.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// A landmark is the vertex of least Mahalanobis distance between its N features and their expectation, which
 /// follows Z measures of the whole body.

@@ -1,6 +1,6 @@
 #include "extremities/body_extremities.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 BodyExtremities in_body_order(const Extremities& tips, const Sides& sides) {
   BodyExtremities body;

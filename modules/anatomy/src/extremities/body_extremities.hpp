@@ -3,7 +3,7 @@
 
 #include "extremities/sides.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Head, hands and feet; index 0 is the body's left, 1 its right.
 struct BodyExtremities {

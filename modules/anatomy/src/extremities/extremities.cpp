@@ -10,7 +10,7 @@
 #include "skin/ball.hpp"
 #include "skin/farthest_points.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geodesic::Field;

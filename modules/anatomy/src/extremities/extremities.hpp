@@ -6,7 +6,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Head, hands and feet before left and right are known.
 enum Extremity { kHead, kHandA, kHandB, kFootA, kFootB };

@@ -5,7 +5,7 @@
 
 #include <coefficients/extremities.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using Pairs = TemplatePairs;

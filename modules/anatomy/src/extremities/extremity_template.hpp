@@ -7,7 +7,7 @@
 
 #include "extremities/extremities.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The ten pairs of extremities: head and hands, head and feet, hand and hand, hands and feet, foot and foot.
 inline constexpr int kTemplatePairs = 10;

@@ -8,7 +8,7 @@
 
 #include "skin/curve.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geodesic::Field;

@@ -3,7 +3,7 @@
 
 #include "extremities/extremities.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// How hands and feet of the two sides are assigned.
 struct Sides {

@@ -7,7 +7,7 @@
 #include "landmarks/landmark_table.hpp"
 #include "skin/soft_position.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// A difference this many times the contradictory one leaves no confidence, so that half is left at that one.

@@ -3,7 +3,7 @@
 
 #include "landmarks/base/landmark_kind.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The differences that the cross-checks of each landmark measured, as fractions of the body size; negative
 /// where there is no second estimate.

@@ -1,6 +1,6 @@
 #include "landmarks/landmark_table.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 // Each is the one function that its file exports.
 LandmarkKind crown(), neck(), fingertip(), elbow(), knee(), perineum(), armpit(), toe(), neck_front(),

@@ -5,7 +5,7 @@
 
 #include "landmarks/base/landmark_kind.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Every kind once, in the order in which landmarks are refined.
 std::span<const LandmarkKind> landmark_kinds();

@@ -5,7 +5,7 @@
 
 #include <coefficients/stature.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Vec3;

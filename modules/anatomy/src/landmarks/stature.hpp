@@ -6,7 +6,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// What shows whether a body stands.
 struct Stance {

@@ -5,7 +5,7 @@
 
 #include "measure/tape.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using body::LandmarkId;

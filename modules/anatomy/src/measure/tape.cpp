@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// Twice the area of a triangle; positive where it turns to the front.

@@ -7,7 +7,7 @@
 #include <bodice/body/part.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// A plane with axes in it. A tape runs around `normal`, from `right` over the back to `left`.
 struct CutPlane {

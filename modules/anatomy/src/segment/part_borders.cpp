@@ -5,7 +5,7 @@
 
 #include <coefficients/part_borders.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 namespace data = coefficients::part_borders;

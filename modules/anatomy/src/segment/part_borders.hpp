@@ -4,7 +4,7 @@
 #include "coordinates/border.hpp"
 #include "coordinates/build.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The borders between parts, each as it runs on one body.
 struct PartBorders {

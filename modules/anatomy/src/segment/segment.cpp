@@ -12,7 +12,7 @@
 #include "segment/part_borders.hpp"
 #include "skin/small_components.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using body::Part;

@@ -5,7 +5,7 @@
 
 #include "coordinates/body_coordinates.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Every vertex gets a part; each part is one patch of the body. Pieces other than the body take the part of
 /// the closest point of the skin. O(#V log #V).

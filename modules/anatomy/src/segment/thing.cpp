@@ -11,7 +11,7 @@
 #include <bodice/geodesic/distance.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Index;

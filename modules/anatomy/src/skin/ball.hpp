@@ -5,7 +5,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// A ball by its center and its radius, in meters.
 struct Ball {

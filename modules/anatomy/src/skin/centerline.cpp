@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Vec3;

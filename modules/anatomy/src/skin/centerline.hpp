@@ -5,7 +5,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Where a limb bends most, between two levels of the distance from its end.
 struct Bend {

@@ -1,6 +1,6 @@
 #include "skin/curve.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 using geometry::Vec3;
 

@@ -3,7 +3,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// +1 if the loop runs counter-clockwise seen from the side where `rising` grows, with the outside outward.
 double turning(const Skin& skin, const geodesic::Isoline& loop, std::span<const float> rising);

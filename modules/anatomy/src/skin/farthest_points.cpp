@@ -10,7 +10,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geodesic::Field;

@@ -3,7 +3,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Vertices in the order in which they were taken, with their distance fields.
 struct FarthestPoints {

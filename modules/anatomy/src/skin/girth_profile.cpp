@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// Share of a triangle below a level, for a field that is linear on it; corners sorted.

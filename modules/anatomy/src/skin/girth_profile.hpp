@@ -6,7 +6,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Girths of the skin between two levels of a distance field, in equal steps.
 struct GirthProfile {

@@ -1,6 +1,6 @@
 #include "skin/halve_edges.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 using geometry::Index;
 

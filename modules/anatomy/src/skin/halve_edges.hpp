@@ -3,7 +3,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Every triangle cut into four at the middles of its edges; the surface stays the same. The input's vertices
 /// come first.

@@ -7,7 +7,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// How far around the best vertex its neighbors share in the position, a fraction of the body size.
 inline constexpr double kSoftRadius = 0.05;

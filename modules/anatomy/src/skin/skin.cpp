@@ -3,7 +3,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include <bodice/geodesic/distance.hpp>
 #include <bodice/geodesic/isoline.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The mesh with what every step needs: built once, read by all. Keeps a reference to the mesh, which must
 /// outlive it.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using body::Part;

@@ -4,7 +4,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Keeps the largest patch of each part; every smaller one takes the part that surrounds most of it, one of
 /// the trunk the other half of its level where that touches it. O(#E).

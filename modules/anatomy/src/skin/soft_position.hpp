@@ -6,7 +6,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The mean of the skin around a vertex, weighed by area and by weight(v) >= 0: a position that does not jump
 /// from vertex to vertex as the best one does, and hardly depends on how fine the mesh is. Only triangles

@@ -1,6 +1,6 @@
 #include "skin/split_pinches.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Index;

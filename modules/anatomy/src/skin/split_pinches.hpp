@@ -3,7 +3,7 @@
 
 #include "skin/skin.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// A skin in which a vertex that joins separate fans of triangles (a hand that touches a thigh, welded) is
 /// one vertex a fan, so that no path along the skin leads through the pinch.

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 using engine::Error;

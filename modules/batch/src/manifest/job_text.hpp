@@ -8,7 +8,7 @@
 #include <bodice/batch/job.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// Reads one JSON object with values that are text, numbers, true, false or lists of these; null counts as
 /// left out. Fails with kUnreadable.

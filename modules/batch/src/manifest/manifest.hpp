@@ -11,7 +11,7 @@
 #include <bodice/batch/work.hpp>
 #include <bodice/engine/cancel.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// Which part of a manifest: `index` of `count`, from 0.
 struct Shard {

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 /// First 32 bits of the fractional parts of the cube roots of the first 64 primes.

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// The hash of the bytes that are added to it, in order.
 class Sha256 {

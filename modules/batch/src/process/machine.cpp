@@ -11,7 +11,7 @@
 
 #include <bodice/batch/batch.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 /// The folder of this process's control group (version 2), and those above it, are looked at in turn.

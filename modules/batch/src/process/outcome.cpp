@@ -5,7 +5,7 @@
 
 #include <bodice/engine/message.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 using nlohmann::json;

@@ -9,7 +9,7 @@
 
 #include "process/process.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// Why an attempt failed. Only the last four are worth another attempt: errors of the work repeat.
 enum class Failure { kNone, kError, kWrite, kCrash, kKilled, kTimeout, kMemory };

@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 /// The state of a child process, which runs one job and ends: the allocator has no other channel for it.

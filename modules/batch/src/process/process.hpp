@@ -7,7 +7,7 @@
 
 #include <sys/types.h>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// One end of a channel, closed with the object.
 class ChannelEnd {

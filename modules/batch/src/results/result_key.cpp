@@ -11,7 +11,7 @@
 #include "manifest/job_text.hpp"
 #include "manifest/sha256.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 using engine::Error;

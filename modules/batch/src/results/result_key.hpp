@@ -8,7 +8,7 @@
 
 #include <bodice/batch/work.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// Hashes files, and each file once as long as its size and time stay the same.
 class FileHashes {

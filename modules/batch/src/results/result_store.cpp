@@ -12,7 +12,7 @@
 
 #include <bodice/engine/write_file.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// OUT/ab/ab12... are results, OUT/log the logs, OUT/part what is being written.
 class ResultStore {

@@ -7,7 +7,7 @@
 
 #include "run/coordinator.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;

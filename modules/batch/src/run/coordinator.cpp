@@ -7,7 +7,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 using nlohmann::json;

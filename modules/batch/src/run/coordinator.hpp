@@ -11,7 +11,7 @@
 #include "run/fitter.hpp"
 #include "run/log.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// A job that has to run.
 struct Task {

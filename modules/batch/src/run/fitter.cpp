@@ -13,7 +13,7 @@
 
 #include "process/outcome.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;

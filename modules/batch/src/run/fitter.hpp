@@ -9,7 +9,7 @@
 #include "process/process.hpp"
 #include "results/result_store.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// What a fitter needs of its batch.
 struct FitterContext {

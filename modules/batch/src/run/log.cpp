@@ -11,7 +11,7 @@
 #include "process/outcome.hpp"
 #include "results/result_store.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// A file of JSON lines that only one run writes. A line is written whole, at once: a run that is killed
 /// leaves complete lines.

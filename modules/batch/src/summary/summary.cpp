@@ -13,7 +13,7 @@
 #include "summary/summary_page.hpp"
 #include "summary/summary_rows.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 
 #include <bodice/engine/base64.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 namespace {
 
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 
 #include "summary/summary_rows.hpp"
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// The file in a result's folder that the page shows, if it is there.
 inline constexpr const char* kThumbnail = "thumbnail.png";

@@ -9,7 +9,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// A line of a manifest and how it ended: the latest that any log has of it.
 struct Row {

@@ -8,7 +8,7 @@
 #include <bodice/binding/bind.hpp>
 #include <bodice/body/part.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// A bend of one limb: its part turns toward a direction, unless it is far from the straight one.
 struct Bend {

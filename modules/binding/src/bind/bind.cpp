@@ -17,7 +17,7 @@
 #include "bind/skin_nodes.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 engine::Error refused(std::string what, std::string remedy) {

@@ -8,7 +8,7 @@
 
 #include "bind/texel_directions.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using geometry::Vec3;

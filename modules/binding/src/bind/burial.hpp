@@ -6,7 +6,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 struct Burial {
   std::vector<std::uint8_t> depth;  ///< #texels, in steps

@@ -14,7 +14,7 @@
 
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using Mat4 = Eigen::Matrix4d;

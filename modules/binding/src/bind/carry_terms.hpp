@@ -7,7 +7,7 @@
 
 #include "bind/owned_skin.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// The terms of one ellipsoid, those of much weight first. `stature_m` scales nothing but the least lengths.
 std::vector<proxy::CarryTerm> carry_terms(const geometry::Ellipsoid& shape, const SkinnedBody& body,

@@ -13,7 +13,7 @@
 #include "bind/texel_directions.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using body::Part;

@@ -8,7 +8,7 @@
 #include "bind/bends.hpp"
 #include "bind/burial.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// Skinning matrices of the exercises, #J each; less than all of them where limbs are bent already, or none.
 std::vector<std::vector<rig::Affine>> exercises(const SkinnedBody& body, std::span<const body::Part> part);

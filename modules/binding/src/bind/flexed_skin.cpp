@@ -4,7 +4,7 @@
 
 #include "bind/bends.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 using body::Part;
 

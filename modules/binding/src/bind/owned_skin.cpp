@@ -6,7 +6,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 constexpr std::size_t kMostVertices = 16384;

@@ -6,7 +6,7 @@
 
 #include <bodice/binding/bind.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// A vertex that an ellipsoid stands for, and how much it counts: its area times (1 - excess / band)^2.
 struct OwnedVertex {

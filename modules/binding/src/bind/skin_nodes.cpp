@@ -7,7 +7,7 @@
 #include "bind/texel_directions.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 constexpr double kUnit16 = 32767.0, kWeight16 = 65535.0;

@@ -10,7 +10,7 @@
 
 #include "bind/owned_skin.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// One texel near the skin.
 struct SkinNode {

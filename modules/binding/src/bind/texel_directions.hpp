@@ -3,7 +3,7 @@
 
 #include <bodice/proxy/proxy_distance.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 inline geometry::Vec3 texel_direction(int texel, int nodes_per_side) {
   const double last = nodes_per_side - 1;

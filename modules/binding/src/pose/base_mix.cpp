@@ -10,7 +10,7 @@
 #include "pose/svd3.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 Eigen::Matrix3f without_scale(const Eigen::Matrix3f& linear) {

@@ -19,7 +19,7 @@
 
 #include <bodice/proxy/base_pose.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// The base poses of one proxy, and their shares in one pose.
 class BaseMix {

@@ -8,7 +8,7 @@
 #include "pose/svd3.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using geometry::Mat3;

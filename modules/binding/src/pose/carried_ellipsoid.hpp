@@ -6,7 +6,7 @@
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/proxy/binding.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// An ellipsoid in the pose: the image of the one at rest under its affine map.
 struct CarriedEllipsoid {

@@ -8,7 +8,7 @@
 
 #include "pose/skin_changes.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// The values of a table in a base pose, and how much they count.
 struct TableShare {

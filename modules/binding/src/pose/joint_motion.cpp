@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/similarity.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using proxy::JointMatrix;

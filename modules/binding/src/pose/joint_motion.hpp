@@ -9,7 +9,7 @@
 
 #include <bodice/proxy/binding.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// Why a joint's matrix is refused.
 struct Refusal {

@@ -6,7 +6,7 @@
 #include <bodice/geometry/detail/float4.hpp>
 #include <bodice/proxy/binding.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 inline constexpr int kLanes = proxy::kBundle;
 using Lanes = float[kLanes];

@@ -16,7 +16,7 @@
 #include "pose/skin_changes.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using proxy::JointMatrix;

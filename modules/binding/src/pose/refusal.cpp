@@ -1,6 +1,6 @@
 #include "pose/refusal.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 engine::Result<void> check_bound(const proxy::BodyProxy& proxy) {
   if (proxy.binding()) return {};

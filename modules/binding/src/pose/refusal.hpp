@@ -8,7 +8,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// Fails with kInvalidArgument if the proxy is not bound.
 engine::Result<void> check_bound(const proxy::BodyProxy& proxy);

@@ -6,7 +6,7 @@
 #include "pose/vector_clones.hpp"
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using geometry::Float4;

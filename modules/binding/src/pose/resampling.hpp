@@ -9,7 +9,7 @@
 #include "pose/lanes.hpp"
 #include "pose/yield.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// Texels that go through each step together: enough that a step's results have left the processor's store
 /// queue before the next one reads them in other portions.

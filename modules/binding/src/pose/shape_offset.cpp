@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using geometry::Mat3;

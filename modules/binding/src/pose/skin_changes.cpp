@@ -6,7 +6,7 @@
 #include "pose/lanes.hpp"
 #include "pose/vector_clones.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 /// An ellipsoid in units of its longest radius, in its own axes.

@@ -7,7 +7,7 @@
 
 #include "pose/carried_ellipsoid.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// One texel's change: its skin point's foot moved by (x, y, z) on the unit sphere of the rest table, and its
 /// height over the ellipsoid grew by w meters.

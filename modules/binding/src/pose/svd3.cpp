@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 using Eigen::Matrix3d;

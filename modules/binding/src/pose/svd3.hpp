@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// m = left diag(values) right^T; values fall and are not negative. `left` is a rotation; `right` is one
 /// unless m mirrors.

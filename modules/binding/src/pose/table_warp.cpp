@@ -16,7 +16,7 @@
 #include "pose/skin_changes.hpp"
 #include "pose/yield.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 namespace {
 
 /// A value of a table's nodes at a direction.

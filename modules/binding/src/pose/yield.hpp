@@ -4,7 +4,7 @@
 
 #include "tolerances.hpp"
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// The growths from which a table yields, and by how much at most, meters.
 struct YieldRule {

@@ -4,7 +4,7 @@
 
 #include "arrays/strided.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 /// Where the number of a row and column stands in a matrix of the host.

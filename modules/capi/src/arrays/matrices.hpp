@@ -7,7 +7,7 @@
 
 #include "base/outcome.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Checks a pose of `wanted` matrices; `what` names them in sentences, such as "joints".
 Outcome check_matrices(const bodice_pose& pose, std::size_t wanted, const char* what);

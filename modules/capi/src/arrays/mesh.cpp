@@ -6,7 +6,7 @@
 #include "base/handles.hpp"
 #include "base/structures.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 /// The i-th index; those of 2 and 4 bytes widen.

@@ -5,7 +5,7 @@
 
 #include "base/outcome.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Copies a mesh; names the vertex or the triangle at fault. O(#V + #F).
 Outcome read_mesh(const bodice_mesh* given, geometry::TriMesh& out);

@@ -5,7 +5,7 @@
 
 #include "base/handles.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 Outcome check_scalar(std::int32_t scalar, const char* name) {

@@ -5,7 +5,7 @@
 
 #include "base/outcome.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Numbers `stride` bytes apart.
 struct Strided {

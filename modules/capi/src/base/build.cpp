@@ -3,7 +3,7 @@
 
 #include <bodice.h>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 /// The instruction set in use, declared as in the private simd/dispatch/kernels.hpp, with headers that it
 /// needs.
 const char* kernel_target();

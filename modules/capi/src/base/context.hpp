@@ -10,7 +10,7 @@
 #include "base/outcome.hpp"
 #include "base/thread_pool.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// The host's log behind engine::Log; one call at a time, and exceptions of it are dropped.
 class HostLog final : public engine::Log {

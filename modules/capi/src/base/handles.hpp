@@ -3,7 +3,7 @@
 
 #include "base/outcome.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// The failure of a handle that is null, or success.
 inline Outcome check_handle(const void* handle, const char* what) {

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 /// Each thread has its own, so that calls on different threads never meet.

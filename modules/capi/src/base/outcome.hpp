@@ -11,7 +11,7 @@
 #include <bodice/engine/cancel.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Success, or a status with its sentence.
 class Outcome {

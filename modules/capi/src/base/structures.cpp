@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 /// More than any structure will have: what states more is garbage.

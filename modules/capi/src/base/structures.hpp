@@ -9,7 +9,7 @@
 
 #include "base/outcome.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// The cookie of a kind of structure.
 constexpr std::uint32_t cookie_of(std::int32_t kind) {

@@ -1,6 +1,6 @@
 #include "base/thread_pool.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 ThreadPool::ThreadPool(int threads, int most_tasks)
     : tasks_(static_cast<std::size_t>(most_tasks)), queue_(tasks_.size()) {

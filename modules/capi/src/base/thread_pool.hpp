@@ -9,7 +9,7 @@
 
 #include <bodice/engine/host_executor.hpp>
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// A few threads behind the callbacks of a host executor. A task allocates nothing.
 class ThreadPool {

@@ -8,7 +8,7 @@
 #include "base/handles.hpp"
 #include "base/structures.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 static_assert(sizeof(bodice_contact) == sizeof(collision::Contact) &&

@@ -6,7 +6,7 @@
 #include "arrays/strided.hpp"
 #include "base/context.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Arrays of the host for contacts, checked for a number of particles.
 struct HostContacts {

@@ -5,7 +5,7 @@
 #include "base/handles.hpp"
 #include "base/structures.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 collision::StridedVectors as_engine(const StridedVectors& from) {

@@ -7,7 +7,7 @@
 #include "base/context.hpp"
 #include "frame/workspace.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Particles of the host, checked.
 struct HostParticles {

@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 /// Largest entry of R^T R - 1 that is taken for rounding: what 50 bones of float in a chain stay far below,

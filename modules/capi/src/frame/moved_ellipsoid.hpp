@@ -6,7 +6,7 @@
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/proxy/binding.hpp>
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Moves an ellipsoid by a matrix that is a rotation times a scale up to rounding, which is mended. Returns
 /// why the matrix is refused, or nothing. Allocates nothing.

@@ -13,7 +13,7 @@ using namespace bodice;
 using capi::invalid;
 using capi::Outcome;
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 bodice_fit_report as_c(const fitting::FitResult& fit, double seconds) {

@@ -6,7 +6,7 @@
 #include "base/outcome.hpp"
 #include "whole/progress.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// The engine's tier of a number of the interface; -1 leaves `out` empty.
 Outcome read_tier(std::int32_t tier, const char* name, std::optional<proxy::Tier>& out);

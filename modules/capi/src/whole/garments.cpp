@@ -4,7 +4,7 @@
 #include "base/handles.hpp"
 #include "base/structures.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 constexpr std::size_t kMostGarments = 1000;

@@ -8,7 +8,7 @@
 #include "arrays/strided.hpp"
 #include "base/outcome.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// Copies an array of garments; names the garment and the element at fault.
 Outcome read_garments(const bodice_garment* given, std::size_t count, std::vector<tryon::WornGarment>& out);

@@ -1,6 +1,6 @@
 #include "whole/progress.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 constexpr std::int64_t kPause_ns = 20'000'000;

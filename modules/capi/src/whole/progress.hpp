@@ -7,7 +7,7 @@
 
 #include <bodice/engine/context.hpp>
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 using ProgressHook = std::int32_t (*)(void* host, const char* stage);
 

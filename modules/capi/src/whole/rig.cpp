@@ -7,7 +7,7 @@
 #include "base/handles.hpp"
 #include "base/structures.hpp"
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 Outcome check(const bodice_rig& rig, const bodice_pose& bind, std::size_t vertices) {

@@ -18,7 +18,7 @@ bodice_skin::bodice_skin(capi::SharedContext shared, tryon::SegmentedSkin made)
     warnings.push_back(warning.remedy.empty() ? warning.message : warning.message + " " + warning.remedy);
 }
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 namespace {
 
 constexpr double kLeastStature_m = 0.3, kMostStature_m = 3.0;

@@ -19,7 +19,7 @@ struct bodice_skin {
   std::vector<std::string> warnings;  ///< a sentence each
 };
 
-namespace bodice::capi {
+namespace bodice::inline v0_1::capi {
 
 /// A mesh of the host with its bones, copied and checked.
 struct HostBody {

@@ -5,7 +5,7 @@
 
 #include "options/garment_kinds.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 using engine::Error;

@@ -9,7 +9,7 @@
 
 #include "run/drape_steps.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 inline constexpr const char* kBodyKey = "body";
 inline constexpr const char* kGarmentKey = "garment";

@@ -8,7 +8,7 @@
 
 #include <bodice/engine/message.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 constexpr double kBetweenLines_s = 30.0;

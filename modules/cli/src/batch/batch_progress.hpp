@@ -5,7 +5,7 @@
 
 #include <bodice/batch/batch.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// "42 s", "17 min", "3.2 h", "5.1 days".
 std::string duration_text(double seconds);

@@ -11,7 +11,7 @@
 #include "batch/batch_options.hpp"
 #include "options/garment_kinds.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,7 +127,7 @@ DrapeWork::DrapeWork(int threads) : threads_(threads) {
 }
 
 std::string DrapeWork::version() const {
-  return "bodice " BODICE_VERSION;
+  return BODICE_PROGRAM;
 }
 
 bool DrapeWork::is_file(const std::string& name, const std::string& value) const {

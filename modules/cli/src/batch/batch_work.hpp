@@ -8,7 +8,7 @@
 
 #include "run/drape_steps.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 class DrapeWork : public batch::Work {
  public:

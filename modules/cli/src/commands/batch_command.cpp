@@ -15,7 +15,7 @@
 #include "options/validators.hpp"
 #include "output/terminal.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 struct BatchCommand {

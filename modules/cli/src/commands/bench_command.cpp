@@ -8,7 +8,7 @@
 #include "options/options.hpp"
 #include "output/terminal.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 namespace fs = std::filesystem;

@@ -5,7 +5,7 @@
 #include "options/validators.hpp"
 #include "run/drape_steps.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 engine::Result<void> drape(const DrapeCommand& command) {

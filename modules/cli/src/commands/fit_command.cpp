@@ -17,7 +17,7 @@
 #include "run/prepared_poses.hpp"
 #include "run/run.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 struct FitCommand {

@@ -17,7 +17,7 @@
 #include "run/motion_time.hpp"
 #include "run/prepared_poses.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 using geometry::Vec3;

@@ -18,7 +18,7 @@
 #include "output/outputs.hpp"
 #include "output/terminal.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 namespace fs = std::filesystem;

@@ -11,7 +11,7 @@
 #include "options/validators.hpp"
 #include "run/run.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 struct RigCommand {

@@ -5,7 +5,7 @@
 
 #include <bodice/synth/garment.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// The kinds of made garments, by their names in options.
 inline const std::map<std::string, synth::GarmentKind>& garment_kinds() {

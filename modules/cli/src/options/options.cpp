@@ -8,7 +8,7 @@
 
 #include "options/validators.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 const std::map<std::string, io::Unit> kUnits = {{"auto", io::Unit::kAuto},     {"m", io::Unit::kMeter},

@@ -12,7 +12,7 @@
 #include <bodice/synth/body.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 inline constexpr int kExitOk = 0, kExitFailed = 1, kExitUsage = 2;
 

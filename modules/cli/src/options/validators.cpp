@@ -8,7 +8,7 @@
 
 #include <bodice/body/proportions.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 template <class Accepts>

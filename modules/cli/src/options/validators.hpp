@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// Finite numbers: NaN and infinities are refused.
 CLI::Validator finite();

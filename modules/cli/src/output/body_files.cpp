@@ -10,7 +10,7 @@
 
 #include "output/outputs.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, tryon::TailorUnit unit,
                                         const std::string& file) {

@@ -6,7 +6,7 @@
 #include <bodice/tryon/measurements.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// Measurements, JSON or YAML by the file's extension.
 engine::Result<void> write_measurements(const tryon::SegmentedSkin& skin, tryon::TailorUnit unit,

@@ -5,7 +5,7 @@
 
 #include <unistd.h>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 namespace fs = std::filesystem;

@@ -8,7 +8,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 struct FileOption {
   std::string option;                        ///< its name on the command line

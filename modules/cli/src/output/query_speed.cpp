@@ -13,7 +13,7 @@
 #include <bodice/fitting/cost_model.hpp>
 #include <bodice/geometry/sampling.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 using geometry::Vec3;

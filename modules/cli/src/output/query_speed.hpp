@@ -6,7 +6,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// The time of one query of 10,000 particles within 30 mm of the skin on this thread, in microseconds: the
 /// least of many runs. Precondition: a triangle of the skin has an area.

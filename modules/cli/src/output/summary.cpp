@@ -4,7 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 [[gnu::format(printf, 2, 3)]] void add_line(std::string& text, const char* format, ...) {

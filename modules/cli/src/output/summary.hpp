@@ -6,7 +6,7 @@
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// The main results of a run in about ten lines.
 std::string summary_text(const tryon::PreparedBody& body, const tryon::DrapeReport* drape,

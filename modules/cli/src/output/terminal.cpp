@@ -6,7 +6,7 @@
 
 #include "options/options.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 ProgressLine::ProgressLine(bool quiet) : enabled_(!quiet && isatty(STDERR_FILENO)) {}
 

@@ -7,7 +7,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// Draws one line that is overwritten as the work proceeds. It is silent when the standard error stream is no
 /// terminal or --quiet was given.

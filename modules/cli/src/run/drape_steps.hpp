@@ -9,7 +9,7 @@
 
 #include "run/run.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// The options of `drape`.
 struct DrapeCommand {

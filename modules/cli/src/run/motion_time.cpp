@@ -6,7 +6,7 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/io/rig.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 bool moves_skin(const proxy::Binding& binding, std::size_t joint) {

@@ -8,7 +8,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/tryon/rigged_body.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// A time of a file's clip.
 struct MotionTime {

@@ -8,7 +8,7 @@
 #include <bodice/rigging/motion.hpp>
 #include <bodice/tryon/base_pose.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 namespace {
 
 /// The pose of a made motion that is farthest from standing, seconds.

@@ -8,7 +8,7 @@
 #include <bodice/tryon/prepare.hpp>
 #include <bodice/tryon/rigged_body.hpp>
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 /// What to prepare.
 struct PosesToPrepare {

@@ -8,7 +8,7 @@
 
 #include "output/summary.hpp"
 
-namespace bodice::cli {
+namespace bodice::inline v0_1::cli {
 
 Run::Run(const CommonOptions& options) : options_(options), progress_(options.quiet) {
   if (options.threads != 1) executor_ = engine::make_tbb_executor(options.threads);
@@ -81,7 +81,7 @@ std::string Run::report(const tryon::PreparedBody& body, const tryon::DrapeRepor
   return tryon::report_json(body, drape,
                             {.threads = context_.executor->concurrency(),
                              .seed = options_.seed,
-                             .program = "bodice " BODICE_VERSION,
+                             .program = BODICE_PROGRAM,
                              .command = options_.command_line,
                              .cropped = cropped});
 }

@@ -5,7 +5,7 @@
 
 #include <bodice/engine/message.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr double kMostMeters = 1e9;  // squares of larger lengths would overflow in float

@@ -2,7 +2,7 @@
 
 #include <bodice/cloth/solver.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Fails with kInvalidArgument if a value is not finite or out of range.
 engine::Result<void> check(const Environment& environment);

@@ -2,7 +2,7 @@
 
 #include <bodice/cloth/coloring.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr std::uint32_t kUncolored = ~std::uint32_t{0};

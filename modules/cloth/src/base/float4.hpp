@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/detail/float4.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 using geometry::any;
 using geometry::Float4;

@@ -6,7 +6,7 @@
 
 #include <bodice/engine/random.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr double kEddy_m = 0.6;  // a gust is about as wide as a garment

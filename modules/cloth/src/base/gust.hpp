@@ -4,7 +4,7 @@
 
 #include <bodice/cloth/solver.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The factor on the wind at a point and time, in [1 - gust, 1 + gust]: smooth value noise on a lattice that
 /// the mean wind carries along (Taylor's frozen turbulence). A pure function of its arguments.

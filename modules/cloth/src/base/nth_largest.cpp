@@ -9,7 +9,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr int kDigitBits =

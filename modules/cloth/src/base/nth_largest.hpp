@@ -7,7 +7,7 @@
 
 #include <bodice/engine/context.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The memory of a selection; it is kept, so that a warm call allocates nothing.
 struct Selection {

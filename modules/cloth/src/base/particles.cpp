@@ -8,7 +8,7 @@
 
 #include "base/schedule.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // The least mass, a fraction of the mean: a sliver triangle would give a particle so light that others fling

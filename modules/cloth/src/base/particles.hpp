@@ -8,7 +8,7 @@
 
 #include "base/float4.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 using geometry::Index;
 using geometry::Triangle;

@@ -4,7 +4,7 @@
 
 #include <bodice/cloth/coloring.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 using geometry::Index;

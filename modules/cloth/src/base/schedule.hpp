@@ -15,7 +15,7 @@
 
 #include "base/float4.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 inline constexpr std::size_t kPack = 8;  ///< constraints solved together; they share no particle
 inline constexpr std::uint32_t kIdle = ~std::uint32_t{0};  ///< a slot without a constraint

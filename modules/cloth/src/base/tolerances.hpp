@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Square meters, added under a root: a collapsed edge has a length above zero to divide by.
 inline constexpr float kTinyLength2 = 1e-24f;

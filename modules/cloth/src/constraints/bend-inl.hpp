@@ -11,7 +11,7 @@
 #include "constraints/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::cloth::HWY_NAMESPACE {
+namespace bodice::inline v0_1::cloth::HWY_NAMESPACE {
 
 /// The state of a vector of hinges.
 struct Bent {

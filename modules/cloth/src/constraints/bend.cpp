@@ -17,7 +17,7 @@
 #include "base/tolerances.hpp"
 #include "constraints/kernels.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // The largest cotangent (0.06 degrees): slivers would otherwise give weights that floats cannot combine with

@@ -11,7 +11,7 @@
 #include "base/schedule.hpp"
 #include "garment/topology.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Hinges that share no particle; those of idle slots have weights of zero. The constraint is n . sum_i k_i
 /// x_i - rest, with n the hinge's normal.

@@ -11,7 +11,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Solves a pack of ties; true if one was too long.

@@ -11,7 +11,7 @@
 #include "base/schedule.hpp"
 #include "garment/topology.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 inline constexpr std::size_t kParents = 4;     ///< nodes that move a particle
 inline constexpr std::size_t kMostLevels = 2;  ///< coarse levels

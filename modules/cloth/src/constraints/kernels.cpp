@@ -18,7 +18,7 @@
 #include "constraints/stretch-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::cloth::HWY_NAMESPACE {
+namespace bodice::inline v0_1::cloth::HWY_NAMESPACE {
 
 static_assert(kPack % kLanes == 0);
 
@@ -91,7 +91,7 @@ double bend_energy_across(std::span<const HingePack<Index>> packs, const YarnFri
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 HWY_EXPORT(solve_stretch_inside);
 HWY_EXPORT(solve_stretch_across);

@@ -7,7 +7,7 @@
 #include "constraints/bend.hpp"
 #include "constraints/stretch.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Solve packs of constraints in place. `p` is the patch of a block, for packs inside it, or all points.
 /// `longest` is the allowed length in rest lengths, `inverse_h2` the number of sweeps in a substep over the

@@ -12,7 +12,7 @@
 #include "base/particles.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::cloth::HWY_NAMESPACE {
+namespace bodice::inline v0_1::cloth::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_AVX2
 

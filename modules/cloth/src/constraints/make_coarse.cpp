@@ -7,7 +7,7 @@
 
 #include "garment/cloth_distance.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // The spacing of nodes in median edges, coarsest level first, and the most sweeps over the ties.

@@ -11,7 +11,7 @@
 #include "constraints/stretch.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::cloth::HWY_NAMESPACE {
+namespace bodice::inline v0_1::cloth::HWY_NAMESPACE {
 
 template <int k, class Id>
 HWY_INLINE void move_ends(Point* p, const Id* a, const Id* b, Lanes at_a, Lanes at_b, Lanes apart, Lanes to_a,

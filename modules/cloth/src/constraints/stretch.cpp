@@ -17,7 +17,7 @@
 #include "base/tolerances.hpp"
 #include "constraints/kernels.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Substeps longer than this get a second sweep over a block, which is in the cache already; it lowers the

@@ -11,7 +11,7 @@
 #include "base/schedule.hpp"
 #include "garment/topology.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Edges that share no particle; those of idle slots have no length and no weight.
 template <class Id>

@@ -4,7 +4,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 std::vector<Thread> make_threads(std::span<const Tack> tacks, std::span<const Index> particle_of_vertex,
                                  std::span<const Vec3> particles) {

@@ -8,7 +8,7 @@
 
 #include "base/particles.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// A thread between two particles.
 struct Thread {

@@ -13,7 +13,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 collision::Particles view(Particles& p, std::size_t begin, std::size_t end, bool with_velocities) {

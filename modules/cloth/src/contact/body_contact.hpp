@@ -12,7 +12,7 @@
 #include "contact/continuous_contact.hpp"
 #include "faces/certificate.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 static_assert(kPatch % kCluster == 0 && kPatch % kTravelCluster == 0);
 

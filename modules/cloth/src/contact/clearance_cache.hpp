@@ -11,7 +11,7 @@
 
 #include "base/particles.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Particles in a cluster, which are neighbors on the cloth; as many as in a block of the collider.
 inline constexpr std::size_t kCluster = 64;

@@ -5,7 +5,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Cloth with at least this coefficient of friction counts as following the surface; with less, a share does.

@@ -17,7 +17,7 @@
 
 #include "base/particles.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Particles a task of contact, and the most that resolve_moving() takes.
 inline constexpr std::size_t kPatch = 512;

@@ -6,7 +6,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr float kAnyDistance_m = std::numeric_limits<float>::infinity();

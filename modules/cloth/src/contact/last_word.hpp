@@ -8,7 +8,7 @@
 
 #include "contact/continuous_contact.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The body as contact with it was resolved in a substep; without one, nothing sinks.
 struct ResolvedBody {

@@ -10,7 +10,7 @@
 #include "faces/own_side.hpp"
 #include "faces/push_sample.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr int kRounds = 6;              // of pushes

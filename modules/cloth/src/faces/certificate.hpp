@@ -13,7 +13,7 @@
 
 #include "faces/face_contact.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// What the proof of a frame needs and finds.
 struct FaceCertificate {

@@ -6,7 +6,7 @@
 
 #include "base/schedule.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 struct Grouped {

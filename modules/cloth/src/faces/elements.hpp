@@ -10,7 +10,7 @@
 #include "base/particles.hpp"
 #include "garment/topology.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// An edge or a triangle of the cloth.
 struct Element {

@@ -11,7 +11,7 @@
 #include "faces/own_side.hpp"
 #include "faces/push_sample.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Samples may sink by this share of the thickness between their neighbors.

@@ -14,7 +14,7 @@
 
 #include "faces/face_samples.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// What a run of elements did since the frame began.
 struct RunState {

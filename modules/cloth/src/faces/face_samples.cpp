@@ -7,7 +7,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr std::size_t kElementGrain = 1024;

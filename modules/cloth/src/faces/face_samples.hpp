@@ -19,7 +19,7 @@
 
 #include "faces/elements.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// A point of the cloth with the body's distance near it, to first order.
 struct alignas(64) FaceSample {

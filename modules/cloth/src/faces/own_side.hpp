@@ -4,7 +4,7 @@
 
 #include "faces/face_contact.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Whether a sample inside the body would be pushed toward the side that its particles lie on. If not, the
 /// closest surface opposes the surface below a particle, and that one lies behind it. Between two toes the

@@ -2,7 +2,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // How much farther a sample may be pushed in a substep. What it came nearer in this substep is undone at

@@ -5,7 +5,7 @@
 
 #include "faces/face_contact.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Position of a sample in the body's pose at the end of the frame.
 inline Float4 seen_by_body(const FaceSample& s, std::span<const Point> now, float remaining) {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <tuple>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 using geometry::Vec3;

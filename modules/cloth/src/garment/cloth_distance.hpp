@@ -6,7 +6,7 @@
 
 #include "garment/topology.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Finds distances along a cloth; it keeps its memory between calls.
 class ClothDistance {

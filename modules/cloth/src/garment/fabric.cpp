@@ -7,7 +7,7 @@
 
 #include <bodice/cloth/fabric.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 //                        kg/m2  stretch  shear  bend    friction damping limit bend friction

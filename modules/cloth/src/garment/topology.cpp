@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 using geometry::TriMesh;

@@ -8,7 +8,7 @@
 #include <bodice/cloth/weld.hpp>
 #include <bodice/geometry/disjoint_sets.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 using geometry::Index;

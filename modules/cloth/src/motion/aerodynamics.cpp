@@ -12,7 +12,7 @@
 #include "base/gust.hpp"
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr float kNormalCoefficient = 1.2f;

@@ -8,7 +8,7 @@
 
 #include "base/particles.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Each particle's share of the surface and the wind there, updated once a frame.
 struct Air {

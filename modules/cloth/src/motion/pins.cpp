@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 bool set_pin_targets(std::span<const Vec3> world_positions, Pins& pins) {
   const std::size_t count = std::min(world_positions.size(), pins.to.size());

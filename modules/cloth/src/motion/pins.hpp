@@ -6,7 +6,7 @@
 
 #include "base/particles.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The pins of a garment.
 struct Pins {

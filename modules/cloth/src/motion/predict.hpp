@@ -4,7 +4,7 @@
 #include "base/particles.hpp"
 #include "motion/aerodynamics.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// How particles are predicted.
 struct Prediction {

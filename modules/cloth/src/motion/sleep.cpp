@@ -7,7 +7,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr float kSlow_m_s = 0.010f;    // a slower particle rests: a sixth of a millimeter a frame

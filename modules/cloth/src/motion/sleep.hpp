@@ -11,7 +11,7 @@
 #include "base/particles.hpp"
 #include "garment/topology.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// How long each particle has been quiet.
 struct Sleep {

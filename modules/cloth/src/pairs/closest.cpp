@@ -7,7 +7,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr int kMostAdvances = 24;  // steps along a path; a path that takes more is taken to meet

@@ -6,7 +6,7 @@
 #include "base/float4.hpp"
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The vector with length 1; zero where it has none.
 inline Float4 unit(Float4 v) {

@@ -9,7 +9,7 @@
 #include "base/schedule.hpp"
 #include "pairs/patches.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 std::vector<std::size_t> blocks_of(const geometry::TriMesh& mesh) {

@@ -12,7 +12,7 @@
 
 #include "base/particles.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 inline constexpr std::size_t kLeaf = 8;  ///< the most triangles in a leaf
 inline constexpr std::size_t kNoBlock = ~std::size_t{0};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // The square of the least cosine between the normals of a flat patch and their mean: 60 degrees. Slack lets

@@ -4,7 +4,7 @@
 #include "pairs/closest.hpp"
 #include "pairs/contact_mesh.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The corners of two triangles.
 struct FacePair {

@@ -5,7 +5,7 @@
 
 #include "pairs/contact_mesh.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The boxes of the triangles of a leaf, and of all of them. Lane k of an array is triangle k; those that the
 /// leaf has not are empty.

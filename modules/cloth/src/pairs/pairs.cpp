@@ -9,7 +9,7 @@
 #include "pairs/face_pair.hpp"
 #include "pairs/near_faces.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr std::size_t kLeavesATask = 32;

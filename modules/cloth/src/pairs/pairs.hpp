@@ -12,7 +12,7 @@
 #include "pairs/closest.hpp"
 #include "pairs/sweep_tree.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 inline constexpr std::uint32_t kNoContact = ~std::uint32_t{0};
 inline constexpr float kUnsettled = -1.0f;

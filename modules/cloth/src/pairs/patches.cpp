@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 struct Side {

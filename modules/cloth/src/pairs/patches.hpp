@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 using geometry::Index;
 

@@ -4,7 +4,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr float kFar_m = 1e30f;

@@ -12,7 +12,7 @@
 
 #include "pairs/contact_mesh.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// A box of points, and the box of their paths, which are straight.
 struct Sweep {

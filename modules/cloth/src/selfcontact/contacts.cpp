@@ -11,7 +11,7 @@
 #include "contact/last_word.hpp"
 #include "selfcontact/loose.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr float kNever_m = std::numeric_limits<float>::infinity();

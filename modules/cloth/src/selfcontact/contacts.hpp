@@ -12,7 +12,7 @@
 
 #include "pairs/pairs.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The box of a leaf's particles when a substep begins, and that of their displacements in it, meters.
 struct LeafMove {

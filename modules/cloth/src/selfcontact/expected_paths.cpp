@@ -8,7 +8,7 @@
 
 #include "base/tolerances.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Share of a substep's velocity in the one that is expected: sweeps leave some tremble, which averages out.

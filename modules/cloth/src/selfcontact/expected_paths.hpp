@@ -3,7 +3,7 @@
 
 #include "selfcontact/self_contact.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Whether a particle at `at` left its expected path by more than `most_m`, `since_s` after the search.
 bool strays(const engine::Context& context, std::span<const Point> at, float since_s, float most_m,

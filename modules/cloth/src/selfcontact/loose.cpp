@@ -1,6 +1,6 @@
 #include "selfcontact/loose.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 constexpr std::uint8_t kTight = 0, kLoose = 1, kWasLoose = 2;

@@ -9,7 +9,7 @@
 
 #include "pairs/pairs.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The particles that are loose.
 struct Loose {

@@ -11,7 +11,7 @@
 #include "selfcontact/expected_paths.hpp"
 #include "selfcontact/tangles.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // The gap is at most this share of the median edge: with a larger one, smooth cloth would consist of pairs.

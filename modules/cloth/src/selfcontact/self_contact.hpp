@@ -20,7 +20,7 @@
 #include "selfcontact/loose.hpp"
 #include "selfcontact/zones.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The state of self-contact.
 struct SelfContact {

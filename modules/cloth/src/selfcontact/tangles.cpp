@@ -8,7 +8,7 @@
 #include "base/tolerances.hpp"
 #include "pairs/near_faces.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Where an edge nearly lies in the plane of a triangle, the gradient is taken as at this sine.

@@ -11,7 +11,7 @@
 
 #include "pairs/pairs.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Finds all pairs of triangles that cross at positions `at`, sorted. The boxes of `tree` fit these.
 void find_tangles(const engine::Context& context, const ContactMesh& mesh, const SweepTree& tree,

@@ -8,7 +8,7 @@
 #include "contact/last_word.hpp"
 #include "selfcontact/loose.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // A pair that nears by less than this share of its distance cannot cross; the rest is for rounding.

@@ -11,7 +11,7 @@
 #include "base/particles.hpp"
 #include "selfcontact/contacts.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The zones of a substep.
 struct Zones {

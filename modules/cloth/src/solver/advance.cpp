@@ -14,7 +14,7 @@
 #include "solver/quality_controller.hpp"
 #include "solver/state.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 double fastest(const engine::Context& context, const Particles& p) {

@@ -5,7 +5,7 @@
 #include "base/check_options.hpp"
 #include "solver/state.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Limits of ties exceed distances along the cloth by this fraction of the strain limit; distances along edges

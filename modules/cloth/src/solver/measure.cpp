@@ -5,7 +5,7 @@
 #include "base/tolerances.hpp"
 #include "solver/state.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 // Sums over particles.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 namespace {
 
 /// A shorter frame moves nothing within the precision of floats, and the inverse square of its substeps would

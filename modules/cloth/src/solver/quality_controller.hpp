@@ -5,7 +5,7 @@
 
 #include <bodice/cloth/solver.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// The substeps of a frame.
 struct Plan {

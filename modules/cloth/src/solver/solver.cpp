@@ -5,7 +5,7 @@
 #include "base/check_options.hpp"
 #include "solver/state.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 struct Solver::Impl {
   State state;

@@ -19,7 +19,7 @@
 #include "selfcontact/self_contact.hpp"
 #include "solver/quality_controller.hpp"
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// A garment in motion, with its constraints and contacts.
 struct State {

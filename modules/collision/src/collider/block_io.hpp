@@ -9,7 +9,7 @@
 #include "model/batch.hpp"
 #include "model/particle_view.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// A batch of particles and their indices in the caller's arrays.
 struct GatheredBatch {

@@ -7,7 +7,7 @@
 
 #include "collider/collider_impl.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Vec3;
 

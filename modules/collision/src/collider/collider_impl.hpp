@@ -15,7 +15,7 @@
 #include "model/surface_motion.hpp"
 #include "simd/dispatch/kernels.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// The data of a Collider: a proxy in all the forms that queries and responses read.
 struct Collider::Impl {

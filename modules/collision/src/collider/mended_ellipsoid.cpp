@@ -4,7 +4,7 @@
 
 #include <bodice/geometry/similarity.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 std::string_view mend(geometry::Ellipsoid& e) noexcept {
   constexpr double kExact = 1e-6;  // the kernels' floats do not resolve what is below

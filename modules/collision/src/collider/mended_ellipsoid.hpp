@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Mends the axes of an ellipsoid that are off by up to a thousandth, and moves their scale to the radii.
 /// Returns why it is refused, a predicate such as "mirrors"; empty: it is fit. Allocates nothing.

@@ -5,7 +5,7 @@
 #include "collider/collider_impl.hpp"
 #include "collider/mended_ellipsoid.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 namespace {
 
 /// A step outside of these has no velocity that floats could hold, seconds: a body that moves by a kilometer

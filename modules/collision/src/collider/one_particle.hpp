@@ -4,7 +4,7 @@
 #include "exact/response.hpp"
 #include "model/particle_view.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 inline geometry::Vec3 vector_at(const float* x, const float* y, const float* z, std::size_t i) {
   return {double{x[i]}, double{y[i]}, double{z[i]}};

@@ -5,7 +5,7 @@
 
 #include "collider/mended_ellipsoid.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "collider/collider_impl.hpp"
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include "collider/workspace.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 Workspace::Workspace() : data_(std::make_unique<WorkspaceData>()) {}
 Workspace::~Workspace() = default;

@@ -4,7 +4,7 @@
 #include "model/candidate_cache.hpp"
 #include "model/particle_order.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// The spatial order and the candidate cache of one set of particles.
 struct WorkspaceData {

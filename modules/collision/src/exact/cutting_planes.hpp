@@ -5,7 +5,7 @@
 #include "exact/halfspaces.hpp"
 #include "exact/near_field.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Where a push by cutting planes led.
 struct PushResult {

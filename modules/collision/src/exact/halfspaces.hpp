@@ -11,7 +11,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// The half-space { x : normal . x >= offset_m }; the normal has unit length.
 struct Halfspace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::ClosestPoint;
 using geometry::Vec3;

@@ -13,7 +13,7 @@
 
 #include "exact/relief_field.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Evaluates the distance of plain ellipsoids, of the smooth union or of relief around one particle.
 class NearField {

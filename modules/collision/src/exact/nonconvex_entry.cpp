@@ -8,7 +8,7 @@
 #include "exact/ray_exits.hpp"
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Vec3;
 

@@ -6,7 +6,7 @@
 
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::ClosestPoint;
 using geometry::Ellipsoid;

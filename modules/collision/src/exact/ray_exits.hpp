@@ -9,7 +9,7 @@
 #include "exact/response.hpp"
 #include "exact/union_field.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Ray exit: the first point along p + t direction, t >= 0, that is at least `clearance_m` from every
 /// ellipsoid, or just behind it. `direction` is a unit vector. Each ellipsoid is left by a few Newton steps.

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Vec3;
 

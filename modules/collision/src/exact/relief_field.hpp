@@ -5,7 +5,7 @@
 #include "exact/union_field.hpp"
 #include "model/relief_tables.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Values h and a of one table at a unit direction, and their slopes there.
 struct TableValue {

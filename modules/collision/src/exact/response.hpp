@@ -10,7 +10,7 @@
 #include "exact/union_field.hpp"
 #include "model/affine_motion.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// What a response made of one particle.
 enum class Outcome : std::uint8_t {

@@ -13,7 +13,7 @@
 #include "exact/shorter_exit.hpp"
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Vec3;
 

@@ -6,7 +6,7 @@
 
 #include "exact/response.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Vec3;
 

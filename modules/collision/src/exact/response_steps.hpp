@@ -3,7 +3,7 @@
 
 #include "exact/halfspaces.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Removes the inward part of the velocity and slows the rest by Coulomb friction; restitution is 0.
 inline void correct_velocity(const Halfspaces& contact, double friction, geometry::Vec3& velocity) {

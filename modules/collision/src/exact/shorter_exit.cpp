@@ -9,7 +9,7 @@
 #include "exact/halfspaces.hpp"
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Vec3;
 

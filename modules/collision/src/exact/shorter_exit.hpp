@@ -5,7 +5,7 @@
 
 #include "exact/union_field.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// A clear point that is as near to `p` as descent finds, starting from the clear point `exit`; nothing
 /// unless it is nearer than kWorthShortening of that. A point is clear if no ellipsoid is nearer than

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Box;
 using geometry::Vec3;

@@ -10,7 +10,7 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// The ellipsoid with the least signed distance to a point, and its closest point.
 struct Owner {

@@ -4,7 +4,7 @@
 
 #include "model/surface_motion.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Maps a material point from the last pose to this one: linear x + translation.
 struct AffineMotion {

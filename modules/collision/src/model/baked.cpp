@@ -8,7 +8,7 @@
 
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Ellipsoid;
 using geometry::Vec3;

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// One ellipsoid for the closest-point solver. Axes are ordered by falling radius, and lengths are in units
 /// of the longest radius r0, so that the solver's squares stay in range for any radius: y = to_unit (p -

@@ -8,7 +8,7 @@
 
 #include "model/surface_motion.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 inline constexpr int kBlock = 64;  ///< particles a block; its broad phase costs about as much as two of them
 

@@ -7,7 +7,7 @@
 
 #include "model/surface_motion.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 namespace {
 

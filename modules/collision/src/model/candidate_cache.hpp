@@ -15,7 +15,7 @@
 
 #include "model/batch.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Cached candidates of one batch.
 struct alignas(64) CachedBatch {

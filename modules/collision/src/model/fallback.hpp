@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Outcome of an evaluation.
 enum class Status : std::uint8_t {

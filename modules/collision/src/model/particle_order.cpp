@@ -9,7 +9,7 @@
 
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 namespace {
 

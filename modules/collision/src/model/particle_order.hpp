@@ -11,7 +11,7 @@
 #include "model/batch.hpp"
 #include "model/particle_view.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 struct WorkspaceData;
 

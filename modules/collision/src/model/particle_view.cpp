@@ -2,7 +2,7 @@
 
 #include "model/batch.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 namespace {
 

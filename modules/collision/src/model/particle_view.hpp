@@ -7,7 +7,7 @@
 #include <bodice/collision/collider.hpp>
 #include <bodice/collision/strided_particles.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Particles of the caller: arrays of floats that kernels may read in place, or vectors that are gathered.
 struct ParticleView {

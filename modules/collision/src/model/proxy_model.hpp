@@ -7,7 +7,7 @@
 #include "model/relief_tables.hpp"
 #include "model/tolerances.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// The ellipsoids of a proxy and, of a proxy with relief, their tables. It is read by all tasks of a call,
 /// and changes only when the proxy moves.

@@ -9,7 +9,7 @@
 
 #include <bodice/proxy/proxy_distance.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 namespace {
 

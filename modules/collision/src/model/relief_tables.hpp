@@ -17,7 +17,7 @@
 
 #include "model/baked.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// One ellipsoid's table, with scales from bytes to meters (h) and to meters per meter of distance (a / out).
 struct alignas(16) BakedTable {

@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 using geometry::Mat3;
 using geometry::Vec3;

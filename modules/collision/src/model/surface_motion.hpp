@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// The material of an ellipsoid in a pose: its points are center + axes u, |u| <= 1, and each keeps its u.
 struct Material {

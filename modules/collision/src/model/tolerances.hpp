@@ -2,7 +2,7 @@
 // of the union in the local frame, about half the stature.
 #pragma once
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Certificate: depth below its clearance at which a resolved particle still counts as clear, as a fraction
 /// of the coordinates of union and particle. Pushes overshoot by as much. Positions are stored as floats,

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 engine::Error bad(std::string message, std::string remedy) {

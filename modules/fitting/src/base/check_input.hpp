@@ -2,7 +2,7 @@
 
 #include <bodice/fitting/fit.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Rejects a skin or options that no proxy can be made from; the error names the element and the remedy.
 engine::Result<void> check_input(const LabeledSkin& skin, const FitOptions& options);

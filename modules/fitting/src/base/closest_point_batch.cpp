@@ -8,7 +8,7 @@
 
 #include "base/vector_clones.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 // These stand in for std functions, which are compiled under other flags and would not be inlined.

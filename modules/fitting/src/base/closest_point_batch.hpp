@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// An ellipsoid in floats: y = R^T (x - c) maps into its frame. It is also stored in units of its largest
 /// radius, so that products of three squared radii neither overflow nor vanish.

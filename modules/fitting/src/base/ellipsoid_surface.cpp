@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 double surface_area(const geometry::Vec3& r) {
   constexpr double p = 1.6075;

@@ -4,7 +4,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The surface area of an ellipsoid, square meters, within 1.1 %: it only distributes samples.
 /// Based on: Knud Thomsen. Surface area of an ellipsoid, an approximate formula. 2004.

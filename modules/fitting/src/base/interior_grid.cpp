@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Vec3;

@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Lines along y on a grid of nx x nz cells (some millions at most), each with its stretches that lie inside
 /// a mesh.

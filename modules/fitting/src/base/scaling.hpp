@@ -2,7 +2,7 @@
 
 #include <bodice/fitting/fit.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Maps a body to one of 1.7 m at the origin. Optimizations run on that one, so that their tolerances are
 /// lengths and floats suffice.

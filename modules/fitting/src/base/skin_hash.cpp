@@ -2,7 +2,7 @@
 
 #include <bodice/engine/hash.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 std::uint64_t skin_hash(const geometry::TriMesh& mesh) {
   engine::Hasher hasher;

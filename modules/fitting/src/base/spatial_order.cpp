@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/detail/morton.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using Coded = std::vector<std::pair<std::uint32_t, std::uint32_t>>;  // code, index

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The points' indices along a Morton curve through their bounding box (1024 cells a side, ties by index):
 /// neighbors in the list are neighbors in space. O(n log n).

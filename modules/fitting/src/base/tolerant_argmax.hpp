@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The index of the first value within a relative 1e-4 of the largest one; the number of values if none is
 /// positive. The left and the right of a body are alike: which of them is split first must depend neither on

@@ -9,7 +9,7 @@
 
 #include "base/tolerant_argmax.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kMostPoints = 2048;  // points in all

@@ -7,7 +7,7 @@
 #include "cluster/refinement.hpp"
 #include "cluster/thresholds.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Allocates `count` ellipsoids to the regions; each gets at least as many as it has seeds. A cheap stand-in
 /// for the bisecting refinement decides: on at most 2048 points, with principal axes in place of enclosing

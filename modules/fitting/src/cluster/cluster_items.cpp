@@ -7,7 +7,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// The part of most of a triangle's corners, or of the first corner if all differ.

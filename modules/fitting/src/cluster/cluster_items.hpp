@@ -5,7 +5,7 @@
 
 #include "cluster/refinement.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The items of tier paper: the vertices.
 Items vertex_items(const LabeledSkin& skin);

@@ -8,7 +8,7 @@
 #include "base/skin_hash.hpp"
 #include "cluster/refinement.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// #V: a bit for each part that must hold the vertex in its ellipsoid.

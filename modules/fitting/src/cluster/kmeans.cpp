@@ -4,7 +4,7 @@
 
 #include "cluster/lloyd.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 Clusters of_finite(const engine::Context& context, std::span<const Vec3> points,

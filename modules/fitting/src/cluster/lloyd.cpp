@@ -9,7 +9,7 @@
 #include "base/spatial_order.hpp"
 #include "cluster/nearest_centers.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kChunk = 64;     // points a chunk: the ball of a larger one would rule out few centers

@@ -13,7 +13,7 @@
 
 #include <bodice/fitting/kmeans.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// K-means with a state.
 class Lloyd {

@@ -2,7 +2,7 @@
 
 #include "base/vector_clones.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 BODICE_CLONES void nearest_centers(std::size_t n, const float* __restrict x, const float* __restrict y,
                                    const float* __restrict z, std::size_t count,

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Finds, for each of n points (structure of arrays), the squared distance to the nearest of the `count`
 /// centers that `which` lists (ascending), and that center's index, the lowest one on a tie. No arrays

@@ -9,7 +9,7 @@
 
 #include "base/tolerant_argmax.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// A cluster with fewer items is not split: an ellipsoid needs four points to have a volume.

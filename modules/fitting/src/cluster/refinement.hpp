@@ -16,7 +16,7 @@
 
 #include "cluster/lloyd.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 using geometry::Index;
 using geometry::Vec3;

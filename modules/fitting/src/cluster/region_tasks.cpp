@@ -7,7 +7,7 @@
 
 #include <bodice/engine/task_graph.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// Publishes regions in their order, whatever order their tasks end in. A worker does not wait: if an earlier

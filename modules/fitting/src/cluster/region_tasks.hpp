@@ -12,7 +12,7 @@
 
 #include "cluster/refinement.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The result of a region's task.
 struct FittedRegion {

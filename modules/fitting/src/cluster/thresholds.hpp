@@ -1,6 +1,6 @@
 #pragma once
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The paper's thresholds mu: one for the torso and one for the limbs.
 struct Thresholds {

@@ -1,6 +1,6 @@
 #include "cover/column_lines.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "cover/triangle_levels.hpp"
 #include "mvee/mvee_finish.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Ellipsoid;

@@ -11,7 +11,7 @@
 
 #include "base/interior_grid.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 using geometry::Index;
 using geometry::Vec3;

@@ -8,7 +8,7 @@
 
 #include "cover/column_lines.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using Stretch = InteriorColumns::Stretch;

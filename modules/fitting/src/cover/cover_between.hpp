@@ -9,7 +9,7 @@
 
 #include "cover/column_lines.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Boxes, an eighth of the columns' spacing wide, that no ellipsoid is certain to hold although the four
 /// columns around them lie inside the body. By convexity, an ellipsoid that holds a stretch of all four

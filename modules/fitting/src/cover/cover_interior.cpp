@@ -11,7 +11,7 @@
 #include "cover/cover.hpp"
 #include "cover/cover_between.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Ellipsoid;

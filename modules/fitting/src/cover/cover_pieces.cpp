@@ -9,7 +9,7 @@
 #include "base/closest_point_batch.hpp"
 #include "base/scaling.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Index;

@@ -4,7 +4,7 @@
 
 #include <bodice/fitting/fit.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Triangles cut into pieces; different ellipsoids may hold the pieces of one triangle.
 struct CoverPieces {

@@ -4,7 +4,7 @@
 
 #include "base/vector_clones.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kMost = TriangleBatch::kMost;

@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// A point with a level below this is inside, whatever the rounding of the stored radii.
 inline constexpr double kInside = 1.0 - 1e-12;

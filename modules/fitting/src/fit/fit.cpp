@@ -19,7 +19,7 @@
 #include "tiers/relief.hpp"
 #include "tiers/tiers.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;

@@ -12,7 +12,7 @@
 #include "base/ellipsoid_surface.hpp"
 #include "base/interior_grid.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kSurfaceSamples = 6000;   // points of the proxy's surface, distributed by area

@@ -9,7 +9,7 @@
 
 #include "cluster/refinement.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kPartGrain = 512;

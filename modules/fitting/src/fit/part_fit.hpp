@@ -2,7 +2,7 @@
 
 #include "fit/measure.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The ellipsoids of a draft, with the E_j of their clusters where the tier has clusters.
 struct FittedEllipsoids {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr double kNearEnough = 1.10;

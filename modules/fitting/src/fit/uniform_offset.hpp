@@ -2,7 +2,7 @@
 
 #include "fit/measure.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Grows all ellipsoids by one length (the uniform offset) until the mean gap is the target. Counts are whole
 /// numbers, so that one count may miss a target by far and the next beat it by far; growing then covers more

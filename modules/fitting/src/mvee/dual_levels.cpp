@@ -2,7 +2,7 @@
 
 #include "base/vector_clones.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 BODICE_CLONES void dual_levels(const LiftedMap& map, std::size_t n, const double* __restrict x,
                                const double* __restrict y, const double* __restrict z,

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// A linear map of lifted points (x, y, z, 1).
 struct LiftedMap {

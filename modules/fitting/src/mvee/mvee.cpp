@@ -13,7 +13,7 @@
 #include "mvee/mvee_finish.hpp"
 #include "mvee/point_frame.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 template <int R>

@@ -19,7 +19,7 @@
 
 #include "mvee/small_cholesky.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Points lifted to N = rank + 1 dimensions with their weights u, and the results of measure().
 template <int N>

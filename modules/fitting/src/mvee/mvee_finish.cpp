@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 double largest_level(const PointFrame& frame, const geometry::Ellipsoid& e) {

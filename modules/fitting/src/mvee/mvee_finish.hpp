@@ -12,7 +12,7 @@
 
 #include "mvee/point_frame.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The ellipsoid { center + half * unit ball }; vanishing columns give vanishing radii.
 geometry::Ellipsoid spanned(const Vec3& center, const Mat3& half);

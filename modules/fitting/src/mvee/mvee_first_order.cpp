@@ -14,7 +14,7 @@
 #include "mvee/mvee_finish.hpp"
 #include "mvee/point_frame.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// The weights of all points in the course of the iteration.

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// A power of two near 1 / (largest coordinate), so that squares neither overflow nor vanish; 0 if all do.

@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 using geometry::Mat3;
 using geometry::Vec3;

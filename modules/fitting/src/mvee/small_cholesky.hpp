@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The factors A = L L^T of a matrix of order at most Capacity: the lower triangle, row by row.
 template <int Capacity>

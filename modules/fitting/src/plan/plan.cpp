@@ -6,7 +6,7 @@
 
 #include "relief/relief_fit.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using proxy::Tier;

@@ -6,7 +6,7 @@
 #include <bodice/fitting/cost_model.hpp>
 #include <bodice/fitting/fit.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The number of ellipsoids by default: the largest count of the paper's Table 2.
 inline constexpr int kDefaultEllipsoids = 89;

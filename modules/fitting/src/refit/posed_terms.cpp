@@ -5,7 +5,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kGrain = 256;

@@ -5,7 +5,7 @@
 
 #include "relief/relief_terms.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Finds the terms of all samples. Their shares hold the scale of the ellipsoid, and their targets what has
 /// grown. Deterministic, parallel. One to two microseconds a sample.

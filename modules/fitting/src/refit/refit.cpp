@@ -9,7 +9,7 @@
 #include "refit/posed_terms.hpp"
 #include "relief/relief_system.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// Skin points and samples a point: fewer than for tables from nothing, since only what changed is solved.

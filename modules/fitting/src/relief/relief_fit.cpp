@@ -9,7 +9,7 @@
 
 #include "relief/relief_system.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr int kLeastSide = 4, kMostSide = 96;  // nodes along a side of a table

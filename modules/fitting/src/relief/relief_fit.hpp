@@ -7,7 +7,7 @@
 
 #include "relief/relief_terms.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The most bytes that a proxy takes with its tables.
 inline constexpr std::size_t kReliefBytes = 128 * 1024;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// The node that a step across the border leads to.

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The unknowns of a table.
 struct ReliefGrid {

@@ -7,7 +7,7 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr int kProbes = 3;  // probes a cell and depth

@@ -4,7 +4,7 @@
 
 #include "skin/free_skin.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Points deeper inside the skin than `depth_m` that the proxy's tables report outside, or less than
 /// `margin_m` inside. Only a cell with nodes that cut that deep can cause such a hole. Each such cell is

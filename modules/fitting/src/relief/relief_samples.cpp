@@ -10,7 +10,7 @@
 
 #include "base/interior_grid.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr double kTouch =

@@ -7,7 +7,7 @@
 
 #include "skin/free_skin.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// A point with its distance to the skin.
 struct ReliefSample {

@@ -9,7 +9,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 // Weights of the regularization, relative to the mean weight of the samples on a node.

@@ -12,7 +12,7 @@
 #include "relief/relief_grid.hpp"
 #include "relief/relief_terms.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The regularized normal equations, applied without being formed. The unknowns of an ellipsoid are h of each
 /// distinct node of its grid, then a of each, in meters.

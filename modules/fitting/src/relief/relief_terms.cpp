@@ -6,7 +6,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kBlock = 10;   // neighboring samples that share their candidates

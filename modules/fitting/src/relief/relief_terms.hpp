@@ -10,7 +10,7 @@
 
 #include "relief/relief_samples.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The contribution of one ellipsoid's table to the distance at one sample.
 struct ReliefTerm {

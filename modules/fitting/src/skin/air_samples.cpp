@@ -7,7 +7,7 @@
 
 #include "base/ellipsoid_surface.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr int kLeastProbes = 12;  // probes of the smallest ellipsoid

@@ -5,7 +5,7 @@
 
 #include "skin/skin_samples.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Samples where the union of ellipsoids stands in the air: of about `count` points of its surface, those
 /// farther than `gap_m` outside the skin, with their distance to it (at most `most_m`). They oppose an

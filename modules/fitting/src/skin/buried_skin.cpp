@@ -2,7 +2,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Index;

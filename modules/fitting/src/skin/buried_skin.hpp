@@ -9,7 +9,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Fraction of stature, about 0.3 mm: a point this far off the skin is beyond rounding, and within any fold
 /// that matters.

@@ -6,7 +6,7 @@
 
 #include "skin/buried_skin.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// One flag a triangle: whether its middle is buried. SkinSource::buried flags every triangle with a buried

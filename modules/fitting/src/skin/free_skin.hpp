@@ -7,7 +7,7 @@
 
 #include "skin/skin_samples.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Distances to the skin that bounds the body.
 class FreeSkin {

@@ -8,7 +8,7 @@
 
 #include <bodice/fitting/kmeans.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using Balls = std::vector<InscribedBall>;

@@ -3,7 +3,7 @@
 
 #include "skin/skin_samples.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The relative number of ellipsoids that a ball's surroundings need: thin limbs need more a square meter
 /// than thick ones.

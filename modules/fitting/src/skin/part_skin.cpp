@@ -9,7 +9,7 @@
 
 #include "skin/touching_balls.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// The radius of the largest ball, a fraction of stature: no cross-section is thicker than a third of the

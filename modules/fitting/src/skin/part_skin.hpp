@@ -9,7 +9,7 @@
 #include "cluster/refinement.hpp"
 #include "skin/skin_samples.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Even samples of one region's skin, and the balls that touch the skin at each.
 struct PartSkin {

@@ -8,7 +8,7 @@
 
 #include "skin/buried_skin.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kGrain = 256;

@@ -6,7 +6,7 @@
 #include <bodice/fitting/fit.hpp>
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 using geometry::Vec3;
 

@@ -2,7 +2,7 @@
 
 #include "base/vector_clones.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 constexpr float kTangent = 0.01f;  // squared sine of the least angle to the tangent plane
 

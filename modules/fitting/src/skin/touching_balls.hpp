@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Points and unit normals, structure of arrays.
 struct TouchingPoints {

@@ -9,7 +9,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/fitting/refit.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Ellipsoid;

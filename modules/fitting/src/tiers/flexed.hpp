@@ -3,7 +3,7 @@
 
 #include "tiers/tiers.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// As fit_tight(), but found on `options.flexed`, the same skin with its joints half bent, and carried back
 /// to the skin as it is: each ellipsoid by the affine map that takes the skin it stands for there best. None

@@ -5,7 +5,7 @@
 #include "cluster/region_tasks.hpp"
 #include "tiers/tiers.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 std::uint32_t fitted_parts(const std::vector<Region>& regions, std::uint32_t parts) {
   std::uint32_t all = 0;

@@ -10,7 +10,7 @@
 #include "relief/relief_holes.hpp"
 #include "tiers/flexed.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr double kNoTimeLimit_s = 1e6;

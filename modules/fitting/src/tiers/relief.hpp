@@ -9,7 +9,7 @@
 #include "relief/relief_terms.hpp"
 #include "tiers/tiers.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Makes the tables of a proxy at any size.
 class ReliefTables {

@@ -15,7 +15,7 @@
 #include "tiers/tiers.hpp"
 #include "tight/descent.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr double kOverStepOfFew = 1.3;  // over-relaxation of the steps, of which there are few

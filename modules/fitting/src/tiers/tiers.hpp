@@ -8,7 +8,7 @@
 #include "cluster/thresholds.hpp"
 #include "skin/skin_samples.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// What a tier makes of a skin.
 struct Draft {

@@ -12,7 +12,7 @@
 #include "tiers/tiers.hpp"
 #include "tight/descent.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// The first steps use one sample in so many and may be long: few samples suffice to find where ellipsoids

@@ -3,7 +3,7 @@
 
 #include "tight/normal_block.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 constexpr double kFirstDamping = 1e-2;
 /// Over-relaxation: steps of single blocks are too short, because neighbors move as well. A much larger

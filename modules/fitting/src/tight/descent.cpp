@@ -14,7 +14,7 @@
 
 #include "tight/split_and_merge.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Ellipsoid;

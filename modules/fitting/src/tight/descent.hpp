@@ -6,7 +6,7 @@
 #include "tight/damped_step.hpp"
 #include "tight/least_squares_problem.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// How a descent runs and when it ends.
 struct DescentOptions {

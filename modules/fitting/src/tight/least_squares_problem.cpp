@@ -10,7 +10,7 @@
 
 #include "base/spatial_order.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kGrain = 2048;        // samples a task

@@ -17,7 +17,7 @@
 #include "tight/normal_block.hpp"
 #include "tight/robust_loss.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// A sample's three nearest ellipsoids, ascending by distance. Where it has fewer candidates, the index is ~0
 /// and the distance infinite.

@@ -8,7 +8,7 @@
 #include "base/vector_clones.hpp"
 #include "tight/damped_step.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Ellipsoid;

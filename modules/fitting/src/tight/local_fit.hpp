@@ -9,7 +9,7 @@
 #include "tight/normal_block.hpp"
 #include "tight/robust_loss.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The samples that one or two ellipsoids may own, structure of arrays.
 struct Neighborhood {

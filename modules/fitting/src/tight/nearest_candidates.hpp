@@ -9,7 +9,7 @@
 
 #include "base/closest_point_batch.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The number of samples in a block; they are neighbors in space, and their candidates are found together.
 inline constexpr std::size_t kSampleBlock = 32;

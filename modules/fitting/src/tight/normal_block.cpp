@@ -2,7 +2,7 @@
 
 #include "base/vector_clones.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 constexpr std::size_t kLanes = 16;  // each lane has its own sum, so that vector code adds in a fixed order

@@ -9,7 +9,7 @@
 #include "base/closest_point_batch.hpp"
 #include "tight/robust_loss.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// One ellipsoid's normal equations for 9 unknowns: center, log radii, rotation vector.
 struct NormalBlock {

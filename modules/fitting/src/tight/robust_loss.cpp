@@ -2,7 +2,7 @@
 
 #include "base/vector_clones.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 BODICE_CLONES void count_costs(const RobustLoss& counted, std::size_t n, const float* __restrict target,
                                const std::uint8_t* __restrict one_sided, const float* __restrict d,

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The cost of residuals, which are union distance less skin distance. Lengths are those of the scaled body.
 /// Functions are always inlined and have no branches, so that loops over samples become vector code

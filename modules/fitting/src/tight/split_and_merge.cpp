@@ -13,7 +13,7 @@
 
 #include "tight/local_fit.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 namespace {
 
 using geometry::Ellipsoid;

@@ -5,7 +5,7 @@
 
 #include "tight/least_squares_problem.hpp"
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Merges two neighbors, or removes an ellipsoid that is hardly needed, and splits another in two with the
 /// one that this frees, wherever that lowers the cost. Returns the indices of the ellipsoids that changed,

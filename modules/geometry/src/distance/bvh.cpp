@@ -9,7 +9,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 constexpr int kBins = 16;

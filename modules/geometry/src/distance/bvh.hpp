@@ -10,7 +10,7 @@
 
 #include "distance/leaf_triangles.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// A node with four children side by side, so that one pass of vector instructions tests all of them. Boxes
 /// are floats in the local frame, rounded outward; a missing child has an empty box.

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 struct Pending {

@@ -5,7 +5,7 @@
 #include <bodice/geometry/triangle.hpp>
 #include "distance/bvh.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 struct BvhHit {
   double distance2 = std::numeric_limits<double>::infinity();  ///< local units squared

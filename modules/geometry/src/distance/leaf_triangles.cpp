@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // Triangles lower than this, in local units, are never ruled out, since their planes are not known well

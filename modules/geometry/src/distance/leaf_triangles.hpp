@@ -7,7 +7,7 @@
 #include <bodice/geometry/detail/float4.hpp>
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// A triangle in the form that the traversal reads: a corner and two edges, in the local frame.
 struct BvhTriangle {

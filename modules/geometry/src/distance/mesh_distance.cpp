@@ -7,7 +7,7 @@
 #include "distance/bvh_nearest.hpp"
 #include "distance/winding.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // Distance over radius from which a dipole replaces its triangles. At 2.5 the sum is within .02 of the exact

@@ -11,7 +11,7 @@
 
 #include "shape/solid_angle.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// Moments of a set of triangles, from which the far field follows.

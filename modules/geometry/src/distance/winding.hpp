@@ -5,7 +5,7 @@
 
 #include "distance/bvh.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The far fields of a node's children, side by side like their boxes.
 struct DipoleNode {

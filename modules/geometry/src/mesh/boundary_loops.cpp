@@ -2,7 +2,7 @@
 
 #include <bodice/geometry/mesh_edges.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 std::vector<std::vector<Index>> boundary_loops(const TriMesh& mesh, const MeshEdges& edges) {
   // The edges of the rims as (from, to), sorted by `from`. Each is used once.

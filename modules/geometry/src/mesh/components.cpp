@@ -3,7 +3,7 @@
 #include <bodice/geometry/disjoint_sets.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 Components connected_components(const TriMesh& mesh) {
   const std::size_t count = mesh.positions.size();

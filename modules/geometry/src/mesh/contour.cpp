@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// The corners at the ends of the 12 edges of a cell; corner bits are x, y, z. Edges 0-3 run along x, 4-7

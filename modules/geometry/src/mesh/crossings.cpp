@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 struct Corners {

@@ -4,7 +4,7 @@
 
 #include <bodice/geometry/disjoint_sets.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // A fin's largest share of the area. A hand, the smallest part that a wall could separate from a body, has 2

@@ -3,7 +3,7 @@
 
 #include <bodice/geometry/mesh_edges.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// One side of a triangle, seen from its lower end.

@@ -7,7 +7,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/contour.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// Nodes along each side of the largest and the smallest blocks that one value may decide.

@@ -8,7 +8,7 @@
 
 #include <bodice/engine/random.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // The R2 sequence's steps: powers of the inverse plastic number.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// The edge of a triangle opposite to a vertex, in the direction of its winding.

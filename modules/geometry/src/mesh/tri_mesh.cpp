@@ -1,6 +1,6 @@
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 double surface_area(const TriMesh& mesh) {
   double twice_area = 0.0;

@@ -12,7 +12,7 @@
 #include "repair/orient.hpp"
 #include "repair/weld.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 using engine::Error;

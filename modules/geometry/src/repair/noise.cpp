@@ -10,7 +10,7 @@
 #include "repair/quadric.hpp"
 #include "repair/rings.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// Vertices at which a surface is judged at first, and where it may be noisy.

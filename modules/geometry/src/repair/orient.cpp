@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // Fraction of area^1.5 below which a patch's volume is noise. It is .094 for a sphere, about .02 for a body,

@@ -5,7 +5,7 @@
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 struct Orientation {
   std::vector<bool> flip;     ///< #F: whether to reverse the triangle

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// The least pivot of the equations, a mean over the points in their scale: below it they lie on a conic.

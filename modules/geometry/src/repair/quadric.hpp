@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// Least squares of a height over a plane by 1, u, v, u^2, u v and v^2; points are added one by one.
 class Quadric {

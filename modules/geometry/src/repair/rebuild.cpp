@@ -10,7 +10,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// A vertex within so many cells of the data is measured.

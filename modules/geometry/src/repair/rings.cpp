@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 Neighbors::Neighbors(const TriMesh& mesh) : offset_(mesh.positions.size() + 1, 0) {
   for (const Triangle& t : mesh.triangles)

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The neighbors of each vertex of a mesh, in compressed rows.
 class Neighbors {

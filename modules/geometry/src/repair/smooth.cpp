@@ -9,7 +9,7 @@
 #include "repair/quadric.hpp"
 #include "repair/rings.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// No ring is farther than this fraction of the longest side, 10 cm of a person.

@@ -6,7 +6,7 @@
 
 #include <bodice/engine/random.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // A box this many times wider than the middle half of its points contains strays. The ratio is 2 to 4 on

@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The diagonal that tolerances are relative to: that of the bounding box, unless strays stretch it past what
 /// the middle half of the points explains.

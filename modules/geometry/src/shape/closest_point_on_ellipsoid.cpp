@@ -11,7 +11,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // Newton alone takes 2 to 4 steps near the surface. Where the pole's term decides, the bracket takes as many

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 Vec3 to_local(const Ellipsoid& ellipsoid, const Vec3& point) {

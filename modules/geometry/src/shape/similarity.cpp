@@ -5,7 +5,7 @@
 
 #include <Eigen/LU>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 /// Below this cosine 1 + cosine has lost digits, and the sum of both directions has not.

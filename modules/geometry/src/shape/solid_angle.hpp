@@ -10,7 +10,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// Half of a solid angle, in (-pi, pi), as its sine and cosine times a common positive factor.
 struct HalfAngle {

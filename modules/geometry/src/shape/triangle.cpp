@@ -7,7 +7,7 @@
 
 #include "shape/solid_angle.hpp"
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 namespace {
 
 // Squared sine of the angle at a below which the weights of the face lose half of their digits. Such a face's

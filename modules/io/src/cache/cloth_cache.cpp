@@ -11,7 +11,7 @@
 
 #include "look/look_mesh.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 namespace {
 
 using geometry::Mat3;

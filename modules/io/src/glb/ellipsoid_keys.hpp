@@ -8,7 +8,7 @@
 
 #include "skin_writer.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The same ellipsoid with its axes reordered and reversed so that they are as near to `before` as they can
 /// be: between keys a node then turns by the least angle.

@@ -4,7 +4,7 @@
 
 #include "../scene_check.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "glb_builder.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 class FileSpace {
  public:

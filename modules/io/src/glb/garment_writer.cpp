@@ -12,7 +12,7 @@
 #include "look_writer.hpp"
 #include "morph_targets.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

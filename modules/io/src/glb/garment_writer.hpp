@@ -8,7 +8,7 @@
 #include "file_space.hpp"
 #include "skin_writer.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The times of a track's frames in the file: from 0, or with a rig those of its clip.
 std::vector<float> times_of(const GarmentTrack& track, bool has_rig);

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <string_view>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <bodice/geometry/types.hpp>
 #include <nlohmann/json.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 using Json = nlohmann::ordered_json;
 using Vec3f = Eigen::Vector3f;

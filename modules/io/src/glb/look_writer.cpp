@@ -1,6 +1,6 @@
 #include "look_writer.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "../look/look.hpp"
 #include "glb_builder.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Adds all materials; returns the index of each in the document.
 std::vector<std::size_t> add_materials(const Materials& materials, GlbBuilder& glb);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "glb_builder.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// One frame of a garment in the mesh's unit and axes.
 struct FrameShape {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "glb_builder.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The samplers and channels of one animation.
 struct GlbAnimation {

@@ -15,7 +15,7 @@
 #include "glb_builder.hpp"
 #include "skin_writer.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

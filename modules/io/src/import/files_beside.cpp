@@ -9,7 +9,7 @@
 #include "import/source/input_file.hpp"
 #include "import/source/obj_materials.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

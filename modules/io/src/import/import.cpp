@@ -14,7 +14,7 @@
 #include "import/scene/file_scene.hpp"
 #include "import/scene/joined_look.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

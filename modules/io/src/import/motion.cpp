@@ -12,7 +12,7 @@
 #include "import/scene/file_scene.hpp"
 #include "import/source/file_format.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

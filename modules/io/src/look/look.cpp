@@ -5,7 +5,7 @@
 
 #include <bodice/io/scene.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

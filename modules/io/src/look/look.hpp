@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 inline constexpr std::uint32_t kNoMaterial = std::numeric_limits<std::uint32_t>::max();
 

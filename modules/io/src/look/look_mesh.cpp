@@ -5,7 +5,7 @@
 
 #include "look/look.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

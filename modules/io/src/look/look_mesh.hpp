@@ -8,7 +8,7 @@
 
 #include <bodice/io/scene.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The attribute of a GLB's vertices that holds the number of the cloth's vertex.
 inline constexpr const char* kClothVertex = "_CLOTH_VERTEX";

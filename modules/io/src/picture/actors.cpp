@@ -7,7 +7,7 @@
 #include "../scene_check.hpp"
 #include "../unit_sphere.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 using geometry::Vec3;
 

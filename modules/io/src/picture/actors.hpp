@@ -5,7 +5,7 @@
 
 #include "stage.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 enum class SkinColor { kPlain, kByPart };
 

@@ -8,7 +8,7 @@
 
 #include "letters.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

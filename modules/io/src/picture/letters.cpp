@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "png.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Dots of a character with the gap to the next one, and of a line of text.
 inline constexpr int kLetterWidth = 6, kLetterHeight = 9;

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

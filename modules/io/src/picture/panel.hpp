@@ -4,7 +4,7 @@
 #include "png.hpp"
 #include "stage.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 enum class Side { kFront, kLeft };
 

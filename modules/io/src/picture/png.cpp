@@ -5,7 +5,7 @@
 #include <png.h>
 #include <bodice/engine/write_file.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 std::vector<std::byte> encode_png(const Image& image) {
   png_image header;

@@ -7,7 +7,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Most pixels that a picture may have along one side.
 inline constexpr int kLargestSide = 16384;

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 using Vec3f = Eigen::Vector3f;
 

@@ -5,7 +5,7 @@
 
 #include "raster.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// A surface ready to draw.
 struct Actor {

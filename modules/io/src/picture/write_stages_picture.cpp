@@ -7,7 +7,7 @@
 #include "panel.hpp"
 #include "png.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

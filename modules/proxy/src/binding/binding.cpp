@@ -1,6 +1,6 @@
 #include <bodice/proxy/binding.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 std::size_t Binding::bytes() const {
   const auto size = [](const auto& values) { return values.size() * sizeof(values[0]); };

@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::uint64_t kTermBytes = 2 + 16 * 8, kBundleBytes = 2 * kBundle * 7 + 4;

@@ -6,7 +6,7 @@
 
 #include "binding/bytes.hpp"
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// Little-endian:
 ///   u32 #joints, #ellipsoids, #terms, #texels, #bundles, #entries, #followers; f32 burial step

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 class ByteWriter {
  public:

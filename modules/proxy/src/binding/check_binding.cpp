@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 namespace {
 
 constexpr std::size_t kMostJoints = 65535;

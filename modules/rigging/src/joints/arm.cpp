@@ -2,7 +2,7 @@
 #include "joints/offset_joints.hpp"
 #include "joints/offsets.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

@@ -11,7 +11,7 @@
 #include "joints/frames.hpp"
 #include "skin/skin_curves.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 struct FoundJoints {
   std::array<Vec3, body::kJointCount> position{};

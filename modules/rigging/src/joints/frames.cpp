@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/smallest_turn.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 // Between these bends of a hinge, as sines, its plane comes to be trusted: 14 and 30 degrees.

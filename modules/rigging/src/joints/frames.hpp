@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 using geometry::Mat3;
 using geometry::Vec3;

@@ -6,7 +6,7 @@
 #include "joints/offsets.hpp"
 #include "joints/sole.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

@@ -2,7 +2,7 @@
 
 #include <coefficients/joint_offsets.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

@@ -6,7 +6,7 @@
 
 #include "joints/found_joints.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 /// What the offsets of a joint count from, and along: joint = origin + axes * offsets.
 struct OffsetFrame {

@@ -2,7 +2,7 @@
 // made bodies and 16 rigged ones. What lies off the curves of the trunk is data (offset_joints.hpp).
 #pragma once
 
-namespace bodice::rigging::offsets {
+namespace bodice::inline v0_1::rigging::offsets {
 
 /// Standing bodies' axis from hips to waist leans to the front by this, and from waist to neck to the back.
 inline constexpr double kPelvisLean_deg = 8.0, kChestLean_deg = -4.6;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using Vec2 = Eigen::Vector2d;

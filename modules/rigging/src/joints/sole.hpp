@@ -6,7 +6,7 @@
 
 #include "joints/frames.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 struct Sole {
   Mat3 frame = Mat3::Identity();   ///< y off the floor, z to the toes

@@ -5,7 +5,7 @@
 #include "joints/offsets.hpp"
 #include "posture/turns.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

@@ -6,7 +6,7 @@
 #include "motion/motions.hpp"
 #include "posture/pose.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 /// Keys a second: between two of them a planted foot strays less than a tenth of a millimeter.

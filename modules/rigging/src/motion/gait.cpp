@@ -13,7 +13,7 @@
 #include "motion/motions.hpp"
 #include "posture/curve.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using Ends = Curve::Ends;

@@ -3,7 +3,7 @@
 
 #include "posture/posture.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 /// What a motion knows of the body, units of the leg.
 struct Build {

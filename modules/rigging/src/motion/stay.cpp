@@ -6,7 +6,7 @@
 #include "motion/motions.hpp"
 #include "posture/curve.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 Posture reach(double phase, const Build& build) {
   static const Curve forward(

@@ -5,7 +5,7 @@
 #include "motion/motions.hpp"
 #include "posture/curve.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 constexpr int kSteps = 6;        // of each leg, once around

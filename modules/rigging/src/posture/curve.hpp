@@ -10,7 +10,7 @@
 #include <initializer_list>
 #include <vector>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 struct CurveKey {
   double at, value;

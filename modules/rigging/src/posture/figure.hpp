@@ -9,7 +9,7 @@
 
 #include "posture/posture.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 /// One leg's lengths, meters, and its ankle's height above the sole.
 struct LegLengths {

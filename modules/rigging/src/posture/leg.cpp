@@ -5,7 +5,7 @@
 
 #include "posture/turns.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 /// Rear end of the sole behind the ankle, as a multiple of the distance from the ankle to the ball.

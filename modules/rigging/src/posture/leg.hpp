@@ -3,7 +3,7 @@
 
 #include "posture/figure.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 /// Rotations from joint frames to motion space.
 struct LegPose {

@@ -6,7 +6,7 @@
 #include "posture/leg.hpp"
 #include "posture/turns.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

@@ -7,7 +7,7 @@
 
 #include "posture/figure.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 struct JointPose {
   Vec3 pelvis = Vec3::Zero();                                  ///< position of the root, skin space, meters

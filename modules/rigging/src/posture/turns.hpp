@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 inline geometry::Mat3 about(int axis, double degrees) {
   const double angle_rad = degrees * std::numbers::pi / 180.0;

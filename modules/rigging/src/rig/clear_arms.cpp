@@ -7,7 +7,7 @@
 #include <bodice/body/joint.hpp>
 #include <bodice/rigging/motion.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

@@ -5,7 +5,7 @@
 
 #include "weights/heat.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 const geodesic::Isoline* longest(const std::vector<geodesic::Isoline>& curves,

@@ -10,7 +10,7 @@
 #include <bodice/geodesic/distance_solver.hpp>
 #include <bodice/geodesic/isoline.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 using geometry::Mat3;
 using geometry::Vec3;

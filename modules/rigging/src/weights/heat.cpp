@@ -12,7 +12,7 @@
 
 #include "weights/laplacian.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 using body::JointId;

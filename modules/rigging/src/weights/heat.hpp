@@ -6,7 +6,7 @@
 
 #include "weights/nearest_bone.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 /// At most this many joints a vertex: what files hold.
 inline constexpr int kInfluences = 4;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 namespace {
 
 /// Bounds of an edge's weight: a needle of a triangle neither blocks heat nor shorts it.

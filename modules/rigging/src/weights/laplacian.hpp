@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 struct Laplacian {
   /// #V x #V, positive semidefinite: half the sum of the cotangents opposite each edge, which is kept from

@@ -4,7 +4,7 @@
 
 #include "joints/found_joints.hpp"
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 struct NearestBone {
   std::vector<body::JointId> bone;  ///< #V

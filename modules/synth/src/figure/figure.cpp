@@ -5,7 +5,7 @@
 
 #include <bodice/engine/random.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 constexpr std::array<Bone, kBoneCount> kParents = {

@@ -11,7 +11,7 @@
 
 #include <bodice/synth/body.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 using geometry::Mat3;
 using geometry::Vec3;

@@ -11,7 +11,7 @@
 #include "figure/figure.hpp"
 #include "figure/loft.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// A region of the skin. The crotch is the floor of the trunk, without the legs. Digits are index, middle,
 /// ring and little finger and thumb, first the left ones.

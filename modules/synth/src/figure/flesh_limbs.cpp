@@ -7,7 +7,7 @@
 
 #include "figure/flesh.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 struct DigitRow {

@@ -6,7 +6,7 @@
 
 #include "figure/flesh.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 /// A row for one sex, with the share of `fat` that each direction takes.

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 std::array<double, 5> row_of(const Section& section) {

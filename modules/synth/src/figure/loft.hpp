@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 using geometry::Vec3;
 

@@ -5,7 +5,7 @@
 
 #include "garment/tailor.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using body::Part;

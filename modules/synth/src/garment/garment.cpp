@@ -11,7 +11,7 @@
 
 #include "garment/keep_ease.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 engine::Result<Cut> cut_garment(const Fitting& fitting) {

@@ -3,7 +3,7 @@
 
 #include "garment/tailor.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// Moves vertices off the skin until each keeps the ease and the middle of each triangle is outside, and
 /// moves their surroundings along. Returns false if a bounded number of passes does not suffice, because

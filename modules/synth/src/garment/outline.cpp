@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;

@@ -9,7 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/synth/garment.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 using geometry::Vec3;
 

@@ -8,7 +8,7 @@
 
 #include "garment/outline.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 // In distances from perineum to neck.

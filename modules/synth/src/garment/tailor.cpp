@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 using geometry::Index;
 

@@ -7,7 +7,7 @@
 
 #include "garment/outline.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// The body, its frame and distance, and the options of every cut.
 struct Fitting {

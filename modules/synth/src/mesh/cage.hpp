@@ -14,7 +14,7 @@
 
 #include "figure/flesh.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 struct Cage {
   using Quad = std::array<int, 4>;

@@ -3,7 +3,7 @@
 
 #include "mesh/cage_plan.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 Vec3 CagePlan::arm_point(int side, double s, double angle, double out, double front) const {
   const LimbAxes& axes = f.arm[side];

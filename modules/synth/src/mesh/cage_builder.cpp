@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 Region meeting(Region a, Region b) {
   if (a == b) return a;

@@ -7,7 +7,7 @@
 
 #include "mesh/cage.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// Vertices of the cage, in order around a tube.
 using Loop = std::vector<int>;

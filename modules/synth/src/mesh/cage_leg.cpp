@@ -2,7 +2,7 @@
 
 #include "mesh/cage_plan.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 double leg_angle(int n) {

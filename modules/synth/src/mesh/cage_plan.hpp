@@ -6,7 +6,7 @@
 
 #include "mesh/cage_builder.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 struct CagePlan {
   static constexpr int kAcross = 8, kDeep = 4;  ///< the trunk's columns along x and along z

@@ -3,7 +3,7 @@
 
 #include "mesh/cage_plan.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 Lattice lattice_of(int n) {
   constexpr int kAcross = CagePlan::kAcross, kDeep = CagePlan::kDeep;

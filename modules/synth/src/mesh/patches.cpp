@@ -8,7 +8,7 @@
 
 #include "mesh/cage_builder.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using geometry::Index;

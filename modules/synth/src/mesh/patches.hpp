@@ -9,7 +9,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// A point of the cage: a quad, with u from its corner 0 to 1 and v from 0 to 3.
 struct PatchPoint {

@@ -7,7 +7,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using geometry::Index;

@@ -7,7 +7,7 @@
 
 #include "mesh/patches.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// A cage relaxed on the flesh at a fixed resolution. Every final mesh is sampled from it, so that a body has
 /// the same shape at all resolutions.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 // Rounds of averaging with the neighbors, which spread bends over about 6 % of stature on trunk and limbs.

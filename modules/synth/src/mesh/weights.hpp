@@ -8,7 +8,7 @@
 
 #include "mesh/skin.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 using BoneWeights = Eigen::Matrix<float, kBoneCount, 1>;  ///< sums to 1
 

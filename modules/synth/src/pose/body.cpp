@@ -12,7 +12,7 @@
 #include "pose/tailor_truth.hpp"
 #include "pose/truth.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 constexpr double kDensity = 1010.0;   // kg per cubic meter of a living body

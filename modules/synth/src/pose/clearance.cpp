@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 struct Capsule {

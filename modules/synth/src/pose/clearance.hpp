@@ -3,7 +3,7 @@
 
 #include "pose/pose.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// The least distance between the capsules of limbs that are not neighbors, in statures. It is negative where
 /// flesh would pass through flesh.

@@ -6,7 +6,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 struct DualQuaternion {

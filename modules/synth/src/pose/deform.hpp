@@ -6,7 +6,7 @@
 #include "mesh/weights.hpp"
 #include "pose/pose.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// Blends the bones' motions at each point as dual quaternions, so that bends and twists do not collapse.
 std::vector<Vec3> deform(const engine::Context& context, const std::vector<Vec3>& rest,

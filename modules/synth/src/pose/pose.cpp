@@ -5,7 +5,7 @@
 
 #include "pose/clearance.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using Turn = Eigen::Matrix3d;

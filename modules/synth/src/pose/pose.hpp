@@ -9,7 +9,7 @@
 
 #include "figure/figure.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// Angles of an arm. All angles are degrees, from the rest directions of anatomy: arms hanging, legs straight
 /// down.

@@ -2,7 +2,7 @@
 
 #include "pose/pose.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 PoseAngles both(const ArmAngles& arm, const LegAngles& leg) {

@@ -5,7 +5,7 @@
 
 #include <bodice/body/joint.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 constexpr float kLeastWeight = 1e-4f;

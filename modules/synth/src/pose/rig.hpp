@@ -8,7 +8,7 @@
 #include "mesh/weights.hpp"
 #include "pose/pose.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// A joint a bone, bound in the pose that `bones` make of the rest pose; `joints` are their final positions.
 rig::Skeleton true_skeleton(const BoneTransforms& bones, const std::vector<Joint>& joints);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using body::LandmarkId;

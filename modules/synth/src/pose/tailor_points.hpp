@@ -6,7 +6,7 @@
 
 #include "pose/truth.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// Heights in the rest pose, in units of stature, at which the trunk is measured.
 struct TailorLevels {

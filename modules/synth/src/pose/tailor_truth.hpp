@@ -5,7 +5,7 @@
 
 #include "pose/truth.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// All measurements of the standing body in units of stature, angles in radians, by the definitions of
 /// modules/anatomy/README.md; arm_pose_angle is that of the pose. `landmarks`: of the posed body.

@@ -6,7 +6,7 @@
 
 #include "pose/tailor_points.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using body::LandmarkId;

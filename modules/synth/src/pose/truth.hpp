@@ -6,7 +6,7 @@
 #include "mesh/weights.hpp"
 #include "pose/pose.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 struct Posed {
   const Figure& figure;

@@ -6,7 +6,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// A pinhole camera that looks at a point.
 struct Camera {

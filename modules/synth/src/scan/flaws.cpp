@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using geometry::Index;

@@ -7,7 +7,7 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// The triangles with this value, with the vertices that they use.
 geometry::TriMesh take(const geometry::TriMesh& mesh, std::span<const int> value, int wanted);

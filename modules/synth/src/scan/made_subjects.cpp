@@ -4,7 +4,7 @@
 #include <bodice/engine/random.hpp>
 #include <bodice/synth/scan.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 Pose pose_of(ScanKind kind, engine::Random& random) {

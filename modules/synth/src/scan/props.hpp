@@ -7,7 +7,7 @@
 #include <bodice/geometry/contour.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// A box along the axes, with quads of about `edge_m`.
 geometry::TriMesh box_mesh(const geometry::Box& box, double edge_m);

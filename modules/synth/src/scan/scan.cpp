@@ -16,7 +16,7 @@
 #include "scan/pieces.hpp"
 #include "scan/props.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using geometry::Box;

@@ -9,7 +9,7 @@
 #include "scan/flaws.hpp"
 #include "scan/props.hpp"
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 namespace {
 
 using geometry::Box;

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {

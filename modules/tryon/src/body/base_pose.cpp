@@ -7,7 +7,7 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/fitting/refit.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 /// The tables of a pose in the form that a refit takes.

@@ -6,7 +6,7 @@
 #include <bodice/geometry/mesh_repair.hpp>
 #include <bodice/io/rig.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 engine::Result<io::ImportedMesh> make_builtin(const engine::Context& context,

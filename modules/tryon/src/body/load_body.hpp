@@ -4,7 +4,7 @@
 
 #include <bodice/tryon/preparation.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The repaired skin from any source, in meters. Its stages are "load" and "check".
 engine::Result<io::ImportedMesh> load_body(const engine::Context& context, const BodySource& source,

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;

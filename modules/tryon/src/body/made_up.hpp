@@ -5,7 +5,7 @@
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/io/import.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Warns of landmarks around which most of the skin closes holes of the file, and names them. O(#V) a
 /// landmark.

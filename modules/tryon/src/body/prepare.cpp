@@ -12,7 +12,7 @@
 #include "body/refine_thing.hpp"
 #include "body/segment_tasks.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::MeshDistance;

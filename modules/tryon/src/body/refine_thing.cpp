@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/mesh_edges.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Index;

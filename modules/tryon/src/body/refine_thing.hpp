@@ -2,7 +2,7 @@
 
 #include <bodice/io/import.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Splits the long edges of a thing at their middles until its triangles are small beside it: boards of
 /// twelve triangles become parts and samples of the skin only by their vertices. The surface stays the same,

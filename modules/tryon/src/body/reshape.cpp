@@ -11,7 +11,7 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/fitting/refit.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;

@@ -16,7 +16,7 @@
 #include "body/append.hpp"
 #include "body/load_body.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 engine::Result<rig::Rig> rig_of(const engine::Context& context, const synth::BodyOptions& builtin,

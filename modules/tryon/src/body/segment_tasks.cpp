@@ -12,7 +12,7 @@
 #include "body/made_up.hpp"
 #include "body/stand_upright.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::MeshDistance;

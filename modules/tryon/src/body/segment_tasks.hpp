@@ -3,7 +3,7 @@
 #include <bodice/engine/task_graph.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Adds the tasks from a repaired mesh to a segmented skin. Anatomy and the distance field do not depend on
 /// each other. The skin gets a copy of the mesh.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using body::LandmarkId;

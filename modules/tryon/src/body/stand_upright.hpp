@@ -3,7 +3,7 @@
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/io/import.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Where a file's up axis was found by extents alone, the trunk and the legs know better: a body that sits
 /// with z up is as wide as it is tall. Turns skin, landmarks and frame, and returns true, where the trunk

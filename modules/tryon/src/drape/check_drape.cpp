@@ -6,7 +6,7 @@
 
 #include <bodice/engine/message.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body) {
   const auto bad = [](std::string what, std::string remedy) {

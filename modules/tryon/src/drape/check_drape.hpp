@@ -3,7 +3,7 @@
 
 #include <bodice/tryon/drape.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Fails with kInvalidArgument, naming the option and its range.
 engine::Result<void> check(const DrapeOptions& options, const PreparedBody& body);

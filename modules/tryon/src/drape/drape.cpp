@@ -26,7 +26,7 @@
 #include "motion/moving_body.hpp"
 #include "motion/moving_thickness.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;

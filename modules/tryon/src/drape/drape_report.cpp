@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 DrapeReport describe(const std::vector<WornGarment>& garments, const DrapeOptions& options,
                      const cloth::SolverOptions& solver, const cloth::Fabric& fabric) {

@@ -6,7 +6,7 @@
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/penetration.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The part of the report that is known before the first frame.
 DrapeReport describe(const std::vector<WornGarment>& garments, const DrapeOptions& options,

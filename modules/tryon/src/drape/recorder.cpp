@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 std::vector<int> frames_to_keep(int frames, int kept) {
   const int count = std::clamp(kept, 2, frames + 1);

@@ -8,7 +8,7 @@
 #include <bodice/io/scene.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Chooses at most `kept` of the frames 0..frames, evenly spread, first and last included.
 /// Preconditions: frames >= 1, kept >= 2.

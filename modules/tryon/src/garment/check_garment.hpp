@@ -8,7 +8,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Fails with kInvalidArgument, naming the triangle, when one refers to a missing vertex.
 inline engine::Result<void> check_triangles(const geometry::TriMesh& mesh, std::string_view name) {

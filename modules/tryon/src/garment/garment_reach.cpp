@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Box;

@@ -8,7 +8,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/geometry/crossings.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Index;

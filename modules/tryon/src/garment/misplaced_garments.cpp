@@ -2,7 +2,7 @@
 
 #include <bodice/engine/message.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 // Distances and sizes in statures.

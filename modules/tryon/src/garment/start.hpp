@@ -5,7 +5,7 @@
 #include <bodice/tryon/prepare.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Moves vertices that begin inside the proxy, or nearer than `thickness_m`, out along the normal of the skin
 /// below them, in the solver and in the wardrobe; returns the farthest move, meters. Neighbors move alike,

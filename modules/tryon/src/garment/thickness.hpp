@@ -9,7 +9,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The closest points of the skin to the vertices of a garment at rest that may come to lie on it; vertices
 /// far off are left out.

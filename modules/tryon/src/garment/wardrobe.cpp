@@ -4,7 +4,7 @@
 
 #include "garment/check_garment.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 engine::Result<void> check(const WornGarment& garment, std::size_t number) {

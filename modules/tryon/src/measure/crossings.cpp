@@ -5,7 +5,7 @@
 #include <bodice/engine/message.hpp>
 #include <bodice/geometry/crossings.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 // The garment that has this vertex of all.

@@ -8,7 +8,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A skin with the parts of its vertices.
 struct LabeledSkinView {

@@ -11,7 +11,7 @@
 
 #include "measure/triangle_strain.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;

@@ -6,7 +6,7 @@
 #include <bodice/engine/parallel.hpp>
 #include <bodice/proxy/proxy_distance.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 constexpr double kShareBelow = 0.98, kLeastLimit_m = 1e-4;

@@ -9,7 +9,7 @@
 
 #include "measure/triangle_strain.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;

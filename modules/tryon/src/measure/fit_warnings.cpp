@@ -5,7 +5,7 @@
 
 #include <bodice/engine/message.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 // What counts as missing, and what as slid: a centimeter is within what tailors allow, and cloth settles by

@@ -7,7 +7,7 @@
 #include <bodice/cloth/fabric.hpp>
 #include <bodice/tryon/drape.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A garment before and after its drape.
 struct WornThen {

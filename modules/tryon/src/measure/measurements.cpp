@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -9,7 +9,7 @@
 
 #include "measure/prop_start.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 /// A garment may touch a prop at the start, but not reach deeper into it.

@@ -4,7 +4,7 @@
 
 #include <bodice/tryon/drape.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Refuses garments that begin inside a prop: cloth cannot be pushed out of a seat that it passes through
 /// without being torn.

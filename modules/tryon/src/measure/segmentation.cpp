@@ -7,7 +7,7 @@
 
 #include <bodice/engine/parallel.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 /// Deeper than this a vertex is no longer one of the skin that was moved when it was repaired.

@@ -7,7 +7,7 @@
 #include <bodice/geometry/triangle.hpp>
 #include <bodice/tryon/judge_frame.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Triangle;

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The elongation of the most stretched edge, zero or more. Edges without a length at rest have none.
 inline double longest_strain(const geometry::TriMesh& rest, std::span<const geometry::Vec3> now,

@@ -4,7 +4,7 @@
 
 #include <bodice/engine/text.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using Json = nlohmann::ordered_json;

@@ -8,7 +8,7 @@
 
 #include "session/session_impl.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 using geometry::Vec3;

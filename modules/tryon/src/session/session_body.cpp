@@ -4,7 +4,7 @@
 
 #include <bodice/rigging/motion.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 namespace {
 
 /// The same clip on another shape of the body. A made one is made anew, as arms keep off wider hips.

@@ -11,7 +11,7 @@
 #include "motion/clip_playback.hpp"
 #include "motion/moving_body.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A clip that the session's bodies play.
 struct WantedClip {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Held vertices are found in the bind pose: where the body was made, or here after a change of garments,
 /// which allocates.

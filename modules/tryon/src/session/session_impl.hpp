@@ -11,7 +11,7 @@
 #include "motion/refits.hpp"
 #include "session/session_body.hpp"
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A shape that a slider requested, in the order of the requests; null: it failed.
 struct SessionShape {

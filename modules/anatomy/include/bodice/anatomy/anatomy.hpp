@@ -10,7 +10,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// What the analysis compares the body with.
 struct Options {

@@ -4,7 +4,7 @@
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/body/measurement.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Takes the 26 measurements of an analyzed body, in meters (the mesh's unit) and radians; NaN where a
 /// landmark or a girth that one needs was not found. They are meant for a body that stands, with arms away

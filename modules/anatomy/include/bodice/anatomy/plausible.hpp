@@ -6,7 +6,7 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// What of an analyzed skin contradicts a human body of any age, build and pose, a clause each, such as "its
 /// skin has 2.1 times the area of a body of that stature"; empty where nothing does. None of it takes part in

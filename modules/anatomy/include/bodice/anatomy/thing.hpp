@@ -3,7 +3,7 @@
 
 #include <bodice/anatomy/anatomy.hpp>
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Cuts the surface into at most body::kThingPartCount parts of similar width, body::thing_part() by falling
 /// area. Limbs and loose pieces become parts of their own as far as the number allows. All landmarks have

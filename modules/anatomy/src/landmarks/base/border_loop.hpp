@@ -3,7 +3,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Which loop of a border is meant.
 struct BorderOfLimb {

@@ -6,7 +6,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Coefficients with their name in the landmark's file of modules/anatomy/data.
 struct Coefficients {

@@ -1,6 +1,6 @@
 #include "landmarks/base/far_end.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 double difference_from_far_end(const LandmarkInput& input, const geodesic::Field& from_tip,
                                const geometry::Vec3& end, float radius) {

@@ -3,7 +3,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Distance from an end to the vertex that is farthest from the perineum among those within `radius` of that
 /// end's tip, both as fractions of the body size; -1 if there is none. `from_tip`: distances from that tip.

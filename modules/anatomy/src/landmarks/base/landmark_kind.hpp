@@ -5,7 +5,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// A second estimate of a landmark that shares no coefficients with the first.
 struct CrossCheck {

@@ -5,7 +5,7 @@
 
 #include "coordinates/head_ball.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 using body::LandmarkId;
 

@@ -2,7 +2,7 @@
 
 #include "landmarks/base/unchecked.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geodesic::Field;

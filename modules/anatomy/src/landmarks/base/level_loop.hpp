@@ -6,7 +6,7 @@
 #include "coordinates/build.hpp"
 #include "landmarks/base/border_loop.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The number of coefficients of a level: a weight for each coordinate, a constant, and what each measure of
 /// the build adds to that constant.

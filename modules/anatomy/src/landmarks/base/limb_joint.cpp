@@ -7,7 +7,7 @@
 #include "landmarks/base/correction.hpp"
 #include "skin/centerline.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Vec3;

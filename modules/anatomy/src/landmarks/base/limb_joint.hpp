@@ -5,7 +5,7 @@
 
 #include "landmarks/base/landmark_kind.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The two bones of a limb, and the coefficients of the correction along each.
 struct LimbBones {

@@ -6,7 +6,7 @@
 #include "skin/nearest_signature.hpp"
 #include "skin/soft_position.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// A signature this many deviations off is no evidence any more.

@@ -5,7 +5,7 @@
 #include "coordinates/signature.hpp"
 #include "landmarks/base/landmark_kind.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 inline constexpr int kBuildCount = static_cast<int>(std::tuple_size_v<Build>);
 /// The features are all coordinates of a vertex, and what they follow is the build of the body.

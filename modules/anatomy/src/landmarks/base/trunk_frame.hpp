@@ -3,7 +3,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// Unit vectors of the trunk: to the body's left, from perineum to neck, and to the front.
 struct TrunkFrame {

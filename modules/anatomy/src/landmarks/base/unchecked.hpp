@@ -3,7 +3,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The confidence as it is; on a skin that is fused somewhere so little that the landmark counts as
 /// uncertain, because welds change the distances that it is found by.

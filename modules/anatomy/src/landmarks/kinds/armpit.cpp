@@ -10,7 +10,7 @@
 #include "landmarks/base/trunk_frame.hpp"
 #include "landmarks/kinds/armpit_signature.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_armpit {
 namespace {
 

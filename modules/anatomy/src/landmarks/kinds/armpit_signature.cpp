@@ -10,7 +10,7 @@
 #include "skin/nearest_signature.hpp"
 #include "skin/soft_position.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Index;

@@ -5,7 +5,7 @@
 
 #include "coordinates/body_coordinates.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The vertex with the signature nearest to an armpit's, and how clearly it is the nearest.
 struct ArmpitSignature {

@@ -2,7 +2,7 @@
 #include "landmarks/base/far_end.hpp"
 #include "landmarks/base/landmark_kind.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_fingertip {
 namespace {
 

@@ -4,7 +4,7 @@
 #include "landmarks/base/landmark_kind.hpp"
 #include "landmarks/base/level_loop.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_hip {
 namespace {
 

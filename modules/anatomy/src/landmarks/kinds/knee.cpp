@@ -4,7 +4,7 @@
 #include "landmarks/base/border_loop.hpp"
 #include "landmarks/base/limb_joint.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_knee {
 namespace {
 

@@ -11,7 +11,7 @@
 #include "skin/curve.hpp"
 #include "skin/girth_profile.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_neck {
 namespace {
 

@@ -3,7 +3,7 @@
 
 #include "landmarks/base/skin_signature.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_neck_front {
 namespace {
 

@@ -6,7 +6,7 @@
 #include "landmarks/kinds/perineum_by_legs.hpp"
 #include "landmarks/kinds/perineum_by_shape.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_perineum {
 namespace {
 

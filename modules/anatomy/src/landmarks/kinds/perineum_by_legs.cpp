@@ -9,7 +9,7 @@
 #include "coordinates/build.hpp"
 #include "landmarks/base/trunk_frame.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Vec3;

@@ -3,7 +3,7 @@
 #include "landmarks/base/correction.hpp"
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The perineum by where the thighs point and by how the trunk is built: a leg that is drawn up alone takes
 /// the line between the legs along, to its own side and backwards, the more so the heavier the thighs. The

@@ -8,7 +8,7 @@
 #include "coordinates/crotch_line.hpp"
 #include "landmarks/base/correction.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace {
 
 using geometry::Vec3;

@@ -2,7 +2,7 @@
 
 #include "landmarks/base/landmarks.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 
 /// The perineum by the shape of the line between the legs. Distances along the skin place it well where
 /// builds differ little; on heavy thighs and seats they are some 3 % of the body size off along that line,

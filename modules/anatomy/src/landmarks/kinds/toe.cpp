@@ -3,7 +3,7 @@
 #include "landmarks/base/landmark_kind.hpp"
 #include "skin/soft_position.hpp"
 
-namespace bodice::anatomy {
+namespace bodice::inline v0_1::anatomy {
 namespace of_toe {
 namespace {
 

@@ -10,7 +10,7 @@
 #include <bodice/batch/work.hpp>
 #include <bodice/engine/cancel.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// How a batch runs.
 struct BatchOptions {

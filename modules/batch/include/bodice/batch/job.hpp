@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace bodice::batch {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::batch {
 
 /// A job as text: the values of each name that its line gives, in the order of the line. Names are unique and
 /// in the order of the alphabet, so that equal jobs are equal objects, in whatever order a line has them.

@@ -6,7 +6,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// What a summary counts. A line of a manifest counts once, by its latest run.
 struct SummaryCounts {

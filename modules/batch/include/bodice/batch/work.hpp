@@ -11,7 +11,7 @@
 #include <bodice/batch/job.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::batch {
+namespace bodice::inline v0_1::batch {
 
 /// What the log states of a job that succeeded.
 struct JobFacts {

@@ -17,7 +17,7 @@
 #include <bodice/rig/skeleton.hpp>
 #include <bodice/rig/skinning.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 using geometry::Mat3;
 using geometry::Vec3;

@@ -10,7 +10,7 @@
 #include <bodice/binding/bind.hpp>
 #include <bodice/body/part.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// #V: the skin with hips, knees, elbows and shoulders half bent from where the bind pose has them: arms to
 /// the front, since raised ones would go on with the clavicles in one line. `part`

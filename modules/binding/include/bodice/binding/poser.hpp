@@ -14,7 +14,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/posed_proxy.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// Settings of one pose.
 struct PoseOptions {

@@ -5,7 +5,7 @@
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// From an ellipsoid at rest to the same one of another shape, in its own units: a point that lies at
 /// center + M u lies at center + M (u + map u + shift) there, with M = axes diag(radii).

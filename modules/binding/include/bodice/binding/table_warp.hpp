@@ -11,7 +11,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/table_reading.hpp>
 
-namespace bodice::binding {
+namespace bodice::inline v0_1::binding {
 
 /// The carried ellipsoids of a pose, and how their tables follow the skin there: what Poser writes into
 /// texels, as a function of the direction. Reading is thread-safe.

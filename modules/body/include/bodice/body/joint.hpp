@@ -13,7 +13,9 @@
 #include <optional>
 #include <string_view>
 
-namespace bodice::body {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::body {
 
 /// Each is the near end of the bone that it is named after: kForearmL is the left elbow. Limbs are in pairs,
 /// left first; parents come before children.

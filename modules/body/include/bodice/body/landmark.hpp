@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::body {
+namespace bodice::inline v0_1::body {
 
 /// The points of a body that are found by name; of a pair the left one comes first.
 enum class LandmarkId : std::uint8_t {

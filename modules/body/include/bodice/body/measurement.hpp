@@ -7,7 +7,9 @@
 #include <limits>
 #include <string_view>
 
-namespace bodice::body {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::body {
 
 /// Lengths, girths and angles of a body by name.
 enum class MeasurementId : std::uint8_t {

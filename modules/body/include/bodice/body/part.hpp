@@ -6,7 +6,9 @@
 #include <optional>
 #include <string_view>
 
-namespace bodice::body {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::body {
 
 /// A part of the body. Left and right are the body's own. The letters after kTorso are upper, middle or
 /// lower, then left or right. A forearm includes the hand, a calf the foot, the head the neck. From kThing on

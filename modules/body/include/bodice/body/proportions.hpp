@@ -8,7 +8,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::body {
+namespace bodice::inline v0_1::body {
 
 /// The sex that a survey's means are for.
 enum class Sex { kFemale, kMale };

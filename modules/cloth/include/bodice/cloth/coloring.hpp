@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Constraints grouped so that no two of a color share a particle. Those of a color can be solved in
 /// parallel, and the result does not depend on the number of workers.

@@ -7,7 +7,7 @@
 
 #include <bodice/engine/result.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Physical constants of a fabric. modules/cloth/README.md states the sources of the presets.
 struct Fabric {

@@ -13,7 +13,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// What acts on a garment besides the body.
 struct Environment {

@@ -6,7 +6,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::cloth {
+namespace bodice::inline v0_1::cloth {
 
 /// Vertices closer than this fraction of the median edge become one particle. It covers the rounding of files
 /// along seams, and keeps a facing that lies on another layer apart.

@@ -7,7 +7,7 @@
 
 #include <bodice/colliders/reduce.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 
 /// The convex hull of a piece of the skin: closed, wound outward, every edge with two triangles.
 struct ConvexPiece {

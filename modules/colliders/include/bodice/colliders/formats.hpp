@@ -9,7 +9,7 @@
 #include <bodice/colliders/plain_shape.hpp>
 #include <bodice/engine/result.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 
 /// A form that some engine reads. README.md has the axes and units of each.
 enum class Format : std::uint8_t { kUnity, kUnreal, kGodot, kVrm, kMujoco, kSdformat, kConvex };

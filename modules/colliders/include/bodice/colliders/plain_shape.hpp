@@ -11,7 +11,7 @@
 #include <bodice/geometry/types.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 
 using geometry::Mat3;
 using geometry::Vec3;

@@ -11,7 +11,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::colliders {
+namespace bodice::inline v0_1::colliders {
 
 /// Points of the surface that shapes are fitted to and judged by: vertices, each with its share of the area
 /// and the ellipsoid that owns it.

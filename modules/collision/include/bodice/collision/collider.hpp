@@ -11,7 +11,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/posed_proxy.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Particles as a structure of arrays, #P each, in the collider's local frame: world coordinates minus
 /// Collider::origin(). `safe_*` holds the last known position of each particle outside the body. Velocities

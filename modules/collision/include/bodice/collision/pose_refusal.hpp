@@ -8,7 +8,7 @@
 #include <bodice/geometry/ellipsoid.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// What Collider::move_to() refuses in a pose (world, meters) of a collider that was made from `proxy`: a
 /// sentence with the first unfit ellipsoid, its part, the joint that moves it, and the reason. Nothing where

@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace bodice::collision {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::collision {
 
 /// Vectors of three numbers in memory of the caller, `stride` bytes apart. Nothing needs alignment.
 struct StridedVectors {

@@ -14,7 +14,7 @@
 #include "simd/ellipsoid/closest_point-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 static_assert(CachedBatch::kSpan % kStep == 0 && kBlock % CachedBatch::kSpan == 0);
 

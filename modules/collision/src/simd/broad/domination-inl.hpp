@@ -19,7 +19,7 @@
 #include "simd/ellipsoid/closest_point-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr int kDominators = 2;
 static_assert(kDominators * kCorners % kWidth == 0);

@@ -20,7 +20,7 @@
 #include "simd/math/pack-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr int kCorners = 8;  // of a box
 

@@ -16,7 +16,7 @@
 #include "simd/narrow/query-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 Status query(const ProxyModel& model, Batch& batch, const ContactOutput& out) {
   return with_union(model, [&](const auto& proxy) { return query_all(proxy, batch, out); });

@@ -8,7 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 // These are defined in kernels_<target>.cpp.
 Status query(const ProxyModel& model, Batch& batch, const ContactOutput& out);
@@ -25,7 +25,7 @@ const char* target() {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 static_assert((HWY_TARGETS & ~(HWY_STATIC_TARGET | HWY_SCALAR | HWY_SSE4 | HWY_AVX2 | HWY_AVX3 | HWY_NEON)) ==
                   0,

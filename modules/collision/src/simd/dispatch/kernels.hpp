@@ -6,7 +6,7 @@
 #include "model/fallback.hpp"
 #include "model/proxy_model.hpp"
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 /// Writes the contacts of the batch; unless it is done, some contacts are unchanged.
 Status query_batch(const ProxyModel& model, Accuracy accuracy, Batch& batch, const ContactOutput& out);

@@ -10,7 +10,7 @@
 #include "simd/response/surface-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// Least radius of the ellipsoids with boxes within `window` of the block's box, which includes the
 /// particles' paths; 1e30 if there are none.

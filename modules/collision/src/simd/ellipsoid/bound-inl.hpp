@@ -20,7 +20,7 @@
 #include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr float kNoLimit_m = 1e30f;
 

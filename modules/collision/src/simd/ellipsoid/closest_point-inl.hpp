@@ -28,7 +28,7 @@
 #include "simd/ellipsoid/shape-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr int kUsualSteps = 2;         // includes the one from the surface; enough near shapes like limbs
 constexpr int kMaxSteps = 24;          // the most that aspect ratios of 1:1000 need

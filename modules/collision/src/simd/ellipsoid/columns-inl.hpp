@@ -16,7 +16,7 @@
 #include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 /// Copies kFloats numbers of each of four structures into a column each.

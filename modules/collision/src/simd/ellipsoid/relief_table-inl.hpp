@@ -10,7 +10,7 @@
 #include "simd/ellipsoid/shape-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// The table of each lane's ellipsoid: the members of BakedTable except its axes.
 struct TableLanes {

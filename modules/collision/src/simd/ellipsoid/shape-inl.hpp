@@ -12,7 +12,7 @@
 #include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// The numbers of BakedEllipsoid: one ellipsoid in every lane, or another one in each.
 struct Shape {

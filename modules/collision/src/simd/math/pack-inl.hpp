@@ -15,7 +15,7 @@
 #include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// The chosen lanes of a mask. Stores write whole vectors: what lies beyond the count must be overwritten or
 /// left unread.

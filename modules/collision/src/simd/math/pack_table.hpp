@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace bodice::collision {
+namespace bodice::inline v0_1::collision {
 
 inline constexpr int kPackLanes = 8;
 

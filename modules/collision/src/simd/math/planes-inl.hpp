@@ -9,7 +9,7 @@
 #include "simd/math/vec3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr float kLeastVolume = 1e-3f;  // of three unit normals; with less their planes meet far away
 

@@ -15,7 +15,7 @@
 #include "simd/narrow/pairs-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// Plain ellipsoids: takes the nearest; of equally near ones that of the lowest index.
 HWY_INLINE void combine_nearest(const Pairs& pairs, BatchResults& out) {

@@ -21,7 +21,7 @@
 #include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr float kMostSlope2 = 1e37f;
 

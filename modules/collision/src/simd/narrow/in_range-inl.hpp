@@ -15,7 +15,7 @@
 #include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// One step of particles: their positions, bounds, and which may be within the limit.
 template <int kLowest>

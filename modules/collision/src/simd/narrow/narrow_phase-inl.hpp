@@ -18,7 +18,7 @@
 #include "simd/narrow/pairs-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// Pairs of particles and candidates that remain open after the first evaluation.
 struct Open {

@@ -14,7 +14,7 @@
 #include "simd/narrow/unions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// Positions and the ellipsoids that they were pushed clear of: internal indices, or negative.
 struct ClearedPositions {

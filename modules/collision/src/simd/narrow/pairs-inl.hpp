@@ -14,7 +14,7 @@
 #include "simd/math/pack-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// The distances of kSize particles to one ellipsoid each, as arrays.
 template <int kSize>

@@ -13,7 +13,7 @@
 #include "simd/narrow/nearest-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// A vector of results as contacts.
 HWY_INLINE ContactLanes contacts_at(const BatchResults& found, int i, V3 p, V margin) {

@@ -16,7 +16,7 @@
 #include "simd/narrow/narrow_phase-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// Copies the result of one lane to another.
 HWY_INLINE void copy_result(const BatchResults& from, int lane, BatchResults& to, int to_lane) {

@@ -18,7 +18,7 @@
 #include "simd/narrow/pairs-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// The proxy as the union of plain ellipsoids: its distance is that of the nearest ellipsoid.
 struct PlainUnion {

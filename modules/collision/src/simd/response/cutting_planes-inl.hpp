@@ -14,7 +14,7 @@
 #include "simd/response/push_state-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr int kPlainRounds = 6;
 constexpr int kNonconvexRounds = 6;

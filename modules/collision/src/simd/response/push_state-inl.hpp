@@ -16,7 +16,7 @@
 #include "simd/math/planes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// A plane of each particle: the half-space beyond it is clear of an ellipsoid.
 struct alignas(64) PlaneRows {

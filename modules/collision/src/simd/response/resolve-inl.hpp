@@ -20,7 +20,7 @@
 #include "simd/response/velocity-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 // Longer pushes, in multiples of the depth, come from surfaces that nearly face each other and are left to
 // the exact side.

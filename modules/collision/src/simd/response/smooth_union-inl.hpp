@@ -12,7 +12,7 @@
 #include "simd/response/tangent_candidates-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// The distance of the smooth union in each lane.
 struct Sample {

@@ -18,7 +18,7 @@
 #include "simd/response/smooth_union-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 constexpr float kOvershoot = static_cast<float>(kReliefOvershoot);
 constexpr float kSolverError = static_cast<float>(kClosestPointError);

@@ -18,7 +18,7 @@
 #include "simd/math/pack-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// The ellipsoids near a block and their tangent planes at its middle.
 struct TangentCandidates {

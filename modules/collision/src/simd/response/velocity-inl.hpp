@@ -13,7 +13,7 @@
 #include "simd/response/push_state-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace bodice::collision::HWY_NAMESPACE {
+namespace bodice::inline v0_1::collision::HWY_NAMESPACE {
 
 /// A plane of the contact at x, active only if x lies on it. Elsewhere its normal is zero, so that it does
 /// not restrict velocities.

@@ -3,7 +3,7 @@
 
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Time that a query of 10,000 particles takes by the cost model, in microseconds. The model is a formula and
 /// no measurement, so that fits repeat. Conditions: particles within 30 mm of the skin, in Morton order,

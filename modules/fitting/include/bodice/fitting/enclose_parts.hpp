@@ -8,7 +8,7 @@
 #include <bodice/fitting/fit.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// Makes a proxy of tier solid with one ellipsoid for each wanted part that has skin. The ellipsoid encloses
 /// every triangle that has a corner in the part, so that the union holds the whole skin of these parts. Its

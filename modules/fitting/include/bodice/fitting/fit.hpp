@@ -15,7 +15,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The skin that a proxy is fitted to: a closed mesh with a part for each vertex, from any source of labels.
 struct LabeledSkin {

@@ -7,7 +7,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 using geometry::Index;
 using geometry::Vec3;

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/ellipsoid.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 using geometry::Vec3;
 

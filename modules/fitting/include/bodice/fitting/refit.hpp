@@ -20,7 +20,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/table_reading.hpp>
 
-namespace bodice::fitting {
+namespace bodice::inline v0_1::fitting {
 
 /// The tables of a pose, as far as a refit needs them. Calls come from many threads.
 class PosedTables {

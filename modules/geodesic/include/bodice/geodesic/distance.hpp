@@ -5,7 +5,7 @@
 
 #include <bodice/geodesic/edge_graph.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 
 /// The distance of a vertex that no source reaches, because it lies on another piece of the mesh.
 inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();

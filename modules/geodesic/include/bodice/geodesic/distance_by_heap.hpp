@@ -3,7 +3,7 @@
 
 #include <bodice/geodesic/distance.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 
 /// The same bits as distances(), by a binary heap. Cost: O(#links log #V), about three times that of
 /// distances().

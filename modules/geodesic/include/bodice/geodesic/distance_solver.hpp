@@ -3,7 +3,7 @@
 
 #include <bodice/geodesic/distance.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 
 /// A method. Errors are against exact polyhedral distances on a body of 13,000 vertices; bench/geodesic
 /// prints them and the times.

@@ -4,7 +4,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/mesh_edges.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 
 /// The paths across the skin that a graph allows.
 enum class Metric {

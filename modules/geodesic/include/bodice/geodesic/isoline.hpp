@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/mesh_edges.hpp>
 
-namespace bodice::geodesic {
+namespace bodice::inline v0_1::geodesic {
 
 /// A curve along which a field on the skin has one value.
 struct Isoline {

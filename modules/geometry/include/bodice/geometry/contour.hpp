@@ -9,7 +9,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// A field over space, negative inside. It changes by no more than the distance between two points: signed
 /// distances, and their minima and maxima, do so.

@@ -7,7 +7,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The pairs of triangles of which one has an edge that passes through the other, sorted, the smaller number
 /// first. Edges that end at a corner of the other triangle, by index or by equal positions, do not count, nor

@@ -8,7 +8,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// Disjoint sets of the numbers below `count`. The root of a set is its smallest member, so that the result
 /// does not depend on the order of unions.

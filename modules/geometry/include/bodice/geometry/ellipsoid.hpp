@@ -4,7 +4,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The solid ellipsoid { c + R diag(r) u : |u| <= 1 }.
 struct Ellipsoid {

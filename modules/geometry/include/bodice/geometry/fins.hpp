@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/mesh_edges.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// Marks (#F) the triangles of fins. Edges with three or more triangles cut the surface into pieces. A fin is
 /// a piece that hangs on such an edge, has an open edge besides, and is a few triangles or has next to no

@@ -2,7 +2,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// A coordinate axis of a file.
 enum class Axis : std::uint8_t { kX, kY, kZ };

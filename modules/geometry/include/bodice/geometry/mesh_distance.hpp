@@ -7,7 +7,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The closest point of a mesh to some point, with the distance between them.
 struct SurfacePoint {

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The undirected edges of a mesh, sorted by their lower, then by their higher end. A triangle that names a
 /// vertex twice has an edge from this vertex to itself, a loop.

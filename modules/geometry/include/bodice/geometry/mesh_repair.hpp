@@ -8,7 +8,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// Vertices nearer to each other than this fraction of the bounding box's diagonal are welded. Files keep 6
 /// or more digits, and real bodies have no edges this short.

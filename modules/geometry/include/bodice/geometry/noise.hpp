@@ -6,7 +6,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The standard deviation of the noise along the normals, in the mesh's unit; 0 where the surface is clean.
 /// A vertex is compared with a quadric through its neighbors.

@@ -6,7 +6,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// A closed surface, and which of its vertices lie on the surface that it was made from.
 struct RebuiltSurface {

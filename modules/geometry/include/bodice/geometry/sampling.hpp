@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// A sample point of a surface, with the triangle that holds it.
 struct SurfaceSample {

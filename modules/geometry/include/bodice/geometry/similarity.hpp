@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// Departure of L^T L from a multiple of the identity that is mended, no unit: entries of L off by a
 /// thousandth, which chains of float matrices do not reach.

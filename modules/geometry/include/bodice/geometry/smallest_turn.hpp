@@ -4,7 +4,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// The rotation by the least angle that takes the direction of one vector to that of another, within 1e-7;
 /// neither vector may be zero. Opposite vectors have many such rotations, of which one is chosen that depends

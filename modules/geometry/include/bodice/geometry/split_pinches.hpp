@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// Where four or more triangles meet at an edge of a closed, wound mesh, gives each sheet of surface a vertex
 /// of its own, so that every edge has two triangles. The copies, the original among them, move from it toward

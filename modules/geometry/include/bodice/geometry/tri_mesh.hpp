@@ -4,7 +4,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// An indexed triangle mesh. Inside bodice its unit is the meter, y is up, and triangles are
 /// counter-clockwise seen from outside.

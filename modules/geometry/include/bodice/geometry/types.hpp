@@ -8,7 +8,9 @@
 
 #include <Eigen/Core>
 
-namespace bodice::geometry {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::geometry {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;

@@ -6,7 +6,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/io/scene.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Writes the kept frames of a garment as PC2 (little-endian) or MDD (big-endian, with times), by the file's
 /// extension, in the unit and axes of `frame`, as floats. Vertices are those of the garment's mesh in the

@@ -14,7 +14,7 @@
 #include <bodice/geometry/frame.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// How a garment looks: the materials, images and texture coordinates of its file, and its name. It is made
 /// by import_garment() and used by write_glb() for a mesh with the same triangles.

@@ -7,7 +7,7 @@
 #include <bodice/geometry/frame.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Writes a mesh as Wavefront OBJ in the unit and axes of `frame`, with enough digits to read the same floats
 /// back. The file appears whole or not at all. Fails with kWriteFailed.

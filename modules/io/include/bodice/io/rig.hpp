@@ -10,7 +10,7 @@
 #include <bodice/io/import.hpp>
 #include <bodice/rig/rig.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// A body and what moves it. The rig's weights are those of body.skin, its bind pose is the skin as imported.
 struct RiggedBody {

@@ -18,7 +18,7 @@
 #include <bodice/proxy/proxy_surface.hpp>
 #include <bodice/rig/rig.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 struct Look;
 

@@ -9,7 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/io/scene.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The content of a GLB of write_glb(), in meters, y up. What the file lacks is empty.
 struct SceneFile {

@@ -10,7 +10,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/io/import.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 struct DetectedFrame {
   geometry::Frame frame;

@@ -10,7 +10,7 @@
 
 #include "import/scene/file_scene.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 struct ChosenBody {
   geometry::TriMesh shape;  ///< file coordinates; vertices in the order of their meshes

@@ -10,7 +10,7 @@
 #include <bodice/geometry/mesh_edges.hpp>
 #include <bodice/geometry/rebuild.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

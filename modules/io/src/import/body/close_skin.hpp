@@ -9,7 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/mesh_repair.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// A closed skin, and which of its vertices the file does not have.
 struct ClosedSkin {

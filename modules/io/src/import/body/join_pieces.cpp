@@ -8,7 +8,7 @@
 
 #include <bodice/geometry/mesh_distance.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "import/body/piece.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Whether most of a piece's area lies in a few planes, as that of furniture and rooms does.
 bool is_flat_sided(const JoinedScene& joined, const Piece& piece);

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/mesh_repair.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

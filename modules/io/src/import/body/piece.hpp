@@ -9,7 +9,7 @@
 
 #include "import/scene/file_scene.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// All triangles of a file, welded by position, with the mesh that each came from.
 struct JoinedScene {

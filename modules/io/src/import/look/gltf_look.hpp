@@ -7,7 +7,7 @@
 #include "import/look/mesh_look.hpp"
 #include "import/source/gltf_document.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Takes materials of a document one by one, each once and with all that it refers to.
 class GltfLook {

@@ -12,7 +12,7 @@
 
 #include "look/look.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The look of one mesh of a file.
 struct MeshLook {

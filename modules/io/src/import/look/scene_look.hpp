@@ -11,7 +11,7 @@
 
 #include "import/look/mesh_look.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Takes materials of a scene one by one, each once.
 class SceneLook {

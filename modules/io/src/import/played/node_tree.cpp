@@ -1,6 +1,6 @@
 #include "import/played/node_tree.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

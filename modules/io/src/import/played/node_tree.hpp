@@ -11,7 +11,7 @@
 
 #include "import/source/gltf_document.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 class NodeTree {
  public:

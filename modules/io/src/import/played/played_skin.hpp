@@ -10,7 +10,7 @@
 
 #include "import/played/node_tree.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The rig that a skin and the first animation of a document make for a mesh of so many vertices; empty where
 /// they do not fit together. Joints need no order; what stands above all of them does not move the skin.

@@ -7,7 +7,7 @@
 
 #include "import/rig/build_skeleton.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -11,7 +11,7 @@
 
 #include "import/scene/file_rig.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The rig of `skin`, made of input vertices by `vertex_of_input` (#input -> skin vertex or kNoIndex);
 /// `weights` are the input's, and the first input vertex of a weld gives its own. Vertices without weights

@@ -5,7 +5,7 @@
 
 #include <Eigen/SVD>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 
@@ -56,7 +56,7 @@ ToInside to_inside(const FileRig& file, const geometry::Frame& frame) {
 rig::Track to_inside(rig::Track track, const ToInside& to, bool is_root) {
   for (Vec3& t : track.translation.value) t = to.meters_per_unit * (is_root ? Vec3(to.turn * t) : t);
   if (is_root)
-    for (Eigen::Quaterniond& q : track.rotation.value) q = to.rotation * q;
+    for (rig::Quaternion& q : track.rotation.value) q = to.rotation * q;
   return track;
 }
 

@@ -10,7 +10,7 @@
 
 #include "import/scene/file_rig.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 struct BuiltSkeleton {
   rig::Skeleton skeleton;

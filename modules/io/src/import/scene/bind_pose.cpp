@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

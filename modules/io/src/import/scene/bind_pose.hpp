@@ -7,7 +7,7 @@
 
 #include "import/scene/file_rig.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The matrix that takes a mesh to the world. `node_to_world` is its node's; a skinned mesh follows its bones
 /// where they agree on the bind pose.

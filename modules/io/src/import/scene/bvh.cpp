@@ -16,7 +16,7 @@
 #include "import/scene/scene_rig.hpp"
 #include "import/source/input_file.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "import/scene/file_rig.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Reads nodes and one clip in the file's units. Positions replace the offset of their joint; angles are
 /// degrees, and the first channel turns outermost. The end of a limb becomes a node named after its parent.

@@ -15,7 +15,7 @@
 #include <bodice/geometry/types.hpp>
 #include <bodice/rig/clip.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 struct FileNode {
   std::string name;

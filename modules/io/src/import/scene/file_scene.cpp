@@ -5,7 +5,7 @@
 
 #include <bodice/engine/random.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include "import/look/mesh_look.hpp"
 #include "import/scene/file_rig.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 struct FileMesh {
   std::string name;         ///< the mesh's name, else its node's; may be empty

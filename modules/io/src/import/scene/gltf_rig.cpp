@@ -6,7 +6,7 @@
 
 #include "import/source/gltf_skin.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 using nlohmann::json;
 

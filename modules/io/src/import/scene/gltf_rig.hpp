@@ -8,7 +8,7 @@
 #include "import/scene/scene_rig.hpp"
 #include "import/source/gltf_document.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// A glTF document beside the scene that assimp made of it.
 class GltfRig {

@@ -5,7 +5,7 @@
 
 #include "import/scene/file_scene.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The looks of all meshes, in their order, for the triangles that repair kept; null where the file has
 /// none. `triangle_of_input` is that of geometry::RepairedMesh. O(#F).

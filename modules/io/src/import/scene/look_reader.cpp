@@ -4,7 +4,7 @@
 
 #include "import/source/obj_materials.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 LookReader::LookReader(const aiScene& scene, const GltfRig* gltf, const std::filesystem::path& folder,
                        bool materials, FileLook& out)

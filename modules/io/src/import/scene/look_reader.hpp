@@ -10,7 +10,7 @@
 #include "import/scene/gltf_rig.hpp"
 #include "import/source/file_format.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// A mesh of a node of the scene.
 struct NodeMesh {

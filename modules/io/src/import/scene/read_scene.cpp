@@ -16,7 +16,7 @@
 #include "import/source/check_gltf.hpp"
 #include "import/source/input_file.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "import/scene/bind_pose.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 
@@ -67,7 +67,7 @@ rig::Track track_of(const aiNodeAnim& channel, double ticks_per_second) {
   rig::Track track;
   track.translation = keys_of<rig::Vec3>(channel.mPositionKeys, channel.mNumPositionKeys, ticks_per_second);
   track.rotation =
-      keys_of<Eigen::Quaterniond>(channel.mRotationKeys, channel.mNumRotationKeys, ticks_per_second);
+      keys_of<rig::Quaternion>(channel.mRotationKeys, channel.mNumRotationKeys, ticks_per_second);
   track.scale = keys_of<rig::Vec3>(channel.mScalingKeys, channel.mNumScalingKeys, ticks_per_second);
   sort_keys(track.translation);
   sort_keys(track.rotation);

@@ -9,7 +9,7 @@
 
 #include "import/scene/file_rig.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// A node hierarchy deeper than this is hostile; assimp itself recurses, real rigs have under 50 levels.
 inline constexpr int kMaxNodeDepth = 1000;

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Splits a polygon, convex or not, into size - 2 triangles of the same winding by cutting ears, and appends
 /// them. Fewer than three corners give none. Polygons that cross themselves or are not finite are fanned.

@@ -10,7 +10,7 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/importerdesc.h>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

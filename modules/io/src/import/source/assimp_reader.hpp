@@ -9,7 +9,7 @@
 
 #include "import/source/file_format.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// assimp chooses among some fifty readers by a file's name, and several of them crash on files that are not
 /// theirs. Here all but the wanted one are removed before a file is opened.

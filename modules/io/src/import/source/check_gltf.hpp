@@ -7,7 +7,7 @@
 
 #include "import/source/gltf_document.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Checks that skins have an inverse bind matrix a joint, that vertices' joints and weights can be read, and
 /// that animations have values for their times. Fails with kUnreadable and names the skin, the mesh or the

@@ -14,7 +14,7 @@
 
 #include "import/source/words.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 enum class Format { kUnknown, kObj, kPly, kStl, kGltf, kGlb, kFbx, kCollada, kColladaArchive, kBvh };
 

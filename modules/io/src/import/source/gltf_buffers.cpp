@@ -7,7 +7,7 @@
 
 #include "import/source/input_file.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// A file taken apart: its JSON text, and the binary chunk of a GLB.
 struct GltfText {

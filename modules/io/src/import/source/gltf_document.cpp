@@ -8,7 +8,7 @@
 #include "import/source/gltf_buffers.hpp"
 #include "import/source/input_file.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The numbers of an accessor: `components` of each of `count` elements, integers scaled where it is
 /// normalized.

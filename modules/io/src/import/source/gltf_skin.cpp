@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 
@@ -60,7 +60,7 @@ bool read_keys(const GltfDocument& document, const json& sampler, rig::Keys<rig:
   return read(document, sampler, 3, keys);
 }
 
-bool read_keys(const GltfDocument& document, const json& sampler, rig::Keys<Eigen::Quaterniond>& keys) {
+bool read_keys(const GltfDocument& document, const json& sampler, rig::Keys<rig::Quaternion>& keys) {
   return read(document, sampler, 4, keys);
 }
 

@@ -8,7 +8,7 @@
 
 #include "import/source/gltf_document.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Sets of four weights a vertex that are read of one primitive.
 inline constexpr std::size_t kMostWeightSets = 64;
@@ -21,7 +21,6 @@ bool visit_weights(const GltfDocument& document, const nlohmann::json& attribute
 /// Reads the keys of a sampler. False where its times and values are missing or do not fit together; the keys
 /// then stay as they are.
 bool read_keys(const GltfDocument& document, const nlohmann::json& sampler, rig::Keys<rig::Vec3>& keys);
-bool read_keys(const GltfDocument& document, const nlohmann::json& sampler,
-               rig::Keys<Eigen::Quaterniond>& keys);
+bool read_keys(const GltfDocument& document, const nlohmann::json& sampler, rig::Keys<rig::Quaternion>& keys);
 
 }  // namespace bodice::io

@@ -10,7 +10,7 @@
 
 #include "import/source/file_format.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

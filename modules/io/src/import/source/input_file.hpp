@@ -9,7 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/frame.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// Fails with one sentence if the file is missing, no regular file, empty or inaccessible, or has no whole
 /// PLY header where it is PLY.

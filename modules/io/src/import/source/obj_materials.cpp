@@ -9,7 +9,7 @@
 #include "import/source/input_file.hpp"
 #include "import/source/words.hpp"
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 namespace {
 

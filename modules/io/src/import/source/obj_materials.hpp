@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 /// The files that the lines `mtllib` of an OBJ name, whether they are there or not.
 std::vector<std::filesystem::path> material_libraries(const std::filesystem::path& obj);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 
 inline constexpr std::string_view kBlanks = " \t\r\n";
 

@@ -12,7 +12,7 @@
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::page {
+namespace bodice::inline v0_1::page {
 
 /// A point with a name, in meters.
 struct NamedPoint {

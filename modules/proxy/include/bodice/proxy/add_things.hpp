@@ -6,7 +6,7 @@
 
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// The joint of a bound proxy that things beside the body hang on: the last one. It has no parent, and its
 /// matrix is the identity in every pose.

@@ -14,7 +14,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// Plain data. E ellipsoids, J joints, X texels of the bound proxy.
 struct BasePose {

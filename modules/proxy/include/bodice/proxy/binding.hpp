@@ -9,10 +9,12 @@
 
 #include <Eigen/Core>
 
-namespace bodice::proxy {
+#include <bodice/engine/version.hpp>
 
-/// x -> A.leftCols<3>() x + A.col(3).
-using JointMatrix = Eigen::Matrix<double, 3, 4>;
+namespace bodice::inline v0_1::proxy {
+
+/// x -> A.leftCols<3>() x + A.col(3). The same type as rig::Affine.
+using JointMatrix = Eigen::Matrix<double, 3, 4, Eigen::DontAlign>;
 
 /// One joint's share of an ellipsoid's affine map: the map is the sum over its terms of T * matrix, where T
 /// is the joint's skinning matrix with (0, 0, 0, 1) below it.

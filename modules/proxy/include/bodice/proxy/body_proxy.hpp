@@ -14,7 +14,7 @@
 #include <bodice/geometry/frame.hpp>
 #include <bodice/proxy/binding.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// A promise of accuracy, from the paper as written to a fraction of a millimeter; README.md has the numbers.
 enum class Tier : std::uint8_t { kPaper, kSolid, kTight, kRelief };

@@ -19,7 +19,7 @@
 
 #include <bodice/proxy/proxy_distance.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// kappa of eq. (4'), no unit. Two to three serve alike; with more, ellipsoids yield that still are right.
 inline constexpr double kBurialWeight = 2.0;

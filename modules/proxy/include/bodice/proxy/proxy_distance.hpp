@@ -29,7 +29,7 @@
 
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 using geometry::Vec3;
 

@@ -12,7 +12,7 @@
 
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 std::string to_json(const BodyProxy& proxy);
 engine::Result<BodyProxy> from_json(std::string_view text);

@@ -9,7 +9,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/proxy/body_proxy.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// The proxy's surface as a mesh, with a normal and an owner a vertex.
 struct ProxySurface {

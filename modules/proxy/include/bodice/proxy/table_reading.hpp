@@ -4,7 +4,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::proxy {
+namespace bodice::inline v0_1::proxy {
 
 /// Where a table at rest is read for one direction of a pose, and how its values are changed for the pose.
 struct TableReading {

@@ -2,17 +2,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 using geometry::Mat3;
 using geometry::Vec3;
 
-/// x -> A.leftCols<3>() x + A.col(3).
-using Affine = Eigen::Matrix<double, 3, 4>;
+/// x -> A.leftCols<3>() x + A.col(3). Without Eigen's alignment, which differs between programs for
+/// processors with and without AVX.
+using Affine = Eigen::Matrix<double, 3, 4, Eigen::DontAlign>;
+/// The same for rotations that are stored.
+using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;
 
 inline Affine identity() {
   return Affine::Identity();

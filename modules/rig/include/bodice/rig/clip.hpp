@@ -9,7 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/rig/skeleton.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 /// How values between two keys come about: the earlier key's value; a straight line (great arc for
 /// rotations); or a cubic Hermite spline through the keys with their tangents.
@@ -29,8 +29,8 @@ struct Keys {
 /// The keys of one joint. A kind of key that is absent leaves the joint's own local value.
 struct Track {
   std::uint16_t joint = 0;
-  Keys<Vec3> translation;             ///< meters
-  Keys<Eigen::Quaterniond> rotation;  ///< unit quaternions
+  Keys<Vec3> translation;     ///< meters
+  Keys<Quaternion> rotation;  ///< unit quaternions
   Keys<Vec3> scale;
 };
 

@@ -8,7 +8,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/rig/clip.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 struct RetargetReport {
   std::vector<std::string> matched;           ///< joints of the target that a joint of the source moves

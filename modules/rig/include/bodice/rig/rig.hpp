@@ -8,7 +8,7 @@
 #include <bodice/rig/skeleton.hpp>
 #include <bodice/rig/skinning.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 struct Rig {
   Skeleton skeleton;

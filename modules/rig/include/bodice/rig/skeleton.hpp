@@ -13,7 +13,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/rig/affine.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 /// Joints are addressed by 16 bits, of which one value stays free.
 inline constexpr std::size_t kMaxJoints = 65535;
@@ -22,7 +22,7 @@ inline constexpr std::int32_t kNoParent = -1;
 /// Joint space to the space of its parent: p -> translation + rotation (scale * p), meters.
 struct LocalTransform {
   Vec3 translation = Vec3::Zero();
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Quaternion rotation = Quaternion::Identity();
   Vec3 scale = Vec3::Ones();
 };
 

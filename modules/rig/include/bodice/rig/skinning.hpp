@@ -9,7 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/rig/skeleton.hpp>
 
-namespace bodice::rig {
+namespace bodice::inline v0_1::rig {
 
 /// Which joints move a vertex, and how much: entries first[v] to first[v + 1] belong to vertex v. Any number
 /// of joints a vertex, at least one.
@@ -46,8 +46,8 @@ Affine blended_matrix(const SkinWeights& weights, std::size_t vertex, std::span<
 /// A skinning matrix in two factors: first a symmetric stretch (scale, shear, reflection), then a rigid
 /// motion as the dual quaternion real + epsilon dual.
 struct DualQuaternion {
-  Eigen::Quaterniond real = Eigen::Quaterniond::Identity();
-  Eigen::Quaterniond dual = Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
+  Quaternion real = Quaternion::Identity();
+  Quaternion dual = Quaternion(0.0, 0.0, 0.0, 0.0);
   Mat3 stretch = Mat3::Identity();
 };
 

@@ -7,7 +7,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/rig/rig.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 /// MotionOptions::arms_out_deg with which hanging arms pass trunk and thighs: 0 for slim bodies, 12 for heavy
 /// ones, never more than 30. `part` is #V; the rig is bound to the skin and has the common skeleton, else the

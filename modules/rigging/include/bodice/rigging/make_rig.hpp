@@ -6,7 +6,7 @@
 #include <bodice/anatomy/anatomy.hpp>
 #include <bodice/rig/rig.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 struct FoundRig {
   rig::Rig rig;  ///< the 22 joints of body::JointId, bound to the skin as it is; no clips

@@ -9,7 +9,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/rig/clip.hpp>
 
-namespace bodice::rigging {
+namespace bodice::inline v0_1::rigging {
 
 enum class Motion : std::uint8_t {
   kWalk,    ///< one cycle of two steps in 1.1 s

@@ -16,7 +16,7 @@
 #include <bodice/rig/skeleton.hpp>
 #include <bodice/rig/skinning.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// The pose of a made body; kRandom depends on the seed.
 enum class Pose {

@@ -11,7 +11,7 @@
 #include <bodice/engine/result.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// The kind of a made garment.
 enum class GarmentKind { kSkirt, kTunic, kPoncho, kTube };

@@ -13,7 +13,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/synth/body.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 /// How a file came about, and what is in it.
 enum class ScanKind {

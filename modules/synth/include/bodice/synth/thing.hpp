@@ -8,7 +8,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/synth/body.hpp>
 
-namespace bodice::synth {
+namespace bodice::inline v0_1::synth {
 
 enum class ThingKind {
   kCube,    ///< half a meter wide

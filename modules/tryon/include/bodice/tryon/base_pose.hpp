@@ -11,7 +11,7 @@
 #include <bodice/tryon/motion.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Solves the tables of a bound proxy for the skin in one pose; `world` is joint space to world of each
 /// joint, #J. Its ellipsoids stay as they are carried. Fails with kInvalidArgument where the skin has no rig,

@@ -15,7 +15,7 @@
 #include <bodice/tryon/prop.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Length and detail of a drape.
 struct DrapeOptions {

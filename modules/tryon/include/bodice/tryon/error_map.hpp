@@ -7,7 +7,7 @@
 #include <bodice/io/scene.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Errors of the vertices of a skin, and colors for them.
 struct ErrorMap {

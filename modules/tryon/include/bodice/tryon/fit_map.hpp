@@ -10,7 +10,7 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/io/scene.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// What a map shows.
 enum class FitMap {

@@ -6,7 +6,7 @@
 
 #include <bodice/geometry/types.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Pieces of garments, each of some neighboring vertices, and their boxes. Not thread-safe.
 class GarmentReach {

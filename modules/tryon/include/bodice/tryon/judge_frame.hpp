@@ -12,7 +12,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Distances of a collider beside the exact signed distance to the skin it stands for.
 struct ProxyError {

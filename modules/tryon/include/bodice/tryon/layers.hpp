@@ -9,7 +9,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Moves garments away from the skin until each lies over those named before it: "shirt", "trousers" tucks
 /// the shirt in. A file's name does without folder and ending. Garments that are not named stay as they are.

@@ -5,7 +5,7 @@
 
 #include <bodice/body/measurement.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The unit of the lengths in such a text. GarmentCode reads centimeters.
 enum class TailorUnit { kMillimeter, kCentimeter };

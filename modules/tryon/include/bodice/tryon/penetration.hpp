@@ -7,7 +7,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/proxy/posed_proxy.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 inline constexpr double kDeep_m = 0.001;  ///< the depth of "deeper than 1 mm" in reports
 

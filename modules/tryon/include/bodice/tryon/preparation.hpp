@@ -12,7 +12,7 @@
 #include <bodice/engine/task_graph.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A body to read from a file.
 struct BodyFile {

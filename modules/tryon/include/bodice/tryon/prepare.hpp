@@ -18,7 +18,7 @@
 #include <bodice/rig/rig.hpp>
 #include <bodice/synth/body.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Called as long work proceeds, with a stage's name and the fraction of it that is done, 0..1. Calls come
 /// from one thread.

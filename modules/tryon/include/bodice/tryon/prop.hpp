@@ -9,7 +9,7 @@
 #include <bodice/fitting/fit.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Reads a thing in the unit, axes and coordinates of the body's file and fits it as io::Shape::kAny: with
 /// tier relief where the body has it, else tight, and to the body's scale. Of `options` the number of

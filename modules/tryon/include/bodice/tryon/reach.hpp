@@ -9,7 +9,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The parts of the skin within `margin_m` of any garment, as a bit set for FitOptions::parts; 0 if there is
 /// none. A part that is farther away, by at most the size of a triangle, may be included. Fails with

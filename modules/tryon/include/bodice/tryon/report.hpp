@@ -7,7 +7,7 @@
 #include <bodice/tryon/drape.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The run that a report is about, so that it can be repeated.
 struct RunInfo {

@@ -9,7 +9,7 @@
 #include <bodice/proxy/body_proxy.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A skin in another shape and its proxy.
 struct ReshapedBody {

@@ -10,7 +10,7 @@
 #include <bodice/tryon/preparation.hpp>
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Gives a skin without a rig one: the built-in body's own, where `source` is one, else a found one
 /// (rigging::make_rig). A skin that has a rig keeps it. Errors name the body and the remedy.

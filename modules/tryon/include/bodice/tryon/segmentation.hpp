@@ -6,7 +6,7 @@
 
 #include <bodice/tryon/prepare.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A JSON object with the indices of vertices: `body` (head and trunk), `left_arm`, `right_arm`, `left_leg`,
 /// `right_leg`, and `face_internal` for those inside the skin, such as eyes and teeth. Each vertex is in one

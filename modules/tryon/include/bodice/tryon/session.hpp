@@ -27,7 +27,7 @@
 #include <bodice/tryon/preparation.hpp>
 #include <bodice/tryon/rigged_body.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// How bodies are prepared, frames run and garments simulated.
 struct SessionOptions {

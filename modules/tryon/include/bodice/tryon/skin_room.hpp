@@ -11,7 +11,7 @@
 #include <bodice/geometry/mesh_distance.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// Widths of the gaps of one skin. It refers to the mesh and its distance, which must outlive it.
 class SkinRoom {

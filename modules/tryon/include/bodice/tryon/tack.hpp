@@ -10,7 +10,7 @@
 #include <bodice/engine/context.hpp>
 #include <bodice/geometry/tri_mesh.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// The distance up to which pieces are tacked where none is given, meters: that of two layers that touch.
 inline constexpr double kTackWithin_m = 0.006;

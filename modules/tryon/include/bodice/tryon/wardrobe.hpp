@@ -12,11 +12,11 @@
 #include <bodice/geometry/tri_mesh.hpp>
 #include <bodice/tryon/tack.hpp>
 
-namespace bodice::io {
+namespace bodice::inline v0_1::io {
 struct Look;
 }
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A garment to wear.
 struct WornGarment {

@@ -8,7 +8,7 @@
 #include <bodice/tryon/prepare.hpp>
 #include <bodice/tryon/wardrobe.hpp>
 
-namespace bodice::tryon {
+namespace bodice::inline v0_1::tryon {
 
 /// A garment cut to this skin, named by its kind; the body holds it by its waistband, if it has one. Fails
 /// and costs as synth::make_garment().

@@ -6,9 +6,11 @@
 
 #if defined(__SSE2__)
 #include <immintrin.h>
+
+#include <bodice/engine/version.hpp>
 #endif
 
-namespace bodice::geometry {
+namespace bodice::inline v0_1::geometry {
 
 /// A vector of four floats, one a lane.
 using Float4 = float __attribute__((vector_size(16)));

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
-namespace bodice::geometry {
+#include <bodice/engine/version.hpp>
+
+namespace bodice::inline v0_1::geometry {
 
 /// Bits that a Morton code takes of each cell number.
 inline constexpr int kMortonBits = 10;
