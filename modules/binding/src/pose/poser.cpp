@@ -22,7 +22,7 @@ namespace {
 using proxy::JointMatrix;
 
 /// Ellipsoids of one task: few, since their tables differ in size.
-constexpr std::size_t kGrain = 4;
+constexpr std::size_t kEllipsoidGrain = 4;
 
 bool overlap(const geometry::Box& a, const geometry::Box& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
@@ -105,7 +105,7 @@ Poser::Impl::Impl(proxy::BodyProxy proxy)
   TableScratch one;
   one.reserve(most);
   one.values.resize(1);
-  scratch.assign((bound.ellipsoids().size() + kGrain - 1) / kGrain, one);
+  scratch.assign((bound.ellipsoids().size() + kEllipsoidGrain - 1) / kEllipsoidGrain, one);
 }
 
 bool Poser::Impl::find_all_follow_nodes(std::size_t k) const {
@@ -190,9 +190,11 @@ void Poser::Impl::pose_all(const engine::Context& context, const PoseOptions& op
   proxy::PosedProxy& posed = pose[1 - current];
   posed.scale = joints.scale();
   posed.burial_step_m = static_cast<float>(double{binding.burial_step_m} * posed.scale);
-  engine::parallel_for(context, posed.shapes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) pose_ellipsoid(k, options, scratch[begin / kGrain], posed);
-  });
+  engine::parallel_for(context, posed.shapes.size(), kEllipsoidGrain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t k = begin; k < end; ++k)
+                           pose_ellipsoid(k, options, scratch[begin / kEllipsoidGrain], posed);
+                       });
   current = 1 - current;
   ++poses;
 }

@@ -9,9 +9,9 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr float kSpare =
+constexpr float kTravelSpare =
     2.0f;  // the query band covers this times the expected travel: constraints pull some faster
-constexpr double kFar_m = 1e6;  // bounds the query band
+constexpr double kMostTravel_m = 1e6;  // bounds the query band
 // If fewer than one cluster in kWorthQueries is clear, queries cost more than they save, and pause for kWait
 // frames.
 constexpr std::size_t kWorthQueries = 8;
@@ -72,8 +72,9 @@ void begin_clearance_frame(const engine::Context& context, const collision::Coll
     return;
   }
   const Steepness& steepness = still_body->has_relief() ? kReliefSteepness : kPlainSteepness;
-  const QueryBand band = {static_cast<float>(thickness_m) + steepness.rise_m,
-                          kSpare * steepness.slope * static_cast<float>(std::min(kFar_m, travel_m))};
+  const QueryBand band = {
+      static_cast<float>(thickness_m) + steepness.rise_m,
+      kTravelSpare * steepness.slope * static_cast<float>(std::min(kMostTravel_m, travel_m))};
   c.slope = steepness.slope;
   query_clusters(context, *still_body, band, touching, particles, c);
   const auto far = std::ranges::count_if(c.free_m, [](float free_m) { return free_m > 0.0f; });

@@ -7,11 +7,11 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr float kFar_m = 1e30f;
+constexpr float kBeyondAll_m = 1e30f;
 constexpr std::size_t kFitsATask = 128;
 
 Sweep empty_sweep() {
-  const Float4 far = {kFar_m, kFar_m, kFar_m, 0.0f};
+  const Float4 far = {kBeyondAll_m, kBeyondAll_m, kBeyondAll_m, 0.0f};
   return {far, -far, splat(0.0f), splat(0.0f)};
 }
 

@@ -14,7 +14,7 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-constexpr float kNever_m = std::numeric_limits<float>::infinity();
+constexpr float kNoPath_m = std::numeric_limits<float>::infinity();
 constexpr std::size_t kMovesATask = 256;
 constexpr int kPushes = 2;  // sweeps over the contacts of a substep
 // Pairs of leaves that move by more than the slack in a substep are found for so many times that step, so
@@ -49,7 +49,7 @@ void refresh_group(const ContactSource& source, float step_m, PairGroup& group, 
     pair.contact = kNoContact;
     if (!(pair.until_m > group.travel_m + step_m)) {
       const PairContact contact = contact_of(source, pair);
-      pair.until_m = contact.gap_m > 0.0f ? group.travel_m + contact.apart_m - contact.gap_m : kNever_m;
+      pair.until_m = contact.gap_m > 0.0f ? group.travel_m + contact.apart_m - contact.gap_m : kNoPath_m;
       if (are_loose(pair.particle, pair.edges, source.loose)) {
         pair.until_m = std::min(pair.until_m, group.travel_m);  // it is looked at again when it no longer is
       } else if (pair.until_m < group.travel_m + step_m) {
@@ -108,7 +108,7 @@ void find_moves(const engine::Context& context, const ContactMesh& mesh, std::sp
                 std::span<const Point> now, std::vector<LeafMove>& moves) {
   engine::parallel_for(context, mesh.leaves(), kMovesATask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t leaf = begin; leaf < end; ++leaf) {
-      const Float4 far = splat(kNever_m);
+      const Float4 far = splat(kNoPath_m);
       LeafMove m = {far, -far, far, -far};
       for (const Index i : mesh.particles_of(leaf)) {
         const Float4 at = load(before[i]), move = load(now[i]) - at;

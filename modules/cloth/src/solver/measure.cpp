@@ -15,7 +15,7 @@ struct Motion {
   bool finite = true;
 };
 
-Motion add(const Motion& a, const Motion& b) {
+Motion sum_of(const Motion& a, const Motion& b) {
   return {a.kinetic + b.kinetic, a.gravity + b.gravity, a.asleep + b.asleep, a.finite && b.finite};
 }
 
@@ -48,7 +48,7 @@ Motion measure_block(const State& s, std::size_t begin, std::size_t end) {
 void measure_motion(const engine::Context& context, State& s, FrameReport& report) {
   const Motion motion = engine::ordered_reduce(
       context, s.particles.count(), reduce_grain(s.particles.count()), Motion{},
-      [&](std::size_t begin, std::size_t end) { return measure_block(s, begin, end); }, add);
+      [&](std::size_t begin, std::size_t end) { return measure_block(s, begin, end); }, sum_of);
   report.kinetic_energy_j = motion.kinetic;
   report.gravity_energy_j = motion.gravity;
   report.asleep = motion.asleep;

@@ -12,10 +12,10 @@
 namespace bodice::inline v0_1::fitting {
 namespace {
 
-constexpr std::size_t kChunk = 64;     // points a chunk: the ball of a larger one would rule out few centers
-constexpr std::size_t kGrain = 64;     // chunks a task: some 20 us of work
-constexpr Index kNowhere = ~Index{0};  // a point without a center
-constexpr float kRounding = 1e-5f;     // relative bound on the rounding of a distance in float
+constexpr std::size_t kChunk = 64;  // points a chunk: the ball of a larger one would rule out few centers
+constexpr std::size_t kChunkGrain = 64;     // chunks a task: some 20 us of work
+constexpr Index kNowhere = ~Index{0};       // a point without a center
+constexpr float kDistanceRounding = 1e-5f;  // relative bound on the rounding of a distance in float
 
 }  // namespace
 
@@ -47,7 +47,7 @@ void Lloyd::bound_chunk(std::size_t chunk) {
     for (int j = 0; j < 3; ++j) squared += (local_[j][i] - ball.middle[j]) * (local_[j][i] - ball.middle[j]);
     most = std::max(most, squared);
   }
-  ball.radius = std::sqrt(most) * (1.0f + kRounding);
+  ball.radius = std::sqrt(most) * (1.0f + kDistanceRounding);
 }
 
 std::vector<Index> Lloyd::of_point() const {
@@ -77,7 +77,7 @@ bool Lloyd::choose_candidates(const Chunk& chunk, Scratch& scratch) const {
     return std::sqrt(x * x + y * y + z * z);
   };
   const auto is_beyond = [](float distance, float most) {
-    return distance * (1.0f - kRounding) > most * (1.0f + kRounding);
+    return distance * (1.0f - kDistanceRounding) > most * (1.0f + kDistanceRounding);
   };
   const auto stays = [&](const Share& share) { return !moved_[share.center]; };
   const auto comes_near = [&](Index k) { return !is_beyond(from_middle(k), chunk.radius + chunk.farthest); };
@@ -108,7 +108,7 @@ void Lloyd::assign_chunk(std::size_t chunk, Scratch& scratch, std::vector<std::u
     farthest = std::max(farthest, std::bit_cast<std::uint32_t>(distance[i]));
     differ |= nearest[i] ^ of_point_[first + i];
   }
-  ball.farthest = std::sqrt(std::bit_cast<float>(farthest)) * (1.0f + kRounding);
+  ball.farthest = std::sqrt(std::bit_cast<float>(farthest)) * (1.0f + kDistanceRounding);
   if (differ == 0) return;
   for (std::size_t i = 0; i < n; ++i) {
     Index& own = of_point_[first + i];
@@ -134,9 +134,9 @@ void Lloyd::share_out(std::size_t chunk) {
 }
 
 void Lloyd::assign(const engine::Context& context) {
-  changed_of_block_.resize(engine::block_count(chunks_.size(), kGrain));
-  engine::parallel_for(context, chunks_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    auto& changed = changed_of_block_[begin / kGrain];
+  changed_of_block_.resize(engine::block_count(chunks_.size(), kChunkGrain));
+  engine::parallel_for(context, chunks_.size(), kChunkGrain, [&](std::size_t begin, std::size_t end) {
+    auto& changed = changed_of_block_[begin / kChunkGrain];
     changed.assign(centers_.size(), 0);
     Scratch scratch;
     for (std::size_t chunk = begin; chunk < end; ++chunk) assign_chunk(chunk, scratch, changed);

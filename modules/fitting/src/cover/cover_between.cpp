@@ -12,7 +12,7 @@ namespace bodice::inline v0_1::fitting {
 namespace {
 
 using Stretch = InteriorColumns::Stretch;
-using Near = std::vector<std::uint32_t>;  // indices of ellipsoids
+using NearEllipsoids = std::vector<std::uint32_t>;  // indices of ellipsoids
 
 constexpr int kSquareCuts = 3;      // squares are cut in four so many times
 constexpr double kShortest = 1e-2;  // fraction of the spacing: a shorter stretch is the rounding of two ends
@@ -86,8 +86,8 @@ void take_held(const std::array<std::span<const RowCover::Part>, 4>& corners, do
   }
 }
 
-Near all_of(const std::array<std::span<const RowCover::Part>, 4>& corners) {
-  Near near;
+NearEllipsoids all_of(const std::array<std::span<const RowCover::Part>, 4>& corners) {
+  NearEllipsoids near;
   for (const auto& corner : corners)
     for (const RowCover::Part& part : corner) near.push_back(part.ellipsoid);
   std::sort(near.begin(), near.end());
@@ -101,7 +101,7 @@ class SquareCutter {
   SquareCutter(std::span<const ColumnLine> lines, double shortest, std::vector<geometry::Box>& unsure)
       : lines_(lines), shortest_(shortest), unsure_(unsure) {}
 
-  void check(const Square& square, int cuts, const Near& near, std::vector<Stretch> left) {
+  void check(const Square& square, int cuts, const NearEllipsoids& near, std::vector<Stretch> left) {
     for (const std::uint32_t e : near) {
       const Stretch held = held_of(square, lines_[e]);
       if (held.first < held.second) take(held, shortest_, left);
@@ -117,7 +117,7 @@ class SquareCutter {
     }
   }
 
-  void cut(const Square& square, int cuts, const Near& near, const std::vector<Stretch>& left) {
+  void cut(const Square& square, int cuts, const NearEllipsoids& near, const std::vector<Stretch>& left) {
     const double half = 0.5 * square.size;
     for (const double dz : {0.0, half})
       for (const double dx : {0.0, half}) check({square.x + dx, square.z + dz, half}, cuts - 1, near, left);

@@ -22,7 +22,6 @@
 namespace bodice::inline v0_1::fitting {
 namespace {
 
-constexpr double kNoTimeLimit_s = 1e6;
 constexpr double kKeptTo = 1.1;     // times the target: the gap that the target search aims at
 constexpr double kWarnAbove = 1.2;  // times the target: a larger gap is a warning
 

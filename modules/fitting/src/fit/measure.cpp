@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kSurfaceSamples = 6000;   // points of the proxy's surface, distributed by area
 constexpr std::size_t kSkinSamples = 4000;      // points of the skin
 constexpr std::size_t kInteriorSamples = 3000;  // about so many points of the interior
-constexpr std::size_t kGrain = 64;              // points a task
+constexpr std::size_t kPointGrain = 64;         // points a task
 
 /// A point of one ellipsoid's surface at which the gap is measured.
 struct GapProbe {
@@ -91,7 +91,7 @@ void measure_skin(const engine::Context& context, const proxy::BodyProxy::Data& 
                   const LabeledSkin& skin, std::uint32_t parts, double tolerance_m, FitAccuracy& accuracy) {
   const auto samples = geometry::sample_surface(skin.mesh, kSkinSamples, 1);
   std::vector<double> outside(samples.size(), -1.0);
-  engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, samples.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const geometry::Index corner = skin.mesh.triangles[samples[i].triangle][0];
       if ((parts >> static_cast<int>(skin.part[corner])) & 1u)
@@ -117,7 +117,7 @@ void measure_interior(const engine::Context& context, const proxy::BodyProxy::Da
   const std::vector<Vec3> grid = interior_grid(skin.mesh, std::cbrt(volume / kInteriorSamples));
   std::vector<std::int8_t> state(grid.size(), -1);
   const bool all_parts = parts == kAllParts;
-  engine::parallel_for(context, grid.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, grid.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto hit =
           all_parts ? std::nullopt : distance.closest_point_within(grid[i], 10.0 * skin.stature_m);
@@ -160,7 +160,7 @@ Measured measure(const engine::Context& context, const proxy::BodyProxy::Data& p
   const double tolerance_m = 1e-6 * skin.stature_m;  // about a micrometer: a closer point is on the surface
   std::vector<GapProbe> probes = gap_probes(proxy);
   const std::vector<geometry::Ellipsoid> others = about_others(context, skin, parts);
-  engine::parallel_for(context, probes.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, probes.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       if (settle(proxy, probes[i], tolerance_m))
         if (const auto hit = distance.closest_point_within(probes[i].at.point, 10.0 * skin.stature_m);

@@ -12,7 +12,6 @@ namespace {
 using proxy::Tier;
 
 constexpr int kMostAttempts = 9;
-constexpr double kNearEnough = 1.10;    // a gap within this factor of the target has reached it
 constexpr double kFewestToStart = 8.0;  // with fewer than the body has limbs the gap formula does not hold
 /// Largest count of tier solid. With more, each ellipsoid grows so much to close the holes next to its
 /// neighbors that the gap widens again.
@@ -124,7 +123,7 @@ TargetSearch::TargetSearch(const FitOptions& options, double stature_m)
 }
 
 bool TargetSearch::reached(double gap_m) const {
-  return !target_m_ || (gap_m < kNearEnough * *target_m_ && *target_m_ < kNearEnough * gap_m);
+  return !target_m_ || (gap_m < kNearTarget * *target_m_ && *target_m_ < kNearTarget * gap_m);
 }
 
 double TargetSearch::size() const {

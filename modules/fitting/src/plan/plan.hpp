@@ -13,6 +13,9 @@ inline constexpr int kDefaultEllipsoids = 89;
 /// A target error may lead to up to this many ellipsoids.
 inline constexpr int kMostEllipsoids = 400;
 
+/// A gap within this factor of the target error has reached it.
+inline constexpr double kNearTarget = 1.10;
+
 /// What a fit runs with.
 struct Plan {
   proxy::Tier tier = proxy::Tier::kRelief;

@@ -8,17 +8,17 @@
 namespace bodice::inline v0_1::fitting {
 namespace {
 
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kPosedGrain = 256;
 constexpr std::size_t kTasksAtOnce = 32;  // about half a millisecond of grouping
 
 /// One ellipsoid near a sample.
-struct Near {
+struct NearSurface {
   std::uint32_t ellipsoid = 0;
   double distance_m = 0.0, score_m = 0.0;  ///< d, and d + kappa b
   proxy::TableReading reading;
 };
 
-struct Found {
+struct FoundTerm {
   std::uint32_t ellipsoid = 0;
   ReliefTerm term;
 };
@@ -32,14 +32,14 @@ class TermFinder {
   }
 
   /// Appends the terms of a sample and returns its target.
-  double find(const ReliefSample& sample, std::uint32_t index, std::vector<Found>& found) {
+  double find(const ReliefSample& sample, std::uint32_t index, std::vector<FoundTerm>& found) {
     find_near(sample.point);
     const double least = least_m_;
     if (least < -reach_.in_m && sample.signed_distance_m < -0.5 * reach_.in_m) near_.clear();
     double sum = 0.0;
-    for (const Near& n : near_) sum += weight(n);
+    for (const NearSurface& n : near_) sum += weight(n);
     double target_m = -sample.signed_distance_m;
-    for (const Near& n : near_) {
+    for (const NearSurface& n : near_) {
       const double share = weight(n) / sum;
       if (!(share > 0.0)) continue;
       const double clamped = std::clamp(n.distance_m, -reach_.in_m, reach_.out_m);
@@ -54,7 +54,7 @@ class TermFinder {
   }
 
  private:
-  double weight(const Near& n) const {
+  double weight(const NearSurface& n) const {
     const double ramp = std::max(0.0, 1.0 - (n.score_m - least_m_) / reach_.blend_m);
     return ramp * ramp;
   }
@@ -64,8 +64,8 @@ class TermFinder {
     const geometry::ClosestPoint closest = geometry::closest_point(e, point);
     if (closest.signed_distance > least_m_ + reach_.blend_m) return;
     const Vec3 w = (e.axes.transpose() * (closest.point - e.center)).cwiseQuotient(e.radii).normalized();
-    Near near{static_cast<std::uint32_t>(k), closest.signed_distance, 0.0,
-              input_.tables.read(static_cast<std::uint32_t>(k), w)};
+    NearSurface near{static_cast<std::uint32_t>(k), closest.signed_distance, 0.0,
+                     input_.tables.read(static_cast<std::uint32_t>(k), w)};
     near.score_m = near.distance_m + near.reading.burial_m;
     least_m_ = std::min(least_m_, near.score_m);
     near_.push_back(near);
@@ -98,19 +98,19 @@ class TermFinder {
   const RefitInput& input_;
   proxy::ReliefReach reach_;
   std::vector<double> bounds_;  // #E
-  std::vector<Near> near_;
+  std::vector<NearSurface> near_;
   double least_m_ = 0.0;
 };
 
 /// Groups the terms of all tasks by ellipsoid; tasks and samples keep their order. Frames come first now and
 /// then.
-void group(const engine::Context& context, std::span<const std::vector<Found>> tasks, std::size_t ellipsoids,
-           ReliefTerms& terms) {
+void group(const engine::Context& context, std::span<const std::vector<FoundTerm>> tasks,
+           std::size_t ellipsoids, ReliefTerms& terms) {
   const std::size_t samples = terms.target_m.size();
   terms.begin.assign(ellipsoids + 1, 0);
   terms.of_begin.assign(samples + 1, 0);
   for (const auto& task : tasks)
-    for (const Found& f : task) {
+    for (const FoundTerm& f : task) {
       ++terms.begin[f.ellipsoid + 1];
       ++terms.of_begin[f.term.sample + 1];
     }
@@ -122,7 +122,7 @@ void group(const engine::Context& context, std::span<const std::vector<Found>> t
   std::size_t done = 0;
   for (const auto& task : tasks) {
     if (done++ % kTasksAtOnce == 0) context.checkpoint();
-    for (const Found& f : task) {
+    for (const FoundTerm& f : task) {
       terms.of.push_back(static_cast<std::uint32_t>(next[f.ellipsoid]));
       terms.term[next[f.ellipsoid]++] = f.term;
     }
@@ -133,13 +133,13 @@ void group(const engine::Context& context, std::span<const std::vector<Found>> t
 
 ReliefTerms find_posed_terms(const engine::Context& context, std::span<const ReliefSample> samples,
                              const RefitInput& input) {
-  std::vector<std::vector<Found>> tasks(engine::block_count(samples.size(), kGrain));
+  std::vector<std::vector<FoundTerm>> tasks(engine::block_count(samples.size(), kPosedGrain));
   ReliefTerms terms;
   terms.target_m.resize(samples.size());
-  engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, samples.size(), kPosedGrain, [&](std::size_t begin, std::size_t end) {
     TermFinder finder(input);
     for (std::size_t i = begin; i < end; ++i)
-      terms.target_m[i] = finder.find(samples[i], static_cast<std::uint32_t>(i), tasks[begin / kGrain]);
+      terms.target_m[i] = finder.find(samples[i], static_cast<std::uint32_t>(i), tasks[begin / kPosedGrain]);
   });
   for (const ReliefSample& sample : samples) {
     terms.weight.push_back(sample.weight);

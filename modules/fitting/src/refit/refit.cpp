@@ -13,11 +13,11 @@ namespace bodice::inline v0_1::fitting {
 namespace {
 
 /// Skin points and samples a point: fewer than for tables from nothing, since only what changed is solved.
-constexpr std::size_t kNormals = 14000;
-constexpr int kPerNormal = 4;
-constexpr int kSteps = 10, kSettleSteps = 3;
+constexpr std::size_t kRefitNormals = 14000;
+constexpr int kRefitPerNormal = 4;
+constexpr int kRefitSteps = 10, kRefitSettleSteps = 3;
 /// A node with less weight was determined by no sample; its values do not count for the range of a table.
-constexpr double kLeastWeight = 0.05;
+constexpr double kLeastRefitWeight = 0.05;
 
 using Vector = ReliefSystem::Vector;
 
@@ -53,7 +53,7 @@ Vector free_unknowns(const ReliefSystem& system, const RefitInput& input) {
 }
 
 /// The values that a byte can hold: low + size * byte / 255.
-struct Range {
+struct RefitRange {
   double low = 0.0, size = 0.0;
 
   std::uint8_t byte(double value) const {
@@ -63,11 +63,11 @@ struct Range {
 };
 
 /// The range at rest, with the values that samples determined.
-Range range_of(double low, double size, std::span<const double> values, std::span<const double> weight,
-               double most) {
+RefitRange range_of(double low, double size, std::span<const double> values, std::span<const double> weight,
+                    double most) {
   double high = low + size;
   for (std::size_t u = 0; u < values.size(); ++u) {
-    if (!(weight[u] > kLeastWeight)) continue;
+    if (!(weight[u] > kLeastRefitWeight)) continue;
     low = std::min(low, std::max(values[u], -most));
     high = std::max(high, std::min(values[u], most));
   }
@@ -77,8 +77,8 @@ Range range_of(double low, double size, std::span<const double> values, std::spa
 void store(const ReliefSystem& system, const Vector& x, std::size_t k, double most_m, RefitTables& tables) {
   proxy::ReliefTable& table = tables.relief[k];
   const auto h = system.h(x, k), a = system.a(x, k), weight = system.weight(k);
-  const Range h_range = range_of(double{table.h_offset_m}, double{table.h_scale_m}, h, weight, most_m);
-  const Range a_range = range_of(double{table.a_offset}, double{table.a_scale}, a, weight, most_m);
+  const RefitRange h_range = range_of(double{table.h_offset_m}, double{table.h_scale_m}, h, weight, most_m);
+  const RefitRange a_range = range_of(double{table.a_offset}, double{table.a_scale}, a, weight, most_m);
   table.h_offset_m = static_cast<float>(h_range.low);
   table.h_scale_m = static_cast<float>(h_range.size);
   table.a_offset = static_cast<float>(a_range.low);
@@ -94,7 +94,7 @@ RefitTables solved(const engine::Context& context, const LabeledSkin& posed, con
   const double reach_m = proxy::relief_reach(rest.stature_m() * input.scale).out_m;
   const SkinSource source = make_skin_source(context, posed, kAllParts);
   const FreeSkin skin(context, source);
-  const auto samples = sample_along_normals(context, skin, {kNormals, kPerNormal, reach_m, 23});
+  const auto samples = sample_along_normals(context, skin, {kRefitNormals, kRefitPerNormal, reach_m, 23});
   ReliefTerms terms = find_posed_terms(context, samples, input);
   std::vector<int> sides;
   for (const proxy::ReliefTable& table : rest.relief()) sides.push_back(table.nodes_per_side);
@@ -103,11 +103,11 @@ RefitTables solved(const engine::Context& context, const LabeledSkin& posed, con
   const Vector before = values_at_rest(system, rest);
   terms.target_m = system.errors(before);
   const Vector free = free_unknowns(system, input);
-  Vector x = system.solve(Vector::Zero(system.unknowns()), kSteps, free);
+  Vector x = system.solve(Vector::Zero(system.unknowns()), kRefitSteps, free);
   const double limit_m = proxy::relief_reach(rest.stature_m()).out_m;
   Vector all = before + x;
   const Vector unlimited = system.limit_slopes(all, limit_m);
-  x = system.solve(all - before, kSettleSteps, free.cwiseProduct(unlimited));
+  x = system.solve(all - before, kRefitSettleSteps, free.cwiseProduct(unlimited));
   all = before + x;
   RefitTables tables{{rest.relief().begin(), rest.relief().end()},
                      {rest.texels().begin(), rest.texels().end()}};

@@ -9,8 +9,8 @@
 namespace bodice::inline v0_1::fitting {
 namespace {
 
-constexpr std::size_t kBlock = 10;   // neighboring samples that share their candidates
-constexpr std::size_t kGrain = 512;  // samples a task
+constexpr std::size_t kBlock = 10;         // neighboring samples that share their candidates
+constexpr std::size_t kReliefGrain = 512;  // samples a task
 
 /// The terms of one task's samples, in the order of the samples.
 struct Batch {
@@ -62,7 +62,7 @@ std::vector<Candidate> candidates_in(std::span<const proxy::ProxyEllipsoid> elli
 }
 
 /// An ellipsoid near a sample.
-struct Near {
+struct NearTable {
   geometry::ClosestPoint closest;
   std::uint32_t ellipsoid;
 };
@@ -70,7 +70,7 @@ struct Near {
 /// Finds the terms of one sample among the candidates; `near` is scratch.
 void find_sample_terms(const ReliefSample& sample, std::uint32_t index, std::span<const Candidate> candidates,
                        std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach,
-                       std::vector<Near>& near, Batch& batch, double& target_m) {
+                       std::vector<NearTable>& near, Batch& batch, double& target_m) {
   near.clear();
   double least = std::numeric_limits<double>::infinity();
   for (const Candidate& c : candidates) {
@@ -82,14 +82,14 @@ void find_sample_terms(const ReliefSample& sample, std::uint32_t index, std::spa
   }
   const bool deep = least < -reach.in_m && sample.signed_distance_m < -0.5 * reach.in_m;
   if (deep) near.clear();  // the proxy and the skin agree that it is deep inside: there is nothing to correct
-  const auto weight = [&](const Near& n) {
+  const auto weight = [&](const NearTable& n) {
     const double ramp = std::max(0.0, 1.0 - (n.closest.signed_distance - least) / reach.blend_m);
     return ramp * ramp;
   };
   double sum = 0.0;
-  for (const Near& n : near) sum += weight(n);
+  for (const NearTable& n : near) sum += weight(n);
   target_m = -sample.signed_distance_m;
-  for (const Near& n : near) {
+  for (const NearTable& n : near) {
     const double share = weight(n) / sum, d = n.closest.signed_distance;
     if (!(share > 0.0)) continue;
     const geometry::Ellipsoid& e = ellipsoids[n.ellipsoid].shape;
@@ -109,7 +109,7 @@ void find_block_terms(std::span<const ReliefSample> samples, std::size_t first,
   for (const ReliefSample& s : samples) box.extend(s.point);
   const std::vector<Candidate> candidates =
       candidates_in(ellipsoids, box.center(), 0.5 * box.size().norm(), reach.blend_m);
-  std::vector<Near> near;
+  std::vector<NearTable> near;
   for (std::size_t i = 0; i < samples.size(); ++i)
     find_sample_terms(samples[i], static_cast<std::uint32_t>(first + i), candidates, ellipsoids, reach, near,
                       batch, target_m[i]);
@@ -142,16 +142,16 @@ void group(std::span<const Batch> batches, std::size_t samples, std::size_t elli
 
 ReliefTerms find_terms(const engine::Context& context, std::span<const ReliefSample> samples,
                        std::span<const proxy::ProxyEllipsoid> ellipsoids, const proxy::ReliefReach& reach) {
-  std::vector<Batch> batches(engine::block_count(samples.size(), kGrain));
+  std::vector<Batch> batches(engine::block_count(samples.size(), kReliefGrain));
   ReliefTerms result;
   result.target_m.resize(samples.size());
   result.weight.resize(samples.size());
   result.signed_distance_m.resize(samples.size());
   const std::span<double> target(result.target_m);
-  engine::parallel_for(context, samples.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, samples.size(), kReliefGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i += kBlock) {
       const std::size_t count = std::min(kBlock, end - i);
-      find_block_terms(samples.subspan(i, count), i, ellipsoids, reach, batches[begin / kGrain],
+      find_block_terms(samples.subspan(i, count), i, ellipsoids, reach, batches[begin / kReliefGrain],
                        target.subspan(i, count));
     }
     for (std::size_t i = begin; i < end; ++i) {

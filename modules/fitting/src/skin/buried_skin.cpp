@@ -10,7 +10,7 @@ using geometry::Index;
 constexpr int kSeedEvery = 8;  // one vertex in so many is evaluated at first
 constexpr int kMaxPasses = 64;
 
-enum class State : std::int8_t { kUnknown = -1, kFree = 0, kBuried = 1 };
+enum class Burial : std::int8_t { kUnknown = -1, kFree = 0, kBuried = 1 };
 
 /// The states of all vertices, evaluated by winding numbers or guessed from neighbors.
 struct Search {
@@ -19,7 +19,7 @@ struct Search {
   const geometry::MeshDistance& distance;
   std::vector<geometry::Vec3> normals;
   double step_m;
-  std::vector<State> state;         ///< #V
+  std::vector<Burial> state;        ///< #V
   std::vector<std::uint8_t> exact;  ///< #V: whether the state is evaluated
 
   void evaluate(const std::vector<Index>& vertices) {
@@ -27,7 +27,7 @@ struct Search {
       for (std::size_t i = begin; i < end; ++i) {
         const Index v = vertices[i];
         const geometry::Vec3 outside = mesh.positions[v] + step_m * normals[v];
-        state[v] = distance.inside(outside) ? State::kBuried : State::kFree;
+        state[v] = distance.inside(outside) ? Burial::kBuried : Burial::kFree;
         exact[v] = 1;
       }
     });
@@ -40,8 +40,10 @@ struct Search {
       for (const geometry::Triangle& t : mesh.triangles)
         for (int k = 0; k < 3; ++k) {
           const Index a = t[k], b = t[(k + 1) % 3];
-          if (state[a] == State::kUnknown && state[b] != State::kUnknown) state[a] = state[b], changed = true;
-          if (state[b] == State::kUnknown && state[a] != State::kUnknown) state[b] = state[a], changed = true;
+          if (state[a] == Burial::kUnknown && state[b] != Burial::kUnknown)
+            state[a] = state[b], changed = true;
+          if (state[b] == Burial::kUnknown && state[a] != Burial::kUnknown)
+            state[b] = state[a], changed = true;
         }
       if (!changed) break;
     }
@@ -88,7 +90,7 @@ std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const
                 distance,
                 geometry::vertex_normals(mesh),
                 kStepOffSkin * stature_m,
-                std::vector<State>(n, State::kUnknown),
+                std::vector<Burial>(n, Burial::kUnknown),
                 std::vector<std::uint8_t>(n, 0)};
   std::vector<Index> seeds;
   for (Index v = 0; v < n; v += kSeedEvery) seeds.push_back(v);
@@ -102,7 +104,7 @@ std::vector<std::uint8_t> buried_triangles(const engine::Context& context, const
   }
   std::vector<std::uint8_t> buried(mesh.triangles.size());
   for (std::size_t t = 0; t < buried.size(); ++t)
-    for (const Index v : mesh.triangles[t]) buried[t] |= search.state[v] == State::kBuried;
+    for (const Index v : mesh.triangles[t]) buried[t] |= search.state[v] == Burial::kBuried;
   return buried;
 }
 

@@ -11,7 +11,7 @@
 namespace bodice::inline v0_1::fitting {
 namespace {
 
-constexpr std::size_t kGrain = 256;
+constexpr std::size_t kNormalGrain = 256;
 
 /// Even samples of the wanted parts' skin that is not buried.
 std::vector<geometry::SurfaceSample> wanted_skin(const SkinSource& source, std::size_t count,
@@ -80,7 +80,7 @@ std::vector<DistanceSample> sample_near_skin(const engine::Context& context, con
   const auto surface = wanted_skin(source, options.count, options.seed);
   std::vector<DistanceSample> samples(surface.size());
   const engine::Random random(options.seed, 17);
-  engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, surface.size(), kNormalGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t t = surface[i].triangle;
       const Vec3 normal = geometry::area_vector(skin.mesh, t).stableNormalized();
@@ -102,7 +102,7 @@ std::vector<InscribedBall> inscribed_balls(const engine::Context& context, const
   const LabeledSkin& skin = source.skin;
   const auto surface = wanted_skin(source, count, seed);
   std::vector<InscribedBall> balls(surface.size());
-  engine::parallel_for(context, surface.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, surface.size(), kNormalGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t t = surface[i].triangle;
       const Vec3 inward = -geometry::area_vector(skin.mesh, t).stableNormalized();

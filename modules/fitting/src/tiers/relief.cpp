@@ -9,16 +9,16 @@
 #include "relief/relief_fit.hpp"
 #include "relief/relief_holes.hpp"
 #include "tiers/flexed.hpp"
+#include "tiers/tiers.hpp"
 
 namespace bodice::inline v0_1::fitting {
 namespace {
 
-constexpr double kNoTimeLimit_s = 1e6;
 /// Skin points, samples a point, and steps of the solver: for the first tables, which are there soon and show
 /// where more texels pay, and for the final ones.
 constexpr std::size_t kFirstNormals = 8000, kNormals = 28000;
 constexpr int kFirstPerNormal = 3, kPerNormal = 4;
-constexpr int kFirstSteps = 16, kSteps = 24;
+constexpr int kFirstTableSteps = 16, kTableSteps = 24;
 /// The margin, a fraction of stature: it turns most misses of a tenth of a millimeter into hits.
 constexpr double kMargin = 0.1e-3 / 1.7;
 /// The spacing of interior samples, a fraction of stature: it finds every hole that a thumb fits into.
@@ -80,7 +80,7 @@ void ReliefTables::fit_first(std::size_t bytes) {
   const double reach_m = proxy::relief_reach(data_.stature_m).out_m;
   ReliefTerms terms = terms_of(samples({kFirstNormals, kFirstPerNormal, reach_m, 21}, 0.0));
   const auto sides = equal_sides(ellipsoids, texels_within(ellipsoids, bytes));
-  error_ = fit_tables(context_, terms, sides, kFirstSteps, data_);
+  error_ = fit_tables(context_, terms, sides, kFirstTableSteps, data_);
 }
 
 void ReliefTables::fit(std::size_t bytes) {
@@ -91,7 +91,7 @@ void ReliefTables::fit(std::size_t bytes) {
   }
   const auto sides = shared_sides(error_, texels_within(data_.ellipsoids.size(), bytes));
   const auto more_terms = [&](std::span<const std::uint32_t> leaks) { return terms_around(leaks); };
-  fit_tables(context_, terms_, sides, kSteps, data_, more_terms);
+  fit_tables(context_, terms_, sides, kTableSteps, data_, more_terms);
 }
 
 ReliefRun::ReliefRun(const engine::Context& context, const LabeledSkin& skin, const FitOptions& options,

@@ -27,7 +27,7 @@ constexpr double kStandsOut_mm = 15.0, kFarInAir_mm = 200.0;
 constexpr std::size_t kAirProbesEach = 40;  // probes of an ellipsoid's surface, of the average size
 /// Motion in the scaled body up to which candidates stay valid. With so few samples and ellipsoids a region,
 /// choosing candidates again costs more than keeping all that may ever be near.
-constexpr double kMostMotion = 0.3;
+constexpr double kMostSolidMotion = 0.3;
 constexpr int kCandidates = 6;            // candidates a sample: more of them change only the time
 constexpr std::size_t kSamplesEach = 45;  // skin samples an ellipsoid
 constexpr double kColumnSpacing = 4e-3;   // fraction of stature: 7 mm, finer than any cavity worth a particle
@@ -87,7 +87,7 @@ std::vector<proxy::ProxyEllipsoid> follow(const engine::Context& context, const 
   const Scaling scaling(skin);
   const RobustLoss loss{.huber = 0.002f, .uncovered_huber = 0.004f, .uncovered_weight = kUncoveredWeight};
   const std::vector<DistanceSample> samples = part_samples(skins, r, skin.stature_m);
-  LeastSquaresProblem problem(samples, scaling, loss, kMostMotion, kCandidates);
+  LeastSquaresProblem problem(samples, scaling, loss, kMostSolidMotion, kCandidates);
   std::vector<geometry::Ellipsoid> shapes;
   for (const auto& e : ellipsoids) shapes.push_back(scaling.in(e.shape));
   if (shapes.empty()) return ellipsoids;

@@ -10,6 +10,9 @@
 
 namespace bodice::inline v0_1::fitting {
 
+/// A time budget that no fit reaches, seconds.
+inline constexpr double kNoTimeLimit_s = 1e6;
+
 /// What a tier makes of a skin.
 struct Draft {
   proxy::BodyProxy::Data data;

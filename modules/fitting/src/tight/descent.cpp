@@ -26,7 +26,7 @@ constexpr double kHeldBack = 0.9;  // fraction of the allowed motion after which
 constexpr std::uint32_t kLeastSkin = 4;  // samples; an ellipsoid with fewer of them holds no skin
 
 /// All ellipsoids with their damping.
-struct State {
+struct DescentState {
   std::vector<Ellipsoid> ellipsoids;
   std::vector<double> damping;
 };
@@ -140,7 +140,7 @@ class Descent {
   /// that several together may be worse.
   void make_moves() {
     if (rounds_off_ > 0) return void(--rounds_off_);
-    State moved = state_;
+    DescentState moved = state_;
     const auto changed = fitting::split_and_merge(context_, problem_, moved.ellipsoids);
     for (const std::size_t k : changed) moved.damping[k] = kFirstDamping;
     if (changed.empty()) return void(rounds_off_ = kIdleRounds);
@@ -163,7 +163,7 @@ class Descent {
   const engine::Context& context_;
   LeastSquaresProblem& problem_;
   const DescentOptions& options_;
-  State state_, best_;
+  DescentState state_, best_;
   std::vector<double> moved_;  ///< #E: bound on the motion since the last refresh
   bool is_best_ = true;        ///< whether state_ is best_
   int rounds_off_ = 0;         ///< rounds left without moves

@@ -13,7 +13,7 @@
 namespace bodice::inline v0_1::fitting {
 namespace {
 
-constexpr std::size_t kGrain = 2048;        // samples a task
+constexpr std::size_t kTermGrain = 2048;    // samples a task
 constexpr std::size_t kEllipsoidGrain = 8;  // ellipsoids a task
 constexpr float kSkin = 0.005f;  // a sample this close to the skin counts as skin, in the scaled body
 
@@ -120,10 +120,10 @@ void LeastSquaresProblem::choose_candidates(const engine::Context& context,
 /// Orders the pairs by ellipsoid, then by sample. Returns #chunks x #E: the first pair of each chunk of
 /// samples.
 std::vector<std::uint32_t> LeastSquaresProblem::count_pairs(const engine::Context& context) {
-  const std::size_t chunks = engine::block_count(target_.size(), kGrain);
+  const std::size_t chunks = engine::block_count(target_.size(), kTermGrain);
   std::vector<std::uint32_t> next(chunks * ellipsoids_, 0);
-  engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::uint32_t* const of_chunk = &next[begin / kGrain * ellipsoids_];
+  engine::parallel_for(context, target_.size(), kTermGrain, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t* const of_chunk = &next[begin / kTermGrain * ellipsoids_];
     for (std::size_t i = begin; i < end; ++i)
       for (int s = 0; s < count_of_[i]; ++s) ++of_chunk[pairs_of_[i][s]];
   });
@@ -143,8 +143,8 @@ void LeastSquaresProblem::number_pairs(const engine::Context& context, std::vect
   for (auto* list : {&pair_sample_, &ellipsoid_of_pair_}) list->resize(pairs);
   for (auto* list : {&distance_, &previous_}) list->resize(pairs);
   for (auto& axis : pair_point_) axis.resize(pairs);
-  engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::uint32_t* const of_chunk = &next[begin / kGrain * ellipsoids_];
+  engine::parallel_for(context, target_.size(), kTermGrain, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t* const of_chunk = &next[begin / kTermGrain * ellipsoids_];
     for (std::size_t i = begin; i < end; ++i)
       for (int s = 0; s < count_of_[i]; ++s) {
         const std::uint32_t p = of_chunk[pairs_of_[i][s]]++;
@@ -189,8 +189,8 @@ void LeastSquaresProblem::restore(std::size_t k) {
 }
 
 void LeastSquaresProblem::assign(const engine::Context& context) {
-  engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::array<float, kGrain> nearest;
+  engine::parallel_for(context, target_.size(), kTermGrain, [&](std::size_t begin, std::size_t end) {
+    std::array<float, kTermGrain> nearest;
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t best = pairs_of_[i][0];
       float least = distance_[best];
@@ -221,7 +221,7 @@ double LeastSquaresProblem::total() const {
 std::vector<Nearest3> LeastSquaresProblem::rank(const engine::Context& context) const {
   constexpr float kNone = std::numeric_limits<float>::infinity();
   std::vector<Nearest3> ranked(target_.size());
-  engine::parallel_for(context, target_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  engine::parallel_for(context, target_.size(), kTermGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       Nearest3 nearest{{~0u, ~0u, ~0u}, {kNone, kNone, kNone}};
       for (int s = 0; s < count_of_[i]; ++s) {

@@ -42,7 +42,7 @@ std::vector<Vec3> smooth_normals(const TriMesh& mesh, const Neighbors& neighbors
 }
 
 /// The range that a height lies in, as the fits so far have it.
-struct Range {
+struct HeightRange {
   double low = -std::numeric_limits<double>::infinity(), high = -low;
   /// Narrows it by another fit; false where the two do not meet.
   bool meet(double value, double deviation) {
@@ -64,7 +64,7 @@ class Smoother {
     const double farthest = std::max(kFarthest * longest_, 4.0 * noise_);
     Quadric quadric(origin, normals_[vertex], farthest);
     quadric.add(origin);
-    Range range;
+    HeightRange range;
     double best = 0.0;
     rings.begin(vertex);
     for (;;) {
