@@ -121,7 +121,7 @@ function(bodice_define_build_flags)
     -Wno-missing-field-initializers  # designated initializers leave the rest at their defaults on purpose
     # g++ 12 sees overlapping copies in `"text" + std::string` that are not there (GCC bug 105651).
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
-    # clang takes `double{f}` for a promotion that nobody asked for.
+    # clang takes `double{f}` for an implicit promotion, although it is written out.
     $<$<CXX_COMPILER_ID:Clang>:-Wno-double-promotion>)
   if(BODICE_PRECOMPILE)
     target_compile_options(bodice_build_flags INTERFACE -Wno-stringop-overflow -Wno-array-bounds)

@@ -24,7 +24,7 @@ double near_zero(Random& random, double deviation, double most) {
   return std::clamp(deviation * random.normal(), -most, most);
 }
 
-/// As far as joints go in sport and sleep; each limb on its own.
+/// Random turns of all joints up to the limits of sport and sleep, independent for each limb.
 Turns random_turns(Random& random) {
   Turns turns;
   for (const char* bone : {"spine04", "spine02", "neck01", "head"})

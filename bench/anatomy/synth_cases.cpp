@@ -13,7 +13,7 @@ namespace {
 using bodice::body::Part;
 using bodice::geometry::Vec3;
 
-/// From two years to some twelve.
+/// Sets the options of a child from two to about twelve years.
 void make_child(bodice::engine::Random& random, bodice::synth::BodyOptions& o) {
   o.childhood = random.uniform(0.2, 1.0);
   o.stature_m = 1.55 - 0.69 * o.childhood;

@@ -50,7 +50,8 @@ std::vector<OffsetRow> rows_of(const Sample& sample) {
   if (!rings) return {};
   FoundJoints joints;
   bodice::rigging::find_trunk(curves, *rings, joints);
-  // A clavicle lies between neck and shoulder: their true positions, so that it does not learn their errors.
+  // A clavicle lies between neck and shoulder. Their true positions are used, so that errors of the found
+  // ones do not enter its offsets.
   for (const JointId id : {JointId::kNeck, JointId::kUpperArmL, JointId::kUpperArmR})
     if (const auto truth = sample.skeleton_joint(id)) joints.at(id) = *truth;
   std::vector<OffsetRow> rows;

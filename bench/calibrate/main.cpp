@@ -63,17 +63,17 @@ class Bodies {
  public:
   explicit Bodies(const Arguments& arguments) : arguments_(arguments) {}
 
-  /// Made bodies in all poses.
+  /// Returns the made bodies in all poses.
   Samples posed() {
     if (posed_.empty()) posed_ = calibrate::make_samples({kFirstSeed, arguments_.bodies, false});
     return seen(posed_);
   }
-  /// Made bodies with an upright trunk.
+  /// Returns the made bodies with an upright trunk.
   Samples standing() {
     if (standing_.empty()) standing_ = calibrate::make_samples({kFirstStandingSeed, arguments_.bodies, true});
     return seen(standing_);
   }
-  /// Made bodies in all poses and, where a data folder is given, as many of its people's.
+  /// Returns the made bodies in all poses and, if a data folder is given, as many bodies of its people.
   Samples all() {
     if (!arguments_.data.empty() && read_.empty())
       read_ = calibrate::read_samples(arguments_.data, arguments_.bodies);

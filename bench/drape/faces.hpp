@@ -19,7 +19,7 @@ struct FacesOptions {
   int standing_frames = 120;
   double tighter_m = 0.0;  ///< garments are first moved so much nearer to the skin, but not into it
   bool walking_only = false;
-  bool causes = false;  ///< names the causes of what lies inside the skin, in the worst frame of a walk
+  bool causes = false;  ///< whether to name the causes of cloth inside the skin, in the worst frame of a walk
   bodice::tryon::DrapeOptions drape;  ///< frames, kept frames and motion are set for each row
 };
 

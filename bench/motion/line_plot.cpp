@@ -104,7 +104,7 @@ class Canvas {
 /// Smaller values are drawn on the axis, since exact methods have only rounding.
 constexpr double kLeast = 0.05;
 
-/// From values to pixels; y is logarithmic.
+/// Maps values to pixels; y is logarithmic.
 struct Scale {
   double x_end = 0.0, y_low = 1e300, y_high = 0.0;
   int top = 0;

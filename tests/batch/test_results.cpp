@@ -39,7 +39,8 @@ TEST_CASE("a result is named by the bytes of files, the values and the version, 
   folder.write("copy.obj", "one body");
   REQUIRE(folder.run().ok());
   CHECK(folder.results().size() == 1);
-  // Another name of the file, another order of the line, and the number as text or in another form.
+  // These lines differ in the name of the file, the order of the members, and the form of the number, and
+  // name the same result.
   for (const char* same :
        {R"({"n": 1, "body": "copy.obj"})", R"({"body": "a.obj", "n": 1})", R"({"body": "./a.obj", "n": "1"})",
         R"({"body": ["a.obj"], "n": 1.0, "do": null})"}) {

@@ -56,7 +56,7 @@ TEST_CASE("particles that a posed collider has pushed are outside by the referen
             Vec3(double{points.x[i]}, double{points.y[i]}, double{points.z[i]}) + collider.origin();
         const double distance = proxy::posed_proxy_distance(moving.bound, poser.posed(), at).distance;
         inside += distance < 0.002 - 3e-5;
-        // What was clear stays.
+        // Particles that were clear of the body must keep their positions.
         moved += before.truth[i].distance > 0.002 + 3e-5 && points.x[i] != before.x[i];
       }
       CHECK(inside <= static_cast<int>(report.pinched));

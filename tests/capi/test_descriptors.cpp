@@ -36,7 +36,7 @@ TEST_CASE("capi: a structure without its defaults is refused, with the name of w
   std::memset(&zero, 0, sizeof zero);
   CHECK(f.resolve(zero) == BODICE_NOT_INITIALIZED);
   CHECK(std::string(bodice_last_error()).find("bodice_default_particles()") != std::string::npos);
-  // The defaults of another structure are no better.
+  // The defaults of another structure are refused as well.
   bodice_pose pose = bodice_default_pose();
   std::memcpy(&zero.head, &pose.head, sizeof zero.head);
   CHECK(f.resolve(zero) == BODICE_NOT_INITIALIZED);

@@ -197,7 +197,7 @@ exists seated.glb
 for word in '"skins"' '"inverseBindMatrices"' '"JOINTS_0"' '"WEIGHTS_0"' '"walk"' '"sit"' '"forearm_l"'; do
   grep -qa -- "$word" seated.glb || { echo "FAILED: no $word in the rigged GLB"; failures=$((failures + 1)); }
 done
-grep -qa '"dance"' seated.glb && { echo "FAILED: a clip that nobody wanted"; failures=$((failures + 1)); }
+grep -qa '"dance"' seated.glb && { echo "FAILED: a clip that was not requested"; failures=$((failures + 1)); }
 expect 0 "rig it again" "$bodice" rig seated.obj -o again.glb --clip walk sit --threads 1 -q
 cmp -s seated.glb again.glb || { echo "FAILED: one worker gives another rig"; failures=$((failures + 1)); }
 expect 0 "the built-in body brings its rig" "$bodice" rig --vertices 2000 -o builtin.glb

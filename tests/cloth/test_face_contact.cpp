@@ -56,10 +56,10 @@ bool middle_is_pushed(std::span<const geometry::Ellipsoid> shapes, const Vec3& a
 TEST_CASE("face contact: a sample is pushed between two toes, and not through a limb") {
   const std::vector<geometry::Ellipsoid> toes = {ellipsoid(Vec3(-0.01, 1, 0), Vec3(0.008, 0.008, 0.03)),
                                                  ellipsoid(Vec3(0.01, 1, 0), Vec3(0.008, 0.008, 0.03))};
-  // From the side of one toe that faces the other, into that one: the surfaces oppose each other over the
-  // gap.
+  // This edge leads from the side of one toe that faces the other into the other, over the gap: the surfaces
+  // oppose each other.
   CHECK(middle_is_pushed(toes, Vec3(-0.0025, 1.001, 0), Vec3(0.0075, 1.001, 0)));
-  // Through a toe, from its left to just before its right side; and along one side.
+  // One edge leads through a toe, from its left to just before its right side; the other runs along one side.
   const std::span<const geometry::Ellipsoid> toe(toes.data(), 1);
   CHECK(!middle_is_pushed(toe, Vec3(-0.019, 1.001, 0), Vec3(0.009, 1.001, 0)));
   CHECK(middle_is_pushed(toe, Vec3(-0.01, 1.009, -0.01), Vec3(-0.01, 1.0085, 0.01)));

@@ -24,7 +24,7 @@ void check_closed(const geometry::TriMesh& mesh) {
   CHECK(mesh.positions.size() + mesh.triangles.size() == edges.size() / 2 + 2);  // Euler, of a sphere
 }
 
-/// How far a point is above the highest plane of a hull.
+/// The height of a point over the highest plane of a hull.
 double above(const geometry::TriMesh& hull, const Vec3& point) {
   double most = -1e9;
   for (std::size_t t = 0; t < hull.triangles.size(); ++t)

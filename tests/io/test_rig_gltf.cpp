@@ -85,7 +85,8 @@ io::RiggedBody import_changed(const TempFolder& folder, const std::function<void
   return std::move(*body);
 }
 
-/// Between a body read, posed by its clip, and the written rig, posed likewise and mapped.
+/// The largest distance between vertices of a body that was read and posed by its clip and those of the
+/// written rig, posed likewise and mapped.
 double farthest(const io::RiggedBody& body, double time_s, const rig::Affine& map = rig::identity()) {
   const TriMesh skin = figure();
   const rig::Rig made = made_rig(skin);

@@ -17,7 +17,8 @@ namespace {
 /// Files keep floats: 1.2e-7 of lengths up to 2 m, through chains of four matrices.
 constexpr double kRoundTrip_m = 5e-6;
 
-/// Between vertices of the body read and those written, which repair has put into another order.
+/// The largest distance between vertices of the body that was read and those that were written, which repair
+/// has put into another order.
 double farthest(const io::ImportedMesh& read, const std::vector<Vec3>& now, const std::vector<Vec3>& then) {
   double worst = 0.0;
   for (std::size_t i = 0; i < then.size(); ++i)

@@ -204,7 +204,7 @@ TEST_CASE("a body found in any pose walks: its joints are where the true skeleto
       const auto a = posed::joints_at(body.skeleton, truth, t), b = posed::joints_at(found.skeleton, clip, t);
       for (const rig::Joint& joint : found.skeleton.joints) {
         if (!rig::find_joint(body.skeleton, joint.name) || joint.name.starts_with("spine")) continue;
-        // From the hips on: where a body stands is its bind pose's choice.
+        // Joints are compared relative to the hips, because the bind pose fixes where a body stands.
         const auto from_pelvis = [&](const rig::Skeleton& s, const std::vector<rig::Affine>& world) {
           return Vec3(posed::position(s, world, joint.name) -
                       0.5 * (posed::position(s, world, "thigh_l") + posed::position(s, world, "thigh_r")));

@@ -16,7 +16,7 @@ using geometry::Vec3;
 
 namespace {
 
-/// A made body in a made tunic.
+/// A made body and a tunic that was made for it.
 struct InTunic {
   const tryon::SegmentedSkin& skin = builtin_skin(4500);
   geometry::TriMesh tunic;

@@ -32,7 +32,7 @@ tryon::PreparedBody made_prop(const engine::Context& context, const geometry::Tr
   return std::move(prop).value();
 }
 
-/// A level cloth around a point, held by nothing.
+/// Makes a level cloth around a point, without pins.
 tryon::WornGarment sheet_over(const Vec3& point, double width_m, int cells) {
   geometry::TriMesh sheet = bodice_test::sheet(width_m, width_m, cells, cells);
   for (Vec3& p : sheet.positions) p += point;

@@ -16,8 +16,8 @@ inline constexpr double kBlendRidge = 0.05;
 /// A texel follows the skin if the skin is within this of the table's surface there, meters: several times
 /// the error of a table.
 inline constexpr double kNearSkin_m = 0.004;
-/// And if its ellipsoid is within this of being the skin point's nearest, meters: poses change owners by
-/// less.
+/// A texel follows the skin only if its ellipsoid is at most this farther from the skin point than the
+/// nearest ellipsoid is, meters. A pose changes owners by less.
 inline constexpr double kNearOwner_m = 0.012;
 
 /// Mean departure of the skin from an ellipsoid's map, in poses with every joint turned, from which its table
@@ -28,10 +28,11 @@ inline constexpr double kStiff_m = 0.0003;
 /// not show it.
 inline constexpr double kAlike_m = 2e-5;
 
-/// A joint that moves less of an ellipsoid's center has no say in which base poses are near, no unit.
+/// A joint that moves a smaller share of an ellipsoid's center does not count in the choice of base poses, no
+/// unit.
 inline constexpr double kLeastTurning = 0.02;
-/// Joints turned otherwise by less than this are in the same pose: what tables differ by then is below their
-/// bytes.
+/// Two poses count as equal if their joints differ by less than this, because their tables differ by less
+/// than a step of a byte.
 inline constexpr double kSameTurn_rad = 0.03;
 /// A smaller share of a base pose changes a table by hundredths of a millimeter, no unit.
 inline constexpr float kLeastShare = 0.01f;
@@ -45,7 +46,8 @@ inline constexpr double kDeepest = 1.0, kHighest = 0.8;
 /// A table yields to others where its skin sank or rose by more than these in a pose, in reaches of relief:
 /// there the skin folds, or another ellipsoid has come between. Less is what the joints of a walk do.
 inline constexpr double kMostSinking = 1.0 / 15.0, kMostRising = 0.4;
-/// And yields by at most this, in reaches of relief: where all tables are that far off, the nearest serves.
+/// The most that yielding adds to the score of a table, in reaches of relief. Where all tables are that far
+/// off, the nearest one serves.
 inline constexpr double kMostYield = 1.0 / 3.0;
 /// Least slope of the corrected distance along the normal that heights are divided by, no unit.
 inline constexpr double kLeastSlope = 0.2;

@@ -24,7 +24,7 @@ struct Cube {
 };
 Cube cube_around(std::span<const geometry::Vec3> points, const Cube* with = nullptr);
 std::string packed_positions(std::span<const geometry::Vec3> points, const Cube& cube);
-/// A byte a channel.
+/// Colors with one byte a channel.
 std::string packed_colors(std::span<const std::array<float, 3>> colors);
 std::string packed_triangles(std::span<const geometry::Triangle> triangles);
 

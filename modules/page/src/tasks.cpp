@@ -12,7 +12,8 @@
 namespace bodice::inline v0_1::page {
 namespace {
 
-/// Those that a page shows of all spans of a run, which are in order of their begin.
+/// Returns the longest spans of a run, which a page shows, in the order of their begin. `tasks` is in that
+/// order.
 std::vector<TaskSpan> longest(std::vector<TaskSpan> tasks) {
   constexpr std::size_t kMost = 200;
   if (tasks.size() <= kMost) return tasks;

@@ -26,7 +26,8 @@ std::size_t target_named(const JointMatch& match, std::string_view name) {
   return found == match.name.end() ? kNoIndex : static_cast<std::size_t>(found - match.name.begin());
 }
 
-/// From the right side of the body to its left, level; zero where the names do not show it.
+/// The horizontal directions from the right side of each body to its left; zero where the names of joints do
+/// not show them.
 std::pair<Vec3, Vec3> sideways(const RestFrames& source, const RestFrames& target, const JointMatch& match) {
   for (const std::string part : {"thigh", "upperarm"}) {
     const std::size_t left = target_named(match, part + "_l"), right = target_named(match, part + "_r");

@@ -27,7 +27,8 @@ struct Alignment {
       Eigen::Quaterniond::Identity();     ///< about y: the source's front to the target's
   std::vector<Eigen::Quaterniond> align;  ///< of each target joint: its rest direction to that of the source
   Vec3 source_hips_at_rest = Vec3::Zero();
-  /// The source's rest pose does not show its ground: its hips then stand over their lowest joint here.
+  /// Whether the rest pose of the source has no ground. The height of `source_hips_at_rest` is then that over
+  /// the lowest joint.
   bool ground_unknown = false;
   double root_scale = 1.0;
 };

@@ -14,7 +14,8 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// Where the skin lies this deep below a skin. Welds thinner than twice the depth are gone; so are fingers.
+/// The surface at a depth below a skin. Welds that are thinner than twice the depth are gone from it, and so
+/// are fingers.
 struct ThinCopy {
   geometry::TriMesh mesh;
   double depth = 0.0;  ///< in the unit of the skin
@@ -28,8 +29,9 @@ class SampledSkin {
   static std::optional<SampledSkin> make(const geometry::TriMesh& skin,
                                          const geometry::MeshDistance& distance);
 
-  /// The copy that lies so deep, a share of the body's height. Webs are cut out of it. Empty where nothing
-  /// lies so deep. Cost: half a second, for another copy of the same skin half of it.
+  /// Returns the surface at a depth below the skin, which is `depth_share` of the body's height, with webs
+  /// cut out. Returns nothing if no point lies so deep. Cost: half a second, half of it for another copy of
+  /// the same skin.
   std::optional<ThinCopy> thin_copy(const engine::Context& context, double depth_share,
                                     std::span<const Web> webs);
 
@@ -41,8 +43,9 @@ class SampledSkin {
   geometry::NodeDistances distances_;
 };
 
-/// What was found on a thin copy, on its skin: parts spread along the skin from where it lies right above the
-/// copy, tips move to the ends of their limbs, and what lies on the skin moves out to it.
+/// Carries what was found on a thin copy over to its skin. Parts spread along the skin from where it lies
+/// right above the copy, tips move to the ends of their limbs, and landmarks of the surface move out to the
+/// skin.
 Anatomy carry_out(const engine::Context& context, const ThinCopy& thin, const Anatomy& found,
                   const geometry::TriMesh& skin);
 

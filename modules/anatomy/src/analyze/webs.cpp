@@ -19,7 +19,8 @@ using geometry::MeshDistance;
 using geometry::TriMesh;
 using geometry::Vec3;
 
-/// So many triangles, 4 mm apart on a person, show depths well enough.
+/// Number of triangles of the thinned skin on which depths are measured: on a person these are 4 mm apart,
+/// which is near enough.
 constexpr std::size_t kEnough = 50000;
 // All lengths are fractions of the stature.
 constexpr double kAround = 0.35;    ///< skin farther than this from the landmark is not looked at
@@ -117,7 +118,7 @@ class Room {
   double between(double inward) const {
     return std::min({on_line(inward, -kMiddle), on_line(inward, 0.0), on_line(inward, kMiddle)});
   }
-  /// That of the thinner one of the two limbs.
+  /// The depth within the thinner of the two limbs.
   double beside(double inward) const {
     std::array<double, 2> side{};
     for (const double across : kLimbs) {
@@ -128,7 +129,8 @@ class Room {
   }
 
  private:
-  /// By the nearest triangle's side: the skin was cut out and encloses nothing.
+  /// The depth of a point below the skin. Its sign is that of the nearest triangle's side, because the skin
+  /// was cut out and encloses nothing.
   double depth(const Vec3& p) const {
     const auto hit = skin_.closest_point_within(p, kDeepest * stature_m_);
     if (!hit) return kDeepest;
@@ -141,8 +143,8 @@ class Room {
   double stature_m_;
 };
 
-/// How far inward the fold lies, below the first level that has as much room between the limbs as beside
-/// them: the largest ball around its deepest point touches the fold.
+/// Returns how far inward the fold lies: below the first level that is as deep between the limbs as in them.
+/// The largest ball around the deepest point of that level touches the fold.
 std::optional<double> fold_height(const Room& room) {
   for (double inward = kStep; inward < kFarthest; inward += kStep) {
     const double between = room.between(inward);

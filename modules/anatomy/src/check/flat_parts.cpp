@@ -15,9 +15,9 @@ using geometry::Vec3;
 constexpr double kNormalCells = 16.0, kOffsetCells = 100.0;
 /// A plane counts from this share of the area on: a sole has .012.
 constexpr double kPlane = 0.01;
-/// A sole looks down by this cosine.
+/// A plane is a sole if its normal points down by at least this cosine.
 constexpr double kSole = 0.9;
-/// So many triangles, evenly spread over the mesh, show its planes.
+/// The number of triangles, evenly spread over the mesh, by which its planes are found.
 constexpr std::size_t kEnough = 100000;
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace bodice::inline v0_1::anatomy {
 /// The share of the area that lies in a few planes, those of the soles not counted: `up` is the body's.
 /// O(#F).
 double flat_share(const geometry::TriMesh& skin, const geometry::Vec3& up);
-/// From this share on something in the skin is no body: bodies of any number of vertices have none, with a
-/// chair at least .067.
+/// The flat share from which something in the skin is no body. Bodies alone have no flat share, and bodies
+/// with a chair have at least .067.
 inline constexpr double kMostFlat = 0.04;
 
 /// Adds the warning "flat-parts" where something in the skin is flat.

@@ -17,27 +17,37 @@ namespace {
 using geodesic::Field;
 using geometry::Index;
 
-/// Both feet, as a share of twice the path to where the legs merge; the difference of the feet; that of the
-/// hands, which is zero at the crown; front; back; how far behind the merge of the legs; both hands; head;
-/// detour between head and feet. The measures of the body: feet apart, hands apart, front and back at the
-/// merge.
+/// The signature of the perineum. Its features, in the order of perineum_features():
+/// 1. the distances from both feet together, over twice the path from a foot to where the legs merge;
+/// 2. the difference of the distances from the feet;
+/// 3. the difference of the distances from the hands, which is made zero at the crown;
+/// 4. the distance from the front;
+/// 5. the distance from the back;
+/// 6. how far the point lies behind the merge of the legs;
+/// 7. the distances from both hands together;
+/// 8. the distance from the head;
+/// 9. the detour of the path from head to feet through the point.
+/// They are expected by four measures of the body: distances between the feet and between the hands, and
+/// distances of the merge from front and back.
 constexpr Signature<9, 4> kPerineum = make_signature<9, 4>(
     coefficients::perineum::kMean, coefficients::perineum::kOfBody, coefficients::perineum::kWhiten);
 
-/// Head to feet plus foot to foot along the skin, as a multiple of the stature; the two vary against each
-/// other with pose.
+/// The path from head to feet plus that from foot to foot along the skin, as a multiple of the stature. With
+/// the pose one grows as the other shrinks.
 constexpr float kSizeToStature = 2.19F;
-/// The perineum is about in the middle between the feet: shares of the path from one to the other.
+/// The range in which the perineum lies on the path from one foot to the other, as shares of that path.
 constexpr float kPerineumFrom = 0.45F, kPerineumTo = 0.58F;
-/// A vertex this much nearer to the breastbone along the skin lies elsewhere; a fraction of the body size.
+/// A vertex that is nearer to the breastbone along the skin by this fraction of the body size is another
+/// candidate of the perineum.
 constexpr float kInFront = 0.08F;
 /// The usual distances from breastbone and back to where the legs merge, for legs on which that is not found;
 /// fractions of the body size.
 constexpr float kUsualMergeFront = 0.34F, kUsualMergeBack = 0.39F;
-/// Where the loop around an arm usually widens, from fingertip to fingertip: for arms on which it does not.
+/// The usual level at which the loop around an arm widens, as a share of the path from fingertip to
+/// fingertip, for arms on which it does not.
 constexpr float kUsualShoulder = 0.425F;
 
-/// The vertex in the middle between two extremities, where the midline cannot be traced.
+/// The vertex in the middle between two extremities, for skins on which the midline cannot be traced.
 SkinPoint half_way(const Skin& skin, const Field& from, Index to) {
   SkinPoint best;
   float least = 0.0F;

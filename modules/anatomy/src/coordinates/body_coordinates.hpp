@@ -31,29 +31,31 @@ class BodyCoordinates {
   geometry::Index perineum() const { return perineum_; }
   const geometry::Vec3& perineum_position() const { return perineum_position_; }
   float perineum_mahalanobis() const { return perineum_mahalanobis_; }
-  /// How many deviations more the best vertex in front of the one that fits best is off.
+  /// By how many deviations the best vertex in front of the one that fits best fits worse than that one.
   float perineum_margin() const { return perineum_margin_; }
   /// What the perineum's signature reads at a vertex, and which measures of the body it follows.
   std::array<float, 9> perineum_features(std::size_t vertex) const;
   std::array<float, 4> perineum_measures() const;
-  /// Above the border of the neck.
+  /// Whether a vertex lies above the border of the neck.
   bool on_head(std::size_t vertex) const;
   const geodesic::Field& from_front() const { return from_front_; }
   const geodesic::Field& from_back() const { return from_back_; }
   const geodesic::Field& from_perineum() const { return from_perineum_; }
   /// False where no closed line runs around the middle, for instance on welded limbs.
   bool midline_found() const { return midline_found_; }
-  /// From the perineum along the skin to the crown, meters.
+  /// Length of the path along the skin from the perineum to the crown, meters.
   float trunk_m() const { return trunk_; }
-  /// From breastbone and back to where the legs merge, meters; a usual body's where that is not found.
+  /// Lengths of the paths from breastbone and back to where the legs merge, meters; those of a usual body
+  /// where that is not found.
   float front_to_merge_m() const { return merge_front_; }
   float back_to_merge_m() const { return merge_back_; }
-  /// About the stature.
+  /// The body size, which is about the stature, meters.
   float size_m() const { return size_; }
   const BodyExtremities& extremities() const { return tips_; }
   const Midline& midline() const { return midline_; }
   const LegMerge& leg_merge() const { return merge_; }
-  /// Where the loop around the arm widens, meters from the fingertip; 0 if it does not. See shoulder_level.
+  /// The level at which the loop around the arm widens, meters from the fingertip; 0 if it does not. See
+  /// shoulder_level.
   float shoulder_level_m(int side) const { return shoulder_[side]; }
 
  private:

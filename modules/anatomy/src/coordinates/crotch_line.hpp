@@ -18,7 +18,8 @@ struct CrotchLine {
   const geometry::Vec3& at(int i) const { return point[static_cast<std::size_t>(kReach + i)]; }
 };
 
-/// Smoothed over some two spacings. Empty where a hole or a weld cuts the line. O(#V + #F).
+/// Returns the crotch line, smoothed over about two spacings, or nothing where a hole or a weld cuts it. O(#V
+/// + #F).
 std::optional<CrotchLine> crotch_line(const Skin& skin, const BodyCoordinates& coordinates,
                                       const geometry::Vec3& middle);
 

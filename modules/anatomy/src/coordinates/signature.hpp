@@ -31,7 +31,7 @@ struct Signature {
   }
 };
 
-/// From the coefficients as their file holds them.
+/// Makes a signature from the coefficients of its file.
 template <int N, int Z>
 constexpr Signature<N, Z> make_signature(const double (&mean)[N], const double (&of_body)[N * Z],
                                          const double (&whiten)[N * (N + 1) / 2]) {

@@ -1,4 +1,4 @@
-// The five extremities of a body, in any pose: distances along the skin do not know the pose.
+// The five extremities of a body, in any pose: distances along the skin do not depend on the pose.
 #pragma once
 
 #include <array>

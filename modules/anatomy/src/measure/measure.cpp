@@ -139,7 +139,8 @@ class Tailor {
     const std::array parts{part};
     return Tape(cut(skin_, anatomy_.part, parts, {origin, normal, one, normal.cross(one)})).girth();
   }
-  /// Around a thigh where it leaves the trunk. The skin above the border of the thigh belongs to the trunk.
+  /// The girth of a thigh where it leaves the trunk. The skin above the border of the thigh belongs to the
+  /// trunk.
   double thigh_girth(int side) const {
     const Vec3& perineum = at(LandmarkId::kPerineum);
     const Vec3 root = at(LandmarkId::kHip) + (side == 0 ? 1.0 : -1.0) * kHipHalf * anatomy_.stature_m * left_;

@@ -77,7 +77,7 @@ void ResultStore::remove_leftovers() const {
     std::istringstream name(entry.path().filename().string());
     std::string machine, process, start;
     std::getline(name, machine, '.'), std::getline(name, process, '.'), std::getline(name, start, '.');
-    // Another machine may still write its own.
+    // Folders of another machine stay, because that one may still write them.
     if (machine == host_name() && !start.empty() && start_of(process) != start) discard(entry.path());
   }
 }
@@ -89,7 +89,7 @@ bool ResultStore::has(const std::string& key) const {
 engine::Result<fs::path> ResultStore::begin(const std::string& key) const {
   const fs::path part = out_ / "part" / (own_mark() + key);
   std::error_code failure;
-  // An earlier process with this number may have left it.
+  // A folder of this name may remain from an earlier process with the same number.
   fs::remove_all(part, failure);
   if (!failure) fs::create_directory(part, failure);
   if (failure) return refused(part, failure);

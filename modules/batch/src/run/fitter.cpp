@@ -92,7 +92,7 @@ class Fitter {
     return left_s < 0.0 ? -1 : static_cast<int>(std::min(1e6, std::ceil(1e3 * left_s)));
   }
 
-  /// As if the job ran alone, the shared step counts.
+  /// The shared step counts toward the time of each job, as if the job had run alone.
   double deadline_s(const Running& job) const { return job.begin_s + context_.options.timeout_s - fit_s_; }
 
   void stop_late_jobs() {

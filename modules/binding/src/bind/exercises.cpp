@@ -18,9 +18,11 @@ namespace {
 
 using body::Part;
 
-/// Farther than this over the skin no carried surface is looked for, meters at the reference stature.
+/// The largest distance from the skin at which a carried surface is searched for, meters at the reference
+/// stature.
 constexpr double kFarthest_m = 0.06;
-/// The ellipsoid that is the skin there may lie this far under it, its table making up for it, in blends.
+/// The ellipsoid that owns the skin at a point may lie this far under it, in blends, since its table corrects
+/// the difference.
 constexpr double kOthersOver = 4.0;
 
 /// A body in an exercise.
@@ -65,8 +67,8 @@ class Exercised {
   geometry::Mat3 to_normal_;
 };
 
-/// For each texel of a table that is to know it, the most that one of the texels around it is outside of the
-/// skin, looked at in every second row and column.
+/// Returns, for each wanted texel of a table, the largest height above the skin among the texels around it.
+/// Heights are sampled in every second row and column.
 std::vector<double> outside_around(const Exercised& one, int n, std::span<const std::uint8_t> wanted) {
   const int m = n / 2 + 1;
   const auto at = [n](int i) { return std::min(2 * i, n - 1); };
@@ -86,7 +88,7 @@ std::vector<double> outside_around(const Exercised& one, int n, std::span<const 
   return outside_m;
 }
 
-/// Texels that are buried and no skin nodes.
+/// Marks the texels that are buried and are no skin nodes.
 std::vector<std::uint8_t> buried_texels(const proxy::ReliefTable& table, const proxy::Binding& binding,
                                         std::size_t k, const Burial& burial) {
   std::vector<std::uint8_t> buried(std::size_t{table.nodes_per_side} * table.nodes_per_side);

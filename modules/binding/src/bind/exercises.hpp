@@ -1,5 +1,5 @@
-// Poses that ask of the joints what a seat, a squat, a run and raised arms do, and what binding learns there:
-// which texels have to yield more than by their burial at rest.
+// Exercises: poses with the joint angles of sitting, squatting, running and raised arms. In these, binding
+// finds the texels that have to yield by more than their burial at rest.
 #pragma once
 
 #include <span>
@@ -10,7 +10,8 @@
 
 namespace bodice::inline v0_1::binding {
 
-/// Skinning matrices of the exercises, #J each; less than all of them where limbs are bent already, or none.
+/// Returns the skinning matrices of the exercises, #J each. Fewer or none are returned if limbs are bent
+/// already.
 std::vector<std::vector<rig::Affine>> exercises(const SkinnedBody& body, std::span<const body::Part> part);
 
 /// Raises the burial of buried texels that come out through the skin in an exercise, by how far they do: then

@@ -13,7 +13,7 @@ std::vector<Vec3> flexed_skin(const engine::Context& context, const SkinnedBody&
   if (part.size() != body.skin.positions.size() || body.weights.vertices() != part.size()) return {};
   const Limbs limbs(body, part);
   const Vec3& front = limbs.directions().front;
-  // Halfway to what a seat, a run and raised arms ask of the joints.
+  // These are half of the angles that sitting, running and raised arms need.
   const std::array<Bend, 8> bends = {{{Part::kThighL, front, 31.0, Part::kThighL},
                                       {Part::kThighR, front, 31.0, Part::kThighR},
                                       {Part::kCalfL, -front, 45.0, Part::kThighL},

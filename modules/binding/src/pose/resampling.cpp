@@ -51,7 +51,7 @@ BODICE_LANES void find_stencils(const Chunk (&u)[3], int n, Stencils& at) {
     const float fy = std::copysign(1.0f - ax * scale, u[1][l]);
     x = u[2][l] < 0.0f ? fx : x;
     y = u[2][l] < 0.0f ? fy : y;
-    // In this order of arguments, what is not a number becomes 0.
+    // With this order of arguments, greater() returns 0 for NaN.
     const float gx = greater((x + 1.0f) * half, 0.0f), gy = greater((y + 1.0f) * half, 0.0f);
     const auto i = static_cast<std::int32_t>(lesser(gx, last));
     const auto j = static_cast<std::int32_t>(lesser(gy, last));
@@ -108,7 +108,7 @@ void find_coarse_shifts(const Resampling& to, TableScratch& scratch) {
   }
 }
 
-/// Where texels of one side of a table lie among those of the coarser one.
+/// Position of a row or column of a table among the rows or columns of the coarser table.
 struct Between {
   std::int32_t first;
   float weight;  ///< share of the next texel

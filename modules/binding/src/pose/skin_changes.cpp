@@ -74,7 +74,7 @@ void find_feet(const UnitEllipsoid& e, const Lanes (&y)[3], Lanes (&w)[3], Lanes
   }
   for (int step = 0; step < kSteps; ++step)
     for (int l = 0; l < kLanes; ++l) {
-      // One quotient serves all three.
+      // One division gives the reciprocals of all three.
       const float a = t[l] + s0, b = t[l] + s1, c = t[l] + s2, ab = a * b, inverse = 1.0f / (ab * c);
       const float i0 = b * c * inverse, i1 = a * c * inverse, i2 = ab * inverse;
       const float w0 = ry[0][l] * i0, w1 = ry[1][l] * i1, w2 = ry[2][l] * i2;

@@ -1,4 +1,4 @@
-// What a program can know of the library's version and build.
+// The version and the build of the library, for programs.
 #include <cstdio>
 
 #include <bodice.h>

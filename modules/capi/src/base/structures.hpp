@@ -1,5 +1,5 @@
-// Structures of the interface that may grow: their heads are checked, and members that the other side does
-// not know are left at their defaults.
+// Structures of the interface that may grow. Their heads are checked, and members that the version of the
+// other side lacks stay at their defaults.
 #pragma once
 
 #include <algorithm>
@@ -75,7 +75,7 @@ Outcome read(const T* given, T& out, bool optional = false) {
   return {};
 }
 
-/// Writes the members that the host knows. `out` may be null if `optional`.
+/// Writes the members that the host's version of the structure has. `out` may be null if `optional`.
 template <class T>
 Outcome write(const T& value, T* out, bool optional = false) {
   using Known = Structure<T>;

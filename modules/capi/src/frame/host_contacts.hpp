@@ -16,7 +16,7 @@ struct HostContacts {
   std::uint32_t* ellipsoid = nullptr;
   std::uint8_t* part = nullptr;
 
-  /// Whether the engine can write into the host's array, which is all that the host wants.
+  /// Whether the engine can write contacts into the host's array directly, and no other array is requested.
   bool fits_engine() const;
 };
 

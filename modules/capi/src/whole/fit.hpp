@@ -10,10 +10,10 @@ namespace bodice::inline v0_1::capi {
 
 /// The engine's tier of a number of the interface; -1 leaves `out` empty.
 Outcome read_tier(std::int32_t tier, const char* name, std::optional<proxy::Tier>& out);
-/// Checks what a program wants of a fit.
+/// Checks the options of a fit and converts them.
 Outcome read_fit(const bodice_fit_options& given, fitting::FitOptions& out);
 
-/// A fit as it is handed out.
+/// The results of a fit that the host receives.
 struct Fitted {
   std::optional<proxy::BodyProxy> proxy;
   bodice_fit_report report;

@@ -11,8 +11,8 @@ namespace bodice::inline v0_1::capi {
 
 using ProgressHook = std::int32_t (*)(void* host, const char* stage);
 
-/// An executor that calls the hook at most every 20 milliseconds, and cancels what runs on it where the hook
-/// wants that.
+/// An executor that calls the hook at most every 20 milliseconds, and cancels what runs on it if the hook
+/// returns a number other than zero.
 class Progress final : public engine::Executor {
  public:
   /// `base` is where the work runs; `hook` may be null.

@@ -11,7 +11,7 @@ namespace {
 using engine::Error;
 using engine::ErrorCode;
 
-/// What a batch decides for all jobs, or names itself.
+/// Options that a batch sets for all of its jobs, and the files that it names itself.
 const std::set<std::string> kOfTheBatch = {"help",  "json",   "no_picture", "output",
                                            "quiet", "report", "threads"};
 const std::set<std::string> kTakenFiles = {"body.glb",     "drape.glb",   "job.json",

@@ -90,7 +90,7 @@ class PreparedBodies : public batch::PreparedJobs {
       return read_props(run, command, body_);
     }();
     if (!props) return std::move(props).error();
-    // This process is for one job: what it moves out of the body, no other job misses.
+    // The process runs a single job, so that it may move the shared body.
     DressedBody dressed{std::move(body_), std::move(motion).value(), std::move(worn).value(),
                         std::move(props).value()};
     std::vector<std::string> written;

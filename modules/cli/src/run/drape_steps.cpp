@@ -68,7 +68,8 @@ std::size_t frame_between(const io::Scene& scene) {
 
 using Frames = std::vector<std::vector<geometry::Vec3>>;
 
-/// By how much points move from frame to frame along an axis, beside what all of them do: square meters.
+/// The sum over frames and points of the squared motion along an axis, less the motion that all points have
+/// in common, square meters.
 double motion_along(int axis, const Frames& frames) {
   double sum = 0.0;
   for (std::size_t f = 1; f < frames.size(); ++f) {
@@ -83,13 +84,14 @@ double motion_along(int axis, const Frames& frames) {
   return sum;
 }
 
-/// Whether the left side shows clearly more of the motion than the front, as of a body that walks.
+/// Whether a view from the left shows clearly more of the motion than one from the front, as for a body that
+/// walks.
 bool moves_forward(const Frames& body, const io::GarmentTrack& garment) {
   const Frames& frames = body.empty() ? garment.frames : body;
   return motion_along(2, frames) > 2.0 * motion_along(0, frames);
 }
 
-/// At most so many of the kept frames, evenly spread, with the first and the last.
+/// Returns the indices of at most eight of the kept frames, evenly spread, the first and the last included.
 std::vector<std::size_t> spread_frames(std::size_t kept) {
   constexpr std::size_t kMost = 8;
   std::vector<std::size_t> frames;

@@ -27,7 +27,8 @@ std::uint32_t digit(float value) {
   return std::bit_cast<std::uint32_t>(from_zero(value)) >> (32 - kDigitBits);
 }
 
-// There are no branches: half of a garment's edges are shortened, in an order that no processor predicts.
+// This loop has no branches, because half of a garment's edges are shortened, in an order that no processor
+// predicts.
 void count_digits(std::span<const float> values, std::uint32_t* row) {
   std::fill_n(row, kDigits, 0u);
   for (const float value : values) ++row[digit(value)];

@@ -32,12 +32,14 @@ inline constexpr Steepness kCertifiedRelief = {1.5f, 0.0f};
 /// Particles a task, in loops without gathers.
 inline constexpr std::size_t kParticleGrain = 1024;
 
-/// Elements a task in a reduction: it makes no more tasks than ordered_reduce() takes without allocating.
+/// Elements that a task of a reduction takes, so that it makes no more tasks than ordered_reduce() takes
+/// without allocating.
 inline constexpr std::size_t reduce_grain(std::size_t count) {
   return count / 64 + 1 > kParticleGrain ? count / 64 + 1 : kParticleGrain;
 }
 
-/// Blocks of particles a task in a reduction, for the same reason.
+/// Blocks of particles that a task of a reduction takes, so that it makes no more tasks than ordered_reduce()
+/// takes without allocating.
 inline constexpr std::size_t few_blocks(std::size_t count) {
   return count / 64 + 1;
 }

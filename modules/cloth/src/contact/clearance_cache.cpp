@@ -12,8 +12,8 @@ namespace {
 constexpr float kTravelSpare =
     2.0f;  // the query band covers this times the expected travel: constraints pull some faster
 constexpr double kMostTravel_m = 1e6;  // bounds the query band
-// If fewer than one cluster in kWorthQueries is clear, queries cost more than they save, and pause for kWait
-// frames.
+// If fewer than one cluster in kWorthQueries is clear, the queries of clusters cost more than they save, and
+// are left out for kWait frames.
 constexpr std::size_t kWorthQueries = 8;
 constexpr int kWait = 15;
 

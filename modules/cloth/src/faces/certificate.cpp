@@ -17,7 +17,7 @@ constexpr int kRounds = 6;              // of pushes
 constexpr std::size_t kProofGrain = 4;  // runs a task
 constexpr std::size_t kBatch = 64;      // pieces that are queried together: a block of the collider
 constexpr int kMostCuts = 12;           // halvings of an edge: a meter becomes a quarter of a millimeter
-// Each batch leaves at most three more pieces a level than it takes.
+// A batch that is cut adds at most three pieces a level for each piece that it takes off the stack.
 constexpr std::size_t kMostPieces = kBatch * (3 * kMostCuts + 4);
 
 // A part of a triangle, by the barycentric weights of its corners.

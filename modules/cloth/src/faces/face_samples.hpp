@@ -73,14 +73,14 @@ struct FaceSamples {
   std::vector<std::uint8_t> parts;   ///< #elements: into how many its edges are cut; 0: not near the body
   std::vector<std::uint8_t> wanted;  ///< #elements: parts that the last frame's samples showed to be needed
   std::vector<ParticleRoom> room;    ///< #P
-  std::size_t most = 0;              ///< samples that memory is reserved for
+  std::size_t most = 0;              ///< number of samples that memory is reserved for
 
   SampleRange of_run(const Elements& elements, std::size_t run) const {
     return {begin[elements.run_begin[run]], begin[elements.run_begin[run + 1]]};
   }
 };
 
-/// The state for these elements, so many particles, and memory for `most` samples.
+/// Makes the state for these elements and a number of particles, with memory for `most` samples.
 FaceSamples make_face_samples(const Elements& elements, std::size_t particles, std::size_t most);
 
 /// The number of samples that the widest spacing gives for the garment at rest.

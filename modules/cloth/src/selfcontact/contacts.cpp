@@ -17,11 +17,12 @@ namespace {
 constexpr float kNoPath_m = std::numeric_limits<float>::infinity();
 constexpr std::size_t kMovesATask = 256;
 constexpr int kPushes = 2;  // sweeps over the contacts of a substep
-// Pairs of leaves that move by more than the slack in a substep are found for so many times that step, so
-// that those of cloth that constraints and contact move to and fro are not found anew in each substep.
+// The slack of a search is at least this multiple of the largest step of a leaf. Cloth that constraints and
+// contact move to and fro then keeps its pairs of leaves for several substeps.
 constexpr float kAhead = 1.5f;
 
-// Parts nearer than this have no normal, a tenth of a micrometer: what a file has at the same point.
+// Parts nearer than this, a tenth of a micrometer, have no normal. Such parts are at the same point in a
+// file.
 constexpr float kTouching_m = 1e-7f;
 
 // The least distance to keep, a share of the gap, of parts that are nearer at rest.

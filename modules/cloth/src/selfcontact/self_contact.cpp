@@ -31,19 +31,20 @@ constexpr float kUntangle_m_s = 0.3f;
 // Shares of the spare distance that particles may use before and after contacts moved them; two of them may
 // use both halves against each other.
 constexpr float kUsedBefore = 0.4f, kUsedAfter = 0.499f;
-// The shares that particles on the body are expected to use at most. One that moves brings layers together,
-// and with less they would not meet in time.
+// The largest shares that particles on the body are expected to use. A body that moves brings layers
+// together, and with a smaller share they would not meet in time.
 constexpr float kUsedStill = 0.2f, kUsedMoving = 1.0f;
 
-// Share of what a particle may stray that it uses at most when a search begins.
+// The largest share of its allowed deviation that a particle uses when a search begins.
 constexpr float kOnPath = 0.9f;
 
-// Pairs that would cross are pushed apart in so many rounds at most, of so many sweeps.
+// Pairs that would cross are pushed apart in at most kHeldRounds rounds of kHeldSweeps sweeps each.
 constexpr int kHeldRounds = 6, kHeldSweeps = 4;
-// After so many rounds of zones, pairs that the body presses from both sides or within a zone may cross;
-// after so many, all particles move together.
+// After kFirmRounds rounds of zones, pairs may cross that the body presses from both sides, or that lie
+// within one zone. After kMostRounds all particles move together.
 constexpr int kFirmRounds = 4, kMostRounds = 16;
-// How often particles that sink into the body are guarded against it, before layers cross.
+// The number of times that particles which sink into the body are guarded against it, before layers may
+// cross.
 constexpr int kGuardings = 4;
 
 // Lists the groups of particles on the paths that are expected.
@@ -141,8 +142,9 @@ bool guard_moved(const engine::Context& context, const ResolvedBody& body, SelfC
   return guard_sunk(context, body, s.moved, s.zones.resolved, s.now, s.zones.guard);
 }
 
-// Lets nothing cross, except where the body leaves no room for that: particles that sank into it are moved
-// outward only, and those that sink all the same are put back, so that the body has the last word.
+// Lets nothing cross, except where the body leaves no room for that. Particles that sank into the body are
+// moved outward only, and those that sink all the same are put back, because contact with the body is
+// resolved last.
 void part(const engine::Context& context, const SelfSubstep& substep, const ResolvedBody& body,
           const Particles& p, SelfContact& s) {
   std::ranges::copy(s.now, s.zones.resolved.begin());
@@ -163,7 +165,8 @@ void part(const engine::Context& context, const SelfSubstep& substep, const Reso
     for (const std::uint32_t k : task.crossing) task.pressed.push_back(task.pairs[k]);
 }
 
-// Copies the points that moved to the particles' positions, and lets them have that speed.
+// Copies the points that moved to the particles' positions, and adds the displacement over the substep to
+// their velocities.
 void take_points(float substep_s, std::span<const Point> at, Particles& p) {
   for (std::size_t i = 0; i < p.count(); ++i) {
     const float dx = at[i].x - p.x[i], dy = at[i].y - p.y[i], dz = at[i].z - p.z[i];

@@ -16,7 +16,7 @@ namespace bodice::inline v0_1::cloth {
 /// The zones of a substep.
 struct Zones {
   std::vector<Index> parent;           ///< #P: union-find; a particle of no zone is its own parent
-  std::vector<Index> members;          ///< particles of zones
+  std::vector<Index> members;          ///< the particles of all zones
   std::vector<Float4> moved;           ///< #P: at a zone's root: mass times displacement, and mass
   std::vector<Point> wanted;           ///< as members: their displacements before they joined a zone
   std::vector<Point> resolved, guard;  ///< #P: what keeps particles from sinking (contact/last_word.hpp)

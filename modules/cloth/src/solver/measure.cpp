@@ -8,7 +8,7 @@
 namespace bodice::inline v0_1::cloth {
 namespace {
 
-// Sums over particles.
+// Sums of energies and of sleeping particles over a range of particles.
 struct Motion {
   double kinetic = 0.0, gravity = 0.0;  // joules
   std::size_t asleep = 0;

@@ -54,7 +54,7 @@ engine::Result<State> make_state(const geometry::TriMesh& garment, std::span<con
                                  const Fabric& fabric, const SolverOptions& options,
                                  std::span<const Tack> tacks = {});
 
-/// As Solver::set_positions().
+/// Implements Solver::set_positions().
 void set_positions(std::span<const Vec3> world_positions, State& state);
 
 /// Advances by one frame.

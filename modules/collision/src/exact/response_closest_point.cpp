@@ -1,7 +1,7 @@
 // Differs from the paper's section 4 in three points:
 // - The target is the closest point of the union or of its corrected surface, not the exit of one central
 //   ray.
-// - The safe position decides between the sides of a limb.
+// - The side of a limb at which a particle comes out is that of its safe position.
 // - Where two limbs leave no room for the clearance, the particle rests midway, still outside of both.
 #include <cmath>
 #include <limits>

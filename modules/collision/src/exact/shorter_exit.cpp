@@ -22,7 +22,7 @@ constexpr double kLeastGain = 1e-3;
 /// The tangent planes of the ellipsoids within reach at their closest points to x, raised by the clearance.
 class TangentPlanes {
  public:
-  /// False if the list does not hold them all.
+  /// Returns false if the list is too short for all of them.
   bool collect(const UnionField& field, const Vec3& p, const Vec3& x, double clearance_m) {
     size_ = 0;
     bool all = true;

@@ -22,7 +22,7 @@ constexpr int kWholeDigits = 3, kTaskDigits = 2;
 struct Range {
   float low = 0.0f, last, scale = 0.0f;
 
-  /// That of the values [begin, begin + count).
+  /// The range of the values [begin, begin + count).
   template <class Values>
   Range(const Values& values, std::size_t begin, std::size_t count, int bits)
       : last(static_cast<float>((1 << bits) - 1)) {

@@ -11,7 +11,7 @@ namespace bodice::inline v0_1::collision {
 
 /// Particles of the caller: arrays of floats that kernels may read in place, or vectors that are gathered.
 struct ParticleView {
-  // Not explicit: packed arrays are the usual form.
+  // This constructor is implicit, because packed arrays are the usual form.
   ParticleView(const Particles& arrays);
   explicit ParticleView(const StridedParticles& vectors);
 

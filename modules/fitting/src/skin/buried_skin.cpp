@@ -68,7 +68,8 @@ struct Search {
     return list;
   }
 
-  /// Guessed vertices of triangles with corners of different state; they count as evaluated from now on.
+  /// Returns the vertices with a guessed state in triangles with corners of different state, and marks them
+  /// as evaluated.
   std::vector<Index> doubtful() {
     std::vector<Index> found;
     for (const geometry::Triangle& t : mesh.triangles) {

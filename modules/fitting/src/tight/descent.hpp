@@ -11,7 +11,8 @@ namespace bodice::inline v0_1::fitting {
 /// How a descent runs and when it ends.
 struct DescentOptions {
   int iterations = 48;  ///< at most; it ends earlier if time is out or nothing is left to gain
-  /// False: no split-and-merge moves are tried, and more_samples is called only before the first iteration.
+  /// Whether split-and-merge moves are tried. Without them more_samples is called only before the first
+  /// iteration.
   bool split_and_merge = true;
   double over_step = kOverStep;       ///< over-relaxation of the steps
   std::function<bool()> out_of_time;  ///< called once an iteration; may be empty

@@ -24,7 +24,7 @@ constexpr double kMostCorrelation = 0.05;
 constexpr double kMostVariance = 4.0;
 /// Rings around a vertex that its quadric goes through.
 constexpr int kRings = 2;
-/// From the absolute median to the standard deviation of a normal distribution.
+/// The standard deviation of a normal distribution over the median of its absolute values.
 constexpr double kNormal = 1.4826;
 /// A deviation counts up to so many standard deviations.
 constexpr double kOutlier = 5.0;

@@ -30,7 +30,7 @@ struct Secular {
   Vec3 a;          // r o |y|
   Vec3 gap;        // r_j^2 - r_min^2
   int pole;        // the axis of r_min
-  double surface;  // r_min^2: the root of points on the surface
+  double surface;  // r_min^2, which is the root for a point on the surface
 
   /// 1 / (u + gap) of each axis. Where a is zero the quotient has no meaning and is only kept finite.
   Vec3 inverse(double u) const { return (gap.array() + u).max(std::numeric_limits<double>::min()).inverse(); }

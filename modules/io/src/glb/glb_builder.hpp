@@ -21,7 +21,7 @@ class GlbBuilder {
  public:
   GlbBuilder();
 
-  /// These add data to the buffer and return the index of its accessor.
+  /// The functions add_*() append data to the buffer and return the index of its accessor.
   std::size_t add_positions(std::span<const Vec3f> values);  ///< with the bounds that glTF requires
   std::size_t add_vectors(std::span<const Vec3f> values);    ///< normals, colors
   std::size_t add_triangles(std::span<const geometry::Triangle> triangles);

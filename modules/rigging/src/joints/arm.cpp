@@ -10,8 +10,8 @@ using body::LandmarkId;
 using body::of_side;
 using body::Part;
 
-/// Around the wrist; where no curve closes there (a fist, fused fingers), a point between elbow and
-/// fingertip.
+/// Returns the center of the curve around the wrist. Where no curve closes there (a fist, fused fingers), the
+/// point lies between elbow and fingertip.
 Vec3 find_wrist(const SkinCurves& skin, int side, const Vec3& elbow) {
   const body::Landmark& tip = skin.landmark(of_side(LandmarkId::kFingertipL, side));
   const double h = skin.anatomy().stature_m;

@@ -8,9 +8,10 @@
 namespace bodice::inline v0_1::rigging {
 namespace {
 
-// Between these bends of a hinge, as sines, its plane comes to be trusted: 14 and 30 degrees.
+// The sines of the bends of a hinge, 14 and 30 degrees, between which the weight of its plane rises from 0 to
+// 1.
 constexpr double kUncertainBend = 0.24, kCertainBend = 0.5;
-// An arm further from hanging than this, as a cosine, is turned by its side: 120 degrees.
+// The cosine of the angle from hanging, 120 degrees, beyond which an arm is turned by its side.
 constexpr double kRaised = -0.5;
 
 }  // namespace

@@ -40,13 +40,15 @@ Vec3 level_hip(const BorderRings& rings, const TrunkAxes& trunk, int side) {
   return rings.hip[side].center - 0.5 * from_middle.dot(up) * up;
 }
 
-/// Off a curve of the torso, up and to the front along the axes of the pelvis and of the chest.
+/// The frame of a joint that lies off a curve of the torso: up and to the front along the axes of the pelvis
+/// and of the chest.
 OffsetFrame spine_frame(const Ring& ring, const TrunkAxes& trunk, double h) {
   return make_frame(ring.center, {h * trunk.pelvis.col(1), h * trunk.pelvis.col(2), h * trunk.chest.col(1),
                                   h * trunk.chest.col(2)});
 }
 
-/// Off the curve where a limb begins, along the limb, to its side, up and to the front of what carries it.
+/// The frame of a joint that lies off the curve where a limb begins: along the limb, and to the side, up and
+/// to the front of what carries the limb.
 OffsetFrame limb_frame(const Vec3& border, const Vec3& limb_joint, const Mat3& carrier, double outward_h) {
   const double h = std::abs(outward_h);
   return make_frame(border, {h * (limb_joint - border).normalized(), outward_h * carrier.col(0),

@@ -5,16 +5,16 @@
 
 namespace bodice::inline v0_1::rigging {
 
-/// What a motion knows of the body, units of the leg.
+/// The lengths of a body that a motion uses, in lengths of the leg.
 struct Build {
   double hip_half_width = 0.1;
   double thigh = 0.5, calf = 0.45;  ///< lengths of the bones
 };
 
-/// Feet flat below the hips, arms hanging.
+/// A posture with the feet flat below the hips and the arms hanging.
 Posture standing(const Build& build);
 
-/// How far a gait comes in one cycle, units of the leg.
+/// The distance that a gait covers in one cycle, in lengths of the leg.
 double walking_stride();
 double running_stride();
 

@@ -1,4 +1,4 @@
-// Once around in steps, and twice around on both soles.
+// The motions turn (once around, in steps) and spin (twice around, on both soles).
 #include <cmath>
 #include <numbers>
 
@@ -15,8 +15,7 @@ double smooth(double s) {
   return s * s * (3.0 - 2.0 * s);
 }
 
-/// The foot's heading over the count of steps: it stays, then goes on by one step, around its share of the
-/// turn.
+/// A foot that turns by steps: in each step it is lifted, goes on by one step's angle, and then stays.
 FootPosture stepping_foot(double steps, const Build& build, int side) {
   const double sign = side == 0 ? 1.0 : -1.0, whole = std::floor(steps), part = steps - whole;
   const double moved = part < kSwing ? smooth(part / kSwing) : 1.0;

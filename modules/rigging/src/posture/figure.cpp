@@ -75,7 +75,8 @@ LegLengths measure_leg(const rig::Skeleton& skeleton, const Figure& figure, int 
   return leg;
 }
 
-/// To the front over the floor; a body that lies faces where its head or its feet are.
+/// The heading of a body: its front, made horizontal. The heading of a body that lies is toward its head or
+/// its feet.
 Mat3 heading_of(const Mat3& pelvis) {
   Vec3 front = pelvis.col(2);
   if (std::abs(front.y()) > 0.9) front = front.y() > 0.0 ? Vec3(-pelvis.col(1)) : Vec3(pelvis.col(1));

@@ -13,7 +13,8 @@ namespace bodice::inline v0_1::rigging {
 using geometry::Mat3;
 using geometry::Vec3;
 
-/// From an arm that hangs straight down with its palm inward. In this order: twist, raise, forward.
+/// The turns of an arm, in degrees, from one that hangs straight down with its palm inward. They apply in the
+/// order twist, raise, forward.
 struct ArmPosture {
   double raise = 10.0;   ///< away from the trunk, in the frontal plane
   double forward = 0.0;  ///< swing to the front

@@ -13,14 +13,15 @@ namespace {
 using body::JointId;
 using geometry::Vec3;
 
-/// What an arm needs beside the body, as a share of its length: half its width, the sway of hips and thighs,
-/// and some air.
+/// The room that an arm needs beside the body, as a share of its length: half its width, the sway of hips and
+/// thighs, and some air.
 constexpr double kHalfWidth = 0.115;
-/// From here on, as shares of the arm's length below the shoulder: above, arm and trunk are one.
+/// The range below the shoulder, as shares of the arm's length, in which an arm must clear the body. Above it
+/// arm and trunk are joined.
 constexpr double kFrom = 0.45, kTo = 1.0;
 constexpr double kMost_deg = 30.0;
 
-/// Degrees from upright, seen from a shoulder, past everything that lies beside the arm.
+/// The angle between the vertical and an arm that clears everything beside it, in degrees, at a shoulder.
 double needed_raise_deg(std::span<const Vec3> standing, std::span<const body::Part> part,
                         const Vec3& shoulder, double sign, double arm_m) {
   double most = 0.0;

@@ -14,7 +14,7 @@ using body::of_side;
 using body::Part;
 
 constexpr std::size_t kGrain = 2048;
-// As rigs made by hand have it: the heel is the foot's, and the jaw the head's.
+// These planes give the heel to the foot and the jaw to the head, as rigs made by hand do.
 const Vec3 kAnkleCut = Vec3(0.0, -1.0, 0.35).normalized();
 const Vec3 kHeadCut = Vec3(0.0, 1.0, 0.5).normalized();
 /// The skin over a clavicle begins beside the neck, at this fraction of the stature from the middle.

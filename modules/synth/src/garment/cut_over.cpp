@@ -12,8 +12,8 @@ using body::Part;
 using geometry::Index;
 
 constexpr double kPonchoReach = 0.3;  // statures from the middle of the neck to the hem
-/// In statures. Skin farther from the neck's middle than the radius, and not much higher, is shoulder,
-/// whatever its part.
+/// Skin that is farther from the neck's middle than kNeckRadius, and at most kShoulderHeight higher, is
+/// shoulder, whatever its part; in statures.
 constexpr double kNeckRadius = 0.05, kShoulderHeight = 0.03;
 
 engine::Error arms_too_high(std::string message) {

@@ -11,7 +11,7 @@
 namespace bodice::inline v0_1::synth {
 namespace {
 
-// In distances from perineum to neck.
+// These are shares of the distance from perineum to neck.
 constexpr double kPelvis = 0.25;        // height of the pelvis
 constexpr double kGreatestLean = 0.25;  // with more, the slice is not the pelvis
 

@@ -36,8 +36,8 @@ struct Levels {
   double waist, armpit, neck;
 };
 Levels levels_of(const Fitting& fitting);
-/// The greatest height below the armpits at which there is room for cloth between trunk and arm. The skin
-/// itself decides, because an armpit's landmark may be some centimeters above the fold.
+/// The greatest height below the armpits at which there is room for cloth between trunk and arm. It is found
+/// on the skin itself, because an armpit's landmark may be some centimeters above the fold.
 double tube_top(const Fitting& fitting);
 
 /// The outline of the wanted parts' slices at two heights and between them, widened by the ease. Its radius

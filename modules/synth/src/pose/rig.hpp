@@ -13,7 +13,7 @@ namespace bodice::inline v0_1::synth {
 /// A joint a bone, bound in the pose that `bones` make of the rest pose; `joints` are their final positions.
 rig::Skeleton true_skeleton(const BoneTransforms& bones, const std::vector<Joint>& joints);
 
-/// Without what moves a vertex by less than a ten-thousandth of a bone's motion; the rest sums to 1.
+/// Skin weights without those below a ten-thousandth; the others sum to 1.
 rig::SkinWeights sparse_weights(const std::vector<BoneWeights>& weights);
 
 }  // namespace bodice::synth

@@ -9,15 +9,16 @@ namespace {
 using body::LandmarkId;
 using geometry::Index;
 
-/// Below the chest line, the trunk below the breasts; above the crotch, the level of the seat: shares of the
-/// stature.
+/// The underbust lies kUnderbustDrop below the chest line, and the level of the seat kSeatRise above the
+/// crotch, in statures.
 constexpr double kUnderbustDrop = 0.036, kSeatRise = 0.045;
-/// Half the distance of the bust points from each other; a share of the stature.
+/// Half the distance of the bust points from each other, in statures.
 constexpr double kBustHalf = 0.04;
-/// The side of the neck's base below C7; a share of the stature.
+/// The depth of the side of the neck's base below C7, in statures.
 constexpr double kNeckSideDrop = 0.012;
 
-/// Where a ray meets a triangle: barycentric weights of its corners, and the distance.
+/// The point where a ray meets a triangle: barycentric weights of its corners, and the distance along the
+/// ray.
 struct Hit {
   Vec3 weight = Vec3::Zero();
   double distance = -1.0;

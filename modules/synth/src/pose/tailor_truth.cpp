@@ -105,7 +105,7 @@ double thigh_girth(const Posed& b, int side) {
   return tape(std::move(points)).girth;
 }
 
-/// Around a wrist, at its joint.
+/// The girth of a wrist at its joint.
 double wrist_girth(const Posed& rest, int side) {
   const LimbAxes& axes = rest.figure.arm[side];
   const Vec3 origin = rest.figure.joint[index(of_side(Bone::kHandL, side))];

@@ -67,8 +67,9 @@ Vec3 furthest_on_border(const Posed& b, const std::vector<double>& field, const 
   return posed;
 }
 
-/// In statures. The perineum of rigged scans lies where the floor of the trunk begins to rise to the front.
-/// The lowest point wanders on a floor that is nearly level, and lies far behind on heavy seats.
+/// The rise of the floor of the trunk at which the perineum of rigged scans lies, in statures: there it
+/// begins to rise to the front. The lowest point varies on a floor that is nearly level, and lies far behind
+/// on heavy seats.
 constexpr double kLevelFloor = 0.004;
 
 /// The point where the midline of the crotch, followed forward, leaves the floor.
@@ -105,7 +106,7 @@ Index furthest(const Posed& b, Region region, const Vec3& direction) {
   return best;
 }
 
-/// In statures: the depth and half width of a foot's blunt front.
+/// The depth and half width of a foot's blunt front, in statures.
 constexpr double kBluntFront = 0.016, kFootWidth = 0.06;
 
 /// The farthest vertex below the knee, since a heavy thigh may reach further.
@@ -138,7 +139,7 @@ Vec3 tip_of_foot(const Posed& b, int side) {
   return all > 0.0 ? Vec3(moment / all) : b.posed[farthest];
 }
 
-/// In statures: the border of upper and lower trunk in rigged scans lies this much above the survey's waist.
+/// The height of the border of upper and lower trunk in rigged scans over the survey's waist, in statures.
 constexpr double kWaistAboveNavel = 0.016;
 
 Part trunk_part(const Figure& f, const Vec3& rest) {

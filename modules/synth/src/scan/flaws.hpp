@@ -11,7 +11,7 @@ namespace bodice::inline v0_1::synth {
 
 /// The triangles with this value, with the vertices that they use.
 geometry::TriMesh take(const geometry::TriMesh& mesh, std::span<const int> value, int wanted);
-/// Those with any other value.
+/// The triangles with any other value, with the vertices that they use.
 geometry::TriMesh take_others(const geometry::TriMesh& mesh, std::span<const int> value, int unwanted);
 
 /// Moves each vertex along its normal by normal noise.

@@ -165,7 +165,8 @@ Result<Preparation> Preparation::make(PreparationOptions options, OnProxy on_pro
       "solid parts",
       [set, publisher](const Context& c, const Skin& on, const std::uint32_t& parts) -> Result<void> {
         if (set->fit.tier.value_or(proxy::Tier::kRelief) <= proxy::Tier::kSolid) return {};
-        // These have the limits of the final fit: the frames until then have no more time than those after.
+        // Solid ellipsoids obey the limits of the final fit, because frames before it have no more time than
+        // those after it.
         auto fit = fit_parts(c, *on,
                              {.tier = proxy::Tier::kSolid,
                               .max_ellipsoids = set->fit.max_ellipsoids,

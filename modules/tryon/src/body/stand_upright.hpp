@@ -5,9 +5,9 @@
 
 namespace bodice::inline v0_1::tryon {
 
-/// Where a file's up axis was found by extents alone, the trunk and the legs know better: a body that sits
-/// with z up is as wide as it is tall. Turns skin, landmarks and frame, and returns true, where the trunk
-/// stands along another axis of the file and no lower leg contradicts. Turns are exact.
+/// The trunk and the legs give a better up axis than extents alone, by which a file's was found: a body that
+/// sits with z up is as wide as it is tall. Turns skin, landmarks and frame, and returns true, where the
+/// trunk stands along another axis of the file and no lower leg contradicts. Turns are exact.
 bool stand_upright(io::ImportedMesh& mesh, anatomy::Anatomy& anatomy);
 
 }  // namespace bodice::tryon

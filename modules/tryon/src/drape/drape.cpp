@@ -200,7 +200,7 @@ class Drape {
   void offer(int frame, const Penetration& depth) {
     const double time_s = frame * options_.dt_s;
     if (!recorder_.offer(frame, positions_, time_s) || !scene_.met.moves()) return;
-    // What the cloth's own body took in this frame is taken here as well.
+    // The body that judges takes the pose of the body that the cloth met in this frame.
     static_cast<void>(scene_.judged.pose(context_, joints_, 0.0));
     const geometry::MeshDistance& skin = scene_.met.distance(context_);
     result_.body_frames.push_back(scene_.met.skin(context_).positions);

@@ -24,7 +24,8 @@ double distance_of(const collision::Collider& collider, const Vec3& world) {
   return double{collider.query({local.x(), local.y(), local.z()}).signed_distance};
 }
 
-/// Between the normals of the corners of the triangle that a point of the skin lies in.
+/// The normal at a point of the skin, interpolated between the corners of the triangle that the point lies
+/// in.
 Vec3 normal_at(const geometry::TriMesh& skin, const std::vector<Vec3>& normals,
                const geometry::SurfacePoint& at) {
   const auto& t = skin.triangles[at.triangle];
@@ -34,7 +35,7 @@ Vec3 normal_at(const geometry::TriMesh& skin, const std::vector<Vec3>& normals,
   return (share[0] * normals[t[0]] + share[1] * normals[t[1]] + share[2] * normals[t[2]]).stableNormalized();
 }
 
-/// How far out along a direction the proxy is left, meters; 0 where it is not within kLongestLift_m.
+/// The path along a direction until it leaves the proxy, meters; 0 if it does not within kLongestLift_m.
 double length_out_m(const collision::Collider& collider, const Vec3& from, const Vec3& direction,
                     double thickness_m) {
   double path_m = 0.0;

@@ -56,7 +56,7 @@ struct Nearest {
   Index triangle = geometry::kNoIndex;
 };
 
-/// For each vertex that is to be tacked, what it lies on.
+/// Finds the triangle of another piece on which each vertex that is to be tacked lies.
 std::vector<Nearest> find_nearest(const engine::Context& context, const Pieces& pieces, double within_m) {
   std::vector<Nearest> nearest(pieces.mesh.positions.size());
   std::vector<bool> on_rim(nearest.size(), false);

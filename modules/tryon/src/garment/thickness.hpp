@@ -16,12 +16,13 @@ namespace bodice::inline v0_1::tryon {
 std::vector<geometry::Vec3> skin_below(const engine::Context& context, const geometry::TriMesh& garment,
                                        const geometry::MeshDistance& skin);
 
-/// How far points of the skin stand out of the collider, meters; zero where they do not.
+/// Sets `missed_m` to how far each point of the skin stands out of the collider, meters; zero where it does
+/// not.
 void find_missed(const engine::Context& context, const collision::Collider& collider,
                  std::span<const geometry::Vec3> skin, std::span<float> missed_m);
 
-/// Half a cloth and the 99th percentile of what was missed, at least 1 mm and at most 8. `missed_m` has a
-/// zero for each vertex that was left out.
+/// Half the thickness of cloth plus the 99th percentile of `missed_m`, meters: at least 1 mm and at most 8
+/// mm. `missed_m` has a zero for each vertex that was left out.
 double thickness_for(std::vector<float> missed_m);
 
 }  // namespace bodice::tryon

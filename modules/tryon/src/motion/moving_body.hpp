@@ -1,4 +1,4 @@
-// A body as frames see it: standing still, or posed by its joints before each frame.
+// A body in the state of a frame: standing still, or posed by its joints before each frame.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,7 @@ class MovingBody {
                                          bool moves);
 
   bool moves() const noexcept { return poser_.has_value(); }
-  /// Poses the collider by the joints, #J; contacts then know the velocity of a surface that came here in
+  /// Poses the collider by the joints, #J; contacts then use the velocity of a surface that came here in
   /// dt_s. Outside of the boxes `options.within` tables stay as at rest. Fails where a matrix is refused, and
   /// then nothing moves. Allocates nothing.
   engine::Result<void> pose(const engine::Context& context, std::span<const rig::Affine> joints, double dt_s,

@@ -10,13 +10,14 @@ namespace {
 
 /// What a refit takes behind frames, about: a moving body is refitted where it will be then.
 constexpr double kAhead_s = 0.3;
-/// Joints turned farther than this from every base pose: a moving body gets another one.
+/// A moving body gets another base pose if its joints are turned farther than this from every one that it
+/// has.
 constexpr double kFarMoving_rad = 0.35;
-/// A body that stands still gets one in its very pose.
+/// A body that stands still gets a base pose in its very pose if its joints are turned farther than this.
 constexpr double kFarStill_rad = 0.08;
-/// Joints that turn by less within kAhead_s stand still; in entries of their matrices.
+/// A joint stands still if every entry of its matrix changes by less than this within kAhead_s.
 constexpr double kStill = 0.02;
-/// Over so many poses a new base pose comes to count fully.
+/// Number of poses over which the share of a new base pose rises to one.
 constexpr int kPosesToBlend = 10;
 
 bool stand_still(std::span<const rig::Affine> now, std::span<const rig::Affine> later) {

@@ -125,12 +125,12 @@ void Session::Impl::pose(const engine::Context& context, double dt_s) {
     solver->positions(cloth);
     where.within = reach->boxes(cloth);
   }
-  // A new shape begins in the pose of the frame before, so that contacts know how the surface moves.
+  // A new shape begins in the pose of the frame before, so that contacts have the velocity of its surface.
   if (std::exchange(new_shape, false) && !jumped)
     static_cast<void>(moving.pose(context, playback.joints(), 0.0, where));
   if (!paused) playback.advance(dt_s);
   moving.go_over(dt_s);
-  // A body that jumped here did not come with the velocity of the jump.
+  // The velocity of a jump is none of the surface's.
   if (auto done = moving.pose(context, playback.joints(), jumped ? 0.0 : dt_s, where); !done) return;
   jumped = false;
   if (solver) move_held();

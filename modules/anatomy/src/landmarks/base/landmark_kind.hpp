@@ -47,7 +47,7 @@ struct LandmarkKind {
 /// Below this confidence a landmark is named in a warning.
 inline constexpr double kUncertain = 0.35;
 
-/// 1 at a Mahalanobis distance of 0, falling to 0 at `hopeless`.
+/// A confidence by a Mahalanobis distance: 1 at a distance of 0, and 0 from `no_evidence_at` on.
 inline double confidence_of(double mahalanobis, double hopeless) {
   const double m = mahalanobis / hopeless;
   return std::max(0.0, 1.0 - m * m);

@@ -14,7 +14,7 @@ struct TrunkFrame {
   }
 };
 
-/// From neck, perineum and armpits, as far as they are known.
+/// The frame of the trunk, by neck, perineum and armpits as found so far.
 inline TrunkFrame trunk_frame(const Landmarks& marks) {
   const geometry::Vec3 up = (marks.at(LandmarkId::kNeck) - marks.at(LandmarkId::kPerineum)).normalized();
   const geometry::Vec3 across = marks.at(LandmarkId::kArmpitL) - marks.at(LandmarkId::kArmpitR);

@@ -17,11 +17,11 @@ namespace {
 using geometry::Vec3;
 namespace data = coefficients::armpit;
 
-/// A signature this many deviations off is no evidence any more: one armpit in fifty is more than 5.3 off,
-/// and mostly right all the same.
+/// The Mahalanobis distance from which a signature is no evidence any more, in deviations. One armpit in
+/// fifty is more than 5.3 off, and mostly right all the same.
 constexpr double kHopeless = 10.0;
-/// An armpit leads the best vertex elsewhere by 2 deviations on nineteen bodies of twenty; all that were over
-/// 6 % of the stature off led by less than 0.8.
+/// The margin over the best vertex elsewhere, in deviations, from which an armpit is unambiguous. It is 2 on
+/// nineteen bodies of twenty, and was less than 0.8 for every armpit that was over 6 % of the stature off.
 constexpr double kClearMargin = 1.8;
 /// The largest correction that a calibration body needs is .027 of the body size.
 constexpr double kFarthest = 0.03;
@@ -79,15 +79,16 @@ float from_hand(const LandmarkInput& input, const Landmarks& marks, int side) {
   return (*input.tips().from_hand[side])[marks[body::of_side(LandmarkId::kArmpitL, side)].mark.vertex];
 }
 
-/// From the level where the loop around the arm widens into the trunk.
+/// The distance of the armpit from the level where the loop around the arm widens into the trunk, along the
+/// arm.
 double level_difference(const LandmarkInput& input, const Landmarks& marks, int side) {
   const float level = input.coordinates.shoulder_level_m(side);
   if (!(level > 0.0F)) return -1.0;
   return static_cast<double>(std::abs(from_hand(input, marks, side) - level) / input.coordinates.size_m());
 }
 
-/// Arms are of one length; a shrug or a twist changes the paths along them by half of what is a
-/// contradiction.
+/// The difference of the paths along both arms, which are of one length. A shrug or a twist changes them by
+/// half of what counts as a contradiction.
 double asymmetry(const LandmarkInput& input, const Landmarks& marks, int) {
   const float left = from_hand(input, marks, 0), right = from_hand(input, marks, 1);
   return static_cast<double>(std::abs(left - right) / input.coordinates.size_m());

@@ -41,7 +41,7 @@ FoundLandmark find(const LandmarkInput& input, int) {
   return neck;
 }
 
-/// Up along the neck from the trunk, and forward across it.
+/// The axes of the neck: up from the trunk along it, and forward across it.
 struct NeckAxes {
   Vec3 up, forward;
 };

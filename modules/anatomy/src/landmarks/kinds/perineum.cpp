@@ -10,19 +10,21 @@ namespace bodice::inline v0_1::anatomy {
 namespace of_perineum {
 namespace {
 
-/// A signature this many deviations off is no evidence any more: one perineum in fifty is more than 4 off.
+/// The Mahalanobis distance from which a signature is no evidence any more, in deviations. One perineum in
+/// fifty is more than 4 off.
 constexpr double kHopeless = 6.4;
-/// A perineum with a margin over what lies in front of it that is this far from kFoldMargin, in deviations,
-/// is clearly not the fold behind it, or clearly is.
+/// The distance of the perineum's margin from kFoldMargin, in deviations, from which it is clear whether the
+/// vertex that fits best is the perineum or the fold behind it.
 constexpr double kClearlyNoFold = 1.0;
-/// A perineum that its legs would move so far, as a fraction of the body size, lies somewhere else: among
-/// 3,356 bodies 8 wanted more than .04, and the worst of all that were still 4 % of the stature off .066.
+/// The correction by the legs at which a perineum is no evidence any more, as a fraction of the body size.
+/// Among 3,356 bodies 8 had one of more than .04, and the largest of those that were still 4 % of the stature
+/// off was .066.
 constexpr double kHopelessShift = 0.06;
 /// One perineum in a hundred that is right lies farther from its second estimate, as a fraction of the body
 /// size.
 constexpr double kMaxDifference = 0.085;
 
-/// The coordinates need the perineum themselves, so that they have found it by its signature.
+/// Takes the perineum from the body coordinates, which need it themselves and find it by its signature.
 FoundLandmark find(const LandmarkInput& input, int) {
   const BodyCoordinates& coordinates = input.coordinates;
   const double no_fold = std::abs(static_cast<double>(coordinates.perineum_margin() - kFoldMargin));
@@ -46,7 +48,7 @@ FoundLandmark finish(const LandmarkInput& input, const Landmarks& marks, int) {
   return perineum;
 }
 
-/// From where the discs around both feet first touch.
+/// The distance of the perineum from the point where the discs around both feet first touch.
 double difference(const LandmarkInput& input, const Landmarks&, int) {
   const SkinPoint& merge = input.coordinates.leg_merge().at;
   if (!merge.found()) return -1.0;

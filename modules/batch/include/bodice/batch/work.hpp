@@ -1,4 +1,4 @@
-// What a batch runs. The layer schedules, isolates and stores jobs, and knows nothing of what they compute.
+// What a batch runs. The layer schedules, isolates and stores jobs, and does not depend on what they compute.
 #pragma once
 
 #include <cstdint>

@@ -1,12 +1,12 @@
 // Binding: what carries a proxy along with the joints of a rig is computed once.
 //
 // Every ellipsoid k gets constant matrices M_kj, such that in a pose with skinning matrices T_j
-//   (1)  A_k = sum_j T_j M_kj
-// is the affine map that takes the skin which the ellipsoid stands for from rest to the pose best (weighted
-// least squares, drawn a little to the blend of its joints). Under linear blend skinning this holds in every
-// pose, since both sides of the normal equations are linear in T. What an affine map cannot follow, the
-// tables do: (2) each texel near the skin knows the skin point at its surface and the joints that move it.
-// And (3) each texel knows how deep its surface point lies under other ellipsoids (proxy/posed_proxy.hpp).
+//  (1) A_k = sum_j T_j M_kj is the affine map that takes the skin which the ellipsoid stands for from rest to
+// the pose best (weighted least squares, drawn a little to the blend of its joints). Under linear blend
+// skinning this holds in every pose, since both sides of the normal equations are linear in T. What an affine
+// map cannot follow, the tables do: (2) each texel near the skin stores the skin point at its surface and the
+// joints that move it, and (3) each texel stores how deep its surface point lies under other ellipsoids
+// (proxy/posed_proxy.hpp).
 #pragma once
 
 #include <bodice/body/part.hpp>
@@ -27,8 +27,8 @@ struct SkinnedBody {
   const geometry::TriMesh& skin;    ///< meters, y up
   const rig::Skeleton& skeleton;    ///< valid
   const rig::SkinWeights& weights;  ///< mended, of the skin's vertices
-  /// #V: which limb a vertex is of. With it binding bends the limbs, and learns there what must yield;
-  /// without it, empty, burial at rest alone decides.
+  /// #V: the limb of each vertex. If it is given, binding bends the limbs in exercises and raises the burial
+  /// of texels that stand out of the skin there. If it is empty, burial is that at rest.
   std::span<const body::Part> part = {};
 };
 

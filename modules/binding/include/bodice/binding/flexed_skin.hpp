@@ -1,7 +1,8 @@
 // The skin with its limbs half bent: where the ellipsoids of a body that will move are fitted best.
 //
-// A straight leg looks like one cone, and a fit spans its knee. Bent halfway it does not, and ellipsoids that
-// are found there (fitting::FitOptions::flexed) end at the joints and stay right in either direction.
+// A straight leg is nearly one cone, so that a fitted ellipsoid may span its knee. Ellipsoids that are fitted
+// to half-bent limbs (fitting::FitOptions::flexed) end at the joints, and stay right whether a limb bends or
+// stretches.
 #pragma once
 
 #include <span>

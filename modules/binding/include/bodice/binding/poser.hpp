@@ -18,7 +18,8 @@ namespace bodice::inline v0_1::binding {
 
 /// Settings of one pose.
 struct PoseOptions {
-  /// False: ellipsoids are carried, and their tables stay as they are at rest.
+  /// Whether tables follow the skin. If not, ellipsoids are carried, and their tables stay as they are at
+  /// rest.
   bool tables = true;
   /// Only tables of ellipsoids that come into one of these boxes (world, meters) follow the skin; all if
   /// absent. Tables outside of all keep what they were at rest.

@@ -67,7 +67,7 @@ BODICE_EXPERIMENTAL bodice_status bodice_fit_begin(const bodice_context* context
                                                    const bodice_fit_options* options, bodice_ticket** ticket);
 /** Sets *done to 1 once the work is over. No cost: for every frame. */
 BODICE_EXPERIMENTAL bodice_status bodice_ticket_poll(const bodice_ticket* ticket, int32_t* done);
-/** Asks the work to stop; it ends soon after with BODICE_CANCELED. */
+/** Requests that the work stop; it ends soon after with BODICE_CANCELED. */
 BODICE_EXPERIMENTAL bodice_status bodice_ticket_cancel(const bodice_ticket* ticket);
 /** Waits for the end and gives the results away, once. Returns the status and the sentence of the work.
  * `skin` and `report` may be null. */

@@ -168,7 +168,7 @@ BODICE_STABLE bodice_status bodice_resolve(const bodice_collider* collider, cons
                                            bodice_contact_report* report);
 
 /** Follows each particle on the straight line from `safe` to `position` and finds where it first comes within
- * `thickness_m` of the surface. fraction[i] (#count floats) is the part of the way until then, 1 if it never
+ * `thickness_m` of the surface. fraction[i] (#count floats) is the part of the path until then, 1 if it never
  * does; contacts, if not null, are those at that point. Without relief no hit is missed that is deeper than
  * 0.1 mm; relief may hide features thinner than a millimeter. Particles that start within are at 0. Nothing
  * is moved. Fails and may overlap as bodice_query(). Cost: a few queries of the particles that come near. */

@@ -138,13 +138,12 @@ class Collider {
   std::uint64_t poses() const noexcept;  ///< number of calls of move_to() that changed the pose
 
   /// Moves the proxy to another pose: `shapes` are the size() ellipsoids of the new pose in world meters;
-  /// relief tables move along. The origin stays.
-  /// Contacts then know the surface's velocity, (new - old position) / dt_s, which is zero if dt_s is not
-  /// positive. Safe positions move along with the ellipsoid that they are nearest to.
-  /// Axes may be off by a thousandth, which is mended, and carry one scale, which the radii take. Returns
-  /// false and moves nothing if the number of shapes differs, or if a shape is not finite, flat, mirrored or
-  /// sheared: why_refused() of pose_refusal.hpp names it. Allocates nothing and must not overlap another
-  /// call. Cost: about 0.1 microseconds an ellipsoid, 0.3 if its axes are mended.
+  /// relief tables move along. The origin stays. From then on contacts use the surface's velocity, (new - old
+  /// position) / dt_s, which is zero if dt_s is not positive. Safe positions move along with the ellipsoid
+  /// that they are nearest to. Axes may be off by a thousandth, which is mended, and carry one scale, which
+  /// the radii take. Returns false and moves nothing if the number of shapes differs, or if a shape is not
+  /// finite, flat, mirrored or sheared: why_refused() of pose_refusal.hpp names it. Allocates nothing and
+  /// must not overlap another call. Cost: about 0.1 microseconds an ellipsoid, 0.3 if its axes are mended.
   bool move_to(std::span<const geometry::Ellipsoid> shapes, double dt_s) noexcept;
   /// Moves the proxy to a pose of a bound proxy (binding::Poser), tables included: `posed` has the ellipsoids
   /// and texels of the proxy that the collider was made from, and lengths of its body's size. Velocities and

@@ -101,8 +101,8 @@ HWY_INLINE V usual_root(const Secular& g, V u, V low) {
   return hn::IfThenElse(hn::Gt(next, low), next, low);
 }
 
-/// Lanes that need another step. Each lane decides by itself, so that its result does not depend on other
-/// lanes.
+/// Lanes that need another step. The condition of a lane uses the values of that lane only, so that its
+/// result does not depend on other lanes.
 HWY_INLINE M needs_step(const Secular& g, V u, V low) {
   // Next to the focal ellipse of a thin shape w_z, and with it the normal, depends on the last digits of u,
   // to which |w| is hardly sensitive. There the remaining step must be short beside u, as far as |w|
@@ -204,7 +204,8 @@ struct Unconverged {
   M active[kCount];
 };
 
-/// Not inlined: what it works on must lie in memory, while the common case stays in registers.
+/// This function is not inlined, because its operands must lie in memory, while the common case keeps them in
+/// registers.
 template <int kCount>
 HWY_NOINLINE void refine_each(Unconverged<kCount>& some) {
   for (int i = 0; i < kCount; ++i)

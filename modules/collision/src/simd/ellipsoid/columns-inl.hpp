@@ -73,7 +73,7 @@ class Columns {
 
  private:
   static constexpr int kPad = 16;
-  // Not a power of two, because the rows of one column would then share few lines of the cache.
+  // The widest stride is no power of two, because the rows of one column would then share few cache lines.
   static constexpr int kWidest = kMaxCandidates + kPad;
 
   // The stride is a constant, so that the copies become plain moves.

@@ -39,8 +39,8 @@ HWY_INLINE void find_nearer(const Pairs& pairs, float* least, BatchResults& out)
   for (int i = 0; i < pairs.count; i += kWidth) {
     const V first = hn::GatherIndex(f, least, hn::Load(I(), pairs.lane + i));
     const M maybe = hn::And(hn::Le(hn::Load(f, a.distance + i), first), lanes_below(i, pairs.count));
-    // These are few, since the bounds nearly always find the nearest first. A lane may be among them more
-    // than once.
+    // Few pairs remain here, because the candidate with the least bound is nearly always the nearest. A lane
+    // may be among them more than once.
     for (std::uint64_t left = bits(maybe); left != 0; left &= left - 1) {
       const int k = i + std::countr_zero(left), lane = pairs.lane[k];
       const bool farther = a.distance[k] > least[lane];

@@ -66,8 +66,8 @@ struct FitOptions {
   /// Its ellipsoids are found there, so that none spans a joint; tables and promises are those of the skin as
   /// it is. Empty: the ellipsoids are found on the skin as it is.
   std::span<const geometry::Vec3> flexed = {};
-  /// False: FitResult's accuracy and the parts' gaps stay zero, which saves some 20 ms of work. With a target
-  /// error they are measured all the same.
+  /// Whether FitResult's accuracy and the parts' gaps are measured. Without this they stay zero, which saves
+  /// about 20 ms of work; with a target error they are measured all the same.
   bool measure_accuracy = true;
   /// A bit a part: only regions that have one of these parts are fitted. They get the share of the ellipsoids
   /// that they have in a fit of the whole body; paper and solid give them the same bits as there.

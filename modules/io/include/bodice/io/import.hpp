@@ -26,7 +26,7 @@ enum class Unit { kAuto, kMeter, kDecimeter, kCentimeter, kMillimeter, kInch, kF
 /// What a file is read as: a person that is looked for in it, or a thing, which is all of it.
 enum class Shape { kPerson, kAny };
 
-/// What the caller knows about a body file; the rest is found.
+/// Properties of a body file that the caller gives; absent ones are found.
 struct ImportOptions {
   /// With kAny nothing is guessed by a person's size and shape: all meshes are taken, the unit is the given
   /// one, else the file's, else meters, with a warning; up is the given axis, else the file's, else y.

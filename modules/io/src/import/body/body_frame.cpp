@@ -140,8 +140,8 @@ class Occupancy {
   std::vector<bool> cells_;
 };
 
-/// For a body as thick as it is long: the axis with the largest flat area at its low end. It is y unless
-/// another is clear.
+/// The up axis of a body that is as thick as it is long: the axis with the largest flat area at its low end
+/// if that is clear, else y.
 Axis ground_axis(const geometry::TriMesh& body, const geometry::Box& box) {
   const Vec3 limit = box.low.array() + kSoleHeight * box.size().maxCoeff();
   Vec3 sole = Vec3::Zero();

@@ -40,7 +40,8 @@ constexpr double kLeastMeasured = 0.5;
 
 /// Cells from the closed skin to what was lost of the file.
 constexpr double kLostFrom = 2.0, kLostUpTo = 8.0;
-/// This share lost is some toes or a finger. Scans that keep them lose up to .0006.
+/// A closed skin that lost more than this share of the file's area lacks some toes or a finger. Scans that
+/// keep them lose up to .0006.
 constexpr double kMuchLost = 0.0015;
 /// Where much more lies beside the skin, it is a floor.
 constexpr double kFloor = 0.02;

@@ -23,8 +23,8 @@ constexpr double kTinyPiece = 0.002;   ///< of the seed's area: a smaller piece 
 constexpr double kNear = 0.04;         ///< of the body's length: a piece this close follows its skin
 constexpr double kTouching = 0.08;     ///< of the body's length: a piece this close may continue it
 constexpr double kContinues = 0.03;    ///< of the body's length: a piece that adds this much does
-constexpr double kClosedLimb = 1.4;    ///< openness of an arm open at its shoulder: 1.2
-constexpr double kClosed = 0.6;        ///< openness of a body with eyes, mouth and soles open: .5
+constexpr double kClosedLimb = 1.4;    ///< openness; an arm that is open at its shoulder has 1.2
+constexpr double kClosed = 0.6;        ///< openness; a body with open eyes, mouth and soles has .5
 constexpr std::size_t kSamples = 400;  ///< vertices measured on each piece
 /// Planes that hold this share of a piece's area make it flat-sided; a body's skin has a tenth in them.
 constexpr std::size_t kPlanes = 6;

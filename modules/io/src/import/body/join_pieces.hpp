@@ -11,11 +11,11 @@ namespace bodice::inline v0_1::io {
 
 /// Whether most of a piece's area lies in a few planes, as that of furniture and rooms does.
 bool is_flat_sided(const JoinedScene& joined, const Piece& piece);
-/// Whether it is a floor, a wall or a card.
+/// Whether a piece is a floor, a wall or a card.
 bool is_flat(const Piece& piece);
-/// Whether it has more area than a body of its size: a room.
+/// Whether a piece has more area than a body of its size, as a room does.
 bool is_room(const Piece& piece);
-/// Whether it is closed like the skin of a body.
+/// Whether a piece is closed like the skin of a body.
 bool is_closed(const Piece& piece);
 
 /// The pieces that make up a body with `seed`, which is the first of them. A closed seed takes limbs, and

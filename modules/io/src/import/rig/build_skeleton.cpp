@@ -52,7 +52,7 @@ ToInside to_inside(const FileRig& file, const geometry::Frame& frame) {
   return {turn, Eigen::Quaterniond(turn), frame.meters_per_unit * file.world_to_file(0, 0)};
 }
 
-/// Keys of a joint inside; those of roots are turned like the roots.
+/// Converts the keys of one joint to meters, y up; keys of a root are rotated with it.
 rig::Track to_inside(rig::Track track, const ToInside& to, bool is_root) {
   for (Vec3& t : track.translation.value) t = to.meters_per_unit * (is_root ? Vec3(to.turn * t) : t);
   if (is_root)

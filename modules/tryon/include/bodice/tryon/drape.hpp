@@ -23,8 +23,8 @@ struct DrapeOptions {
   double dt_s = 1.0 / 60.0;  ///< length of a frame, 0 or more
   int kept_frames = 31;      ///< 2 or more: at most so many are kept for output, first and last included
   std::optional<cloth::Fabric> fabric;  ///< absent: cotton
-  /// Its thickness_m is not used (thickness_m below is), and for a proxy of tier paper neither is its
-  /// response, which is the paper's. Two sweeps keep the stretch of cotton under 5 % at 95 %.
+  /// Options of the solver, except two: thickness_m is that below, and for a proxy of tier paper the response
+  /// is the paper's. Two sweeps keep the stretch of cotton under 5 % at 95 %.
   cloth::SolverOptions solver = {.substeps = 16, .iterations = 2};
   /// Distance between cloth and skin; absent: known_thickness_m(), and on a body that moves the most of it
   /// and of the same over poses of the clip.

@@ -39,7 +39,7 @@ struct PreparedBody {
   SegmentedSkin skin;
   fitting::FitResult fit;
 
-  /// Warnings of segmentation and fit, in this order; stages likewise.
+  /// All warnings, and the times of all stages, those of segmentation before those of the fit.
   std::vector<engine::Warning> all_warnings() const;
   std::vector<engine::StageTime> all_stages() const;
 };

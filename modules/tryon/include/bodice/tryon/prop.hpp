@@ -28,7 +28,7 @@ engine::Result<proxy::BodyProxy> with_props(const proxy::BodyProxy& body,
 
 /// Cloth inside one prop, by the exact signed distance to its surface.
 struct PropReport {
-  std::string name;  ///< its file
+  std::string name;  ///< the file that it came from
   std::size_t ellipsoids = 0;
   fitting::FitAccuracy accuracy;
   std::size_t over_1mm = 0;  ///< particles deeper than 1 mm at the last frame
