@@ -20,7 +20,8 @@ using bodice::rigging::kOffsetJoints;
 using bodice::rigging::OffsetFrame;
 using bodice::rigging::SkinCurves;
 
-/// What a squared offset may cost; a limb and the trunk that carries it are nearly parallel in some bodies.
+/// The ridges that are tried, a cost of a squared offset each: a limb and the trunk that carries it are
+/// nearly parallel in some bodies.
 constexpr std::array kOffsetRidges{1e-9, 1e-8, 1e-7, 1e-6, 1e-5};
 
 /// A true joint in an offset frame.

@@ -109,7 +109,7 @@ ordered_json fit(const LandmarkKind& kind, Bodies& bodies) {
   return {};
 }
 
-/// What a file holds, with the members that were made again.
+/// Returns the contents of a coefficient file, with the members in `made` replaced.
 ordered_json replaced(const std::filesystem::path& file, const ordered_json& made) {
   std::ifstream in(file);
   ordered_json all = in ? ordered_json::parse(in) : ordered_json::object();

@@ -37,7 +37,7 @@ struct EdgeSample {
     }
     sample.distance_m = here.signed_distance;
   }
-  /// Where its push leads.
+  /// The position to which the sample's push leads.
   Vec3 pushed() const {
     const Eigen::Map<const Eigen::Vector3f> at(sample.at), normal(sample.normal);
     return body.origin() + (at - sample.distance_m * normal).cast<double>();
@@ -243,7 +243,7 @@ TEST_CASE("face contact: no corner moves farther than twice the push of a sample
     const std::array<float, 3> weight = {share, 1.0f - share, 0.0f};
     const std::array<float, 3> pinned = {1.0f, 0.0f, 1.0f};
     CHECK(share / cloth::yielding_of(weight, pinned) <= 2.0f);
-    // Where no corner is pinned the sample moves by the whole push.
+    // A sample without a pinned corner moves by the whole push.
     const float yielding = cloth::yielding_of(weight, free);
     CHECK((share * share + (1.0f - share) * (1.0f - share)) / yielding == doctest::Approx(1.0));
   }

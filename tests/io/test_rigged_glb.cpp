@@ -1,4 +1,4 @@
-// What is written as a rigged GLB comes back: joints, weights, clips.
+// Joints, weights and clips that are written as a rigged GLB are read back unchanged.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// How two skeletons stand at rest, and what turns one's rest into the other's.
+// The rest poses of two skeletons, and the rotations that turn one into the other.
 #pragma once
 
 #include <span>

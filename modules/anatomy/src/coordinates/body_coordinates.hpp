@@ -33,7 +33,8 @@ class BodyCoordinates {
   float perineum_mahalanobis() const { return perineum_mahalanobis_; }
   /// By how many deviations the best vertex in front of the one that fits best fits worse than that one.
   float perineum_margin() const { return perineum_margin_; }
-  /// What the perineum's signature reads at a vertex, and which measures of the body it follows.
+  /// The features of the perineum's signature at a vertex, and the measures of the body by which they are
+  /// expected.
   std::array<float, 9> perineum_features(std::size_t vertex) const;
   std::array<float, 4> perineum_measures() const;
   /// Whether a vertex lies above the border of the neck.
@@ -41,7 +42,7 @@ class BodyCoordinates {
   const geodesic::Field& from_front() const { return from_front_; }
   const geodesic::Field& from_back() const { return from_back_; }
   const geodesic::Field& from_perineum() const { return from_perineum_; }
-  /// False where no closed line runs around the middle, for instance on welded limbs.
+  /// Whether a closed line runs around the middle of the body; none does for instance on welded limbs.
   bool midline_found() const { return midline_found_; }
   /// Length of the path along the skin from the perineum to the crown, meters.
   float trunk_m() const { return trunk_; }

@@ -40,7 +40,7 @@ std::string start_of(const std::string& process) {
   return !fields || state == "Z" || state == "X" ? std::string() : field;
 }
 
-/// What every name in OUT/part of this process begins with: machine.process.start.
+/// The beginning of all names of this process in OUT/part: machine.process.start.
 std::string own_mark() {
   const std::string process = std::to_string(::getpid());
   return host_name() + "." + process + "." + start_of(process) + ".";

@@ -143,7 +143,7 @@ void spread_shifts(int n, TableScratch& scratch) {
       const auto [j, t] = between(row, n);
       const float* const from = scratch.wide[i].data() + j * stride;
       float* const to = scratch.shift[i].data() + row * n;
-      // What is written beyond the row is written again with the next one.
+      // Values beyond the end of a row are overwritten by the next row.
       for (int first = 0; first < n; first += kLanes)
         for (int c = first; c < first + kLanes; ++c) to[c] = (1.0f - t) * from[c] + t * from[stride + c];
     }

@@ -16,7 +16,7 @@ constexpr std::uint32_t cookie_of(std::int32_t kind) {
   return 0xB0D1CE00u | static_cast<std::uint32_t>(kind);
 }
 
-/// What is known of a structure: its kind, its name, and its size in the first version of the interface.
+/// The traits of a structure: its kind, its name, and its size in the first version of the interface.
 template <class T>
 struct Structure;
 

@@ -24,9 +24,9 @@ inline constexpr Steepness kPlainSteepness = {1.0f, 0.0f};
 /// their length.
 inline constexpr Steepness kReliefSteepness = {2.0f, 3e-3f};
 
-/// What proofs assume with relief. On the same bodies, of 2 million paths of 0.25 to 8 mm that end within
-/// 0.5 mm of the surface, 99.9 % fell by less than 1.4 times their length over all. On one body, over paths
-/// of 0.5 to 2 mm, that was 1.6 to 1.9. The most was 5 mm more than the length.
+/// The steepness that proofs assume with relief. On the same bodies, of 2 million paths of 0.25 to 8 mm that
+/// end within 0.5 mm of the surface, 99.9 % fell by less than 1.4 times their length over all. On one body,
+/// over paths of 0.5 to 2 mm, that was 1.6 to 1.9. The most was 5 mm more than the length.
 inline constexpr Steepness kCertifiedRelief = {1.5f, 0.0f};
 
 /// Particles a task, in loops without gathers.

@@ -1,12 +1,13 @@
 // Samples of edges and triangles near the body, chosen once a frame.
 //
-// How densely: a distance to a body that a ball of radius rho can touch from inside at every point is
-// semiconcave, with constant 1 / rho. So it lies below the interpolation of its values at the corners of a
-// triangle by up to r^2 / (2 rho), r the circumradius, and along an edge by up to e^2 / (8 rho); unions keep
-// that, because the least of semiconcave functions is one. The turn of the normals from one end to the other
-// measures e^2 / rho. An edge is cut until what is left is below a tolerance, and at least as finely as a
-// sharp feature of a body needs that no corner sees. Based on: Piermarco Cannarsa, Carlo Sinestrari.
-// Semiconcave Functions, Hamilton-Jacobi Equations, and Optimal Control. 2004. - section 2.2 (distances).
+// Their density follows from curvature. A distance to a body that a ball of radius rho can touch from inside
+// at every point is semiconcave, with constant 1 / rho. So it lies below the interpolation of its values at
+// the corners of a triangle by up to r^2 / (2 rho), r the circumradius, and along an edge by up to e^2 / (8
+// rho); unions keep that, because the least of semiconcave functions is one. The turn of the normals from one
+// end to the other measures e^2 / rho. An edge is cut until what is left is below a tolerance, and at least
+// as finely as a sharp feature of a body needs that no corner sees. Based on: Piermarco Cannarsa, Carlo
+// Sinestrari. Semiconcave Functions, Hamilton-Jacobi Equations, and Optimal Control. 2004. - section 2.2
+// (distances).
 #pragma once
 
 #include <array>
@@ -55,7 +56,7 @@ struct MotionNearParticles {
   bool moving = false;  ///< whether any of it is not zero
 };
 
-/// What the body leaves a particle in a frame.
+/// The room that the body leaves a particle in a frame.
 struct ParticleRoom {
   float distance_m = 0.0f;  ///< large beyond the query band
   float reach_m = 0.0f;     ///< how far it may come, relative to the body, within the frame

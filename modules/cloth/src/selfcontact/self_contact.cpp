@@ -18,9 +18,9 @@ namespace {
 constexpr double kMostOfEdge = 0.25;
 // The least gap, of the median edge, for a thickness of zero: floats need some room to distinguish sides.
 constexpr double kLeastOfEdge = 0.002;
-// How far leaves move against each other until their pairs are found anew, and how much nearer than expected
-// two of them may come until leaves are, shares of the median edge. More means longer lists, less more
-// searches.
+// Shares of the median edge: kSlackOfEdge is the relative motion of two leaves after which their pairs are
+// found anew, and kSpareOfEdge the unexpected approach of two particles after which leaves are. Larger shares
+// mean longer lists, smaller ones more searches.
 constexpr double kSlackOfEdge = 0.2, kSpareOfEdge = 1.0;
 
 // The speed at which layers that begin too close move apart: a fold's width in a few frames.
@@ -207,7 +207,7 @@ void begin_self_contact(const engine::Context& context, const Particles& p, Self
   s.origin = p.origin;
   copy_points(context, p, s.before);
   if (s.tangles.empty()) return;
-  // What is loose may have passed others by many triangles since the frame before.
+  // Loose particles may have passed many triangles of others since the frame before.
   refit(context, s.mesh, s.before, {}, s.tree);
   find_tangles(context, s.mesh, s.tree, s.before, s.tasks, s.tangles);
   loosen(s.mesh, s.tangles, s.loose);

@@ -24,12 +24,13 @@ struct Zones {
 
 Zones make_zones(std::size_t particles);
 
-/// Where there is room, pairs may cross only if none of their particles can be moved; where it is scarce,
-/// also if the body or pins press their parts together from both sides, or part those of one zone: what moves
-/// as one crosses itself only where particles that are guarded cannot move with it.
+/// The condition under which pairs may cross. With ample room, they may only if none of their particles can
+/// be moved. With scarce room, they may also if the body or pins press their parts together from both sides.
+/// So may pairs within one zone then, because a zone crosses itself only where guarded particles cannot move
+/// with it.
 enum class Room : std::uint8_t { kAmple, kScarce };
 
-/// Where pairs that would cross are looked for.
+/// The particles and leaves among which pairs that would cross are searched for.
 struct CrossingSearch {
   std::span<const Point> now;    ///< #P: where paths end; a particle without weight cannot be moved
   std::span<const Point> guard;  ///< #P: as Zones::guard

@@ -20,7 +20,7 @@ struct ParticleView {
   }
   bool has_velocity() const { return packed ? arrays.vx != nullptr : strided.velocity.present(); }
   bool has_safe() const { return packed ? arrays.safe_x != nullptr : strided.safe.present(); }
-  /// Which of the caller's vectors belong to a particle.
+  /// The index of a particle's vectors in the caller's arrays.
   std::size_t element(std::size_t i) const { return strided.element ? strided.element[i] : i; }
 
   std::size_t count = 0;

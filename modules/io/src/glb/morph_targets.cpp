@@ -27,8 +27,8 @@ std::array<T, 3> quantized(const Vec3f& v) {
   return q;
 }
 
-/// What is added to the base's normal so that the sum has the direction of the normal. Coordinates over 1
-/// cannot be stored, therefore a normal that turns far becomes shorter; viewers restore its length.
+/// The displacement of the base's normal that makes the sum point along the normal. Coordinates over 1 cannot
+/// be stored, therefore a normal that turns far becomes shorter; viewers restore its length.
 Vec3f normal_displacement(const Vec3f& normal, const Vec3f& base) {
   constexpr float kShortest = 0.05f;
   float length = 1.0f;

@@ -1,5 +1,6 @@
-// How standing bodies lean, and where the joints of hands and feet lie, as fractions of the stature: from 24
-// made bodies and 16 rigged ones. What lies off the curves of the trunk is data (offset_joints.hpp).
+// Leans of standing bodies, and positions of the joints of hands and feet as fractions of the stature: fitted
+// by hand to 24 made bodies and 16 rigged ones. Joints that lie off the curves of the trunk have data
+// (offset_joints.hpp).
 #pragma once
 
 namespace bodice::inline v0_1::rigging::offsets {

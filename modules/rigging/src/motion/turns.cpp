@@ -48,7 +48,8 @@ Posture turn(double phase, const Build& build) {
   const double steps = kSteps * phase, swing = 2.0 * std::numbers::pi * steps;
   p.foot[0] = stepping_foot(steps, build, 0);
   p.foot[1] = stepping_foot(steps - 0.5, build, 1);
-  // Both counts begin between steps; the pelvis turns evenly, a little behind the shoulders.
+  // The counts of steps of both feet begin between steps. The pelvis turns evenly, a little behind the
+  // shoulders.
   p.yaw = 360.0 * phase - 0.25 * 360.0 / kSteps;
   const double heading = p.yaw * std::numbers::pi / 180.0;
   const double sway = -0.02 * std::sin(swing);

@@ -53,13 +53,14 @@ std::optional<engine::Error> find_joints(const rig::Skeleton& skeleton, Figure& 
   return std::nullopt;
 }
 
-/// Where a joint stands in the frame of the joint that carries it.
+/// The position of a joint in the frame of its parent joint.
 Vec3 offset(const rig::Skeleton& skeleton, const Figure& figure, JointId id) {
   const rig::Joint& joint = skeleton.joints[figure.index(id)];
   return rig::apply(rig::inverse(skeleton.joints[joint.parent].bind), joint.bind.col(3));
 }
 
-/// Without a toes joint the ball lies so far in front of the ankle, as a multiple of the calf.
+/// The distances of the ball in front of the ankle and below it, of a leg without a toes joint; multiples of
+/// the calf.
 constexpr double kBallOverCalf = 0.31, kDropOverCalf = 0.11;
 
 LegLengths measure_leg(const rig::Skeleton& skeleton, const Figure& figure, int side) {

@@ -80,7 +80,7 @@ Tape trunk_tape(const Posed& rest, double height) {
   return tape(std::move(points));
 }
 
-/// Around a thigh, just below the crotch, on a body that stands with its legs as in the A pose: they are
+/// The girth of a thigh just below the crotch, on a body that stands with its legs as in the A pose: they are
 /// closer together than those of the rest pose, so that a plane across a thigh meets it lower.
 double thigh_girth(const Posed& b, int side) {
   constexpr double kBelow =

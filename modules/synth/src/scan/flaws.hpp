@@ -1,4 +1,4 @@
-// What scanners do to a surface.
+// The flaws that scanners give a surface.
 #pragma once
 
 #include <span>

@@ -39,7 +39,7 @@ double ramp_s(const engine::Context& context, const DrapeOptions& options, const
                         : suggested_ramp_s(context, *options.motion, body.skin.input.skin.positions);
 }
 
-/// What is not given is known of the body at rest and, where it moves, of the clip's poses.
+/// Returns the given thickness, or the one that the body at rest and the poses of its clip need.
 engine::Result<double> thickness_m(const engine::Context& context, const DrapeOptions& options,
                                    const PreparedBody& body, const geometry::TriMesh& garments) {
   if (options.thickness_m) return *options.thickness_m;

@@ -1,4 +1,5 @@
-// What the distance that cloth keeps is made from: known_thickness_m() for bodies at rest and in motion.
+// The steps by which the distance that cloth keeps is found: known_thickness_m() for bodies at rest and in
+// motion.
 #pragma once
 
 #include <span>

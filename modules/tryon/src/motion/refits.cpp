@@ -8,7 +8,8 @@
 namespace bodice::inline v0_1::tryon {
 namespace {
 
-/// What a refit takes behind frames, about: a moving body is refitted where it will be then.
+/// About the time that a refit takes behind frames. A moving body is refitted for the pose that it will have
+/// then.
 constexpr double kAhead_s = 0.3;
 /// A moving body gets another base pose if its joints are turned farther than this from every one that it
 /// has.

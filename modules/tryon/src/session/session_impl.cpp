@@ -91,7 +91,7 @@ void Session::Impl::begin_shape() {
       });
 }
 
-/// What streams have brought to this boundary.
+/// Takes the bodies and shapes that streams have published until this frame.
 void Session::Impl::take_results(FrameOutcome& outcome) {
   if (bodies.current() != seen_body) {
     seen_body = bodies.current();

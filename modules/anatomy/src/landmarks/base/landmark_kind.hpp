@@ -44,7 +44,7 @@ struct LandmarkKind {
   Recipe recipe = Recipe::kNone;
 };
 
-/// Below this confidence a landmark is named in a warning.
+/// The confidence below which a landmark is named in a warning.
 inline constexpr double kUncertain = 0.35;
 
 /// A confidence by a Mahalanobis distance: 1 at a distance of 0, and 0 from `no_evidence_at` on.

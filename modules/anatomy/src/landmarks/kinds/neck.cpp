@@ -18,7 +18,7 @@ namespace {
 using geometry::Vec3;
 namespace data = coefficients::neck;
 
-/// Beyond this distance from the crown the border's sign means nothing; a fraction of the body size.
+/// The distance from the crown beyond which the border's sign means nothing; a fraction of the body size.
 constexpr float kReach = 0.40F;
 /// A wider loop is not the neck's: it runs over the shoulders. A fraction of the body size.
 constexpr double kWidestNeck = 0.6;
@@ -26,8 +26,8 @@ constexpr double kWidestNeck = 0.6;
 constexpr double kAllTheWay = 1.0;
 /// The largest correction that a calibration body needs is .026 of the body size.
 constexpr double kFarthest = 0.03;
-/// Where the narrowest neck may be: distances from the crown as fractions of the body size, wide enough for
-/// children.
+/// The range of distances from the crown in which the narrowest neck may be, wide enough for children;
+/// fractions of the body size.
 constexpr float kNeckFrom = 0.11F, kNeckTo = 0.40F;
 constexpr std::size_t kSteps = 58;
 /// The joint and the narrowest neck lie some 4 % of the body size apart; one neck in a hundred that is right
@@ -63,7 +63,7 @@ Vec3 joint_by_lengths(const LandmarkInput& input, const Landmarks& marks) {
   const BodyLengths lengths = body_lengths(input.coordinates);
   std::vector<double> measures(lengths.begin(), lengths.end());
   const bool has_head = input.head.radius > 0.0;  // not where all of it is taken for something else
-  // Where corrections are recorded, this one is, too, although the other one is taken.
+  // A calibration that records corrections needs this one as well, although the joint is that by lengths.
   if (input.fused() || !has_head || input.records) {
     const Vec3 by_loop = corrected(input, {LandmarkId::kNeck,
                                            loop,

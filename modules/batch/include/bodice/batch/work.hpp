@@ -13,7 +13,7 @@
 
 namespace bodice::inline v0_1::batch {
 
-/// What the log states of a job that succeeded.
+/// The facts that the log states of a job that succeeded.
 struct JobFacts {
   std::uint64_t seed = 0;
   std::vector<engine::Warning> warnings;

@@ -100,11 +100,11 @@ struct ContactReport {
   void add(const ContactReport& other);
 };
 
-/// What a caller keeps from call to call for one set of particles. It holds a spatial order, so that the
-/// speed does not depend on the order of the arrays. It also holds the candidate cache, which stays valid
-/// while particles and proxy move by millimeters. It never changes a bit of a result and refreshes itself;
-/// any collider may use it. It is not thread-safe. It allocates about 35 bytes a particle, half of it in the
-/// second call, and again when the number of particles grows.
+/// The state that a caller keeps from call to call for one set of particles. It holds a spatial order, so
+/// that the speed does not depend on the order of the arrays. It also holds the candidate cache, which stays
+/// valid while particles and proxy move by millimeters. It never changes a bit of a result and refreshes
+/// itself; any collider may use it. It is not thread-safe. It allocates about 35 bytes a particle, half of it
+/// in the second call, and again when the number of particles grows.
 class Workspace {
  public:
   Workspace();

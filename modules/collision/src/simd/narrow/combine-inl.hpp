@@ -59,8 +59,8 @@ HWY_INLINE void find_least_unburied(const Pairs& pairs, BatchResults& out) {
   }
 }
 
-/// For some lanes with their least scores: replaces the least distance by the least score where that is
-/// higher by more than `certain_m`, and by kCertain elsewhere.
+/// Replaces the least distance of some lanes by their least score if that is higher by more than `certain_m`,
+/// and else by kCertain.
 HWY_INLINE void mark_uncertain(LaneSpan lanes, const float* least, float certain_m, BatchResults& out) {
   for (int i = lanes.begin; i < lanes.end; i += kWidth) {
     const V score = hn::Load(f, least + i), excess = hn::Sub(score, hn::Load(f, out.unburied + i));

@@ -1,4 +1,4 @@
-// From a labeled skin to a BodyProxy, in four tiers; the tier paper follows section 3 of the paper.
+// Fits a BodyProxy to a labeled skin, in four tiers. The tier paper follows section 3 of the paper.
 #pragma once
 
 #include <functional>
@@ -36,7 +36,7 @@ struct FittedPart {
 /// A bit for each part of bodies and things: the whole skin.
 inline constexpr std::uint32_t kAllParts = (1u << body::kAllPartCount) - 1;
 
-/// What a fit should reach, and what it may spend on that. The defaults give tier relief with 89 ellipsoids.
+/// The promise that a fit should keep, and its limits. The defaults give tier relief with 89 ellipsoids.
 struct FitOptions {
   /// Absent: the tier follows from the target error, the budget or the thresholds; without any of them,
   /// relief.
@@ -92,7 +92,7 @@ struct ClusterError {
   double max_m = 0.0;   ///< at most the threshold mu in force; else the warning thresholds-not-reached
 };
 
-/// What became of one part: its size and its errors. A region's ellipsoid counts for the part of most of its
+/// The result for one part: its size and its errors. A region's ellipsoid counts for the part of most of its
 /// cluster.
 struct PartFit {
   body::Part part = body::Part::kHead;

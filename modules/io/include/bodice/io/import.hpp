@@ -23,7 +23,8 @@ struct Look;
 /// A unit of length of a file; kAuto finds it.
 enum class Unit { kAuto, kMeter, kDecimeter, kCentimeter, kMillimeter, kInch, kFoot };
 
-/// What a file is read as: a person that is looked for in it, or a thing, which is all of it.
+/// The content that is expected of a file: a person, that is searched for in it, or a thing, which is all of
+/// it.
 enum class Shape { kPerson, kAny };
 
 /// Properties of a body file that the caller gives; absent ones are found.

@@ -43,7 +43,7 @@ constexpr double kLostFrom = 2.0, kLostUpTo = 8.0;
 /// A closed skin that lost more than this share of the file's area lacks some toes or a finger. Scans that
 /// keep them lose up to .0006.
 constexpr double kMuchLost = 0.0015;
-/// Where much more lies beside the skin, it is a floor.
+/// A larger lost share than this is a floor beside the body.
 constexpr double kFloor = 0.02;
 
 double openness(const TriMesh& mesh) {
@@ -129,7 +129,7 @@ std::vector<std::uint8_t> made_up_vertices(const geometry::RebuiltSurface& rebui
   return made_up;
 }
 
-/// What the repair warned of, but for the state of a surface that is no more.
+/// The warnings of the repair, except those about the surface that was replaced.
 std::vector<engine::Warning> kept_warnings(const geometry::RepairReport& report) {
   std::vector<engine::Warning> kept = report.warnings;
   std::erase_if(kept, [](const engine::Warning& w) {

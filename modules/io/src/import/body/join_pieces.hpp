@@ -1,4 +1,4 @@
-// Which pieces of a file make up one body together.
+// Finds the pieces of a file that make up one body together.
 #pragma once
 
 #include <vector>

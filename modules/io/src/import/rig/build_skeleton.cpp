@@ -67,7 +67,7 @@ std::vector<bool> animated_nodes(const FileRig& file) {
   return animated;
 }
 
-/// Which nodes become joints, by the rule of build_skeleton().
+/// Marks the nodes that become joints, by the rule of build_skeleton().
 std::vector<bool> wanted_nodes(const FileRig& file, const std::vector<bool>& used) {
   const std::vector<bool> animated = animated_nodes(file);
   std::vector<bool> wanted(file.nodes.size());

@@ -29,8 +29,9 @@ struct DrapeOptions {
   /// Distance between cloth and skin; absent: known_thickness_m(), and on a body that moves the most of it
   /// and of the same over poses of the clip.
   std::optional<double> thickness_m;
-  /// What moves the body; null: it stands still. Garments are put on in the bind pose; a ramp that is not
-  /// part of the result brings them to the clip's first frame. Frame k then shows second k dt_s of the clip.
+  /// The motion of the body; if it is null, the body stands still. Garments are put on in the bind pose; a
+  /// ramp that is not part of the result brings them to the clip's first frame. Frame k then shows second k
+  /// dt_s of the clip.
   const BodyMotion* motion = nullptr;
   std::optional<double> ramp_s;  ///< zero or more; absent: suggested_ramp_s()
   bool loop = false;             ///< after its end the clip starts over; else its last frame holds
@@ -45,7 +46,7 @@ struct DrapeOptions {
   std::optional<FitMap> fit_map;  ///< colors the garments by how they fit at the last frame
 };
 
-/// What a report lists of each garment.
+/// The part of a report that concerns one garment.
 struct DrapedGarment {
   std::string name;
   std::size_t vertices = 0, held = 0;

@@ -38,7 +38,7 @@ struct PropReport {
   double pierced_share = 0.0;  ///< share of the cloth's area inside the prop at the end
 };
 
-/// What is known of the props before the first frame.
+/// The reports of the props before the first frame.
 std::vector<PropReport> describe(std::span<const PreparedBody> props);
 /// Adds a frame's depth of the particles, #P, in each prop, and makes it that of the end.
 void add_frame(const engine::Context& context, int frame, std::span<const geometry::Vec3> positions,
