@@ -1,4 +1,4 @@
-// Two worlds on two threads, in C++17: each has a context, a body and particles, and neither knows of the
+// Two worlds on two threads, in C++17: each has a context, a body and particles, and neither depends on the
 // other.
 //
 //    thread 1:  context -- ball  -- particles       nothing is shared: the same bits as alone,

@@ -1,4 +1,4 @@
-// How are scans and game files read? Outcomes by kind of scan, beside the truth that synth knows.
+// Measures how scans and game files are read: outcomes by kind of scan, beside the truth that synth gives.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What binding learns where it bends the limbs: which buried texels have to yield more.
+// Exercises, in which binding bends the limbs: the buried texels that have to yield more are found there.
 #include <algorithm>
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// Garments on what the program knows: landmarks and parts that analyze() finds, not the truth of a made body.
+// Garments on found bodies: with landmarks and parts of analyze() in place of the truth of a made body.
 #include <algorithm>
 #include <array>
 #include <cmath>

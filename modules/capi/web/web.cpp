@@ -1,6 +1,6 @@
-// What a page needs of bodice.h, with nothing but numbers and addresses in each call, since a script knows no
-// structures. A handle is an address; a call that returns one returns 0 on failure, and one that returns a
-// status does so as bodice.h does. web_error() has the sentence.
+// The part of bodice.h that a page needs, with nothing but numbers and addresses in each call, since a script
+// has no structures. A handle is an address; a call that returns one returns 0 on failure, and one that
+// returns a status does so as bodice.h does. web_error() has the sentence.
 #include <cstddef>
 #include <cstdint>
 

@@ -44,7 +44,7 @@ class GlbBuilder {
   std::size_t size(const char* array) const;
   /// Makes a node a root of the scene.
   void add_to_scene(std::size_t node);
-  /// Names an extension that a reader must know.
+  /// Names an extension that a reader must support.
   void require(std::string_view extension);
   /// Names an extension that a reader may ignore.
   void use(std::string_view extension);

@@ -24,7 +24,7 @@ struct LookImage {
 struct Materials {
   std::vector<nlohmann::json> materials, textures, samplers;
   std::vector<LookImage> images;
-  std::vector<std::string> required;  ///< extensions of glTF that a reader must know
+  std::vector<std::string> required;  ///< extensions of glTF that a reader must support
 };
 
 /// The look of a garment. `uv` and `material` belong to the triangles of the mesh that import_garment() gave.

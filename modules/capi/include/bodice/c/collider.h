@@ -53,7 +53,7 @@ BODICE_INLINE bodice_pose bodice_default_pose(void) {
 /** Poses a collider of a bound proxy: matrices[j] takes the space of joint j to the world, count is the
  * number of the proxy's joints. A matrix may be off by rounding, up to a thousandth, which is mended, and
  * carry a uniform scale. Fails with BODICE_INVALID_ARGUMENT, names joint and reason, and moves nothing, if
- * one is not finite, shears, mirrors or has no extent. Contacts then know the velocity of the skin. Allocates
+ * one is not finite, shears, mirrors or has no extent. Contacts then use the velocity of the skin. Allocates
  * nothing once warm. Cost for 89 ellipsoids: 1.5 milliseconds, without tables 0.05. */
 BODICE_STABLE bodice_status bodice_collider_pose(bodice_collider* collider, const bodice_pose* pose);
 

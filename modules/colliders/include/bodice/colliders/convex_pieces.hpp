@@ -1,4 +1,4 @@
-// Convex pieces that cover a body together, for programs that know no other shapes.
+// Convex pieces that cover a body together, for programs that have no other shapes.
 #pragma once
 
 #include <span>

@@ -50,7 +50,7 @@ struct FitOptions {
   std::optional<int> max_ellipsoids;
   /// Wanted time of one query of 10,000 particles near the skin, microseconds; it gives tier and count. The
   /// cost model (predicted_frame_us) decides, within a fifth; beyond that there is the warning
-  /// budget-not-reached. On a machine where a query takes twice the model's time, give half of what you want.
+  /// budget-not-reached. On a machine where a query takes twice the model's time, give half of your budget.
   std::optional<double> budget_us;
   /// The paper's thresholds at which splitting stops: both, or neither (the fit then finds them). They go
   /// with the tiers paper (the default with thresholds) and solid, and exclude a target error and a budget.

@@ -36,7 +36,7 @@ struct FileScene {
 /// Whether materials, images and texture coordinates are read: those of garments alone are used.
 enum class LookOf { kNothing, kGarment };
 
-/// Reads any format that assimp knows. Skinned meshes are in their bind pose. Points and lines are left out,
+/// Reads any format that assimp reads. Skinned meshes are in their bind pose. Points and lines are left out,
 /// polygons are triangulated. Fails with kNotFound or kUnreadable.
 engine::Result<FileScene> read_scene(const std::filesystem::path& file, LookOf look = LookOf::kNothing);
 
