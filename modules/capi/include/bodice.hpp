@@ -140,7 +140,7 @@ class Skin : public detail::Handle<bodice_skin, bodice_skin_destroy> {
   }
 };
 
-/// See bodice_session; with libbodice. Its other functions take get().
+/// See bodice_session; with libbodice. Each function calls that of its name in bodice.h; others take get().
 class Session : public detail::Handle<bodice_session, bodice_session_destroy> {
  public:
   using Handle::Handle;

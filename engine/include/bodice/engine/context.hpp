@@ -19,6 +19,7 @@ struct Context {
   CancelToken cancel = {};
   const Clock* clock = &steady_clock();  ///< Never null. For time budgets; results must not depend on it.
 
+  /// Writes a message of level kInfo to the log, if there is one.
   void info(std::string_view message) const {
     if (log) log->write(LogLevel::kInfo, message);
   }
@@ -29,6 +30,7 @@ struct Context {
     executor->yield();
   }
 
+  /// Writes a message of level kWarning to the log, if there is one.
   void warn(std::string_view message) const {
     if (log) log->write(LogLevel::kWarning, message);
   }

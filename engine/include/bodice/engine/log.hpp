@@ -6,6 +6,7 @@
 
 namespace bodice::inline v0_1::engine {
 
+/// The weight of a message, from the least to the most.
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
 /// The destination of messages. The library never prints: without a Log in the Context, messages are dropped.

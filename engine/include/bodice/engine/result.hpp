@@ -73,6 +73,7 @@ class [[nodiscard]] Result {
   std::variant<T, Error> state_;
 };
 
+/// The outcome of a call without a value: success, or an error.
 template <>
 class [[nodiscard]] Result<void> {
  public:

@@ -51,18 +51,22 @@ struct Done {};
 
 namespace detail {
 
+/// The type of the data that a task gives which returns a T.
 template <class T>
 struct Unwrapped {
   using type = T;
 };
+/// A task that returns nothing gives Done.
 template <>
 struct Unwrapped<void> {
   using type = Done;
 };
+/// A task that returns a Result gives its value.
 template <class T>
 struct Unwrapped<Result<T>> {
   using type = T;
 };
+/// A task that returns a Result without a value gives Done.
 template <>
 struct Unwrapped<Result<void>> {
   using type = Done;

@@ -38,6 +38,7 @@ class Job final : public BackgroundTask {
   void signal() noexcept;
 
  private:
+  /// The states of the work, in this order.
   enum class Stage { kWaiting, kRunning, kDone };
   Result<void> call() noexcept;
 

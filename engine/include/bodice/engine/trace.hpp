@@ -17,6 +17,7 @@
 
 namespace bodice::inline v0_1::engine {
 
+/// The value of an event without a number.
 inline constexpr std::int64_t kNoTraceValue = std::numeric_limits<std::int64_t>::min();
 
 /// A span of time on one thread, or an instant if begin and end are equal.
@@ -41,6 +42,7 @@ class Trace {
   void record(std::string_view name, std::int64_t begin_ns, std::int64_t end_ns,
               std::int64_t value = kNoTraceValue) noexcept;
 
+  /// The number of events that were dropped because the record was full.
   std::size_t dropped() const noexcept;
   /// The finished events in order of their begin. Safe while other threads record; allocates.
   std::vector<TraceEvent> events() const;

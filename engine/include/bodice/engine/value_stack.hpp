@@ -8,6 +8,7 @@
 
 namespace bodice::inline v0_1::engine::detail {
 
+/// A node of a ValueStack.
 template <class T>
 struct ValueNode {
   std::shared_ptr<const T> value;

@@ -20,7 +20,7 @@ struct Options {
 
 /// What is known of a body after its analysis.
 struct Anatomy {
-  double stature_m = 0.0;                       ///< of the body as if it stood, in the mesh's units
+  double stature_m = 0.0;  ///< of the body as if it stood; in the unit of the mesh: meters
   geometry::Vec3 up = geometry::Vec3::UnitY();  ///< feet to head along the trunk, unit
   std::vector<body::Landmark> landmarks;  ///< one each of LandmarkId; confidence 0 where nothing was found
   std::vector<body::Part> part;           ///< #V; every vertex has one
@@ -31,7 +31,8 @@ struct Anatomy {
 /// Finds the landmarks and segments. Pose, position, rotation and scale of the mesh do not matter.
 /// Fails with kUnusableGeometry when no body can be made out, or when what was found contradicts a human body
 /// (plausible.hpp); the sentence names what was seen.
-/// Precondition: a repaired mesh (geometry::repair). Deterministic for any worker count.
+/// Precondition: a repaired mesh (geometry::repair). Deterministic for any worker count. Cost: about 30 ms of
+/// one core for 8,500 vertices, and half a second for each thin copy that a skin with welded limbs needs.
 engine::Result<Anatomy> analyze(const engine::Context& context, const geometry::TriMesh& skin,
                                 const Options& options);
 

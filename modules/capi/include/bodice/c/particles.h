@@ -93,6 +93,7 @@ BODICE_INLINE bodice_contacts bodice_default_contacts(void) {
   return contacts;
 }
 
+/** Settings of a query. */
 typedef struct bodice_query_options {
   bodice_head head;
   float within_m; /**< beyond this distance there is no contact, which is faster; default infinity */
@@ -122,6 +123,7 @@ BODICE_STABLE bodice_status bodice_query_all(const bodice_collider* collider, co
                                              float within_m, bodice_contact* contacts, size_t capacity,
                                              size_t* found);
 
+/** Settings of a response. */
 typedef struct bodice_resolve_options {
   bodice_head head;
   float thickness_m; /**< distance to keep from the surface; default 0 */

@@ -72,7 +72,7 @@ enum class Response : std::uint8_t {
 struct ResolveOptions {
   Response response = Response::kClosestPoint;
   float thickness_m = 0.0f;  ///< distance kept between particle and surface
-  float friction = 0.3f;     ///< Coulomb coefficient
+  float friction = 0.3f;     ///< Coulomb coefficient, 0 or more; kPaper has none
   /// Longest push a call, meters, in addition to the length of the path from the safe position where the push
   /// leads back against that. Particles that start deep inside come out over several calls (`pending`). Those
   /// in a fold of the body without room stay midway in it.
@@ -86,7 +86,7 @@ struct ResolveOptions {
 
 /// Counts of what a response did to a set of particles; add() merges those of two sets.
 struct ContactReport {
-  std::uint64_t contacts = 0;
+  std::uint64_t contacts = 0;  ///< particles inside, or nearer than the thickness
   std::uint64_t contacts_by_part[body::kAllPartCount] = {};
   std::uint64_t unresolved = 0;      ///< still inside at the end; zero but for kPaper
   std::uint64_t pending = 0;         ///< held back by max_push_m before they are out
@@ -124,6 +124,7 @@ struct StridedParticles;
 /// is given.
 class Collider {
  public:
+  /// Prepares a proxy. O(#ellipsoids + #texels).
   explicit Collider(const proxy::BodyProxy& proxy);
   ~Collider();
   Collider(Collider&&) noexcept;
@@ -158,7 +159,8 @@ class Collider {
   /// Signed distance, closest point, normal and owner of each particle. `contacts` has particles.count
   /// entries; if it has fewer, only so many particles are queried. Throws engine::Canceled if the context is
   /// canceled; the contents of `contacts` are then unspecified. Over 2,048 particles in scattered order are
-  /// sorted first, which allocates 16 bytes a particle unless a workspace is given.
+  /// sorted first, which allocates 16 bytes a particle unless a workspace is given. Cost with a workspace and
+  /// 89 ellipsoids: 14 ns a particle on one core, with relief 26 (bench/README.md).
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
              const QueryOptions& options = {}) const;
   void query(const engine::Context& context, const Particles& particles, std::span<Contact> contacts,
@@ -175,6 +177,7 @@ class Collider {
 
   /// Moves every particle out that is inside or nearer than the thickness, and corrects its velocity.
   /// Allocates nothing once warm. Throws engine::Canceled as query() does; some particles are out by then.
+  /// Cost with a workspace and 89 ellipsoids: 26 ns a particle on one core, with relief 47 (bench/README.md).
   ContactReport resolve(const engine::Context& context, const Particles& particles,
                         const ResolveOptions& options) const;
   ContactReport resolve(const engine::Context& context, const Particles& particles,

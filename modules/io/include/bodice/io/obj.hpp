@@ -1,3 +1,4 @@
+// Writing meshes as Wavefront OBJ, and reading the positions of such a file.
 #pragma once
 
 #include <filesystem>

@@ -70,7 +70,7 @@ std::span<const float, 3> part_color(body::Part part);
 /// that move have keys of their nodes at the same times. With a rig the body is skinned by the nodes of its
 /// joints, each clip is an animation, and the garments' frames play in the first one, at their own times.
 /// Fails with kInvalidArgument for a scene that cannot be drawn or with parts that do not fit together, and
-/// with kWriteFailed.
+/// with kWriteFailed. O(size of the file), in memory as well.
 engine::Result<void> write_glb(const Scene& scene, const std::filesystem::path& file);
 
 /// A scale of colors, which a picture shows in a strip below it.
@@ -91,8 +91,8 @@ struct PictureOptions {
 };
 
 /// Writes a PNG with a row for each kept frame in `frames` (indices into GarmentTrack::frames; empty: the
-/// body alone), and a column each for the front and the side view. Rendered in software. Fails as write_glb()
-/// does.
+/// body alone), and a column each for the front and the side view. Rendered in software: O(#triangles +
+/// #pixels) a view. Fails as write_glb() does.
 engine::Result<void> write_picture(const Scene& scene, std::span<const std::size_t> frames,
                                    const std::filesystem::path& file, const PictureOptions& options = {});
 

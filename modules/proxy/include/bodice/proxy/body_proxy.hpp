@@ -24,7 +24,9 @@ std::string_view name(Tier tier);
 /// The tier of a name, if there is one.
 std::optional<Tier> tier_from_name(std::string_view text);
 
+/// The bone of an ellipsoid without a binding.
 inline constexpr std::int16_t kNoBone = -1;
+/// The most ellipsoids, nodes along a side of a relief table, and texels of a proxy.
 inline constexpr std::size_t kMaxEllipsoids = 65536;
 inline constexpr int kMaxReliefNodes = 1024;
 inline constexpr std::size_t kMaxReliefTexels = std::size_t{1} << 26;
@@ -61,7 +63,7 @@ class BodyProxy {
   struct Data {
     Tier tier = Tier::kPaper;
     double stature_m = 0.0;
-    double margin_m = 0.0;  ///< added to every surface by queries (covers what the fit left out)
+    double margin_m = 0.0;  ///< taken off every distance by queries (covers what the fit left out)
     std::vector<ProxyEllipsoid> ellipsoids;
     std::vector<ReliefTable> relief;  ///< empty, or one an ellipsoid
     std::vector<ReliefTexel> texels;

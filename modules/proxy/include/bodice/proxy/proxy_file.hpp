@@ -14,9 +14,14 @@
 
 namespace bodice::inline v0_1::proxy {
 
+/// The JSON form of a proxy. O(size of the proxy).
 std::string to_json(const BodyProxy& proxy);
+/// Reads the JSON form. Fails with kUnreadable where the text is no proxy, and with kInvalidArgument where a
+/// number is out of range; the sentence names the line or the ellipsoid. O(size of the text).
 engine::Result<BodyProxy> from_json(std::string_view text);
+/// The binary form of a proxy. O(size of the proxy).
 std::vector<std::byte> to_binary(const BodyProxy& proxy);
+/// Reads the binary form. Fails as from_json(); needs no alignment of the bytes. O(size of the bytes).
 engine::Result<BodyProxy> from_binary(std::span<const std::byte> bytes);
 
 /// Writes the binary form if the name ends in .bodice, else JSON. The file appears whole or not at all. Fails

@@ -37,6 +37,7 @@ struct Track {
 /// What happens to times outside of [0, duration_s].
 enum class Playback : std::uint8_t { kClamp, kLoop };
 
+/// A named motion: the keys of the joints that it moves, and its length.
 struct Clip {
   std::string name;
   double duration_s = 0.0;

@@ -10,6 +10,7 @@
 
 namespace bodice::inline v0_1::rig {
 
+/// The joints that were matched by name and those that were not.
 struct RetargetReport {
   std::vector<std::string> matched;           ///< joints of the target that a joint of the source moves
   std::vector<std::string> unmatched_target;  ///< joints of the target that keep their rest rotation
@@ -17,6 +18,7 @@ struct RetargetReport {
   double root_scale = 1.0;                    ///< target's over source's height of the hips
 };
 
+/// A clip for the target's skeleton.
 struct RetargetedClip {
   Clip clip;
   RetargetReport report;

@@ -10,6 +10,7 @@
 
 namespace bodice::inline v0_1::rig {
 
+/// A skeleton, the weights of the skin that it moves, and its clips.
 struct Rig {
   Skeleton skeleton;
   SkinWeights weights;
@@ -18,6 +19,7 @@ struct Rig {
 
 /// Validates the skeleton and the clips and mends the weights of a skin of so many vertices; returns what was
 /// mended. Fails with kUnusableGeometry, one sentence that names the joint or the clip, and one remedy.
+/// O(#J + #weights + #keys).
 engine::Result<std::vector<engine::Warning>> mend(Rig& rig, std::size_t vertices);
 
 /// Reorders joints so that parents come before children, otherwise in the order given, and renumbers weights

@@ -17,6 +17,7 @@ namespace bodice::inline v0_1::rig {
 
 /// Joints are addressed by 16 bits, of which one value stays free.
 inline constexpr std::size_t kMaxJoints = 65535;
+/// The parent of a root.
 inline constexpr std::int32_t kNoParent = -1;
 
 /// Joint space to the space of its parent: p -> translation + rotation (scale * p), meters.
@@ -26,6 +27,7 @@ struct LocalTransform {
   Vec3 scale = Vec3::Ones();
 };
 
+/// The map of a local transform.
 Affine to_affine(const LocalTransform& transform);
 
 /// The transform nearest to a map: exact unless the map shears, which no translation, rotation and scale can
@@ -35,6 +37,7 @@ LocalTransform to_local_transform(const Affine& map);
 /// Whether to_local_transform() would lose the map's shear.
 bool has_shear(const Affine& map);
 
+/// A joint: a coordinate system that its parent carries.
 struct Joint {
   std::string name;
   std::int32_t parent = kNoParent;  ///< index of a joint before this one, or kNoParent for a root
@@ -42,6 +45,7 @@ struct Joint {
   Affine bind = identity();         ///< joint space to skin space (meters, y up) in the bind pose
 };
 
+/// The joints of a body as a forest.
 struct Skeleton {
   std::vector<Joint> joints;  ///< #J, parents before children
 };

@@ -8,9 +8,10 @@
 
 namespace bodice::inline v0_1::rigging {
 
+/// A rig that was made for a skin without one.
 struct FoundRig {
   rig::Rig rig;  ///< the 22 joints of body::JointId, bound to the skin as it is; no clips
-  std::vector<engine::Warning> warnings;  ///< anatomy's: its doubts are the rig's as well
+  std::vector<engine::Warning> warnings;  ///< those of anatomy, which hold for the rig as well
   std::vector<engine::StageTime> stages;  ///< joints, weights
 };
 

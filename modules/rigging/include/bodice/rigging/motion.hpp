@@ -11,6 +11,7 @@
 
 namespace bodice::inline v0_1::rigging {
 
+/// A motion that make_clip() makes for any common skeleton.
 enum class Motion : std::uint8_t {
   kWalk,    ///< one cycle of two steps in 1.1 s
   kRun,     ///< one cycle of two steps in 0.7 s, with a phase of flight
@@ -23,15 +24,19 @@ enum class Motion : std::uint8_t {
   kDance,   ///< steps to either side with arms, hips and turns, in 4 s
 };
 
+/// The number of motions.
 inline constexpr int kMotionCount = 9;
 
+/// The names of the motions in options, in the order of Motion.
 inline constexpr std::array<std::string_view, kMotionCount> kMotionNames = {
     "walk", "run", "turn", "spin", "reach", "sit", "squat", "arms-up", "dance"};
 
+/// The name of a motion, such as "arms-up".
 constexpr std::string_view name(Motion motion) {
   return kMotionNames[static_cast<int>(motion)];
 }
 
+/// The motion of a name, if there is one.
 constexpr std::optional<Motion> motion_from_name(std::string_view text) {
   for (int i = 0; i < kMotionCount; ++i)
     if (kMotionNames[i] == text) return static_cast<Motion>(i);
@@ -46,6 +51,7 @@ constexpr bool is_cyclic(Motion motion) {
 /// How far standing and walking bodies hold their arms from upright, degrees, with MotionOptions as they are.
 inline constexpr double kHangingRaise_deg = 10.0;
 
+/// How a motion is made.
 struct MotionOptions {
   /// Walking and running: true moves the body over the floor, so that soles rest on it; false keeps the body
   /// where it is, as on a treadmill, so that the clip loops: soles then travel backward with one speed.

@@ -10,6 +10,7 @@
 
 namespace bodice::inline v0_1::synth {
 
+/// The kind of a made thing.
 enum class ThingKind {
   kCube,    ///< half a meter wide
   kChair,   ///< seat, back and four legs, each a closed piece of its own
@@ -18,6 +19,7 @@ enum class ThingKind {
   kDog,     ///< on four legs, with head and tail
   kHand,    ///< a palm and five fingers
 };
+/// The number of kinds.
 inline constexpr int kThingKindCount = 6;
 
 /// "cube", "chair", ...

@@ -1,3 +1,4 @@
+// The report of a run as JSON, and the labels of a skin as text.
 #pragma once
 
 #include <optional>

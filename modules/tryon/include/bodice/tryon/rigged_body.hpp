@@ -13,7 +13,8 @@
 namespace bodice::inline v0_1::tryon {
 
 /// Gives a skin without a rig one: the built-in body's own, where `source` is one, else a found one
-/// (rigging::make_rig). A skin that has a rig keeps it. Errors name the body and the remedy.
+/// (rigging::make_rig). A skin that has a rig keeps it. Errors name the body and the remedy. Cost: that of
+/// make_rig().
 engine::Result<void> give_rig(const engine::Context& context, const BodySource& source, SegmentedSkin& skin);
 
 /// The weights of a body's input vertices (those of the file or mesh) for the skin that repair made of them.
@@ -33,6 +34,7 @@ engine::Result<rig::Clip> choose_clip(const MotionChoice& choice, const std::vec
 /// Finds the clip and carries it over to the skin's skeleton where it is of another one; `warnings` gets what
 /// did not fit. Precondition: the skin has a rig. Fails with kInvalidArgument where a clip is not there (the
 /// sentence lists those that are), and as rigging::make_clip(), rig::retarget() and io::import_motion() do.
+/// Cost: that of these.
 engine::Result<BodyMotion> find_motion(const engine::Context& context, const SegmentedSkin& skin,
                                        const MotionChoice& choice, std::vector<engine::Warning>& warnings);
 

@@ -99,6 +99,7 @@ class Session {
   engine::Ticket play(MotionChoice choice, const PlayOptions& options = {});
   /// Frames go on, but the body stays in its pose until resume().
   void pause() noexcept;
+  /// Goes on with the clip after pause().
   void resume() noexcept;
   /// Moves to a second of the clip, over `ramp_s` so that garments can follow; zero jumps. Does nothing while
   /// no clip is played.
@@ -129,9 +130,11 @@ class Session {
   const proxy::PosedProxy* posed() const noexcept;
   /// The number of vertices of all garments, in the order given to dress().
   std::size_t vertices() const noexcept;
+  /// Writes the world positions of these vertices.
   void positions(std::span<geometry::Vec3> out) const;
   std::uint64_t hash() const noexcept;  ///< of the cloth's state
 
+  /// The pipeline that runs the frames, for work of the host beside them.
   engine::FramePipeline& pipeline() noexcept;
 
  private:
