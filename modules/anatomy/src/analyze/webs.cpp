@@ -31,16 +31,17 @@ constexpr double kMiddle = 0.01;    ///< the plane between the limbs is found wi
 constexpr double kAhead = 0.084, kAheadStep = 0.012;  ///< where the thickest point of a level is looked for
 constexpr double kShallow = 0.015;                    ///< what lies less deep shows no fold
 constexpr std::array kLimbs{0.03, 0.045};             ///< from the plane to the middles of the limbs
-/// The plane is above the fold where it has this share of the room beside it.
+/// The plane is above the fold where it has at least this share of the room beside it.
 constexpr double kAsDeep = 0.9;
-/// Whole bodies have less, where the thighs are not bent and where they are: of 235 that stand 229 have less
-/// than .019 at the crotch and all but one less at the armpits, of 179 others all but one. Thighs of heavy
-/// bodies that meet have up to .022; a landmark that is off by less than .03 counts as right.
+/// The least room of a web; whole bodies have less, with straight thighs and with bent ones: of 235 that
+/// stand 229 have less than .019 at the crotch and all but one less at the armpits, of 179 others all but
+/// one. Thighs of heavy bodies that meet have up to .022; a landmark that is off by less than .03 counts as
+/// right.
 struct Least {
   double crotch, armpit;
 };
 constexpr Least kStanding{0.026, 0.013}, kBent{0.035, 0.025};
-/// A body stands where the cosines of both thighs reach this.
+/// A body stands if the cosines of both thighs reach this.
 constexpr double kUpright = 0.75;
 
 /// The route from a landmark into the body, between the two limbs that meet there.
@@ -52,7 +53,7 @@ Vec3 at(const Anatomy& found, LandmarkId id) {
   return found.landmarks[static_cast<std::size_t>(id)].position;
 }
 
-/// The limb's lower end: of both legs the middle between the knees.
+/// The lower end of a limb; for both legs the middle between the knees.
 Vec3 limb_end(const Anatomy& found, LandmarkId id) {
   if (id == LandmarkId::kPerineum)
     return 0.5 * (at(found, LandmarkId::kKneeL) + at(found, LandmarkId::kKneeR));

@@ -6,13 +6,14 @@
 namespace bodice::inline v0_1::anatomy {
 namespace {
 
-/// Where arms are, and within it the upper arm: distances from the fingertip as fractions of hand to hand.
+/// The ranges of an arm and, within it, of the upper arm: distances from the fingertip as fractions of hand
+/// to hand.
 constexpr float kFrom = 0.20F, kTo = 0.60F, kUpperArmFrom = 0.27F, kUpperArmTo = 0.35F, kWidensFrom = 0.32F;
 constexpr std::size_t kSteps = 40;
 /// A loop through the armpit is this many times the girth of the upper arm: it takes in the shoulder, and the
 /// first of chest and back.
 constexpr float kWider = 1.7F;
-/// A loop that widens elsewhere is not at an armpit.
+/// The range in which a loop that widens is at an armpit.
 constexpr float kLeast = 0.36F, kMost = 0.50F;
 
 float upper_arm_girth(const GirthProfile& profile, float hands_apart) {

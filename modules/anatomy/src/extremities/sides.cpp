@@ -21,8 +21,8 @@ using geometry::Vec3;
 constexpr std::array<float, 7> kReadAt{0.36F, 0.42F, 0.48F, 0.54F, 0.60F, 0.66F, 0.72F};
 constexpr float kHeelFrom = 0.20F, kHeelTo = 0.29F, kCalf = 0.50F;  ///< as shares of that path
 
-/// What a meter through space counts against one along the skin: 8 takes the front of a pointed foot's ankle,
-/// 2 that of an obese runner's.
+/// The weight of a meter through space against one along the skin. With 8 the front of a pointed foot's ankle
+/// is taken, with 2 that of an obese runner's.
 constexpr float kThroughSpace = 4.0F;
 
 /// No path along the skin is longer than over the toe: nothing that is searched lies farther than the sum of

@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vec3;
 
-/// A limb that bends less has no bend to read, so that its joint is estimated by proportion. A bend alone
+/// The bend below which a limb shows no joint, so that the joint is estimated by proportion. A bend alone
 /// contradicts nothing: on heavy arms it may be flesh at the wrist or a raised shoulder.
 constexpr float kBent_rad = 0.6F;
 

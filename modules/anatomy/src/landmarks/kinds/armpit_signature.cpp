@@ -15,24 +15,27 @@ namespace {
 
 using geometry::Index;
 
-/// Own hand, other hand, own foot, front, back, perineum, past the shoulder level; front minus back and front
-/// plus back as shares of half the chest's girth; detour between hand and foot; other foot; detours between
-/// head and hands, and head and feet; head. The measures of the body: half the chest's girth, hands apart,
-/// feet apart, trunk, front and back at the crown.
+/// The signature of an armpit. Its features, in the order of armpit_features(): the distances from the own
+/// hand, the other hand, the own foot, front, back and perineum, and that past the shoulder level; front
+/// minus back and front plus back as shares of half the chest's girth; the detour between hand and foot; the
+/// distance from the other foot; the detours between head and hands and between head and feet; the distance
+/// from the head. They are expected by six measures of the body: half the chest's girth, hands apart, feet
+/// apart, trunk, and the distances of the crown from front and back.
 constexpr Signature<14, 6> kArmpit = make_signature<14, 6>(
     coefficients::armpit::kMean, coefficients::armpit::kOfBody, coefficients::armpit::kWhiten);
 
-/// The armpit lies between these distances from its own hand; fractions of hand to hand.
+/// The range of the armpit's distance from its own hand; fractions of hand to hand.
 constexpr float kArmpitFrom = 0.33F, kArmpitTo = 0.53F;
-/// It is near the level where the arm widens, in fractions of hand to hand, and near the shortest path from
-/// hand to foot.
+/// The largest distances of the armpit from the level where the arm widens, in fractions of hand to hand, and
+/// from the shortest path from hand to foot, as a detour.
 constexpr float kNearShoulder = 0.075F, kArmpitDetour = 1.13F;
-/// The paths around the chest that count for one side lie beyond its forearm, nearer to its own hand, and
-/// under the arm: paths over the neck are shorter on heavy bodies.
+/// Limits of the paths around the chest that count for one side: beyond its forearm, nearer to its own hand,
+/// and under the arm. Paths over the neck are shorter on heavy bodies.
 constexpr float kChestFrom = 0.30F, kOwnSide = 0.92F, kUnderArm = 1.08F;
 constexpr float kLeastHalfChest = 0.02F;  // a fraction of the body size
-/// A vertex this far from the best one is elsewhere, as a fraction of the body size: more than a landmark's
-/// bar, less than from the armpit to the top of the shoulder, to the chest or to the back, which resemble it.
+/// The distance from the best vertex at which another one is elsewhere, as a fraction of the body size: more
+/// than a landmark's bar, less than from the armpit to the top of the shoulder, to the chest or to the back,
+/// which resemble it.
 constexpr double kElsewhere = 0.06;
 
 }  // namespace

@@ -20,13 +20,14 @@ using geometry::kNoIndex;
 using geometry::Vec3;
 namespace data = coefficients::crown;
 
-/// Where the crown divides the path over the head from the back of the neck to its front: the same on
-/// children and adults, whatever the size of the head.
+/// The share at which the crown divides the path over the head from the back of the neck to its front. It is
+/// the same on children and adults, whatever the size of the head.
 constexpr float kFromNape = 0.485F;
 /// Cost of a squared deviation from that share, against distance from the feet as a fraction of the body
 /// size. Without it the forehead wins on bodies that lean back.
 constexpr float kShareWeight = 2.0F;
-/// How much of that score the dome of the head spans, and how far it reaches: fractions of the body size.
+/// The range of that score that the dome of the head spans, and the dome's radius; fractions of the body
+/// size.
 constexpr float kDome = 0.02F, kDomeRadius = 0.07F;
 /// The cross-check looks for the crown this near to the first estimate, as a fraction of the body size.
 constexpr float kNearCrown = 0.20F;

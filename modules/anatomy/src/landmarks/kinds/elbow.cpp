@@ -8,10 +8,10 @@ namespace bodice::inline v0_1::anatomy {
 namespace of_elbow {
 namespace {
 
-/// Beyond this distance from the fingertip, in units of hand to hand, the border's sign means nothing.
+/// The distance from the fingertip, in units of hand to hand, beyond which the border's sign means nothing.
 constexpr float kReach = 0.36F;
-/// Where elbows may lie, and where they lie on straight arms on the mean of made and scanned bodies: shares
-/// of the path from fingertip to armpit.
+/// The range of elbows and, on straight arms, their mean on made and scanned bodies: shares of the path from
+/// fingertip to armpit.
 constexpr float kFrom = 0.40F, kTo = 0.85F, kShare = 0.635F;
 /// One elbow in a hundred that is right lies farther from its second estimate, as a fraction of the body
 /// size.

@@ -8,12 +8,12 @@ namespace bodice::inline v0_1::anatomy {
 namespace of_knee {
 namespace {
 
-/// Beyond this distance from the toe, in units of foot to foot, the border's sign means nothing.
+/// The distance from the toe, in units of foot to foot, beyond which the border's sign means nothing.
 constexpr float kReach = 0.40F;
 /// How far the knee's loop lies beyond the border of the calf, as a score.
 constexpr float kBeyond = 0.0115F;
-/// Where knees may lie, and where they lie on straight legs on the mean of made and scanned bodies: shares of
-/// the path from toe to perineum.
+/// The range of knees and, on straight legs, their mean on made and scanned bodies: shares of the path from
+/// toe to perineum.
 constexpr float kFrom = 0.38F, kTo = 0.92F, kShare = 0.61F;
 /// One knee in a hundred that is right lies farther from its second estimate, as a fraction of the body size.
 constexpr double kMaxDifference = 0.038;

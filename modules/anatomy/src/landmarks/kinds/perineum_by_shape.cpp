@@ -49,7 +49,7 @@ Shape shape_of(const CrotchLine& line, double size) {
   return shape;
 }
 
-/// 0 if a knee is drawn up to a right angle or more, 1 if both legs go on where the trunk ends.
+/// A weight: 0 if a knee is drawn up to a right angle or more, 1 if both legs go on where the trunk ends.
 double straightness(const Landmarks& marks) {
   constexpr double kBentCosine = 0.2, kStraightCosine = 0.8;
   const Vec3& perineum = marks.at(LandmarkId::kPerineum);
