@@ -11,11 +11,11 @@ function(bodice_reject_unsafe_math_flags)
   set(configs ${CMAKE_BUILD_TYPE} ${CMAKE_CONFIGURATION_TYPES})
   list(TRANSFORM configs TOUPPER)
   list(TRANSFORM configs PREPEND CMAKE_CXX_FLAGS_)
-  set(places options CMAKE_CXX_FLAGS ${configs})
-  foreach(place IN LISTS places)
-    if("${${place}}" MATCHES "-(ffast-math|Ofast|ffinite-math-only|fassociative-math|funsafe-math-optimizations)")
-      string(REPLACE "options" "add_compile_options" place "${place}")
-      message(FATAL_ERROR "bodice: ${CMAKE_MATCH_0} is forbidden: remove it from ${place}. "
+  set(variables options CMAKE_CXX_FLAGS ${configs})
+  foreach(variable IN LISTS variables)
+    if("${${variable}}" MATCHES "-(ffast-math|Ofast|ffinite-math-only|fassociative-math|funsafe-math-optimizations)")
+      string(REPLACE "options" "add_compile_options" variable "${variable}")
+      message(FATAL_ERROR "bodice: ${CMAKE_MATCH_0} is forbidden: remove it from ${variable}. "
                           "Certificates and determinism need IEEE arithmetic.")
     endif()
   endforeach()
@@ -83,7 +83,7 @@ function(bodice_unite target root)
   endforeach()
 endfunction()
 
-# bodice_unite_program(<target> [<files>]): the same for a test or a bench, whose folder is one program; with a number, so
+# bodice_unite_program(<target> [<files>]): the same for a test or a bench, all files of which are one program; with a number, so
 # many files at a time.
 function(bodice_unite_program target)
   if(NOT BODICE_UNITY)

@@ -91,7 +91,7 @@ function(bodice_installed_headers out)
 endfunction()
 
 # Installs the program, every layer and a package file, so that find_package(bodice COMPONENTS <layer>) gives
-# bodice::<layer>. An export set a layer: one that was not asked for is not there.
+# bodice::<layer>. An export set a layer: one that was not requested is not there.
 function(bodice_install_layers)
   include(CMakePackageConfigHelpers)
   set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/bodice")

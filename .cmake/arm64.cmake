@@ -1,5 +1,5 @@
 # Toolchain file for 64-bit ARM with Debian's cross compiler, programs run by qemu. BODICE_ARM64_PACKAGES is a folder
-# with Debian's arm64 packages unpacked in it; tests/arm64/run makes one, and says how all of it is used.
+# with Debian's arm64 packages unpacked in it; tests/arm64/run makes one, and states how all of it is used.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

@@ -1,4 +1,4 @@
-/* From a body to contacts, in C90: a file of yours or the built-in body is fitted, and a point is asked for.
+/* From a body to contacts, in C90: a file of yours or the built-in body is fitted, and a point is queried.
  *
  *      O              O           .
  *     /|\   -fit->   ooo   <----  x   how far, and in which direction out?
@@ -15,8 +15,8 @@ static int failed(const char* what) {
   return 1;
 }
 
-/* Says what goes on; any result but 0 would cancel. */
-static int32_t say(void* host, const char* stage) {
+/* Prints the stage; any result but 0 would cancel. */
+static int32_t print_stage(void* host, const char* stage) {
   const char** last = host;
   if (*last != stage) printf("%s ...\n", stage);
   *last = stage;
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
 
   options.workers = 0; /* all that the machine has */
   if (bodice_context_create(&options, &context) != BODICE_OK) return failed("context");
-  skin_options.progress = fit_options.progress = say;
+  skin_options.progress = fit_options.progress = print_stage;
   skin_options.host = fit_options.host = &last;
   if (argc > 1)
     status = bodice_skin_from_file(context, argv[1], &skin_options, &skin);

@@ -22,7 +22,7 @@ static void take_line(void* context, int32_t level, const char* message) {
   printf("[%s] %s\n", levels[level & 3], message);
 }
 
-/* A block whose address is a multiple of the alignment, a power of two; what malloc gave stands before it. */
+/* A block at a multiple of the alignment, a power of two; what malloc gave stands before it. */
 static void* allocate(void* context, size_t bytes, size_t alignment) {
   host* self = context;
   char *raw = malloc(bytes + alignment + sizeof(void*)), *block = raw + sizeof(void*);
@@ -69,7 +69,7 @@ int main(void) {
   options.release = release;
   options.now_ns = now_ns;
   fit.tier = BODICE_SOLID;
-  fit.target_error_m = 0.001; /* which twenty ellipsoids cannot reach: a line in the log says so */
+  fit.target_error_m = 0.001; /* which twenty ellipsoids cannot reach: a line in the log reports it */
   fit.max_ellipsoids = 20;
   particles.count = 2;
   particles.position.x = positions;

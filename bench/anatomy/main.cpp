@@ -74,7 +74,7 @@ constexpr const char* kUsage =
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
+  if (bench::help_requested(argc, argv, kUsage)) return 0;
   const Arguments arguments = parse(argc, argv);
   if (arguments.measured > 0) {
     bench::print_measurement_errors(arguments.from, arguments.measured);

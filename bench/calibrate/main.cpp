@@ -166,7 +166,7 @@ constexpr const char* kUsage =
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
+  if (bench::help_requested(argc, argv, kUsage)) return 0;
   const Arguments a = parse(argc, argv);
   if (!std::filesystem::is_directory(a.folder)) {
     std::fprintf(

@@ -89,7 +89,7 @@ constexpr const char* kUsage =
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
+  if (bench::help_requested(argc, argv, kUsage)) return 0;
   const Arguments arguments = read(argc, argv);
   std::vector<double> seconds = seconds_in(arguments.times);
   if (seconds.empty() || arguments.jobs == 0 || arguments.cores < 1)

@@ -79,7 +79,7 @@ constexpr const char* kUsage =
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
+  if (bench::help_requested(argc, argv, kUsage)) return 0;
   if (argc != 2) {
     std::fprintf(stderr, "colliders: name a folder of bodies (OBJ).\n");
     return 2;

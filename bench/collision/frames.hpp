@@ -17,12 +17,12 @@ class Frames {
     constexpr int kHalf = 60;
     constexpr float kStep_m = 1e-3f, kTremble_m = 1e-4f;
     const int phase = ++frame_ % (2 * kHalf);
-    const float way_m = kStep_m * static_cast<float>(std::abs(phase - kHalf) - kHalf / 2);
+    const float path_m = kStep_m * static_cast<float>(std::abs(phase - kHalf) - kHalf / 2);
     const float side_m = frame_ % 2 == 0 ? kTremble_m : -kTremble_m;
     for (std::size_t i = 0; i < start_.size(); ++i) {
-      now_.x[i] = start_.x[i] + 0.7f * way_m + side_m * static_cast<float>(i * 7919 % 3);
-      now_.y[i] = start_.y[i] + 0.5f * way_m + side_m * static_cast<float>(i * 104729 % 3);
-      now_.z[i] = start_.z[i] + 0.5f * way_m;
+      now_.x[i] = start_.x[i] + 0.7f * path_m + side_m * static_cast<float>(i * 7919 % 3);
+      now_.y[i] = start_.y[i] + 0.5f * path_m + side_m * static_cast<float>(i * 104729 % 3);
+      now_.z[i] = start_.z[i] + 0.5f * path_m;
     }
   }
   Cloud& now() { return now_; }

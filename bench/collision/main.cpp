@@ -232,7 +232,7 @@ constexpr const char* kUsage =
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
+  if (bench::help_requested(argc, argv, kUsage)) return 0;
   if (argc > 1 && std::string_view(argv[1]) == "figures")
     return bench::draw_figures(argc > 2 ? static_cast<std::size_t>(std::atol(argv[2])) : 856000) ? 0 : 1;
   if (argc > 1 && std::string_view(argv[1]) == "counts") {

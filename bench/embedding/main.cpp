@@ -187,7 +187,7 @@ constexpr const char* kUsage =
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (bench::asks_for_help(argc, argv, kUsage)) return 0;
+  if (bench::help_requested(argc, argv, kUsage)) return 0;
   const std::size_t count = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 10000;
   const int rounds = argc > 2 ? std::atoi(argv[2]) : 300;
   const auto body = synth::make_body(engine::Context{}, {});

@@ -45,13 +45,13 @@ std::unique_ptr<MovingPeer> rigid_capsules(const bodice::geometry::TriMesh& rest
   std::vector<std::vector<Vec3>> points(joints);
   for (std::size_t v = 0; v < joint.size(); ++v) points[joint[v]].push_back(rest.positions[v]);
   std::vector<Capsule> capsules;
-  std::vector<std::size_t> carrier;
+  std::vector<std::size_t> joint_of_capsule;
   for (std::size_t j = 0; j < joints; ++j) {
     if (points[j].empty()) continue;
     capsules.push_back(capsule_around(points[j]));
-    carrier.push_back(j);
+    joint_of_capsule.push_back(j);
   }
-  return std::make_unique<RigidCapsules>(std::move(capsules), std::move(carrier));
+  return std::make_unique<RigidCapsules>(std::move(capsules), std::move(joint_of_capsule));
 }
 
 }  // namespace bench

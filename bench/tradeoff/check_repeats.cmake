@@ -2,7 +2,7 @@
 # cmake -DPROGRAM=... -DFOLDER=... -P check_repeats.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Reads a CSV without its comments and without the columns whose names end in _ns, _us, _ms, _s or _timed.
+# Reads a CSV without its comments and without columns with names that end in _ns, _us, _ms, _s or _timed.
 function(read_without_times file result)
   file(STRINGS "${file}" lines REGEX "^[^#]")
   if(lines MATCHES "\"")

@@ -1,4 +1,4 @@
-/* Asks a proxy everything that the frame side can answer, and writes the answers to a file or compares them with one.
+/* Calls everything of the frame side for a proxy, and writes the answers to a file or compares them with one.
  *   answers PROXY write|compare FILE [TOLERANCE]
  * Compiled with the library and its bodice.h, or, by -DAMALGAMATION, with the two files to drop in. */
 #ifdef AMALGAMATION
@@ -50,7 +50,7 @@ static void *read_all(const char *name, size_t *size) {
 }
 
 /* A box around the body's middle, to have a mesh. */
-static void ask_exact(const bodice_context *context, float points[COUNT][3], struct answers *out) {
+static void query_exact(const bodice_context *context, float points[COUNT][3], struct answers *out) {
   static const double xyz[8][3] = {{-0.2, 0.5, -0.2}, {0.2, 0.5, -0.2}, {0.2, 1.2, -0.2}, {-0.2, 1.2, -0.2},
                                    {-0.2, 0.5, 0.2},  {0.2, 0.5, 0.2},  {0.2, 1.2, 0.2},  {-0.2, 1.2, 0.2}};
   static const unsigned char index[12][3] = {{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
@@ -111,7 +111,7 @@ static void ask(const void *bytes, size_t size, struct answers *out) {
   particles.velocity.x = out->velocity;
   response.thickness_m = 0.002f;
   must(bodice_resolve(collider, &particles, &response, workspace, NULL));
-  ask_exact(context, points, out);
+  query_exact(context, points, out);
   printf("%s\n", bodice_build());
   bodice_workspace_destroy(workspace);
   bodice_collider_destroy(collider);

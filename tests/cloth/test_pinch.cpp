@@ -1,5 +1,5 @@
-// Cloth between two parts of a body that come together: an arm in a sleeve against a trunk in a shirt. The
-// body has the last word: layers that hold each other apart must not go into it.
+// Cloth between two parts of a body that come together: an arm in a sleeve against a trunk in a shirt.
+// Contact with the body is resolved last: layers that hold each other apart must not go into it.
 #include <doctest/doctest.h>
 
 #include "layer_fixtures.hpp"
@@ -47,7 +47,7 @@ LayerScene arm_against_trunk(double in_m, double top_m, double length_m) {
 // What lies between two bodies that overlap by in_mm is half of that deep in one of them, unless it slips
 // aside. Pinned rims go in with the arm. They cross while it is in, whatever the solver does; so the
 // crossings of these frames are not judged, only those half a second after the arm has gone.
-void check_last_word(double top_m, double length_m, bool rims_are_clear) {
+void check_body_priority(double top_m, double length_m, bool rims_are_clear) {
   for (const double in_mm : {-4.0, -1.0, 1.0, 4.0}) {
     CAPTURE(in_mm);
     const LayerScene scene = arm_against_trunk(1e-3 * in_mm, top_m, length_m);
@@ -65,11 +65,11 @@ void check_last_word(double top_m, double length_m, bool rims_are_clear) {
 }  // namespace
 
 TEST_CASE("pinch: layers between an arm and a trunk go no deeper than each would, and come apart again") {
-  check_last_word(1.1, 0.3, false);
+  check_body_priority(1.1, 0.3, false);
 }
 
 TEST_CASE("pinch: so do layers with rims far from where the arm touches") {
-  check_last_word(1.25, 0.5, true);
+  check_body_priority(1.25, 0.5, true);
 }
 
 TEST_CASE("pinch: the same bits for any number of workers") {

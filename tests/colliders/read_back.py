@@ -44,7 +44,7 @@ def rows_of_angles(roll, pitch, yaw):
 IDENTITY = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]], [0, 0, 0])
 
 
-def place(frame, v): return add(apply(frame[0], v), frame[1])
+def to_world(frame, v): return add(apply(frame[0], v), frame[1])
 
 
 # Signed distances by search, not by the program's formulas.
@@ -131,7 +131,7 @@ def read_unity(file, joints):
         frame = ([m[0:3], m[4:7], m[8:11]], [m[3], m[7], m[11]])
         ends = []
         for end in "ab":
-            x, y, z = place(frame, [shape[end][axis] for axis in "xyz"])
+            x, y, z = to_world(frame, [shape[end][axis] for axis in "xyz"])
             ends.append([-x, y, z])
         solids.append((*ends, shape["radiusA"], shape["radiusB"]))
     return solids
@@ -143,7 +143,7 @@ def read_unreal(file, joints):
         frame = joints.get(setup["BoneName"])
         def back(v):
             if frame is None: return scale(0.01, [v[0], v[2], v[1]])
-            return place(frame, scale(0.01, [v[0], -v[1], v[2]]))
+            return to_world(frame, scale(0.01, [v[0], -v[1], v[2]]))
         vector = lambda v: [v[axis] for axis in "XYZ"]
         geometry = setup["AggGeom"]
         for s in geometry["SphereElems"]:
@@ -171,13 +171,13 @@ def read_godot(file, joints):
             if "transform" in values:
                 n = [float(v) for v in values["transform"][len("Transform3D("):-1].split(",")]
                 own = ([n[0:3], n[3:6], n[6:9]], n[9:12])
-                frame = (product(frame[0], own[0]), place(frame, own[1]))
+                frame = (product(frame[0], own[0]), to_world(frame, own[1]))
             path = tags["name"] if tags["parent"] == "." else tags["parent"] + "/" + tags["name"]
             frames[path] = frame
             if "shape" in values:
                 radius, height = resources[re.search(r'"(.*)"', values["shape"])[1]]
                 half = [0, max(0.0, 0.5 * height - radius), 0]
-                solids.append((place(frame, half), place(frame, scale(-1, half)), radius, radius))
+                solids.append((to_world(frame, half), to_world(frame, scale(-1, half)), radius, radius))
     return solids
 
 
@@ -189,7 +189,7 @@ def read_vrm(file, joints):
         m = data["nodes"][collider["node"]]["matrix"]
         frame = ([m[0::4][:3], m[1::4][:3], m[2::4][:3]], m[12:15])
         (shape,) = collider["shape"].values()
-        solids.append((place(frame, shape["offset"]), place(frame, shape.get("tail", shape["offset"])),
+        solids.append((to_world(frame, shape["offset"]), to_world(frame, shape.get("tail", shape["offset"])),
                        shape["radius"], shape["radius"]))
     return solids
 
@@ -207,7 +207,7 @@ def read_mujoco(file, joints):
         for geom in body.iter("geom"):
             check(geom.get("type") == "ellipsoid", "MuJoCo takes ellipsoids")
             turn = product(outer[0], rows_of_quaternion(*numbers(geom, "quat")))
-            rows, at = lie_down((turn, place(outer, numbers(geom, "pos"))))
+            rows, at = lie_down((turn, to_world(outer, numbers(geom, "pos"))))
             solids.append((at, rows, numbers(geom, "size")))
     return solids
 
@@ -220,7 +220,7 @@ def read_sdformat(file, joints):
         outer = (rows_of_angles(*pose[3:]), pose[:3])
         for collision in link.iter("collision"):
             pose = numbers(collision, "pose")
-            rows, at = lie_down((product(outer[0], rows_of_angles(*pose[3:])), place(outer, pose[:3])))
+            rows, at = lie_down((product(outer[0], rows_of_angles(*pose[3:])), to_world(outer, pose[:3])))
             solids.append((at, rows, numbers(collision, "geometry/ellipsoid/radii")))
     return solids
 
@@ -345,7 +345,7 @@ def read_convex_gltf(file, joints):
         m = above[i]["matrix"] if i in above else [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
         frame = ([m[0::4][:3], m[1::4][:3], m[2::4][:3]], m[12:15])
         primitive = data["meshes"][node["mesh"]]["primitives"][0]
-        points = [place(frame, p) for p in numbers(primitive["attributes"]["POSITION"], "f", 3)]
+        points = [to_world(frame, p) for p in numbers(primitive["attributes"]["POSITION"], "f", 3)]
         corners = [k for (k,) in numbers(primitive["indices"], "H", 1)]
         pieces.append(piece_of(points, [tuple(corners[k:k + 3]) for k in range(0, len(corners), 3)]))
     return pieces
@@ -413,31 +413,31 @@ def read_back(proxy, body, points, joints):
             obeys_schema(name, file)
             solids = reader(file, joints)
             check(kind is None and name != "convex" or 12 <= len(solids) <= 24, f"{file}: {len(solids)} shapes of 24")
-            told, found = json.load(open("cost.json"))["error_mm"], errors(points, solids)
-            for what in told:
-                check(abs(told[what] - found[what]) < 1e-3,
-                      f"{file}: {what} is {found[what]:.5f} mm when read back, {told[what]:.5f} as reported")
+            stated, found = json.load(open("cost.json"))["error_mm"], errors(points, solids)
+            for what in stated:
+                check(abs(stated[what] - found[what]) < 1e-3,
+                      f"{file}: {what} is {found[what]:.5f} mm when read back, {stated[what]:.5f} as reported")
             print(f"{file}: {len(solids)} solids, mean {found['mean']:.2f} mm, worst {found['worst']:.2f} mm")
 
 
 def refusals():
-    said = run("export", "free.json", "--to", "vrm", "-o", "none.gltf", code=2)
-    check("bound to none" in said and said.count("\n") == 1, f"a proxy without a rig, in one sentence: {said}")
-    said = run("export", "free.json", "--to", "quake", "-o", "none.json", code=2)
-    check("unity" in said and said.count("\n") == 1, f"a format that does not exist: {said}")
-    said = run("export", "free.json", "--to", "unity", "-o", "no/such/folder.json", code=1)
-    check("folder" in said and said.count("\n") == 1, f"a folder that does not exist: {said}")
+    printed = run("export", "free.json", "--to", "vrm", "-o", "none.gltf", code=2)
+    check("bound to none" in printed and printed.count("\n") == 1, f"a proxy without a rig, in one sentence: {printed}")
+    printed = run("export", "free.json", "--to", "quake", "-o", "none.json", code=2)
+    check("unity" in printed and printed.count("\n") == 1, f"a format that does not exist: {printed}")
+    printed = run("export", "free.json", "--to", "unity", "-o", "no/such/folder.json", code=1)
+    check("folder" in printed and printed.count("\n") == 1, f"a folder that does not exist: {printed}")
     for output, report in [("/proc/none.json", "none_report.json"), ("none.json", "/proc/none.json")]:  # where no file can be
-        said = run("export", "free.json", "--to", "unity", "-o", output, "--report", report, code=1)
-        check("could not be written" in said and said.count("\n") == 1, f"a folder that cannot be written: {said}")
-    said = run("export", "free.json", "--to", "unity", "-o", "none.tscn", code=2)
-    check("extension" in said, f"an extension that is not the format's: {said}")
-    said = run("export", "free.json", "--to", "mujoco", "--shapes", "capsules", "-o", "none.xml", code=2)
-    check("takes ellipsoids" in said, f"shapes where ellipsoids are written: {said}")
-    said = run("export", "free.json", "--to", "convex", "--shapes", "capsules", "-o", "none.obj", code=2)
-    check("takes convex pieces" in said, f"shapes where pieces are written: {said}")
-    said = run("export", "free.json", "--to", "godot", "--shapes", "tapered", "-o", "none.tscn", code=2)
-    check("tapered" in said, f"tapered capsules for Godot: {said}")
+        printed = run("export", "free.json", "--to", "unity", "-o", output, "--report", report, code=1)
+        check("could not be written" in printed and printed.count("\n") == 1, f"a folder that cannot be written: {printed}")
+    printed = run("export", "free.json", "--to", "unity", "-o", "none.tscn", code=2)
+    check("extension" in printed, f"an extension that is not the format's: {printed}")
+    printed = run("export", "free.json", "--to", "mujoco", "--shapes", "capsules", "-o", "none.xml", code=2)
+    check("takes ellipsoids" in printed, f"shapes where ellipsoids are written: {printed}")
+    printed = run("export", "free.json", "--to", "convex", "--shapes", "capsules", "-o", "none.obj", code=2)
+    check("takes convex pieces" in printed, f"shapes where pieces are written: {printed}")
+    printed = run("export", "free.json", "--to", "godot", "--shapes", "tapered", "-o", "none.tscn", code=2)
+    check("tapered" in printed, f"tapered capsules for Godot: {printed}")
     for file in os.listdir("."): check(not file.startswith("none"), f"{file} was left behind")
 
 

@@ -51,10 +51,10 @@ def main():
                 channel = glb.document["animations"][0]
                 keys = [t for (t,) in glb.numbers(channel["samplers"][0]["input"])]
                 check(max(abs(t - times[0] - k) for t, k in zip(times, keys)) < 1e-6, f"{file}: times {times}")
-    said = run("drape", "--cache", "d.abc", "-o", "x.glb", code=2)
-    check(".pc2" in said and said.count("\n") == 1, f"an extension that is no cache's: {said}")
-    said = run("drape", "--cache", "no/such/d.pc2", "-o", "x.glb", code=1)
-    check("folder" in said and said.count("\n") == 1, f"a folder that is not there: {said}")
+    printed = run("drape", "--cache", "d.abc", "-o", "x.glb", code=2)
+    check(".pc2" in printed and printed.count("\n") == 1, f"an extension that is no cache's: {printed}")
+    printed = run("drape", "--cache", "no/such/d.pc2", "-o", "x.glb", code=1)
+    check("folder" in printed and printed.count("\n") == 1, f"a folder that is not there: {printed}")
     check(not os.path.exists("x.glb"), "a file was left behind")
     print("caches:", "failed" if failures else "passed")
     return 1 if failures else 0

@@ -1,4 +1,4 @@
-"""Files for GarmentCode, read by PyYAML and by Python's JSON: every measurement that its body files have, in the asked unit,
+"""Files for GarmentCode, read by PyYAML and by Python's JSON: every measurement that its body files have, in the requested unit,
 and each vertex of the body in one of its six regions. Skipped without PyYAML (Debian: python3-yaml)."""
 import json
 import os

@@ -36,7 +36,7 @@ def every_file_is_in_meters_with_y_up():
         run("fit", name + ".obj", "--tier", "solid", "-o", name + ".json", "--glb", name + ".glb", "-q")
         glb, proxy = Glb(name + ".glb"), json.load(open(name + ".json"))
         apart = most_apart(sorted(glb.points("body")), sorted(truth))
-        check(apart < 2e-5, f"{name}: the body is {apart} m off its place in meters, y up")
+        check(apart < 2e-5, f"{name}: the body is {apart} m off its position in meters, y up")
         up = proxy["up"]
         turn = {"y": lambda v: v, "z": lambda v: [v[0], v[2], -v[1]]}[up]
         top = glb.nodes[glb.find("ellipsoids")]

@@ -12,7 +12,7 @@ FUZZ_TARGET(import) {
   const char* extension = kExtensions[in.next() % 3];
   const fuzz::TemporaryFile file(extension, in.rest());
   const auto body = io::import_body({}, file.path(), {.unit = io::Unit::kMeter});
-  fuzz::check_told(body);
+  fuzz::check_reported(body);
   if (!body.ok()) return 0;
   for (const auto& p : body->skin.positions) FUZZ_CHECK(p.allFinite());
   for (const auto& t : body->skin.triangles)

@@ -52,10 +52,10 @@ FUZZ_TARGET(mesh) {
   fuzz::Bytes in(data, size);
   const geometry::TriMesh mesh = mesh_of(in);
   const auto repaired = geometry::repair({}, mesh);
-  fuzz::check_told(repaired);
+  fuzz::check_reported(repaired);
   if (repaired.ok()) use_repaired(repaired->mesh);
   const auto welded = cloth::weld(mesh);
-  fuzz::check_told(welded);
+  fuzz::check_reported(welded);
   if (welded.ok())
     for (const auto p : welded->particle_of_vertex)
       FUZZ_CHECK(p == geometry::kNoIndex || p < welded->mesh.positions.size());

@@ -27,8 +27,8 @@ FUZZ_TARGET(options) {
     FUZZ_CHECK(refused.get_exit_code() == 0 || std::string(refused.what()).size() > 3);
     return 0;
   }
-  if (!options.profile.ends_with(".json")) fuzz::check_told(cli::segment_options(options));
-  fuzz::check_told(cli::builtin_body(options));
+  if (!options.profile.ends_with(".json")) fuzz::check_reported(cli::segment_options(options));
+  fuzz::check_reported(cli::builtin_body(options));
   static_cast<void>(cli::fit_options(options));
   return 0;
 }

@@ -25,10 +25,10 @@ void use(const proxy::BodyProxy& proxy) {
 
 FUZZ_TARGET(proxy) {
   const auto binary = proxy::from_binary(std::as_bytes(std::span(data, size)));
-  fuzz::check_told(binary);
+  fuzz::check_reported(binary);
   if (binary.ok()) use(*binary);
   const auto json = proxy::from_json(std::string_view(reinterpret_cast<const char*>(data), size));
-  fuzz::check_told(json);
+  fuzz::check_reported(json);
   if (json.ok()) use(*json);
   return 0;
 }

@@ -141,7 +141,7 @@ FUZZ_TARGET(repair) {
   const bool is_read = in.next() == kRead;
   const TriMesh mesh = mesh_of(in);
   const auto repaired = geometry::repair({}, mesh);
-  fuzz::check_told(repaired);
+  fuzz::check_reported(repaired);
   if (!repaired.ok()) return 0;
   check_indices(repaired->mesh);
   check_rebuilt(repaired->mesh);
@@ -149,7 +149,7 @@ FUZZ_TARGET(repair) {
   const fuzz::TemporaryFile file(".stl", as_stl(mesh));
   for (const io::Shape shape : {io::Shape::kPerson, io::Shape::kAny}) {
     const auto read = io::import_body({}, file.path(), {.shape = shape, .unit = io::Unit::kMeter});
-    fuzz::check_told(read);
+    fuzz::check_reported(read);
     if (read.ok()) check_indices(read->skin);
   }
   return 0;

@@ -10,7 +10,7 @@ using namespace bodice;
 FUZZ_TARGET(rig) {
   const fuzz::TemporaryFile file(".bvh", {data, size});
   const auto motion = io::import_motion({}, file.path());
-  fuzz::check_told(motion);
+  fuzz::check_reported(motion);
   if (!motion.ok()) return 0;
   FUZZ_CHECK(validate(motion->skeleton).ok());
   std::vector<rig::Affine> world(motion->skeleton.joints.size());
@@ -20,7 +20,7 @@ FUZZ_TARGET(rig) {
       joint_matrices(motion->skeleton, clip, time, world);
       for (const rig::Affine& map : world) FUZZ_CHECK(map.allFinite());
     }
-    fuzz::check_told(retarget(motion->skeleton, clip, motion->skeleton));
+    fuzz::check_reported(retarget(motion->skeleton, clip, motion->skeleton));
   }
   return 0;
 }

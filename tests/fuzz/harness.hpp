@@ -60,7 +60,7 @@ class TemporaryFile {
 
 /// Checks that the error has a sentence.
 template <class Result>
-void check_told(const Result& result) {
+void check_reported(const Result& result) {
   FUZZ_CHECK(result.ok() || result.error().message.size() > 8);
 }
 

@@ -35,7 +35,7 @@ void append_floats(std::string& bytes, const Vec3& p) {
   for (int k = 0; k < 3; ++k) append_bytes(bytes, static_cast<float>(p[k]));
 }
 
-double one_way(const TriMesh& from, const TriMesh& to) {
+double farthest_from(const TriMesh& from, const TriMesh& to) {
   double worst = 0.0;
   for (const Vec3& p : from.positions) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -67,7 +67,7 @@ TriMesh figure() {
 }
 
 double vertex_distance(const TriMesh& a, const TriMesh& b) {
-  return std::max(one_way(a, b), one_way(b, a));
+  return std::max(farthest_from(a, b), farthest_from(b, a));
 }
 
 std::string to_obj(const std::vector<NamedMesh>& groups) {

@@ -150,8 +150,8 @@ def refusals():
     check("does not exist" in run("report", "nowhere", "-o", "none.html", code=1), "a file that is not there")
     check("would overwrite" in run("report", "q.html", "-o", "q.html", code=2), "the output is an input")
     check("already" in run("report", "q.glb", "--body", "body.obj", "-o", "none.html", code=2), "two skins")
-    said = run("report", "body.obj", "-o", "none.html", code=1)
-    check(said.count("\n") == 1, f"a body in place of a run: {said}")
+    printed = run("report", "body.obj", "-o", "none.html", code=1)
+    check(printed.count("\n") == 1, f"a body in place of a run: {printed}")
     check(not os.path.exists("none.html"), "a page was left behind")
 
 

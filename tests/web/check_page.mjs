@@ -9,9 +9,9 @@ import path from 'node:path';
 
 const root = process.env.BODICE_WEB, scratch = process.env.BODICE_SCRATCH;
 const TYPES = {'.html': 'text/html', '.css': 'text/css', '.mjs': 'text/javascript', '.wasm': 'application/wasm'};
-const asked = [];
+const requested = [];
 const server = createServer((request, response) => {
-  asked.push(request.url);
+  requested.push(request.url);
   try {
     const file = path.join(root, path.normalize(new URL(request.url, 'http://h').pathname));
     response.setHeader('Content-Type', TYPES[path.extname(file)] ?? 'application/octet-stream');
@@ -55,7 +55,7 @@ async function run() {
     for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise(r => setTimeout(r, 100)))
       if (await evaluate(wanted instanceof RegExp ? `${wanted}.test(document.getElementById("state").textContent)` : wanted))
         return text();
-    throw new Error(`the page never said ${wanted}: ${await text()}`);
+    throw new Error(`the page never showed ${wanted}: ${await text()}`);
   };
   const picture = async name => {
     await evaluate('new Promise(r => requestAnimationFrame(() => requestAnimationFrame(r)))');
@@ -123,7 +123,7 @@ async function run() {
   const errors = events.filter(e => e.method === 'Runtime.exceptionThrown' ||
       e.method === 'Log.entryAdded' && e.params.entry.level === 'error' && !/favicon/.test(e.params.entry.url ?? ''));
   assert.deepEqual(errors.map(e => JSON.stringify(e.params)), []);
-  console.log(`page: the body is ${gap} mm from its proxy; ${new Set(asked).size} files from this machine`);
+  console.log(`page: the body is ${gap} mm from its proxy; ${new Set(requested).size} files from this machine`);
 }
 
 try {

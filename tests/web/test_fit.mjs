@@ -47,7 +47,7 @@ test('a fit is as near to the skin as the native one, and its bytes are read by 
   assert.ok(Math.abs(distance - body.signedDistance([0.3, 1.2, 0.1])[0]) < 2e-6);
 });
 
-test('the exact distance to the skin says what the report states', () => {
+test('the exact distance to the skin is what the report states', () => {
   const points = Float64Array.from({length: 3000}, (_, i) => positions[(63 * Math.floor(i / 3) + i % 3) % positions.length]);
   const exact = skin.exactDistance(points), fast = body.signedDistance(points);
   const mean = exact.reduce((sum, d, i) => sum + Math.abs(d - fast[i]), 0) / exact.length;

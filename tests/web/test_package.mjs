@@ -26,7 +26,7 @@ function around(count) {
                            (_, i) => positions[(21 * Math.floor(i / 3) + i % 3) % positions.length] + 0.06 * (random() - 0.5));
 }
 
-test('the library says what it is', () => {
+test('the library states its version and build', () => {
   assert.match(bodice.build, /^bodice 0\.1\.0/);
   assert.equal(bodice.partNames[0], 'head');
   assert.equal(bodice.partNames.length, 31);  // 15 of persons, 16 of things

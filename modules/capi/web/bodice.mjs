@@ -1,4 +1,4 @@
-// Body proxies in WebAssembly: fits, signed distances, contacts and poses. bodice.d.ts says what each call takes.
+// Body proxies in WebAssembly: fits, signed distances, contacts and poses. bodice.d.ts states what each call takes.
 //
 //     import {load} from 'bodice';
 //     const bodice = await load();

@@ -41,7 +41,7 @@ class Call {
 export class Library {
   constructor(module) {
     this.module = module;
-    // A handle whose object is gone is released some time later; destroy() does it at once.
+    // A handle without its object is released some time later; destroy() does it at once.
     this.lost = new FinalizationRegistry(({destroy, handle}) => this.module[destroy](handle));
   }
   use(work) {

@@ -157,7 +157,7 @@ function matrixOf({translation: t = [0, 0, 0], rotation: [x, y, z, w] = [0, 0, 0
           t[0], t[1], t[2], 1];
 }
 
-/** The product of matrices whose columns stand one after another. */
+/** The product of matrices that are stored column by column. */
 function product(a, b) {
   const out = new Array(16).fill(0);
   for (let c = 0; c < 4; ++c)

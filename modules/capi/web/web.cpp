@@ -74,7 +74,7 @@ BODICE_WEB const char* web_part_name(int part) {
 }
 
 // The module's function onStage hears the stages of long work, and cancels it by a result other than 0.
-EM_JS(int, tell_stage, (const char* stage),
+EM_JS(int, report_stage, (const char* stage),
       { return Module["onStage"] ? Module["onStage"](UTF8ToString(stage)) : 0; });
 
 /// Positions are 3 numbers a vertex, faces 3 indices; `thing`: not a person. Returns 0 on failure.
@@ -84,7 +84,7 @@ BODICE_WEB bodice_skin* web_skin(double* positions, std::size_t vertices, const 
   bodice_skin_options options = bodice_default_skin_options();
   options.shape = thing ? BODICE_SHAPE_ANY : BODICE_SHAPE_PERSON;
   options.find_rig = find_rig;
-  options.progress = [](void*, const char* stage) -> std::int32_t { return tell_stage(stage); };
+  options.progress = [](void*, const char* stage) -> std::int32_t { return report_stage(stage); };
   bodice_skin* skin = nullptr;
   bodice_skin_from_mesh(context(), &mesh, &options, &skin);
   return skin;
@@ -150,7 +150,7 @@ BODICE_WEB Body* web_fit(const bodice_skin* skin, int tier, int max_ellipsoids, 
   options.tier = tier;
   options.max_ellipsoids = max_ellipsoids;
   options.target_error_m = target_error_m;
-  options.progress = [](void*, const char* stage) -> std::int32_t { return tell_stage(stage); };
+  options.progress = [](void*, const char* stage) -> std::int32_t { return report_stage(stage); };
   bodice_fit_report made = bodice_default_fit_report();
   bodice_proxy* proxy = nullptr;
   if (bodice_fit(context(), skin, &options, &proxy, &made) != BODICE_OK) return nullptr;

@@ -99,12 +99,12 @@ if (data.tasks.length) {
 $('warned').hidden = !data.warnings.length;
 for (const warning of data.warnings) {
   const item = document.createElement('li');
-  const place = placeOf(warning);
-  if (place) {
+  const name = nameIn(warning);
+  if (name) {
     const link = document.createElement('button');
     link.textContent = warning.text;
-    link.title = 'look at ' + place;
-    link.onclick = () => lookAt(place);
+    link.title = 'look at ' + name;
+    link.onclick = () => lookAt(name);
     item.append(link);
   } else {
     item.textContent = warning.text;
@@ -115,12 +115,12 @@ function partsOf(name) {
   return data.parts.map((p, i) => name && part && (p === name || p.startsWith(name) || name.includes(p)) ? i : -1).filter(i => i >= 0);
 }
 // The landmark or part that a warning is about, or that its text names.
-function placeOf(warning) {
+function nameIn(warning) {
   const names = [...data.landmarks.map(l => l.name), ...data.parts];
   if (warning.part && (names.includes(warning.part) || partsOf(warning.part).length)) return warning.part;
   return part ? warning.text.split(/[^a-z_]+/).find(word => word.includes('_') && names.includes(word)) : undefined;
 }
-// A warning leads to the middle of its part, or of the first part whose name holds it.
+// A warning leads to the middle of its part, or of the first part that has it in its name.
 function lookAt(name) {
   const which = partsOf(name);
   const mark = data.landmarks.find(l => l.name === name);

@@ -47,10 +47,10 @@ class Fits(unittest.TestCase):
         sys.path.insert(0, str(pathlib.Path(__file__).parents[3] / "examples"))
         import fit_and_pose
 
-        said = io.StringIO()
-        with contextlib.redirect_stdout(said):
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed):
             self.assertTrue(fit_and_pose.main())
-        self.assertIn("took over", said.getvalue())
+        self.assertIn("took over", printed.getvalue())
 
     def test_a_thing_is_fitted_without_being_a_person(self):
         grid = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 13)] * 2), axis=-1).reshape(-1, 2)

@@ -6,7 +6,7 @@
 namespace bench {
 
 /// Prints `usage` and returns true where --help or -h is among the arguments.
-inline bool asks_for_help(int argc, char** argv, const char* usage) {
+inline bool help_requested(int argc, char** argv, const char* usage) {
   for (int i = 1; i < argc; ++i)
     if (std::strcmp(argv[i], "--help") == 0 || std::strcmp(argv[i], "-h") == 0) {
       std::fputs(usage, stdout);

@@ -30,7 +30,7 @@ constexpr Range kArea{0.36, 1.0};
 constexpr double kLargeArea = 0.90;
 constexpr int kDoubts = 4;
 /// With so many landmarks in doubt and the extremities at unusual distances, what was found is no body.
-constexpr int kHopeless = 6;
+constexpr int kTooManyDoubts = 6;
 constexpr double kTypicalArea = 0.63;
 // Shares of the skin's area: head .08 to .2, trunk .3 to .5, an arm .07 to .12, a leg .13 to .22.
 constexpr Range kHeadShare{0.03, 0.42}, kTrunkShare{0.14, 0.65}, kArmShare{0.025, 0.2}, kLegShare{0.06, 0.3};
@@ -141,7 +141,7 @@ std::vector<std::string> contradictions(const geometry::TriMesh& skin, const Ana
   if (!kTrunkShare.holds(trunk))
     found.push_back(
         engine::message("what would be the trunk has ", std::round(100.0 * trunk), " % of the skin"));
-  if (doubts(anatomy) >= kHopeless && warned_of(anatomy, "unusual-body"))
+  if (doubts(anatomy) >= kTooManyDoubts && warned_of(anatomy, "unusual-body"))
     found.push_back(
         engine::message(doubts(anatomy), " of its landmarks are in doubt or contradict each other"));
   if (stays_welded(anatomy))

@@ -48,7 +48,7 @@ constexpr float kUsualMergeFront = 0.34F, kUsualMergeBack = 0.39F;
 constexpr float kUsualShoulder = 0.425F;
 
 /// The vertex in the middle between two extremities, for skins on which the midline cannot be traced.
-SkinPoint half_way(const Skin& skin, const Field& from, Index to) {
+SkinPoint middle_of_path(const Skin& skin, const Field& from, Index to) {
   SkinPoint best;
   float least = 0.0F;
   const float half = 0.5F * from[to];
@@ -85,7 +85,7 @@ BodyCoordinates::BodyCoordinates(const engine::Context& context, const Skin& ski
 void BodyCoordinates::find_middle(const Skin& skin) {
   midline_ = find_midline(skin, tips_);
   midline_found_ = midline_.front.found() && midline_.back.found();
-  if (!midline_.front.found()) midline_.front = half_way(skin, *tips_.from_hand[0], tips_.hand[1]);
+  if (!midline_.front.found()) midline_.front = middle_of_path(skin, *tips_.from_hand[0], tips_.hand[1]);
   if (!midline_.back.found()) midline_.back = midline_.front;
 }
 

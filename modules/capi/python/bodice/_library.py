@@ -38,7 +38,7 @@ def _open() -> ctypes.CDLL:
 
 def _misfit(what: str) -> ImportError:
     """What importing with another library than that of this package raises."""
-    return ImportError(f"{library._name} ({_build()}) is not of the version of this package, whose ABI is {ABI}: {what}. "
+    return ImportError(f"{library._name} ({_build()}) is not of the version of this package (ABI {ABI}): {what}. "
                        "Install both from one version, or name the right library in BODICE_LIBRARY.")
 
 

@@ -72,7 +72,7 @@ class Skin:
     """The repaired mesh of a body with its landmarks and parts. Any pose and up axis; coordinates are meters.
 
     `vertices` (n, 3), `faces` (m, 3). `rig`: the bones of the program, which its proxies follow; `find_rig`: the body
-    gets a skeleton for that. `shape`: "person", or "any" for a thing such as a chair, whose parts are clusters."""
+    gets a skeleton for that. `shape`: "person", or "any" for a thing such as a chair, with clusters as parts."""
 
     def __init__(self, vertices: np.ndarray, faces: np.ndarray, *, rig: Optional[Rig] = None, find_rig: bool = False,
                  shape: str = "person", workers: int = 0, progress: Optional[Progress] = None):

@@ -33,7 +33,7 @@ class Ticket:
         return bool(done.value)
 
     def cancel(self) -> None:
-        """Asks the work to stop; result() then raises."""
+        """Requests that the work stop; result() then raises."""
         _c.check(_c.library.bodice_ticket_cancel(self._handle))
 
     def result(self) -> FittedBody:

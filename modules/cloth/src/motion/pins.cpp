@@ -26,7 +26,7 @@ void aim_pins(const Pins& pins, double time_s, Particles& p) {
   }
 }
 
-void settle_pins(const Pins& pins, Particles& p) {
+void put_pins_on_targets(const Pins& pins, Particles& p) {
   for (std::size_t i = 0; i < pins.particle.size(); ++i) {
     const Index particle = pins.particle[i];
     if (particle == geometry::kNoIndex) continue;

@@ -21,6 +21,6 @@ bool set_pin_targets(std::span<const Vec3> world_positions, Pins& pins);
 void aim_pins(const Pins& pins, double time_s, Particles& particles);
 
 /// Puts the pins on their targets at the end of a frame, without rounding of the substeps.
-void settle_pins(const Pins& pins, Particles& particles);
+void put_pins_on_targets(const Pins& pins, Particles& particles);
 
 }  // namespace bodice::cloth

@@ -8,7 +8,7 @@
 #include <bodice/engine/parallel.hpp>
 
 #include "base/tolerances.hpp"
-#include "contact/last_word.hpp"
+#include "contact/sunk_particles.hpp"
 #include "selfcontact/loose.hpp"
 
 namespace bodice::inline v0_1::cloth {

@@ -60,7 +60,7 @@ struct PairPush {
   float recovery_m = 0.0f;                 ///< how far parts that are too near move apart in a substep
   std::span<const Point> before;           ///< #P
   std::span<const std::uint8_t> touching;  ///< #P: whether the particle lies on the body
-  /// #P, or empty: what keeps particles from sinking into the body (contact/last_word.hpp).
+  /// #P, or empty: what keeps particles from sinking into the body (contact/sunk_particles.hpp).
   std::span<const Point> resolved, guard;
 };
 

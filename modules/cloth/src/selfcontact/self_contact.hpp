@@ -1,7 +1,7 @@
 // Contact of the cloth with itself: particles with triangles, and edges with edges. What does not cross when
 // a substep begins does not cross when it ends: pairs that may touch are known ahead of the motion
 // (pairs.hpp), pushed apart to their gap (contacts.hpp), and held back where they would cross after all
-// (zones.hpp). Where the body leaves no room for that, they cross until it does (contact/last_word.hpp,
+// (zones.hpp). Where the body leaves no room for that, they cross until it does (contact/sunk_particles.hpp,
 // loose.hpp). What crosses when the simulation begins is drawn apart (tangles.hpp).
 // Based on: Anka He Chen, Jerry Hsu, Ziheng Liu, Miles Macklin, Yin Yang, Cem Yuksel. Offset Geometric
 // Contact. 2025. - section 4 (a bound on displacements keeps what is free of crossings so, without continuous
@@ -15,7 +15,7 @@
 #include <bodice/cloth/solver.hpp>
 #include <bodice/engine/context.hpp>
 
-#include "contact/last_word.hpp"
+#include "contact/sunk_particles.hpp"
 #include "selfcontact/contacts.hpp"
 #include "selfcontact/loose.hpp"
 #include "selfcontact/zones.hpp"

@@ -19,7 +19,7 @@ struct Zones {
   std::vector<Index> members;          ///< the particles of all zones
   std::vector<Float4> moved;           ///< #P: at a zone's root: mass times displacement, and mass
   std::vector<Point> wanted;           ///< as members: their displacements before they joined a zone
-  std::vector<Point> resolved, guard;  ///< #P: what keeps particles from sinking (contact/last_word.hpp)
+  std::vector<Point> resolved, guard;  ///< #P: what keeps particles from sinking (contact/sunk_particles.hpp)
 };
 
 Zones make_zones(std::size_t particles);

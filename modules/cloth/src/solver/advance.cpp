@@ -147,7 +147,7 @@ void end_contact(const engine::Context& context, const collision::Collider& coll
 void end_frame(const engine::Context& context, const Plan& plan, State& s) {
   const Environment& e = s.options.environment;
   Particles& p = s.particles;
-  settle_pins(s.pins, p);
+  put_pins_on_targets(s.pins, p);
   end_sleep_frame(context, s.ring, plan.simulated_s, p, s.sleep);
   engine::parallel_for(context, p.count(), kParticleGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) p.point[i] = {p.x[i], p.y[i], p.z[i], p.point[i].weight};

@@ -97,7 +97,7 @@ struct ActiveSet {
 /// Removes the points that cannot carry weight in the solution of this set, which the excess decides. They
 /// stay if the others would not span the space. The set is measured afterward.
 template <int N>
-void drop_hopeless(ActiveSet<N>& set, double excess) {
+void drop_weightless(ActiveSet<N>& set, double excess) {
   const double root = std::sqrt(std::max(0.0, excess * (4.0 + excess - 4.0 / N)));
   // The bound is lowered a little, so that no point on it is removed by the rounding of kappa.
   const double bound = N * (1.0 + 0.5 * excess - 0.5 * root) * (1.0 - 1e-9);
@@ -209,7 +209,7 @@ double maximize_dual(ActiveSet<N>& set, double tolerance) {
     reached = set.excess();
     if (reached <= tolerance) break;
     if (step < kNewtonSteps && reached <= 0.5) {
-      drop_hopeless(set, reached);
+      drop_weightless(set, reached);
       if (newton_step(set)) continue;
       if (!set.measure()) return reached;
     }

@@ -15,7 +15,7 @@ namespace {
 /// Skin points and samples a point: fewer than for tables from nothing, since only what changed is solved.
 constexpr std::size_t kRefitNormals = 14000;
 constexpr int kRefitPerNormal = 4;
-constexpr int kRefitSteps = 10, kRefitSettleSteps = 3;
+constexpr int kRefitSteps = 10, kRefitStepsAfterWeights = 3;
 /// A node with less weight was determined by no sample; its values do not count for the range of a table.
 constexpr double kLeastRefitWeight = 0.05;
 
@@ -107,7 +107,7 @@ RefitTables solved(const engine::Context& context, const LabeledSkin& posed, con
   const double limit_m = proxy::relief_reach(rest.stature_m()).out_m;
   Vector all = before + x;
   const Vector unlimited = system.limit_slopes(all, limit_m);
-  x = system.solve(all - before, kRefitSettleSteps, free.cwiseProduct(unlimited));
+  x = system.solve(all - before, kRefitStepsAfterWeights, free.cwiseProduct(unlimited));
   all = before + x;
   RefitTables tables{{rest.relief().begin(), rest.relief().end()},
                      {rest.texels().begin(), rest.texels().end()}};

@@ -16,9 +16,9 @@ constexpr int kLeastSide = 4, kMostSide = 96;  // nodes along a side of a table
 /// A leak is a sample deeper than the first fraction of stature that is reported less deep than the rest of
 /// the depth beyond the second. Particles there would be pushed to the wrong side.
 constexpr double kLeakDepth = 7e-3 / 1.7, kLeakMargin = 6e-3 / 1.7;
-constexpr float kLeakFactor = 20.0f;              // a leak weighs so many times more in the next solution
-constexpr int kLeakRounds = 4, kSettleSteps = 5;  // solutions after raised weights, and their steps
-constexpr int kMostExtensions = 2;                // rounds in which samples around leaks are added
+constexpr float kLeakFactor = 20.0f;  // a leak weighs so many times more in the next solution
+constexpr int kLeakRounds = 4, kStepsAfterWeights = 5;  // solutions after raised weights, and their steps
+constexpr int kMostExtensions = 2;                      // rounds in which samples around leaks are added
 constexpr double kLeastWeight = 0.05;  // a node with less weight does not count for the range of a table
 
 std::size_t square(int side) {
@@ -104,7 +104,7 @@ std::vector<std::uint32_t> close_leaks(const ReliefSystem& system, const ReliefS
     auto leaks = raise_leaks(system, x, stature_m, terms);
     if (leaks.empty()) break;
     if (round == 0) first = std::move(leaks);
-    x = system.solve(std::move(x), kSettleSteps, free);
+    x = system.solve(std::move(x), kStepsAfterWeights, free);
   }
   return first;
 }
@@ -159,7 +159,7 @@ std::vector<double> fit_tables(const engine::Context& context, ReliefTerms& term
   Vector x = system->solve(Vector::Zero(unknowns), solver_steps, Vector::Ones(unknowns));
   // Beyond this limit the corrected distance would fall while a point moves outward.
   const Vector free = system->limit_slopes(x, proxy::relief_reach(data.stature_m).out_m);
-  x = system->solve(std::move(x), kSettleSteps, free);
+  x = system->solve(std::move(x), kStepsAfterWeights, free);
   std::vector<std::uint32_t> leaks = close_leaks(*system, free, data.stature_m, terms, x);
   store_tables(context, *system, x, nodes_per_side, data);
   for (int round = 0; round < kMostExtensions && more_terms; ++round) {
@@ -167,7 +167,7 @@ std::vector<double> fit_tables(const engine::Context& context, ReliefTerms& term
     if (more.target_m.empty()) break;
     terms = joined(terms, more);
     system = std::make_unique<ReliefSystem>(context, terms, nodes_per_side);
-    x = system->solve(std::move(x), kSettleSteps, free);
+    x = system->solve(std::move(x), kStepsAfterWeights, free);
     leaks = close_leaks(*system, free, data.stature_m, terms, x);
     store_tables(context, *system, x, nodes_per_side, data);
   }

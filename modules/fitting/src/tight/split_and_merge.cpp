@@ -21,9 +21,8 @@ using Partners = std::vector<std::vector<std::uint32_t>>;
 
 constexpr std::size_t kPartners = 3;  // merges are tried with so many neighbors
 constexpr int kFirstSteps = 4,
-              kLastSteps = 6;  // steps of a trial; the first decide whether the last are taken
-constexpr double kHopeless =
-    1.0;  // a merge is given up if it costs more than this times the best split's gain
+              kLastSteps = 6;    // steps of a trial; the first decide whether the last are taken
+constexpr double kNoGain = 1.0;  // a merge is given up if it costs more than this times the best split's gain
 
 /// The second nearest ellipsoids of each ellipsoid's own samples.
 struct Neighbors {
@@ -166,7 +165,7 @@ std::vector<std::size_t> split_and_merge(const engine::Context& context, const L
   if (splits.empty()) return {};
   const Partners partners = frequent_neighbors(ranked, ellipsoids.size());
   std::vector<Trial> merges =
-      try_merges(context, problem, ranked, partners, ellipsoids, -kHopeless * splits.front().rise);
+      try_merges(context, problem, ranked, partners, ellipsoids, -kNoGain * splits.front().rise);
   merges.insert(merges.end(), removals.begin(), removals.end());
   sort_by_rise(merges);
   std::vector<bool> taken(ellipsoids.size(), false);

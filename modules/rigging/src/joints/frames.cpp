@@ -24,8 +24,8 @@ Mat3 frame_of(const Vec3& across, const Vec3& upward) {
   return frame;
 }
 
-Mat3 bone_frame(const Mat3& carrier, const Vec3& along) {
-  return geometry::smallest_turn(-carrier.col(1), along).toRotationMatrix() * carrier;
+Mat3 bone_frame(const Mat3& parent, const Vec3& along) {
+  return geometry::smallest_turn(-parent.col(1), along).toRotationMatrix() * parent;
 }
 
 Mat3 upper_arm_frame(const Mat3& chest, const Vec3& along, double sign) {

@@ -14,8 +14,8 @@ using geometry::Vec3;
 /// parallel.
 Mat3 frame_of(const Vec3& across, const Vec3& upward);
 
-/// The frame of a bone that runs along -y of its frame: `carrier` turned as little as possible.
-Mat3 bone_frame(const Mat3& carrier, const Vec3& along);
+/// The frame of a bone that runs along -y of its frame: `parent` turned as little as possible.
+Mat3 bone_frame(const Mat3& parent, const Vec3& along);
 
 /// The frame of an upper arm. Where the arm is raised over the shoulder it is turned by its side and not by
 /// its front. `sign` is 1 for the left arm, -1 for the right one.

@@ -49,10 +49,10 @@ OffsetFrame spine_frame(const Ring& ring, const TrunkAxes& trunk, double h) {
 
 /// The frame of a joint that lies off the curve where a limb begins: along the limb, and to the side, up and
 /// to the front of what carries the limb.
-OffsetFrame limb_frame(const Vec3& border, const Vec3& limb_joint, const Mat3& carrier, double outward_h) {
+OffsetFrame limb_frame(const Vec3& border, const Vec3& limb_joint, const Mat3& parent, double outward_h) {
   const double h = std::abs(outward_h);
-  return make_frame(border, {h * (limb_joint - border).normalized(), outward_h * carrier.col(0),
-                             h * carrier.col(1), h * carrier.col(2)});
+  return make_frame(border, {h * (limb_joint - border).normalized(), outward_h * parent.col(0),
+                             h * parent.col(1), h * parent.col(2)});
 }
 
 }  // namespace

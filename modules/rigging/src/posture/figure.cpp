@@ -27,7 +27,7 @@ engine::Error wrong(std::string message) {
 }
 
 /// The nearest joint above that the skeleton has.
-JointId carrier(const Figure& figure, JointId id) {
+JointId parent_of(const Figure& figure, JointId id) {
   do id = body::parent(id);
   while (id != JointId::kPelvis && figure.index(id) < 0);
   return id;
@@ -45,10 +45,10 @@ std::optional<engine::Error> find_joints(const rig::Skeleton& skeleton, Figure& 
     const auto id = static_cast<JointId>(i);
     if (figure.joint[i] < 0) continue;
     const int parent = skeleton.joints[figure.joint[i]].parent;
-    const int wanted = id == JointId::kPelvis ? rig::kNoParent : figure.index(carrier(figure, id));
+    const int wanted = id == JointId::kPelvis ? rig::kNoParent : figure.index(parent_of(figure, id));
     if (parent != wanted)
       return wrong(engine::message("The skeleton's joint ", named(id), " is not carried by ",
-                                   wanted < 0 ? std::string("none") : named(carrier(figure, id)), "."));
+                                   wanted < 0 ? std::string("none") : named(parent_of(figure, id)), "."));
   }
   return std::nullopt;
 }

@@ -8,7 +8,7 @@
 
 namespace bodice::inline v0_1::synth {
 
-Region meeting(Region a, Region b) {
+Region shared_region(Region a, Region b) {
   if (a == b) return a;
   if (is_digit(a) && is_digit(b)) return region_of_side(Region::kArmL, side_of(a));
   return std::min(a, b);
@@ -91,7 +91,7 @@ void CageBuilder::assign_regions() {
   cage_.region.assign(cage_.positions.size(), Region::kTrunk);
   for (std::size_t q = 0; q < cage_.quads.size(); ++q)
     for (const int v : cage_.quads[q]) {
-      cage_.region[v] = seen[v] ? meeting(cage_.region[v], cage_.quad_region[q]) : cage_.quad_region[q];
+      cage_.region[v] = seen[v] ? shared_region(cage_.region[v], cage_.quad_region[q]) : cage_.quad_region[q];
       seen[v] = true;
     }
   for (const int v : crotch_) cage_.region[v] = Region::kCrotch;

@@ -51,6 +51,6 @@ class CageBuilder {
 };
 
 /// The region of a vertex between two regions.
-Region meeting(Region a, Region b);
+Region shared_region(Region a, Region b);
 
 }  // namespace bodice::synth

@@ -39,7 +39,7 @@ void Patches::find_edges() {
       if (added)
         edges_.push_back({a, b, -1, cage_.quad_region[q]});
       else
-        edges_[entry->second].region = meeting(edges_[entry->second].region, cage_.quad_region[q]);
+        edges_[entry->second].region = shared_region(edges_[entry->second].region, cage_.quad_region[q]);
       edge_of_quad_[q][k] = entry->second;
     }
   for (Edge& e : edges_)  // the floor of the trunk, with its front and back rim

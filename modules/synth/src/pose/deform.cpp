@@ -34,8 +34,8 @@ std::vector<Vec3> deform(const engine::Context& context, const std::vector<Vec3>
   std::array<DualQuaternion, kBoneCount> motion;
   for (int b = 0; b < kBoneCount; ++b) {
     motion[b] = dual_quaternion(bones[b]);
-    const int carrier = index(parent(static_cast<Bone>(b)));
-    if (motion[b].real.dot(motion[carrier].real) < 0.0) {  // the same motion by the shorter rotation
+    const int above = index(parent(static_cast<Bone>(b)));
+    if (motion[b].real.dot(motion[above].real) < 0.0) {  // the same motion by the shorter rotation
       motion[b].real = -motion[b].real;
       motion[b].dual = -motion[b].dual;
     }

@@ -77,8 +77,8 @@ BoneTransforms transforms(const Figure& figure, const PoseAngles& angles) {
     Eigen::Isometry3d local = Eigen::Isometry3d::Identity();
     local.linear() = turn[b];
     local.translation() = joint - turn[b] * joint;
-    const int carrier = index(parent(static_cast<Bone>(b)));
-    result[b] = carrier == b ? local : result[carrier] * local;
+    const int above = index(parent(static_cast<Bone>(b)));
+    result[b] = above == b ? local : result[above] * local;
   }
   return result;
 }

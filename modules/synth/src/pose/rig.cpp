@@ -63,13 +63,13 @@ rig::Skeleton true_skeleton(const BoneTransforms& bones, const std::vector<Joint
   rig::Skeleton skeleton;
   for (int b = 0; b < kBoneCount; ++b) {
     const auto bone = static_cast<Bone>(b);
-    const int carrier = index(parent(bone));
+    const int above = index(parent(bone));
     rig::Joint joint;
     joint.name = rig_name(bone);
-    joint.parent = carrier == b ? rig::kNoParent : carrier;
+    joint.parent = above == b ? rig::kNoParent : above;
     joint.bind = rig::affine(bones[b].linear() * rest_frame(bone), joints[b].position);
     joint.local = rig::to_local_transform(
-        carrier == b ? joint.bind : rig::compose(rig::inverse(skeleton.joints[carrier].bind), joint.bind));
+        above == b ? joint.bind : rig::compose(rig::inverse(skeleton.joints[above].bind), joint.bind));
     skeleton.joints.push_back(std::move(joint));
   }
   return skeleton;

@@ -13,10 +13,10 @@ using body::LandmarkId;
 using body::Part;
 using geometry::Index;
 
-/// The lead of the parts' weight over that of any other part, a vertex; the trunk counts as one part.
-std::vector<double> lead_of(const Posed& b, std::initializer_list<Part> parts) {
-  std::vector<double> lead(b.rest.size());
-  for (std::size_t v = 0; v < lead.size(); ++v) {
+/// The margin of the parts' weight over that of any other part, for each vertex; the trunk is one part.
+std::vector<double> margin_of(const Posed& b, std::initializer_list<Part> parts) {
+  std::vector<double> margin(b.rest.size());
+  for (std::size_t v = 0; v < margin.size(); ++v) {
     const auto shares = part_shares(b.weights[v]);
     float own = 0.0f, other = 0.0f;
     for (int p = 0; p < body::kPartCount; ++p) {
@@ -24,9 +24,9 @@ std::vector<double> lead_of(const Posed& b, std::initializer_list<Part> parts) {
       float& most = mine ? own : other;
       most = std::max(most, shares[p]);
     }
-    lead[v] = static_cast<double>(own) - static_cast<double>(other);
+    margin[v] = static_cast<double>(own) - static_cast<double>(other);
   }
-  return lead;
+  return margin;
 }
 
 struct Crossing {
@@ -194,7 +194,7 @@ std::vector<body::Landmark> true_landmarks(const Posed& b) {
     put(sided(LandmarkId::kElbowL, side), joint(of_side(Bone::kForearmL, side)));
     put(sided(LandmarkId::kKneeL, side), joint(of_side(Bone::kCalfL, side)));
     put(sided(LandmarkId::kArmpitL, side),
-        furthest_on_border(b, lead_of(b, {sided(Part::kForearmL, side), sided(Part::kUpperArmL, side)}),
+        furthest_on_border(b, margin_of(b, {sided(Part::kForearmL, side), sided(Part::kUpperArmL, side)}),
                            to_fold));
   }
   add_tailor_landmarks(b, landmarks);

@@ -48,8 +48,8 @@ struct LandmarkKind {
 inline constexpr double kUncertain = 0.35;
 
 /// A confidence by a Mahalanobis distance: 1 at a distance of 0, and 0 from `no_evidence_at` on.
-inline double confidence_of(double mahalanobis, double hopeless) {
-  const double m = mahalanobis / hopeless;
+inline double confidence_of(double mahalanobis, double no_evidence_at) {
+  const double m = mahalanobis / no_evidence_at;
   return std::max(0.0, 1.0 - m * m);
 }
 

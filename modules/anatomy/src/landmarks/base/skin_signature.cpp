@@ -10,7 +10,7 @@ namespace bodice::inline v0_1::anatomy {
 namespace {
 
 /// A signature this many deviations off is no evidence any more.
-constexpr double kHopeless = 10.0;
+constexpr double kNoEvidence = 10.0;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ FoundLandmark find_by_signature(const LandmarkInput& input, LandmarkId left, int
   const geometry::Vec3 position =
       soft_position(input.skin, found.vertex, kSoftRadius * input.size_m(),
                     [&](geometry::Index v) { return std::exp(-0.5F * (distance2(v) - least2)); });
-  const double confidence = confidence_of(static_cast<double>(found.mahalanobis), kHopeless);
+  const double confidence = confidence_of(static_cast<double>(found.mahalanobis), kNoEvidence);
   return {{body::of_side(left, side), position, found.vertex, unchecked_confidence(input, confidence)}, {}};
 }
 

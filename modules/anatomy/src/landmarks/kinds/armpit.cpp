@@ -19,7 +19,7 @@ namespace data = coefficients::armpit;
 
 /// The Mahalanobis distance from which a signature is no evidence any more, in deviations. One armpit in
 /// fifty is more than 5.3 off, and mostly right all the same.
-constexpr double kHopeless = 10.0;
+constexpr double kNoEvidence = 10.0;
 /// The margin over the best vertex elsewhere, in deviations, from which an armpit is unambiguous. It is 2 on
 /// nineteen bodies of twenty, and was less than 0.8 for every armpit that was over 6 % of the stature off.
 constexpr double kClearMargin = 1.8;
@@ -32,7 +32,7 @@ constexpr std::size_t kOfArm = 8;
 
 FoundLandmark find(const LandmarkInput& input, int side) {
   const ArmpitSignature found = find_armpit(input.context, input.skin, input.coordinates, side);
-  const double confidence = confidence_of(static_cast<double>(found.mahalanobis), kHopeless) *
+  const double confidence = confidence_of(static_cast<double>(found.mahalanobis), kNoEvidence) *
                             std::min(1.0, static_cast<double>(found.margin) / kClearMargin);
   return {{body::of_side(LandmarkId::kArmpitL, side), found.position, found.vertex, confidence}, {}};
 }

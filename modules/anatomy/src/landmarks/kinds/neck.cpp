@@ -23,7 +23,7 @@ constexpr float kReach = 0.40F;
 /// A wider loop is not the neck's: it runs over the shoulders. A fraction of the body size.
 constexpr double kWidestNeck = 0.6;
 /// No limit on the share of the distance to another point.
-constexpr double kAllTheWay = 1.0;
+constexpr double kAnyShare = 1.0;
 /// The largest correction that a calibration body needs is .026 of the body size.
 constexpr double kFarthest = 0.03;
 /// The range of distances from the crown in which the narrowest neck may be, wide enough for children;
@@ -81,7 +81,7 @@ Vec3 joint_by_lengths(const LandmarkInput& input, const Landmarks& marks) {
                         loop,
                         {{(armpits - loop) / size, {}, {"toward_armpits", data::kTowardArmpits}},
                          {(input.head.center - loop) / size, {}, {"toward_head", data::kTowardHead}}},
-                        kAllTheWay})
+                        kAnyShare})
           .position;
   return corrected(input, {LandmarkId::kNeck,
                            first,

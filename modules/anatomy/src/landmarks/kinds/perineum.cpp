@@ -12,14 +12,14 @@ namespace {
 
 /// The Mahalanobis distance from which a signature is no evidence any more, in deviations. One perineum in
 /// fifty is more than 4 off.
-constexpr double kHopeless = 6.4;
+constexpr double kNoEvidence = 6.4;
 /// The distance of the perineum's margin from kFoldMargin, in deviations, from which it is clear whether the
 /// vertex that fits best is the perineum or the fold behind it.
 constexpr double kClearlyNoFold = 1.0;
 /// The correction by the legs at which a perineum is no evidence any more, as a fraction of the body size.
 /// Among 3,356 bodies 8 had one of more than .04, and the largest of those that were still 4 % of the stature
 /// off was .066.
-constexpr double kHopelessShift = 0.06;
+constexpr double kNoEvidenceShift = 0.06;
 /// One perineum in a hundred that is right lies farther from its second estimate, as a fraction of the body
 /// size.
 constexpr double kMaxDifference = 0.085;
@@ -29,7 +29,7 @@ FoundLandmark find(const LandmarkInput& input, int) {
   const BodyCoordinates& coordinates = input.coordinates;
   const double no_fold = std::abs(static_cast<double>(coordinates.perineum_margin() - kFoldMargin));
   const double confidence =
-      confidence_of(static_cast<double>(coordinates.perineum_mahalanobis()), kHopeless) *
+      confidence_of(static_cast<double>(coordinates.perineum_mahalanobis()), kNoEvidence) *
       std::min(1.0, no_fold / kClearlyNoFold);
   return {{LandmarkId::kPerineum, coordinates.perineum_position(), coordinates.perineum(), confidence}, {}};
 }
@@ -44,7 +44,7 @@ FoundLandmark finish(const LandmarkInput& input, const Landmarks& marks, int) {
   FoundLandmark perineum = marks[LandmarkId::kPerineum];
   const Corrected moved = perineum_by_legs(input, marks);
   perineum.mark.position = moved.position;
-  perineum.mark.confidence *= confidence_of(moved.wanted, kHopelessShift);
+  perineum.mark.confidence *= confidence_of(moved.wanted, kNoEvidenceShift);
   return perineum;
 }
 

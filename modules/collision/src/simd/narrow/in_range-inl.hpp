@@ -220,7 +220,7 @@ HWY_INLINE Status nearest_in_range(Kernel<Union>& kernel, Batch& batch, float li
   const Status status = nearest_candidates_in_range(kernel, batch, limit_m, in_range, out);
   if constexpr (Union::kBuries)
     if (status == Status::kDone)
-      return settle_uncertain(kernel, {in_range.x, in_range.y, in_range.z, in_range.count}, out);
+      return resolve_uncertain(kernel, {in_range.x, in_range.y, in_range.z, in_range.count}, out);
   return status;
 }
 

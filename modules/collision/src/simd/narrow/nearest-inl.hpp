@@ -169,7 +169,7 @@ template <class Union>
 HWY_INLINE Status nearest(Kernel<Union>& kernel, Batch& batch, BatchResults& out) {
   const Status status = nearest_candidates(kernel, batch, out);
   if constexpr (Union::kBuries)
-    if (status == Status::kDone) return settle_uncertain(kernel, batch.at, out);
+    if (status == Status::kDone) return resolve_uncertain(kernel, batch.at, out);
   return status;
 }
 

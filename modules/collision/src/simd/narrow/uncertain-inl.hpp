@@ -140,7 +140,7 @@ Status evaluate_uncertain_one_by_one(Kernel<Union>& kernel, const UncertainParti
 
 /// Replaces the results of the uncertain particles by those among all ellipsoids.
 template <class Union>
-Status settle_uncertain(Kernel<Union>& kernel, const Positions& at, BatchResults& results) {
+Status resolve_uncertain(Kernel<Union>& kernel, const Positions& at, BatchResults& results) {
   const UncertainParticles particles(at, results);
   if (particles.count == 0) return Status::kDone;
   kernel.broad.reuse_within(0.0f);  // the candidates of this search serve no other particles

@@ -1,4 +1,4 @@
-#include "contact/last_word.hpp"
+#include "contact/sunk_particles.hpp"
 
 #include <algorithm>
 #include <atomic>

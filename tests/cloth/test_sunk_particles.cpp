@@ -1,7 +1,7 @@
 // The rules by which layers cross where a body leaves no room, and come apart again.
 #include <doctest/doctest.h>
 
-#include "contact/last_word.hpp"
+#include "contact/sunk_particles.hpp"
 #include "layer_fixtures.hpp"
 #include "selfcontact/self_contact.hpp"
 #include "selfcontact/tangles.hpp"
@@ -77,7 +77,7 @@ struct Crossed {
 
 }  // namespace
 
-TEST_CASE("last word: what layers move into the body is guarded, by however little, and nothing else") {
+TEST_CASE("sunk particles: what layers move into the body is guarded, by however little, and nothing else") {
   const collision::Collider ball = ellipsoid_body(Vec3(0, -kRadius_m, 0), Vec3::Constant(kRadius_m));
   const Vec3 top = -ball.origin();  // in the particles' frame
   const cloth::BodyMotion still = cloth::make_motion(std::size(kMoved), 0.0);
@@ -102,7 +102,7 @@ TEST_CASE("last word: what layers move into the body is guarded, by however litt
   CHECK(!cloth::guard_sunk({}, {}, moved, resolved, now, guard));
 }
 
-TEST_CASE("last word: layers that passed each other far in a frame are known to cross, all of them") {
+TEST_CASE("crossings: layers that passed each other far in a frame are found to cross, all of them") {
   const Crossed before(0.31), after(0.62);
   const cloth::Particles particles = after.particles();
   cloth::SelfContact self = cloth::make_self_contact(after.mesh, particles, 1.5e-3, 0.05);
@@ -115,8 +115,7 @@ TEST_CASE("last word: layers that passed each other far in a frame are known to 
       for (const Index i : self.mesh.faces[f].particle) CHECK(self.loose.state[i] != 0);
 }
 
-TEST_CASE(
-    "last word: what is drawn apart moves no farther than a step, and stays where both lie on the body") {
+TEST_CASE("tangles: what is drawn apart moves no farther than a step, and stays where both lie on the body") {
   constexpr float kStep_m = 1e-3f;
   const Crossed crossed(0.31);
   std::vector<Point> start, at, room;
