@@ -1,4 +1,4 @@
-// From a mesh to a proxy, and what the proxy promises.
+// Makes a proxy of a mesh, and prints what the proxy promises.
 //
 //     skin --> landmarks --> 15 parts --> ellipsoids --> BodyProxy --> file
 //                                              |

@@ -44,7 +44,7 @@ std::string percent(double share) {
   return text.data();
 }
 
-/// False for warnings about the input that leave the answer as good as it was.
+/// Whether a warning is about the answer; warnings about the input leave that as good as it was.
 bool doubts_a_landmark(const bodice::engine::Warning& w) {
   constexpr std::array<const char*, 4> kOfInput{"holes", "extra-pieces", "skin-touches",
                                                 "unusual-proportions"};
@@ -64,7 +64,7 @@ std::string part_named_for(const std::string& landmark) {
          side;
 }
 
-/// True if some warning names what was missed, or doubts the whole body.
+/// Whether some warning names what was missed, or doubts the whole body.
 bool warned_of(const std::string& landmark, const std::vector<bodice::engine::Warning>& warnings) {
   return std::any_of(warnings.begin(), warnings.end(), [&](const bodice::engine::Warning& w) {
     return doubts_a_landmark(w) && (w.part.empty() || w.part == part_named_for(landmark));

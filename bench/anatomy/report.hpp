@@ -21,7 +21,7 @@ class Report {
   void add_refused(const Case& c, const std::string& sentence);
   /// Measured values beside their bars, per landmark and in all.
   void summary() const;
-  /// True if every body was analyzed within all bars, and no more of them were doubted wrongly than may be.
+  /// Whether every body was analyzed within all bars, and no more of them were doubted wrongly than may be.
   /// An awkward one may be refused instead.
   bool holds_bars() const;
 

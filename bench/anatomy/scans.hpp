@@ -18,7 +18,7 @@ struct ScanBench {
   bool verbose = false;      ///< whether each scan has a line of its own
   bool proxies = false;      ///< whether each scan is fitted, and the proxy measured against the clean body
 };
-/// False if the picture could not be written.
+/// Returns false if the picture could not be written.
 bool print_scans(const ScanBench& bench);
 
 }  // namespace bench

@@ -11,7 +11,7 @@ namespace bench {
 class Sheet {
  public:
   void add(const bodice::geometry::TriMesh& skin, const bodice::anatomy::Anatomy& anatomy);
-  /// False if the picture could not be written.
+  /// Returns false if the picture could not be written.
   bool write(const std::filesystem::path& png) const;
 
  private:

@@ -45,7 +45,7 @@ class Sample {
   int weight() const { return weight_; }
   const bodice::anatomy::Skin& skin() const { return *skin_; }
   const bodice::anatomy::BodyCoordinates& coordinates() const { return *coordinates_; }
-  /// False where the five extremities were not found, or left and right were mistaken.
+  /// Returns false where the five extremities were not found, or left and right were mistaken.
   bool usable() const { return usable_; }
   bool adult() const { return adult_; }
   double size_m() const { return static_cast<double>(coordinates_->size_m()); }

@@ -24,10 +24,10 @@ struct MovingOutfit {
   bodice::tryon::WornGarment garment;
 };
 
-/// With `data` (a folder of bodies and garments) real bodies, and its garments where it has them; without (an
-/// empty path) two made bodies. What no file has is made: a skirt, or a shirt and a suit cut from the skin at
-/// a distance. Only outfits with `only` in their names; each body is fitted once. Ends the program with a
-/// sentence where a file is unusable.
+/// Lists the outfits that are judged: real bodies with their garments if `data` is a folder of these, and two
+/// made bodies if it is an empty path. What no file has is made: a skirt, or a shirt and a suit cut from the
+/// skin at a distance. Outfits without `only` in their names are left out; each body is fitted once. Ends the
+/// program with a sentence where a file is unusable.
 std::vector<MovingOutfit> moving_outfits(const bodice::engine::Context& context,
                                          const std::filesystem::path& data, const std::string& only);
 

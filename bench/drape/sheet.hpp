@@ -13,7 +13,7 @@ class Sheet {
   void add(const std::vector<bodice::geometry::Vec3>& skin,
            const std::vector<bodice::geometry::Triangle>& triangles,
            const bodice::tryon::WornGarment& garment, const std::vector<bodice::geometry::Vec3>& positions);
-  /// False if the picture could not be written.
+  /// Returns false if the picture could not be written.
   bool write(const std::filesystem::path& png) const;
 
  private:

@@ -44,7 +44,8 @@ std::vector<Probe> near_skin_probes(const engine::Context& context, const geomet
       const geometry::Vec3 u(random.uniform_at(3 * i), random.uniform_at(3 * i + 1),
                              random.uniform_at(3 * i + 2));
       if (i < skin.size()) {
-        // Along the normal to both sides, so that every distance up to 30 mm is equally frequent.
+        // The point is moved along the normal to either side, so that every distance up to 30 mm is equally
+        // frequent.
         const geometry::Vec3 n = geometry::area_vector(mesh, skin[i].triangle).normalized();
         probes[i].point = skin[i].point + kNear_m * (2.0 * u.x() - 1.0) * n;
       } else {

@@ -1,6 +1,6 @@
-// After a response no particle is inside: millions of random particles in and around fitted bodies. Plain
-// tiers are judged by the ellipsoids in double precision, relief by the proxy's own query. The paper's
-// response is measured beside it.
+// Certifies that no particle is inside after a response: millions of random particles in and around fitted
+// bodies. Plain tiers are judged by the ellipsoids in double precision, relief by the proxy's own query. The
+// paper's response is measured beside it.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>

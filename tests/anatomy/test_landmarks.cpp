@@ -227,8 +227,8 @@ TEST_CASE("borders follow the build: the parts of very heavy bodies are right") 
 }
 
 TEST_CASE("a leg that is kicked forward leaves its seat to its own side") {
-  // By the feet alone, .36 % of the limbs' skin lay on the other side: the seat behind the raised leg is
-  // nearer to the foot of the standing one.
+  // By distances from the feet alone, .36 % of the limbs' skin lay on the other side: the seat behind the
+  // raised leg is nearer to the foot of the standing one.
   const synth::BodyOptions options{.sex = Sex::kFemale,
                                    .stature_m = 1.9118931783378028,
                                    .mass_kg = 122.89318118329113,

@@ -24,7 +24,7 @@ proxy::BodyProxy bound_to(const MovingBody& moving, std::span<const body::Part> 
   return std::move(bound).value();
 }
 
-/// By how much the proxy calls points deeper than they are, on the skin and over it, the most and the sum.
+/// The largest and the summed length by which the proxy has points too deep, on the skin and over it.
 struct TooDeep {
   double most_m = 0.0, sum_m = 0.0;
 };

@@ -18,7 +18,8 @@ TEST_CASE("contact extremes: a tube that begins wholly inside a trunk comes out,
     CAPTURE(frame);
     const cloth::FrameReport report = solver.step({}, body, kFrame_s);
     REQUIRE(report.finite);
-    // Only so many of the pairs that constraints bring together before contact puts them back are listed.
+    // Constraints bring many pairs together before contact puts them back; only a bounded number of these is
+    // listed.
     CHECK(report.layers.pairs < 25 * solver.particles());
     if (frame > 0) CHECK((report.limits & cloth::kSpeedClamped) == 0);
     const std::vector<Vec3> at = positions(solver, mesh.positions.size());

@@ -24,7 +24,7 @@ std::size_t not_finite(const PointSetCase& c) {
       std::ranges::count_if(c.points, [](const Vec3& p) { return !p.allFinite(); }));
 }
 
-/// By how many meters the farthest point is outside, by exact distance and not by the solver's own measure.
+/// The distance of the farthest point outside, meters, by exact distance and not by the solver's own measure.
 double outside_m(const geometry::Ellipsoid& e, const PointSetCase& c) {
   double worst = 0.0;
   for (const Vec3& p : c.points)

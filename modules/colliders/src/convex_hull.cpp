@@ -21,7 +21,7 @@ class Hull {
  public:
   explicit Hull(std::span<const Vec3> points) : points_(points) {}
 
-  /// False where the points lie in a plane.
+  /// Returns false where the points lie in a plane.
   bool run() {
     if (!start()) return false;
     while (const auto next = farthest()) grow(next->face, next->point);

@@ -18,7 +18,7 @@ std::string numbers(const Vec3& v) {
   return numbers({v.x(), v.y(), v.z()});
 }
 
-/// From y up to z up.
+/// The rotation from y up to z up.
 Mat3 stand_up() {
   Mat3 turn;
   turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;

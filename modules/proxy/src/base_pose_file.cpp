@@ -53,7 +53,7 @@ void put_base(ByteWriter& out, const BasePose& base) {
   }
 }
 
-/// With the checksum, without length and magic.
+/// The bytes of the section of base poses with its checksum, without length and magic.
 std::vector<std::byte> bases_bytes(const ProxyWithBases& both) {
   ByteWriter out;
   out.put(kBasesVersion);

@@ -20,9 +20,9 @@ struct JointMatch {
   std::size_t count = 0;  ///< joints matched by name
 };
 
-/// By equal names, then by common names. A joint of the target between two matched ones (a spine with more
-/// joints, a twist bone) follows the last joint of the source that lies as far along the same path, by length
-/// at rest.
+/// Matches joints by equal names, then by common names. A joint of the target between two matched ones (a
+/// spine with more joints, a twist bone) follows the last joint of the source that lies as far along the same
+/// path, by length at rest.
 JointMatch match_joints(const Skeleton& source, const Skeleton& target);
 
 }  // namespace bodice::rig

@@ -23,7 +23,7 @@ using engine::StageTimer;
 using engine::Warning;
 using geometry::Vec3;
 
-/// Above this Mahalanobis distance the five extremities do not lie as a body's do.
+/// The Mahalanobis distance above which the five extremities do not lie as a body's do.
 constexpr double kWorstDistance = 3.0;
 
 Error no_body(const std::string& why) {

@@ -10,7 +10,7 @@ namespace {
 
 using engine::Warning;
 
-/// Above this Mahalanobis distance the five extremities lie at unusual distances from each other.
+/// The Mahalanobis distance above which the five extremities lie at unusual distances from each other.
 constexpr double kFairDistance = 2.0;
 constexpr double kUncertainSides = 0.3;
 /// Left and right differ by more than poses explain; a fraction of the stature.

@@ -9,8 +9,9 @@ namespace {
 /// path from foot to foot; fractions of the body size. On 1,600 whole bodies the shortest paths are 1.06 and
 /// .96.
 constexpr double kHandToFoot = 1.03, kFootToFoot = 0.93;
-/// With so many landmarks in doubt (the neck, which no weld of limbs is near, for two), nine tenths of the
-/// skin or less, mostly two thirds, get the right part; with fewer, mostly more.
+/// The number of landmarks in doubt (the neck, which no weld of limbs is near, counts for two) from which
+/// limbs are fused. Then nine tenths of the skin or less, mostly two thirds, get the right part; with fewer,
+/// mostly more.
 constexpr int kSpoiled = 4;
 
 int landmarks_in_doubt(const CheckedLandmarks& landmarks) {

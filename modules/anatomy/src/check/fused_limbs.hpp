@@ -9,7 +9,7 @@
 
 namespace bodice::inline v0_1::anatomy {
 
-/// True where a weld cuts a path along the skin short: from hand to foot, from foot to foot.
+/// Whether a weld cuts a path along the skin short: from hand to foot, or from foot to foot.
 bool hand_fused_to_leg(const BodyCoordinates& coordinates, int side);
 bool legs_fused(const BodyCoordinates& coordinates);
 

@@ -29,7 +29,7 @@ constexpr Range kArea{0.36, 1.0};
 /// at least so many are in doubt.
 constexpr double kLargeArea = 0.90;
 constexpr int kDoubts = 4;
-/// With so many landmarks in doubt and the extremities at unusual distances, what was found is no body.
+/// The number of landmarks in doubt from which a mesh with extremities at unusual distances is no body.
 constexpr int kTooManyDoubts = 6;
 constexpr double kTypicalArea = 0.63;
 // Shares of the skin's area: head .08 to .2, trunk .3 to .5, an arm .07 to .12, a leg .13 to .22.

@@ -46,8 +46,8 @@ constexpr std::array<float, N> to_floats(const double (&values)[N]) {
   return floats;
 }
 
-/// Beyond this distance from the head's tip the sign of the neck's border means nothing; a fraction of the
-/// body size.
+/// The distance from the head's tip beyond which the sign of the neck's border means nothing; a fraction of
+/// the body size.
 inline constexpr float kHeadReach = 0.48F;
 
 // These are read by landmarks; parts have borders of their own (segment/part_borders.hpp).

@@ -20,7 +20,7 @@ constexpr std::size_t kCandidates = 8;
 /// A candidate may be a heel or a thumb; the true extremity is within a foot's length of it.
 constexpr float kRefineRadius = 0.2F;  // a fraction of the body size
 
-/// Beyond this distance from its candidate nothing is of the head; a fraction of the body size.
+/// The distance from its candidate beyond which no skin is of the head; a fraction of the body size.
 constexpr float kHeadBall = 0.30F;
 /// What is nearer to a hand than this share of the distance of the head's candidate is an arm: the elbow of
 /// an arm that is raised beside a heavy neck lies within the head's reach, and farther from the feet.

@@ -17,7 +17,7 @@ constexpr double kLevelToes = 0.04, kNearEstimate = 0.07;
 /// line along its middle is this straight.
 constexpr double kStraight = 0.95;
 
-/// From the distances head to feet, foot to foot, hand to hand and head to hands.
+/// The stature by the distances head to feet, foot to foot, hand to hand and head to hands.
 double estimate(const BodyExtremities& tips) {
   const double head_hands = 0.5 * (static_cast<double>((*tips.from_head)[tips.hand[0]]) +
                                    static_cast<double>((*tips.from_head)[tips.hand[1]]));

@@ -13,8 +13,8 @@ struct Stance {
   geometry::Vec3 crown, neck, crotch, knees, ankles;  ///< the points between knees and between ankles
   std::array<geometry::Vec3, 2> toes;
 };
-/// From the lowest of the points to the crown, if the body stands and is about as tall as was estimated; else
-/// the estimate. O(#points).
+/// The height from the lowest of the points to the crown, if the body stands and is about as tall as was
+/// estimated; else the estimate. O(#points).
 double stature_of(const Stance& stance, const std::vector<geometry::Vec3>& points, double estimate);
 
 /// The height of the body as if it stood, in the mesh's unit: from sole to crown if it stands, else from

@@ -18,7 +18,7 @@ namespace {
 using body::Part;
 
 constexpr std::size_t kGrain = 2048;
-/// Beyond these distances from the limb's end a border's sign means nothing.
+/// The distances from the limb's end beyond which a border's sign means nothing.
 constexpr float kArmReach = 0.60F, kLegReach = 0.66F;
 /// A thigh is nearer to its foot than to the other by at least this fraction of foot to foot: what lies
 /// between is the floor of the trunk. Among 900 bodies none had a vertex of the other thigh nearer by more

@@ -1,4 +1,4 @@
-// From body coordinates to the 15 parts.
+// Divides a skin into the 15 parts, by body coordinates.
 #pragma once
 
 #include <bodice/body/part.hpp>

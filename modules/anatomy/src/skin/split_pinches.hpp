@@ -12,12 +12,12 @@ struct SplitSkin {
   std::vector<geometry::Index> origin;  ///< #copies: the vertex that each copy stands for
 };
 
-/// No copies if there is no pinch, or where edges are shared by more
-/// than two triangles. O(#F).
+/// Splits the pinches of a skin. Makes no copies if there is no pinch, or where edges are shared by more than
+/// two triangles. O(#F).
 SplitSkin split_pinches(const Skin& skin);
 
-/// True if the numbers of vertices, edges and triangles are those of closed pieces without a pinch: then
-/// there is no need to look for one.
+/// Whether the numbers of vertices, edges and triangles are those of closed pieces without a pinch, so that
+/// none has to be searched for.
 bool surely_unpinched(const Skin& skin);
 
 }  // namespace bodice::anatomy

@@ -1,4 +1,5 @@
-// As many floats as a bundle has nodes, in loops that become vector code, or as the compiler's own vectors.
+// Vectors of as many floats as a bundle has nodes: loops that become vector code, or the compiler's own
+// vectors.
 #pragma once
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// Up to four half-spaces and the closest point of their intersection. A contact with several ellipsoids comes
+// The intersection of up to four half-spaces, and its closest point. A contact with several ellipsoids comes
 // down to this, for positions and, with planes through the origin, for velocities.
 #pragma once
 
@@ -21,7 +21,8 @@ struct Halfspace {
   double gap_m(const geometry::Vec3& x) const { return offset_m - normal.dot(x); }  ///< > 0: violated
 };
 
-/// Up to four half-spaces: three determine a point, and a fourth is there while one is being replaced.
+/// A list of up to four half-spaces: three determine a point, and a fourth is there while one is being
+/// replaced.
 class Halfspaces {
  public:
   static constexpr int kCapacity = 4;

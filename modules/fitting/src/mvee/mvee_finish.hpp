@@ -1,4 +1,4 @@
-// From dual weights to an ellipsoid in meters, with its certificate measured again on the points themselves.
+// Makes an ellipsoid in meters of dual weights, with its certificate measured again on the points themselves.
 #pragma once
 
 #include <algorithm>

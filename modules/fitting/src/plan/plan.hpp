@@ -1,4 +1,4 @@
-// From the one number that a user gives (target error or budget) to a tier, a count and a size of tables.
+// Finds a tier, a count and a size of tables by the one number that a user gives: a target error or a budget.
 #pragma once
 
 #include <vector>

@@ -157,7 +157,7 @@ std::vector<double> fit_tables(const engine::Context& context, ReliefTerms& term
   const auto unknowns = system->unknowns();
   using Vector = ReliefSystem::Vector;
   Vector x = system->solve(Vector::Zero(unknowns), solver_steps, Vector::Ones(unknowns));
-  // Beyond this limit the corrected distance would fall while a point moves outward.
+  // The limit beyond which the corrected distance would fall while a point moves outward.
   const Vector free = system->limit_slopes(x, proxy::relief_reach(data.stature_m).out_m);
   x = system->solve(std::move(x), kStepsAfterWeights, free);
   std::vector<std::uint32_t> leaks = close_leaks(*system, free, data.stature_m, terms, x);

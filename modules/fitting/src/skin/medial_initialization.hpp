@@ -9,9 +9,9 @@ namespace bodice::inline v0_1::fitting {
 /// than thick ones.
 double demand(const InscribedBall& ball, double stature_m);
 
-/// At most `count` ellipsoids for the balls of one part, at least one ball. K-means clusters the balls'
-/// centers; each ellipsoid has the spread of the skin points that its balls touch. All have the part of the
-/// first ball.
+/// Makes at most `count` ellipsoids for the balls of one part, of at least one ball each. K-means clusters
+/// the balls' centers; each ellipsoid has the spread of the skin points that its balls touch. All have the
+/// part of the first ball.
 std::vector<proxy::ProxyEllipsoid> ellipsoids_from_balls(const engine::Context& context,
                                                          std::span<const InscribedBall> balls, int count,
                                                          double stature_m);

@@ -28,7 +28,7 @@ class LocalFit {
   LocalFit(const Neighborhood& samples, const RobustLoss& loss, std::vector<geometry::Ellipsoid> ellipsoids);
 
   void advance(int steps);
-  /// By how much the cost rises if these ellipsoids replace the others.
+  /// The rise of the cost if these ellipsoids replace the others.
   double rise() const { return cost_ - samples_.cost; }
   const std::vector<geometry::Ellipsoid>& ellipsoids() const { return ellipsoids_; }
 

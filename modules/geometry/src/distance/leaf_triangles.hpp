@@ -14,8 +14,8 @@ struct BvhTriangle {
   Vec3 a, ab, ac;
 };
 
-/// Up to four triangles in local units, each in a frame of its own: corner a is the origin, b lies on the x
-/// axis and c above it.
+/// A leaf of up to four triangles in local units, each in a frame of its own: corner a is the origin, b lies
+/// on the x axis and c above it.
 struct LeafTriangles {
   static constexpr int kWidth = 4;
 

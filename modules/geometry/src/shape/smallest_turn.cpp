@@ -5,7 +5,7 @@
 namespace bodice::inline v0_1::geometry {
 namespace {
 
-/// Below this cosine 1 + cosine has lost digits, and the sum of both directions has not.
+/// The cosine below which 1 + cosine has lost digits, and the sum of both directions has not.
 constexpr double kNearlyOpposite = -0.9;
 /// A shorter sum leaves no axis: the cross product has lost half of its digits.
 constexpr double kOpposite = 1e-8;

@@ -10,8 +10,8 @@ namespace {
 
 using geometry::Vec3;
 
-/// In units of the diagonal: farther from the origin the nodes carry the offset, so that floats keep their
-/// digits.
+/// The distance from the origin, in diagonals, beyond which the nodes have the offset, so that floats keep
+/// their digits.
 constexpr double kFarDiagonals = 16.0;
 constexpr const char* kAxisNames[] = {"x", "y", "z"};
 

@@ -31,7 +31,8 @@ struct Gait {
 constexpr Gait kWalk{.toes_off = 0.62, .stride = 1.34, .strike = 0.34, .half_width = 0.72, .toe_out = 6.0};
 constexpr Gait kRun{.toes_off = 0.38, .stride = 2.2, .strike = 0.30, .half_width = 0.45, .toe_out = 4.0};
 
-/// Along the body's heading: backward with the floor in stance, forward in swing, without a jump of speed.
+/// The position of a foot along the body's heading: backward with the floor in stance, forward in swing,
+/// without a jump of speed.
 double travel_of_foot(const Gait& gait, double phase) {
   phase -= std::floor(phase);
   const double off = gait.strike - gait.stride * gait.toes_off;

@@ -1,4 +1,4 @@
-// From a posture to the local rotations of a skeleton's joints.
+// Turns a posture into the local rotations of a skeleton's joints.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 
 namespace bodice::inline v0_1::rigging {
 
-/// At most this many joints a vertex: what files hold.
+/// The largest number of joints of a vertex, which is that of files.
 inline constexpr int kInfluences = 4;
 
 /// Each bone's weight is the heat that its own vertices give off: (L + A H) w = A H p with the cotangent

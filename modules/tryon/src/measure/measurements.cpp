@@ -20,7 +20,7 @@ const LengthUnit& length_unit(TailorUnit unit) {
   return unit == TailorUnit::kMillimeter ? kMillimeters : kCentimeters;
 }
 
-/// In the unit, to a hundredth of a millimeter, or in degrees.
+/// The value in the unit, to a hundredth of a millimeter, or in degrees.
 double shown(const body::Measurements& measurements, body::MeasurementId id, const LengthUnit& unit) {
   if (is_angle(id)) return std::round(measurements[id] * 180.0 / std::numbers::pi * 100.0) / 100.0;
   return std::round(measurements[id] * unit.in_a_meter * unit.digits) / unit.digits;

@@ -12,7 +12,7 @@ namespace {
 // mirrored, would bend joints too far.
 constexpr double kLead_s = 0.1;
 
-// From 0 to 1 without a jerk at either end.
+// A weight that rises from 0 to 1 without a jerk at either end.
 double smooth_step(double share) {
   const double t = std::clamp(share, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);

@@ -1,4 +1,4 @@
-// From a skin to its landmarks and 15 parts: the paper's section 2.
+// Finds the landmarks and the 15 parts of a skin: the paper's section 2.
 #pragma once
 
 #include <vector>

@@ -20,7 +20,7 @@ struct CorrectionAxis {
   std::vector<double> measures;
   /// The distance is values[0] + values[1] measures[0] + ..., a fraction of the body size.
   Coefficients weights;
-  /// True if a mirror changes the sign of all measures and of the distance: values[0] is then zero.
+  /// Whether a mirror changes the sign of all measures and of the distance: values[0] is then zero.
   bool odd = false;
 };
 

@@ -50,7 +50,7 @@ struct LandmarkInput {
 
   double size_m() const { return static_cast<double>(coordinates.size_m()); }
   const BodyExtremities& tips() const { return coordinates.extremities(); }
-  /// True where limbs are welded to each other, so that landmarks near the welds may be wrong.
+  /// Whether limbs are welded to each other, so that landmarks near the welds may be wrong.
   bool fused() const { return skin.handles > 0; }
 };
 

@@ -8,7 +8,7 @@ namespace {
 using geodesic::Field;
 using geodesic::Isoline;
 
-/// Beyond this distance from the fingertip, in units of hand to hand, nothing is an arm.
+/// The distance from the fingertip, in units of hand to hand, beyond which no skin is an arm's.
 constexpr float kArmReach = 0.60F;
 
 bool on_arm(const CoordinateArray& x) {

@@ -8,7 +8,7 @@ namespace bodice::inline v0_1::anatomy {
 namespace of_ankle {
 namespace {
 
-/// Beyond this distance from the toe, in units of foot to foot, the level means nothing.
+/// The distance from the toe, in units of foot to foot, beyond which the level means nothing.
 constexpr float kReach = 0.24F;
 
 FoundLandmark find(const LandmarkInput& input, int side) {

@@ -8,7 +8,7 @@ namespace bodice::inline v0_1::anatomy {
 namespace of_wrist {
 namespace {
 
-/// Beyond this distance from the fingertip, in units of hand to hand, the level means nothing.
+/// The distance from the fingertip, in units of hand to hand, beyond which the level means nothing.
 constexpr float kReach = 0.17F;
 
 FoundLandmark find(const LandmarkInput& input, int side) {

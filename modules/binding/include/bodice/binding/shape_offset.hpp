@@ -7,7 +7,7 @@
 
 namespace bodice::inline v0_1::binding {
 
-/// From an ellipsoid at rest to the same one of another shape, in its own units: a point that lies at
+/// The map of an ellipsoid at rest to the same one of another shape, in its own units: a point that lies at
 /// center + M u lies at center + M (u + map u + shift) there, with M = axes diag(radii).
 struct ShapeOffset {
   geometry::Vec3 shift = geometry::Vec3::Zero();

@@ -74,7 +74,7 @@ constexpr std::string_view name(MeasurementId id) {
   return kMeasurementNames[static_cast<int>(id)];
 }
 
-/// True for angles, which are in radians; all others are in meters.
+/// Whether a measurement is an angle, which is in radians; all others are in meters.
 constexpr bool is_angle(MeasurementId id) {
   return id == MeasurementId::kShoulderInclination || id == MeasurementId::kArmPoseAngle ||
          id == MeasurementId::kHipInclination;

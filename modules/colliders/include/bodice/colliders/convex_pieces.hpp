@@ -19,7 +19,7 @@ struct ConvexPiece {
 /// What engines with the narrowest limits take of a hull.
 inline constexpr int kMostCorners = 64;
 
-/// At most `count` pieces: the skin is divided as capsules of reduce() divide it, with a little of the
+/// Makes at most `count` pieces: the skin is divided as capsules of reduce() divide it, with a little of the
 /// neighbors' so that no slit stays between pieces. Of each piece the farthest points in kMostCorners
 /// directions count. Fails as reduce() does. Deterministic for any number of workers.
 engine::Result<std::vector<ConvexPiece>> convex_pieces(const engine::Context& context,

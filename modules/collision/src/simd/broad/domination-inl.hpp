@@ -59,7 +59,7 @@ struct Dominators {
   alignas(64) float distance[kDominators * kCorners];
 };
 
-/// In each lane the ellipsoid of least distance to the middle among those seen in this lane.
+/// In each lane, the ellipsoid of least distance to the middle among those that this lane has seen.
 struct LeastPerLane {
   V distance;
   VI index;

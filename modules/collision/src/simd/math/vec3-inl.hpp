@@ -94,7 +94,7 @@ using LaneIndices = decltype(hn::IndicesFromVec(f, VI()));
 HWY_INLINE LaneIndices lane_indices(VI lanes) {
   return hn::IndicesFromVec(f, lanes);
 }
-/// In each lane, the lane of the table that its index names.
+/// Returns, in each lane, the lane of the table that its index names.
 HWY_INLINE V lookup_lanes(V table, LaneIndices from) {
   return hn::TableLookupLanes(table, from);
 }

@@ -108,7 +108,7 @@ inline Status nearest_in_parts(Kernel<PlainUnion>& kernel, const Batch& batch, L
   return Status::kDone;
 }
 
-/// With relief, evaluates each particle of some lanes by itself; kTooMany on overflow even then.
+/// Evaluates each particle with relief of some lanes by itself; returns kTooMany on overflow even then.
 template <class Union>
 Status nearest_one_by_one(Kernel<Union>& kernel, const Batch& batch, LaneSpan lanes,
                           const NotDominated<false>& rule, BatchResults& out) {

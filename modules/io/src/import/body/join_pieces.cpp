@@ -61,7 +61,7 @@ Relation relate(const JoinedScene& joined, const Piece& piece, const geometry::M
   return {static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(measured, 1)), gap};
 }
 
-/// By how much the piece would extend the body along its longest side, as a fraction of that side.
+/// The length by which the piece would extend the body along its longest side, as a fraction of that side.
 double growth(const geometry::Box& body, const geometry::Box& piece) {
   Eigen::Index longest = 0;
   const double length = body.size().maxCoeff(&longest);

@@ -1,4 +1,4 @@
-// From a file's rig and the chosen body's weights to the rig of the imported skin.
+// Makes the rig of the imported skin of a file's rig and the chosen body's weights.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// From a file's nodes, bindings and clips to a skeleton inside: meters, y up.
+// Makes a skeleton in meters, y up, of a file's nodes, bindings and clips.
 #pragma once
 
 #include <cstdint>

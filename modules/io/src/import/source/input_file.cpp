@@ -14,7 +14,7 @@ namespace bodice::inline v0_1::io {
 
 namespace {
 
-/// In units of the diagonal: farther from the origin, floats lose over 1e-5 of it.
+/// The distance from the origin, in diagonals, beyond which floats lose over 1e-5 of the diagonal.
 constexpr double kFarDiagonals = 16.0;
 
 std::string_view skip_blanks(std::string_view text) {

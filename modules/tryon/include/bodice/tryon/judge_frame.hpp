@@ -54,8 +54,8 @@ void for_each_inside(const geometry::MeshDistance& skin, std::span<const geometr
 /// Areas of cloth inside the skin.
 struct ClothInside {
   double shown_m2 = 0.0;  ///< what a viewer sees as spots of skin
-  /// In skin that overlaps itself, as an arm pressed into the flank by a clip: no position of the cloth is
-  /// right there, and little of it is seen.
+  /// The area of cloth in skin that overlaps itself, as where a clip presses an arm into the flank. No
+  /// position of the cloth is right there, and little of it is visible.
   double overlapped_m2 = 0.0;
 };
 
