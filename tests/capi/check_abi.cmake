@@ -1,8 +1,9 @@
 cmake_minimum_required(VERSION 3.25)
-# The binary interface of a C library: its symbols and the layout of its structures are those of abi.txt, nothing
-# else leaves it, and it needs no more than the C and C++ run time and libraries that NEEDS matches.
+# The binary interface of a C library: its symbols, constants and the layout of its structures are those of abi.txt,
+# which lacks nothing that the ABI's number has promised. Nothing else leaves the library, and it needs no more than the
+# C and C++ run time and libraries that NEEDS matches.
 #   -DLIBRARY= [-DONLY_STABLE=ON] -DLACKS=<names of headers that it does not have, a regular expression> -DNEEDS=<regular expression>
-#   -DINCLUDE= -DABI= -DCOMPILER=<C> -DNM= -DREADELF= -DSANITIZE= -DSCRATCH=
+#   -DINCLUDE= -DABI= -DFROZEN=<folder of abi_N.txt> -DCOMPILER=<C> -DNM= -DREADELF= -DSANITIZE= -DSCRATCH=
 file(MAKE_DIRECTORY "${SCRATCH}")
 
 # What leaves the library. (Sanitizers add symbols and libraries of their own.)
@@ -26,16 +27,29 @@ if(more AND NOT SANITIZE)
   message(SEND_ERROR "${LIBRARY} needs ${more} at run time")
 endif()
 
-# The layout of each structure and the functions, by the header alone.
+# What the headers alone say: constants, types, the layout of each structure, and functions.
 file(GLOB headers "${INCLUDE}/bodice/c/*.h")
-set(lines "")
+set(lines "")   # statements of a C program that prints all but the functions
+set(stable "")  # the same for headers with a stable function
 set(functions "")
 set(lacks "")
+function(to_print text value)
+  string(APPEND printed "  printf(\"${text}\\n\", (long)(${value}));\n")
+  set(printed "${printed}" PARENT_SCOPE)
+endfunction()
 foreach(header IN LISTS headers)
   file(READ "${header}" text)
   string(REGEX REPLACE "/\\*[^*]*\\*+([^/*][^*]*\\*+)*/" "" text "${text}")
+  set(printed "")
+  string(REGEX MATCHALL "\n#define BODICE_[A-Z0-9_]+ [-(0-9][^\n]*" defines "${text}")
+  list(TRANSFORM defines REPLACE "\n#define (BODICE_[A-Z0-9_]+) .*" "\\1")
+  list(REMOVE_ITEM defines BODICE_ABI BODICE_VERSION)  # the first is printed before all, the second may change
+  foreach(define IN LISTS defines)
+    to_print("${define} = %ld" ${define})
+  endforeach()
   string(REGEX REPLACE "\n *#[^\n]*" "" text "${text}")
   string(REGEX REPLACE "[ \n]+" " " flat "${text}")
+  string(REGEX MATCHALL "typedef [^;{}]*" types "${flat}")
   string(REPLACE ";" "\\;" flat "${flat}")
   string(REGEX MATCHALL "BODICE_(STABLE|EXPERIMENTAL) [^;]*\\)" declared "${flat}")
   foreach(declaration IN LISTS declared)
@@ -45,45 +59,101 @@ foreach(header IN LISTS headers)
       list(APPEND lacks "${CMAKE_MATCH_1}")
     endif()
   endforeach()
+  string(REGEX MATCHALL "enum {[^}]*}" enums "${flat}")
+  foreach(enum IN LISTS enums)
+    string(REGEX MATCHALL "BODICE_[A-Z0-9_]+ *=" constants "${enum}")
+    list(TRANSFORM constants REPLACE " *=" "")
+    foreach(constant IN LISTS constants)
+      to_print("${constant} = %ld" ${constant})
+    endforeach()
+  endforeach()
+  foreach(type IN LISTS types)
+    if(NOT type MATCHES "^typedef struct [a-z_]+ $")
+      to_print("${type}" 0)
+    endif()
+  endforeach()
   string(REGEX MATCHALL "typedef struct [a-z_]+ {[^}]*}" structures "${flat}")
   foreach(structure IN LISTS structures)
     string(REGEX REPLACE "typedef struct ([a-z_]+) .*" "\\1" name "${structure}")
-    string(APPEND lines "  printf(\"%s: %u bytes\\n\", \"${name}\", (unsigned)sizeof(${name}));\n")
+    to_print("${name}: %ld bytes" "sizeof(${name})")
     string(REGEX REPLACE ".*{(.*)}" "\\1" body "${structure}")
     string(REGEX MATCHALL "[^;]+" members "${body}")
     foreach(member IN LISTS members)
+      string(STRIP "${member}" member)
       if(member MATCHES "\\(\\*([a-z_0-9]+)\\)")  # a function of the host
         set(field "${CMAKE_MATCH_1}")
       elseif(member MATCHES "([a-z_0-9]+)(\\[[A-Z_0-9]+\\])* *$")
         set(field "${CMAKE_MATCH_1}")
+      elseif(member)
+        message(FATAL_ERROR "${header}: `${member}` is not understood")
       else()
         continue()
       endif()
-      string(APPEND lines "  printf(\"  %u %s\\n\", (unsigned)offsetof(${name}, ${field}), \"${field}\");\n")
+      to_print("${name} at %ld: ${member}" "offsetof(${name}, ${field})")
     endforeach()
   endforeach()
+  string(APPEND lines "${printed}")
+  if(declared MATCHES "BODICE_STABLE")
+    string(APPEND stable "${printed}")
+  endif()
 endforeach()
 list(SORT functions)
-list(JOIN functions "\n" functions)
-file(WRITE "${SCRATCH}/layout.c" "#include <stdio.h>\n#include <bodice.h>\nint main(void) {\n"
-     "  printf(\"ABI %d\\n\", BODICE_ABI);\n${lines}  return 0;\n}\n")
-execute_process(COMMAND "${COMPILER}" -I "${INCLUDE}" -c "${SCRATCH}/layout.c" -o "${SCRATCH}/layout.o"
-                COMMAND_ERROR_IS_FATAL ANY)
-# Nothing of the library is used: the defaults that the header declares are left undefined.
-execute_process(COMMAND "${COMPILER}" "${SCRATCH}/layout.o" -o "${SCRATCH}/layout" -Wl,--unresolved-symbols=ignore-all
-                COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND "${SCRATCH}/layout" OUTPUT_VARIABLE layout COMMAND_ERROR_IS_FATAL ANY)
-file(WRITE "${SCRATCH}/abi.txt" "${layout}${functions}\n")
-file(READ "${SCRATCH}/abi.txt" now)
-if(EXISTS "${ABI}")
-  file(READ "${ABI}" written)
-endif()
+
+# print_layout(<variable> <name> <statements> <functions...>): the text that the statements print, then the functions.
+function(print_layout result name statements)
+  list(JOIN ARGN "\n" text)
+  file(WRITE "${SCRATCH}/${name}.c" "#include <stdio.h>\n#include <bodice.h>\nint main(void) {\n"
+       "  printf(\"ABI %d\\n\", BODICE_ABI);\n${statements}  return 0;\n}\n")
+  # Nothing of the library is used: the defaults that the header declares are left undefined.
+  execute_process(COMMAND "${COMPILER}" -I "${INCLUDE}" -w -c "${SCRATCH}/${name}.c" -o "${SCRATCH}/${name}.o"
+                  COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${COMPILER}" "${SCRATCH}/${name}.o" -o "${SCRATCH}/${name}"
+                    -Wl,--unresolved-symbols=ignore-all COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${SCRATCH}/${name}" OUTPUT_VARIABLE layout COMMAND_ERROR_IS_FATAL ANY)
+  file(WRITE "${SCRATCH}/${name}.txt" "${layout}${text}\n")
+  set(${result} "${layout}${text}\n" PARENT_SCOPE)
+endfunction()
+print_layout(now abi "${lines}" ${functions})
+set(promised ${functions})
+list(FILTER promised INCLUDE REGEX "^BODICE_STABLE")
+print_layout(promised stable "${stable}" ${promised})
+file(READ "${ABI}" written)
 if(NOT now STREQUAL written)
   message(SEND_ERROR "the binary interface is not that of ${ABI}: see ${SCRATCH}/abi.txt. Members and functions may be "
                      "added; for any other change raise BODICE_ABI. Then copy the file.")
 endif()
 
+# What an ABI has promised stays as long as the ABI has its number: FROZEN is never copied, it only gets new lines.
+string(REGEX MATCH "ABI ([0-9]+)" abi "${promised}")
+set(frozen "${FROZEN}/abi_${CMAKE_MATCH_1}.txt")
+if(NOT EXISTS "${frozen}")
+  message(FATAL_ERROR "${abi} is new: copy ${SCRATCH}/stable.txt to ${frozen}")
+endif()
+file(READ "${frozen}" lines)
+string(REPLACE ";" "" lines "${lines}")
+string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+list(LENGTH lines count)
+if(count LESS 100)
+  message(FATAL_ERROR "${frozen} has ${count} lines: nothing was checked")
+endif()
+foreach(line IN LISTS lines)
+  string(FIND "\n${now}" "\n${line}\n" at)
+  if(at EQUAL -1 AND line MATCHES "^([a-z_]+): ([0-9]+) bytes$")
+    set(name ${CMAKE_MATCH_1})
+    set(bytes ${CMAKE_MATCH_2})
+    # A structure with a head may grow at its end.
+    string(REGEX MATCH "\n${name}: ([0-9]+) bytes\n" found "${now}")
+    if(found AND CMAKE_MATCH_1 GREATER bytes AND "${name} at 0: bodice_head head" IN_LIST lines)
+      set(at 0)
+    endif()
+  endif()
+  if(at EQUAL -1 AND NOT line MATCHES " reserved[0-9]*$")  # which may get a meaning
+    message(SEND_ERROR "`${line}` is promised by ${frozen} and is no longer so: restore it, or raise BODICE_ABI")
+  endif()
+endforeach()
+
 # Each function that the header declares and this library should have is there.
+list(JOIN functions "\n" functions)
 string(REGEX MATCHALL "bodice_[a-z_0-9]+\\(" declared "${functions}")
 list(TRANSFORM declared REPLACE "\\(" "")
 if(lacks)
