@@ -1,17 +1,16 @@
-// Opens the package's page in headless Chromium: drops a body in centimeters on it, which is fitted, turns it, looks at
-// the pictures, and drops a proxy with its body. Every file comes from this machine.
+// Opens the package's page in headless Chromium: drops a body in centimeters and another one as GLB on it, which are
+// fitted, looks at the pictures, drops a proxy with its body, and turns it. The page and its worker request files of
+// the page alone, and send nothing.
 import assert from 'node:assert/strict';
-import {spawn} from 'node:child_process';
+import {execFileSync, spawn} from 'node:child_process';
 import {createServer} from 'node:http';
 import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import path from 'node:path';
 
-const root = process.env.BODICE_WEB, scratch = process.env.BODICE_SCRATCH;
+const {BODICE_WEB: root, BODICE_SCRATCH: scratch, BODICE_PROGRAM: program} = process.env;
 const TYPES = {'.html': 'text/html', '.css': 'text/css', '.mjs': 'text/javascript', '.wasm': 'application/wasm'};
-const requested = [];
 const server = createServer((request, response) => {
-  requested.push(request.url);
   try {
     const file = path.join(root, path.normalize(new URL(request.url, 'http://h').pathname));
     response.setHeader('Content-Type', TYPES[path.extname(file)] ?? 'application/octet-stream');
@@ -34,12 +33,33 @@ browser.stdio[4].on('data', data => {
   const messages = (rest + data).split('\0');
   rest = messages.pop();
   for (const message of messages.map(text => JSON.parse(text)))
-    message.id ? answers.get(message.id)(message) : events.push(message);
+    message.id ? answers.get(message.id)(message) : happened(message);
 });
 const ask = (method, params = {}, sessionId = undefined) => new Promise((done, fail) => {
   answers.set(++last, ({result, error}) => error ? fail(new Error(`${method}: ${error.message}`)) : done(result));
   browser.stdio[3].write(JSON.stringify({id: last, method, params, sessionId}) + '\0');
 });
+
+/** Events of the page and of its workers; a worker starts when its requests are listened to. */
+function happened(event) {
+  events.push(event);
+  if (event.method !== 'Target.attachedToTarget' || event.params.targetInfo.type !== 'worker') return;
+  for (const method of ['Network.enable', 'Runtime.runIfWaitingForDebugger'])
+    ask(method, {}, event.params.sessionId).catch(error => { events.push({method: 'failed', params: error.message}); });
+}
+
+/** Every request stays with the page's server or inside the browser, and none carries anything. */
+function checkRequests() {
+  const all = events.filter(e => e.method === 'Network.requestWillBeSent').map(e => e.params.request);
+  for (const file of ['page.mjs', 'worker.mjs', 'bodice_wasm.wasm'])
+    assert.ok(all.some(({url}) => url.endsWith(`/${file}`)), `no request for ${file} is seen: what else is not?`);
+  const outside = all.filter(({url, method, hasPostData}) => method !== 'GET' || hasPostData ||
+                             !(url.startsWith(`${home}/`) && !url.includes('?') || /^(blob|data):/.test(url)));
+  assert.deepEqual(outside.map(({method, url}) => `${method} ${url}`), []);
+  const others = events.filter(({method}) => /^(failed|Network.(webSocketCreated|webTransportCreated))$/.test(method));
+  assert.deepEqual(others.map(event => JSON.stringify(event)), []);
+  return all.length;
+}
 
 async function run() {
   const {targetId} = await ask('Target.createTarget', {url: 'about:blank'});
@@ -70,6 +90,8 @@ async function run() {
     document.getElementById('stage').dispatchEvent(new DragEvent('drop', {dataTransfer: transfer, bubbles: true}));
   }`);
 
+  await page('Target.setAutoAttach', {autoAttach: true, waitForDebuggerOnStart: true, flatten: true});
+  await page('Network.enable');
   await page('Page.enable');
   await page('Runtime.enable');
   await page('Log.enable');
@@ -90,6 +112,15 @@ async function run() {
   assert.notEqual(await picture('page_parts'), fitted);
   const saved = await evaluate(`fetch(document.getElementById('save').href).then(r => r.arrayBuffer()).then(b => b.byteLength)`);
   assert.ok(saved > 50000, `the saved proxy has ${saved} bytes`);
+
+  execFileSync(program, ['rig', path.join(scratch, 'made.obj'), '-o', path.join(scratch, 'made.glb'), '-q']);
+  await evaluate(`document.getElementById('state').textContent = ''`);
+  await drop({'made.glb': readFileSync(path.join(scratch, 'made.glb')).toString('base64')}, true);
+  await state(/^Fitted/, 300);
+  const again = await evaluate('document.getElementById("numbers").innerText');
+  assert.match(again, /unit of the file\s+meters/);
+  assert.equal(again.match(/stature\s+([\d.]+) cm/)[1], found.match(/stature\s+([\d.]+) cm/)[1]);
+  assert.ok(Number(again.match(/mean\s+([\d.]+) mm/)[1]) < 0.4, again);
 
   const proxy = readFileSync(path.join(scratch, 'native.bodice')).toString('base64');
   await drop({'body.bodice': proxy}, true);
@@ -123,7 +154,8 @@ async function run() {
   const errors = events.filter(e => e.method === 'Runtime.exceptionThrown' ||
       e.method === 'Log.entryAdded' && e.params.entry.level === 'error' && !/favicon/.test(e.params.entry.url ?? ''));
   assert.deepEqual(errors.map(e => JSON.stringify(e.params)), []);
-  console.log(`page: the body is ${gap} mm from its proxy; ${new Set(requested).size} files from this machine`);
+  const requests = checkRequests();
+  console.log(`page: the body is ${gap} mm from its proxy; ${requests} requests, none to elsewhere`);
 }
 
 try {
