@@ -70,10 +70,10 @@ async function run() {
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
     return result.value;
   };
-  const text = () => evaluate('document.getElementById("state").textContent');
+  const text = () => evaluate('document.getElementById("state")?.textContent');
   const state = async (wanted, seconds = 120) => {
     for (const end = Date.now() + 1000 * seconds; Date.now() < end; await new Promise(r => setTimeout(r, 100)))
-      if (await evaluate(wanted instanceof RegExp ? `${wanted}.test(document.getElementById("state").textContent)` : wanted))
+      if (await evaluate(wanted instanceof RegExp ? `${wanted}.test(document.getElementById("state")?.textContent)` : wanted))
         return text();
     throw new Error(`the page never showed ${wanted}: ${await text()}`);
   };
@@ -161,8 +161,10 @@ async function run() {
 try {
   await run();
 } finally {
-  browser.kill();
+  const ended = new Promise(done => browser.exitCode !== null ? done() : browser.on('exit', done));
+  ask('Browser.close').catch(() => {});  // killed at once, it would leave processes that still write to the profile
+  setTimeout(() => browser.kill(), 10000).unref();
   server.close();
-  await new Promise(done => browser.exitCode !== null ? done() : browser.on('exit', done));
+  await ended;
   rmSync(profile, {recursive: true, force: true, maxRetries: 5});
 }
