@@ -1,0 +1,18 @@
+# bodice_write_pc(<output> <file>): writes the file for pkg-config of lib<file>. The prefix is found from where the file lies,
+# so that an installation may be moved, unless CMAKE_INSTALL_LIBDIR is absolute.
+function(bodice_write_pc output file)
+  file(RELATIVE_PATH up "/prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig" /prefix)
+  string(REGEX REPLACE "/$" "" up "${up}")
+  set(prefix "\${pcfiledir}/${up}")
+  if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+    set(prefix "${CMAKE_INSTALL_PREFIX}")
+  endif()
+  set(libdir "${CMAKE_INSTALL_LIBDIR}")
+  set(includedir "${CMAKE_INSTALL_INCLUDEDIR}")
+  foreach(dir IN ITEMS libdir includedir)
+    if(NOT IS_ABSOLUTE "${${dir}}")
+      set(${dir} "\${prefix}/${${dir}}")
+    endif()
+  endforeach()
+  configure_file("${CMAKE_CURRENT_FUNCTION_LIST_DIR}/bodice.pc.in" "${output}" @ONLY)
+endfunction()
